@@ -21,7 +21,7 @@ from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.robot.manual import robot_by_hand
-from ocs_design.robot.meshes import mesh_bounds, size
+from ocs_design.robot.meshes import mesh_bounds, own_bounds, size
 from ocs_design.robot.mujoco_model import build_spec
 from ocs_design.robot.reader import read_group_states, read_robot
 from ocs_design.workflows.inspect import inspect_robot
@@ -172,8 +172,7 @@ def read_and_restore(path: Path) -> object:
 
 def read_mesh_bounds(path: Path) -> object:
     """How large a mesh is; one that cannot be read has no bounds."""
-    for cached in ("_raw_bounds", "_quick_bounds"):
-        mesh_bounds.__globals__[cached].cache_clear()
+    own_bounds.cache_clear()
     return mesh_bounds(path, (1.0, 1.0, 1.0))
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.robot.chain import neutral_posture
-from ocs_design.robot.leg_geometry import up_axis
+from ocs_design.robot.leg_geometry import sole_depths
 from ocs_design.robot.legs import is_wheel, leg_chain
 from ocs_design.robot.links import Warnings
 from ocs_design.robot.mass import (
@@ -23,7 +23,7 @@ from ocs_design.robot.mass import (
     gyration_radius,
     physical_defect,
 )
-from ocs_design.robot.meshes import half_extents, quick_mesh_bounds
+from ocs_design.robot.meshes import half_extents, mesh_bounds
 from ocs_design.robot.robot import Leg
 from ocs_design.robot.tree import Body, Joint, JointKind, ShapeKind, Tree
 
@@ -47,7 +47,16 @@ def plausibility_warnings(
     warnings = Warnings()
     # The quotients of a mass of 1e-300 kg are infinite, and judged rightly as that.
     with np.errstate(all="ignore"):
-        _judge_robot(weighed, warnings)
+        radius, density = gyration_radius(weighed), ball_density(weighed)
+        stated = (
+            f"the robot weighs {weighed.mass:.3g} kg with a radius of gyration of {radius:.3g} m"
+        )
+        if density > DENSEST_ROBOT:
+            warnings.add(
+                f"{stated}, as dense as solid metal: masses in grams, or lengths too small?"
+            )
+        elif density < LIGHTEST_ROBOT:
+            warnings.add(f"{stated}, as light as air: lengths in millimetres, or masses in tonnes?")
         for body in tree.bodies:
             _judge_body(body, warnings)
         _judge_mirror_images(tree, trunk, legs, warnings)
@@ -61,16 +70,6 @@ DENSEST_ROBOT, LIGHTEST_ROBOT = 2700.0, 1.2
 
 Public robots lie between 5 and 484; in grams or millimetres they are off by a thousand or more.
 """
-
-
-def _judge_robot(weighed: MassProperties, warnings: Warnings) -> None:
-    """Compare a robot's mass with the length that its inertia implies."""
-    radius, density = gyration_radius(weighed), ball_density(weighed)
-    stated = f"the robot weighs {weighed.mass:.3g} kg with a radius of gyration of {radius:.3g} m"
-    if density > DENSEST_ROBOT:
-        warnings.add(f"{stated}, as dense as solid metal: masses in grams, or lengths too small?")
-    elif density < LIGHTEST_ROBOT:
-        warnings.add(f"{stated}, as light as air: lengths in millimetres, or masses in tonnes?")
 
 
 DEGREES = (8.0 * np.pi, 1440.0)
@@ -89,11 +88,19 @@ def _judge_body(body: Body, warnings: Warnings) -> None:
     box = box_of(body)
     if box is None:
         return
-    findings = [*_density_findings(weighed.mass, box), *_inertia_findings(weighed, box)]
-    if joint is not None and is_wheel(body):
-        findings += _wheel_findings(weighed, joint)
-    for finding, figure in findings:
+    for finding, figure in _contradictions(weighed, box):
         warnings.add(finding, f"{body.name} ({figure})")
+    if joint is not None and is_wheel(body):
+        across = np.linalg.svd(joint.axis[None])[2][1:]
+        moments = np.linalg.eigvalsh(across @ weighed.inertia @ across.T)
+        product = float(np.linalg.norm(across @ weighed.inertia @ joint.axis))
+        unround = max(float(moments[1] - moments[0]), product) / max(float(moments[1]), 1e-300)
+        if unround > LOPSIDED:
+            warnings.add(
+                "links that are round about their joint with an inertia that is not: in other "
+                "axes?",
+                f"{body.name} (by {unround:.0%})",
+            )
 
 
 FLAT = 1e-6
@@ -134,7 +141,7 @@ def box_of(body: Body) -> Box | None:
     corners = []
     for shape in body.shapes:
         if shape.kind is ShapeKind.MESH:
-            bounds = None if shape.mesh is None else quick_mesh_bounds(shape.mesh, shape.size)
+            bounds = None if shape.mesh is None else mesh_bounds(shape.mesh, shape.size, quick=True)
             if bounds is None:
                 return None
             centre, half = bounds.mean(axis=0), 0.5 * (bounds[1] - bounds[0])
@@ -156,22 +163,6 @@ Public robots reach 7430."""
 
 AIR = 1.2
 """Density of a link as light as the air in its box [kg/m^3]; public robots begin at 6.8."""
-
-
-def _density_findings(mass: float, box: Box) -> Iterator[tuple[str, str]]:
-    """Contradictions between a body's mass [kg] and its box, each with its figure."""
-    density = mass / box.volume
-    if density > STEEL:
-        yield (
-            "links heavier than solid steel in their shapes: masses in grams, or too small shapes?",
-            f"{density:.2g} kg/m3",
-        )
-    elif density < AIR:
-        yield (
-            "links lighter than the air in their shapes: a mesh in millimetres without its scale, "
-            "or masses in tonnes?",
-            f"{density:.2g} kg/m3",
-        )
 
 
 TOO_LARGE = 1.25
@@ -198,13 +189,25 @@ to the frame's origin are taken off, is about the origin."""
 _OTHER_AXES = "links whose inertia does not lie as their shapes do: written in other axes?"
 
 
-def _inertia_findings(weighed: MassProperties, box: Box) -> Iterator[tuple[str, str]]:
+def _contradictions(weighed: MassProperties, box: Box) -> Iterator[tuple[str, str]]:
     """Contradictions between a body's mass properties and its box, each with its figure.
 
     Args:
         weighed: physical, of a mass above zero, in the body's frame.
         box: of the body, in its frame.
     """
+    density = weighed.mass / box.volume
+    if density > STEEL:
+        yield (
+            "links heavier than solid steel in their shapes: masses in grams, or too small shapes?",
+            f"{density:.2g} kg/m3",
+        )
+    elif density < AIR:
+        yield (
+            "links lighter than the air in their shapes: a mesh in millimetres without its scale, "
+            "or masses in tonnes?",
+            f"{density:.2g} kg/m3",
+        )
     outside = float(np.maximum(box.lower - weighed.com, weighed.com - box.upper).max())
     variances = mass_variances(weighed.inertia, weighed.mass)
     excess = _excess(variances, box)
@@ -277,19 +280,6 @@ LOPSIDED = 0.05
 
 Wheels of public robots are round to 0.001.
 """
-
-
-def _wheel_findings(weighed: MassProperties, joint: Joint) -> Iterator[tuple[str, str]]:
-    """Unround inertia of a body that is round about its endless joint, with its figure."""
-    across = np.linalg.svd(joint.axis[None])[2][1:]
-    moments = np.linalg.eigvalsh(across @ weighed.inertia @ across.T)
-    product = float(np.linalg.norm(across @ weighed.inertia @ joint.axis))
-    unround = max(float(moments[1] - moments[0]), product) / max(float(moments[1]), 1e-300)
-    if unround > LOPSIDED:
-        yield (
-            "links that are round about their joint with an inertia that is not: in other axes?",
-            f"by {unround:.0%}",
-        )
 
 
 MASS_SHARE = 0.02
@@ -410,17 +400,9 @@ def _judge_feet(
     """Warn of feet above the ground that the lowest foot stands on, the trunk being level."""
     if not legs:
         return
-    up = up_axis(tree, trunk, legs)
-    placements = tree.placements_from(trunk, posture)
-    soles = {
-        leg.name: float(up @ (placements[leg.body].rotation @ leg.foot))
-        + float(up @ placements[leg.body].position)
-        - leg.foot_radius
-        for leg in legs
-    }
-    ground = min(soles.values())
-    for leg in legs:
-        height = soles[leg.name] - ground
+    soles = sole_depths(tree, trunk, legs, posture)
+    for leg, sole in zip(legs, soles, strict=True):
+        height = max(soles) - sole
         if height > IN_THE_AIR * leg.length:
             warnings.add(
                 f"foot '{leg.name}' is {1e3 * height:.3g} mm above the ground in this posture"

@@ -54,17 +54,20 @@ def up_axis(tree: Tree, trunk: str, legs: Sequence[Leg]) -> FloatArray:
     return np.asarray(np.eye(3)[axis] * np.sign(up[axis]))
 
 
-def standing_height(
+def sole_depths(
     tree: Tree, trunk: str, legs: Sequence[Leg], posture: Mapping[str, float]
-) -> float:
-    """Height of the trunk frame's origin over its lowest sole at `posture` [m]."""
+) -> list[float]:
+    """Height of the trunk frame's origin over each leg's sole at `posture` [m].
+
+    The largest is the height at which the robot stands.
+    """
     up = up_axis(tree, trunk, legs)
     placements = tree.placements_from(trunk, posture)
-    return max(
+    return [
         leg.foot_radius
         - float(up @ (placements[leg.body].rotation @ leg.foot + placements[leg.body].position))
         for leg in legs
-    )
+    ]
 
 
 def convention_warnings(tree: Tree, trunk: str, legs: Sequence[Leg]) -> list[str]:

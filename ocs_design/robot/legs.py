@@ -56,7 +56,21 @@ def find_foot(chain: Chain, up: FloatArray) -> Foot:
         zero = chain.pose(np.zeros(len(chain.driven)))
         return _lowest_surface(body, -zero.end.rotation.T @ up)
     stretched = chain.pose(chain.stretched(farthest_frame(body), -up))
-    return _shank_end(body, -stretched.end.rotation.T @ up)
+    down = -stretched.end.rotation.T @ up
+    lowest = extent_of(solid_shapes(body), down)
+    balls = [s for s in body.shapes if s.kind is ShapeKind.SPHERE and s.collides]
+    if balls and lowest is not None:
+        ball = max(balls, key=lambda shape: float(down @ shape.position) + shape.size[0])
+        if down @ ball.position + ball.size[0] > 0.95 * lowest:
+            return Foot(ball.link, ball.position, ball.size[0])
+    link = max(body.links, key=lambda name: float(down @ body.links[name].position))
+    origin = body.links[link].position
+    length = float(np.linalg.norm(origin))
+    if length < 1e-3:
+        return _lowest_surface(body, down)
+    # Along the shank and not straight down: a mesh counts as a box, which is exact along its sides.
+    beyond = (extent_of(solid_shapes(body), origin / length) or length) - length
+    return Foot(link, origin, min(max(beyond, 0.0), _BALL_SHARE * length))
 
 
 def farthest_frame(body: Body) -> FloatArray:
@@ -88,23 +102,6 @@ def _across(axis: FloatArray) -> Sequence[FloatArray]:
     across = np.eye(3) - np.outer(axis, axis)
     sides = [across[i] / np.linalg.norm(across[i]) for i in np.argsort(np.abs(axis))[:2]]
     return [*sides, *(-side for side in sides)]
-
-
-def _shank_end(body: Body, down: FloatArray) -> Foot:
-    lowest = extent_of(solid_shapes(body), down)
-    balls = [s for s in body.shapes if s.kind is ShapeKind.SPHERE and s.collides]
-    if balls and lowest is not None:
-        ball = max(balls, key=lambda shape: float(down @ shape.position) + shape.size[0])
-        if down @ ball.position + ball.size[0] > 0.95 * lowest:
-            return Foot(ball.link, ball.position, ball.size[0])
-    link = max(body.links, key=lambda name: float(down @ body.links[name].position))
-    origin = body.links[link].position
-    length = float(np.linalg.norm(origin))
-    if length < 1e-3:
-        return _lowest_surface(body, down)
-    # Along the shank and not straight down: a mesh counts as a box, which is exact along its sides.
-    beyond = (extent_of(solid_shapes(body), origin / length) or length) - length
-    return Foot(link, origin, min(max(beyond, 0.0), _BALL_SHARE * length))
 
 
 def _lowest_surface(body: Body, down: FloatArray) -> Foot:
@@ -361,7 +358,10 @@ def _lying(
 
 def _alike(tree: Tree) -> Iterator[tuple[int, list[tuple[int, int]]]]:
     """Trunks, each with limbs of the same number of joints, as first and last body."""
-    ends, driven = far_ends(tree), _driven_joints(tree)
+    ends, driven = far_ends(tree), [0]
+    for body in tree.bodies[1:]:
+        moves = body.joint is not None and body.joint.mimic is None
+        driven.append(driven[body.parent] + moves)
     sets: dict[tuple[int, int], list[tuple[int, int]]] = {}
     for first, body in enumerate(tree.bodies[1:], start=1):
         last = ends[first]
@@ -399,15 +399,6 @@ def far_ends(tree: Tree) -> list[int]:
         if length >= lengths[body.parent]:
             lengths[body.parent], ends[body.parent] = length, ends[index]
     return ends
-
-
-def _driven_joints(tree: Tree) -> list[int]:
-    """Joints that move by themselves, from the root to each body."""
-    counts = [0]
-    for body in tree.bodies[1:]:
-        moves = body.joint is not None and body.joint.mimic is None
-        counts.append(counts[body.parent] + moves)
-    return counts
 
 
 def _limb(chain: Chain, last: int, up: FloatArray) -> _Limb | None:

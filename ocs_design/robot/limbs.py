@@ -162,10 +162,8 @@ class Anatomy:
     def share_hips(self, chosen: Sequence[Limb], up: FloatArray) -> bool:
         """Whether every limb shares its hip with another, chosen or not."""
         hips = np.array([limb.hip for limb in chosen])
-        middle, spread = hips.mean(axis=0), float(np.ptp(hips, axis=0).max())
         return all(
-            any(_on_one_hip(one, other, middle, spread) for other in self._all_limbs(up))
-            for one in chosen
+            any(_on_one_hip(one, other, hips) for other in self._all_limbs(up)) for one in chosen
         )
 
     def is_joined(self, limb: Limb) -> bool:
@@ -202,10 +200,9 @@ class Anatomy:
         if not self.share_hips(chosen, up):
             return list(chosen)
         hips = np.array([limb.hip for limb in chosen])
-        middle, spread = hips.mean(axis=0), float(np.ptp(hips, axis=0).max())
         kept: list[Limb] = []
         for limb in sorted(chosen, key=lambda each: (-round(each.depth, 3), each.first)):
-            if not any(_on_one_hip(limb, other, middle, spread) for other in kept):
+            if not any(_on_one_hip(limb, other, hips) for other in kept):
                 kept.append(limb)
         return kept if len(kept) > 1 else list(chosen)
 
@@ -353,15 +350,10 @@ def reach_alike(limbs: Sequence[Limb], share: float) -> bool:
     return float(np.ptp([limb.depth for limb in limbs])) < share * reach
 
 
-def _on_one_hip(one: Limb, other: Limb, middle: FloatArray, spread: float) -> bool:
-    """Whether two limbs on one side turn about one hip axis, close by.
-
-    Args:
-        one, other: limbs.
-        middle: of all hips [m], shape (3,).
-        spread: of all hips [m].
-    """
-    between = other.hip - one.hip
+def _on_one_hip(one: Limb, other: Limb, hips: FloatArray) -> bool:
+    """Whether two limbs on one side of all hips [m], shape (n, 3), turn about one axis close by."""
+    between, middle = other.hip - one.hip, hips.mean(axis=0)
+    spread = float(np.ptp(hips, axis=0).max())
     return (
         one.first != other.first
         and one.base == other.base

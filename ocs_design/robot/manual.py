@@ -39,7 +39,13 @@ def robot_by_hand(
     xx, yy, zz, xy, xz, yz = (*inertia, 0.0, 0.0, 0.0)[:6]
     matrix = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], dtype=np.float64)
     weighed = MassProperties(mass, np.array(com, dtype=np.float64), matrix)
-    _check_physical(weighed)
+    if (defect := solid_defect(weighed)) is not None:
+        raise RobotError(
+            f"the robot given by hand {defect}",
+            hint="the inertia is about the centre of mass, in kg m^2; the mass is in kg",
+        )
+    if (impossible := impossible_size(weighed)) is not None:
+        raise RobotError(f"the robot given by hand: {impossible}", hint=_likely_unit(weighed))
     links = {TRUNK: Placement.identity()}
     body = Body(
         TRUNK, -1, Placement.identity(), None, weighed, links, {TRUNK: mass}, (equal_box(weighed),)
@@ -127,17 +133,6 @@ def equal_box(weighed: MassProperties) -> Shape:
     half = 0.5 * np.sqrt(np.maximum(squares, 0.0))
     size = (float(half[0]), float(half[1]), float(half[2]))
     return Shape(ShapeKind.BOX, size, weighed.com, axes, TRUNK, collides=True)
-
-
-def _check_physical(weighed: MassProperties) -> None:
-    """Refuse a body that cannot exist or that is no robot, with the condition and the figures."""
-    hint = "the inertia is about the centre of mass, in kg m^2; the mass is in kg"
-    defect = solid_defect(weighed)
-    if defect is not None:
-        raise RobotError(f"the robot given by hand {defect}", hint=hint)
-    impossible = impossible_size(weighed)
-    if impossible is not None:
-        raise RobotError(f"the robot given by hand: {impossible}", hint=_likely_unit(weighed))
 
 
 USUAL_DENSITY = 50.0

@@ -1,12 +1,13 @@
 """Extents of meshes, and with them of a robot's shapes and bodies."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.common.errors import RobotError
@@ -14,9 +15,6 @@ from ocs_design.robot.tree import Body, Shape, ShapeKind, Tree
 
 if TYPE_CHECKING:
     import trimesh
-
-BoundsReader = Callable[[Path], FloatArray | None]
-"""Reads the lower and upper corner of a mesh, shape (2, 3); None for kinds of another reader."""
 
 MESHES = (".stl", ".obj", ".dae", ".ply", ".off", ".glb", ".gltf")
 """Suffixes that are read. Archives are not: they grow without bound when unpacked."""
@@ -34,14 +32,40 @@ _QUICK_STL, _QUICK_OBJ = 8 << 20, 1 << 16
 """Largest binary STL and OBJ that are read in some ten milliseconds [bytes]."""
 
 
-def mesh_bounds(path: Path, scale: tuple[float, ...]) -> FloatArray | None:
-    """Lower and upper corner of a mesh [m] in its own frame, shape (2, 3); None if unreadable."""
-    return _scaled(_raw_bounds(path), scale)
+def mesh_bounds(path: Path, scale: tuple[float, ...], *, quick: bool = False) -> FloatArray | None:
+    """Lower and upper corner of a mesh [m] in its own frame, shape (2, 3); None if unreadable.
+
+    Args:
+        path: of its file. scale: factors along its axes.
+        quick: whether to leave those that are not read in milliseconds, which are None then.
+    """
+    bounds = own_bounds(path, quick=True)
+    if bounds is None and not quick:
+        bounds = own_bounds(path, quick=False)
+    if bounds is None:
+        return None
+    corners = bounds * np.asarray(scale)
+    return np.array([corners.min(axis=0), corners.max(axis=0)])
 
 
-def quick_mesh_bounds(path: Path, scale: tuple[float, ...]) -> FloatArray | None:
-    """Corners as of `mesh_bounds` for a mesh that is read in milliseconds; None for all others."""
-    return _scaled(_quick_bounds(path), scale)
+@cache
+def own_bounds(path: Path, *, quick: bool) -> FloatArray | None:
+    """Corners in the mesh's own unit, shape (2, 3); None if it is broken (`mesh_bounds`)."""
+    try:
+        check_mesh_file(path)
+        bounds: FloatArray | None = None
+        length = path.stat().st_size
+        if binary_stl_facets(path) and (length <= _QUICK_STL or not quick):
+            bounds = _binary_stl_bounds(path)
+        elif path.suffix.lower() == ".obj" and (length <= _QUICK_OBJ or not quick):
+            bounds = _obj_bounds(path)
+        elif not quick:
+            bounds = load_with_trimesh(path).bounds
+    except Exception:  # A mesh reader fails in as many ways as there are broken meshes.
+        return None
+    if bounds is None or np.shape(bounds) != (2, 3):
+        return None
+    return frozen(bounds) if (np.abs(bounds) < LARGEST_MESH_LENGTH).all() else None
 
 
 def check_mesh_file(path: Path) -> None:
@@ -76,60 +100,24 @@ def binary_stl_facets(path: Path) -> int:
     return facets if path.stat().st_size == _STL_HEADER + _STL_FACET * facets else 0
 
 
-def _scaled(bounds: FloatArray | None, scale: tuple[float, ...]) -> FloatArray | None:
-    if bounds is None:
-        return None
-    corners = bounds * np.asarray(scale)
-    return np.array([corners.min(axis=0), corners.max(axis=0)])
+def binary_stl_corners(path: Path) -> NDArray[np.float32]:
+    """Corners of each facet of a binary STL in its own unit, shape (n, 3, 3).
 
-
-@cache
-def _raw_bounds(path: Path) -> FloatArray | None:
-    quick = _quick_bounds(path)
-    readers = (_binary_stl_bounds, _obj_bounds, _trimesh_bounds)
-    return _read_bounds(path, readers) if quick is None else quick
-
-
-@cache
-def _quick_bounds(path: Path) -> FloatArray | None:
-    def small(reader: BoundsReader, largest: int) -> BoundsReader:
-        """The reader, for files up to so many bytes."""
-        return lambda path: reader(path) if path.stat().st_size <= largest else None
-
-    return _read_bounds(
-        path, (small(_binary_stl_bounds, _QUICK_STL), small(_obj_bounds, _QUICK_OBJ))
-    )
-
-
-def _read_bounds(path: Path, readers: Iterable[BoundsReader]) -> FloatArray | None:
-    """Corners by the first reader that knows the kind of mesh; None if it is broken."""
-    try:
-        check_mesh_file(path)
-        answers = (read(path) for read in readers)
-        bounds = next((each for each in answers if each is not None), None)
-    except Exception:  # A mesh reader fails in as many ways as there are broken meshes.
-        return None
-    if bounds is None or bounds.shape != (2, 3):
-        return None
-    return frozen(bounds) if (np.abs(bounds) < LARGEST_MESH_LENGTH).all() else None
-
-
-def _binary_stl_bounds(path: Path) -> FloatArray | None:
-    """Corners without trimesh, whose import takes longer than reading a whole robot."""
-    count = binary_stl_facets(path)
-    if not count:
-        return None
+    They are read without trimesh, whose import takes longer than reading a whole robot.
+    """
     facet = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-    facets = np.frombuffer(path.read_bytes(), facet, count, offset=_STL_HEADER)
+    content, count = path.read_bytes(), binary_stl_facets(path)
+    return np.asarray(np.frombuffer(content, facet, count, offset=_STL_HEADER)["corners"])
+
+
+def _binary_stl_bounds(path: Path) -> FloatArray:
     # Along rows it takes a thirtieth of the time.
-    coordinates = np.ascontiguousarray(facets["corners"].reshape(-1, 3).T)
+    coordinates = np.ascontiguousarray(binary_stl_corners(path).reshape(-1, 3).T)
     return np.array([coordinates.min(axis=1), coordinates.max(axis=1)], dtype=np.float64)
 
 
-def _obj_bounds(path: Path) -> FloatArray | None:
+def _obj_bounds(path: Path) -> FloatArray:
     """Corners of the vertices that a face names: files hold others too."""
-    if path.suffix.lower() != ".obj":
-        return None
     vertices: list[list[str]] = []
     used: set[int] = set()
     for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
@@ -142,11 +130,6 @@ def _obj_bounds(path: Path) -> FloatArray | None:
             used.update(i - 1 if i > 0 else len(vertices) + i for i in corners)
     points = np.array([vertices[index] for index in used], dtype=np.float64)
     return np.array([points.min(axis=0), points.max(axis=0)])
-
-
-def _trimesh_bounds(path: Path) -> FloatArray | None:
-    bounds = load_with_trimesh(path).bounds
-    return None if bounds is None else np.array(bounds, dtype=np.float64)
 
 
 def load_with_trimesh(path: Path) -> "trimesh.Trimesh":
@@ -188,7 +171,8 @@ def with_y_up(tree: Tree) -> Tree:
         for body in tree.bodies
         for shape in body.shapes
         if shape.mesh is not None and _says_y_up(shape.mesh)
-        for turned in (_turned(shape),)
+        for x, y, z in (shape.size,)
+        for turned in (replace(shape, size=(x, z, y), rotation=frozen(shape.rotation @ Y_UP)),)
         if (off := _off_centre(shape, body)) is not None
     ]
     if len({body.name for body, *_ in found}) < _Y_UP_BODIES:
@@ -217,12 +201,6 @@ def _says_y_up(path: Path) -> bool:
         return False
     with path.open("rb") as stream:
         return b"<up_axis>Y_UP" in stream.read(_ASSET)
-
-
-def _turned(shape: Shape) -> Shape:
-    """A mesh's shape with the mesh turned, and then scaled as before."""
-    x, y, z = shape.size
-    return replace(shape, size=(x, z, y), rotation=frozen(shape.rotation @ Y_UP))
 
 
 def _off_centre(shape: Shape, body: Body) -> float | None:
@@ -306,10 +284,8 @@ def reach_of_body(body: Body, direction: FloatArray) -> float:
     Without a shape that can be measured: the farthest of its link origins and its centre of mass.
     """
     reach = extent_of(solid_shapes(body), direction)
-    if reach is not None:
-        return reach
-    points = [place.position for place in body.links.values()] + [body.mass_properties.com]
-    return max(float(direction @ point) for point in points)
+    points = (*(place.position for place in body.links.values()), body.mass_properties.com)
+    return max(float(direction @ point) for point in points) if reach is None else reach
 
 
 def trunk_top(tree: Tree, trunk: str) -> float:

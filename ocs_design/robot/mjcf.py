@@ -9,6 +9,7 @@ and inertias from geoms count exactly as MuJoCo counts them.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
 
 import mujoco
@@ -109,30 +110,26 @@ _ON_JOINT = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARE
 
 def effort_limit(model: mujoco.MjModel, joint: int) -> float:
     """Largest torque or force that a joint's actuators give [N m or N]; inf if none states one."""
-    efforts = [
-        abs(float(model.actuator_gear[actuator, 0])) * _largest_force(model, actuator)
-        for actuator in range(model.nu)
-        if int(model.actuator_trntype[actuator]) in _ON_JOINT
-        and model.actuator_trnid[actuator, 0] == joint
-    ]
+    efforts = []
+    for actuator in np.flatnonzero(model.actuator_trnid[:, 0] == joint):
+        if int(model.actuator_trntype[actuator]) not in _ON_JOINT:
+            continue
+        # In front of the gear: the stated range, or that of a motor's control.
+        force = np.inf
+        is_motor = (
+            model.actuator_gaintype[actuator] == mujoco.mjtGain.mjGAIN_FIXED
+            and model.actuator_biastype[actuator] == mujoco.mjtBias.mjBIAS_NONE
+        )
+        if model.actuator_forcelimited[actuator]:
+            force = float(np.abs(model.actuator_forcerange[actuator]).max())
+        elif is_motor and model.actuator_ctrllimited[actuator]:
+            gain = abs(float(model.actuator_gainprm[actuator, 0]))
+            force = gain * float(np.abs(model.actuator_ctrlrange[actuator]).max())
+        efforts.append(abs(float(model.actuator_gear[actuator, 0])) * force)
     total = sum(efforts) if efforts else np.inf
     if model.jnt_actfrclimited[joint]:
         total = min(total, float(np.abs(model.jnt_actfrcrange[joint]).max()))
     return total if total > 0.0 else np.inf
-
-
-def _largest_force(model: mujoco.MjModel, actuator: int) -> float:
-    """Largest force in front of the gear: the stated range, or that of a motor's control."""
-    if model.actuator_forcelimited[actuator]:
-        return float(np.abs(model.actuator_forcerange[actuator]).max())
-    is_motor = (
-        model.actuator_gaintype[actuator] == mujoco.mjtGain.mjGAIN_FIXED
-        and model.actuator_biastype[actuator] == mujoco.mjtBias.mjBIAS_NONE
-    )
-    if is_motor and model.actuator_ctrllimited[actuator]:
-        gain = abs(float(model.actuator_gainprm[actuator, 0]))
-        return gain * float(np.abs(model.actuator_ctrlrange[actuator]).max())
-    return np.inf
 
 
 def leader_of(
@@ -182,7 +179,21 @@ def connections_to(model: mujoco.MjModel, body: int, warnings: Warnings) -> Iter
     if not joints:
         yield Connection(name, parent, name, place)
     for index in joints:
-        joint = _joint(model, index, warnings)
+        degree = int(model.jnt_dofadr[index])
+        is_limited = bool(model.jnt_limited[index])
+        lower, upper = model.jnt_range[index] if is_limited else (-np.inf, np.inf)
+        joint = Joint(
+            model.joint(index).name,
+            _KINDS[int(model.jnt_type[index])],
+            np.array(model.jnt_axis[index]),
+            float(lower),
+            float(upper),
+            effort=effort_limit(model, index),
+            damping=float(np.ravel(model.dof_damping[degree])[0]),
+            friction=float(model.dof_frictionloss[degree]),
+            armature=float(model.dof_armature[degree]),
+            mimic=leader_of(model, index, warnings),
+        )
         anchor = Placement(np.eye(3), model.jnt_pos[index])
         # MuJoCo's joint does not move its body at `ref`; a joint of the tree does not at zero.
         at_zero = joint_motion(joint, -_reference(model, index))
@@ -196,23 +207,6 @@ def connections_to(model: mujoco.MjModel, body: int, warnings: Warnings) -> Iter
             child_in_joint=anchor.inverse(),
         )
         parent, place = child, Placement.identity()
-
-
-def _joint(model: mujoco.MjModel, index: int, warnings: Warnings) -> Joint:
-    degree = int(model.jnt_dofadr[index])
-    lower, upper = model.jnt_range[index] if model.jnt_limited[index] else (-np.inf, np.inf)
-    return Joint(
-        model.joint(index).name,
-        _KINDS[int(model.jnt_type[index])],
-        np.array(model.jnt_axis[index]),
-        float(lower),
-        float(upper),
-        effort=effort_limit(model, index),
-        damping=float(np.ravel(model.dof_damping[degree])[0]),
-        friction=float(model.dof_frictionloss[degree]),
-        armature=float(model.dof_armature[degree]),
-        mimic=leader_of(model, index, warnings),
-    )
 
 
 _PRIMITIVES = {
@@ -260,14 +254,6 @@ _LOOP = (
 _TIE = "what connect or weld ties the robot to is let go, its mass left out"
 
 
-def _tied_bodies(model: mujoco.MjModel, equality: int) -> tuple[int, int]:
-    """Bodies, or the world (0), that a connect or weld ties together."""
-    ends = [model.eq_obj1id[equality], model.eq_obj2id[equality]]
-    if model.eq_objtype[equality] == mujoco.mjtObj.mjOBJ_SITE:
-        ends = model.site_bodyid[ends]
-    return int(ends[0]), int(ends[1])
-
-
 def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) -> Tree:
     """The robot of an MJCF model; what else stands in its world is left out.
 
@@ -295,22 +281,33 @@ def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) ->
     children: dict[str, list[Connection]] = {}
     for body in bodies_of(model, base):
         name = model.body(body).name
-        unseen = [_unseen(name, hit) for each, hit in lost if each.name == name]
-        link = _link(model, body, unseen)
-        links[link.name] = link
+        # Meshes that are not there.
+        unseen = (
+            Shape(ShapeKind.MESH, (1.0, 1.0, 1.0), np.zeros(3), np.eye(3), name, collides)
+            for each, collides in lost
+            if each.name == name
+        )
+        moments = np.diag(model.body_inertia[body])
+        principal = MassProperties(float(model.body_mass[body]), np.zeros(3), moments)
+        axes = rotation_from_quaternion(model.body_iquat[body])
+        weighed = principal.moved(axes, model.body_ipos[body])
+        links[name] = Link(name, weighed, (*shapes_of(model, body), *unseen))
         for connection in connections_to(model, body, warnings) if body != base else ():
             children.setdefault(connection.parent, []).append(connection)
             # In front of the last of several joints stand links without mass.
             links.setdefault(connection.child, Link(connection.child, None))
     loops = []
     for index in np.flatnonzero(np.isin(model.eq_type, _LOOPS)):
-        ends = _tied_bodies(model, int(index))
-        roots = {int(model.body_rootid[end]) for end in ends}
+        # Bodies, or the world (0), that are tied together.
+        ends = np.array([model.eq_obj1id[index], model.eq_obj2id[index]])
+        if model.eq_objtype[index] == mujoco.mjtObj.mjOBJ_SITE:
+            ends = model.site_bodyid[ends]
+        roots = set(model.body_rootid[ends].tolist())
         if base in roots:
             name = model.eq(index).name or str(index)
             warnings.add(_LOOP if roots == {base} else _TIE, name)
         if roots == {base}:
-            loops.append((model.body(ends[0]).name, model.body(ends[1]).name))
+            loops.append((model.body(int(ends[0])).name, model.body(int(ends[1])).name))
     tree = make_tree(spec.modelname, model.body(base).name, links, children, warnings)
     # Each keyframe has values of the tree's joints among others.
     addresses = {name: int(model.jnt_qposadr[model.joint(name).id]) for name in tree.joints}
@@ -329,39 +326,20 @@ def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) ->
     )
 
 
-_NUMBERS = {
-    "body": ("pos", "quat", "ipos", "iquat", "mass", "inertia"),
-    "geom": ("pos", "quat", "size", "aabb"),
-    "jnt": ("pos", "axis"),
-    "key": ("qpos",),
-}
-"""Numbers of a compiled model that are computed with, by the kind of element that has them."""
+_NUMBERS = (
+    *product(("body",), ("pos", "quat", "ipos", "iquat", "mass", "inertia")),
+    *product(("geom",), ("pos", "quat", "size", "aabb")),
+    *(("jnt", "pos"), ("jnt", "axis"), ("key", "qpos")),
+)
+"""Numbers of a compiled model that are computed with: the kind of element, and which of it."""
 
 
 def _check_numbers(model: mujoco.MjModel) -> None:
     """Refuse numbers that MuJoCo compiles but that nothing can be computed from."""
-    named = [(kind, each) for kind, quantities in _NUMBERS.items() for each in quantities]
-    for kind, quantity in named:
+    for kind, quantity in _NUMBERS:
         numbers = np.asarray(getattr(model, f"{kind}_{quantity}"))
         if not (np.abs(numbers) <= LARGEST_NUMBER).all():
             raise RobotError(
                 f"the {quantity} of a {kind} is not finite or far too large",
                 hint="lengths are in metres, masses in kilograms, angles in radians or degrees",
             )
-
-
-def _unseen(link: str, collides: bool) -> Shape:
-    """A mesh that is not there."""
-    return Shape(ShapeKind.MESH, (1.0, 1.0, 1.0), np.zeros(3), np.eye(3), link, collides)
-
-
-def _link(model: mujoco.MjModel, body: int, unseen: Sequence[Shape]) -> Link:
-    principal = MassProperties(
-        float(model.body_mass[body]), np.zeros(3), np.diag(model.body_inertia[body])
-    )
-    axes = rotation_from_quaternion(model.body_iquat[body])
-    return Link(
-        model.body(body).name,
-        principal.moved(axes, model.body_ipos[body]),
-        (*shapes_of(model, body), *unseen),
-    )

@@ -101,27 +101,20 @@ def nearest_physical_moments(moments: FloatArray, floor: float) -> FloatArray:
         moments: ascending [kg m^2], shape (3,).
         floor: smallest moment allowed [kg m^2].
     """
-    candidates = [
-        _with_active(np.array(moments, dtype=np.float64), floor, floored, triangle)
-        for floored, triangle in product(range(4), (False, True))
-    ]
-    physical = [
-        each for each in candidates if each.min() >= floor and each[0] + each[1] >= each.max()
-    ]
+    physical = []
+    for floored, triangle in product(range(4), (False, True)):
+        # The least change that puts the first moments on the floor.
+        found = np.array(moments, dtype=np.float64)
+        found[:floored] = floor
+        free = 3 - floored
+        if triangle and free:
+            excess = found[2] - found[0] - found[1]
+            found[floored:2] += excess / free
+            # MuJoCo compares to the last bit.
+            found[2] = min(found[2] - excess / free, found[0] + found[1])
+        if found.min() >= floor and found[0] + found[1] >= found.max():
+            physical.append(found)
     return min(physical, key=lambda each: float(np.sum((each - moments) ** 2)))
-
-
-def _with_active(moments: FloatArray, floor: float, floored: int, triangle: bool) -> FloatArray:
-    """The least change that puts the first `floored` moments on the floor."""
-    found = moments.copy()
-    found[:floored] = floor
-    free = 3 - floored
-    if triangle and free:
-        excess = found[2] - found[0] - found[1]
-        found[floored:2] += excess / free
-        # MuJoCo compares to the last bit.
-        found[2] = min(found[2] - excess / free, found[0] + found[1])
-    return found
 
 
 _STL_MOST_FACETS = 200_000

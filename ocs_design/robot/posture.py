@@ -1,6 +1,6 @@
 """Posture that the robot is measured in, and its inertia in others."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 
@@ -10,7 +10,7 @@ from ocs_design.common.errors import RobotError
 from ocs_design.robot.chain import neutral_posture
 from ocs_design.robot.leg_geometry import (
     leg_geometries,
-    standing_height,
+    sole_depths,
     up_axis,
 )
 from ocs_design.robot.links import listed
@@ -81,7 +81,7 @@ def resolve_posture(
     warnings = chosen.warnings
     if outside:
         warnings += (f"{OUTSIDE} {listed(outside)}",)
-    height = standing_height(tree, trunk, legs, values) if legs else None
+    height = max(sole_depths(tree, trunk, legs, values)) if legs else None
     return replace(
         chosen,
         values=values,
@@ -153,34 +153,24 @@ def posture_sensitivity(robot: Robot) -> tuple[PostureRow, ...]:
     standing with the legs spread sideways by 0.25 to 1 rad, and what the file names. Postures that
     joint limits forbid are left out.
     """
-    return tuple(
-        PostureRow(label, robot.tree.locked_mass_properties(values, robot.trunk))
-        for label, values in _postures(robot)
-    )
-
-
-def _postures(robot: Robot) -> Iterator[tuple[str, Mapping[str, float]]]:
-    yield f"nominal ({robot.posture_name})", robot.posture
-    yield ZERO, {}
-    for share in _SHARES if robot.legs else ():
-        found = stand(robot.tree, robot.trunk, robot.legs, share)
+    tree, legs = robot.tree, robot.legs
+    postures = [(f"nominal ({robot.posture_name})", robot.posture), (ZERO, {})]
+    for share in _SHARES if legs else ():
+        found = stand(tree, robot.trunk, legs, share)
         if found is not None and found.share == share and not found.warnings:
-            yield f"{STAND} at {share:.0%} of the leg", found.posture
-    yield from _spread(robot)
-    yield from robot.tree.named_postures.items()
-
-
-def _spread(robot: Robot) -> Iterator[tuple[str, Mapping[str, float]]]:
-    """Standing postures with every leg turned outwards about its abduction joint."""
-    found = stand(robot.tree, robot.trunk, robot.legs, SHARE_OF_LEG)
-    if found is None:
-        return
-    outwards = _outward_joints(robot)
+            postures.append((f"{STAND} at {share:.0%} of the leg", found.posture))
+    found = stand(tree, robot.trunk, legs, SHARE_OF_LEG)
+    outwards = {} if found is None else _outward_joints(robot)
+    usual, joints = {} if found is None else found.posture, tree.joints
     for angle in _ABDUCTIONS if outwards else ():
-        turned = {name: found.posture[name] + sign * angle for name, sign in outwards.items()}
-        joints = robot.tree.joints
+        turned = {name: usual[name] + sign * angle for name, sign in outwards.items()}
         if all(joints[name].lower <= value <= joints[name].upper for name, value in turned.items()):
-            yield f"legs spread by {angle:g} rad", {**found.posture, **turned}
+            postures.append((f"legs spread by {angle:g} rad", {**usual, **turned}))
+    postures += tree.named_postures.items()
+    return tuple(
+        PostureRow(label, tree.locked_mass_properties(values, robot.trunk))
+        for label, values in postures
+    )
 
 
 def _outward_joints(robot: Robot) -> Mapping[str, float]:

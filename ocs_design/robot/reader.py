@@ -5,6 +5,7 @@ Named postures come from the SRDF beside a URDF: https://wiki.ros.org/srdf/revie
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -56,15 +57,14 @@ def find_srdfs(folder: Path, stem: str, robot_name: str) -> list[Path]:
     named = sorted([*folder.glob("*.srdf"), *folder.glob("../srdf/*.srdf")])
     # A pipe of that name would be waited for without end.
     found = [path for path in named if path.is_file()]
-    same_stem = [path for path in found if path.stem == stem]
-    return same_stem[:1] or [path for path in found if _robot_name(path) == robot_name]
-
-
-def _robot_name(path: Path) -> str | None:
-    try:
-        return parse_xml(read_source(path).content).get("name")
-    except RobotError:
-        return None
+    if same_stem := [path for path in found if path.stem == stem]:
+        return same_stem[:1]
+    same_robot = []
+    for path in found:
+        with suppress(RobotError):
+            if parse_xml(read_source(path).content).get("name") == robot_name:
+                same_robot.append(path)
+    return same_robot
 
 
 def postures_beside(read: Source, tree: Tree, warnings: Warnings) -> Postures:

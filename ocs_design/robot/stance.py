@@ -1,8 +1,9 @@
 """The posture in which a legged robot stands, by inverse kinematics of each leg."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from ocs_design.robot.chain import Chain, ChainPose, neutral_posture
 from ocs_design.robot.leg_geometry import (
     LegGeometry,
     leg_geometries,
-    standing_height,
+    sole_depths,
     up_axis,
 )
 from ocs_design.robot.legs import LegPlane
@@ -79,21 +80,17 @@ class StanceProblem:
         A stance with the knee on the other side is taken only if the limits leave no better.
         """
         found: list[Stance] = []
-        for start in self._starts():
-            stance = self._refined(start)
+        stretched = self.chain.stretched(self.foot, -self.up, self.plane.pitch)
+        # The straight and the stretched leg, each bent to the wanted side, then to the other.
+        for side, values in product((1.0, -1.0), (self.chain.neutral(), stretched)):
+            bent = np.clip(values + side * self._bend(), self.chain.lower, self.chain.upper)
+            stance = self._refined(bent)
             if stance.good and stance.knee_ahead >= 0.0:
                 return stance
             found.append(stance)
         return min(
             found, key=lambda s: (not s.good, s.good and s.knee_ahead < 0.0, s.miss + s.tilt)
         )
-
-    def _starts(self) -> Iterator[FloatArray]:
-        """The straight and the stretched leg, each bent to the wanted side, then to the other."""
-        stretched = self.chain.stretched(self.foot, -self.up, self.plane.pitch)
-        for side in (1.0, -1.0):
-            for values in (self.chain.neutral(), stretched):
-                yield np.clip(values + side * self._bend(), self.chain.lower, self.chain.upper)
 
     def _bend(self) -> FloatArray:
         """Change of the joints' values that shortens a straight leg to the target's distance."""
@@ -140,7 +137,16 @@ class StanceProblem:
             max_nfev=40,
         )
         # Whole nanoradians: a joint that has nothing to do is at zero, not at 1e-17.
-        return self._stance(np.round(self._values(solution.x), 9) + 0.0)
+        values = np.round(self._values(solution.x), 9) + 0.0
+        pose = self.chain.pose(values)
+        foot, tilt, ahead = pose.point(self.foot), 0.0, 0.0
+        if self.plane.flat:
+            sole_up = pose.end.rotation @ self._sole_up
+            tilt = float(np.arctan2(np.linalg.norm(np.cross(sole_up, self.up)), sole_up @ self.up))
+        if len(self.plane.pitch) > 1:
+            hip, knee = (pose.origins[self.chain.driven[c]] for c in self.plane.pitch[:2])
+            ahead = float(self.knee_side @ (knee - 0.5 * (hip + foot)))
+        return Stance(values, float(np.linalg.norm(foot - self.target)), tilt, ahead)
 
     def _residual(self, free: FloatArray, start: FloatArray) -> FloatArray:
         """Foot's error over the leg's length, sole's tilt, distance from the start, stacked."""
@@ -159,19 +165,6 @@ class StanceProblem:
         parts = [miss, tilt] if self.plane.flat else [miss]
         rows = np.concatenate(parts)[:, list(self.plane.columns)]
         return np.concatenate([rows, _SIMPLICITY * np.eye(len(free))])
-
-    def _stance(self, values: FloatArray) -> Stance:
-        pose = self.chain.pose(values)
-        foot = pose.point(self.foot)
-        tilt = 0.0
-        if self.plane.flat:
-            sole_up = pose.end.rotation @ self._sole_up
-            tilt = float(np.arctan2(np.linalg.norm(np.cross(sole_up, self.up)), sole_up @ self.up))
-        ahead = 0.0
-        if len(self.plane.pitch) > 1:
-            hip, knee = (pose.origins[self.chain.driven[c]] for c in self.plane.pitch[:2])
-            ahead = float(self.knee_side @ (knee - 0.5 * (hip + foot)))
-        return Stance(values, float(np.linalg.norm(foot - self.target)), tilt, ahead)
 
 
 _SWEEPS = 10
@@ -229,16 +222,12 @@ class Stand:
         posture: value of every moving joint [rad or m].
         standing_height: of the trunk frame's origin over the ground [m].
         share: distance from hip to foot over the stretched leg, of the most stretched leg.
-        misses: distance of each foot from its place below the hip [m].
-        tilts: of each sole against the ground [rad].
         warnings: where limits forbid the posture that was wanted.
     """
 
     posture: Mapping[str, float]
     standing_height: float
     share: float
-    misses: tuple[float, ...]
-    tilts: tuple[float, ...]
     warnings: tuple[str, ...]
 
 
@@ -285,10 +274,8 @@ def stand(tree: Tree, trunk: str, legs: Sequence[Leg], share: float = SHARE_OF_L
     posture = tree.complete(values)
     return Stand(
         posture,
-        standing_height(tree, trunk, legs, posture),
+        max(sole_depths(tree, trunk, legs, posture)),
         share,
-        tuple(stance.miss for stance in stances),
-        tuple(stance.tilt for stance in stances),
         tuple(warnings),
     )
 
@@ -301,24 +288,12 @@ def _problems(
         float(up @ each.plane.hip) - share * each.plane.length - each.leg.foot_radius
         for each in geometries
     )
-    # Straight below the hips.
-    targets = [
-        each.plane.hip + up * (ground + each.leg.foot_radius - float(up @ each.plane.hip))
-        for each in geometries
-    ]
-    sides = _knee_sides(geometries)
-    return [
-        StanceProblem(each.chain, each.plane, each.leg.foot, target, up, side)
-        for each, target, side in zip(geometries, targets, sides, strict=True)
-    ]
-
-
-def _knee_sides(geometries: Sequence[LegGeometry]) -> list[FloatArray]:
-    """Level directions in which the knees point: forward for a biped, else inwards."""
-    planes = [each.plane for each in geometries]
-    if len(planes) == 2:
-        return [plane.forward for plane in planes]
-    middle = np.mean([plane.hip for plane in planes], axis=0)
-    return [
-        plane.forward * (np.sign(plane.forward @ (middle - plane.hip)) or 1.0) for plane in planes
-    ]
+    middle = np.mean([each.plane.hip for each in geometries], axis=0)
+    problems = []
+    for leg, chain, plane in ((each.leg, each.chain, each.plane) for each in geometries):
+        # Straight below the hip; the knees of a biped point forward, else inwards.
+        target = plane.hip + up * (ground + leg.foot_radius - float(up @ plane.hip))
+        inwards = np.sign(plane.forward @ (middle - plane.hip)) or 1.0
+        side = plane.forward if len(geometries) == 2 else plane.forward * inwards
+        problems.append(StanceProblem(chain, plane, leg.foot, target, up, side))
+    return problems

@@ -146,12 +146,26 @@ def read_link(
 ) -> Link:
     """Name, mass properties and shapes of a `<link>`."""
     name = text(element, "name", "a link")
-    inertial = element.find("inertial")
-    return Link(
-        name,
-        None if inertial is None else _read_inertial(inertial, f"link {name!r}"),
-        tuple(_read_shapes(element, name, find_mesh, palette, warnings)),
-    )
+    inertial, where, weighed = element.find("inertial"), f"link {name!r}", None
+    if inertial is not None:
+        origin = read_origin(inertial, where)
+        mass = number(required(inertial, "mass", where), "value", where)
+        if mass < 0.0:
+            raise RobotError(
+                f"{where} has the negative mass {mass:g} kg", hint="correct its <mass value>"
+            )
+        stated = required(inertial, "inertia", where)
+        ixx, iyy, izz = (number(stated, name, where) for name in ("ixx", "iyy", "izz"))
+        if min(ixx, iyy, izz) < -NEGLIGIBLE_MOMENT:
+            raise RobotError(
+                f"{where} has a negative moment of inertia: ixx {ixx:g}, iyy {iyy:g}, izz {izz:g}",
+                hint="correct its <inertia>; all three must be positive",
+            )
+        ixy, ixz, iyz = (number(stated, name, where, default=0.0) for name in ("ixy", "ixz", "iyz"))
+        inertia = np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
+        about_com = MassProperties(mass, np.zeros(3), inertia)
+        weighed = about_com.moved(origin.rotation, origin.position)
+    return Link(name, weighed, tuple(_read_shapes(element, name, find_mesh, palette, warnings)))
 
 
 def read_origin(parent: ET.Element, where: str) -> Placement:
@@ -160,25 +174,6 @@ def read_origin(parent: ET.Element, where: str) -> Placement:
     xyz = numbers(origin, "xyz", where, (0.0, 0.0, 0.0))
     rpy = numbers(origin, "rpy", where, (0.0, 0.0, 0.0))
     return Placement(rotation_from_rpy(*rpy), xyz)
-
-
-def _read_inertial(inertial: ET.Element, where: str) -> MassProperties:
-    origin = read_origin(inertial, where)
-    mass = number(required(inertial, "mass", where), "value", where)
-    if mass < 0.0:
-        raise RobotError(
-            f"{where} has the negative mass {mass:g} kg", hint="correct its <mass value>"
-        )
-    moments = required(inertial, "inertia", where)
-    ixx, iyy, izz = (number(moments, name, where) for name in ("ixx", "iyy", "izz"))
-    if min(ixx, iyy, izz) < -NEGLIGIBLE_MOMENT:
-        raise RobotError(
-            f"{where} has a negative moment of inertia: ixx {ixx:g}, iyy {iyy:g}, izz {izz:g}",
-            hint="correct its <inertia>; all three must be positive",
-        )
-    ixy, ixz, iyz = (number(moments, name, where, default=0.0) for name in ("ixy", "ixz", "iyz"))
-    inertia = np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
-    return MassProperties(mass, np.zeros(3), inertia).moved(origin.rotation, origin.position)
 
 
 def _read_shapes(
@@ -324,7 +319,20 @@ def read_urdf(content: bytes, *, find_mesh: FindMesh) -> Tree:
     warnings = Warnings()
     root = parse_xml(content, warnings)
     _check_is_urdf(root)
-    links = _read_links(root, find_mesh, warnings)
+    palette, elements = read_palette(root), root.findall("link")
+    check_number_of_links(len(elements))
+    if not elements:
+        raise RobotError(
+            "the <robot> has no <link>",
+            hint="a xacro file that only defines macros gives such a robot: "
+            "expand the file that uses them",
+        )
+    read = [read_link(element, find_mesh, palette, warnings) for element in elements]
+    _check_unique((link.name for link in read), "link")
+    links = {link.name: link for link in read}
+    for link in read:
+        if link.shapes and link.mass_properties is None:
+            warnings.add("links with a shape but no <inertial>, read as without mass", link.name)
     connections = [read_connection(element, warnings) for element in root.findall("joint")]
     _check_unique((connection.name for connection in connections), "joint")
     children = children_by_parent(links, connections)
@@ -336,23 +344,6 @@ def read_urdf(content: bytes, *, find_mesh: FindMesh) -> Tree:
             warnings.add("frames turned by more than two turns: angles in degrees?", name)
     tree = make_tree(root.get("name") or base, base, links, children, warnings)
     return replace(tree, warnings=warnings.sentences())
-
-
-def _read_links(root: ET.Element, find_mesh: FindMesh, warnings: Warnings) -> Mapping[str, Link]:
-    palette = read_palette(root)
-    check_number_of_links(len(root.findall("link")))
-    links = [read_link(element, find_mesh, palette, warnings) for element in root.findall("link")]
-    if not links:
-        raise RobotError(
-            "the <robot> has no <link>",
-            hint="a xacro file that only defines macros gives such a robot: "
-            "expand the file that uses them",
-        )
-    _check_unique((link.name for link in links), "link")
-    for link in links:
-        if link.shapes and link.mass_properties is None:
-            warnings.add("links with a shape but no <inertial>, read as without mass", link.name)
-    return {link.name: link for link in links}
 
 
 def _check_is_urdf(root: ET.Element) -> None:

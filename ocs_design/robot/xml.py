@@ -29,9 +29,12 @@ def parse_xml(content: bytes, warnings: Warnings | None = None) -> ET.Element:
     # Elements take fifty times their four bytes or more: gigabytes, where nobody counted them.
     if content.count(b"<") > 2 * MOST_ELEMENTS:
         raise _too_many_elements()
-    content, moved = _declared_first(content)
-    if moved and warnings is not None:
-        warnings.add("the XML declaration is not the first thing in the file: read without it")
+    # Simulators overlook a declaration below blank lines or comments; as many lines are kept.
+    if late := _LATE_DECLARATION.match(content):
+        start, end = late.span(1)
+        content = content[:start] + b" " * (end - start) + content[end:]
+        if warnings is not None:
+            warnings.add("the XML declaration is not the first thing in the file: read without it")
     try:
         root = _parsed(content)
     except ET.ParseError as error:
@@ -53,19 +56,6 @@ def parse_xml(content: bytes, warnings: Warnings | None = None) -> ET.Element:
 
 
 _LATE_DECLARATION = re.compile(rb"(?:\s|<!--(?:(?!--).)*-->)+(<\?xml\s[^>]*\?>)", re.DOTALL)
-
-
-def _declared_first(content: bytes) -> tuple[bytes, bool]:
-    """Content without a declaration below blank lines or comments, which simulators overlook.
-
-    Returns:
-        The content, with as many lines; whether there was one.
-    """
-    late = _LATE_DECLARATION.match(content)
-    if late is None:
-        return content, False
-    start, end = late.span(1)
-    return content[:start] + b" " * (end - start) + content[end:], True
 
 
 def _parsed_as_cp1252(content: bytes, error: ET.ParseError) -> ET.Element:

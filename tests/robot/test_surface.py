@@ -10,9 +10,8 @@ from robots import ROBOTS, SOLO12
 
 from ocs_design.robot.meshes import trunk_top
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.surface import STEP, surface_of, trunk_surface
+from ocs_design.robot.surface import STEP, surface_of, triangles_of, trunk_surface
 from ocs_design.robot.tree import Shape, ShapeKind
-from ocs_design.robot.triangles import triangles_of
 
 SQUARE = np.array(
     [[[0.0, 0.0, 1.0], [0.1, 0.0, 1.0], [0.1, 0.1, 2.0]], [[0, 0, 1], [0.1, 0.1, 2], [0, 0.1, 2]]]
