@@ -25,7 +25,7 @@ def housed(
     held = replace(CAGED, mounting=mounting)
     hub = hub_of(held)
     of = PAPER_WHEEL.density
-    mass = web_mass(PAPER_WHEEL.inner_radius, of, WEB_THICKNESS) + hub.mass(of)
+    mass = web_mass(PAPER_WHEEL.inner_radius, of, WEB_THICKNESS) + hub.beyond_web(of).mass
     web = Web(PAPER_WHEEL.material, of, WEB_THICKNESS, mass, hub)
     wheel = replace(PAPER_WHEEL, mass=PAPER_WHEEL.mass + mass, web=web, outer_radius=outer_radius)
     drive = replace(

@@ -6,7 +6,7 @@ over the mass, about the wheel's centre: X across the axis, Y along it away from
 up.
 """
 
-from dataclasses import replace
+from dataclasses import astuple, replace
 from functools import lru_cache
 from math import pi
 
@@ -180,7 +180,7 @@ def body_of(pieces):
 def room_taken(outer, height, motor, gear, thick):
     """Radius that housing, drive and base stay within, and the wheel's height on its foot."""
     mount = motor_mount.mount_of(motor, gear.room, thick)
-    half, (depth, radius, least) = height / 2.0 + DEEP, mount.behind(motor)
+    half, (depth, radius, least) = height / 2.0 + DEEP, astuple(mount.behind(motor))
     back = np.maximum(half + thick + depth, least)
     swept = np.maximum(np.hypot(outer + GAP, half), np.hypot(back, radius))
     edge, _ = bases(outer, height, mount_of(motor, gear, thick), thick)

@@ -17,7 +17,7 @@ import numpy as np
 
 from ocs_design.actuation.motor import DIRECT, Gear, GearRoom, Motor, Mounting
 from ocs_design.actuation.supply import Supply
-from ocs_design.common.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray, Table
 from ocs_design.common.errors import OcsError
 
 RESERVE = 0.95
@@ -40,7 +40,7 @@ FIGURES_HINT = (
 
 
 @dataclass(frozen=True, eq=False)
-class DriveLine:
+class DriveLine(Table):
     """Voltage line and limits at the wheel: scalars, or arrays that broadcast.
 
     Attributes:

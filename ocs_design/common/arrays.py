@@ -100,3 +100,16 @@ class Table(DataclassInstance):
             elif isinstance(value, np.ndarray):
                 columns[field.name] = array(value)
         return replace(self, **columns)
+
+
+Rows = TypeVar("Rows", bound=Table)
+
+
+def stacked(rows: Sequence[Rows]) -> Rows:
+    """Table of arrays, shape (n,) each, with a row for each of these tables of numbers."""
+    columns: dict[str, Any] = {}
+    for field in fields(rows[0]):
+        values = [getattr(row, field.name) for row in rows]
+        nested = isinstance(values[0], Table)
+        columns[field.name] = stacked(values) if nested else np.array(values, dtype=np.float64)
+    return replace(rows[0], **columns)

@@ -16,6 +16,7 @@ from math import pi
 from typing import Generic
 
 from ocs_design.actuation.motor import BoltCircle
+from ocs_design.common.arrays import Table
 from ocs_design.parts.housing import half_height, plate_back
 from ocs_design.parts.moments import MassMoments, Real, round_body
 from ocs_design.parts.part import Part
@@ -50,7 +51,7 @@ FIRST_EAR = -pi / 2.0
 
 
 @dataclass(frozen=True)
-class Posts(Generic[Real]):
+class Posts(Table, Generic[Real]):
     """Posts of the cages around motors, as long as a rim's height leaves them; arrays broadcast.
 
     Attributes:

@@ -7,8 +7,7 @@ other turned about the vertical: left and right are the same parts.
 Everything is built of operators alone, for numbers, arrays and CasADi's symbols alike.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from math import cos, sin
 from typing import TYPE_CHECKING, Any, Generic
 
@@ -51,33 +50,12 @@ class MassMoments(Table, Generic[Real]):
     xz: Real | float = 0.0
 
     def __add__(self, other: "MassMoments[Real]") -> "MassMoments[Real]":
-        return MassMoments(
-            self.mass + other.mass,
-            self.y + other.y,
-            self.z + other.z,
-            self.xx + other.xx,
-            self.yy + other.yy,
-            self.zz + other.zz,
-            self.yz + other.yz,
-            self.x + other.x,
-            self.xy + other.xy,
-            self.xz + other.xz,
-        )
+        both = zip(vars(self).values(), vars(other).values(), strict=True)
+        return MassMoments(*(own + more for own, more in both))
 
     def times(self, factor: float) -> "MassMoments[Real]":
         """Moments of so many equal bodies; -1: of one that is cut out."""
-        return MassMoments(
-            factor * self.mass,
-            factor * self.y,
-            factor * self.z,
-            factor * self.xx,
-            factor * self.yy,
-            factor * self.zz,
-            factor * self.yz,
-            factor * self.x,
-            factor * self.xy,
-            factor * self.xz,
-        )
+        return MassMoments(*(factor * own for own in vars(self).values()))
 
     def moved(self, x: Real | float, y: Real | float, z: Real | float) -> "MassMoments[Real]":
         """Moments of the body moved along all three axes [m]."""
@@ -146,13 +124,6 @@ class MassMoments(Table, Generic[Real]):
 def product(one: Real | float, other: Real | float) -> Real | float:
     """Product of two; nothing of anything is the number nothing, and costs no array."""
     return 0.0 if isinstance(one, float) and one == 0.0 else one * other
-
-
-def stacked(bodies: Sequence[MassMoments[float]]) -> MassMoments[FloatArray]:
-    """Moments of many bodies as arrays, shape (n,) each."""
-    names = [field.name for field in fields(MassMoments)]
-    rows = [[getattr(body, name) for name in names] for body in bodies]
-    return MassMoments(*np.array(rows, dtype=np.float64).reshape(-1, len(names)).T)
 
 
 def mass_properties(moments: MassMoments[Any]) -> MassProperties:

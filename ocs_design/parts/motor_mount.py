@@ -10,10 +10,11 @@ from dataclasses import dataclass, field, replace
 from functools import reduce
 from math import inf, sin
 from operator import add
-from typing import Generic, NamedTuple
+from typing import Generic
 
 from ocs_design.actuation.fasteners import CLASSES, IN_PLASTIC, Fastening, screw
 from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
+from ocs_design.common.arrays import Table
 from ocs_design.parts.bell import Bell, HeldMotor, bell_of
 from ocs_design.parts.cage import FLOOR, HALF_POST, NO_POSTS, Cage, Posts
 from ocs_design.parts.housing import half_height, plate_back
@@ -65,7 +66,8 @@ class Screwed:
         return heads.shifted(along, 0.0)
 
 
-class Behind(NamedTuple, Generic[Real]):
+@dataclass(frozen=True)
+class Behind(Table, Generic[Real]):
     """How far back a motor and what holds it reach.
 
     Attributes:

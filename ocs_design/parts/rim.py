@@ -40,7 +40,7 @@ import numpy as np
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import Motor, Mounting
-from ocs_design.parts.moments import Carrier, MassMoments, Real, cylinder_mass
+from ocs_design.parts.moments import Carrier, Real, cylinder_mass
 from ocs_design.parts.part import Part
 from ocs_design.parts.printed import CLEARANCE
 from ocs_design.parts.shapes import Disc
@@ -334,54 +334,35 @@ class Hub:
         """Least height of a rim whose lid leaves room for hub and heads [m]; 0: any."""
         return max(self.height + 2.0 * (self.bolt_head + HEAD_ROOM - CLEARANCE), 0.0)
 
-    def mass(self, density: float) -> float:
-        """Mass beyond that of its `web` [kg]."""
-        edges = self._edges.mass(self.bore_radius, self.radius, 1.0)
-        return density * (_beyond_web(self).mass - edges + self._unholed.mass)
-
-    def axial_inertia(self, density: float) -> float:
-        """Inertia about the axis beyond that of its `web` [kg m^2]."""
-        body = _beyond_web(self)
-        edges = self._edges.axial_inertia(self.bore_radius, self.radius, 1.0)
-        return density * (body.xx + body.yy - edges + self._unholed.axial_inertia)
-
-    def transverse_inertia(self, density: float) -> float:
-        """Inertia across the axis beyond that of its `web` [kg m^2].
-
-        Three and more holes in a ring have the same about every axis across it.
-        """
-        body, size = _beyond_web(self), (self.bore_radius, self.radius, self.height)
-        edges = self._edges.transverse_inertia(*size, 1.0)
-        own = (body.xx + body.yy) / 2.0 + body.zz - edges
-        return density * (own + self._unholed.transverse_inertia)
-
-    @property
-    def _unholed(self) -> Carrier:
-        """What `web` leaves out within the hub, over the density."""
-        if not self.lightening:
-            return Carrier(0.0, 0.0, 0.0)
-        disc, left = (self.radius, 1.0, self.web_thickness), self.web(self.radius, 1.0)
-        return Carrier(
-            web_mass(*disc) - left.mass,
-            web_axial_inertia(*disc) - left.axial_inertia,
-            web_transverse_inertia(*disc) - left.transverse_inertia,
-        )
-
-    @property
-    def _edges(self) -> RimCuts:
-        """A hub with its bore is a hollow cylinder as a rim is."""
-        return RimCuts(self.chamfer)
+    def beyond_web(self, density: float) -> Carrier:
+        """The hub beyond its `web`, with what that leaves out within it, as one body."""
+        unit = _beyond_web(self)
+        inertias = unit.axial_inertia, unit.transverse_inertia
+        return Carrier(density * unit.mass, *(density * inertia for inertia in inertias))
 
 
 @lru_cache(maxsize=4096)
-def _beyond_web(hub: Hub) -> MassMoments[float]:
-    """Moments per density of a hub with sharp edges beyond its web, its axis along z."""
+def _beyond_web(hub: Hub) -> Carrier:
+    """A hub beyond its web, of unit density.
+
+    Three and more holes in a ring have the same about every axis across it.
+    """
     half, web = hub.height / 2.0, hub.web_thickness / 2.0
     holes = [Prism(Disc(hub.radius), -web, web), Prism(Disc(hub.bore_radius), -half, half)]
     if hub.bolts:
         bolt = Disc(hub.bolt_hole_radius, (0.0, -hub.bolt_circle_radius))
         holes.append(Prism(bolt, -half, half, count=hub.bolts))
-    return Part("hub", 1.0, (Prism(Disc(hub.radius), -half, half),), tuple(holes)).moments()
+    body = Part("hub", 1.0, (Prism(Disc(hub.radius), -half, half),), tuple(holes)).moments()
+    # With its bore it is a hollow cylinder as a rim is, and so are its edges.
+    edges, size = RimCuts(hub.chamfer), (hub.bore_radius, hub.radius)
+    disc, left = (hub.radius, 1.0, hub.web_thickness), hub.web(hub.radius, 1.0)
+    return Carrier(
+        body.mass - edges.mass(*size, 1.0) + web_mass(*disc) - left.mass,
+        body.xx + body.yy - edges.axial_inertia(*size, 1.0)
+        + web_axial_inertia(*disc) - left.axial_inertia,
+        (body.xx + body.yy) / 2.0 + body.zz - edges.transverse_inertia(*size, hub.height, 1.0)
+        + web_transverse_inertia(*disc) - left.transverse_inertia,
+    )  # fmt: skip
 
 
 @lru_cache(maxsize=4096)
@@ -489,11 +470,11 @@ def wheel_body(
     if hub is None:
         return Carrier(mass, axial, transverse)
     own = density if web_density is None else web_density
-    web = hub.web(inner_radius, own)
+    web, beyond = hub.web(inner_radius, own), hub.beyond_web(own)
     return Carrier(
-        mass=mass + web.mass + hub.mass(own),
-        axial_inertia=axial + web.axial_inertia + hub.axial_inertia(own),
-        transverse_inertia=transverse + web.transverse_inertia + hub.transverse_inertia(own),
+        mass=mass + web.mass + beyond.mass,
+        axial_inertia=axial + web.axial_inertia + beyond.axial_inertia,
+        transverse_inertia=transverse + web.transverse_inertia + beyond.transverse_inertia,
     )
 
 

@@ -151,7 +151,7 @@ def _flywheel(
         )
     if hub is not None:
         of = material if web_material is None else web_material
-        mass = hub.web(inner, of.density).mass + hub.mass(of.density)
+        mass = hub.web(inner, of.density).mass + hub.beyond_web(of.density).mass
         web = Web(of.name, of.density, hub.web_thickness, mass, hub, hub.holes(inner))
     body = wheel_body(
         *cylinder,

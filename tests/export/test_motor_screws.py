@@ -31,7 +31,7 @@ def device_on(mounting):
     motor = replace(MN5212, mounting=mounting)
     hub = hub_of(motor)
     of = PAPER_WHEEL.density
-    mass = web_mass(PAPER_WHEEL.inner_radius, of, WEB_THICKNESS) + hub.mass(of)
+    mass = web_mass(PAPER_WHEEL.inner_radius, of, WEB_THICKNESS) + hub.beyond_web(of).mass
     web = Web(PAPER_WHEEL.material, of, WEB_THICKNESS, mass, hub)
     wheel = replace(PAPER_WHEEL, mass=PAPER_WHEEL.mass + mass, web=web)
     held = replace(

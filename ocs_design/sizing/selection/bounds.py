@@ -313,19 +313,20 @@ def least_inertia(
         # A wheel of more spin inertia is no smaller.
         radius = np.minimum(smallest_radius(rim, limits), widest)
         wheel = _SURELY * np.nan_to_num(lightest_module(rim, limits, PlainDrum(), _DIGITS).mass)
-    at_floor, at_wheel = drives.by_floor, drives.by_wheel
-    stands = at_floor.mass + drives.mount_mass
+    seat = drives.seat
+    at_floor, at_wheel = seat.by_floor, seat.by_wheel
+    stands = at_floor.mass + seat.holes
     behind = stands + at_wheel.mass
     # The holes stand by less than that behind the floor.
-    holes = drives.mount_mass * problem.foot_plate
+    holes = seat.holes * problem.foot_plate
     fullest = np.minimum(room.mass_max, np.pi * density * widest**2 * room.height_max)
     web = np.pi * problem.web_thickness * drives.web_most * widest**2
-    guard, tallest = problem.guard_wall, np.maximum(room.height_max, drives.room)
+    guard, tallest = problem.guard_wall, np.maximum(room.height_max, seat.room)
     # Posts are longest behind the flattest rim.
-    around = Printed(drives.mount_reach, guard_wall=guard, foot_plate=problem.foot_plate)
-    shell = around.mass(widest, tallest) + drives.posts.mass(zero)
+    around = Printed(seat.reach, guard_wall=guard, foot_plate=problem.foot_plate)
+    shell = around.mass(widest, tallest) + seat.posts.mass(zero)
     least = Least(
-        mass=np.maximum(wheel + drives.hub_mass - drives.mount_mass, 0.0),
+        mass=np.maximum(wheel + drives.hub_mass - seat.holes, 0.0),
         # No body of revolution has less across its axis than half of what it has about it.
         inertia=drives.hub_inertia + rim / 2.0,
         behind=behind,

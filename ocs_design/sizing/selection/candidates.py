@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import NamedTuple
+from typing import Any, Generic, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ from ocs_design.actuation.drive import (
     rotor_share,
 )
 from ocs_design.actuation.motor import DIRECT, Gear, GearRoom, Motor
-from ocs_design.common.arrays import FloatArray, Table
+from ocs_design.common.arrays import FloatArray, Table, stacked
 from ocs_design.parts.cage import Posts
 from ocs_design.parts.housing import half_height
 from ocs_design.parts.joints import OVERSPEED
@@ -28,7 +28,7 @@ from ocs_design.parts.module import (
     gear_moments,
     shell_moments,
 )
-from ocs_design.parts.moments import MassMoments, round_body, stacked
+from ocs_design.parts.moments import MassMoments, Real, round_body
 from ocs_design.parts.motor_mount import Behind, mount_of
 from ocs_design.parts.printed import PANEL
 from ocs_design.parts.rim import NO_HUB, cylinder_transverse_inertia
@@ -55,19 +55,61 @@ _NOTHING = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
+class Seat(Table, Generic[Real]):
+    """Place of a motor behind its floor, whatever the wheel.
+
+    Attributes:
+        by_floor: moments about the middle of the outside of the housing's floor, see
+            `module.by_floor`. by_wheel: about the wheel's middle, see `module.by_wheel`.
+        behind: how far back it reaches.
+        posts: of its cage.
+        reach, holes: radius of the mount's holes [m], and the mass that they take [kg].
+        height_max: of a rim that the mount leaves room for [m].
+        room: least height of a rim that the housing is made for (`MotorMount.room`) [m].
+        bell: radius of the bore of a ring around the motor's bell [m]; 0: there is none.
+        head_reach: of the screws in the housing [m].
+    """
+
+    by_floor: MassMoments[Real]
+    by_wheel: MassMoments[Real]
+    behind: Behind[Real]
+    posts: Posts[Real]
+    reach: Real
+    holes: Real
+    height_max: Real
+    room: Real
+    bell: Real
+    head_reach: Real
+
+
+@lru_cache(maxsize=1024)
+def _seat(motor: Motor, room: GearRoom | None, foot_plate: float, *, on_bell: bool) -> Seat[float]:
+    """Place of one motor: the same whatever the problem."""
+    mount = mount_of(motor, room, foot_plate, on_bell=on_bell)
+    return Seat(
+        by_floor=by_floor(motor, DIRECT, mount),
+        by_wheel=by_wheel(motor, mount),
+        behind=mount.behind(motor),
+        posts=replace(mount.posts, foot_plate=foot_plate),
+        reach=mount.holes.reach,
+        holes=-mount.holes.cut_out(PANEL + foot_plate).mass,
+        height_max=mount.rim_height_max,
+        room=mount.room,
+        bell=0.0 if mount.bell is None else mount.bell.bore,
+        head_reach=mount.head_reach,
+    )
+
+
+@dataclass(frozen=True, eq=False)
 class Drives(Table):
     """Motors behind gears, one per row.
 
     Attributes:
         motor, gear, web: indices in the problem's motors, gears and lightenings.
-        by_floor: moments about the middle of the outside of the housing's floor, see
-            `module.by_floor`. by_wheel: about the wheel's middle, see `module.by_wheel`.
-        behind_depth, behind_radius, behind_wheel: see `MotorMount.behind` [m].
-        mount_reach, mount_mass: of the mount's holes [m, kg].
-        post_area, post_gyration, seat, foot_plate: see `Posts`.
-        height_max: of a rim that the mount leaves room for [m].
-        room: least height of a rim that the housing is made for (`MotorMount.room`) [m].
-        bell: radius of the bore of a ring around the motor's bell [m]; 0: there is none.
+        seat: place of the motor.
+        whole: voltage line and limits at the wheel, nothing held back.
+        rotor_share: of the spin inertia [kg m^2].
+        armature: what the motor accelerates beyond the spin inertia [kg m^2].
         hub_volume: mass of the wheel's hub, over its density [m^3].
         hub_radius: of that, or of the screws' heads beside it [m]; 0 without a web.
         rim_height: least one that leaves room for the hub's screws [m]; 0: any.
@@ -77,29 +119,15 @@ class Drives(Table):
             [m^5].
         web_least, web_most: density of web and hub, which is any of the problem's as long as no
             material is chosen [kg/m^3].
-        rotor_share: of the spin inertia [kg m^2].
-        armature: what the motor accelerates beyond the spin inertia [kg m^2].
-        stall_torque, no_load_speed, torque_limit, speed_max, power_max: see `DriveLine`, nothing
-            held back.
     """
 
     motor: NDArray[np.intp]
     gear: NDArray[np.intp]
     web: NDArray[np.intp]
-    by_floor: MassMoments[FloatArray]
-    by_wheel: MassMoments[FloatArray]
-    behind_depth: FloatArray
-    behind_radius: FloatArray
-    behind_wheel: FloatArray
-    mount_reach: FloatArray
-    mount_mass: FloatArray
-    post_area: FloatArray
-    post_gyration: FloatArray
-    seat: FloatArray
-    foot_plate: FloatArray
-    height_max: FloatArray
-    room: FloatArray
-    bell: FloatArray
+    seat: Seat[FloatArray]
+    whole: DriveLine
+    rotor_share: FloatArray
+    armature: FloatArray
     hub_volume: FloatArray
     hub_radius: FloatArray
     rim_height: FloatArray
@@ -110,13 +138,6 @@ class Drives(Table):
     hub_across: FloatArray
     web_least: FloatArray
     web_most: FloatArray
-    rotor_share: FloatArray
-    armature: FloatArray
-    stall_torque: FloatArray
-    no_load_speed: FloatArray
-    torque_limit: FloatArray
-    speed_max: FloatArray
-    power_max: FloatArray
 
     def __len__(self) -> int:
         return self.motor.size
@@ -143,18 +164,13 @@ class Drives(Table):
     @property
     def mass(self) -> FloatArray:
         """Mass of motor, gear and hub, less the mount's holes, without posts, at the least [kg]."""
-        return self.by_floor.mass + self.by_wheel.mass + self.hub_mass
-
-    @property
-    def posts(self) -> Posts[FloatArray]:
-        """Posts of the motors' cages."""
-        return Posts(self.post_area, self.post_gyration, self.seat, self.foot_plate)
+        return self.seat.by_floor.mass + self.seat.by_wheel.mass + self.hub_mass
 
     def size(self, outer_radius: FloatArray, height: FloatArray) -> Size[FloatArray]:
         """Size of modules with rims of these outer radii, guard rings added, and heights [m]."""
-        behind = Behind(self.behind_depth, self.behind_radius, self.behind_wheel)
-        thickness, height = self.foot_plate, np.maximum(height, self.room)
-        return module_size(outer_radius, height, behind, self.mount_reach, foot_plate=thickness)
+        seat, plate = self.seat, self.seat.posts.foot_plate
+        height = np.maximum(height, seat.room)
+        return module_size(outer_radius, height, seat.behind, seat.reach, foot_plate=plate)
 
     @property
     def beside_rim(self) -> FloatArray:
@@ -169,14 +185,7 @@ class Drives(Table):
     @property
     def line(self) -> DriveLine:
         """Voltage lines and limits that a design may use."""
-        whole = DriveLine(
-            self.stall_torque,
-            self.no_load_speed,
-            self.torque_limit,
-            self.speed_max,
-            self.power_max,
-        )
-        return whole.reserved()
+        return self.whole.reserved()
 
     @property
     def top_speed(self) -> FloatArray:
@@ -186,7 +195,7 @@ class Drives(Table):
     @property
     def overspeed(self) -> FloatArray:
         """Speed at which the hoop stress of a rim is limited [rad/s]."""
-        return OVERSPEED * np.minimum(self.no_load_speed, self.speed_max)
+        return OVERSPEED * np.minimum(self.whole.no_load_speed, self.whole.speed_max)
 
 
 class _Extremes(NamedTuple):
@@ -227,8 +236,8 @@ class Candidates(Table):
             self.material,
             drives.overspeed,
             drives.hub_radius,
-            drives.mount_reach,
-            bell=drives.bell,
+            drives.seat.reach,
+            bell=drives.seat.bell,
             rim_height=drives.rim_height,
             lightened=drives.lightened,
             lightened_bore=drives.lightened_bore,
@@ -236,15 +245,13 @@ class Candidates(Table):
                 drives.lightened_stress, self.problem.envelope.stress_safety
             ),
         )
-        return replace(limits, height_max=np.minimum(limits.height_max, drives.height_max))
+        return replace(limits, height_max=np.minimum(limits.height_max, drives.seat.height_max))
 
     @property
     def shell(self) -> Printed:
         """Housing and foot around their wheels."""
-        drives, problem = self.drives, self.problem
-        return Printed(
-            drives.mount_reach, drives.posts, problem.guard_wall, problem.foot_plate, drives.room
-        )
+        seat, guard = self.drives.seat, self.problem.guard_wall
+        return Printed(seat.reach, seat.posts, guard, self.problem.foot_plate, seat.room)
 
     @cached_property
     def least_spin_inertia(self) -> FloatArray:
@@ -263,7 +270,7 @@ class Candidates(Table):
     def modules(self, spin_inertia: FloatArray, shapes: ModuleShape) -> Modules:
         """One module of each candidate, braked."""
         drives, wheel = self.drives, spin_inertia - self.drives.rotor_share
-        guard = self.problem.guard_wall
+        seat, guard = drives.seat, self.problem.guard_wall
         inner, outer, height = shapes.inner_radius, shapes.outer_radius, shapes.height
         across = cylinder_transverse_inertia(inner, outer, height, 1.0)
         across = across - self.limits.cuts.transverse_inertia(inner, outer, height, 1.0)
@@ -271,13 +278,13 @@ class Candidates(Table):
         web = web_inertia(self.limits, inner) / 2.0
         web = web + shapes.web_mass * self.problem.web_thickness**2 / 12.0
         mass = shapes.rim_mass + shapes.web_mass + drives.hub_mass
-        tall = np.maximum(height, drives.room)
+        tall = np.maximum(height, seat.room)
         whole = (
             round_body(mass, wheel, across + web + drives.hub_across * drives.web_most)
-            + shell_moments(outer, tall, drives.mount_reach, guard, self.problem.foot_plate)
-            + drives.posts.moments(height)
-            + drives.by_wheel
-            + drives.by_floor.shifted(-half_height(tall), np.zeros_like(tall))
+            + shell_moments(outer, tall, seat.reach, guard, self.problem.foot_plate)
+            + seat.posts.moments(height)
+            + seat.by_wheel
+            + seat.by_floor.shifted(-half_height(tall), np.zeros_like(tall))
         )
         return Modules.of(whole, drives.size(outer + guard, height))
 
@@ -386,97 +393,64 @@ def drives_of(
     motors, gears = pairs.T
     kinds = np.zeros_like(motors) if webs is None else webs
     figures: list[tuple[float, ...]] = []
-    densities = problem.web_densities
     # Where one of them stops, the others share what it leaves.
     busy = max(problem.layout.tilting - (problem.requirement.detection is not None), 1)
     for (index, gear_index), kind in zip(pairs.tolist(), kinds.tolist(), strict=True):
         motor, gear = problem.motors[index], problem.gears[gear_index]
         line = drive_line(motor, gear, problem.bus_voltage)
         hub = problem.hub(motor, gear, problem.lightenings[kind]) or NO_HUB
+        beyond = hub.beyond_web(1.0)
         rotor, top = motor.rotor_inertia or 0.0, problem.wheel_speed_max or np.inf
         gain = gear.ratio * gear.efficiency * (motor.torque_constant or np.inf)
         peak = float(line.torque_limit) / gain
         figures.append(
             (
-                hub.mass(1.0),
-                hub.radius,
-                hub.rim_height_min,
-                hub.lightened,
-                hub.bore_min,
-                hub.lightened_stress,
-                hub.axial_inertia(1.0),
-                hub.transverse_inertia(1.0),
-                densities.min(),
-                densities.max(),
-                rotor_share(rotor, gear),
-                armature(rotor, gear),
                 float(line.stall_torque),
                 float(line.no_load_speed),
                 float(line.torque_limit),
                 min(float(line.speed_max), top),
                 gear.efficiency * power_less_friction(problem.supply, busy, motor, peak) / busy,
+                rotor_share(rotor, gear),
+                armature(rotor, gear),
+                beyond.mass,
+                hub.radius,
+                hub.rim_height_min,
+                hub.lightened,
+                hub.bore_min,
+                hub.lightened_stress,
+                beyond.axial_inertia,
+                beyond.transverse_inertia,
+                problem.web_densities.min(),
+                problem.web_densities.max(),
             )
         )
-    columns = np.array(figures, dtype=np.float64).reshape(len(figures), -1).T.copy()
-    seats = _seats(problem, pairs)
-    if problem.web:
-        columns[1] = np.maximum(columns[1], seats.head_reach)
-    return Drives(motors, gears, kinds, seats.by_floor, seats.by_wheel, *seats.columns, *columns)
+    columns = np.array(figures, dtype=np.float64).reshape(len(figures), -1 if figures else 17)
+    line, others = DriveLine(*columns.T[:5].copy()), columns.T[5:].copy()
+    drives = Drives(motors, gears, kinds, _seats(problem, pairs), line, *others)
+    if not problem.web:
+        return drives
+    return replace(drives, hub_radius=np.maximum(drives.hub_radius, drives.seat.head_reach))
 
 
-class _Seats(NamedTuple):
-    """Places of the motors behind their floors, see `Drives`.
-
-    Attributes:
-        by_floor, by_wheel: see there.
-        columns: from `behind_depth` to `bell`, shape (12, n).
-        head_reach: of the screws in the housing [m], shape (n,).
-    """
-
-    by_floor: MassMoments[FloatArray]
-    by_wheel: MassMoments[FloatArray]
-    columns: FloatArray
-    head_reach: FloatArray
-
-
-def _seats(problem: SelectionProblem, pairs: NDArray[np.intp]) -> _Seats:
+def _seats(problem: SelectionProblem, pairs: NDArray[np.intp]) -> Seat[FloatArray]:
     """Each motor is looked at once on its wheel and once behind any gear, each gear once."""
     known, of_motor = np.unique(pairs[:, 0], return_inverse=True)
-    motors = [problem.motors[m] for m in known.tolist()]
+    motors = [problem.motors[m] for m in known.tolist()] or problem.motors[:1]
     # One row per motor behind a gear, and the next for the motor with the wheel on its shaft.
-    rooms, plate = (GearRoom(), None), problem.foot_plate
-    held = [_seat(motor, room, plate, problem.on_bell) for motor in motors for room in rooms]
-    rows = np.array([figures for figures, _, _ in held])
+    rooms, plate, on_bell = (GearRoom(), None), problem.foot_plate, problem.on_bell
+    held: list[Seat[Any]] = [
+        _seat(motor, room, plate, on_bell=on_bell) for motor in motors for room in rooms
+    ]
     gears = [problem.gears[g] for g in pairs[:, 1].tolist()]
-    row = 2 * of_motor + np.array([gear.room is None for gear in gears])
+    row = 2 * of_motor + np.array([gear.room is None for gear in gears], dtype=np.intp)
+    seats = stacked(held).take(row)
     # Behind a gear a motor stands as far back as that is deep.
     depth = np.array([0.0 if gear.room is None else gear.room.depth for gear in gears])
     up = np.array([0.0 if gear.room is None else gear.room.offset for gear in gears])
-    seats = rows[row].T
-    seats[0] += depth
-    at_floor = stacked([moments for _, moments, _ in held]).take(row)
-    at_wheel = stacked([moments for _, _, moments in held]).take(row)
-    geared = stacked([gear_moments(gear, plate) for gear in problem.gears]).take(pairs[:, 1])
-    return _Seats(at_floor.shifted(-depth, up) + geared, at_wheel, seats[:-1], seats[-1])
-
-
-@lru_cache(maxsize=1024)
-def _seat(
-    motor: Motor, room: GearRoom | None, foot_plate: float, on_bell: bool
-) -> tuple[tuple[float, ...], MassMoments[float], MassMoments[float]]:
-    """One motor's place: see `_Seats`; the same whatever the problem."""
-    mount = mount_of(motor, room, foot_plate, on_bell=on_bell)
-    figures = (
-        *mount.behind(motor),
-        mount.holes.reach,
-        -mount.holes.cut_out(PANEL + foot_plate).mass,
-        mount.posts.area,
-        mount.posts.gyration,
-        mount.posts.seat,
-        foot_plate,
-        mount.rim_height_max,
-        mount.room,
-        0.0 if mount.bell is None else mount.bell.bore,
-        mount.head_reach,
+    stages: list[MassMoments[Any]] = [gear_moments(gear, plate) for gear in problem.gears]
+    geared = stacked(stages).take(pairs[:, 1])
+    return replace(
+        seats,
+        by_floor=seats.by_floor.shifted(-depth, up) + geared,
+        behind=replace(seats.behind, depth=seats.behind.depth + depth),
     )
-    return figures, by_floor(motor, DIRECT, mount), by_wheel(motor, mount)

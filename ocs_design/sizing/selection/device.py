@@ -77,13 +77,6 @@ def device_of(solved: Solved) -> Candidate:
     size = motor_size(motor, gear.room, outer, height, guard, foot_plate=plate, on_bell=on_bell)
     centers = frozen(problem.place.centers(size))
     incidence = float(solved.point.angle[0])
-    line = (
-        drives.stall_torque,
-        drives.no_load_speed,
-        drives.torque_limit,
-        drives.speed_max,
-        drives.power_max,
-    )
     return Candidate(
         motor=motor,
         gear=gear,
@@ -100,7 +93,7 @@ def device_of(solved: Solved) -> Candidate:
         rim_mass=rim_mass,
         web_mass=wheel.mass - rim_mass,
         carrier=carrier,
-        line=DriveLine(*(float(values[0]) for values in line)),
+        line=DriveLine(*(float(values[0]) for values in vars(drives.whole).values())),
         overspeed=float(drives.overspeed[0]),
         limits=limits,
         total=braked(problem.robot, (wheel, carrier), centers, incidence, problem.layout),

@@ -255,7 +255,7 @@ class Candidate:
         """Part of the spin inertia that is the hub's [kg m^2]."""
         if self.hub is None:
             return 0.0
-        return self.hub.axial_inertia(self.web_density or self.material.density)
+        return self.hub.beyond_web(self.web_density or self.material.density).axial_inertia
 
     @property
     def mass(self) -> float:

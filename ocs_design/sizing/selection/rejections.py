@@ -324,9 +324,9 @@ def _limits(problem: SelectionProblem, drive: Drives) -> RimLimits:
     """Limits of the rims of each material on one drive."""
     kinds = np.arange(len(problem.materials))
     each = drive.repeat(kinds.size)
-    size = (each.hub_radius, each.mount_reach)
+    size = (each.hub_radius, each.seat.reach)
     return rim_limits(
-        problem, kinds, each.overspeed, *size, bell=each.bell, rim_height=each.rim_height
+        problem, kinds, each.overspeed, *size, bell=each.seat.bell, rim_height=each.rim_height
     )
 
 
