@@ -369,10 +369,11 @@ def build_gaps(motor: Motor) -> tuple[str, ...]:
     How it is held and how it holds a wheel, its size, winding, limits, rotor inertia and heat.
     """
     mounting = motor.mounting or Mounting()
+    shaft = mounting.shaft_diameter, mounting.shaft_length
     missing = {
         "bolt circle of the stator": mounting.stator,
         "bolt circle of the rotor, or diameter, length and form of the shaft": (
-            mounting.rotor or _joint(mounting)
+            mounting.rotor or (None if None in shaft else mounting.shaft_form)
         ),
         "body diameter": motor.diameter,
         "body length": motor.length,
@@ -390,10 +391,3 @@ def build_gaps(motor: Motor) -> tuple[str, ...]:
     if motor.kind is MotorKind.FRAMELESS:
         return ("bearings: it is frameless, and modules have none", *gaps)
     return gaps
-
-
-def _joint(mounting: Mounting) -> ShaftForm | None:
-    """What a hub can hold on to on the shaft; None unless all of its figures are known."""
-    if mounting.shaft_diameter is None or mounting.shaft_length is None:
-        return None
-    return mounting.shaft_form

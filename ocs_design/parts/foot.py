@@ -87,12 +87,6 @@ def base_radius(
     return Foot(Housing(outer_radius, height, MountHoles(reach)), thickness).base_radius
 
 
-def _rounded(one: Real, other: Real | float) -> Real:
-    """The larger of two, or up to half of `KNEE` more where they are alike, without a kink."""
-    apart: Real = ((one - other) ** 2 + KNEE**2) ** 0.5
-    return (one + other + apart) / 2.0
-
-
 def larger(one: Real, other: Real | float) -> Real:
     """The larger of two, by operators alone."""
     return (one + other + abs(one - other)) / 2.0
@@ -145,7 +139,10 @@ class Foot(Generic[Real]):
     @property
     def base_radius(self) -> Real:
         """Radius around the marks outside the slots, the heads in them and the plate [m]."""
-        return _rounded(self.slot_radius + AROUND_SLOT, self.corner) + (LONG_MARK_LENGTH + WALL)
+        around, corner = self.slot_radius + AROUND_SLOT, self.corner
+        apart: Real = ((around - corner) ** 2 + KNEE**2) ** 0.5
+        # The larger of both, or up to half of `KNEE` more where they are alike, without a kink.
+        return (around + corner + apart) / 2.0 + (LONG_MARK_LENGTH + WALL)
 
     @property
     def placement(self) -> Placement:

@@ -2,7 +2,6 @@
 
 from contextlib import suppress
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,7 +12,6 @@ from ocs_design.common.errors import Infeasible
 from ocs_design.device.layout import PAIR, Criterion
 from ocs_design.requirement.checks import contradictions
 from ocs_design.requirement.pivoted import StandUp
-from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.resolving import Resolved, resolve
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.vocabulary import CONTAINING, LIGHTEST, MORE_PAIRS, PYRAMID
@@ -28,15 +26,10 @@ from ocs_design.sizing.on_robot import in_rings, on_its_footing, with_plate
 from ocs_design.sizing.placement import specified_place
 from ocs_design.sizing.reserve import Reality, Reserve, account
 from ocs_design.sizing.selection.device import braked, with_demands
-from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
-from ocs_design.sizing.selection.select import (
-    device_at,
-)
+from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.selection.select import device_at
 from ocs_design.sizing.sized import Choice, Designed, sized_by_bound, sized_selection
 from ocs_design.sizing.specified import selection_problem, specified_criterion
-
-if TYPE_CHECKING:
-    from ocs_design.sizing.trajectory.co_design import CoDesign
 
 BY_HAND = "by hand"
 """Criterion of an incidence, or source of a spin inertia, that the user gave."""
@@ -78,18 +71,17 @@ def design_device(
             designed = _designed(specification, robot, resolved, ranked=ranked, reserve=reserve)
         except Infeasible:
             if all(short > 0.0 for short, _, _ in tried):
-                calmer = _calmer(resolved.requirement)
-                if calmer is None:
+                asked = resolved.requirement
+                climbs = [each for each in asked.maneuvers if isinstance(each, StandUp)]
+                if not any(each.slower == 1.0 for each in climbs):
                     raise
-                resolved = replace(resolved, requirement=calmer)
+                # Robots stand up with less torque and more momentum.
+                maneuvers = tuple(
+                    each.calmer() if isinstance(each, StandUp) else each for each in asked.maneuvers
+                )
+                calm = replace(resolved, requirement=replace(asked, maneuvers=maneuvers))
                 with suppress(Infeasible):
-                    return design_device(
-                        specification,
-                        robot,
-                        resolved,
-                        ranked=ranked,
-                        reserve=reserve,
-                    )
+                    return design_device(specification, robot, calm, ranked=ranked, reserve=reserve)
                 raise
             break
         whole, asked = designed.sized.total, resolved.requirement
@@ -111,17 +103,6 @@ def design_device(
     return min(tried, key=lambda each: each[:2])[2]
 
 
-def _calmer(requirement: Requirement) -> Requirement | None:
-    """Robots stand up with less torque and more momentum; None: none that could."""
-    hasty = [isinstance(each, StandUp) and each.slower == 1.0 for each in requirement.maneuvers]
-    if not any(hasty):
-        return None
-    maneuvers = tuple(
-        each.calmer() if isinstance(each, StandUp) else each for each in requirement.maneuvers
-    )
-    return replace(requirement, maneuvers=maneuvers)
-
-
 def _designed(
     specification: Specification,
     robot: Robot,
@@ -133,7 +114,24 @@ def _designed(
     """The device for what is resolved; see `design_device`."""
     problem = selection_problem(specification, robot, resolved)
     if problem is None:
-        designed = _by_bound(specification, robot, resolved)
+        # See docs/theory.md, Lower bound on the wheels' inertia.
+        ocs, envelope = specification.ocs, resolved.envelope
+        criterion = Criterion(ocs.alpha_criterion or Criterion.EQUAL_RATE)
+        sizing = size_device(
+            robot.mass_properties,
+            resolved.requirement,
+            envelope,
+            resolved.material,
+            specified_place(ocs.position, robot, envelope),
+            incidence=ocs.alpha,
+            criterion=criterion,
+        )
+        designed = Designed(
+            device=assemble(sizing, resolved),
+            sized=sized_by_bound(sizing, resolved.requirement.wheel_speed_max),
+            criterion=BY_HAND if ocs.alpha is not None else str(criterion),
+            choice=None,
+        )
     else:
         assert resolved.reliability is not None, "there are motors to choose from"
         require_survival(problem)
@@ -286,7 +284,14 @@ def _by_selection(
         # CasADi takes a third of a second to import.
         from ocs_design.sizing.trajectory.co_design import co_design  # noqa: PLC0415
 
-        found = _with_its_plate(co_design(problem, selection.best), problem, selection.best, robot)
+        found = co_design(problem, best)
+        if found.adopted:
+            # It counted the selected device's plate.
+            own = with_plate(found.device, problem, robot)
+            found = replace(found, device=own, found_mass=own.mass)
+            if own.mass >= best.mass:
+                note = "the selection stands: a heavier plate takes up what the wheels would save"
+                found = replace(found, adopted=False, note=note, device=best)
         choice = Choice(problem, selection, found.device, found)
     name = LIGHTEST if criterion is None else str(criterion)
     chosen = choice.chosen
@@ -299,65 +304,18 @@ def _by_selection(
 
     spends = any(each.demand > 1.0 for each in reserve.maneuvers.values())
     least = with_plate(nominal, problem, robot) if spends else chosen
-    designed = Designed(
-        device=assemble_selected(choice.chosen, problem.supply),
-        sized=sized_selection(problem, choice.chosen),
+    # A co-design makes the selected device smaller, and its plate with it.
+    device = assemble_selected(chosen, problem.supply)
+    device = stand_on_trunk(device, robot, stated=problem.place.stated)
+    carried = device.plated(robot.mass_properties)
+    bodies = chosen.wheel, chosen.carrier
+    centers = np.stack([module.position for module in device.modules])
+    total = braked(carried, bodies, centers, device.incidence, device.layout)
+    return Designed(
+        device=device,
+        sized=replace(sized_selection(problem, chosen), total=total),
         criterion=BY_HAND if stated else name,
         choice=choice,
         reserve=reserve,
         account=lambda: account(reserve, reality, problem, chosen, resized, nominal=least.mass),
-    )
-    return _on_trunk(designed, robot)
-
-
-def _with_its_plate(
-    found: "CoDesign", problem: SelectionProblem, selected: Candidate, robot: Robot
-) -> "CoDesign":
-    """What the co-design found, which counted the selected device's plate, with its own one."""
-    if not found.adopted:
-        return found
-    device = with_plate(found.device, problem, robot)
-    found = replace(found, device=device, found_mass=device.mass)
-    if device.mass < selected.mass:
-        return found
-    note = "the selection stands: a heavier plate takes up what the wheels would save"
-    return replace(found, adopted=False, note=note, device=selected)
-
-
-def _on_trunk(designed: Designed, robot: Robot) -> Designed:
-    """The device on the trunk itself or on a plate of its own size, and what both weigh together.
-
-    A co-design makes the selected device smaller, and its plate with it.
-    """
-    assert designed.choice is not None, "wheels without motors have no feet"
-    chosen, place = designed.choice.chosen, designed.choice.problem.place
-    device = stand_on_trunk(designed.device, robot, stated=place.stated)
-    centers = np.stack([module.position for module in device.modules])
-    carried = device.plated(robot.mass_properties)
-    bodies = chosen.wheel, chosen.carrier
-    total = braked(carried, bodies, centers, device.incidence, device.layout)
-    return replace(designed, device=device, sized=replace(designed.sized, total=total))
-
-
-def _by_bound(specification: Specification, robot: Robot, resolved: Resolved) -> Designed:
-    """Wheels alone, for the highest speed stated or assumed.
-
-    See docs/theory.md, Lower bound on the wheels' inertia.
-    """
-    stated = specification.ocs
-    criterion = Criterion(stated.alpha_criterion or Criterion.EQUAL_RATE)
-    sizing = size_device(
-        robot.mass_properties,
-        resolved.requirement,
-        resolved.envelope,
-        resolved.material,
-        specified_place(stated.position, robot, resolved.envelope),
-        incidence=stated.alpha,
-        criterion=criterion,
-    )
-    return Designed(
-        device=assemble(sizing, resolved),
-        sized=sized_by_bound(sizing, resolved.requirement.wheel_speed_max),
-        criterion=BY_HAND if stated.alpha is not None else str(criterion),
-        choice=None,
     )

@@ -178,7 +178,17 @@ def _best_bore(
     """b = r^2 of the lightest module at R [m^2]."""
     square = outer_radius**2
     height = np.asarray(limits.height_min) + np.zeros_like(outer_radius)
-    fixed = _fixed_bounds(outer_radius, limits)
+    weight, bore_weight = limits.hoop_weights
+    # A rim's height and mass have no say in these.
+    fixed = (
+        np.maximum(np.asarray(limits.inner_radius_min) ** 2, (BORE_SHARE * outer_radius) ** 2),
+        np.minimum(
+            np.minimum(
+                (outer_radius - limits.wall_min) ** 2, np.asarray(limits.inner_radius_max) ** 2
+            ),
+            (limits.stretch_max - weight * square) / bore_weight,
+        ),
+    )
     lower, upper = _bounds(inertia, outer_radius, limits, fixed, None)
     bent: float | FloatArray = 0.0
     holed = bool(np.any(np.asarray(limits.web_weight) < 1.0))
@@ -206,18 +216,6 @@ def _best_bore(
         if holed:
             bent = bent + np.minimum((limits.heavy_web - limits.web) * over, 0.0)
     return bore
-
-
-def _fixed_bounds(outer: FloatArray, limits: RimLimits) -> tuple[FloatArray, FloatArray]:
-    """Bounds of r^2 at R [m^2] that a rim's height and mass have no say in."""
-    weight, bore_weight = limits.hoop_weights
-    return (
-        np.maximum(np.asarray(limits.inner_radius_min) ** 2, (BORE_SHARE * outer) ** 2),
-        np.minimum(
-            np.minimum((outer - limits.wall_min) ** 2, np.asarray(limits.inner_radius_max) ** 2),
-            (limits.stretch_max - weight * outer**2) / bore_weight,
-        ),
-    )
 
 
 def _bounds(

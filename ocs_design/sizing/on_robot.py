@@ -44,6 +44,25 @@ _TOO_THICK = 0.2e-3
 """Excess thickness of feet that are left as they are [m]: 0.5 g each."""
 
 
+class NeverHeld(Infeasible):
+    """What would hold a device on the trunk asks for a larger device, which nothing holds.
+
+    Args: the device, and the mass of what holds it [kg].
+    """
+
+    def __init__(self, best: Candidate, mass: float) -> None:
+        held, device = (format_quantity(each, "kg", digits=3) for each in (mass, best.modules_mass))
+        super().__init__(
+            f"A device of {device} can be held on the trunk by a mast of {held}, but to turn robot "
+            "and mast takes a larger device, and nothing holds that one.",
+            binding=["ocs.place"],
+            required_spin_inertia=None,
+            largest_spin_inertia=best.spin_inertia,
+            relaxations={},
+            hint="Another incidence, more time or a higher voltage makes the device smaller.",
+        )
+
+
 def with_plate(candidate: Candidate, problem: SelectionProblem, robot: Robot) -> Candidate:
     """A selected device with the plate or the pedestals that it stands on, where it needs any.
 
@@ -132,7 +151,7 @@ def on_its_footing(
             at = own
         else:
             if change > _HELD * best.mass:
-                raise _never_held(change, best)
+                raise NeverHeld(best, change)
         return at, best
 
     first, widest = lightest_by(problem, criterion), problem
@@ -198,24 +217,6 @@ def _surer(
             break
         problem, reserve = surer, own
     return problem, selection, reserve
-
-
-class NeverHeld(Infeasible):
-    """What would hold a device on the trunk asks for a larger device, which nothing holds."""
-
-
-def _never_held(mass: float, best: Candidate) -> NeverHeld:
-    """The error for a device and the mass of what holds it [kg]."""
-    held, device = (format_quantity(each, "kg", digits=3) for each in (mass, best.modules_mass))
-    return NeverHeld(
-        f"A device of {device} can be held on the trunk by a mast of {held}, but to turn robot and "
-        "mast takes a larger device, and nothing holds that one.",
-        binding=["ocs.place"],
-        required_spin_inertia=None,
-        largest_spin_inertia=best.spin_inertia,
-        relaxations={},
-        hint="Another incidence, more time or a higher voltage makes the device smaller.",
-    )
 
 
 def _own_footing(problem: SelectionProblem, best: Candidate, robot: Robot) -> SelectionProblem:

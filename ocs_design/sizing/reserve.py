@@ -18,7 +18,6 @@ from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.actuation.unit_drive import UnitDrive
 from ocs_design.actuation.wheel_load import WheelTask, held_by_each, spin_demand
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.layout import Layout
 from ocs_design.device.records.selection import KeptRecord, ReserveRecord, UncertaintyCost
 from ocs_design.requirement.bound import turned_roll
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Unforeseen
@@ -361,7 +360,10 @@ class Reality:
             late = energy <= device.line.power_max * (whole - time)
             arrives = bool(late) and self.flight > 1.0
             time, share = (whole, 1.0) if late else (time, PLANNED)
-        axes = _built_axes(device.layout, at, drawn["incidence_error"])
+        # Each module is turned by hand on its foot, (robots, 2, n).
+        built, off = device.layout.axes(at), drawn["incidence_error"][:, None]
+        across = np.cross(device.layout.feet(built), built, axis=0)
+        axes = (np.cos(off) * built + np.sin(off) * across)[:, :2]
         if problem.requirement.detection is not None:
             # One robot after the other loses another wheel, at once.
             lost = np.arange(len(axes)) % len(device.layout)
@@ -421,18 +423,6 @@ def _line(line: DriveLine, drawn: Mapping[str, FloatArray]) -> DriveLine:
         speed_max=line.speed_max,
         power_max=line.power_max * np.minimum(constant, 1.0),
     )
-
-
-def _built_axes(layout: Layout, angle: float, errors: FloatArray) -> FloatArray:
-    """Axes about roll and pitch of wheels turned by hand, (robots, 2, n).
-
-    Args:
-        layout: as designed. angle: of it [rad].
-        errors: of each module on its foot [rad], shape (robots, n).
-    """
-    axes = layout.axes(angle)
-    across = np.cross(layout.feet(axes), axes, axis=0)
-    return (np.cos(errors)[:, None] * axes + np.sin(errors)[:, None] * across)[:, :2]
 
 
 def _turns_over(maneuver: Maneuver, axes: FloatArray) -> bool:

@@ -148,25 +148,19 @@ def _held(
     All of them where none is, whose open points then say why. Where a brake stops the wheels, each
     turns no faster than its joint takes.
     """
+    stated, motors = specification.motor, choice.motors
+    if not (stated.any or stated.name not in {None, AUTO} or any(g.room for g in choice.gears)):
+
+        def holds_wheel(motor: Motor) -> bool:
+            """Whether the joint of hub and motor carries its peak torque, with some to spare."""
+            carried = _carried(motor)
+            return carried is not None and carried >= SERVICE * (motor.peak_torque or 0.0)
+
+        held = (each for each in motors if is_held(each, None) and holds_wheel(each))
+        motors = tuple(held) or motors
     climbs = (each for each in resolved.requirement.maneuvers if isinstance(each, StandUp))
     stop = min((each.stop for each in climbs if each.braked), default=inf)
-    motors = _motors_held(specification, choice)
     return tuple(_slowed(each, stop) for each in motors) if isfinite(stop) else motors
-
-
-def _motors_held(specification: Specification, choice: MotorChoice) -> tuple[Motor, ...]:
-    """Motors to choose from, each up to its own speed."""
-    stated = specification.motor
-    if stated.any or stated.name not in {None, AUTO} or any(gear.room for gear in choice.gears):
-        return choice.motors
-    held = (motor for motor in choice.motors if is_held(motor, None) and _holds_wheel(motor))
-    return tuple(held) or choice.motors
-
-
-def _holds_wheel(motor: Motor) -> bool:
-    """True if the joint of hub and motor carries its peak torque with what is to spare."""
-    carried = _carried(motor)
-    return carried is not None and carried >= SERVICE * (motor.peak_torque or 0.0)
 
 
 def _slowed(motor: Motor, stop: float) -> Motor:

@@ -1,6 +1,5 @@
 """A solved candidate as a whole device, the limits that hold its mass, and its figures."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -140,12 +139,11 @@ def inertia_at(problem: SelectionProblem, device: Candidate, incidence: float) -
 
 
 def with_demands(problem: SelectionProblem, device: Candidate) -> Candidate:
-    """The device with what each part of the requirement takes of it, which takes some time."""
-    return replace(device, demands=tuple(_task_demands(problem, device)))
+    """The device with what each part of the requirement takes of it, which takes some time.
 
-
-def _task_demands(problem: SelectionProblem, device: Candidate) -> Iterator[TaskDemand]:
-    """Demands of each part of the requirement, with the inertia at its own incidence."""
+    The inertia is that at its own incidence.
+    """
+    demands: list[TaskDemand] = []
     requirement, line, spin = problem.requirement, device.line.reserved(), device.spin_inertia
     top_speed = min(float(line.no_load_speed), float(line.speed_max))
     one_stops = requirement.detection is not None
@@ -166,7 +164,7 @@ def _task_demands(problem: SelectionProblem, device: Candidate) -> Iterator[Task
         # The torque of a phase falls with the speed while it pushes and rises with it while it
         # brakes.
         torque = np.abs(profile.torque(np.array([0.0, profile.brake_from.item()])))
-        yield TaskDemand(
+        demand = TaskDemand(
             source=maneuver.name,
             incidence=at,
             spin_inertia=least,
@@ -175,13 +173,16 @@ def _task_demands(problem: SelectionProblem, device: Candidate) -> Iterator[Task
             peak_speed=max(abs(begins), profile.peak_speed.item() + begins),
             peak_torque=float(torque.max()),
         )
+        demands.append(demand)
     if requirement.rate_change is not None:
         at = device.incidence
         inertia, axes = inertia_at(problem, device, at), device.layout.axes(at)[:2]
         momenta = held_by_rate(requirement.rate_change, inertia, axes, one_stops=one_stops)
         for axis, momentum in zip(AXES, momenta.tolist(), strict=True):
             least, peak = momentum / top_speed, momentum / spin
-            yield TaskDemand(f"rate change, {axis}", at, least, None, None, peak, None)
+            name = f"rate change, {axis}"
+            demands.append(TaskDemand(name, at, least, None, None, peak, None))
+    return replace(device, demands=tuple(demands))
 
 
 def _task_of(

@@ -1,13 +1,12 @@
 """Branch and bound over motors, gears and materials; the incidence is solved for.
 
 Every pair of a motor and a gear carries a lower bound on the mass of its lightest device, of any
-material and web. It starts
-as what motor, gear and the smallest wheel weigh, is tightened step by step (`bounds`), and becomes
-the mass itself where the fixed point is solved (`fixed_point`), for the most promising candidates
-first. A candidate is left out once its bound exceeds the tenth lightest device that is known, and
-is none of a motor that may be among the five with the lightest devices: so the ten lightest and the
-lightest of the five best motors are found whatever the order. What may be the lightest of all is
-refined in the end.
+material and web. It starts as what motor, gear and the smallest wheel weigh, is tightened step by
+step (`bounds`), and becomes the mass itself where the fixed point is solved (`fixed_point`), for
+the most promising candidates first. A candidate is left out once its bound exceeds the tenth
+lightest device that is known, and is none of a motor that may be among the five with the lightest
+devices: so the ten lightest and the lightest of the five best motors are found whatever the order.
+What may be the lightest of all is refined in the end.
 
 Materials of one density make devices of one mass, but for the last digits. Of such devices the
 safest comes first (`devices_by_mass`).
@@ -122,24 +121,20 @@ class Found(PairBounds):
 
     def refine(self) -> None:
         """Refine what may be the lightest of all, and what may be feasible and lighter."""
-        for index, solved in enumerate(self.batches):
-            self.batches[index] = self._refined(solved)
-        self._list([rank for i, batch in enumerate(self.batches) for rank in _ranks(i, batch)])
-
-    def _refined(self, solved: Solved) -> Solved:
         fall = _FALL if self.problem.incidence is None else _FALL_STATED
-        near = solved.mass < (1.0 + fall) * self.lightest
-        hope = ~solved.point.feasible & (solved.point.margin > _PROMISING)
-        for row in np.flatnonzero((near | hope) & (solved.guess.mass < self.lightest)):
-            at = np.array([row])
-            one = solved.take(at)
-            point = refine(one.candidates, one.point)
-            better = replace(one, point=replace(point, iterations=one.point.iterations))
-            if better.mass[0] < one.mass[0]:
-                solved = solved.put(at, better)
-                pair = one.candidates.drives.motor, one.candidates.drives.gear
-                np.minimum.at(self.least, pair, better.mass)
-        return solved
+        for index, batch in enumerate(self.batches):
+            near = batch.mass < (1.0 + fall) * self.lightest
+            hope = ~batch.point.feasible & (batch.point.margin > _PROMISING)
+            for row in np.flatnonzero((near | hope) & (batch.guess.mass < self.lightest)):
+                at = np.array([row])
+                one = batch.take(at)
+                point = refine(one.candidates, one.point)
+                better = replace(one, point=replace(point, iterations=one.point.iterations))
+                if better.mass[0] < one.mass[0]:
+                    self.batches[index] = self.batches[index].put(at, better)
+                    pair = one.candidates.drives.motor, one.candidates.drives.gear
+                    np.minimum.at(self.least, pair, better.mass)
+        self._list([rank for i, batch in enumerate(self.batches) for rank in _ranks(i, batch)])
 
     def _list(self, ranks: Sequence[Rank]) -> None:
         """The lightest of these, and the lightest of each of the best motors."""
@@ -203,23 +198,17 @@ def search_lightest(problem: SelectionProblem, below: float = np.inf) -> Found:
 
 def _search(found: Found) -> None:
     """Examine every motor behind every gear whose bound leaves it a place in the list."""
-    for pairs in _chunks(found):
-        worth = pairs[found.least[tuple(pairs.T)] < found.enough[pairs[:, 0]]]
+    least = np.where(found.known, found.least, np.nan)
+    order = np.argsort(least, axis=None, kind="stable")[: int(found.known.sum())]
+    pairs = np.stack(np.unravel_index(order, least.shape), axis=-1)
+    # Every motor once with its lightest gear, then all.
+    _, first = np.unique(pairs[:, 0], return_index=True)
+    rest = np.delete(pairs, first, axis=0)
+    chunks = (rest[start : start + _CHUNK] for start in range(0, len(rest), _CHUNK))
+    for some in (pairs[first], *chunks):
+        worth = some[found.least[tuple(some.T)] < found.enough[some[:, 0]]]
         if worth.size:
             _examine(found, worth)
-
-
-def _chunks(found: Found) -> Iterator[NDArray[np.intp]]:
-    """Pairs of motor and gear, shape (n, 2): every motor once with its lightest gear, then all."""
-    least = np.where(found.known, found.least, np.nan)
-    order = np.argsort(least, axis=None, kind="stable")
-    order = order[: int(found.known.sum())]
-    pairs = np.stack(np.unravel_index(order, least.shape), axis=-1)
-    _, first = np.unique(pairs[:, 0], return_index=True)
-    yield pairs[first]
-    rest = np.delete(pairs, first, axis=0)
-    for start in range(0, len(rest), _CHUNK):
-        yield rest[start : start + _CHUNK]
 
 
 def _examine(found: Found, pairs: NDArray[np.intp]) -> None:

@@ -101,7 +101,16 @@ def select_by(
         selection = select(replace(problem, incidence=angle))
         if same_parts(selection.best, winner):
             _, exact = at_own_incidence(problem, selection.best, criterion)
-            return selection if exact is None else _with_best(problem, exact, selection)
+            if exact is None:
+                return selection
+            # What is about as light is compared at exactly its incidence.
+            about, others = exact.mass * (1.0 + _ABOUT), selection.ranking[1:]
+            near = [entry for entry in others if entry.mass < about]
+            turned = _devices_at(problem, near, exact.incidence) if near else ()
+            moved = [device or entry for device, entry in zip(turned, near, strict=True)]
+            best, *close = devices_by_mass((exact, *moved))
+            ranking = (with_demands(problem, best), *close, *others[len(near) :])
+            return replace(selection, ranking=ranking)
         winners.append(winner)
         own += [] if settled is None else [settled]
         if len(winners) == _WINNERS_MAX:
@@ -203,16 +212,6 @@ def _devices_at(
             # The iteration runs away where a device can only just carry itself; a programme not.
             one = replace(one, point=refine(one.candidates, one.point))
         yield device_of(one) if one.point.feasible[0] else None
-
-
-def _with_best(problem: SelectionProblem, exact: Candidate, selection: Selection) -> Selection:
-    """Selection with its best, and what is about as light, at exactly the best one's incidence."""
-    near = [entry for entry in selection.ranking[1:] if entry.mass < exact.mass * (1.0 + _ABOUT)]
-    there = _devices_at(problem, near, exact.incidence) if near else ()
-    moved = [found or entry for found, entry in zip(there, near, strict=True)]
-    best, *others = devices_by_mass((exact, *moved))
-    later = selection.ranking[1 + len(near) :]
-    return replace(selection, ranking=(with_demands(problem, best), *others, *later))
 
 
 def _led_by(chosen: Candidate, selection: Selection) -> Selection:
