@@ -50,13 +50,6 @@ def doctor(as_json: opt.AsJson = False, no_color: opt.NoColor = False) -> None:
 
 Answer = TypeVar("Answer")
 
-SpecificationFile: TypeAlias = Annotated[
-    Path | None, opt.option("-o --out", "FILE", "File to write. Default: <name>.toml.")
-]
-Yes: TypeAlias = Annotated[
-    bool, typer.Option("-y", "--yes", help="Ask nothing; as where no terminal is.")
-]
-ReplaceFile: TypeAlias = Annotated[bool, typer.Option("--force", help="Replace a file.")]
 
 ALL = "all"
 
@@ -71,9 +64,13 @@ QUESTIONS: Mapping[str, str] = {
 @with_options(opt.START_OPTIONS)
 def init(
     context: typer.Context,
-    yes: Yes = False,
-    out: SpecificationFile = None,
-    force: ReplaceFile = False,
+    yes: Annotated[
+        bool, typer.Option("-y", "--yes", help="Ask nothing; as where no terminal is.")
+    ] = False,
+    out: Annotated[
+        Path | None, opt.option("-o --out", "FILE", "File to write. Default: <name>.toml.")
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace a file.")] = False,
     as_json: opt.AsJson = False,
     strict: opt.Strict = False,
     quiet: opt.Quiet = False,
@@ -186,20 +183,6 @@ DesignFile: TypeAlias = Annotated[
         help="design.json, or the folder that it lies in.",
     ),
 ]
-ExportFolder: TypeAlias = Annotated[
-    Path | None, opt.option("-o --out", "DIR", "Output folder. Default: <name>-ocs-export.")
-]
-Formats: TypeAlias = Annotated[
-    list[str] | None,
-    opt.option(
-        "--formats",
-        "NAMES",
-        f"{', '.join(each.name for each in USUAL_FORMATS)} (these are the default), "
-        f"{', '.join(each.name for each in FORMATS if each.on_request)}, figures, report, "
-        "controller, with commas between them; or all.",
-        completion.listed(completion.any_of(completion.formats)),
-    ),
-]
 OtherRobot: TypeAlias = Annotated[
     Path | None,
     opt.option(
@@ -215,8 +198,20 @@ OtherRobot: TypeAlias = Annotated[
 def export(
     context: typer.Context,
     design: DesignFile,
-    out: ExportFolder = None,
-    formats: Formats = None,
+    out: Annotated[
+        Path | None, opt.option("-o --out", "DIR", "Output folder. Default: <name>-ocs-export.")
+    ] = None,
+    formats: Annotated[
+        list[str] | None,
+        opt.option(
+            "--formats",
+            "NAMES",
+            f"{', '.join(each.name for each in USUAL_FORMATS)} (these are the default), "
+            f"{', '.join(each.name for each in FORMATS if each.on_request)}, figures, report, "
+            "controller, with commas between them; or all.",
+            completion.listed(completion.any_of(completion.formats)),
+        ),
+    ] = None,
     robot: OtherRobot = None,
     package_path: opt.PackagePaths = None,
     *,
@@ -251,48 +246,44 @@ def export(
     output.give(exported, print_export, exported.warnings)
 
 
-Against: TypeAlias = Annotated[
-    str,
-    opt.option(
-        "--against",
-        "NAME",
-        "time, angle, radius, height or voltage is varied.",
-        completion.one_of("time", "angle", "radius", "height", "voltage"),
-    ),
-]
-Low: TypeAlias = Annotated[str | None, opt.option("--from", "VALUE", "Lowest value, e.g. 300ms.")]
-High: TypeAlias = Annotated[
-    str | None,
-    opt.option("--to", "VALUE", "Highest value. Default of both: around the specification's own."),
-]
-Points: TypeAlias = Annotated[int, opt.option("--points", "N", "How many values.")]
-ManeuverName: TypeAlias = Annotated[
-    str,
-    opt.option(
-        "--maneuver",
-        "NAME",
-        "Vary the time or angle of this one alone. Default: of all, in one ratio.",
-        completion.maneuvers,
-    ),
-]
-FrontFolder: TypeAlias = Annotated[
-    Path | None,
-    opt.option(
-        "-o --out", "DIR", "Write the front and the specification of each point into this folder."
-    ),
-]
-
-
 @with_options(opt.TASK_OPTIONS)
 @with_output
 def pareto(
     context: typer.Context,
-    against: Against = "time",
-    low: Low = None,
-    high: High = None,
-    points: Points = 9,
-    maneuver: ManeuverName = "",
-    out: FrontFolder = None,
+    against: Annotated[
+        str,
+        opt.option(
+            "--against",
+            "NAME",
+            "time, angle, radius, height or voltage is varied.",
+            completion.one_of("time", "angle", "radius", "height", "voltage"),
+        ),
+    ] = "time",
+    low: Annotated[str | None, opt.option("--from", "VALUE", "Lowest value, e.g. 300ms.")] = None,
+    high: Annotated[
+        str | None,
+        opt.option(
+            "--to", "VALUE", "Highest value. Default of both: around the specification's own."
+        ),
+    ] = None,
+    points: Annotated[int, opt.option("--points", "N", "How many values.")] = 9,
+    maneuver: Annotated[
+        str,
+        opt.option(
+            "--maneuver",
+            "NAME",
+            "Vary the time or angle of this one alone. Default: of all, in one ratio.",
+            completion.maneuvers,
+        ),
+    ] = "",
+    out: Annotated[
+        Path | None,
+        opt.option(
+            "-o --out",
+            "DIR",
+            "Write the front and the specification of each point into this folder.",
+        ),
+    ] = None,
     *,
     output: Output,
 ) -> None:
@@ -327,65 +318,59 @@ def pareto(
     raise typer.Exit(front.exit_code)
 
 
-FlightsFolder: TypeAlias = Annotated[
-    Path | None,
-    opt.option(
-        "-o --out",
-        "DIR",
-        "Write time series into this folder; with --samples, every sample. There a run that "
-        "was interrupted goes on.",
-    ),
-]
-Samples: TypeAlias = Annotated[
-    int | None, opt.option("--samples", "N", "Fly N robots as they might be built.")
-]
-UntilWidth: TypeAlias = Annotated[
-    str | None,
-    opt.option(
-        "--until-width",
-        "SHARE",
-        "Stop earlier: as soon as each success rate is known to within this, e.g. 5%.",
-    ),
-]
-Scheduler: TypeAlias = Annotated[
-    str | None, opt.option("--scheduler", "ADDRESS", "Fly the samples on this Dask cluster.")
-]
-OneSample: TypeAlias = Annotated[
-    int | None, opt.option("--sample", "K", "Fly sample K of --seed alone.")
-]
-CaseFile: TypeAlias = Annotated[
-    Path | None,
-    opt.option(
-        "--replay", "FILE", "Fly a case from the folder worst/ again.", completion.files(".json")
-    ),
-]
-View: TypeAlias = Annotated[
-    bool, typer.Option("--view", help="Show the runs in MuJoCo's viewer, each until it is closed.")
-]
-Desaturate: TypeAlias = Annotated[
-    bool, typer.Option("--desaturate", help="Brake the wheels while the robot stands.")
-]
-
-
 @with_output
 def validate(
     context: typer.Context,
     design: DesignFile,
-    samples: Samples = None,
+    samples: Annotated[
+        int | None, opt.option("--samples", "N", "Fly N robots as they might be built.")
+    ] = None,
     seed: opt.Seed = None,
-    until_width: UntilWidth = None,
+    until_width: Annotated[
+        str | None,
+        opt.option(
+            "--until-width",
+            "SHARE",
+            "Stop earlier: as soon as each success rate is known to within this, e.g. 5%.",
+        ),
+    ] = None,
     certify: opt.Certify = False,
     survives: opt.Survives = None,
     detection: opt.Detection = None,
-    scheduler: Scheduler = None,
-    sample: OneSample = None,
-    replay: CaseFile = None,
+    scheduler: Annotated[
+        str | None, opt.option("--scheduler", "ADDRESS", "Fly the samples on this Dask cluster.")
+    ] = None,
+    sample: Annotated[
+        int | None, opt.option("--sample", "K", "Fly sample K of --seed alone.")
+    ] = None,
+    replay: Annotated[
+        Path | None,
+        opt.option(
+            "--replay",
+            "FILE",
+            "Fly a case from the folder worst/ again.",
+            completion.files(".json"),
+        ),
+    ] = None,
     spec: opt.Spec = None,
     reality: opt.Reality = None,
     ballistic: opt.Ballistic = False,
-    desaturate: Desaturate = False,
-    view: View = False,
-    out: FlightsFolder = None,
+    desaturate: Annotated[
+        bool, typer.Option("--desaturate", help="Brake the wheels while the robot stands.")
+    ] = False,
+    view: Annotated[
+        bool,
+        typer.Option("--view", help="Show the runs in MuJoCo's viewer, each until it is closed."),
+    ] = False,
+    out: Annotated[
+        Path | None,
+        opt.option(
+            "-o --out",
+            "DIR",
+            "Write time series into this folder; with --samples, every sample. There a run that "
+            "was interrupted goes on.",
+        ),
+    ] = None,
     robot_file: OtherRobot = None,
     package_path: opt.PackagePaths = None,
     *,

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
-from typing import TextIO
+from typing import TextIO, TypeAlias
 
 import typer
 
@@ -59,26 +59,31 @@ def run(app: typer.Typer, arguments: Sequence[str]) -> int:
         cause: BaseException | None = error
         while cause is not None and not isinstance(cause, KeyboardInterrupt):
             cause = cause.__context__
-        return INTERRUPTED if cause else _report_any(error, as_json=as_json, color=color)
+        return INTERRUPTED if cause else _report(error, as_json=as_json, color=color)
     return result if isinstance(result, int) else 0
 
 
-def _report_any(
-    error: OcsError | typer.TyperException | OSError | UnicodeEncodeError,
-    *,
-    as_json: bool,
-    color: bool,
-) -> int:
-    """Print what went wrong, in words of its own kind; the exit code."""
+Failure: TypeAlias = OcsError | typer.TyperException | OSError | UnicodeEncodeError
+
+
+def _told(error: Failure) -> OcsError:
+    """The error in words of its own kind, with its cure."""
+    if isinstance(error, OcsError):
+        return error
     if isinstance(error, OSError):
-        return _report_system(error, as_json=as_json, color=color)
+        from ocs_design.export.folder import output_error
+
+        if error.filename is not None:
+            return output_error(error, Path())
+        return OutputError(
+            f"what was printed: {error.strerror}",
+            hint="free some space there, or send the output elsewhere",
+        )
     if isinstance(error, UnicodeEncodeError):
-        error = OcsError(
+        return OcsError(
             f"{error.object[:200]!a}: that name is no text in the encoding {error.encoding}",
             hint="rename the file or folder, or set PYTHONUTF8=1 if the name is UTF-8",
         )
-    if isinstance(error, OcsError):
-        return _report(error, as_json=as_json, color=color)
     context = getattr(error, "ctx", None)
     message = error.format_message()
     hint = f"see `{context.command_path} --help`" if context else ""
@@ -89,31 +94,7 @@ def _report_any(
         hint = f"an option takes one word, as in --r-max 50mm or --joint FL_KFE=0.5; {hint}"
     elif re.fullmatch(r"No such option: -\w", message):
         hint = f"an option of several letters has two dashes; {hint}"
-    if as_json:
-        _print_json("usage", message, hint, {})
-    else:
-        _print_panel([message], hint, color=color)
-    return 2
-
-
-def _report_system(error: OSError, *, as_json: bool, color: bool) -> int:
-    """Report what a disk or a terminal said while something was printed."""
-    from ocs_design.export.folder import output_error
-
-    told = output_error(error, Path())
-    if error.filename is None:
-        told = OutputError(
-            f"what was printed: {error.strerror}",
-            hint="free some space there, or send the output elsewhere",
-        )
-        # What could not be printed is still there to be printed.
-        _write_nowhere(sys.stdout)
-        as_json = False
-    try:
-        return _report(told, as_json=as_json, color=color)
-    except OSError:
-        _write_nowhere(sys.stderr)
-        return told.exit_code
+    return UsageError(message, hint=hint)
 
 
 def _write_nowhere(*streams: TextIO) -> None:
@@ -123,29 +104,34 @@ def _write_nowhere(*streams: TextIO) -> None:
         os.dup2(nowhere, stream.fileno())
 
 
-def _report(error: OcsError, *, as_json: bool, color: bool) -> int:
+def _report(error: Failure, *, as_json: bool, color: bool) -> int:
+    """Print what went wrong; the exit code."""
+    told = _told(error)
+    unprinted = isinstance(error, OSError) and error.filename is None
+    if unprinted:
+        # What could not be printed is still there to be printed.
+        _write_nowhere(sys.stdout)
+    try:
+        _print(told, as_json=as_json and not unprinted, color=color)
+    except OSError:
+        if not isinstance(error, OSError):
+            raise
+        _write_nowhere(sys.stderr)
+    return told.exit_code
+
+
+def _print(error: OcsError, *, as_json: bool, color: bool) -> None:
     if as_json:
-        _print_json(error.kind, error.message, error.hint, error.data())
-    else:
-        lines = [error.message]
-        if isinstance(error, SpecificationError):
-            lines += [f"  - {problem}" for problem in error.problems]
-        _print_panel(lines, error.hint, color=color)
-        if isinstance(error, Infeasible):
-            from ocs_design.report.text.console import make_console
-            from ocs_design.report.text.size import print_assumed
+        stated = {"kind": error.kind, "message": error.message, "hint": error.hint}
+        document = {"schema_version": SCHEMA_VERSION, "error": {**stated, **error.data()}}
+        print(json.dumps(document, indent=2))
+        return
+    from ocs_design.report.text.console import error_panel, make_console
 
-            print_assumed(make_console(color=color, stderr=True), error.assumptions)
-    return error.exit_code
+    problems = error.problems if isinstance(error, SpecificationError) else ()
+    lines = [error.message, *(f"  - {problem}" for problem in problems)]
+    error_panel(lines, error.hint, color=color)
+    if isinstance(error, Infeasible):
+        from ocs_design.report.text.size import print_assumed
 
-
-def _print_json(kind: str, message: str, hint: str, data: object) -> None:
-    fields = dict(data) if isinstance(data, dict) else {}
-    document = {"kind": kind, "message": message, "hint": hint, **fields}
-    print(json.dumps({"schema_version": SCHEMA_VERSION, "error": document}, indent=2))
-
-
-def _print_panel(lines: Sequence[str], hint: str, *, color: bool) -> None:
-    from ocs_design.report.text.console import error_panel
-
-    error_panel(lines, hint, color=color)
+        print_assumed(make_console(color=color, stderr=True), error.assumptions)

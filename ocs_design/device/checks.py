@@ -13,7 +13,6 @@ from ocs_design.actuation.fasteners import SCREW_NAMES
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.device.device import Device
 from ocs_design.parts.carrier_plate import CarrierPlate
-from ocs_design.parts.pedestal import Pedestal
 from ocs_design.robot.mass import MassProperties
 
 LARGEST = 1e12
@@ -33,18 +32,15 @@ _OF_GEARS = ("gear_room.depth", "offset", "wheel_radius", "motor_radius", "cente
 """Lengths [m] that are zero where there is no such thing."""
 
 _LENGTHS = {"outer_radius", "height", "thickness", "radius", "diameter", "half_length"}
-_POSITIVE = {"density", "mass", "spin_inertia", "gear_efficiency", "no_load_speed", "speed_max"}
-_POSITIVE |= {
-    "stall_torque",
-    "torque_limit",
-    "saturation_torque",
-    "torque_constant",
-    "resistance",
-    "bus_voltage",
+_POSITIVE = {
+    *("density", "mass", "spin_inertia", "gear_efficiency", "no_load_speed", "speed_max"),
+    *("stall_torque", "torque_limit", "saturation_torque", "torque_constant", "resistance"),
+    *("bus_voltage", "rated_voltage"),
 }
-_POSITIVE |= {"rated_voltage"}
-_ANY_SIGN = {"rotor_inertia", "gear_ratio", "stress_margin", "armature"}
-_ANY_SIGN |= {"along", "up", "product_of_inertia"}
+_ANY_SIGN = {
+    *("rotor_inertia", "gear_ratio", "stress_margin", "armature"),
+    *("along", "up", "product_of_inertia"),
+}
 _MAY_BE_ZERO = {"motor.mass", "carrier.mass"}
 
 _UNIT_TOLERANCE = 1e-6
@@ -117,24 +113,20 @@ def _pedestal_faults(device: Device) -> Iterator[str]:
     if device.plate is not None and device.pedestals:
         yield "a plate and pedestals at once"
     for pedestal in device.pedestals:
-        yield from _faults_of(pedestal)
+        for name in _PEDESTAL_LENGTHS:
+            size = getattr(pedestal, name)
+            if not SMALLEST_LENGTH <= size <= LARGEST_LENGTH:
+                yield f"pedestals.{name} is {size:g}"
+        if not _UNIT_TOLERANCE < pedestal.lean <= pi / 2.0 + _UNIT_TOLERANCE:
+            yield f"pedestals.lean is {pedestal.lean:g}"
+        places = np.array([*pedestal.position, pedestal.heading])
+        if not (np.abs(places) <= LARGEST_LENGTH).all():
+            yield "a place of a pedestal is beyond all measure"
         if pedestal.module not in {module.name for module in device.modules}:
             yield f"a pedestal is under no module: {pedestal.module}"
 
 
-def _faults_of(pedestal: Pedestal) -> Iterator[str]:
-    sizes = {
-        name: getattr(pedestal, name)
-        for name in ("base_radius", "slot_radius", "wheel_height", "middle", "thickness", "base")
-    }
-    for name, size in sizes.items():
-        if not SMALLEST_LENGTH <= size <= LARGEST_LENGTH:
-            yield f"pedestals.{name} is {size:g}"
-    if not _UNIT_TOLERANCE < pedestal.lean <= pi / 2.0 + _UNIT_TOLERANCE:
-        yield f"pedestals.lean is {pedestal.lean:g}"
-    places = np.array([*pedestal.position, pedestal.heading])
-    if not (np.abs(places) <= LARGEST_LENGTH).all():
-        yield "a place of a pedestal is beyond all measure"
+_PEDESTAL_LENGTHS = "base_radius", "slot_radius", "wheel_height", "middle", "thickness", "base"
 
 
 def _figures(value: object, path: str) -> Iterator[str]:

@@ -8,7 +8,7 @@ from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.materials import Material, materials
 from ocs_design.common.units import format_quantity
-from ocs_design.device.device import Device, Flywheel
+from ocs_design.device.device import Device, Flywheel, Web
 from ocs_design.device.solids import foot_of, housing_of
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.foot import stem_frequency
@@ -76,9 +76,8 @@ def joints_of(device: Device) -> tuple[Margin, ...]:
     """
     if device.on_bell:
         return tuple(_bell_joints(device))
-    if device.flywheel.web is None:
-        return ()
-    return (*_rim_joints(device), *_shaft_joints(device))
+    web = device.flywheel.web
+    return () if web is None else (*_rim_joints(device, web), *_shaft_joints(device, web))
 
 
 def wheel_rings(wheel: Flywheel) -> tuple[Ring, ...] | None:
@@ -105,44 +104,57 @@ def _elastic(material: Material | None) -> tuple[float, float] | None:
     return material.elastic_modulus, material.poisson_ratio
 
 
-def _rim_joints(device: Device) -> Iterator[Margin]:
+def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
+    """Stress of a wheel of one piece, or pressure, stresses and buckling of a shrink fit."""
     wheel = device.flywheel
-    rings, speed = wheel_rings(wheel), OVERSPEED * device.motor.top_speed
-    if wheel.web is None:
-        return
+    rings, fit = wheel_rings(wheel), rim_fit(device)
     if rings is None:
         yield Margin(
             RIM_JOINT, 0.0, None, "Pa", f"elastic figures of {wheel.material} are not known"
         )
-    elif wheel.web.material == wheel.material:
-        yield _one_piece(wheel, rings, speed)
+    elif web.material == wheel.material:
+        yield _one_piece(wheel.material, web, rings, OVERSPEED * device.motor.top_speed)
+    elif fit is None:
+        yield Margin(RIM_JOINT, 0.0, None, "Pa", "thermal expansions are not known")
     else:
-        fit = rim_fit(device)
-        if fit is None:
-            yield Margin(RIM_JOINT, 0.0, None, "Pa", "thermal expansions are not known")
-        else:
-            yield from _shrunk(wheel, fit)
+        edges = (format_quantity(2.0 * each, "um", digits=3) for each in (fit.least, fit.most))
+        yield Margin(
+            RIM_JOINT,
+            fit.needed,
+            fit.held,
+            "Pa",
+            f"shrunk on, {', '.join(edges)} too narrow across; least pressure at {OVERSPEED:g} x "
+            f"top speed, {COLDEST:g} to {WARMEST:g} deg C, against what carries {SERVICE:g} x peak "
+            f"torque at a friction of {FRICTION:g}",
+        )
+        for name, stress, material in (
+            ("web of the shrink fit", fit.stress_web, web.material),
+            ("rim of the shrink fit", fit.stress_rim, wheel.material),
+        ):
+            strength, note = materials()[material].yield_strength, "at the tightest fit, to yield"
+            yield Margin(name, stress, strength, "Pa", f"largest stress {note}")
+        buckling, note = "web of the shrink fit, to buckling", "a full plate with its edge held"
+        yield Margin(buckling, fit.squeezed, fit.buckling, "Pa", note)
 
 
-def _one_piece(wheel: Flywheel, rings: tuple[Ring, ...], speed: float) -> Margin:
+def _one_piece(material: str, web: Web, rings: tuple[Ring, ...], speed: float) -> Margin:
     """Largest stress of a wheel of one piece, hub, web and rim."""
     turning, names = TurningRings.of(rings, speed), ["the hub", "the web", "the rim"]
     values = [turning.peak(ring) for ring in range(len(rings))]
-    hub = wheel.web.hub if wheel.web is not None else None
-    holes = wheel.web.holes if wheel.web is not None else None
+    hub, holes = web.hub, web.holes
     if holes is not None:
         names[1] = "the web's holes"
         sizes = (holes.count, holes.circle_radius, holes.hole_radius)
         values = list(holed_peaks(rings, speed, *sizes))
     peaks = dict(zip(names, values, strict=True))
-    if hub is not None and hub.bolts:
+    if hub.bolts:
         peaks["the hub's holes"] = turning.peak_at_hole(0, hub.bolt_circle_radius)
     where = max(peaks, key=lambda name: peaks[name])
     note = (
         f"one piece; stress in {where} at {OVERSPEED:g} x top speed, rotating disc of three "
         "thicknesses, against yield"
     )
-    return Margin(RIM_JOINT, peaks[where], materials()[wheel.material].yield_strength, "Pa", note)
+    return Margin(RIM_JOINT, peaks[where], materials()[material].yield_strength, "Pa", note)
 
 
 def rim_fit(device: Device) -> ShrinkFit | None:
@@ -162,45 +174,10 @@ def rim_fit(device: Device) -> ShrinkFit | None:
     )
 
 
-def _shrunk(wheel: Flywheel, fit: ShrinkFit) -> Iterator[Margin]:
-    """Pressure, stresses and buckling of a shrink fit."""
-    web = wheel.web
-    if web is None:
-        return
-    across = ", ".join(
-        format_quantity(2.0 * each, "um", digits=3) for each in (fit.least, fit.most)
-    )
-    yield Margin(
-        RIM_JOINT,
-        fit.needed,
-        fit.held,
-        "Pa",
-        f"shrunk on, {across} too narrow across; least pressure at {OVERSPEED:g} x top speed, "
-        f"{COLDEST:g} to {WARMEST:g} deg C, against what carries {SERVICE:g} x peak torque at a "
-        f"friction of {FRICTION:g}",
-    )
-    for name, stress, material in (
-        ("web of the shrink fit", fit.stress_web, web.material),
-        ("rim of the shrink fit", fit.stress_rim, wheel.material),
-    ):
-        strength = materials()[material].yield_strength
-        yield Margin(name, stress, strength, "Pa", "largest stress at the tightest fit, to yield")
-    yield Margin(
-        "web of the shrink fit, to buckling",
-        fit.squeezed,
-        fit.buckling,
-        "Pa",
-        "a full plate with its edge held",
-    )
-
-
-def _shaft_joints(device: Device) -> Iterator[Margin]:
+def _shaft_joints(device: Device, web: Web) -> Iterator[Margin]:
     """What holds the wheel on its motor."""
-    drive, web = device.motor, device.flywheel.web
-    mounting = drive.mounting
+    drive, mounting = device.motor, device.motor.mounting
     torque = SERVICE * (drive.torque_limit or 0.0)
-    if web is None:
-        return
     if drive.gear != DIRECT.name:
         unknown = "how a wheel is held on this gear is not in the catalogue"
         yield Margin(SHAFT_JOINT, torque, None, "N m", unknown)
@@ -391,28 +368,24 @@ def balance_of(device: Device) -> Balance:
         elastic_modulus=inf,
         poisson_ratio=0.0,
     )
-    off_centre, by = _centring(device)
+    mounting = device.motor.mounting
+    off_centre: float | None = None
+    by = "nothing that is known"
+    if device.on_bell:
+        off_centre, by = GLUE_GAP, "its glue gap, which the fixture evens out"
+    elif mounting is not None and mounting.shaft_diameter is not None:
+        off_centre = slip_fit_eccentricity(mounting.shaft_diameter)
+        by = "its bore on the shaft, H7/h6"
+    elif mounting is not None and mounting.rotor is not None:
+        held = screw(mounting.rotor.thread)
+        off_centre = (held.clearance_hole - held.diameter) / 2.0
+        by = "its screws alone, in clearance holes"
     return Balance(
         grade=GRADE,
         speed=speed,
         eccentricity=eccentricity,
         unbalance=eccentricity * wheel.mass,
-        off_centre=off_centre,
+        off_centre=None if off_centre is None else RUN_OUT / 2.0 + off_centre,
         centred_by=by,
         correction=correction(rim, chamfer=wheel.cuts.chamfer, ligament=LIGAMENT),
     )
-
-
-def _centring(device: Device) -> tuple[float | None, str]:
-    """How far off centre a wheel may sit on its motor [m], and what centres it."""
-    mounting = device.motor.mounting
-    if device.on_bell:
-        return RUN_OUT / 2.0 + GLUE_GAP, "its glue gap, which the fixture evens out"
-    if mounting is not None and mounting.shaft_diameter is not None:
-        across = mounting.shaft_diameter
-        return RUN_OUT / 2.0 + slip_fit_eccentricity(across), "its bore on the shaft, H7/h6"
-    if mounting is not None and mounting.rotor is not None:
-        held = screw(mounting.rotor.thread)
-        play = (held.clearance_hole - held.diameter) / 2.0
-        return RUN_OUT / 2.0 + play, "its screws alone, in clearance holes"
-    return None, "nothing that is known"

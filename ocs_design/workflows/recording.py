@@ -264,7 +264,7 @@ def _ocs(
             ModuleRecord(name=each.name, axis=vector(each.axis), position=vector(each.position))
             for each in device.modules
         ),
-        layout=device.layout.name.value,
+        layout=device.layout.name,
         clearance=None if mounting is None else mounting.nearest,
         center_of_mass=vector(
             (sized.total.mass * sized.total.com - robot.mass_properties.mass * robot.com)

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
@@ -90,16 +89,7 @@ class OcsRecord:
     warnings: tuple[str, ...] = ()
     fitting: tuple[str, ...] = ()
     mounting: MountingRecord | None = None
-    layout: Literal[
-        "single",
-        "pair",
-        "double-pair",
-        "triple-pair",
-        "triad",
-        "orthogonal",
-        "pyramid",
-        "by-hand",
-    ] = "pair"
+    layout: LayoutName = LayoutName.PAIR
 
     def device(self, supply: Supply | None = None) -> Device:
         """The device that was designed, to the last digit; `supply` is what feeds it."""
@@ -124,9 +114,8 @@ class OcsRecord:
     @property
     def axes(self) -> Layout:
         """Layout of the modules' axes."""
-        name = LayoutName(self.layout)
         axes = (each.axis for each in self.modules)
-        return Layout(name, tuple(axes) if name is LayoutName.BY_HAND else ())
+        return Layout(self.layout, tuple(axes) if self.layout is LayoutName.BY_HAND else ())
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -98,7 +98,7 @@ def ellipsoid_chart(design: OcsDesign) -> Chart:
         marks.append(
             Line(*line, ink, f"axis of {part_name('wheel', module.name)}", dashed=index % 2 == 1)
         )
-    seen = f"of the layout {design.ocs.layout!r}"
+    seen = f"of the layout {str(design.ocs.layout)!r}"
     if design.ocs.axes == PAIR:
         # From the lateral direction to the axis at alpha*.
         marks.append(
