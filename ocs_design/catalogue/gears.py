@@ -78,8 +78,12 @@ class BeltStage:
     @property
     def belt_mass(self) -> float:
         """Mass of the shortest belt with whole teeth that clears the pulleys [kg]."""
-        teeth = math.ceil(self._least_length() / self.pitch)
-        return teeth * self.pitch * self.belt_density
+        # About the pitch circles: 2 C cos s + pi (R + r) + 2 s (R - r), sin s = (R - r) / C.
+        slope, sum_of_radii = self._slope(), self.motor_radius + self.wheel_radius
+        difference = abs(self.wheel_radius - self.motor_radius)
+        free = 2.0 * self._least_distance() * math.cos(slope)
+        least = free + math.pi * sum_of_radii + 2.0 * slope * difference
+        return math.ceil(least / self.pitch) * self.pitch * self.belt_density
 
     @property
     def inertia(self) -> float:
@@ -134,16 +138,6 @@ class BeltStage:
     def _slope(self) -> float:
         """Angle of the free spans to the line between the axes [rad]."""
         return math.asin(abs(self.wheel_radius - self.motor_radius) / self._least_distance())
-
-    def _least_length(self) -> float:
-        """Length of the belt about the pitch circles at their least distance [m].
-
-        `2 C cos s + pi (R + r) + 2 s (R - r)`, `sin s = (R - r) / C`.
-        """
-        slope, sum_of_radii = self._slope(), self.motor_radius + self.wheel_radius
-        difference = abs(self.wheel_radius - self.motor_radius)
-        free = 2.0 * self._least_distance() * math.cos(slope)
-        return free + math.pi * sum_of_radii + 2.0 * slope * difference
 
 
 class GearKind(StrEnum):

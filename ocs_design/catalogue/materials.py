@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from types import MappingProxyType
+from typing import Any
 
 from ocs_design.catalogue.rows import entry
 from ocs_design.common.errors import OcsError
@@ -60,14 +61,15 @@ class Material:
             raise OcsError(f"material {self.name!r}: {defect}")
 
 
-_FIGURES = (
-    "density_kg_m3",
-    "yield_strength_pa",
-    "ultimate_strength_pa",
-    "poisson_ratio",
-    "elastic_modulus_pa",
-    "thermal_expansion_per_k",
-)
+_COLUMNS = {
+    "density": "density_kg_m3",
+    "yield_strength": "yield_strength_pa",
+    "ultimate_strength": "ultimate_strength_pa",
+    "poisson_ratio": "poisson_ratio",
+    "elastic_modulus": "elastic_modulus_pa",
+    "thermal_expansion": "thermal_expansion_per_k",
+}
+"""Column of each figure, whose cell is empty where the source does not give it."""
 
 
 @cache
@@ -75,20 +77,12 @@ def materials() -> Mapping[str, Material]:
     """Every material of the catalogue by name, sorted; read and checked on the first call."""
     text = files("ocs_design.catalogue").joinpath("materials.csv").read_text(encoding="utf-8")
     rows = sorted(csv.DictReader(text.splitlines()), key=lambda row: row["name"])
-    found: dict[str, Material] = {}
+    found = {}
     for row in rows:
-        # An empty cell: the source does not give the figure.
-        figures = {column: float(row[column]) for column in _FIGURES if row[column]}
-        found[row["name"]] = Material(
-            name=row["name"],
-            density=figures["density_kg_m3"],
-            yield_strength=figures.get("yield_strength_pa"),
-            ultimate_strength=figures.get("ultimate_strength_pa"),
-            poisson_ratio=figures.get("poisson_ratio"),
-            source=row["source"],
-            elastic_modulus=figures.get("elastic_modulus_pa"),
-            thermal_expansion=figures.get("thermal_expansion_per_k"),
-        )
+        figures: dict[str, Any] = {
+            name: float(row[column]) if row[column] else None for name, column in _COLUMNS.items()
+        }
+        found[row["name"]] = Material(name=row["name"], source=row["source"], **figures)
     if len(found) < len(rows):
         raise OcsError("materials.csv names a material twice")
     return MappingProxyType(found)

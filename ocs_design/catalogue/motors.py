@@ -31,6 +31,7 @@ from ocs_design.actuation.motor import (
 )
 from ocs_design.catalogue.rows import entry, extended, load_entries, packaged
 from ocs_design.common.files import to_json
+from ocs_design.common.records import recorded
 
 
 @dataclass(frozen=True)
@@ -149,16 +150,25 @@ class MotorSheet:
     def motor(self) -> Motor:
         """The motor in SI and in the one convention of `Motor`."""
         torque, basis = self._peak_torque()
-        inertia, inertia_source = self._rotor_inertia()
-        continuous, continuous_source = self._continuous_torque(torque)
-        return Motor(
-            name=self.name,
-            maker=self.maker,
+        inertia, inertia_source = self.rotor_inertia_kg_m2, ""
+        if inertia is None:
+            inertia, inertia_source = estimated_rotor_inertia(
+                self.kind, self.mass_kg, self.diameter_m
+            )
+        continuous, continuous_source = self.continuous_torque_nm, ""
+        if continuous is None:
+            continuous, continuous_source = estimated_continuous_torque(
+                self.torque_constant, self.resistance, self.diameter_m, self.length_m
+            )
+            # No motor gives more for good than for a short time.
+            if continuous is not None and torque is not None:
+                continuous = min(continuous, torque)
+        return recorded(
+            Motor,
+            self,
             mass=self.mass_kg,
             diameter=self.diameter_m,
             length=self.length_m,
-            torque_constant=self.torque_constant,
-            resistance=self.resistance,
             rated_voltage=self.rated_voltage_v,
             no_load_speed=_speed(self.no_load_speed_rpm),
             speed_max=_speed(self.speed_max_rpm),
@@ -166,33 +176,13 @@ class MotorSheet:
             peak_current=self._peak_current(),
             continuous_torque=continuous,
             rotor_inertia=inertia,
-            source=self.source,
-            confidence=self.confidence,
             peak_basis=basis,
-            remark=self.remark,
-            mounting=self.mounting,
             no_load_current=self.no_load_current_a,
             saturation_torque=self.saturation_torque_nm,
-            kind=self.kind,
             voltage_max=self.voltage_max_v,
             rotor_inertia_source=inertia_source,
             continuous_torque_source=continuous_source,
         )
-
-    def _rotor_inertia(self) -> tuple[float | None, str]:
-        """Rotor inertia [kg m^2] and, where the source does not state it, the estimate's text."""
-        if self.rotor_inertia_kg_m2 is not None:
-            return self.rotor_inertia_kg_m2, ""
-        return estimated_rotor_inertia(self.kind, self.mass_kg, self.diameter_m)
-
-    def _continuous_torque(self, peak: float | None) -> tuple[float | None, str]:
-        """Continuous torque [N m], at most the short-term one, and its estimate's text."""
-        if self.continuous_torque_nm is not None:
-            return self.continuous_torque_nm, ""
-        torque, source = estimated_continuous_torque(
-            self.torque_constant, self.resistance, self.diameter_m, self.length_m
-        )
-        return torque if torque is None or peak is None else min(torque, peak), source
 
     def _peak_torque(self) -> tuple[float | None, str]:
         """Highest short-term torque [N m] and what it rests on.
@@ -393,14 +383,14 @@ def load_motors(path: Path) -> Mapping[str, Motor]:
     Raises:
         SpecificationError: see `load_entries`.
     """
-    sheets = load_entries(path, "motor", MotorSheet, _faults, _lacks)
+
+    def lacks(sheet: MotorSheet) -> str:
+        """Clause on the figures without which nobody can build with it; empty: none is missing."""
+        gaps = build_gaps(sheet.motor())
+        return f"to be built with, it lacks {', '.join(gaps)}" if gaps else ""
+
+    sheets = load_entries(path, "motor", MotorSheet, _faults, lacks)
     return MappingProxyType({name: sheet.motor() for name, sheet in sheets.items()})
-
-
-def _lacks(sheet: MotorSheet) -> str:
-    """Clause on the figures without which nobody can build with it; empty: none is missing."""
-    gaps = build_gaps(sheet.motor())
-    return f"to be built with, it lacks {', '.join(gaps)}" if gaps else ""
 
 
 def motors_to_json(found: Iterable[Motor]) -> bytes:

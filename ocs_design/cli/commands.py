@@ -128,11 +128,17 @@ def _ask_task(start: "Start") -> tuple["Start", tuple[str, ...]]:
     chosen: tuple[str, ...] = ()
     if start.stated.takes_default_maneuvers:
         known = [maneuver.name for maneuver in start.default.maneuvers]
-        chosen = _ask(
-            f"Maneuvers: {', '.join(known)}, with commas, or {ALL}",
-            ALL,
-            partial(_maneuvers, known),
-        )
+
+        def maneuvers(answer: str) -> tuple[str, ...]:
+            """Names of maneuvers; none for all, which are the default."""
+            named = tuple(name.strip() for name in answer.split(","))
+            unknown = [name for name in named if name not in (*known, ALL)]
+            if unknown:
+                raise UsageError(f"{', '.join(unknown)}: is none of {', '.join((*known, ALL))}")
+            return () if ALL in named else named
+
+        question = f"Maneuvers: {', '.join(known)}, with commas, or {ALL}"
+        chosen = _ask(question, ALL, maneuvers)
     for path, question in QUESTIONS.items():
         section, _, name = path.partition(".")
         is_moot = section in {"motor", "supply"} and start.stated.motor.name == NO_MOTOR
@@ -141,19 +147,6 @@ def _ask_task(start: "Start") -> tuple["Start", tuple[str, ...]]:
             read = partial(_with_key, start, path, default)
             start = _ask(question, default, read)
     return start, chosen
-
-
-def _maneuvers(known: list[str], answer: str) -> tuple[str, ...]:
-    """Names of maneuvers; none for all, which are the default.
-
-    Raises:
-        UsageError: there is no such maneuver.
-    """
-    named = tuple(name.strip() for name in answer.split(","))
-    unknown = [name for name in named if name not in (*known, ALL)]
-    if unknown:
-        raise UsageError(f"{', '.join(unknown)}: is none of {', '.join((*known, ALL))}")
-    return () if ALL in named else named
 
 
 def _with_key(start: "Start", path: str, default: str, answer: str) -> "Start":

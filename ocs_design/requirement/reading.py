@@ -91,30 +91,15 @@ def _plain(value: object) -> object:
 
 def _checked(content: Mapping[str, object], name: str) -> Specification:
     """The specification with this content; `name` says whose it is."""
-    faults = Faults()
-    specification = _specification(content, faults)
-    faults.extend(contradictions(specification))
-    if faults:
-        count = "a fault" if len(faults) == 1 else f"{len(faults)} faults"
-        raise SpecificationError(
-            f"{name} has {count}:",
-            problems=faults,
-            hint="`ocs-design init` writes a file that has every key",
-        )
-    return specification
-
-
-def _specification(content: Mapping[str, object], faults: Faults) -> Specification:
-    """Sections and maneuvers of the content of a file, with its faults kept."""
-    known = (*SECTIONS, "maneuver")
-    for name in content:
-        if name not in known:
-            faults.unknown(name, name, known)
+    faults, known = Faults(), (*SECTIONS, "maneuver")
+    for key in content:
+        if key not in known:
+            faults.unknown(key, key, known)
     sections: dict[str, Any] = {}
-    for name, section in SECTIONS.items():
-        table = _renamed(name, faults.table(content.get(name, {}), name), content)
+    for title, section in SECTIONS.items():
+        table = _renamed(title, faults.table(content.get(title, {}), title), content)
         values = {key: found.value for key, found in keys_of(section).items()}
-        sections[name] = section(**_fields(table, values, name, faults))
+        sections[title] = section(**_fields(table, values, title, faults))
     tables, maneuvers = content.get("maneuver", []), []
     if not isinstance(tables, list):
         faults.append("maneuver: write each maneuver as a [[maneuver]] table")
@@ -140,7 +125,16 @@ def _specification(content: Mapping[str, object], faults: Faults) -> Specificati
             )
         elif len(same) > 1:
             faults.append(f"maneuver: two are named {same[0]!r}")
-    return Specification(**sections, maneuvers=tuple(maneuvers))
+    specification = Specification(**sections, maneuvers=tuple(maneuvers))
+    faults.extend(contradictions(specification))
+    if faults:
+        count = "a fault" if len(faults) == 1 else f"{len(faults)} faults"
+        raise SpecificationError(
+            f"{name} has {count}:",
+            problems=faults,
+            hint="`ocs-design init` writes a file that has every key",
+        )
+    return specification
 
 
 def _renamed(

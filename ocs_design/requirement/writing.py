@@ -13,13 +13,8 @@ from math import isclose
 from pathlib import Path
 from typing import Any
 
-from ocs_design.common.units import (
-    Dimension,
-    format_quantity,
-    parse_quantity,
-    si_unit,
-)
-from ocs_design.requirement.keys import Key, keys_of
+from ocs_design.common.units import Dimension, format_quantity, parse_quantity, si_unit
+from ocs_design.requirement.keys import keys_of
 from ocs_design.requirement.kinds import MANEUVER_KINDS, field_note, kind_of
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.phrases import About, Climb, Kick, Person, Pivot, Tilt
@@ -184,19 +179,28 @@ def commented_toml(
         lines += ["", f"[{name}]"]
         for key_name, key in keys_of(section).items():
             own, assumed = (getattr(getattr(one, name), key_name) for one in (stated, default))
-            lines += _key_lines(key_name, key, own, assumed)
+            rounded = "" if assumed is None else written(assumed, key.value, Figures.ROUNDED)
+            shown = rounded or key.example
+            lines += ["", f"# {key.summary} [{key.value.takes}]", f"# {key.why}"]
+            if own is not None:
+                lines.append(f"# Default: {key.default or shown}")
+                lines.append(f"{key_name} = {written(own, key.value, Figures.EXACT)}")
+                continue
+            if key.default:
+                lines.append(f"# Default: {key.default}.{'' if rounded else ' Example:'}")
+            lines.append(f"# {key_name} = {shown}")
 
     lines += [
         "",
         "# What the device must do in the air, a table for each. As soon as one is stated, none",
         "# is assumed any more; requirement.maneuvers must then be left out.",
     ]
-    shown = stated.maneuvers or default.maneuvers
+    maneuvers = stated.maneuvers or default.maneuvers
     figures = Figures.EXACT if stated.maneuvers else Figures.ROUNDED
-    for maneuver in shown:
+    for maneuver in maneuvers:
         is_specified = bool(stated.maneuvers) or maneuver.name in chosen
         lines += ["", *_commented_maneuver(maneuver, figures, "" if is_specified else "# ")]
-    kinds = {kind_of(maneuver)[0] for maneuver in shown}
+    kinds = {kind_of(maneuver)[0] for maneuver in maneuvers}
     for maneuver in examples:
         if kind_of(maneuver)[0] not in kinds:
             lines += ["", "# Not assumed, an example:"]
@@ -209,19 +213,6 @@ def rounded_text(specification: Specification, path: str) -> str:
     section, _, name = path.partition(".")
     value = getattr(getattr(specification, section), name)
     return written(value, all_keys()[path].value, Figures.ROUNDED).strip('"')
-
-
-def _key_lines(name: str, key: Key, specified: object, default: object) -> Iterator[str]:
-    """Comment and line of one key."""
-    shown = key.example if default is None else written(default, key.value, Figures.ROUNDED)
-    yield from ("", f"# {key.summary} [{key.value.takes}]", f"# {key.why}")
-    if specified is not None:
-        yield f"# Default: {key.default or shown}"
-        yield f"{name} = {written(specified, key.value, Figures.EXACT)}"
-        return
-    if key.default:
-        yield f"# Default: {key.default}.{' Example:' if default is None else ''}"
-    yield f"# {name} = {shown}"
 
 
 def _commented_maneuver(maneuver: Maneuver, figures: Figures, mark: str) -> Iterator[str]:

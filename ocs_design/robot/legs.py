@@ -212,14 +212,12 @@ class _Limb:
 
     Attributes:
         last: index of its last body.
-        chain: in the root's frame.
         depth: of the stretched limb's tip below the root's origin [m].
         reach: of the stretched limb's tip below the limb's first joint [m].
         at_rest: of the tip below the first joint with all joints at zero [m].
     """
 
     last: int
-    chain: Chain
     depth: float
     reach: float
     at_rest: float
@@ -316,8 +314,16 @@ def _legs_along(
     base = 0
     robot = combine(masses)
     for trunk, ends in _alike(tree):
-        limbs = [_limb(chain_of(tree, *each, placements), each[1], up) for each in ends]
-        hanging = [limb for limb in limbs if limb is not None]
+        hanging = []
+        for first, last in ends:
+            chain = chain_of(tree, first, last, placements)
+            tip, rest = farthest_frame(chain.bodies[-1]), chain.pose(chain.neutral())
+            hip = float(up @ rest.origins[0])
+            at_rest = hip - float(up @ rest.point(tip))
+            # Most arms and fingers do not hang at all.
+            if at_rest > 0.0:
+                lowest = float(up @ chain.pose(chain.stretched(tip, -up)).point(tip))
+                hanging.append(_Limb(last, -lowest, hip - lowest, at_rest))
         carriers = [masses[i] for i in ancestors(tree, trunk) if masses[i].mass > 0.0]
         legs = _standing(hanging, robot, carriers, up)
         if _leave_twins(tree, ends, {leg.last for leg in legs}):
@@ -399,18 +405,6 @@ def far_ends(tree: Tree) -> list[int]:
         if length >= lengths[body.parent]:
             lengths[body.parent], ends[body.parent] = length, ends[index]
     return ends
-
-
-def _limb(chain: Chain, last: int, up: FloatArray) -> _Limb | None:
-    """The limb, or None if it does not hang at all, as most arms and fingers do not."""
-    tip = farthest_frame(chain.bodies[-1])
-    rest = chain.pose(chain.neutral())
-    hip = float(up @ rest.origins[0])
-    at_rest = hip - float(up @ rest.point(tip))
-    if at_rest <= 0.0:
-        return None
-    lowest = float(up @ chain.pose(chain.stretched(tip, -up)).point(tip))
-    return _Limb(last, chain, -lowest, hip - lowest, at_rest)
 
 
 def _standing(

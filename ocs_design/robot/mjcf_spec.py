@@ -3,7 +3,7 @@
 import math
 import re
 import warnings as python_warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TypeAlias
@@ -87,26 +87,15 @@ def embed_assets(
         warnings: takes the names of files that are not there.
         lost: takes what that leaves out.
     """
-    # Assets of each kind, the folder that they lie in, and what to do without one.
-    kinds: tuple[tuple[list[Asset], str, Callable[[mujoco.MjSpec, Asset], None]], ...] = (
-        (spec.meshes, spec.meshdir, _drop_mesh),
-        (spec.skins, spec.meshdir, lambda spec, skin: spec.delete(skin)),
-        (spec.hfields, spec.meshdir, _drop_height_field),
-        (spec.textures, spec.texturedir, _drop_texture),
-    )
+    of_meshes: list[Asset] = [*spec.meshes, *spec.skins, *spec.hfields]
+    assets = [(each, spec.meshdir) for each in of_meshes]
+    assets += [(each, spec.texturedir) for each in spec.textures]
     names: dict[Path, str] = {}
-    for assets, subfolder, drop in kinds:
-        for asset in list(assets):
-            missing = _embed(spec, asset, folder / subfolder, names)
-            if missing is not None:
-                warnings.add("files not found, what needs them is left out", missing)
-                if lost is not None and drop is _drop_mesh:
-                    lost += [
-                        (geom.parent, bool(geom.contype or geom.conaffinity))
-                        for geom in spec.geoms
-                        if geom.meshname == asset.name
-                    ]
-                drop(spec, asset)
+    for asset, subfolder in assets:
+        missing = _embed(spec, asset, folder / subfolder, names)
+        if missing is not None:
+            warnings.add("files not found, what needs them is left out", missing)
+            _drop(spec, asset, [] if lost is None else lost)
     spec.meshdir = spec.texturedir = ""
     spec.strippath = False
 
@@ -135,23 +124,21 @@ def _embed(spec: mujoco.MjSpec, asset: Asset, folder: Path, names: dict[Path, st
     return None
 
 
-def _drop_mesh(spec: mujoco.MjSpec, mesh: mujoco.MjsMesh) -> None:
-    for geom in [geom for geom in spec.geoms if geom.meshname == mesh.name]:
-        require_inertial(spec, geom, mesh.file)
-        delete_geom(spec, geom)
-    spec.delete(mesh)
-
-
-def _drop_height_field(spec: mujoco.MjSpec, field: mujoco.MjsHField) -> None:
-    for geom in [geom for geom in spec.geoms if geom.hfieldname == field.name]:
-        delete_geom(spec, geom)
-    spec.delete(field)
-
-
-def _drop_texture(spec: mujoco.MjSpec, texture: mujoco.MjsTexture) -> None:
-    for material in spec.materials:
-        material.textures = ["" if used == texture.name else used for used in material.textures]
-    spec.delete(texture)
+def _drop(spec: mujoco.MjSpec, asset: Asset, lost: Lost) -> None:
+    """Delete an asset with all that cannot be without it; geoms of meshes are kept in `lost`."""
+    if isinstance(asset, mujoco.MjsTexture):
+        for material in spec.materials:
+            material.textures = ["" if used == asset.name else used for used in material.textures]
+    elif isinstance(asset, mujoco.MjsMesh):
+        geoms = [geom for geom in spec.geoms if geom.meshname == asset.name]
+        lost += [(geom.parent, bool(geom.contype or geom.conaffinity)) for geom in geoms]
+        for geom in geoms:
+            require_inertial(spec, geom, asset.file)
+            delete_geom(spec, geom)
+    elif isinstance(asset, mujoco.MjsHField):
+        for geom in [geom for geom in spec.geoms if geom.hfieldname == asset.name]:
+            delete_geom(spec, geom)
+    spec.delete(asset)
 
 
 def delete_geom(spec: mujoco.MjSpec, geom: mujoco.MjsGeom) -> None:

@@ -65,7 +65,17 @@ class MeshFinder:
 
     def __call__(self, name: str) -> Path | None:
         """The file, or None if it is not there."""
-        for candidate in self._candidates(name.strip()):
+        scheme, separator, rest = name.strip().partition("://")
+        candidates: list[Path] = []
+        if not separator:
+            candidates = [self.folder / name.strip()]
+        elif scheme == "file":
+            candidates = [self.folder / unquote(rest)]
+        elif scheme in _PACKAGED:
+            package, _, inside = unquote(rest).partition("/")
+            folders = self._package_folders(package)
+            candidates = [folder / PurePosixPath(inside) for folder in folders]
+        for candidate in candidates:
             try:
                 if candidate.is_file():
                     return candidate
@@ -130,17 +140,6 @@ class MeshFinder:
             yield above / package
             if above.name == package:
                 yield above
-
-    def _candidates(self, name: str) -> Iterator[Path]:
-        scheme, separator, rest = name.partition("://")
-        if not separator:
-            yield self.folder / name
-        elif scheme == "file":
-            yield self.folder / unquote(rest)
-        elif scheme in _PACKAGED:
-            package, _, inside = unquote(rest).partition("/")
-            for folder in self._package_folders(package):
-                yield folder / PurePosixPath(inside)
 
 
 def _environment_paths(variable: str) -> list[Path]:

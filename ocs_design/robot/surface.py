@@ -4,7 +4,6 @@ They are those of the triangles of its shapes: of meshes in their files, and aro
 What is seen counts, for screws go into what is there; collision shapes only stand in for it.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import combinations
@@ -200,7 +199,10 @@ def _primitive_triangles(kind: ShapeKind, size: tuple[float, ...]) -> FloatArray
     """Triangles around a primitive in its own frame, round ones as prisms of many corners."""
     if kind is ShapeKind.BOX:
         corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
-        return np.array(list(_hull_faces(corners * np.array(size))))
+        # Two triangles for each side and each of its diagonals.
+        sides = [corners[corners[:, axis] == end] for axis in range(3) for end in (-1.0, 1.0)]
+        threes = [side[list(each)] for side in sides for each in combinations(range(4), 3)]
+        return np.asarray(np.array(threes) * np.array(size))
     angles = np.linspace(0.0, 2.0 * np.pi, _ROUND, endpoint=False)
     radius, half = size[0], 0.0 if kind is ShapeKind.SPHERE else size[1]
     if kind is ShapeKind.CYLINDER:
@@ -222,11 +224,3 @@ def _primitive_triangles(kind: ShapeKind, size: tuple[float, ...]) -> FloatArray
     first = np.stack([low, after_low, high], axis=2).reshape(-1, 3, 3)
     second = np.stack([after_low, after_high, high], axis=2).reshape(-1, 3, 3)
     return np.concatenate([first, second])
-
-
-def _hull_faces(corners: FloatArray) -> Iterator[FloatArray]:
-    """Two triangles for each side of a box, of its eight corners."""
-    for axis in range(3):
-        for side in (corners[:, axis].min(), corners[:, axis].max()):
-            face = corners[corners[:, axis] == side]
-            yield from (face[list(three)] for three in combinations(range(4), 3))

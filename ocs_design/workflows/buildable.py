@@ -74,35 +74,34 @@ def buildable(
     """
     if motor is None:
         return Buildable(yes=None)
-    missing = () if robot is None else tuple(_missing_meshes(robot))
-    points = (
-        *missing,
-        *_motor_points(motor),
-        *_joint_points(joints),
-        *(() if mounting is None else mounting_open_points(mounting)),
-        *_exceeded(margins),
-    )
-    if not missing and (mounting is None or not mounting.known):
-        return Buildable(yes=None, open=points)
-    return Buildable(yes=not points, open=points)
-
-
-def _missing_meshes(robot: Robot) -> Iterator[OpenPoint]:
-    """Bodies whose shapes, and with them what the device stands on and hits, are not known."""
-    bodies = [body.name for body in robot.tree.bodies if unmeasured(body)]
-    if bodies and robot.mesh_cure:
+    points: list[OpenPoint] = []
+    # Shapes that the device stands on and hits are then not known.
+    bodies = [] if robot is None else [b.name for b in robot.tree.bodies if unmeasured(b)]
+    missing = bool(bodies and robot is not None and robot.mesh_cure)
+    if missing and robot is not None:
         what = f"meshes are missing: the shape of {some_of(bodies)} is not known"
-        yield OpenPoint(what=what, cure=robot.mesh_cure)
-
-
-def _motor_points(motor: Motor) -> Iterator[OpenPoint]:
-    gaps = build_gaps(motor)
-    if gaps:
-        yield OpenPoint(
-            what=f"no source gives the {listed(gaps)} of {motor.name}",
-            cure="leave the motor to the program, which takes one that can be built with, or state "
-            "its figures in a file of your own (--motors FILE)",
+        points.append(OpenPoint(what=what, cure=robot.mesh_cure))
+    if gaps := build_gaps(motor):
+        points.append(
+            OpenPoint(
+                what=f"no source gives the {listed(gaps)} of {motor.name}",
+                cure="leave the motor to the program, which takes one that can be built with, or "
+                "state its figures in a file of your own (--motors FILE)",
+            )
         )
+    points += _joint_points(joints)
+    points += () if mounting is None else mounting_open_points(mounting)
+    for margin in margins:
+        short = margin.margin is not None and margin.margin < 1.0 - TOLERANCE
+        if short and margin.name in CURES and margin.capacity is not None:
+            asked, there = (
+                quantity(each, margin.unit) for each in (margin.demand, margin.capacity)
+            )
+            by = f" by {margin.scenario}" if margin.scenario else ""
+            what = f"{margin.name}: {asked} asked{by}, {there} is allowed"
+            points.append(OpenPoint(what=what, cure=CURES[margin.name]))
+    unknown = not missing and (mounting is None or not mounting.known)
+    return Buildable(yes=None if unknown else not points, open=tuple(points))
 
 
 def _joint_points(joints: Sequence[Margin]) -> Iterator[OpenPoint]:
@@ -116,15 +115,3 @@ def _joint_points(joints: Sequence[Margin]) -> Iterator[OpenPoint]:
         elif joint.factor is not None and joint.factor < 1.0 and joint.name not in _SPARE:
             asked, there = (quantity(each, joint.unit) for each in (joint.demand, joint.capacity))
             yield OpenPoint(what=f"{joint.name}: {asked} asked, {there} held", cure=cure)
-
-
-def _exceeded(margins: Sequence[MarginRecord]) -> Iterator[OpenPoint]:
-    for margin in margins:
-        short = margin.margin is not None and margin.margin < 1.0 - TOLERANCE
-        if short and margin.name in CURES and margin.capacity is not None:
-            asked, there = (
-                quantity(each, margin.unit) for each in (margin.demand, margin.capacity)
-            )
-            by = f" by {margin.scenario}" if margin.scenario else ""
-            what = f"{margin.name}: {asked} asked{by}, {there} is allowed"
-            yield OpenPoint(what=what, cure=CURES[margin.name])

@@ -222,7 +222,13 @@ def finishing(names: Collection[str], command: str) -> Finish | None:
         from ocs_design.report.html.page import write_report  # noqa: PLC0415
         from ocs_design.report.story import story_in  # noqa: PLC0415
 
-        postures, remarks = _postures(order)
+        postures: tuple[PostureLine, ...] = ()
+        remarks: tuple[str, ...] = ()
+        try:
+            robot, _ = read_recorded_robot(order.design.robot, order.where, strict=False)
+            postures = posture_lines(robot)
+        except OcsError as error:
+            remarks = (f"without the chart of incidence over postures: {error.message}",)
         story = story_in(
             [folder, order.path.parent], order.design, postures=postures, command=command
         )
@@ -234,15 +240,6 @@ def finishing(names: Collection[str], command: str) -> Finish | None:
         return remarks
 
     return finish if wanted else None
-
-
-def _postures(order: Order) -> tuple[tuple[PostureLine, ...], tuple[str, ...]]:
-    """Incidence in other postures, for which the robot is read; else why it is missing."""
-    try:
-        robot, _ = read_recorded_robot(order.design.robot, order.where, strict=False)
-    except OcsError as error:
-        return (), (f"without the chart of incidence over postures: {error.message}",)
-    return posture_lines(robot), ()
 
 
 def _controller(order: Order, folder: Path) -> None:
