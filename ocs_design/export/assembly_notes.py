@@ -212,22 +212,18 @@ def trunk_notes(device: Device, robot: Robot) -> tuple[str, ...]:
     """Note on the holes that the trunk needs, and where the frame is that they are told in."""
     if device.carrier.mass == 0.0:
         return ()
-    return (f"{_trunk_holes(device)}{_frame_found(robot)}",)
-
-
-def _frame_found(robot: Robot) -> str:
-    """How the base frame is found on the robot; empty where the trunk's shapes are not known."""
     surface = trunk_surface(robot)
     if surface is None:
-        return ""
+        return (_trunk_holes(device),)
     half, last = surface.step / 2.0, surface.y + surface.step * (surface.heights.shape[1] - 1)
     ends = " and ".join(
         f"{axis} = {1e3 * (low - half):.1f} to {1e3 * (high + half):.1f}"
         for axis, (low, high) in (("x", surface.x_range), ("y", (surface.y, last)))
     )
     return (
-        "; to find that frame on the robot: in its file the trunk, with all that is fixed to it, "
-        f"reaches from about {ends}, and up to z = {1e3 * surface.heights.max():.1f} mm"
+        f"{_trunk_holes(device)}; to find that frame on the robot: in its file the trunk, with all "
+        f"that is fixed to it, reaches from about {ends}, and up to "
+        f"z = {1e3 * surface.heights.max():.1f} mm",
     )
 
 

@@ -4,6 +4,7 @@ import csv
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from io import StringIO
 from pathlib import Path
 
 from ocs_design.actuation.fasteners import IN_PLASTIC, STEEL, Fastening
@@ -76,8 +77,8 @@ class BillRow:
 
 def write(subject: Subject, folder: Path) -> Notes:
     """Write `bill_of_materials.csv`."""
-    path = folder / "bill_of_materials.csv"
-    export_bill_of_materials(subject.device, path, subject.margins)
+    content = bill_csv(subject.device, subject.margins).encode()
+    (folder / "bill_of_materials.csv").write_bytes(content)
     return ()
 
 
@@ -229,26 +230,23 @@ def _used_up(device: Device) -> Iterator[BillRow]:
         yield BillRow("threadlocker", 1, "", "", 0.0, where)
 
 
-def export_bill_of_materials(
-    device: Device, path: Path, margins: Sequence[MarginRecord] = ()
-) -> Path:
-    """Write the rows and their sum as CSV, UTF-8, masses to the milligram; see `bill_rows`."""
-    rows = bill_rows(device, margins)
-    with path.open("w", encoding="utf-8", newline="") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(COLUMNS)
-        for row in rows:
-            masses = [_grams(row.mass), _grams(row.quantity * row.mass)] if row.mass else ["", ""]
-            cells = [row.part, str(row.quantity), row.material, row.stock, *masses]
-            cells += [row.remark, row.source]
-            writer.writerow([plain(cell) for cell in cells])
-        total = sum(row.quantity * row.mass for row in rows)
-        # Designs of versions before 0.2 count no screws, and not all that holds the motor.
-        remark = "as designed"
-        if abs(total - device.mass) > _MASSLESS:
-            remark = f"the design counts {_grams(device.mass)} g: size it again"
-        writer.writerow(["total", "", "", "", "", _grams(total), remark, ""])
-    return path
+def bill_csv(device: Device, margins: Sequence[MarginRecord] = ()) -> str:
+    """The rows and their sum as CSV, masses to the milligram; see `bill_rows`."""
+    rows, text = bill_rows(device, margins), StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    for row in rows:
+        masses = [_grams(row.mass), _grams(row.quantity * row.mass)] if row.mass else ["", ""]
+        cells = [row.part, str(row.quantity), row.material, row.stock, *masses]
+        cells += [row.remark, row.source]
+        writer.writerow([plain(cell) for cell in cells])
+    total = sum(row.quantity * row.mass for row in rows)
+    # Designs of versions before 0.2 count no screws, and not all that holds the motor.
+    remark = "as designed"
+    if abs(total - device.mass) > _MASSLESS:
+        remark = f"the design counts {_grams(device.mass)} g: size it again"
+    writer.writerow(["total", "", "", "", "", _grams(total), remark, ""])
+    return text.getvalue()
 
 
 def plain(text: str) -> str:

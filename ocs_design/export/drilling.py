@@ -253,25 +253,21 @@ def _words(drilling: Drilling, number: int, count: int) -> Iterator[Item]:
 
 def bounds(items: Iterable[Item]) -> tuple[float, float, float, float]:
     """Least x and y, and largest x and y, of items in B [mm]."""
-    points = [point for item in items for point in _corners(item)]
-    x, y = zip(*points, strict=True)
-    return min(x), min(y), max(x), max(y)
-
-
-def _corners(item: Item) -> list[Point]:
-    """Points that an item lies between."""
-    match item:
-        case Circle((x, y), radius):
-            return [(x - radius, y - radius), (x + radius, y + radius)]
-        case Line(start, end):
-            return [start, end]
-        case Polyline(points):
-            return list(points)
-        case Area(corners):
-            return list(corners)
-        case Text():
-            # On paper it runs against y.
-            return [item.place, (item.place[0] + item.height, item.place[1] - item.width)]
+    points: list[Point] = []
+    for item in items:
+        match item:
+            case Circle((x, y), radius):
+                points += (x - radius, y - radius), (x + radius, y + radius)
+            case Line(start, end):
+                points += start, end
+            case Polyline(corners) | Area(corners):
+                points += corners
+            case Text():
+                # On paper it runs against y.
+                x, y = item.place
+                points += (x, y), (x + item.height, y - item.width)
+    across, along = zip(*points, strict=True)
+    return min(across), min(along), max(across), max(along)
 
 
 def _on_paper(item: Item, offset: Point) -> Item:

@@ -5,7 +5,7 @@ give equal bytes, and trimesh, which rounds colours to 8 bits, takes 0.3 s to im
 """
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import mujoco
@@ -31,113 +31,106 @@ _MOST_UINT16 = 65535
 
 def write(subject: Subject, folder: Path) -> Notes:
     """Write `<name>_ocs.glb`, the robot in its nominal posture."""
-    path = folder / f"{subject.name}_ocs.glb"
     model = model_of(subject)
-    export_robot_glb(model.compiled, subject.carrier.posture, path)
+    content = robot_glb(model.compiled, subject.carrier.posture)
+    (folder / f"{subject.name}_ocs.glb").write_bytes(content)
     return model.warnings
 
 
-def export_robot_glb(model: mujoco.MjModel, posture: Mapping[str, float], path: Path) -> Path:
-    """Write the robot's visible shapes, a node for each body, its base frame at the origin.
+def robot_glb(model: mujoco.MjModel, posture: Mapping[str, float]) -> bytes:
+    """The robot's visible shapes, a node for each body, its base frame at the origin.
 
     Args:
         model: of `robot_model`. Textures are left out.
         posture: value of each joint [rad or m]; those not named stay as the model has them.
-        path: of the GLB.
     """
     data = mujoco.MjData(model)
     for name, value in posture.items():
         data.joint(name).qpos[0] = value
     mujoco.mj_kinematics(model, data)
-    path.write_bytes(_ModelScene(model, data).to_glb())
-    return path
+    return _Scene(model, data).to_glb()
 
 
-class _ModelScene:
-    """Scene of one model; geometries that several geoms share are in it once."""
+class _Scene:
+    """Scene of one model; surfaces, meshes and materials that geoms share are in it once."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         self._model, self._data = model, data
-        self._scene = Scene()
+        self._buffer = bytearray()
+        self._views: list[Mapping[str, object]] = []
+        self._accessors: list[dict[str, object]] = []
         self._surfaces: dict[tuple[float, ...], tuple[int, int]] = {}
-        self._meshes: dict[tuple[tuple[int, int], Color], int] = {}
+        self._materials: dict[Color, int] = {}
+        self._meshes: list[Mapping[str, object]] = []
+        self._mesh_of: dict[tuple[tuple[int, int], Color], int] = {}
+        self._nodes: list[Mapping[str, object]] = []
 
     def to_glb(self) -> bytes:
         """File with all bodies under one node that sets the robot upright."""
         site = self._data.site(IMU)
-        base = Placement(site.xmat.reshape(3, 3), site.xpos)
-        bodies = self._bodies_on(0, base)
+        bodies = self._bodies_on(0, Placement(site.xmat.reshape(3, 3), site.xpos))
         name = self._model.names[: self._model.names.index(b"\0")].decode("utf-8", "replace")
-        return self._scene.to_glb([self._scene.add_node(name, _UPRIGHT, bodies)])
+        root = self._add_node(name, _UPRIGHT, bodies)
+        document = {
+            "asset": {"version": "2.0", "generator": "ocs-design"},
+            "scene": 0,
+            "scenes": [{"nodes": [root]}],
+            "nodes": self._nodes,
+            "meshes": self._meshes,
+            "materials": [_material(color) for color in self._materials],
+            "accessors": self._accessors,
+            "bufferViews": self._views,
+            "buffers": [{"byteLength": len(self._buffer)}],
+        }
+        text = json.dumps(document, separators=(",", ":"), ensure_ascii=True).encode("ascii")
+        chunks = _chunk(b"JSON", text, b" ") + _chunk(b"BIN\0", bytes(self._buffer), b"\0")
+        return b"glTF" + _uint32(2) + _uint32(12 + len(chunks)) + chunks
 
     def _bodies_on(self, parent: int, parent_place: Placement) -> list[int]:
         """Nodes of a body's children; `parent_place` is its frame in the world."""
-        found = []
+        model, found = self._model, []
         # The world is its own parent.
-        for child in filter(None, np.flatnonzero(self._model.body_parentid == parent).tolist()):
-            data = self._data.body(child)
+        for child in filter(None, np.flatnonzero(model.body_parentid == parent).tolist()):
+            data, first = self._data.body(child), model.body_geomadr[child]
             place = Placement(data.xmat.reshape(3, 3), data.xpos)
-            nodes = [*self._geoms_of(child), *self._bodies_on(child, place)]
-            found.append(self._scene.add_node(data.name, parent_place.inverse() @ place, nodes))
+            geoms = map(self._geom, range(first, first + model.body_geomnum[child]))
+            nodes = [node for node in geoms if node is not None]
+            nodes += self._bodies_on(child, place)
+            found.append(self._add_node(data.name, parent_place.inverse() @ place, nodes))
         return found
 
-    def _geoms_of(self, body: int) -> Iterator[int]:
-        model = self._model
-        first = model.body_geomadr[body]
-        for geom in range(first, first + model.body_geomnum[body]):
-            color = shown_color(model, geom)
-            if color is None:
-                continue
-            surface = self._surface(geom)
-            if surface is not None:
-                rotation = rotation_from_quaternion(model.geom_quat[geom])
-                place = Placement(rotation, model.geom_pos[geom])
-                name = model.geom(geom).name or f"geom{geom}"
-                key = (surface, color)
-                if key not in self._meshes:
-                    self._meshes[key] = self._scene.add_mesh(name, surface, color)
-                yield self._scene.add_node(name, place, mesh=self._meshes[key])
-
-    def _surface(self, geom: int) -> tuple[int, int] | None:
-        """Surface of a geom; None where it has none of its own."""
-        model = self._model
-        kind, mesh = int(model.geom_type[geom]), int(model.geom_dataid[geom])
+    def _geom(self, geom: int) -> int | None:
+        """Node of a geom; None where it is not shown or has no surface of its own."""
+        model, color = self._model, shown_color(self._model, geom)
+        if color is None:
+            return None
+        kind, source = int(model.geom_type[geom]), int(model.geom_dataid[geom])
         is_mesh = kind in {mujoco.mjtGeom.mjGEOM_MESH, mujoco.mjtGeom.mjGEOM_SDF}
-        key = (kind, mesh) if is_mesh else (kind, *model.geom_size[geom].tolist())
+        key = (kind, source) if is_mesh else (kind, *model.geom_size[geom].tolist())
         if key not in self._surfaces:
             found = geom_mesh(model, geom)
             if found is None:
                 return None
-            self._surfaces[key] = self._scene.add_surface(found)
-        return self._surfaces[key]
+            self._surfaces[key] = self._add_surface(found)
+        surface, name = self._surfaces[key], model.geom(geom).name or f"geom{geom}"
+        if (surface, color) not in self._mesh_of:
+            self._mesh_of[surface, color] = self._add_mesh(name, surface, color)
+        rotation = rotation_from_quaternion(model.geom_quat[geom])
+        place = Placement(rotation, model.geom_pos[geom])
+        return self._add_node(name, place, mesh=self._mesh_of[surface, color])
 
-
-class Scene:
-    """Scene in binary glTF: surfaces, meshes and materials, and a tree of nodes.
-
-    Each `add_...` gives the index that other parts name it by. Equal materials are one.
-    """
-
-    def __init__(self) -> None:
-        self._buffer = bytearray()
-        self._views: list[Mapping[str, object]] = []
-        self._accessors: list[Mapping[str, object]] = []
-        self._materials: dict[Color, int] = {}
-        self._meshes: list[Mapping[str, object]] = []
-        self._nodes: list[Mapping[str, object]] = []
-
-    def add_surface(self, mesh: Mesh) -> tuple[int, int]:
+    def _add_surface(self, mesh: Mesh) -> tuple[int, int]:
         """Add a surface that meshes may share; gives the indices of its vertices and faces."""
         vertices = np.ascontiguousarray(mesh.vertices, dtype="<f4")
         small = len(vertices) <= _MOST_UINT16
         faces = np.ascontiguousarray(mesh.triangles, dtype="<u2" if small else "<u4").ravel()
-        bounds = {"min": vertices.min(axis=0).tolist(), "max": vertices.max(axis=0).tolist()}
         points = self._accessor(vertices.tobytes(), _VERTICES, _FLOAT, len(vertices), "VEC3")
-        self._accessors[points] = {**self._accessors[points], **bounds}
+        self._accessors[points]["min"] = vertices.min(axis=0).tolist()
+        self._accessors[points]["max"] = vertices.max(axis=0).tolist()
         kind = _UINT16 if small else _UINT32
         return points, self._accessor(faces.tobytes(), _INDICES, kind, faces.size, "SCALAR")
 
-    def add_mesh(self, name: str, surface: tuple[int, int], color: Color) -> int:
+    def _add_mesh(self, name: str, surface: tuple[int, int], color: Color) -> int:
         """Add a surface in one colour."""
         material = self._materials.setdefault(color, len(self._materials))
         points, faces = surface
@@ -145,7 +138,7 @@ class Scene:
         self._meshes.append({"name": name, "primitives": [primitive]})
         return len(self._meshes) - 1
 
-    def add_node(
+    def _add_node(
         self, name: str, place: Placement, children: Sequence[int] = (), mesh: int | None = None
     ) -> int:
         """Add a frame in that of its parent, with its children."""
@@ -162,41 +155,14 @@ class Scene:
         self._nodes.append(node)
         return len(self._nodes) - 1
 
-    def to_glb(self, roots: Sequence[int]) -> bytes:
-        """File of the scene; `roots` are the nodes that have no parent."""
-        document = {
-            "asset": {"version": "2.0", "generator": "ocs-design"},
-            "scene": 0,
-            "scenes": [{"nodes": list(roots)}],
-            "nodes": self._nodes,
-            "meshes": self._meshes,
-            "materials": [_material(color) for color in self._materials],
-            "accessors": self._accessors,
-            "bufferViews": self._views,
-            "buffers": [{"byteLength": len(self._buffer)}],
-        }
-        text = json.dumps(document, separators=(",", ":"), ensure_ascii=True).encode("ascii")
-        chunks = _chunk(b"JSON", text, b" ") + _chunk(b"BIN\0", bytes(self._buffer), b"\0")
-        return b"glTF" + _uint32(2) + _uint32(12 + len(chunks)) + chunks
-
     def _accessor(self, content: bytes, target: int, kind: int, count: int, shape: str) -> int:
-        view = {
-            "buffer": 0,
-            "byteOffset": len(self._buffer),
-            "byteLength": len(content),
-            "target": target,
-        }
+        start, number = len(self._buffer), len(self._views)
+        view = {"buffer": 0, "byteOffset": start, "byteLength": len(content), "target": target}
         self._buffer += content + b"\0" * (-len(content) % 4)
         self._views.append(view)
-        self._accessors.append(
-            {
-                "bufferView": len(self._views) - 1,
-                "componentType": kind,
-                "count": count,
-                "type": shape,
-            }
-        )
-        return len(self._accessors) - 1
+        entry = {"bufferView": number, "componentType": kind, "count": count, "type": shape}
+        self._accessors.append(entry)
+        return number
 
 
 def _material(color: Color) -> Mapping[str, object]:

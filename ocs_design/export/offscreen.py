@@ -119,12 +119,25 @@ def _camera(model: mujoco.MjModel, view: View, box: Box) -> mujoco.MjvCamera:
     camera.lookat = (low + high) / 2.0
     camera.azimuth, camera.elevation = view.azimuth, view.elevation
     camera.orthographic = not view.perspective
-    # Parallel rays only have to begin in front of everything.
-    camera.distance = _distance(view, size) if view.perspective else 2.0 * np.linalg.norm(size)
-    # Height of a view in which each of the three fits [m].
-    x, y, z = size
-    span = float(ROOM * max(z, x, max(x, y) * HEIGHT / WIDTH))
-    model.vis.global_.fovy = FIELD_OF_VIEW if view.perspective else span
+    if not view.perspective:
+        # Parallel rays only have to begin in front of everything.
+        camera.distance = 2.0 * np.linalg.norm(size)
+        # Height of a view in which each of the three fits [m].
+        x, y, z = size
+        model.vis.global_.fovy = float(ROOM * max(z, x, max(x, y) * HEIGHT / WIDTH))
+        return camera
+    # From where all corners of the box are within the view.
+    azimuth, elevation = np.radians([view.azimuth, view.elevation])
+    right = np.array([np.sin(azimuth), -np.cos(azimuth), 0.0])
+    level = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
+    forward = np.cos(elevation) * level + np.sin(elevation) * np.array([0.0, 0.0, 1.0])
+    corners = size / 2.0 * np.array(list(product((-1.0, 1.0), repeat=3)))
+    tangent = np.tan(np.radians(FIELD_OF_VIEW / 2.0))
+    sideways = np.abs(corners @ right) * HEIGHT / WIDTH
+    upwards = np.abs(corners @ np.cross(right, forward))
+    away = ROOM * np.maximum(sideways, upwards) / tangent - corners @ forward
+    camera.distance = float(np.max(away))
+    model.vis.global_.fovy = FIELD_OF_VIEW
     return camera
 
 
@@ -146,19 +159,6 @@ def _image(
     for row, column in product(range(k), repeat=2):
         total += image[row::k, column::k]
     return np.asarray(total // k**2, dtype=np.uint8)
-
-
-def _distance(view: View, size: FloatArray) -> float:
-    """Distance from which all corners of the box are within the view [m]."""
-    azimuth, elevation = np.radians([view.azimuth, view.elevation])
-    right = np.array([np.sin(azimuth), -np.cos(azimuth), 0.0])
-    level = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
-    forward = np.cos(elevation) * level + np.sin(elevation) * np.array([0.0, 0.0, 1.0])
-    corners = size / 2.0 * np.array(list(product((-1.0, 1.0), repeat=3)))
-    tangent = np.tan(np.radians(FIELD_OF_VIEW / 2.0))
-    sideways = np.abs(corners @ right) * HEIGHT / WIDTH
-    upwards = np.abs(corners @ np.cross(right, forward))
-    return float(np.max(ROOM * np.maximum(sideways, upwards) / tangent - corners @ forward))
 
 
 def frames(model: mujoco.MjModel, qpos: FloatArray) -> NDArray[np.uint8]:

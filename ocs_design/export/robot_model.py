@@ -85,7 +85,17 @@ def robot_model(robot: Robot, device: Device) -> RobotModel:
     driven = not spec.actuators
     if driven:
         add_drives(spec, robot)
-        _hold_other_joints(spec, robot)
+        # Every joint that is in no leg is held in its posture, as in the flights.
+        in_legs = leg_joints(robot)
+        for name, held in robot.tree.joints.items():
+            if name not in in_legs and held.mimic is None:
+                spec.add_equality(
+                    name=HOLD + name,
+                    type=mujoco.mjtEq.mjEQ_JOINT,
+                    objtype=mujoco.mjtObj.mjOBJ_JOINT,
+                    name1=name,
+                    data=[robot.posture[name] - float(spec.joint(name).ref), *[0.0] * 11],
+                )
     attach_device(spec, robot, device)
     add_sensors(spec, robot, device)
     # Wheels and carriers get what they look like, without mass and contact.
@@ -116,20 +126,6 @@ def robot_model(robot: Robot, device: Device) -> RobotModel:
     spec.compiler.saveinertial = True
     _add_home(spec, robot, driven=driven)
     return RobotModel(spec, compiled(spec), built.warnings, driven)
-
-
-def _hold_other_joints(spec: mujoco.MjSpec, robot: Robot) -> None:
-    """Hold every joint that is in no leg in its posture, as in the flights, by an equality."""
-    driven = leg_joints(robot)
-    for name, joint in robot.tree.joints.items():
-        if name not in driven and joint.mimic is None:
-            spec.add_equality(
-                name=HOLD + name,
-                type=mujoco.mjtEq.mjEQ_JOINT,
-                objtype=mujoco.mjtObj.mjOBJ_JOINT,
-                name1=name,
-                data=[robot.posture[name] - float(spec.joint(name).ref), *[0.0] * 11],
-            )
 
 
 def _add_home(spec: mujoco.MjSpec, robot: Robot, *, driven: bool) -> None:

@@ -6,7 +6,7 @@ Names follow REP 144 (ROS package naming), the manifest REP 149 (package format 
 import json
 import re
 import shutil
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from pathlib import Path, PurePosixPath
 from urllib.parse import unquote
 from xml.etree import ElementTree as ET
@@ -17,7 +17,7 @@ from ocs_design.common.files import safe_name
 from ocs_design.device.naming import joint_names
 from ocs_design.export.device_urdf import MOCK_PLUGIN, control_joint, control_wheels
 from ocs_design.export.formats import Notes, Subject
-from ocs_design.export.snippets import export_snippet_xacro
+from ocs_design.export.snippets import snippet_xacro
 from ocs_design.export.templates import fill, in_comment, numbers, quoted
 from ocs_design.export.urdf import robot_urdf, write_meshes
 from ocs_design.robot.links import unused_name
@@ -58,8 +58,15 @@ def write(subject: Subject, folder: Path) -> Notes:
         "distance": numbers(3.0 * robot.gyration_radius + 1.0),
         **_controllers(robot, joint_names(device)),
     }
-    joints = [name for name in robot.tree.joints if name not in taken]
-    controls = (*_control_joints(robot, joints), *control_wheels(device, joint_names(device)))
+    controls = []
+    for name, joint in robot.tree.joints.items():
+        if name not in taken:
+            limits = {"min": joint.lower, "max": joint.upper}
+            bounds = {end: float(limit) for end, limit in limits.items() if np.isfinite(limit)}
+            # One that follows another takes no commands.
+            command = "position" if joint.mimic is None else ""
+            controls.append(control_joint(quoted(name), command, bounds, robot.posture[name]))
+    controls += control_wheels(device, joint_names(device))
     system = fill(
         "ros2_control.urdf",
         {"name": "${name}", "plugin": "${hardware_plugin}", "joints": "".join(controls)},
@@ -72,13 +79,13 @@ def write(subject: Subject, folder: Path) -> Notes:
         "config/controllers.yaml": fill("ros2/controllers.yaml", values),
         f"urdf/{file}.urdf": described,
         f"urdf/{file}.urdf.xacro": fill("ros2/robot.urdf.xacro", values),
+        "urdf/ocs.urdf.xacro": snippet_xacro(device, subject.seat),
         f"urdf/{file}.ros2_control.xacro": fill(
             "ros2/ros2_control.xacro", {**values, "system": system}
         ),
     }
     for place, text in texts.items():
         (root / place).write_text(text, encoding="utf-8", newline="\n")
-    export_snippet_xacro(device, subject.seat, root / "urdf" / "ocs.urdf.xacro")
     notes = ["package.xml has no maintainer and no license yet: put yours there"]
     if lost:
         found = f"{len(lost)} meshes that were not found: {', '.join(lost)}"
@@ -127,17 +134,6 @@ def _best(paths: Iterable[Path], name: PurePosixPath) -> Path | None:
 
     best = max(paths, key=alike, default=None)
     return best if best is not None and alike(best) else None
-
-
-def _control_joints(robot: Robot, joints: Iterable[str]) -> Iterator[str]:
-    """Element of ros2_control of each joint, commanded by position, in the posture at first."""
-    for name in joints:
-        joint = robot.tree.joints[name]
-        limits = {"min": joint.lower, "max": joint.upper}
-        bounds = {end: float(limit) for end, limit in limits.items() if np.isfinite(limit)}
-        # One that follows another takes no commands.
-        command = "position" if joint.mimic is None else ""
-        yield control_joint(quoted(name), command, bounds, robot.posture[name])
 
 
 def _controllers(robot: Robot, wheels: Iterable[str]) -> dict[str, str]:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.export.meshes import Color, Mesh, primitive_mesh
+from ocs_design.export.raster import covered_rows, ranges
 from ocs_design.robot.mujoco_bodies import HIDDEN_GROUP
 
 WIDTH, HEIGHT = 800, 500
@@ -134,47 +135,18 @@ def _nearest(plane: FloatArray, depth: FloatArray) -> NDArray[np.int64]:
     step = _DEPTHS / max(float(np.ptp(depth)) if depth.size else 0.0, 1e-12)
     for begin in range(0, len(plane), _CHUNK):
         some, deep = plane[begin : begin + _CHUNK], depth[begin : begin + _CHUNK]
-        triangle, y = _rows(some)
-        left, right = _spans(some[triangle], y)
+        triangle, y, first, last = covered_rows(some, 0.5)
+        left, right = (np.ceil(end - 0.5).astype(np.int64) for end in (first, last))
         count = np.maximum(right - left, 0)
-        within = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
         start, along = _nearness(some, deep, triangle, y)
         # The upper part of a number is how near, the lower which triangle: the largest one wins.
-        first = step * (start + along * left - depth.min())
-        near = np.repeat(first, count) + np.repeat(step * along, count) * within
+        near = np.repeat(step * (start + along * left - depth.min()), count)
+        near += np.repeat(step * along, count) * ranges(np.zeros_like(count), count)
         number = np.clip(near, 0.0, _DEPTHS, out=near).astype(np.int64) << _BITS
         number |= np.repeat(begin + triangle, count)
-        np.maximum.at(shown, np.repeat(y * width + left, count) + within, number)
+        np.maximum.at(shown, ranges(y * width + left, count), number)
     np.bitwise_and(shown, (1 << _BITS) - 1, out=shown, where=shown >= 0)
     return shown.reshape(height, width)
-
-
-def _rows(plane: FloatArray) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Each row of pixels whose centres a triangle may cover: the triangle and the row."""
-    low = np.ceil(plane[:, :, 1].min(axis=1) - 0.5).astype(np.int64)
-    high = np.floor(plane[:, :, 1].max(axis=1) - 0.5).astype(np.int64)
-    count = np.maximum(high - low + 1, 0)
-    triangle = np.repeat(np.arange(len(plane)), count)
-    within = np.arange(len(triangle)) - np.repeat(np.cumsum(count) - count, count)
-    return triangle, low[triangle] + within
-
-
-def _spans(corners: FloatArray, y: NDArray[np.int64]) -> tuple[NDArray[np.int64], ...]:
-    """First pixel inside, and the first behind, of each row of a triangle."""
-    begin, end = corners, np.roll(corners, -1, axis=1)
-    height = end[:, :, 1] - begin[:, :, 1]
-    part = np.divide(
-        (y + 0.5)[:, None] - begin[:, :, 1],
-        height,
-        out=np.full(height.shape, np.nan),
-        where=height != 0.0,
-    )
-    crossing = begin[:, :, 0] + part * (end[:, :, 0] - begin[:, :, 0])
-    outside = ~((part >= 0.0) & (part <= 1.0))
-    first = np.where(outside, np.inf, crossing).min(axis=1)
-    last = np.where(outside, -np.inf, crossing).max(axis=1)
-    first, last = np.where(first > last, 0.0, first), np.where(first > last, 0.0, last)
-    return np.ceil(first - 0.5).astype(np.int64), np.ceil(last - 0.5).astype(np.int64)
 
 
 def _nearness(

@@ -1,6 +1,6 @@
 """Device alone, to paste, include or attach: URDF, xacro, ros2_control, MJCF and SDF."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from textwrap import indent
 
@@ -61,40 +61,35 @@ _MACRO_PLACE = {
 
 def write(subject: Subject, folder: Path) -> Notes:
     """Write all snippets."""
-    export_snippets(subject.device, subject.seat, folder)
+    for name, text in snippets(subject.device, subject.seat).items():
+        (folder / name).write_bytes(text.encode())
     return ()
 
 
-def export_snippets(device: Device, seat: Seat, folder: Path) -> None:
-    """Write all snippets.
+def snippets(device: Device, seat: Seat) -> Mapping[str, str]:
+    """All snippets by the names of their files.
 
     Args:
         device: to write.
         seat: that carries it.
-        folder: that takes the files.
     """
-    export_snippet_urdf(device, seat, folder / "ocs.urdf")
-    export_snippet_xacro(device, seat, folder / "ocs.urdf.xacro")
-    export_snippet_ros2_control(device, folder / "ocs_ros2_control.urdf")
-    export_snippet_mjcf(device, seat, folder / "ocs.xml")
-    export_snippet_sdf(device, seat, folder / "ocs.sdf")
+    return {
+        "ocs.urdf": snippet_urdf(device, seat),
+        "ocs.urdf.xacro": snippet_xacro(device, seat),
+        "ocs_ros2_control.urdf": snippet_ros2_control(device),
+        "ocs.xml": snippet_mjcf(device, seat),
+        "ocs.sdf": snippet_sdf(device, seat),
+    }
 
 
-def export_snippet_urdf(device: Device, seat: Seat, path: Path) -> Path:
-    """Write links and joints to paste into a URDF.
-
-    Args:
-        device: to write.
-        seat: that carries it.
-        path: of the text.
-    """
+def snippet_urdf(device: Device, seat: Seat) -> str:
+    """Links and joints to paste into a URDF."""
     base = "" if seat.mount is None else mount_urdf(seat.mount)
-    values = {**_names(seat), "device": base + device_urdf(device, seat.trunk)}
-    return _write(path, fill("ocs.urdf", values))
+    return fill("ocs.urdf", {**_names(seat), "device": base + device_urdf(device, seat.trunk)})
 
 
-def export_snippet_xacro(device: Device, seat: Seat, path: Path) -> Path:
-    """Write a xacro macro `ocs`; arguments as in `export_snippet_urdf`."""
+def snippet_xacro(device: Device, seat: Seat) -> str:
+    """Xacro macro `ocs`."""
     joints = [f"${{prefix}}{joint}" for joint in joint_names(device)]
     control = ros2_control_urdf(device, joints, name="${prefix}ocs", plugin="${hardware_plugin}")
     rotation = np.eye(3) if seat.mount is None else seat.mount.placement.rotation
@@ -123,7 +118,7 @@ def export_snippet_xacro(device: Device, seat: Seat, path: Path) -> Path:
         "plugin": MOCK_PLUGIN,
         "ros2_control": indent(control, "    "),
     }
-    return _write(path, fill("ocs.urdf.xacro", values))
+    return fill("ocs.urdf.xacro", values)
 
 
 def _macro_wheels(device: Device) -> dict[str, str]:
@@ -187,14 +182,14 @@ def _macro_carrier(device: Device) -> str:
     return fill("carrier.urdf", {**_MACRO_PLACE, **sided, "visuals": visuals})
 
 
-def export_snippet_ros2_control(device: Device, path: Path) -> Path:
-    """Write the wheels' motors for ros2_control, to paste into a URDF that has the device."""
+def snippet_ros2_control(device: Device) -> str:
+    """The wheels' motors for ros2_control, to paste into a URDF that has the device."""
     element = ros2_control_urdf(device, joint_names(device))
-    return _write(path, fill("ocs_ros2_control.urdf", {"ros2_control": element}))
+    return fill("ocs_ros2_control.urdf", {"ros2_control": element})
 
 
-def export_snippet_mjcf(device: Device, seat: Seat, path: Path) -> Path:
-    """Write a model to attach to a MJCF robot; arguments as in `export_snippet_urdf`."""
+def snippet_mjcf(device: Device, seat: Seat) -> str:
+    """Model to attach to a MJCF robot."""
     limit = largest_torque(device.motor)
     limits = "" if limit is None else f' ctrllimited="true" ctrlrange="{numbers((-limit, limit))}"'
     # Attaching puts the prefix in front of the names.
@@ -225,7 +220,7 @@ def export_snippet_mjcf(device: Device, seat: Seat, path: Path) -> Path:
         "imu": imu,
         "sensors": "".join(f"    {sensor}\n" for sensor in sensors),
     }
-    return _write(path, fill("ocs.xml", values))
+    return fill("ocs.xml", values)
 
 
 def _body_mjcf(device: Device, body: DeviceBody) -> str:
@@ -256,8 +251,8 @@ def _body_mjcf(device: Device, body: DeviceBody) -> str:
     return fill("carrier.xml", values)
 
 
-def export_snippet_sdf(device: Device, seat: Seat, path: Path) -> Path:
-    """Write links and joints to paste into an SDF model; arguments as in `export_snippet_urdf`."""
+def snippet_sdf(device: Device, seat: Seat) -> str:
+    """Links and joints to paste into an SDF model (sdformat.org, specification 1.9)."""
     link = trunk_link(seat)
     place = {"parent": quoted(link), "frame": quoted(link if seat.mount is None else BASE_FRAME)}
     base = ""
@@ -269,7 +264,7 @@ def export_snippet_sdf(device: Device, seat: Seat, path: Path) -> Path:
         base = fill("base_frame.sdf", {"frame": BASE_FRAME, "parent": parent, "pose": pose})
     bodies = "".join(_body_sdf(device, body, place) for body in device_bodies(device))
     values = {**place, "parent_in_comment": in_comment(link), "device": base + bodies}
-    return _write(path, fill("ocs.sdf", values))
+    return fill("ocs.sdf", values)
 
 
 def _body_sdf(device: Device, body: DeviceBody, place: dict[str, str]) -> str:
@@ -284,7 +279,14 @@ def _body_sdf(device: Device, body: DeviceBody, place: dict[str, str]) -> str:
     if body.joint:
         values["radius"] = numbers(device.flywheel.outer_radius)
         values["length"] = numbers(device.flywheel.height)
-        values["limit"] = _limit_sdf(device)
+        motor, torque, speed = device.motor, largest_torque(device.motor), device.motor.top_speed
+        effort = "" if torque is None else f"<effort>{numbers(torque)}</effort>"
+        velocity = f"<velocity>{numbers(speed)}</velocity>" if np.isfinite(speed) else ""
+        limit = f"<limit>{effort}{velocity}</limit>" if effort or velocity else ""
+        if motor.armature != 0.0:
+            left = f"<!-- armature {numbers(motor.armature)} kg m^2 is left out -->"
+            limit = f"{limit}\n        {left}"
+        values["limit"] = limit
         return fill("flywheel.sdf", values)
     visuals = []
     for index, visual in enumerate(plain_visuals(device, body)):
@@ -303,22 +305,6 @@ def _body_sdf(device: Device, body: DeviceBody, place: dict[str, str]) -> str:
     return fill("carrier.sdf", {**values, "visuals": "".join(visuals)})
 
 
-def _limit_sdf(device: Device) -> str:
-    """Limits of the motor; SDF has no armature."""
-    torque, speed = largest_torque(device.motor), device.motor.top_speed
-    effort = "" if torque is None else f"<effort>{numbers(torque)}</effort>"
-    velocity = f"<velocity>{numbers(speed)}</velocity>" if np.isfinite(speed) else ""
-    limit = f"<limit>{effort}{velocity}</limit>" if effort or velocity else ""
-    if device.motor.armature == 0.0:
-        return limit
-    return f"{limit}\n        <!-- armature {numbers(device.motor.armature)} kg m^2 is left out -->"
-
-
 def _names(seat: Seat) -> dict[str, str]:
     trunk = trunk_link(seat)
     return {"parent": quoted(trunk), "parent_in_comment": in_comment(trunk)}
-
-
-def _write(path: Path, text: str) -> Path:
-    path.write_bytes(text.encode("utf-8"))
-    return path

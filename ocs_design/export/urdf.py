@@ -29,24 +29,10 @@ from ocs_design.robot.xml import parse_xml
 
 def write(subject: Subject, folder: Path) -> Notes:
     """Write `<name>_ocs.urdf` and its meshes."""
-    export_robot_urdf(subject.carrier, subject.device, folder / f"{subject.name}_ocs.urdf")
-    return urdf_notes(subject.carrier)
-
-
-def export_robot_urdf(robot: Robot, device: Device, path: Path) -> Path:
-    """Write the robot with the flywheels on its trunk, and their meshes beside it.
-
-    A URDF robot stays as it is byte for byte, its references to meshes too: those relative to the
-    file hold only where the file stood. Other robots are written from what was read.
-
-    Args:
-        robot: that carries the device.
-        device: to add.
-        path: of the URDF.
-    """
-    path.write_bytes(robot_urdf(robot, device))
-    write_meshes(device, path.parent)
-    return path
+    robot, device = subject.carrier, subject.device
+    (folder / f"{subject.name}_ocs.urdf").write_bytes(robot_urdf(robot, device))
+    write_meshes(device, folder)
+    return urdf_notes(robot)
 
 
 def write_meshes(device: Device, folder: Path) -> None:
@@ -58,7 +44,11 @@ def write_meshes(device: Device, folder: Path) -> None:
 
 
 def robot_urdf(robot: Robot, device: Device) -> bytes:
-    """Text of the robot with the flywheels on its trunk; see `export_robot_urdf`."""
+    """Text of the robot with the flywheels on its trunk.
+
+    A URDF robot stays as it is byte for byte, its references to meshes too: those relative to the
+    file hold only where the file stood. Other robots are written from what was read.
+    """
     content = robot.content if robot.format is Format.URDF else tree_urdf(robot.tree).encode()
     root = parse_xml(content)
     base = () if robot.mount is None or robot.format is not Format.URDF else (BASE_FRAME,)
@@ -137,7 +127,14 @@ def tree_urdf(tree: Tree) -> str:
     as frames without mass, so that every name of the file is still there. Meshes are left out.
     """
     root = ET.Element("robot", name=tree.name)
-    names = [_name(body, tree) for body in tree.bodies]
+    # The link that moves with a body's joint is its own unless its frame is elsewhere.
+    names = [
+        body.name
+        if np.array_equal(own.rotation, np.eye(3)) and not own.position.any()
+        else unused_name(body.name, "_at_joint", tree.body_of_link)
+        for body in tree.bodies
+        for own in (body.links[body.name],)
+    ]
     for name, body in zip(names, tree.bodies, strict=True):
         root.append(_link(name, body))
         if body.joint is not None:
@@ -149,14 +146,6 @@ def tree_urdf(tree: Tree) -> str:
                 root.append(_connection(fixed, "fixed", name, frame, place))
     ET.indent(root)
     return '<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(root, encoding="unicode") + "\n"
-
-
-def _name(body: Body, tree: Tree) -> str:
-    """Name of the link that moves with the body's joint: its own unless its frame is elsewhere."""
-    own = body.links[body.name]
-    if np.array_equal(own.rotation, np.eye(3)) and not own.position.any():
-        return body.name
-    return unused_name(body.name, "_at_joint", tree.body_of_link)
 
 
 def _link(name: str, body: Body) -> ET.Element:

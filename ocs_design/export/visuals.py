@@ -16,7 +16,7 @@ from ocs_design.device.solids import drive_solids, foot_of, motor_mount
 from ocs_design.export.meshes import Color, Mesh, merged, part_mesh
 from ocs_design.export.module_bodies import DeviceBody, carrier_placement
 from ocs_design.parts.cage import Cage, cage_part
-from ocs_design.parts.carrier_plate import CarrierPlate, plate_bodies
+from ocs_design.parts.carrier_plate import plate_bodies
 from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
@@ -133,14 +133,25 @@ def plain_plate_visuals(device: Device) -> tuple[Visual, ...]:
     bodies = (
         body
         for row, level in zip(plate.rows, plate.heights, strict=True)
+        # The y axis that way, and z as it is.
         for x, y in directions(plate.arms).tolist()
-        for outward in (_shifted(row, 0.0, level + half) @ _towards(x, y),)
+        for turn in (np.array([[y, x, 0.0], [-x, y, 0.0], [0.0, 0.0, 1.0]]),)
+        for outward in (_shifted(row, 0.0, level + half) @ Placement(turn, np.zeros(3)),)
         for body in (
             Visual("plate", ShapeKind.BOX, (plate.neck, arm, half), outward @ _shifted(0, arm, 0)),
             _cylinder("plate", plate.radius, half, outward @ _shifted(0, plate.across, 0)),
         )
     )
-    return (*bodies, *sleeves, *_plain_mast(plate))
+    tubes, mast = [], plate.mast
+    if mast is not None:
+        wide, tall = mast.side / 2.0, (mast.high - mast.low) / 2.0
+        upright = _shifted(mast.face - wide, 0.0, mast.low + tall)
+        tubes.append(Visual("plate", ShapeKind.BOX, (wide, wide, tall), upright))
+        long = (mast.back + plate.neck) / 2.0
+        for level in plate.heights:
+            place = _shifted(mast.back - long, 0.0, level - wide)
+            tubes.append(Visual("plate", ShapeKind.BOX, (long, wide, wide), place))
+    return (*bodies, *sleeves, *tubes)
 
 
 def _plain_pedestal(pedestal: Pedestal) -> Iterator[Visual]:
@@ -160,19 +171,6 @@ def _plain_pedestal(pedestal: Pedestal) -> Iterator[Visual]:
     foot = Placement(rotation, np.array([0.0, 2.0 * end, pedestal.base]))
     brace = foot @ _shifted(0.0, tall / 2.0, thick)
     yield Visual("pedestal", ShapeKind.BOX, (half, tall / 2.0, thick), place @ brace)
-
-
-def _plain_mast(plate: CarrierPlate) -> Iterator[Visual]:
-    """Boxes for a mast's tubes; none without one."""
-    mast = plate.mast
-    if mast is not None:
-        half, tall = mast.side / 2.0, (mast.high - mast.low) / 2.0
-        upright = _shifted(mast.face - half, 0.0, mast.low + tall)
-        yield Visual("plate", ShapeKind.BOX, (half, half, tall), upright)
-        arm = (mast.back + plate.neck) / 2.0
-        for level in plate.heights:
-            place = _shifted(mast.back - arm, 0.0, level - half)
-            yield Visual("plate", ShapeKind.BOX, (arm, half, half), place)
 
 
 def carrier_visuals(device: Device, module: Module) -> tuple[Visual, ...]:
@@ -242,11 +240,6 @@ def _cylinder(name: str, radius: float, half_length: float, place: Placement) ->
 
 def _mesh(name: str, path: Path, place: Placement) -> Visual:
     return Visual(name, ShapeKind.MESH, (1.0, 1.0, 1.0), place, path)
-
-
-def _towards(x: float, y: float) -> Placement:
-    """The y axis that way, a unit vector, and z as it is."""
-    return Placement(np.array([[y, x, 0.0], [-x, y, 0.0], [0.0, 0.0, 1.0]]), np.zeros(3))
 
 
 def _shifted(x: float, y: float, z: float) -> Placement:

@@ -56,10 +56,33 @@ def device_table(runs: Sequence[ValidationRecord]) -> Table:
 
 
 def _flight_table(first: str, names: Iterable[str], runs: Sequence[ValidationRecord]) -> Table:
-    rows = tuple((name, *_flight_row(run)) for name, run in zip(names, runs, strict=True))
+    rows: list[tuple[Cell, ...]] = []
+    for name, run in zip(names, runs, strict=True):
+        found, flew = run.metrics, was_in_the_air(*lift_off_and_touchdown(run.metrics))
+        shown = {
+            "touchdown_pitch": flew,
+            "touchdown_roll": flew,
+            "final_pitch": True,
+            "final_roll": True,
+            "turned_angle": flew and not was_on_pivot(run),
+        }
+        angles = (found.get(each) if known else None for each, known in shown.items())
+        speed, torque = (
+            found.get(each) if run.ocs else None
+            for each in ("peak_wheel_speed", "peak_wheel_torque")
+        )
+        rows.append(
+            (
+                name,
+                (_WITH if run.ocs else _WITHOUT)[run.passed],
+                *("-" if angle is None else degrees_number(angle) for angle in angles),
+                "-" if speed is None else rpm_number(speed),
+                "-" if torque is None else f"{torque:.3g}",
+            )
+        )
     judged = {"when due" if was_on_pivot(run) else "touchdown" for run in runs}
     when = " or ".join(sorted(judged, reverse=True)) or "touchdown"
-    return Table(columns(first, "<verdict", f"{when}\npitch [deg]", *_COLUMNS), rows)
+    return Table(columns(first, "<verdict", f"{when}\npitch [deg]", *_COLUMNS), tuple(rows))
 
 
 def flights_title(runs: Iterable[ValidationRecord]) -> str:
@@ -69,30 +92,6 @@ def flights_title(runs: Iterable[ValidationRecord]) -> str:
         return "degrees off balance when it is to be upright"
     balance = ", or off balance" if any(pivots) else ""
     return f"degrees off level at touchdown{balance}, or turned"
-
-
-def _flight_row(run: ValidationRecord) -> tuple[Cell, ...]:
-    metrics = run.metrics
-    flew = was_in_the_air(*lift_off_and_touchdown(metrics))
-
-    def angle(name: str, *, known: bool = True) -> str:
-        """Metric of that name [deg]; a dash where there is none."""
-        value = metrics.get(name) if known else None
-        return "-" if value is None else degrees_number(value)
-
-    speed, torque = (
-        metrics.get(name) if run.ocs else None for name in ("peak_wheel_speed", "peak_wheel_torque")
-    )
-    return (
-        (_WITH if run.ocs else _WITHOUT)[run.passed],
-        angle("touchdown_pitch", known=flew),
-        angle("touchdown_roll", known=flew),
-        angle("final_pitch"),
-        angle("final_roll"),
-        angle("turned_angle", known=flew and not was_on_pivot(run)),
-        "-" if speed is None else rpm_number(speed),
-        "-" if torque is None else f"{torque:.3g}",
-    )
 
 
 def short_verdict(run: ValidationRecord, *, kind: str) -> Toned:

@@ -75,27 +75,21 @@ def device_warnings(design: OcsDesign) -> tuple[str, ...]:
         for each in (() if kept is None else kept.maneuvers)
         if kept is not None and each.lost > 1.0 - kept.reliability
     )
+    found = () if ocs.mounting is None else ocs.mounting.reachable
+    named = [
+        f"{each.part} ({', '.join(f'{name} {at:.2f}' for name, at in each.joints.items())})"
+        for each in found[:_SHOWN_LINKS]
+    ]
+    if len(found) > _SHOWN_LINKS:
+        named.append(f"and {len(found) - _SHOWN_LINKS} more, see design.json")
+    hit = f"links that can hit a module within their joints' limits: {'; '.join(named)}"
     return (
-        *_reachable(ocs),
+        *([hit] if found else []),
         *ocs.fitting,
         *_overvoltage(ocs.motor),
         *_motor_notes(design),
         *drifting,
     )
-
-
-def _reachable(ocs: OcsRecord) -> Iterator[str]:
-    """Links that can hit a module, with the joint values at which they do."""
-    found = () if ocs.mounting is None else ocs.mounting.reachable
-    if not found:
-        return
-    named = []
-    for reach in found[:_SHOWN_LINKS]:
-        joints = ", ".join(f"{name} {value:.2f}" for name, value in reach.joints.items())
-        named.append(f"{reach.part} ({joints})")
-    if len(found) > _SHOWN_LINKS:
-        named.append(f"and {len(found) - _SHOWN_LINKS} more, see design.json")
-    yield f"links that can hit a module within their joints' limits: {'; '.join(named)}"
 
 
 def _overvoltage(motor: Drive) -> Iterator[str]:

@@ -18,11 +18,11 @@ from ocs_design.export.mjcf import export_robot_mjcf
 from ocs_design.export.module_bodies import carrier_inertial, flywheel_inertial
 from ocs_design.export.robot_model import robot_model
 from ocs_design.export.snippets import (
-    export_snippet_mjcf,
-    export_snippet_urdf,
-    export_snippet_xacro,
+    snippet_mjcf,
+    snippet_urdf,
+    snippet_xacro,
 )
-from ocs_design.export.urdf import export_robot_urdf
+from ocs_design.export.urdf import robot_urdf
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.mass import MassProperties, physical_defect
 from ocs_design.robot.reader import read_robot
@@ -91,16 +91,16 @@ def test_mujoco_sees_the_whole_robot(device, tmp_path):
     check_whole(seen_by_mujoco(path, robot), robot, device)
 
 
-def test_pinocchio_sees_the_whole_robot(device, tmp_path):
+def test_pinocchio_sees_the_whole_robot(device):
     robot = read_robot(SOLO12)
-    text = export_robot_urdf(robot, device, tmp_path / "robot.urdf").read_text()
+    text = robot_urdf(robot, device).decode()
     check_whole(seen_by_pinocchio(text, robot), robot, device)
 
 
 @pytest.mark.parametrize("path", LEGGED_PATHS[:6], ids=LEGGED[:6])
 def test_all_kinds_of_robots_carry_their_motors(path, tmp_path):
     robot, device = read_robot(path), driven_device()
-    text = export_robot_urdf(robot, device, tmp_path / "robot.urdf").read_text()
+    text = robot_urdf(robot, device).decode()
     check_whole(seen_by_pinocchio(text, robot), robot, device)
     check_whole(
         seen_by_mujoco(
@@ -111,8 +111,8 @@ def test_all_kinds_of_robots_carry_their_motors(path, tmp_path):
     )
 
 
-def test_a_robot_by_hand_carries_them_in_full(device, tmp_path):
-    text = export_robot_urdf(BLOCK, device, tmp_path / "robot.urdf").read_text()
+def test_a_robot_by_hand_carries_them_in_full(device):
+    text = robot_urdf(BLOCK, device).decode()
     check_whole(seen_by_pinocchio(text, BLOCK), BLOCK, device)
 
 
@@ -157,14 +157,14 @@ def check_snippet(text, device):
     check_whole(seen_by_pinocchio(text, nothing), nothing, device)
 
 
-def test_the_urdf_snippet_has_them(device, tmp_path):
+def test_the_urdf_snippet_has_them(device):
     robot = replace(BLOCK, trunk="base_link")
-    check_snippet(export_snippet_urdf(device, robot, tmp_path / "ocs.urdf").read_text(), device)
+    check_snippet(snippet_urdf(device, robot), device)
 
 
 def test_the_macro_has_them_at_any_angle_and_with_a_prefix(tmp_path):
     robot = replace(BLOCK, trunk="base_link")
-    export_snippet_xacro(driven_device(), robot, tmp_path / "ocs.urdf.xacro")
+    (tmp_path / "ocs.urdf.xacro").write_text(snippet_xacro(driven_device(), robot))
     (tmp_path / "robot.urdf.xacro").write_text(
         '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
         '<xacro:include filename="ocs.urdf.xacro"/><link name="base_link"/>'
@@ -176,7 +176,7 @@ def test_the_macro_has_them_at_any_angle_and_with_a_prefix(tmp_path):
 
 
 def test_the_mjcf_snippet_has_them(device, tmp_path):
-    export_snippet_mjcf(device, replace(BLOCK, trunk="base_link"), tmp_path / "ocs.xml")
+    (tmp_path / "ocs.xml").write_text(snippet_mjcf(device, replace(BLOCK, trunk="base_link")))
     (tmp_path / "robot.xml").write_text(
         '<mujoco><asset><model name="ocs" file="ocs.xml"/></asset><worldbody>'
         f'<body name="base"><freejoint/><inertial pos="0.01 0 -0.02" mass="2.5" fullinertia="'
@@ -194,7 +194,7 @@ def test_the_mjcf_snippet_has_them(device, tmp_path):
 @pytest.mark.parametrize("name", ["direct", "single", "triad", "orthogonal", "pyramid"])
 def test_the_xacro_macro_makes_every_layout(name, tmp_path):
     device, robot = DEVICES[name], replace(BLOCK, trunk="base_link")
-    export_snippet_xacro(device, robot, tmp_path / "ocs.urdf.xacro")
+    (tmp_path / "ocs.urdf.xacro").write_text(snippet_xacro(device, robot))
     (tmp_path / "robot.urdf.xacro").write_text(
         '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
         '<xacro:include filename="ocs.urdf.xacro"/><link name="base_link"><inertial>'
@@ -206,19 +206,19 @@ def test_the_xacro_macro_makes_every_layout(name, tmp_path):
     check_whole(seen_by_pinocchio(text, robot), BLOCK, device)
 
 
-def test_urdf_says_what_it_cannot_hold(tmp_path):
+def test_urdf_says_what_it_cannot_hold():
     drive = geared(3.0)
-    text = export_robot_urdf(BLOCK, driven_device(drive=drive), tmp_path / "a.urdf").read_text()
+    text = robot_urdf(BLOCK, driven_device(drive=drive)).decode()
     said = re.findall(r"<!-- armature (\S+) kg m\^2, which URDF cannot say -->", text)
     assert [float(value) for value in said] == [drive.armature] * 2
-    plain = export_robot_urdf(BLOCK, driven_device(), tmp_path / "b.urdf").read_text()
+    plain = robot_urdf(BLOCK, driven_device()).decode()
     assert "armature" not in plain
 
 
 @pytest.mark.parametrize(("top", "velocity"), [(400.0, 400.0), (None, 650.4), (1047.2, 650.4)])
-def test_the_slower_of_voltage_and_mechanics_is_the_joints_limit(tmp_path, top, velocity):
+def test_the_slower_of_voltage_and_mechanics_is_the_joints_limit(top, velocity):
     device = driven_device(drive=replace(EC45, speed_max=top))
-    model = pinocchio_model(export_robot_urdf(BLOCK, device, tmp_path / "a.urdf").read_text())
+    model = pinocchio_model(robot_urdf(BLOCK, device).decode())
     index = model.idx_vs[model.getJointId("ocs_left")]
     assert model.upperVelocityLimit[index] == velocity
     assert model.upperEffortLimit[index] == 1.0
@@ -226,7 +226,7 @@ def test_the_slower_of_voltage_and_mechanics_is_the_joints_limit(tmp_path, top, 
 
 def test_without_mass_there_is_no_motor_body(tmp_path):
     device = driven_device(carrier=replace(EC45_BODY, mass=0.0))
-    assert "_motor" not in export_robot_urdf(BLOCK, device, tmp_path / "a.urdf").read_text()
+    assert "_motor" not in robot_urdf(BLOCK, device).decode()
     model = mujoco.MjModel.from_xml_path(
         str(export_robot_mjcf(robot_model(BLOCK, device), tmp_path / "a.xml"))
     )
@@ -243,9 +243,9 @@ def test_a_clash_of_names_is_an_error_only_where_there_are_motors(tmp_path, elem
     (tmp_path / "in.urdf").write_text(SOLO12.read_text().replace("</robot>", extra + "</robot>"))
     robot = read_robot(tmp_path / "in.urdf")
     with pytest.raises(RobotError, match=f"{element} named 'ocs_left_motor'"):
-        export_robot_urdf(robot, driven_device(), tmp_path / "out.urdf")
+        robot_urdf(robot, driven_device())
     massless = driven_device(carrier=replace(EC45_BODY, mass=0.0))
-    export_robot_urdf(robot, massless, tmp_path / "out.urdf")
+    robot_urdf(robot, massless)
 
 
 def test_a_body_of_that_name_is_a_clash_in_mjcf(tmp_path):

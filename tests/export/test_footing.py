@@ -16,7 +16,7 @@ from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.export.device_parts import foot_holes
 from ocs_design.export.formats import Subject
 from ocs_design.export.robot_model import robot_model
-from ocs_design.export.snippets import export_snippets
+from ocs_design.export.snippets import snippets
 from ocs_design.export.stl import write as write_stl
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.footing.standing import stand_on_trunk
@@ -97,11 +97,10 @@ def test_mujoco_weighs_it_where_it_is(robot, plated):
 
 
 @pytest.mark.parametrize("name", ["ocs.urdf", "ocs.xml"])
-def test_snippets_weigh_it_too(robot, plated, tmp_path, name):
+def test_snippets_weigh_it_too(robot, plated, name):
     masses = []
     for device in (plated, replace(plated, plate=None)):
-        export_snippets(device, robot, tmp_path)
-        text = (tmp_path / name).read_text()
+        text = snippets(device, robot)[name]
         assert ("plate" in text) == (device.plate is not None)
         spec = mujoco.MjSpec.from_string(text)
         spec.compiler.fusestatic = False

@@ -11,7 +11,7 @@ from exported import LEGGED, LEGGED_PATHS
 from robots import SOLO12
 from wheels import driven_device
 
-from ocs_design.export.glb import export_robot_glb
+from ocs_design.export.glb import robot_glb
 from ocs_design.export.robot_model import robot_model
 from ocs_design.robot.reader import read_robot
 
@@ -31,7 +31,8 @@ SHAPES = """<mujoco><asset><material name="red" rgba="1 0 0 0.5"/></asset><world
 
 def drawn(robot, folder):
     model = robot_model(robot, DEVICE).compiled
-    path = export_robot_glb(model, robot.posture, folder / "robot.glb")
+    path = folder / "robot.glb"
+    path.write_bytes(robot_glb(model, robot.posture))
     return model, trimesh.load_scene(path)
 
 

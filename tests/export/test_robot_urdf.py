@@ -1,7 +1,5 @@
 """Whole robots with their device as URDF, read again by Pinocchio and by our own reader."""
 
-from pathlib import Path
-
 import numpy as np
 import pinocchio as pin
 import pytest
@@ -11,7 +9,7 @@ from robots import SOLO12
 from wheels import paper_device
 
 from ocs_design.common.errors import RobotError
-from ocs_design.export.urdf import export_robot_urdf
+from ocs_design.export.urdf import robot_urdf, write_meshes
 from ocs_design.export.visuals import WHEEL_MESH
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
@@ -20,24 +18,24 @@ from ocs_design.robot.robot import Robot
 HAND = robot_by_hand(2.5, (0.03, 0.05, 0.07, 0.001, 0.002, -0.003), com=(0.01, 0.0, -0.02))
 
 
-def exported_text(robot: Robot, folder: Path, device=None) -> str:
-    return export_robot_urdf(robot, device or paper_device(), folder / "robot.urdf").read_text()
+def exported_text(robot: Robot, device=None) -> str:
+    return robot_urdf(robot, device or paper_device()).decode()
 
 
 @pytest.mark.parametrize("path", LEGGED_PATHS, ids=LEGGED)
-def test_pinocchio_reads_the_robot_and_its_wheels(path, tmp_path):
+def test_pinocchio_reads_the_robot_and_its_wheels(path):
     robot, device = read_robot(path), paper_device()
-    model = pinocchio_model(exported_text(robot, tmp_path, device))
+    model = pinocchio_model(exported_text(robot, device))
     total = robot.mass + 2.0 * device.flywheel.mass
     assert pin.computeTotalMass(model) == pytest.approx(total, rel=1e-12)
     check_wheels_in_pinocchio(model, device, robot.trunk)
 
 
 @pytest.mark.parametrize("path", LEGGED_PATHS, ids=LEGGED)
-def test_the_users_file_stays_byte_for_byte(path, tmp_path):
+def test_the_users_file_stays_byte_for_byte(path):
     robot = read_robot(path)
     content = robot.content
-    result = export_robot_urdf(robot, paper_device(), tmp_path / "robot.urdf").read_bytes()
+    result = robot_urdf(robot, paper_device())
     place = content.rindex(b"</robot>")
     assert result[:place].rstrip() == content[:place].rstrip()
     assert result[:place] == content[:place]
@@ -45,9 +43,9 @@ def test_the_users_file_stays_byte_for_byte(path, tmp_path):
     assert content == path.read_bytes()
 
 
-def test_a_robot_by_hand_is_written_in_full(tmp_path):
+def test_a_robot_by_hand_is_written_in_full():
     device = paper_device()
-    model = pinocchio_model(exported_text(HAND, tmp_path, device))
+    model = pinocchio_model(exported_text(HAND, device))
     check_wheels_in_pinocchio(model, device, HAND.trunk)
     body = model.inertias[model.getJointId("root_joint")]
     assert body.mass == HAND.mass
@@ -58,7 +56,8 @@ def test_a_robot_by_hand_is_written_in_full(tmp_path):
 def test_an_mjcf_robot_becomes_the_same_robot_in_urdf(tmp_path):
     (tmp_path / "robot.xml").write_text(MJCF)
     robot, device = read_robot(tmp_path / "robot.xml", posture="zero"), paper_device()
-    text = exported_text(robot, tmp_path, device)
+    text = exported_text(robot, device)
+    (tmp_path / "robot.urdf").write_text(text)
     check_wheels_in_pinocchio(pinocchio_model(text), device, robot.trunk)
     again = read_robot(tmp_path / "robot.urdf", trunk=robot.trunk, posture="zero")
     rng = np.random.default_rng(0)
@@ -84,11 +83,12 @@ def test_a_clash_of_names_is_an_error_that_says_so(tmp_path, element):
     )
     (tmp_path / "in.urdf").write_text(SOLO12.read_text().replace("</robot>", extra + "</robot>"))
     with pytest.raises(RobotError, match=rf"{element} named '{name}'"):
-        export_robot_urdf(read_robot(tmp_path / "in.urdf"), paper_device(), tmp_path / "out.urdf")
+        robot_urdf(read_robot(tmp_path / "in.urdf"), paper_device())
 
 
 def test_the_wheels_mesh_lies_beside_the_file_in_metres(tmp_path):
-    text = exported_text(read_robot(SOLO12), tmp_path)
+    text = exported_text(read_robot(SOLO12))
+    write_meshes(paper_device(), tmp_path)
     assert text.count(f'filename="{WHEEL_MESH}"') == 2
     np.testing.assert_allclose(
         trimesh.load_mesh(tmp_path / WHEEL_MESH).extents, [0.06, 0.06, 0.01], rtol=1e-4
@@ -100,6 +100,6 @@ def test_names_that_need_escaping_are_escaped(tmp_path):
     (tmp_path / "in.urdf").write_text(text)
     robot = read_robot(tmp_path / "in.urdf")
     assert robot.trunk == 'a&"b--'
-    export_robot_urdf(robot, paper_device(), tmp_path / "out.urdf")
+    (tmp_path / "out.urdf").write_bytes(robot_urdf(robot, paper_device()))
     again = read_robot(tmp_path / "out.urdf", trunk=robot.trunk)
     assert "ocs_left" in again.tree.joints

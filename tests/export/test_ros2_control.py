@@ -7,7 +7,7 @@ from seats import TRUNK, TrunkOnly, expanded
 from wheels import driven_device, geared, motor, paper_device
 
 from ocs_design.export.device_urdf import MOCK_PLUGIN
-from ocs_design.export.snippets import export_snippet_ros2_control, export_snippet_xacro
+from ocs_design.export.snippets import snippet_ros2_control, snippet_xacro
 
 CALL = f'<xacro:ocs parent="{TRUNK}" prefix="front_" ros2_control="true" hardware_plugin="a/B"/>'
 
@@ -35,13 +35,13 @@ def bounds(system):
 
 
 def test_the_macro_declares_nothing_unless_asked(tmp_path):
-    export_snippet_xacro(driven_device(), TrunkOnly(), tmp_path / "ocs.urdf.xacro")
+    (tmp_path / "ocs.urdf.xacro").write_text(snippet_xacro(driven_device(), TrunkOnly()))
     assert not systems(expanded(tmp_path, f'<xacro:ocs parent="{TRUNK}"/>'))
 
 
 def test_the_macro_declares_both_motors_when_asked(tmp_path):
     device = driven_device()
-    export_snippet_xacro(device, TrunkOnly(), tmp_path / "ocs.urdf.xacro")
+    (tmp_path / "ocs.urdf.xacro").write_text(snippet_xacro(device, TrunkOnly()))
     text = expanded(tmp_path, CALL)
     (system,) = systems(text)
     check_system(system, device, "front_", "a/B")
@@ -50,17 +50,15 @@ def test_the_macro_declares_both_motors_when_asked(tmp_path):
 
 
 @pytest.mark.parametrize("drive", [motor(754.0, torque_limit=0.7), geared(3.0)])
-def test_the_command_is_bounded_by_the_motor(tmp_path, drive):
+def test_the_command_is_bounded_by_the_motor(drive):
     device = driven_device(drive=drive)
-    path = export_snippet_ros2_control(device, tmp_path / "a.urdf")
-    (system,) = systems(path.read_text())
+    (system,) = systems(snippet_ros2_control(device))
     check_system(system, device, "", MOCK_PLUGIN)
     limit = drive.torque_limit
     assert bounds(system) == 2 * [("min", -limit), ("max", limit)]
 
 
-def test_a_motor_without_limit_has_no_bounds(tmp_path):
-    path = export_snippet_ros2_control(paper_device(), tmp_path / "a.urdf")
-    (system,) = systems(path.read_text())
+def test_a_motor_without_limit_has_no_bounds():
+    (system,) = systems(snippet_ros2_control(paper_device()))
     check_system(system, paper_device(), "", MOCK_PLUGIN)
     assert not bounds(system)

@@ -13,12 +13,12 @@ from scipy.spatial.transform import Rotation
 from seats import TRUNK, TrunkOnly
 from wheels import EC45_BODY, driven_device, geared, paper_device
 
-from ocs_design.export.snippets import export_snippet_sdf
+from ocs_design.export.snippets import snippet_sdf
 from ocs_design.robot.reader import read_robot
 
 
-def model_of(device, seat, folder):
-    return ET.parse(export_snippet_sdf(device, seat, folder / "ocs.sdf")).find("model")
+def model_of(device, seat):
+    return ET.fromstring(snippet_sdf(device, seat).encode()).find("model")
 
 
 def link_of(model, name):
@@ -37,8 +37,8 @@ def inertial(link):
 
 
 @pytest.mark.parametrize("device", [paper_device(), driven_device(), driven_device(0.0)])
-def test_wheels_stand_turn_and_weigh_as_designed(tmp_path, device):
-    model, wheel = model_of(device, TrunkOnly(), tmp_path), device.flywheel
+def test_wheels_stand_turn_and_weigh_as_designed(device):
+    model, wheel = model_of(device, TrunkOnly()), device.flywheel
     for module in device.modules:
         link = link_of(model, f"ocs_{module.name}_flywheel")
         assert link.find("pose").get("relative_to") == TRUNK
@@ -55,8 +55,8 @@ def test_wheels_stand_turn_and_weigh_as_designed(tmp_path, device):
         np.testing.assert_array_equal(numbers(joint.findtext("axis/xyz")), [0.0, 0.0, 1.0])
 
 
-def test_motors_are_fixed_to_the_trunk(tmp_path):
-    model = model_of(driven_device(), TrunkOnly(), tmp_path)
+def test_motors_are_fixed_to_the_trunk():
+    model = model_of(driven_device(), TrunkOnly())
     for side in ("left", "right"):
         mass, _ = inertial(link_of(model, f"ocs_{side}_motor"))
         assert mass == EC45_BODY.mass
@@ -66,27 +66,25 @@ def test_motors_are_fixed_to_the_trunk(tmp_path):
 
 
 @pytest.mark.parametrize("device", [paper_device(), driven_device()])
-def test_no_two_of_a_model_have_one_name(tmp_path, device):
+def test_no_two_of_a_model_have_one_name(device):
     """In SDF links, joints and frames share their names' space."""
-    names = Counter(each.get("name") for each in model_of(device, TrunkOnly(), tmp_path))
+    names = Counter(each.get("name") for each in model_of(device, TrunkOnly()))
     names.pop(None, None)
     assert max(names.values()) == 1
 
 
-def test_nothing_is_said_of_limits_that_do_not_exist(tmp_path):
-    assert model_of(paper_device(), TrunkOnly(), tmp_path).find("joint/axis/limit") is None
+def test_nothing_is_said_of_limits_that_do_not_exist():
+    assert model_of(paper_device(), TrunkOnly()).find("joint/axis/limit") is None
 
 
-def test_armature_is_a_remark(tmp_path):
-    text = export_snippet_sdf(
-        driven_device(drive=geared(4.0)), TrunkOnly(), tmp_path / "a.sdf"
-    ).read_text()
+def test_armature_is_a_remark():
+    text = snippet_sdf(driven_device(drive=geared(4.0)), TrunkOnly())
     assert f"<!-- armature {geared(4.0).armature!r} kg m^2 is left out -->" in text
 
 
-def test_a_robot_with_y_up_gets_a_frame_with_z_up(tmp_path):
+def test_a_robot_with_y_up_gets_a_frame_with_z_up():
     robot, device = read_robot(next(ROBOTS.rglob("human.urdf"))), paper_device()
-    model = model_of(device, robot, tmp_path)
+    model = model_of(device, robot)
     frame = model.find("frame")
     assert frame.get("attached_to") == robot.mount.link
     pose = numbers(frame.findtext("pose"))
@@ -96,7 +94,7 @@ def test_a_robot_with_y_up_gets_a_frame_with_z_up(tmp_path):
     assert link_of(model, "ocs_left_flywheel").find("pose").get("relative_to") == frame.get("name")
 
 
-def test_any_name_of_a_trunk_leaves_well_formed_xml(tmp_path):
+def test_any_name_of_a_trunk_leaves_well_formed_xml():
     name = 'a&"<b>--c--'
-    model = model_of(paper_device(), TrunkOnly(name), tmp_path)
+    model = model_of(paper_device(), TrunkOnly(name))
     assert model.findtext("joint/parent") == name

@@ -14,11 +14,11 @@ from wheels import paper_device
 from ocs_design.export.mjcf import export_robot_mjcf
 from ocs_design.export.robot_model import robot_model
 from ocs_design.export.snippets import (
-    export_snippet_mjcf,
-    export_snippet_urdf,
-    export_snippet_xacro,
+    snippet_mjcf,
+    snippet_urdf,
+    snippet_xacro,
 )
-from ocs_design.export.urdf import export_robot_urdf
+from ocs_design.export.urdf import robot_urdf
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 
@@ -34,18 +34,18 @@ def carrier(trunk):
     return replace(robot_by_hand(2.5, (0.03, 0.05, 0.07)), trunk=trunk)
 
 
-@pytest.mark.parametrize("export", [export_snippet_urdf, export_snippet_xacro, export_snippet_mjcf])
-def test_any_name_of_a_trunk_leaves_well_formed_xml(tmp_path, export):
-    path = export(paper_device(), carrier('a&"<b>--c--'), tmp_path / "ocs")
-    if export is export_snippet_mjcf:
-        model = mujoco.MjModel.from_xml_path(str(path.rename(tmp_path / "ocs.xml")))
-        assert model.nu == 2
+@pytest.mark.parametrize("snippet", [snippet_urdf, snippet_xacro, snippet_mjcf])
+def test_any_name_of_a_trunk_leaves_well_formed_xml(tmp_path, snippet):
+    text, path = snippet(paper_device(), carrier('a&"<b>--c--')), tmp_path / "ocs"
+    if snippet is snippet_mjcf:
+        assert mujoco.MjModel.from_xml_string(text).nu == 2
     else:
+        path.write_text(text)
         assert xacro.process_file(str(path)).documentElement.tagName == "robot"
 
 
 def test_keyframes_of_an_attaching_robot_are_as_the_snippet_says(tmp_path):
-    export_snippet_mjcf(paper_device(), carrier("trunk"), tmp_path / "ocs.xml")
+    (tmp_path / "ocs.xml").write_text(snippet_mjcf(paper_device(), carrier("trunk")))
     values = "0 0 1 1 0 0 0 0.5 0 0 0.7"
     text = MJCF.replace(
         "</worldbody>",
@@ -81,13 +81,13 @@ def check_turned_wheels(model, device, mount):
 def test_wheels_of_a_robot_with_y_up_stand_in_its_base_frame(tmp_path, form):
     robot, device = read_robot(HUMAN), paper_device()
     if form == "robot":
-        text = export_robot_urdf(robot, device, tmp_path / "h.urdf").read_text()
+        text = robot_urdf(robot, device).decode()
     elif form == "pasted":
-        snippet = export_snippet_urdf(device, robot, tmp_path / "ocs.urdf").read_text()
+        snippet = snippet_urdf(device, robot)
         part = snippet.split("<!-- from here -->")[1].split("<!-- to here -->")[0]
         text = HUMAN.read_text().replace("</robot>", part + "</robot>")
     else:
-        export_snippet_xacro(device, robot, tmp_path / "ocs.urdf.xacro")
+        (tmp_path / "ocs.urdf.xacro").write_text(snippet_xacro(device, robot))
         call = f'<xacro:include filename="ocs.urdf.xacro"/><xacro:ocs parent="{robot.mount.link}"/>'
         (tmp_path / "h.xacro").write_text(
             HUMAN.read_text()

@@ -17,17 +17,17 @@ from wheels import EC45, driven_device, geared, paper_device
 from ocs_design.actuation.motor import BoltCircle, Face, Mounting
 from ocs_design.device.solids import foot_of
 from ocs_design.export.device_parts import printed_parts
-from ocs_design.export.glb import export_robot_glb
+from ocs_design.export.glb import robot_glb
 from ocs_design.export.meshes import part_mesh
 from ocs_design.export.mjcf import export_robot_mjcf
 from ocs_design.export.robot_model import robot_model
 from ocs_design.export.snippets import (
-    export_snippet_mjcf,
-    export_snippet_sdf,
-    export_snippet_urdf,
-    export_snippet_xacro,
+    snippet_mjcf,
+    snippet_sdf,
+    snippet_urdf,
+    snippet_xacro,
 )
-from ocs_design.export.urdf import export_robot_urdf
+from ocs_design.export.urdf import robot_urdf, write_meshes
 from ocs_design.export.visuals import carrier_visuals, plain_carrier_visuals
 from ocs_design.robot.reader import read_robot
 
@@ -51,8 +51,9 @@ def folder(robot, tmp_path_factory):
     folder = tmp_path_factory.mktemp("robot")
     model = robot_model(robot, DEVICE)
     export_robot_mjcf(model, folder / "robot.xml")
-    export_robot_urdf(robot, DEVICE, folder / "robot.urdf")
-    export_robot_glb(model.compiled, robot.posture, folder / "robot.glb")
+    (folder / "robot.urdf").write_bytes(robot_urdf(robot, DEVICE))
+    write_meshes(DEVICE, folder)
+    (folder / "robot.glb").write_bytes(robot_glb(model.compiled, robot.posture))
     return folder
 
 
@@ -198,8 +199,8 @@ def placed_by_urdf(text, side):
         yield shape.tag, sorted(numbers), rotation, position
 
 
-def placed_by_sdf(path, side):
-    link = ET.parse(path).find(f"model/link[@name='ocs_{side}_motor']")
+def placed_by_sdf(text, side):
+    link = ET.fromstring(text.encode()).find(f"model/link[@name='ocs_{side}_motor']")
     for visual in link.findall("visual"):
         pose = [float(word) for word in visual.findtext("pose").split()]
         rotation = Rotation.from_euler("xyz", pose[3:]).as_matrix()
@@ -228,15 +229,13 @@ def check_equal(ours, theirs):
 @pytest.mark.parametrize("module", DEVICE.modules, ids=("left", "right"))
 def test_snippets_have_boxes_and_cylinders_in_their_places(module, tmp_path):
     seat, expected = TrunkOnly(), list(placed_as_designed(module))
-    text = export_snippet_urdf(DEVICE, seat, tmp_path / "ocs.urdf").read_text()
+    text = snippet_urdf(DEVICE, seat)
     check_equal(placed_by_urdf(text, module.name), expected)
-    export_snippet_xacro(DEVICE, seat, tmp_path / "ocs.urdf.xacro")
+    (tmp_path / "ocs.urdf.xacro").write_text(snippet_xacro(DEVICE, seat))
     text = expanded(tmp_path, f'<xacro:ocs parent="{TRUNK}"/>')
     check_equal(placed_by_urdf(text, module.name), expected)
-    path = export_snippet_sdf(DEVICE, seat, tmp_path / "ocs.sdf")
-    check_equal(placed_by_sdf(path, module.name), expected)
-    path = export_snippet_mjcf(DEVICE, seat, tmp_path / "ocs.xml")
-    model = mujoco.MjModel.from_xml_path(str(path))
+    check_equal(placed_by_sdf(snippet_sdf(DEVICE, seat), module.name), expected)
+    model = mujoco.MjModel.from_xml_string(snippet_mjcf(DEVICE, seat))
     body = model.body(f"{module.name}_motor")
     geoms = range(int(body.geomadr[0]), int(body.geomadr[0] + body.geomnum[0]))
     for geom, (_, _, rotation, position) in zip(geoms, expected, strict=True):
@@ -272,6 +271,7 @@ def test_a_motor_of_unknown_size_or_place_is_left_out(drive):
 
 def test_what_weighs_nothing_is_not_shown(robot, tmp_path):
     assert carrier_visuals(paper_device(), LEFT) == ()
-    text = export_robot_urdf(robot, paper_device(), tmp_path / "robot.urdf").read_text()
+    text = robot_urdf(robot, paper_device()).decode()
+    write_meshes(paper_device(), tmp_path)
     assert "ocs_housing" not in text
     assert [path.name for path in (tmp_path / "meshes").iterdir()] == ["ocs_flywheel.stl"]

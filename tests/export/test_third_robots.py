@@ -14,7 +14,7 @@ from seats import TRUNK, TrunkOnly
 from wheels import braked_inertia, driven_device
 
 from ocs_design.export.mjcf import precise_xml
-from ocs_design.export.snippets import export_snippets
+from ocs_design.export.snippets import snippets
 from ocs_design.robot.mujoco_model import build_spec
 from ocs_design.robot.reader import read_robot
 
@@ -33,7 +33,8 @@ THIRD = {
 @pytest.fixture(params=THIRD.values(), ids=THIRD)
 def third(request, tmp_path):
     """Another robot as it came, with the snippets of ours beside it."""
-    export_snippets(DEVICE, TrunkOnly(), tmp_path)
+    for name, text in snippets(DEVICE, TrunkOnly()).items():
+        (tmp_path / name).write_text(text)
     return read_robot(ROBOTS / f"{request.param}.urdf", posture="zero")
 
 

@@ -264,29 +264,22 @@ class Assembly:
             lock = "threadlocker of medium strength"
             if found.on_print:
                 lock += ", a drop on the tips alone, for it attacks the print"
+        plate, where = self.device.plate, ""
+        fastenings = () if plate is None else plate.fastenings
+        # Which of the trunk's screws these are, where their lengths differ [mm].
+        if (
+            plate is not None
+            and len(fastenings) > 1
+            and name in {each.purpose for each in fastenings}
+        ):
+            x, y = plate.position[:2] if plate.mast is None else plate.position[1:]
+            own = zip(plate.trunk, plate.screw_lengths, strict=True)
+            ends = ((x + at[0], y + at[1]) for at, length in own if length == held.length)
+            where = f"; those at {', '.join(places(ends))}"
         return (
             f"{joint}: {held.count} x {held.designation}"
-            f"{self.number(name)}, {found.torque:.2g} N m, crosswise in two rounds; {lock}"
-            f"{self._where(name)}."
+            f"{self.number(name)}, {found.torque:.2g} N m, crosswise in two rounds; {lock}{where}."
         )
-
-    def _where(self, name: str) -> str:
-        """Places of the trunk's screws of this length [mm]; empty if all are of one length."""
-        plate = self.device.plate
-        if (
-            plate is None
-            or len(plate.fastenings) == 1
-            or name not in {held.purpose for held in plate.fastenings}
-        ):
-            return ""
-        x, y = plate.position[:2] if plate.mast is None else plate.position[1:]
-        length = self.screws[name].fastening.length
-        found = places(
-            (x + at[0], y + at[1])
-            for at, own in zip(plate.trunk, plate.screw_lengths, strict=True)
-            if own == length
-        )
-        return f"; those at {', '.join(found)}"
 
 
 @lru_cache(maxsize=1)

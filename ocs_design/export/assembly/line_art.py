@@ -3,10 +3,10 @@
 from collections.abc import Iterable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.export.meshes import Mesh
+from ocs_design.export.raster import covered_rows, ranges
 
 PIXEL = 0.2e-3
 """Size of the depth map's pixels [m], at least."""
@@ -115,26 +115,10 @@ class _DepthMap:
         slope_x = (edge_1[:, 2] * edge_2[:, 1] - edge_2[:, 2] * edge_1[:, 1]) / area
         slope_y = (edge_2[:, 2] * edge_1[:, 0] - edge_1[:, 2] * edge_2[:, 0]) / area
         at_zero = points[:, 0, 2] - slope_x * points[:, 0, 0] - slope_y * points[:, 0, 1]
-        low = np.ceil(points[:, :, 1].min(axis=1)).astype(int)
-        high = np.floor(points[:, :, 1].max(axis=1)).astype(int)
-        counts = np.maximum(high - low + 1, 0)
-        owner = np.repeat(np.arange(len(points)), counts)
-        rows = _ranges(low, counts)
-        left, right = np.full(len(rows), np.inf), np.full(len(rows), -np.inf)
-        for a, b in ((0, 1), (1, 2), (2, 0)):
-            start, end = points[owner, a], points[owner, b]
-            rise = end[:, 1] - start[:, 1]
-            with np.errstate(divide="ignore", invalid="ignore"):
-                share = (rows - start[:, 1]) / rise
-                across = start[:, 0] + share * (end[:, 0] - start[:, 0])
-            met = (share >= 0.0) & (share <= 1.0)
-            left = np.where(met, np.minimum(left, across), left)
-            right = np.where(met, np.maximum(right, across), right)
-        met = right >= left
-        owner, rows, left, right = owner[met], rows[met], left[met], right[met]
+        owner, rows, left, right = covered_rows(points[:, :, :2], 0.0)
         first = np.ceil(left).astype(int)
         counts = np.maximum(np.floor(right).astype(int) - first + 1, 0)
-        columns = _ranges(first, counts)
+        columns = ranges(first, counts)
         start = at_zero[owner] + slope_y[owner] * rows
         depth = np.repeat(start, counts) + np.repeat(slope_x[owner], counts) * columns
         np.maximum.at(self._depth, (np.repeat(rows, counts), columns), depth)
@@ -145,13 +129,6 @@ class _DepthMap:
         return np.asarray(points[:, 2] + 0.5 * self.pixel >= self._farthest[rows, columns])
 
 
-def _ranges(first: NDArray[np.int64], counts: NDArray[np.int64]) -> NDArray[np.int64]:
-    """`first[i], first[i] + 1, ...` of `counts[i]` numbers each, one behind the other."""
-    total = np.cumsum(counts)
-    within = np.arange(total[-1] if len(total) else 0) - np.repeat(total - counts, counts)
-    return np.asarray(np.repeat(first, counts) + within)
-
-
 def _visible_parts(edges: FloatArray, depth: _DepthMap) -> list[FloatArray]:
     """Parts of edges that are seen, each by its two ends, shape (2, 2)."""
     if not len(edges):
@@ -159,7 +136,7 @@ def _visible_parts(edges: FloatArray, depth: _DepthMap) -> list[FloatArray]:
     lengths = np.linalg.norm(edges[:, 1, :2] - edges[:, 0, :2], axis=1)
     counts = np.maximum(np.ceil(lengths / depth.pixel).astype(int), 1)
     owner = np.repeat(np.arange(len(edges)), counts)
-    share = (_ranges(np.zeros(len(edges), dtype=int), counts) + 0.5) / counts[owner]
+    share = (ranges(np.zeros(len(edges), dtype=int), counts) + 0.5) / counts[owner]
     start, along = edges[owner, 0], edges[owner, 1] - edges[owner, 0]
     seen = depth.sees(start + share[:, None] * along)
     found, position = [], 0

@@ -140,7 +140,20 @@ def _steps(assembly: Assembly) -> Iterator[str]:
         )
         yield "Run the spin test (below), lid on."
         yield from _on_the_trunk(assembly)
-    yield _direction(assembly)
+    turns: dict[str, list[str]] = {"counter-clockwise": [], "clockwise": []}
+    for module in device.modules:
+        outward = module.frame[:, 1] @ module.axis > 0.0
+        axis = ", ".join(f"{value:.3f}" for value in np.round(module.axis, 3) + 0.0)
+        turns["counter-clockwise" if outward else "clockwise"].append(
+            f"{joint_name(module)} (axis {axis})"
+        )
+    told = "; ".join(f"{way}: {', '.join(names)}" for way, names in turns.items() if names)
+    yield (
+        "Name the drives as the robot files do. Seen from its lid, a positive torque turns the "
+        f"wheel {told}. Axes are in the frame of the design, x forward, y left, z up, and the "
+        "wheel turns about them by the right hand. Try each at low torque, lid on; where it is "
+        "wrong, swap two of the motor's three wires, and set up its sensor again."
+    )
 
 
 def _bonded(assembly: Assembly) -> Iterator[str]:
@@ -184,23 +197,6 @@ def _joint(assembly: Assembly) -> Iterator[str]:
             )
         elif joint.name == SHAFT_JOINT:
             yield f"That joint carries the wheel by {joint.note}."
-
-
-def _direction(assembly: Assembly) -> str:
-    turns: dict[str, list[str]] = {"counter-clockwise": [], "clockwise": []}
-    for module in assembly.device.modules:
-        outward = module.frame[:, 1] @ module.axis > 0.0
-        axis = ", ".join(f"{value:.3f}" for value in np.round(module.axis, 3) + 0.0)
-        turns["counter-clockwise" if outward else "clockwise"].append(
-            f"{joint_name(module)} (axis {axis})"
-        )
-    told = "; ".join(f"{way}: {', '.join(names)}" for way, names in turns.items() if names)
-    return (
-        "Name the drives as the robot files do. Seen from its lid, a positive torque turns the "
-        f"wheel {told}. Axes are in the frame of the design, x forward, y left, z up, and the "
-        "wheel turns about them by the right hand. Try each at low torque, lid on; where it is "
-        "wrong, swap two of the motor's three wires, and set up its sensor again."
-    )
 
 
 def _on_the_trunk(assembly: Assembly) -> Iterator[str]:

@@ -1,6 +1,6 @@
 """The torque-speed plane of the drive, with the maneuvers drawn into it."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,7 +62,19 @@ def torque_speed_chart(motor: Drive, flights: Sequence[Flight]) -> Chart | None:
     tallest = 1.15 * max(torque, plane.limit if np.isfinite(plane.limit) else 0.0) or 1.0
     fastest = np.inf if motor.speed_max is None else in_unit(motor.speed_max, "rpm")
     top = min(widest, fastest)
-    marks: list[Mark] = list(_limits(plane, np.linspace(-top, top, _SAMPLES), tallest))
+    marks: list[Mark] = []
+    # Whole range of the drive, and the edge of what the design may use.
+    speed_rpm = np.linspace(-top, top, _SAMPLES)
+    speed = speed_rpm * np.pi / 30.0
+    for share in (1.0, RESERVE) if np.isfinite(min(plane.stall, plane.limit)) else ():
+        high = np.minimum(plane.highest(speed, share), 2.0 * tallest)
+        low = -np.minimum(plane.highest(-speed, share), 2.0 * tallest)
+        x = np.concatenate([speed_rpm, speed_rpm[::-1], speed_rpm[:1]])
+        y = np.concatenate([high, low[::-1], high[:1]])
+        if share == 1.0:
+            marks.append(Area(x, y, Ink.FAINT, "range of the drive"))
+        else:
+            marks.append(Line(x, y, Ink.FAINT, f"{share:.0%} of it", dashed=True, thin=True))
     if fastest <= 1.05 * widest:
         marks.append(Rule(-fastest, upright=True, ink=Ink.PLAIN))
         marks.append(Rule(fastest, upright=True, label="top speed", ink=Ink.PLAIN))
@@ -77,19 +89,3 @@ def torque_speed_chart(motor: Drive, flights: Sequence[Flight]) -> Chart | None:
         marks=(*marks, *paths),
         height=330.0,
     )
-
-
-def _limits(plane: _Plane, speed_rpm: FloatArray, tallest: float) -> Iterator[Mark]:
-    """Whole range of the drive, and the edge of what the design may use."""
-    if np.isinf(plane.stall) and np.isinf(plane.limit):
-        return
-    speed = speed_rpm * np.pi / 30.0
-    for share in (1.0, RESERVE):
-        high = np.minimum(plane.highest(speed, share), 2.0 * tallest)
-        low = -np.minimum(plane.highest(-speed, share), 2.0 * tallest)
-        x = np.concatenate([speed_rpm, speed_rpm[::-1], speed_rpm[:1]])
-        y = np.concatenate([high, low[::-1], high[:1]])
-        if share == 1.0:
-            yield Area(x, y, Ink.FAINT, "range of the drive")
-        else:
-            yield Line(x, y, Ink.FAINT, f"{share:.0%} of it", dashed=True, thin=True)

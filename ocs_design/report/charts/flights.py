@@ -70,7 +70,15 @@ def time_charts(scenario: str, name: str, flights: Sequence[Flight]) -> tuple[Ch
             marks=(*lines, *_events([flight])),
             height=_HEIGHT,
         )
-        limits = _limits(flight)
+        lowest, highest = (
+            flight.columns.get(f"wheel_torque_{end}_{flight.wheels[0]}_nm")
+            for end in ("lowest", "highest")
+        )
+        limits = []
+        if lowest is not None and highest is not None:
+            there_and_back = np.concatenate([flight.time, flight.time[::-1]])
+            outline = np.concatenate([highest, lowest[::-1]])
+            limits.append(Area(there_and_back, outline, Ink.FAINT, "range of the motor"))
         lines = _of_wheels(flight, flight.wheel_torque, "N m", "motor", thin=True)
         torque = Chart(
             name=f"wheel_torque_{name}",
@@ -118,19 +126,6 @@ def _of_wheels(
         )
         for index, (wheel, ink) in enumerate(zip(flight.wheels, SERIES, strict=False))
     ]
-
-
-def _limits(flight: Flight) -> list[Area]:
-    """Range of the first motor; nothing where its torque is not limited."""
-    lowest, highest = (
-        flight.columns.get(f"wheel_torque_{end}_{flight.wheels[0]}_nm")
-        for end in ("lowest", "highest")
-    )
-    if lowest is None or highest is None:
-        return []
-    there_and_back = np.concatenate([flight.time, flight.time[::-1]])
-    outline = np.concatenate([highest, lowest[::-1]])
-    return [Area(there_and_back, outline, Ink.FAINT, "range of the motor")]
 
 
 def _events(flights: Sequence[Flight]) -> list[Rule]:

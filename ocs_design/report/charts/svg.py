@@ -132,6 +132,11 @@ class _Drawing:
             f"{escape(mark.name)}</text>"
             for mark, x, row in _legend_places(self._named, self._right)
         )
+        middle, upright = (self._left + self._right) / 2.0, (self._top + self._bottom) / 2.0
+        titles = _word("axis", middle, chart.height - 8.0, chart.x.title, "middle")
+        if not chart.rows:
+            beside = _word("axis", 0.0, 0.0, chart.y.title, "middle")
+            titles += f'<g transform="translate(12 {upright:g}) rotate(-90)">{beside}</g>'
         height = f"{chart.height:g}"
         frame = f'data-x="{chart.x.low:.6g} {chart.x.high:.6g} {self._left:g} {self._right:g}"'
         return (
@@ -149,7 +154,7 @@ class _Drawing:
             f'height="{self._bottom - self._top:g}"/></clipPath>'
             f'<g clip-path="url(#{chart.name}-c)">{"".join(map(self._shape_of, chart.marks))}</g>'
             # Words lie over everything, and may reach over the frame.
-            f"{''.join(map(self._label_of, chart.marks))}{self._titles()}</svg>"
+            f"{''.join(map(self._label_of, chart.marks))}{titles}</svg>"
         )
 
     def _at(self, x: FloatArray, y: FloatArray) -> FloatArray:
@@ -176,16 +181,6 @@ class _Drawing:
             parts.append(_straight("grid", self._left, y, self._right, y))
             parts.append(_word("tick", self._left - 6.0, y + 3.5, text, "end"))
         return "".join(parts)
-
-    def _titles(self) -> str:
-        chart = self._chart
-        middle = (self._left + self._right) / 2.0
-        below = _word("axis", middle, chart.height - 8.0, chart.x.title, "middle")
-        if chart.rows:
-            return below
-        upright = (self._top + self._bottom) / 2.0
-        beside = _word("axis", 0.0, 0.0, chart.y.title, "middle")
-        return f'{below}<g transform="translate(12 {upright:g}) rotate(-90)">{beside}</g>'
 
     def _shape_of(self, mark: Mark) -> str:
         match mark:

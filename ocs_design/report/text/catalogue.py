@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -64,7 +64,19 @@ class Listing:
         """Print the table and the sources, with `verbose` of each row."""
         self.print_table(console)
         heading(console, "Sources")
-        items(console, _sources(self.rows, verbose=verbose))
+        by_source: dict[str, list[str]] = {}
+        for row in self.rows:
+            mounting = motor_mounting(row.mounting) if isinstance(row, Motor) else ""
+            # Materials have no remarks.
+            said = (row.source, mounting, str(getattr(row, "remark", "")))
+            source = f"{row.name}: {'; '.join(filter(None, said))}" if verbose else row.source
+            by_source.setdefault(source, []).append(row.name)
+        items(
+            console,
+            by_source
+            if verbose
+            else (f"{_names_of(names)}: {source}" for source, names in by_source.items()),
+        )
 
 
 def listing(what: str, files: Mapping[str, str | None]) -> Listing:
@@ -91,22 +103,6 @@ def listing(what: str, files: Mapping[str, str | None]) -> Listing:
         return Listing(gears, lambda: gears_to_json(gears), lambda c: print_gears(c, gears))
     found = tuple(materials().values())
     return Listing(found, materials_to_json, lambda c: print_materials(c, found))
-
-
-def _sources(rows: Sequence[Row], *, verbose: bool) -> Iterator[str]:
-    """Each source with the entries that rest on it; with `verbose` each entry by itself."""
-    if verbose:
-        for row in rows:
-            mounting = motor_mounting(row.mounting) if isinstance(row, Motor) else ""
-            # Materials have no remarks.
-            said = (row.source, mounting, str(getattr(row, "remark", "")))
-            yield f"{row.name}: " + "; ".join(part for part in said if part)
-        return
-    by_source: dict[str, list[str]] = {}
-    for row in rows:
-        by_source.setdefault(row.source, []).append(row.name)
-    for source, names in by_source.items():
-        yield f"{_names_of(names)}: {source}"
 
 
 def motor_mounting(mounting: Mounting | None) -> str:

@@ -24,19 +24,24 @@ SAME_RATE = (
 
 def print_inspection(console: Console, inspection: Inspection, *, verbose: bool = False) -> None:
     """Mass, posture, inertia, incidence angles and how they change with the posture."""
-    robot = inspection.robot
+    robot, found = inspection.robot, inspection.recognition
+    legs = ", ".join(robot.legs) or "none found"
+    if found is not None and found.legs:
+        # Feet with what they are.
+        feet = ", ".join(leg.foot for leg in found.legs)
+        ends = " and ".join(f"{kind}s" for kind in sorted({leg.ends_in for leg in found.legs}))
+        legs = f"{feet} ({len(found.legs)}, ending in {ends})"
     print_robot(
         console,
         robot,
         [
             (f"read from {robot.format}", robot.source),
             ("links, joints", f"{inspection.links}, {inspection.joints} moving"),
-            ("legs", _legs(inspection)),
-            *_recognised(inspection.recognition),
+            ("legs", legs),
+            *_recognised(found),
             ("heading drift", heading_drift(inspection.heading_drift)),
         ],
     )
-    found = inspection.recognition
     if found is not None and found.likely:
         heading(console, "Trunk and legs are not clear; `size` will ask for one of")
         rows = tuple(
@@ -76,17 +81,6 @@ def print_inspection(console: Console, inspection: Inspection, *, verbose: bool 
         note(console, PAPER_ANGLE)
     if robot.posture and verbose:
         print_joints(console, robot)
-
-
-def _legs(inspection: Inspection) -> str:
-    """Feet with what they are, or that there are none."""
-    recognition = inspection.recognition
-    if recognition is None or not recognition.legs:
-        return ", ".join(inspection.robot.legs) or "none found"
-    kinds = {leg.ends_in for leg in recognition.legs}
-    feet = ", ".join(leg.foot for leg in recognition.legs)
-    ends = " and ".join(f"{kind}s" for kind in sorted(kinds))
-    return f"{feet} ({len(recognition.legs)}, ending in {ends})"
 
 
 def _recognised(recognition: RecognitionRecord | None) -> Iterator[tuple[str, str]]:

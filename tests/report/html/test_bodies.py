@@ -6,7 +6,7 @@ import trimesh
 from robots import SOLO12
 from wheels import paper_device
 
-from ocs_design.export.glb import export_robot_glb
+from ocs_design.export.glb import robot_glb
 from ocs_design.export.robot_model import robot_model
 from ocs_design.report.bodies import read_bodies
 from ocs_design.robot.reader import read_robot
@@ -18,7 +18,8 @@ UPRIGHT = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])
 def glb(tmp_path_factory):
     robot = read_robot(SOLO12)
     path = tmp_path_factory.mktemp("glb") / "robot.glb"
-    return export_robot_glb(robot_model(robot, paper_device()).compiled, robot.posture, path)
+    path.write_bytes(robot_glb(robot_model(robot, paper_device()).compiled, robot.posture))
+    return path
 
 
 def corners(bodies):
