@@ -17,8 +17,6 @@ from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.device_parts import (
     foot_screws,
     pedestal_kinds,
-    pedestal_pieces,
-    pedestal_screws,
     printed_parts,
     ring_fixture,
 )
@@ -139,17 +137,16 @@ def bill_rows(device: Device, margins: Sequence[MarginRecord] = ()) -> Sequence[
 
 def _pedestal_rows(device: Device) -> Iterator[BillRow]:
     """The pedestals under the feet that lean, and the screws that hold them on the trunk."""
-    parts, screws = pedestal_pieces(device), pedestal_screws(device)
-    for name, kind in pedestal_kinds(device).items():
-        one, count = kind[0], len(kind)
+    for kind in pedestal_kinds(device):
+        one, count = kind.alike[0], len(kind.alike)
         made = (
-            f"3-D print, lying on its side, {name}.stl; seat and brace {_mm(one.thickness)}, base "
-            f"{_mm(one.base)}; tap its 2 holes {TRUNK_SCREW.name} for the foot's screws"
+            f"3-D print, lying on its side, {kind.name}.stl; seat and brace {_mm(one.thickness)}, "
+            f"base {_mm(one.base)}; tap its 2 holes {TRUNK_SCREW.name} for the foot's screws"
         )
         size = " x ".join(map(_mm, one.sizes))
-        whose = " and ".join(each.module for each in kind)
-        yield BillRow(f"pedestal of {whose}", count, "PETG", size, parts[name].mass(), made)
-        yield _screws(screws[name], count)
+        whose = " and ".join(each.module for each in kind.alike)
+        yield BillRow(f"pedestal of {whose}", count, "PETG", size, kind.part.mass(), made)
+        yield _screws(kind.screws, count)
 
 
 def _plate_rows(plate: CarrierPlate) -> Iterator[BillRow]:

@@ -1,7 +1,7 @@
 """Parts of a device as they are manufactured: the wheel's pieces, and what is printed around it."""
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import compress
 from math import copysign, sqrt
 
@@ -107,33 +107,34 @@ def foot_holes(device: Device) -> Mapping[str, tuple[tuple[float, float], ...]]:
     return found
 
 
-def pedestal_pieces(device: Device) -> Mapping[str, Part]:
-    """The pedestals by the names of their files, those of one shape once."""
-    return {name: drilled(kind[0]) for name, kind in pedestal_kinds(device).items()}
+@dataclass(frozen=True, eq=False)
+class PedestalKind:
+    """Pedestals of one shape; `name` is that of their file."""
+
+    name: str
+    alike: tuple[Pedestal, ...]
+
+    @property
+    def part(self) -> Part:
+        """One of them, as it is printed and drilled."""
+        return drilled(self.alike[0])
+
+    @property
+    def screws(self) -> Fastening:
+        """Screws that hold one of them on the trunk."""
+        purpose = f"{self.name.replace('_', ' ')} on trunk"
+        return replace(self.alike[0].base_screws, purpose=purpose)
 
 
-def pedestal_kinds(device: Device) -> Mapping[str, tuple[Pedestal, ...]]:
-    """The pedestals by the names of their files, those of one shape together."""
+def pedestal_kinds(device: Device) -> tuple[PedestalKind, ...]:
+    """The pedestals, those of one shape together."""
     kinds: dict[bytes, tuple[Pedestal, ...]] = {}
     for each in device.pedestals:
         shape = np.round([each.lean, each.middle, each.thickness, each.base], 9).tobytes()
         kinds[shape] = (*kinds.get(shape, ()), each)
     if len(kinds) == 1:
-        return {"pedestal": device.pedestals}
-    return {f"pedestal_{kind[0].module}": kind for kind in kinds.values()}
-
-
-def pedestal_holes(device: Device) -> Mapping[str, tuple[tuple[float, float], ...]]:
-    """Places of each pedestal's screws in B, x and y [m], by the name of its module."""
-    return {each.module: each.in_base(each.holes) for each in device.pedestals}
-
-
-def pedestal_screws(device: Device) -> Mapping[str, Fastening]:
-    """Screws that hold one pedestal on the trunk, by the name of its file."""
-    return {
-        name: replace(kind[0].base_screws, purpose=f"{name.replace('_', ' ')} on trunk")
-        for name, kind in pedestal_kinds(device).items()
-    }
+        return (PedestalKind("pedestal", device.pedestals),)
+    return tuple(PedestalKind(f"pedestal_{kind[0].module}", kind) for kind in kinds.values())
 
 
 def foot_screws(device: Device, module: Module) -> Fastening:
@@ -141,22 +142,6 @@ def foot_screws(device: Device, module: Module) -> Fastening:
     if any(each.module == module.name for each in device.pedestals):
         return SEAT_SCREWS
     return TRUNK_SCREWS if device.plate is None else replace(TRUNK_SCREWS, purpose="foot on plate")
-
-
-def trunk_reach(device: Device) -> tuple[float, float]:
-    """Least and largest length of the trunk's screws beyond what they hold on it [m].
-
-    So much thread holds at least, and so deep it has to be where a screw stands on a short sleeve.
-    """
-    plate = device.plate
-    if plate is not None:
-        held = zip(plate.screw_lengths, plate.sleeves, strict=True)
-        reach = [length - plate.clamped - sleeve for length, sleeve in held]
-    else:
-        screws = [each.base_screws for each in device.pedestals]
-        screws += [TRUNK_SCREWS] if foot_holes(device) else []
-        reach = [each.length - each.thickness for each in screws]
-    return min(reach), max(reach)
 
 
 def printed_parts(device: Device) -> tuple[Part, ...]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from ocs_design.actuation.fasteners import Screw
 from ocs_design.common.units import format_quantity, round_outwards
 from ocs_design.device.solids import foot_of
-from ocs_design.export.device_parts import foot_holes, trunk_reach
+from ocs_design.export.device_parts import foot_holes
 from ocs_design.export.drawing.dimensioning import LEADING, arrow, level_dimension
 from ocs_design.export.drawing.sheet import (
     HEIGHT,
@@ -33,7 +33,7 @@ from ocs_design.export.formats import Subject
 from ocs_design.parts.flattening import flat_outline
 from ocs_design.parts.module import part_name
 from ocs_design.parts.pedestal import FLANGE
-from ocs_design.parts.printed import TRUNK_SCREW
+from ocs_design.parts.printed import TRUNK_SCREW, TRUNK_SCREWS
 
 MILLIMETRES = 1000.0
 
@@ -125,16 +125,20 @@ def drilling_of(subject: Subject) -> Drilling | None:
     pedestals = [place for each in device.pedestals for place in each.in_base(each.holes)]
     if not feet and not pedestals:
         return None
+    mast = None if plate is None else plate.mast
+    # So much thread holds at least, and so deep it has to be where a screw is on a short sleeve.
     if plate is None:
         holes, thread = _millimetres([*feet, *pedestals]), TRUNK_SCREW
+        screws = [each.base_screws for each in device.pedestals]
+        screws += [TRUNK_SCREWS] if standing else []
+        reach = [each.length - each.thickness for each in screws]
     else:
-        x, y, _ = plate.position
-        holes = _millimetres([(x + along, y + across) for along, across in plate.trunk])
-        thread = plate.screw
-    mast = None if plate is None else plate.mast
-    if plate is not None and mast is not None:
-        _, y, z = plate.position
-        holes = _millimetres([(z + up, y + across) for across, up in plate.trunk])
+        x, y, z = plate.position
+        own = [(x + along, y + across) for along, across in plate.trunk]
+        on_back = [(z + up, y + across) for across, up in plate.trunk]
+        holes, thread = _millimetres(own if mast is None else on_back), plate.screw
+        held = zip(plate.screw_lengths, plate.sleeves, strict=True)
+        reach = [length - plate.clamped - sleeve for length, sleeve in held]
     radius = MILLIMETRES * thread.tapping_drill / 2.0
     marks: list[Item] = [*cross((0.0, 0.0), 3.0 * CROSS), arrow((3.0 * CROSS, 0.0), (1.0, 0.0))]
     marks.append(Text((3.0 * CROSS, -1.0), "forward" if mast is None else "up", 2.5))
@@ -180,7 +184,7 @@ def drilling_of(subject: Subject) -> Drilling | None:
         subject.seat.trunk,
         holes,
         thread,
-        trunk_reach(device),
+        (min(reach), max(reach)),
         tuple(marks),
         tuple(items),
         " and ".join(stands),

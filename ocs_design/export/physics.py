@@ -15,7 +15,6 @@ none of them matters to whether a robot lands level.
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 import mujoco
 import numpy as np
@@ -95,20 +94,6 @@ STABLE_SHARE = 0.5
 """Share of the explicit Runge-Kutta limit: largest `eigenvalue(M^-1 K_d) dt`."""
 
 
-@dataclass(frozen=True, eq=False)
-class DriveGains:
-    """Gains of every leg joint, in the order of `leg_joints`.
-
-    Attributes:
-        stiffness: [N m/rad]. damping: of the drive [N m s/rad].
-        friction: viscous, of the joint itself [N m s/rad].
-    """
-
-    stiffness: FloatArray
-    damping: FloatArray
-    friction: FloatArray
-
-
 def leg_joints(robot: Robot) -> list[str]:
     """Names of the joints that are driven."""
     in_legs = {joint for leg in robot.legs for joint in leg.joints}
@@ -148,16 +133,37 @@ def effort_limit(joint: Joint) -> float:
 
 
 def set_gains(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> None:
-    """Give the drives of a compiled model their gains, for the posture that `data` is in."""
+    """Give the drives of a compiled model their gains, for the posture that `data` is in.
+
+    They are lowered where the explicit step could not follow them: Runge-Kutta of order four is
+    stable for `|lambda| dt < 2.78` on the real axis and 2.82 on the imaginary one (Hairer and
+    Wanner, Solving ODEs II, section IV.2). The friction that a file states counts as well: on a
+    link that it gives next to no inertia none would be slow enough.
+    """
     names = leg_joints(robot)
     if not names:
         return
-    actuators = [model.actuator(name).id for name in names]
-    gains = drive_gains(model, data, robot)
-    model.actuator_gainprm[actuators, 0] = gains.stiffness
-    model.actuator_biasprm[actuators, 1] = -gains.stiffness
-    model.actuator_biasprm[actuators, 2] = -gains.damping
-    model.dof_damping[_dofs(model, names)] = gains.friction
+    length_of = {joint: leg.length for leg in robot.legs for joint in leg.joints}
+    lengths = np.array([length_of[name] for name in names])
+    stiffness = LEG_STIFFNESS * robot.mass * STANDARD_GRAVITY * lengths
+    damping = LEG_DAMPING * stiffness * np.sqrt(lengths / STANDARD_GRAVITY)
+    dofs, actuators = _dofs(model, names), [model.actuator(name).id for name in names]
+    inverse = np.empty((model.nv, model.nv))
+    mujoco.mj_solveM(model, data, inverse, np.eye(model.nv))
+    mobility, step = inverse[np.ix_(dofs, dofs)], model.opt.timestep
+
+    # First each joint alone, which feels the inertia `1 / (M^-1)_jj`, then all together.
+    felt = 1.0 / np.diag(mobility)
+    friction = np.minimum(model.dof_damping[dofs], STABLE_SHARE * felt / step)
+    damping = np.minimum(damping + friction, STABLE_SHARE * felt / step) - friction
+    stiffness = np.minimum(stiffness, (STABLE_SHARE / step) ** 2 * felt)
+    root = np.sqrt(damping + friction)
+    fastest = np.linalg.eigvalsh(root[:, None] * mobility * root).max() * step
+    relax = min(1.0, 2.0 * STABLE_SHARE / fastest) if fastest > 0.0 else 1.0
+    model.actuator_gainprm[actuators, 0] = stiffness * relax
+    model.actuator_biasprm[actuators, 1] = -stiffness * relax
+    model.actuator_biasprm[actuators, 2] = -damping * relax
+    model.dof_damping[dofs] = friction * relax
 
 
 def standing_torques(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> FloatArray:
@@ -184,34 +190,6 @@ def standing_torques(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -
     forces = np.linalg.lstsq(lifts[free], pull[free], rcond=None)[0]
     torque: FloatArray = (pull - lifts @ np.maximum(forces, 0.0))[_dofs(model, leg_joints(robot))]
     return torque
-
-
-def drive_gains(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> DriveGains:
-    """Gains from physics, lowered where the explicit step could not follow them.
-
-    Runge-Kutta of order four is stable for `|lambda| dt < 2.78` on the real axis and 2.82 on the
-    imaginary one (Hairer and Wanner, Solving ODEs II, section IV.2). The friction that a file
-    states counts as well: on a link that it gives next to no inertia none would be slow enough.
-    """
-    length_of = {joint: leg.length for leg in robot.legs for joint in leg.joints}
-    names = leg_joints(robot)
-    lengths = np.array([length_of[name] for name in names])
-    stiffness = LEG_STIFFNESS * robot.mass * STANDARD_GRAVITY * lengths
-    damping = LEG_DAMPING * stiffness * np.sqrt(lengths / STANDARD_GRAVITY)
-    dofs = _dofs(model, names)
-    inverse = np.empty((model.nv, model.nv))
-    mujoco.mj_solveM(model, data, inverse, np.eye(model.nv))
-    mobility, step = inverse[np.ix_(dofs, dofs)], model.opt.timestep
-
-    # First each joint alone, which feels the inertia `1 / (M^-1)_jj`, then all together.
-    felt = 1.0 / np.diag(mobility)
-    friction = np.minimum(model.dof_damping[dofs], STABLE_SHARE * felt / step)
-    damping = np.minimum(damping + friction, STABLE_SHARE * felt / step) - friction
-    stiffness = np.minimum(stiffness, (STABLE_SHARE / step) ** 2 * felt)
-    root = np.sqrt(damping + friction)
-    fastest = np.linalg.eigvalsh(root[:, None] * mobility * root).max() * step
-    relax = min(1.0, 2.0 * STABLE_SHARE / fastest) if fastest > 0.0 else 1.0
-    return DriveGains(stiffness * relax, damping * relax, friction * relax)
 
 
 def _dofs(model: mujoco.MjModel, names: Sequence[str]) -> list[int]:

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from ocs_design.export.device_parts import pedestal_pieces, printed_parts, ring_fixture
+from ocs_design.export.device_parts import pedestal_kinds, printed_parts, ring_fixture
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import part_mesh
 from ocs_design.export.stl import MILLIMETRES, stl_bytes
@@ -16,7 +16,7 @@ def write(subject: Subject, folder: Path) -> Notes:
     """
     device = subject.device
     meshes = {part.name: part_mesh(part) for part in printed_parts(device)}
-    pedestals = {name: part_mesh(part) for name, part in pedestal_pieces(device).items()}
+    pedestals = {kind.name: part_mesh(kind.part) for kind in pedestal_kinds(device)}
     named = {f"housing_{name}": mesh for name, mesh in meshes.items()} | pedestals
     fixture = ring_fixture(device)
     if fixture is not None:

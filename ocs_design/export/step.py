@@ -45,7 +45,6 @@ from ocs_design.export.assembly.placed import placed_parts
 from ocs_design.export.device_parts import (
     metal_pieces,
     pedestal_kinds,
-    pedestal_pieces,
     printed_parts,
     wheel_pieces,
 )
@@ -89,7 +88,7 @@ def write(subject: Subject, folder: Path) -> Notes:
     device = subject.device
     printed = {f"housing_{part.name}": part for part in printed_parts(device)}
     metal = {**wheel_pieces(device.flywheel), **metal_pieces(device)}
-    printed |= pedestal_pieces(device)
+    printed |= {kind.name: kind.part for kind in pedestal_kinds(device)}
     for name, part in {**metal, **printed}.items():
         (folder / f"{name}.step").write_bytes(step_bytes(part))
     (folder / "module.step").write_bytes(module_bytes(device))
@@ -118,9 +117,9 @@ def device_bytes(device: Device) -> bytes:
         for part, position in bodies:
             label = assembly.add_part(part.name, part, ALUMINIUM)
             assembly.put(label, whole, Placement(np.eye(3), np.array(position)), part.name)
-    for name, part in pedestal_pieces(device).items():
-        label = assembly.add_part(name, part, PRINT)
-        for pedestal in pedestal_kinds(device)[name]:
+    for kind in pedestal_kinds(device):
+        label = assembly.add_part(kind.name, kind.part, PRINT)
+        for pedestal in kind.alike:
             assembly.put(label, whole, pedestal.placement, f"pedestal {pedestal.module}")
     return assembly.written("device")
 

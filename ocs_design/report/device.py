@@ -69,16 +69,6 @@ def robot_facts(robot: RobotRecord) -> Rows:
     )
 
 
-def joint_table(robot: RobotRecord) -> Table:
-    """Value of every joint in the nominal posture."""
-    return Table(
-        columns("<joint", "rad or m", "deg"),
-        tuple(
-            (name, f"{value:.4f}", degrees_number(value)) for name, value in robot.posture.items()
-        ),
-    )
-
-
 def drawn_facts(reality: Mapping[str, str]) -> Rows:
     """Distributions that samples are drawn from, in units that people think in."""
     known = {name: text for name, text in reality.items() if name in spreads()}

@@ -117,6 +117,24 @@ def short_verdict(run: ValidationRecord, *, kind: str) -> Toned:
     return Toned(f"{word.text:<5} {degrees_number(angle):>5}{what}", word.tone)
 
 
+def verdict_table(design: OcsDesign) -> Table:
+    """Verdict on each maneuver with the device and without, with the angles that they rest on."""
+    kinds = {each.name: each.kind for each in design.requirement.maneuvers}
+    bare = {run.scenario: run for run in design.validation if not run.ocs}
+    rows = (
+        (
+            run.scenario,
+            *(
+                "-" if each is None else short_verdict(each, kind=kinds.get(run.scenario, ""))
+                for each in (run, bare.get(run.scenario))
+            ),
+        )
+        for run in design.validation
+        if run.ocs
+    )
+    return Table(columns("<flight", "<with the device", "<without it"), tuple(rows))
+
+
 def run_sentence(run: ValidationRecord, *, with_note: bool = True) -> str:
     """Why a run passes or fails; with its note, also what was changed about the turn."""
     device = "with" if run.ocs else "without"

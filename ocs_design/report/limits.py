@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from ocs_design.common.units import ceiled, floored, rpm, significant
+from ocs_design.common.units import ceiled, floored, significant
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.records.selection import SAVES_NOTHING, ReserveRecord
 from ocs_design.parts.joints import Margin
@@ -62,21 +62,18 @@ _PRICE_NOTE = (
     "not reached changes nothing."
 )
 
-_TURNS = (
+TURNS = (
     "Turns are sized for constant torque one way and then the other, at a peak rate of 2 theta / T:"
     " the least torque that does it. With more torque down to half this inertia may do: the "
     "flights show it."
 )
+"""How demands were calculated of wheels without motors."""
 
-_DRIVEN = (
+DRIVEN = (
     "Momenta are those of constant torque one way and then the other. The spin inertia is what the "
     "chosen drive needs: it may hold its speed for longer, and then takes less momentum."
 )
-
-
-def requirement_title(design: OcsDesign) -> str:
-    """Heading of what is asked, with the highest speed of a wheel."""
-    return f"Requirement: wheels of at most {rpm(design.requirement.wheel_speed_max)}"
+"""How they were calculated with a drive."""
 
 
 def demand_table(design: OcsDesign) -> Table:
@@ -100,11 +97,6 @@ def demand_table(design: OcsDesign) -> Table:
         "least torque [N m]",
     )  # fmt: skip
     return Table(heads, tuple(rows))
-
-
-def demand_note(design: OcsDesign) -> str:
-    """How the demands were calculated."""
-    return _TURNS if design.selection is None else _DRIVEN
 
 
 def recorded_margins(design: OcsDesign) -> tuple[Margin, ...]:

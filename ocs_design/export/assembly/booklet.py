@@ -55,14 +55,11 @@ _BONDING_BOX: Box = (_SECTION_BOX[0], BOTTOM - 74.0, *_SECTION_BOX[2:])
 
 def write(subject: Subject, folder: Path) -> Notes:
     """Write `assembly.pdf`."""
-    (folder / "assembly.pdf").write_bytes(assembly_pdf(assembly_of(subject)))
-    return ()
-
-
-def assembly_pdf(assembly: Assembly) -> bytes:
-    """The booklet; the same bytes every time."""
+    assembly = assembly_of(subject)
     title = f"Assembly of the orientation control system for {assembly.robot}"
-    return pdf_of_pages(assembly_pages(assembly), title, compressed=True)
+    content = pdf_of_pages(assembly_pages(assembly), title, compressed=True)
+    (folder / "assembly.pdf").write_bytes(content)
+    return ()
 
 
 def assembly_pages(assembly: Assembly) -> list[list[Item]]:
@@ -89,14 +86,10 @@ def _exploded(assembly: Assembly) -> tuple[list[Item], Scale]:
     return exploded_view(assembly.pieces, assembly.numbers, EXPLODED_BOX)
 
 
-def exploded_svg(assembly: Assembly) -> str:
-    """The exploded view alone, for web pages."""
+def pictures(assembly: Assembly) -> Iterator[str]:
+    """The exploded view, then the sections, each alone as SVG for web pages."""
     items, _ = _exploded(assembly)
-    return svg_text(items, "Exploded view of one module", _around(items))
-
-
-def section_svgs(assembly: Assembly) -> Iterator[str]:
-    """The sections alone, for web pages."""
+    yield svg_text(items, "Exploded view of one module", _around(items))
     for items, _, what, _ in _sections(assembly):
         yield svg_text(items, what, _around(items))
 

@@ -18,8 +18,6 @@ from ocs_design.export.device_parts import (
     foot_holes,
     foot_screws,
     pedestal_kinds,
-    pedestal_pieces,
-    pedestal_screws,
     printed_parts,
     ring_fixture,
     wheel_pieces,
@@ -260,19 +258,19 @@ def _foot_screws(device: Device) -> Iterator[Piece]:
 
 def _pedestal_pieces(device: Device) -> Iterator[Piece]:
     """A pedestal of each kind under the foot, with the screws of its flanges."""
-    foot, parts, screws = foot_of(device), pedestal_pieces(device), pedestal_screws(device)
+    foot = foot_of(device)
     apart, beside = _APART * foot.housing.radius, np.inf
-    for name, kind in pedestal_kinds(device).items():
-        one, held = kind[0], screws[name]
+    for kind in pedestal_kinds(device):
+        one, held = kind.alike[0], kind.screws
         place = foot.placement @ one.seat.inverse()
         heads = merged([_screw(held).moved(np.array([x, y, one.base])) for x, y in one.holes])
-        heads, mesh = (each.placed(place) for each in (heads, part_mesh(parts[name], SECTIONS)))
+        heads, mesh = (each.placed(place) for each in (heads, part_mesh(kind.part, SECTIONS)))
         along = np.concatenate([heads.vertices[:, 2], mesh.vertices[:, 2]])
         aside = min(0.0, beside - apart - float(along.max()))
         beside = aside + float(along.min())
-        drawn = partial(Piece, aside=aside, modules=len(kind))
+        drawn = partial(Piece, aside=aside, modules=len(kind.alike))
         yield drawn(held.purpose, heads, held, drop=apart)
-        yield drawn(name, mesh, drop=2.0 * apart)
+        yield drawn(kind.name, mesh, drop=2.0 * apart)
 
 
 def _plate_pieces(device: Device) -> Iterator[Piece]:

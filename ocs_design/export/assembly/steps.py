@@ -18,7 +18,6 @@ from ocs_design.export.assembly.trials import balance, safety, spin_test
 from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.device_parts import (
     foot_holes,
-    pedestal_holes,
     pedestal_kinds,
     wheel_geometry,
 )
@@ -207,7 +206,7 @@ def _on_the_trunk(assembly: Assembly) -> Iterator[str]:
         f"{part_name('foot', module)} {' and '.join(places(ends))}"
         for module, ends in standing.items()
     ]
-    holes = pedestal_holes(assembly.device)
+    holes = {each.module: each.in_base(each.holes) for each in assembly.device.pedestals}
     drilled += [
         f"{part_name('pedestal', module)} {', '.join(places(ends))}"
         for module, ends in holes.items()
@@ -332,23 +331,23 @@ def _turned(assembly: Assembly, standing: Sequence[str]) -> str:
 
 def _on_pedestals(assembly: Assembly) -> Iterator[str]:
     """How pedestals come on the trunk, and the feet that lean on them."""
-    for name, kind in pedestal_kinds(assembly.device).items():
-        one = kind[0]
+    kinds = pedestal_kinds(assembly.device)
+    for kind in kinds:
+        name, one = kind.name, kind.alike[0]
         turned = ", ".join(
-            f"{format_quantity(each.heading, 'deg', digits=3)} ({each.module})" for each in kind
+            f"{format_quantity(each.heading, 'deg', digits=3)} ({each.module})"
+            for each in kind.alike
         )
         yield (
-            f"Print {len(kind)} x {name}{assembly.number(name)} (cad/{name}.stl) in PETG on its "
-            "side, of solid layers, as strong as it is computed; tap the 2 holes of its seat "
+            f"Print {len(kind.alike)} x {name}{assembly.number(name)} (cad/{name}.stl) in PETG on "
+            "its side, of solid layers, as strong as it is computed; tap the 2 holes of its seat "
             f"{one.base_screws.screw.name}. Its seat's far end points, from forward to the "
             f"left, to {turned}. It goes on the trunk before the foot is on it. "
-            + assembly.screwed(f"{name.replace('_', ' ')} on trunk")
+            + assembly.screwed(kind.screws.purpose)
         )
     if assembly.device.pedestals:
         name = SEAT_SCREWS.purpose
-        middles = " and ".join(
-            f"{1e3 * kind[0].middle:.1f} mm" for kind in pedestal_kinds(assembly.device).values()
-        )
+        middles = " and ".join(f"{1e3 * kind.alike[0].middle:.1f} mm" for kind in kinds)
         yield (
             f"Scribe a line across each seat, {middles} up from its low end, put the foot's "
             "middle on it with the wheel's axis along the seat, and turn the foot until the "

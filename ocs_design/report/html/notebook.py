@@ -1,21 +1,19 @@
 """Results as notebooks show them: a few lines of HTML with a picture, and nothing fetched."""
 
 import base64
-from collections.abc import Mapping
 from pathlib import Path
 
 from ocs_design.common.files import safe_name
 from ocs_design.common.units import format_quantity
 from ocs_design.device.answers import Front, Validated
 from ocs_design.device.records.design import OcsDesign
-from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.export.png import png_bytes
 from ocs_design.report.bodies import read_bodies, still
 from ocs_design.report.charts.front import front_chart
 from ocs_design.report.charts.momentum import ellipsoid_chart
 from ocs_design.report.charts.svg import svg_file
 from ocs_design.report.device import FIRST_FACTS, device_facts, device_title, share_of_robot
-from ocs_design.report.flights import flights_title, short_verdict
+from ocs_design.report.flights import flights_title, verdict_table
 from ocs_design.report.html.elements import Markup, element, items, joined, table, void
 from ocs_design.report.monte_carlo import campaign_title, certificate_line, success_table
 from ocs_design.report.quantities import grams
@@ -45,7 +43,7 @@ def as_html(found: OcsDesign | Front | Validated, folder: Path | None = None) ->
 def _design(design: OcsDesign, folder: Path | None) -> tuple[Markup, ...]:
     facts = dict(device_facts(design))
     rows = tuple((short, facts[name]) for name, short in FIRST_FACTS.items() if name in facts)
-    kinds = {each.name: each.kind for each in design.requirement.maneuvers}
+    flown = verdict_table(design)
     mass = f"{grams(design.ocs.mass_total)}, {share_of_robot(design)}"
     title = f"{device_title(design)} for {design.robot.name}, {mass}"
     glb = None if folder is None else folder / f"robot/{safe_name(design.robot.name)}_ocs.glb"
@@ -62,7 +60,7 @@ def _design(design: OcsDesign, folder: Path | None) -> tuple[Markup, ...]:
             table("Device", Table(columns("<", "<"), rows)),
             style="display: flex; gap: 1em; align-items: center",
         ),
-        _flights(design.validation, kinds),
+        table(f"Flights: {flights_title(design.validation)}", flown) if flown.rows else Markup(""),
     )
 
 
@@ -74,25 +72,6 @@ def _image(kind: str, content: bytes, name: str) -> Markup:
 def _head(title: str, line: Headline) -> Markup:
     matter = (void("br"), line.matter) if line.matter else ()
     return element("p", element("strong", title), void("br"), line.text, *matter)
-
-
-def _flights(runs: tuple[ValidationRecord, ...], kinds: Mapping[str, str]) -> Markup:
-    """Verdict on each maneuver with the device and without; degrees off level, or turned."""
-    bare = {run.scenario: run for run in runs if not run.ocs}
-    rows = tuple(
-        (
-            run.scenario,
-            *(
-                "-" if each is None else short_verdict(each, kind=kinds.get(run.scenario, ""))
-                for each in (run, bare.get(run.scenario))
-            ),
-        )
-        for run in runs
-        if run.ocs
-    )
-    heads = columns("<flight", "<with the device", "<without it")
-    title = f"Flights: {flights_title(runs)}"
-    return table(title, Table(heads, rows)) if rows else Markup("")
 
 
 def _validated(found: Validated) -> tuple[Markup, ...]:

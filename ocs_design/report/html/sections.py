@@ -9,7 +9,7 @@ from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.gears import known_gears
 from ocs_design.catalogue.materials import materials
 from ocs_design.device.records.design import OcsDesign
-from ocs_design.export.assembly.booklet import exploded_svg, section_svgs
+from ocs_design.export.assembly.booklet import pictures
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.assembly.steps import chapters
 from ocs_design.export.device_parts import wheel_geometry
@@ -281,15 +281,18 @@ def assembly_section(story: Story) -> Markup:
         tuple(tuple(map(str, row)) for row in rows)
         for rows in (assembly.piece_rows(), assembly.screw_rows())
     )
+    exploded, *cut = (
+        element("figure", Markup(each), class_="sheet") for each in pictures(assembly)
+    )
     return section(
         "assembly",
         "Assembly: how to build, balance, test and wire it",
-        element("figure", Markup(exploded_svg(assembly)), class_="sheet"),
+        exploded,
         table(
             "Pieces of the whole device, by their numbers",
             Table(columns("No.", "quantity", "<piece", "<made", "<file in cad/"), pieces),
         ),
-        joined(element("figure", Markup(each), class_="sheet") for each in section_svgs(assembly)),
+        *cut,
         table("Screws", Table(columns(*_SCREWS), screws)) if screws else "",
         *(
             joined(

@@ -6,7 +6,7 @@ from rich.console import Console
 
 from ocs_design.device.answers import Inspection, RecognitionRecord
 from ocs_design.device.records.requirement import RobotRecord
-from ocs_design.report.device import heading_drift, joint_table, robot_facts
+from ocs_design.report.device import heading_drift, robot_facts
 from ocs_design.report.quantities import degrees_number
 from ocs_design.report.table import Table, columns
 from ocs_design.report.text.layout import facts, heading, note, show, warn
@@ -106,7 +106,8 @@ def _recognised(recognition: RecognitionRecord | None) -> Iterator[tuple[str, st
 def print_joints(console: Console, robot: RobotRecord) -> None:
     """Value of every joint in the nominal posture."""
     heading(console, f"Joints at {robot.posture_name}")
-    show(console, joint_table(robot))
+    rows = ((name, f"{value:.4f}", degrees_number(value)) for name, value in robot.posture.items())
+    show(console, Table(columns("<joint", "rad or m", "deg"), tuple(rows)))
 
 
 def print_robot(console: Console, robot: RobotRecord, more: Iterable[tuple[str, str]] = ()) -> None:

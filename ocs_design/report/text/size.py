@@ -7,7 +7,7 @@ import numpy as np
 from rich.console import Console
 from rich.text import Text
 
-from ocs_design.common.units import format_quantity
+from ocs_design.common.units import format_quantity, rpm
 from ocs_design.device.records.design import DESIGN_FILE, OcsDesign
 from ocs_design.device.records.requirement import ManeuverRecord
 from ocs_design.device.records.selection import SelectionRecord
@@ -26,12 +26,12 @@ from ocs_design.report.flights import (
     landing_remarks,
     off_level,
     run_sentence,
-    short_verdict,
     survival_cost,
     survival_sentence,
+    verdict_table,
 )
 from ocs_design.report.quantities import degrees_number, grams
-from ocs_design.report.table import Cell, Table, columns, listed
+from ocs_design.report.table import Table, columns, listed
 from ocs_design.report.text.console import breaks_lines
 from ocs_design.report.text.layout import (
     facts,
@@ -62,9 +62,9 @@ def print_design(console: Console, design: OcsDesign) -> None:
     print_headline(console, headline(design))
     items(console, (f"{each.what}; {each.cure}" for each in design.buildable.open[1:]))
     print_robot(console, design.robot)
-    heading(console, limits.requirement_title(design))
+    heading(console, f"Requirement: wheels of at most {rpm(design.requirement.wheel_speed_max)}")
     show(console, limits.demand_table(design))
-    note(console, limits.demand_note(design))
+    note(console, limits.TURNS if design.selection is None else limits.DRIVEN)
     items(console, warnings.shortfalls(design), style="yellow")
     items(console, warnings.coupling_notes(design))
     if design.requirement.assumptions:
@@ -237,19 +237,16 @@ def _print_flights(console: Console, design: OcsDesign, runs: Sequence[Run]) -> 
     plotted = (
         width >= NARROWEST_PLOT and console.encoding.startswith("utf") and breaks_lines(console)
     )
-    kinds = {item.name: item.kind for item in design.requirement.maneuvers}
-    pairs = zip(runs[::2], runs[1::2], strict=True)
-    records = zip(design.validation[::2], design.validation[1::2], strict=True)
-    rows: list[tuple[Cell, ...]] = []
-    for pair, recorded in zip(pairs, records, strict=True):
-        verdicts = (short_verdict(run, kind=kinds.get(run.scenario, "")) for run in recorded)
-        rows.append((recorded[0].scenario, *verdicts))
-        if plotted:
-            plots, top = tilt_plots([run.series for run in pair], width)
-            rows[-1] += (*plots, degrees_number(top, 0))
-    names = ("<flight", "<with the device", "<without it", "<tilt with", "<without", "full")
+    shown = verdict_table(design)
     heading(console, f"Flights in MuJoCo: {flights_title(design.validation)}")
-    show(console, Table(columns(*names[: 6 if plotted else 3]), tuple(rows)))
+    if plotted:
+        rows = []
+        for row, pair in zip(shown.rows, zip(runs[::2], runs[1::2], strict=True), strict=True):
+            plots, top = tilt_plots([run.series for run in pair], width)
+            rows.append((*row, *plots, degrees_number(top, 0)))
+        heads = columns("<tilt with", "<without", "full")
+        shown = Table((*shown.columns, *heads), tuple(rows))
+    show(console, shown)
     if plotted:
         times = listed([f"{run.series.time[-1]:.1f}" for run in runs[::2]])
         note(console, f"tilt: off level from start to end, {times} s; full: deg of a full bar")

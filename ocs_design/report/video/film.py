@@ -83,7 +83,7 @@ def _film(robot: Robot, device: Device, runs: Sequence[Run], folder: Path) -> Pa
         captions = _captions(run, pose)
         sides.append(
             [
-                pictures.captioned(frame, pictures.Caption(*caption))
+                pictures.captioned(frame, *caption)
                 for frame, caption in zip(frames, captions, strict=True)
             ]
         )

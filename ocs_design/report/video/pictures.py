@@ -2,7 +2,6 @@
 
 import subprocess
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
 
@@ -36,42 +35,24 @@ _TIME_LIMIT = 300.0
 """Longest time that ffmpeg may take [s]."""
 
 
-@dataclass(frozen=True)
-class Caption:
-    """Words on one frame.
+def captioned(picture: Picture, title: str, good: bool | None, lines: Sequence[str]) -> Picture:
+    """The picture with words on it.
 
-    Attributes:
+    Args:
+        picture: to write on.
         title: at the top. good: whether all went well, for its colour; None: not known.
         lines: at the bottom.
     """
-
-    title: str
-    good: bool | None
-    lines: tuple[str, ...]
-
-
-def captioned(picture: Picture, caption: Caption) -> Picture:
-    """The picture with the words on it."""
     image = Image.fromarray(picture)
     draw = ImageDraw.Draw(image)
     font = ImageFont.load_default(SIZE)
-    color = INK if caption.good is None else GOOD if caption.good else BAD
-    _write(draw, font, MARGIN, caption.title, color)
+    color = INK if good is None else GOOD if good else BAD
     leading = SIZE + 6
-    top = image.height - MARGIN - leading * len(caption.lines)
-    for place, line in enumerate(caption.lines):
-        _write(draw, font, top + place * leading, line, INK)
+    top = image.height - MARGIN - leading * len(lines)
+    below = ((top + place * leading, line, INK) for place, line in enumerate(lines))
+    for height, text, ink in ((MARGIN, title, color), *below):
+        draw.text((MARGIN, height), text, ink, font, stroke_width=_HALO, stroke_fill=_PAPER)
     return np.asarray(image)
-
-
-def _write(
-    draw: ImageDraw.ImageDraw,
-    font: ImageFont.ImageFont | ImageFont.FreeTypeFont,
-    top: int,
-    text: str,
-    color: tuple[int, int, int],
-) -> None:
-    draw.text((MARGIN, top), text, color, font, stroke_width=_HALO, stroke_fill=_PAPER)
 
 
 def encode(pictures: Sequence[Picture], seconds: float, stem: Path) -> Path:

@@ -14,7 +14,7 @@ from ocs_design.common.errors import MissingToolError
 from ocs_design.export.film import Take, film_model, render_takes
 from ocs_design.report.video import film, pictures
 from ocs_design.report.video.film import film_or_tell
-from ocs_design.report.video.pictures import BAD, GOOD, Caption, captioned, encode
+from ocs_design.report.video.pictures import BAD, GOOD, captioned, encode
 from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.manual import robot_by_hand
 
@@ -111,7 +111,7 @@ def test_both_models_take_the_same_positions():
 def test_words_are_on_the_picture_and_titles_have_their_color():
     plain = np.full((120, 300, 3), 255, dtype=np.uint8)
     for good, color in ((True, GOOD), (False, BAD)):
-        picture = captioned(plain, Caption("title", good, ("one", "two")))
+        picture = captioned(plain, "title", good, ("one", "two"))
         assert picture.shape == plain.shape
         assert (picture == color).all(axis=2).any()
         written = np.flatnonzero((picture < 128).any(axis=(1, 2)))
