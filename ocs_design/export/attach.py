@@ -5,20 +5,8 @@ It is attached to the robot's own model, not pasted into its text; simulations a
 
 import mujoco
 
+from ocs_design.device import naming
 from ocs_design.device.device import Device
-from ocs_design.device.naming import (
-    IMU,
-    PREFIX,
-    carrier_names,
-    flywheel_names,
-    imu_sensors,
-    joint_name,
-    joint_names,
-    plate_names,
-    require_free,
-    torque_sensor,
-    velocity_sensor,
-)
 from ocs_design.export.module_bodies import WHEEL_CONTACT_BIT, device_bodies, largest_torque
 from ocs_design.robot.mujoco_bodies import inertial, quaternion
 from ocs_design.robot.mujoco_model import trunk_body
@@ -37,12 +25,12 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
         robot: that the spec was built from.
         device: its wheels turn about the z axis of their own frames.
     """
-    bodies, joints = flywheel_names(device), joint_names(device)
-    fixed = carrier_names(device) + plate_names(device)
-    require_free("body", (body.name for body in spec.bodies), bodies + fixed)
-    require_free("joint", (joint.name for joint in spec.joints), joints)
-    require_free("actuator", (actuator.name for actuator in spec.actuators), joints)
-    require_free("geom", (geom.name for geom in spec.geoms), bodies)
+    bodies, joints = naming.flywheel_names(device), naming.joint_names(device)
+    fixed = naming.carrier_names(device) + naming.plate_names(device)
+    naming.require_free("body", (body.name for body in spec.bodies), bodies + fixed)
+    naming.require_free("joint", (joint.name for joint in spec.joints), joints)
+    naming.require_free("actuator", (actuator.name for actuator in spec.actuators), joints)
+    naming.require_free("geom", (geom.name for geom in spec.geoms), bodies)
     trunk, base = trunk_body(spec, robot)
     attached = mujoco.MjSpec()
     frame = attached.worldbody.add_frame()
@@ -52,7 +40,7 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
         place = base @ each.place
         # Attaching puts the prefix in front of the names.
         made = attached.worldbody.add_body(
-            name=each.name.removeprefix(PREFIX),
+            name=each.name.removeprefix(naming.PREFIX),
             pos=place.position,
             quat=quaternion(place.rotation),
             mass=body.mass,
@@ -64,7 +52,7 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
         made.set_frame(frame)
         if not each.joint:
             continue
-        joint = each.joint.removeprefix(PREFIX)
+        joint = each.joint.removeprefix(naming.PREFIX)
         made.add_joint(
             name=joint,
             type=mujoco.mjtJoint.mjJNT_HINGE,
@@ -85,7 +73,7 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
             actuator.ctrllimited = True
             actuator.ctrlrange = (-limit, limit)
     # Bodies added in any other way shift the values of keyframes to wrong joints.
-    trunk.attach_frame(frame, PREFIX, "")
+    trunk.attach_frame(frame, naming.PREFIX, "")
 
 
 def add_sensors(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
@@ -98,21 +86,21 @@ def add_sensors(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
         robot: that the spec was built from.
         device: that was attached.
     """
-    attitude, rate = imu_sensors()
+    attitude, rate = naming.imu_sensors()
     wanted = {
-        name(module): (kind, _JOINT, joint_name(module))
+        name(module): (kind, _JOINT, naming.joint_name(module))
         for module in device.modules
         for name, kind in (
-            (velocity_sensor, mujoco.mjtSensor.mjSENS_JOINTVEL),
-            (torque_sensor, mujoco.mjtSensor.mjSENS_JOINTACTFRC),
+            (naming.velocity_sensor, mujoco.mjtSensor.mjSENS_JOINTVEL),
+            (naming.torque_sensor, mujoco.mjtSensor.mjSENS_JOINTACTFRC),
         )
     }
-    wanted[attitude] = (mujoco.mjtSensor.mjSENS_FRAMEQUAT, _SITE, IMU)
-    wanted[rate] = (mujoco.mjtSensor.mjSENS_GYRO, _SITE, IMU)
-    require_free("sensor", (sensor.name for sensor in spec.sensors), wanted)
+    wanted[attitude] = (mujoco.mjtSensor.mjSENS_FRAMEQUAT, _SITE, naming.IMU)
+    wanted[rate] = (mujoco.mjtSensor.mjSENS_GYRO, _SITE, naming.IMU)
+    naming.require_free("sensor", (sensor.name for sensor in spec.sensors), wanted)
     # A site at the base frame B, where rates and attitude are those of the paper's law.
-    require_free("site", (site.name for site in spec.sites), (IMU,))
+    naming.require_free("site", (site.name for site in spec.sites), (naming.IMU,))
     trunk, base = trunk_body(spec, robot)
-    trunk.add_site(name=IMU, pos=base.position, quat=quaternion(base.rotation))
+    trunk.add_site(name=naming.IMU, pos=base.position, quat=quaternion(base.rotation))
     for name, (kind, objtype, objname) in wanted.items():
         spec.add_sensor(name=name, type=kind, objtype=objtype, objname=objname)

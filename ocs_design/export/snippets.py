@@ -6,20 +6,9 @@ from textwrap import indent
 
 import numpy as np
 
+from ocs_design.device import naming
 from ocs_design.device.device import Device
 from ocs_design.device.layout import PAIR
-from ocs_design.device.naming import (
-    IMU,
-    PREFIX,
-    carrier_names,
-    flywheel_names,
-    imu_sensors,
-    joint_name,
-    joint_names,
-    plate_names,
-    torque_sensor,
-    velocity_sensor,
-)
 from ocs_design.export.device_urdf import (
     MOCK_PLUGIN,
     body_values,
@@ -90,7 +79,7 @@ def snippet_urdf(device: Device, seat: Seat) -> str:
 
 def snippet_xacro(device: Device, seat: Seat) -> str:
     """Xacro macro `ocs`."""
-    joints = [f"${{prefix}}{joint}" for joint in joint_names(device)]
+    joints = [f"${{prefix}}{joint}" for joint in naming.joint_names(device)]
     control = ros2_control_urdf(device, joints, name="${prefix}ocs", plugin="${hardware_plugin}")
     rotation = np.eye(3) if seat.mount is None else seat.mount.placement.rotation
     # What is under the feet stands on the macro's own base.
@@ -184,7 +173,7 @@ def _macro_carrier(device: Device) -> str:
 
 def snippet_ros2_control(device: Device) -> str:
     """The wheels' motors for ros2_control, to paste into a URDF that has the device."""
-    element = ros2_control_urdf(device, joint_names(device))
+    element = ros2_control_urdf(device, naming.joint_names(device))
     return fill("ocs_ros2_control.urdf", {"ros2_control": element})
 
 
@@ -193,12 +182,15 @@ def snippet_mjcf(device: Device, seat: Seat) -> str:
     limit = largest_torque(device.motor)
     limits = "" if limit is None else f' ctrllimited="true" ctrlrange="{numbers((-limit, limit))}"'
     # Attaching puts the prefix in front of the names.
-    imu, attitude, rate = (name.removeprefix(PREFIX) for name in (IMU, *imu_sensors()))
+    imu, attitude, rate = (
+        name.removeprefix(naming.PREFIX) for name in (naming.IMU, *naming.imu_sensors())
+    )
     motors, sensors = [], []
     for module in device.modules:
-        joint = joint_name(module).removeprefix(PREFIX)
+        joint = naming.joint_name(module).removeprefix(naming.PREFIX)
         speed, torque = (
-            name(module).removeprefix(PREFIX) for name in (velocity_sensor, torque_sensor)
+            name(module).removeprefix(naming.PREFIX)
+            for name in (naming.velocity_sensor, naming.torque_sensor)
         )
         motors.append(f'<motor name="{joint}" joint="{joint}"{limits}/>')
         sensors.append(f'<jointvel name="{speed}" joint="{joint}"/>')
@@ -209,11 +201,15 @@ def snippet_mjcf(device: Device, seat: Seat) -> str:
     values = {
         **_names(seat),
         "bodies": ", ".join(
-            (*flywheel_names(device), *carrier_names(device), *plate_names(device))
+            (
+                *naming.flywheel_names(device),
+                *naming.carrier_names(device),
+                *naming.plate_names(device),
+            )
         ),
-        "joints": ", ".join(joint_names(device)),
-        "speed": velocity_sensor(device.modules[0]),
-        "torque": torque_sensor(device.modules[0]),
+        "joints": ", ".join(naming.joint_names(device)),
+        "speed": naming.velocity_sensor(device.modules[0]),
+        "torque": naming.torque_sensor(device.modules[0]),
         "base_quaternion": numbers(quaternion(rotation)),
         "modules": "".join(_body_mjcf(device, body) for body in device_bodies(device)),
         "motors": "".join(f"    {motor}\n" for motor in motors),
@@ -226,13 +222,13 @@ def snippet_mjcf(device: Device, seat: Seat) -> str:
 def _body_mjcf(device: Device, body: DeviceBody) -> str:
     values = {
         **inertial_values(body.own),
-        "body": body.name.removeprefix(PREFIX),
+        "body": body.name.removeprefix(naming.PREFIX),
         "position": numbers(body.position),
         "quaternion": numbers(quaternion(body.place.rotation)),
     }
     if body.joint:
         wheel = device.flywheel
-        values["joint"] = body.joint.removeprefix(PREFIX)
+        values["joint"] = body.joint.removeprefix(naming.PREFIX)
         values["armature"] = numbers(device.motor.armature)
         values["size"] = numbers((wheel.outer_radius, wheel.height / 2.0))
         values["contact_bit"] = str(WHEEL_CONTACT_BIT)

@@ -67,9 +67,20 @@ def clear_leftovers(target: Path) -> None:
 
 
 def _locked_folder(target: Path) -> tuple[Path, int | None]:
-    """Path of a new folder, and the handle that bears its lock; None where there are no locks."""
+    """Path of a new folder, and the handle that bears its lock; None where there are no locks.
+
+    Its name is known before it is made, unlike that of `tempfile`.
+    """
     while True:
-        folder = _new_folder(target)
+        folder = target.absolute().parent / f".{target.name}.{_MARK}-{secrets.token_hex(4)}"
+        _unfinished[folder] = target
+        try:
+            folder.mkdir(mode=0o700)
+        except OSError as error:
+            del _unfinished[folder]
+            if isinstance(error, FileExistsError):
+                continue
+            raise
         try:
             handle = _lock(folder)
         except (BlockingIOError, FileNotFoundError):
@@ -82,22 +93,6 @@ def _locked_folder(target: Path) -> tuple[Path, int | None]:
             return folder, handle
         del _unfinished[folder]
         os.close(handle)
-
-
-def _new_folder(target: Path) -> Path:
-    """New folder whose name is known before it is made, unlike that of `tempfile`."""
-    while True:
-        name = f".{target.name}.{_MARK}-{secrets.token_hex(4)}"
-        folder = target.absolute().parent / name
-        _unfinished[folder] = target
-        try:
-            folder.mkdir(mode=0o700)
-        except OSError as error:
-            del _unfinished[folder]
-            if not isinstance(error, FileExistsError):
-                raise
-        else:
-            return folder
 
 
 def _undo(folder: Path, target: Path) -> None:

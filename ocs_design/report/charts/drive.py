@@ -1,6 +1,6 @@
 """The torque-speed plane of the drive, with the maneuvers drawn into it."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,11 +38,11 @@ class _Plane:
         return np.asarray(np.minimum(share * self.limit, np.maximum(line, 0.0)))
 
 
-def torque_speed_chart(motor: Drive, flights: Sequence[Flight]) -> Chart | None:
-    """Torque and speed in all four quadrants; None where nothing was flown with the device."""
+def drive_charts(motor: Drive, flights: Sequence[Flight]) -> Iterator[Chart]:
+    """Torque and speed in all four quadrants; none where nothing was flown with the device."""
     driven = [flight for flight in flights if flight.ocs]
     if not driven:
-        return None
+        return
     plane = _Plane.of(motor)
     # The path of each wheel up to where it is judged; what follows is no part of the maneuver.
     paths = [
@@ -78,7 +78,7 @@ def torque_speed_chart(motor: Drive, flights: Sequence[Flight]) -> Chart | None:
     if fastest <= 1.05 * widest:
         marks.append(Rule(-fastest, upright=True, ink=Ink.PLAIN))
         marks.append(Rule(fastest, upright=True, label="top speed", ink=Ink.PLAIN))
-    return Chart(
+    yield Chart(
         name="torque_speed",
         title="Torque and speed of a wheel",
         description="What the drive can give at each speed of the wheel, at full voltage and "

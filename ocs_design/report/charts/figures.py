@@ -5,9 +5,9 @@ from collections.abc import Iterator, Mapping
 from ocs_design.common.files import safe_name
 from ocs_design.device.layout import PAIR
 from ocs_design.report.charts.chart import Chart
-from ocs_design.report.charts.drive import torque_speed_chart
+from ocs_design.report.charts.drive import drive_charts
 from ocs_design.report.charts.flights import distribution_charts, time_charts
-from ocs_design.report.charts.front import reliability_chart
+from ocs_design.report.charts.front import reserve_charts
 from ocs_design.report.charts.momentum import (
     bound_charts,
     criterion_chart,
@@ -32,20 +32,6 @@ def incidence_charts(story: Story) -> Iterator[Chart]:
         yield posture_chart(story.design, story.postures)
 
 
-def drive_charts(story: Story) -> Iterator[Chart]:
-    """Torque and speed that the motors are asked for."""
-    chart = torque_speed_chart(story.design.ocs.motor, story.flights)
-    if chart is not None:
-        yield chart
-
-
-def reserve_charts(story: Story) -> Iterator[Chart]:
-    """What more reliability weighs, where that is known."""
-    selection = story.design.selection
-    if selection is not None and selection.kept is not None and selection.kept.curve:
-        yield reliability_chart(selection.kept)
-
-
 def scenario_charts(story: Story) -> Mapping[str, tuple[Chart, ...]]:
     """Time series of each maneuver, by its name."""
     scenarios = dict.fromkeys(flight.scenario for flight in story.flights)
@@ -63,8 +49,8 @@ def all_charts(story: Story) -> Iterator[Chart]:
     """Every chart that has a file of its own."""
     yield from bound_charts(story)
     yield from incidence_charts(story)
-    yield from drive_charts(story)
-    yield from reserve_charts(story)
+    yield from drive_charts(story.design.ocs.motor, story.flights)
+    yield from reserve_charts(story.design.selection)
     for charts in scenario_charts(story).values():
         yield from charts
     if story.monte_carlo is not None:

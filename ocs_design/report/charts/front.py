@@ -1,7 +1,7 @@
 """Mass of the lightest device against one figure of the specification: charts, and a folder."""
 
 import csv
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
 from io import StringIO
 from pathlib import Path
@@ -11,7 +11,7 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.files import to_json
 from ocs_design.device.answers import Front, FrontPoint
-from ocs_design.device.records.selection import ReserveRecord
+from ocs_design.device.records.selection import SelectionRecord
 from ocs_design.export.folder import FRONT_FILE, staged_folder
 from ocs_design.report.charts.chart import SERIES, Axis, Chart, Ink, Line, Mark, Points, Rule
 from ocs_design.report.charts.svg import write_charts
@@ -71,12 +71,15 @@ def front_chart(front: Front) -> Chart:
     )
 
 
-def reliability_chart(kept: ReserveRecord) -> Chart:
-    """Mass of the device of the same parts against the robots of which one need not pass."""
+def reserve_charts(selection: SelectionRecord | None) -> Iterator[Chart]:
+    """Mass of the same parts against robots of which one need not pass; none if not known."""
+    kept = None if selection is None else selection.kept
+    if kept is None or not kept.curve:
+        return
     levels, kilograms = np.array(kept.curve).T
     robots, masses = 1.0 / (1.0 - levels), 1e3 * kilograms
     labels = tuple(f"{100.0 * level:g} %" for level in levels)
-    return Chart(
+    yield Chart(
         name="reliability",
         title="Mass against reliability",
         description="Mass of a device of the same motor and material against how many robots as "

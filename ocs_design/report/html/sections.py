@@ -21,21 +21,14 @@ from ocs_design.export.drawing.wheel import (
     toleranced,
 )
 from ocs_design.parts.joints import Grade
-from ocs_design.report import limits, selection, warnings
+from ocs_design.report import flights, limits, monte_carlo, selection, warnings
 from ocs_design.report.charts.chart import Chart
-from ocs_design.report.charts.figures import drive_charts, incidence_charts, reserve_charts
+from ocs_design.report.charts.drive import drive_charts
+from ocs_design.report.charts.figures import incidence_charts
 from ocs_design.report.charts.flights import distribution_charts
+from ocs_design.report.charts.front import reserve_charts
 from ocs_design.report.charts.momentum import bound_charts
 from ocs_design.report.device import device_facts, drawn_facts, robot_facts
-from ocs_design.report.flights import (
-    SURVIVAL_TITLE,
-    device_table,
-    landing_remarks,
-    run_sentence,
-    survival_cost,
-    survival_sentence,
-    survival_table,
-)
 from ocs_design.report.html.elements import (
     Markup,
     details,
@@ -46,12 +39,6 @@ from ocs_design.report.html.elements import (
     joined,
     section,
     table,
-)
-from ocs_design.report.monte_carlo import (
-    campaign_title,
-    certificate_line,
-    certificate_notes,
-    success_table,
 )
 from ocs_design.report.quantities import BOUND_NOTE, grams
 from ocs_design.report.story import Story
@@ -138,7 +125,7 @@ def limits_section(story: Story) -> Markup:
         if kept is None
         else (
             table("What is uncertain, and what it costs", limits.reserve_table(kept)),
-            figures(reserve_charts(story)),
+            figures(reserve_charts(design.selection)),
             element("p", limits.reserve_note(kept, design.ocs.mass_total), class_="note"),
         )
     )
@@ -183,7 +170,7 @@ def angles_section(story: Story) -> Markup:
 def drive_section(story: Story) -> Markup:
     """Torque and speed of the wheels, and how the drive was chosen."""
     chosen, asked = story.design.selection, story.design.requirement.maneuvers
-    parts = [figures(drive_charts(story))]
+    parts = [figures(drive_charts(story.design.ocs.motor, story.flights))]
     if chosen is None:
         return section("drive", "Drive", *parts)
     drives = selection.best_drives(chosen.ranking)
@@ -226,23 +213,25 @@ def maneuvers_section(
             element(
                 "article",
                 element("h3", name, " ", again if number else ""),
-                table(f"{name}: outcome", device_table(runs)),
-                *(element("p", run_sentence(run), class_="note") for run in runs),
+                table(f"{name}: outcome", flights.device_table(runs)),
+                *(element("p", flights.run_sentence(run), class_="note") for run in runs),
                 figures(charts[name], flight=number) if charts.get(name) else "",
             )
         )
     survival = story.design.survival
     if survival is not None:
-        told = filter(None, (survival_sentence(survival), survival_cost(story.design)))
+        told = filter(
+            None, (flights.survival_sentence(survival), flights.survival_cost(story.design))
+        )
         parts.append(
             element(
                 "article",
                 element("h3", "A drive stops on the way"),
-                table(SURVIVAL_TITLE, survival_table(survival)),
+                table(flights.SURVIVAL_TITLE, flights.survival_table(survival)),
                 *(element("p", each, class_="note") for each in told),
             )
         )
-    remarks = items(landing_remarks(story.design), look="warnings")
+    remarks = items(flights.landing_remarks(story.design), look="warnings")
     return section("maneuvers", "Maneuvers, with the device and without", remarks, *parts)
 
 
@@ -256,14 +245,14 @@ def monte_carlo_section(story: Story) -> Markup:
         "Monte Carlo",
         *(
             (
-                element("p", element("strong", certificate_line(record.certificate))),
-                items([f"{each}." for each in certificate_notes(record.certificate)]),
+                element("p", element("strong", monte_carlo.certificate_line(record.certificate))),
+                items([f"{each}." for each in monte_carlo.certificate_notes(record.certificate)]),
             )
             if record.certificate is not None
             else ()
         ),
-        element("p", f"{campaign_title(record)}."),
-        table("How often they pass", success_table(record)),
+        element("p", f"{monte_carlo.campaign_title(record)}."),
+        table("How often they pass", monte_carlo.success_table(record)),
         *(element("p", f"{s.scenario}: {s.advice}.") for s in record.scenarios if s.advice),
         figures(distribution_charts(record, story.pivots)),
         details("What was drawn", facts(drawn_facts(record.reality))),

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import Protocol
+from typing import TypeAlias
 
 from rich.console import Console
 
@@ -34,16 +34,8 @@ TORQUE_CLASSES = (0.0, 0.05, 0.2, 0.5, 1.0, 2.0, 5.0, 20.0, math.inf)
 """Limits of the classes of short-term torque that motors are counted in [N m]."""
 
 
-class Row(Protocol):
-    """An entry of any catalogue."""
-
-    @property
-    def name(self) -> str:
-        """Name that is unique in its catalogue."""
-
-    @property
-    def source(self) -> str:
-        """Document that its figures come from."""
+Row: TypeAlias = Motor | GearSheet | Material
+"""An entry of any catalogue."""
 
 
 @dataclass(frozen=True)

@@ -119,7 +119,11 @@ def _drawn(table: Table, console: Console) -> rich_table.Table:
             name += "\n" * (1 + lines - name.count("\n")) + column.unit
         drawn.add_column(name, justify="left" if column.words else "right", overflow="fold")
     for row in table.rows:
-        drawn.add_row(*map(cell_text, row))
+        cells = (
+            Text(cell.text, style=STYLES[cell.tone]) if isinstance(cell, Toned) else Text(cell)
+            for cell in row
+        )
+        drawn.add_row(*cells)
     return drawn
 
 
@@ -158,11 +162,6 @@ def _broken(cell: Cell, width: int) -> Cell:
         return cell
     lines = wrapped(text, width)
     return replace(cell, text=lines) if isinstance(cell, Toned) else lines
-
-
-def cell_text(cell: Cell) -> Text:
-    """Text of a cell in the colour of its tone."""
-    return Text(cell.text, style=STYLES[cell.tone]) if isinstance(cell, Toned) else Text(cell)
 
 
 def _width(console: Console, drawn: rich_table.Table) -> int:

@@ -12,7 +12,7 @@ from ocs_design.device.records.design import DESIGN_FILE, OcsDesign
 from ocs_design.device.records.requirement import ManeuverRecord
 from ocs_design.device.records.selection import SelectionRecord
 from ocs_design.export.folder import REPORT_FILE
-from ocs_design.report import limits, selection, warnings
+from ocs_design.report import flights, limits, selection, warnings
 from ocs_design.report.device import (
     FIRST_FACTS,
     criterion_table,
@@ -20,15 +20,6 @@ from ocs_design.report.device import (
     device_title,
     drawn_facts,
     share_of_robot,
-)
-from ocs_design.report.flights import (
-    flights_title,
-    landing_remarks,
-    off_level,
-    run_sentence,
-    survival_cost,
-    survival_sentence,
-    verdict_table,
 )
 from ocs_design.report.quantities import degrees_number, grams
 from ocs_design.report.table import Table, columns, listed
@@ -104,7 +95,7 @@ def print_design(console: Console, design: OcsDesign) -> None:
         items(console, [warnings.unchecked_stress(design.ocs)], style="yellow")
     if design.validation:
         print_runs(console, design.validation, design.survival)
-    items(console, landing_remarks(design), style="yellow")
+    items(console, flights.landing_remarks(design), style="yellow")
 
 
 def print_alternatives(console: Console, design: OcsDesign) -> None:
@@ -190,7 +181,7 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
         _print_flights(console, design, runs)
     # The verdict names flights already.
     flown = (run for run in design.validation if run.ocs and run.scenario in line.matter)
-    told = {line.matter, *(run_sentence(run, with_note=False) for run in flown)}
+    told = {line.matter, *(flights.run_sentence(run, with_note=False) for run in flown)}
     minded = [each for each in warnings.all_warnings(design) if each not in told]
     if minded:
         more = f"; {len(minded) - MOST_MINDED} more with -v" if len(minded) > MOST_MINDED else ""
@@ -227,7 +218,7 @@ def _device(design: OcsDesign) -> Iterator[tuple[str, str]]:
     if limits.heat(design):
         yield "heat", limits.heat(design)
     if design.survival is not None:
-        told = (survival_sentence(design.survival), survival_cost(design))
+        told = (flights.survival_sentence(design.survival), flights.survival_cost(design))
         yield "survives", "; ".join(filter(None, told))
 
 
@@ -237,8 +228,8 @@ def _print_flights(console: Console, design: OcsDesign, runs: Sequence[Run]) -> 
     plotted = (
         width >= NARROWEST_PLOT and console.encoding.startswith("utf") and breaks_lines(console)
     )
-    shown = verdict_table(design)
-    heading(console, f"Flights in MuJoCo: {flights_title(design.validation)}")
+    shown = flights.verdict_table(design)
+    heading(console, f"Flights in MuJoCo: {flights.flights_title(design.validation)}")
     if plotted:
         rows = []
         for row, pair in zip(shown.rows, zip(runs[::2], runs[1::2], strict=True), strict=True):
@@ -252,16 +243,16 @@ def _print_flights(console: Console, design: OcsDesign, runs: Sequence[Run]) -> 
         note(console, f"tilt: off level from start to end, {times} s; full: deg of a full bar")
 
 
-def tilt_plots(flights: Sequence[Series], width: int) -> tuple[list[str], float]:
+def tilt_plots(runs: Sequence[Series], width: int) -> tuple[list[str], float]:
     """Bars of the tilt of each flight, all to one scale, and the tilt of a full bar [rad].
 
     A bar is the largest tilt of its part of the time; where a flight has ended there is none.
     """
-    tilts = [off_level(series.roll, series.pitch) for series in flights]
-    end = max(float(series.time[-1]) for series in flights)
+    tilts = [flights.off_level(series.roll, series.pitch) for series in runs]
+    end = max(float(series.time[-1]) for series in runs)
     top = max([float(angles.max()) for angles in tilts] + [LEAST_SPAN])
     plots = []
-    for series, angles in zip(flights, tilts, strict=True):
+    for series, angles in zip(runs, tilts, strict=True):
         places = np.minimum(series.time / end * width, width - 1).astype(np.int64)
         highest = np.zeros(width)
         np.maximum.at(highest, places, np.maximum(np.ceil(8.0 * angles / top - 1e-9), 1.0))

@@ -10,20 +10,7 @@ from ocs_design.common.units import format_quantity
 from ocs_design.device.answers import Validated
 from ocs_design.device.records.flights import SurvivalRecord, ValidationRecord
 from ocs_design.monte_carlo.uncertainty import STOPS, key_of
-from ocs_design.report.flights import (
-    SURVIVAL_TITLE,
-    flight_table,
-    run_sentence,
-    survival_sentence,
-    survival_table,
-)
-from ocs_design.report.monte_carlo import (
-    campaign_remarks,
-    campaign_title,
-    certificate_notes,
-    spread_table,
-    success_table,
-)
+from ocs_design.report import flights, monte_carlo
 from ocs_design.report.table import Tone
 from ocs_design.report.text.layout import (
     STYLES,
@@ -43,12 +30,12 @@ def print_runs(
 ) -> None:
     """Flights with and without the device: verdicts, attitudes, wheels, and why."""
     heading(console, "Flights in MuJoCo, with the device and without")
-    show(console, flight_table(runs))
-    items(console, map(run_sentence, runs))
+    show(console, flights.flight_table(runs))
+    items(console, map(flights.run_sentence, runs))
     if survival is not None:
-        heading(console, SURVIVAL_TITLE)
-        show(console, survival_table(survival))
-        items(console, [survival_sentence(survival)])
+        heading(console, flights.SURVIVAL_TITLE)
+        show(console, flights.survival_table(survival))
+        items(console, [flights.survival_sentence(survival)])
 
 
 def print_headline(console: Console, line: Headline, *more: Text) -> None:
@@ -80,14 +67,14 @@ def print_validated(
     print_runs(console, found.validation, found.survival)
     record = found.monte_carlo
     if record is not None:
-        heading(console, f"Monte Carlo: {campaign_title(record)}")
-        show(console, success_table(record))
+        heading(console, f"Monte Carlo: {monte_carlo.campaign_title(record)}")
+        show(console, monte_carlo.success_table(record))
         console.print()
-        spread = spread_table(record)
+        spread = monte_carlo.spread_table(record)
         show(console, spread, fewest=len(spread.columns) - 1)
-        items(console, campaign_remarks(record))
+        items(console, monte_carlo.campaign_remarks(record))
         if record.certificate is not None:
-            items(console, certificate_notes(record.certificate))
+            items(console, monte_carlo.certificate_notes(record.certificate))
         again = f"ocs-design validate {found.design} --seed {record.seed} --sample N"
         note(console, f"Fly one again: {again}")
     if folder is not None:

@@ -9,9 +9,9 @@ from stories import TOUCHDOWN, design, flight, story
 
 from ocs_design.device.answers import PostureLine
 from ocs_design.report.charts.chart import Ink, Line, Points
-from ocs_design.report.charts.drive import torque_speed_chart
-from ocs_design.report.charts.figures import all_charts, reserve_charts
-from ocs_design.report.charts.front import reliability_chart
+from ocs_design.report.charts.drive import drive_charts
+from ocs_design.report.charts.figures import all_charts
+from ocs_design.report.charts.front import reserve_charts
 from ocs_design.report.charts.momentum import bound_charts, posture_chart, taken
 from ocs_design.report.charts.svg import write_svgs
 from ocs_design.report.limits import reserve_note
@@ -50,22 +50,23 @@ def test_a_point_lies_on_the_bound_of_the_speed_that_its_wheels_reached():
 def test_mass_against_reliability_is_drawn_by_the_robots_of_which_one_may_fail():
     """What the nominal device has to spare is flat; else each step weighs what was recorded."""
     told = story()
-    (chart,) = reserve_charts(told)
+    (chart,) = reserve_charts(told.design.selection)
     (points,) = [mark for mark in chart.marks if isinstance(mark, Points)]
     np.testing.assert_allclose(points.x, [2.0, 5.0, 10.0, 20.0, 100.0, 1000.0])
     np.testing.assert_allclose(points.y, 1e3 * np.array(told.design.selection.kept.curve)[:, 1])
     assert points.labels[-2:] == ("99 %", "99.9 %")
     assert np.all(np.diff(points.y) >= 0.0)
     flat = replace(told.design.selection.kept, curve=((0.5, 0.5), (0.999, 0.5)))
-    (line,) = [mark for mark in reliability_chart(flat).marks if isinstance(mark, Line)]
+    (chart,) = reserve_charts(replace(told.design.selection, kept=flat))
+    (line,) = [mark for mark in chart.marks if isinstance(mark, Line)]
     assert line.y.tolist() == [500.0, 500.0]
     assert "nothing up to 99.9 %" in reserve_note(flat, 0.5)
-    assert not list(reserve_charts(story(motor="none")))
+    assert not list(reserve_charts(story(motor="none").design.selection))
 
 
 def test_the_plane_holds_what_the_drive_can_give():
     motor = design().ocs.motor
-    chart = torque_speed_chart(motor, [flight()])
+    (chart,) = drive_charts(motor, [flight()])
     (edge,) = [mark for mark in chart.marks if getattr(mark, "name", "") == "range of the drive"]
     top = motor.speed_max * RPM
     assert np.abs(edge.x).max() == pytest.approx(top)
@@ -76,14 +77,14 @@ def test_the_plane_holds_what_the_drive_can_give():
 
 
 def test_paths_in_the_plane_end_at_touchdown():
-    chart = torque_speed_chart(design().ocs.motor, [flight(), flight(ocs=False)])
+    (chart,) = drive_charts(design().ocs.motor, [flight(), flight(ocs=False)])
     paths = [mark for mark in chart.marks if isinstance(mark, Line) and mark.ink is not Ink.FAINT]
     time = flight().time
     assert [len(path.x) for path in paths] == [np.count_nonzero(time < TOUCHDOWN)] * 2
 
 
 def test_nothing_is_drawn_of_wheels_that_never_flew():
-    assert torque_speed_chart(design().ocs.motor, [flight(ocs=False)]) is None
+    assert not list(drive_charts(design().ocs.motor, [flight(ocs=False)]))
 
 
 def test_postures_are_rows_from_the_top():
