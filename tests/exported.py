@@ -1,8 +1,12 @@
 """What the tests of exported robots share: robots of every kind, and Pinocchio's view of a URDF."""
 
+import mujoco
 import numpy as np
 import pinocchio as pin
 from robots import ROBOTS
+
+from ocs_design.export.mjcf import export_robot_mjcf
+from ocs_design.export.robot_model import robot_model
 
 LEGGED = [
     "solo_description/robots/solo12",
@@ -46,6 +50,12 @@ MJCF = """<mujoco model="walker">
   <keyframe><key name="home" qpos="0 0 0.6123456789 1 0 0 0 0.1123456789 0.2123456789 0.012"
     ctrl="0.3123456789"/></keyframe>
 </mujoco>"""
+
+
+def mujoco_model(robot, device, folder):
+    """The whole robot, written as MJCF and read again by MuJoCo."""
+    path = export_robot_mjcf(robot_model(robot, device), folder / "robot.xml")
+    return mujoco.MjModel.from_xml_path(str(path))
 
 
 def pinocchio_model(text):

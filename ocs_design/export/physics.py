@@ -68,11 +68,6 @@ def meet_no_link(spec: mujoco.MjSpec) -> None:
         geom.contype = 0
 
 
-def plain_actuator(actuator: "mujoco.MjsActuator") -> None:
-    """Nothing of the file's defaults; type, transmission and names stay."""
-    _copy(mujoco.MjSpec().add_actuator(), actuator, _OF_ACTUATOR)
-
-
 def _copy(source: object, target: object, names: Iterable[str]) -> None:
     for name in names:
         value = getattr(source, name)
@@ -111,7 +106,8 @@ def add_drives(spec: mujoco.MjSpec, robot: Robot) -> None:
             gaintype=mujoco.mjtGain.mjGAIN_FIXED,
             biastype=mujoco.mjtBias.mjBIAS_AFFINE,
         )
-        plain_actuator(drive)
+        # Nothing of the file's defaults; type, transmission and names stay.
+        _copy(mujoco.MjSpec().add_actuator(), drive, _OF_ACTUATOR)
         if np.isfinite(limit):
             drive.forcelimited = 1
             drive.forcerange = [-limit, limit]

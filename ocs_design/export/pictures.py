@@ -1,8 +1,8 @@
 """Pictures of a design as PNG: the wheel, a module, and the robot with its device."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeAlias
 
 import mujoco
 import numpy as np
@@ -27,12 +27,8 @@ _MODULE_ON_ROBOT = (np.sqrt(0.5), -np.sqrt(0.5), 0.0, 0.0)
 """Attitude of a module's frame at no incidence, as a quaternion: its z axis to the left, y down."""
 
 
-@dataclass(frozen=True, eq=False)
-class Shown:
-    """Mesh in its colour, in the module's frame."""
-
-    mesh: Mesh
-    color: Color
+Shown: TypeAlias = tuple[Mesh, Color]
+"""Mesh in its colour, in the module's frame."""
 
 
 def write(subject: Subject, folder: Path) -> Notes:
@@ -59,7 +55,7 @@ def draw_pictures(device: Device, robot: Robot, model: RobotModel) -> dict[str, 
     """
     # The rim, and in a colour of its own what carries it.
     pieces = wheel_meshes(device.flywheel).values()
-    turning = [Shown(mesh, color) for mesh, color in zip(pieces, (STEEL, ALUMINIUM), strict=False)]
+    turning = list(zip(pieces, (STEEL, ALUMINIUM), strict=False))
     takes = {"wheel": parts_take(turning)}
     if device.carrier.mass > 0.0:
         takes["module"] = parts_take([*turning, *_carrier(device)])
@@ -85,14 +81,14 @@ def parts_take(shown: Sequence[Shown]) -> Take:
     spec = mujoco.MjSpec()
     add_white_sky(spec)
     body = spec.worldbody.add_body(quat=_MODULE_ON_ROBOT)
-    for index, part in enumerate(shown):
+    for index, (mesh, color) in enumerate(shown):
         name = f"part{index}"
         spec.add_mesh(
             name=name,
-            uservert=part.mesh.vertices.ravel(),
-            userface=part.mesh.triangles.ravel().astype(np.int32),
+            uservert=mesh.vertices.ravel(),
+            userface=mesh.triangles.ravel().astype(np.int32),
         )
-        body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, rgba=part.color)
+        body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, rgba=color)
     model = spec.compile()
     return Take(model, model.qpos0[None])
 
@@ -105,9 +101,9 @@ def _carrier(device: Device) -> Iterator[Shown]:
         if solid.name in colors:
             mesh = solid_mesh(hollow_cylinder(0.0, solid.radius, solid.low, solid.high))
             above = Placement(np.eye(3), np.array([0.0, -solid.up, 0.0]))
-            yield Shown(mesh.placed(above), colors[solid.name])
-    yield Shown(part_mesh(base).placed(foot.placement), PRINT)
+            yield (mesh.placed(above), colors[solid.name])
+    yield (part_mesh(base).placed(foot.placement), PRINT)
     cage = motor_mount(device).cage
     if cage is not None:
-        yield Shown(part_mesh(cage_part(cage)).placed(cage_placement(foot, cage)), PRINT)
-    yield from (Shown(part_mesh(part), SHELL) for part in (drum, lid))
+        yield (part_mesh(cage_part(cage)).placed(cage_placement(foot, cage)), PRINT)
+    yield from ((part_mesh(part), SHELL) for part in (drum, lid))

@@ -4,6 +4,7 @@ Triangles are cut into rows of pixels, and at each pixel the nearest one wins (a
 Foley, van Dam, Feiner, Hughes, "Computer Graphics", section 15.4).
 """
 
+from collections.abc import Sequence
 from itertools import product
 
 import mujoco
@@ -21,6 +22,15 @@ WIDTH, HEIGHT = 800, 500
 _OVERSAMPLING = 2
 _AZIMUTH, _ELEVATION = np.radians(-37.0), np.radians(22.0)
 """Direction of the camera, seen from the robot: in front of it, on its right, above [rad]."""
+
+_TOWARDS = np.array(
+    [
+        np.cos(_ELEVATION) * np.cos(_AZIMUTH),
+        np.cos(_ELEVATION) * np.sin(_AZIMUTH),
+        np.sin(_ELEVATION),
+    ]
+)
+"""Unit vector in B towards the viewer."""
 
 _ROOM = 1.06
 _AMBIENT, _BACKGROUND = 0.42, 255
@@ -47,14 +57,13 @@ def snapshot(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.uint8]:
         model: of `robot_model`.
         data: with kinematics computed.
     """
-    corners, colors = [np.empty((0, 3, 3))], [np.empty((0, 4))]
+    shapes = []
     for geom in range(model.ngeom):
         color, mesh = shown_color(model, geom), geom_mesh(model, geom)
         if color is not None and mesh is not None and model.geom_bodyid[geom] > 0:
             turn = data.geom_xmat[geom].reshape(3, 3)
-            corners.append(mesh.corners @ turn.T + data.geom_xpos[geom])
-            colors.append(np.tile(color, (len(mesh.triangles), 1)))
-    return picture(np.concatenate(corners), np.concatenate(colors))
+            shapes.append((mesh.corners @ turn.T + data.geom_xpos[geom], color))
+    return picture(shapes)
 
 
 def shown_color(model: mujoco.MjModel, geom: int) -> Color | None:
@@ -82,16 +91,20 @@ def geom_mesh(model: mujoco.MjModel, geom: int) -> Mesh | None:
     )
 
 
-def picture(corners: FloatArray, colors: FloatArray) -> NDArray[np.uint8]:
+def picture(shapes: Sequence[tuple[FloatArray, Color]]) -> NDArray[np.uint8]:
     """Red, green and blue, shape (HEIGHT, WIDTH, 3), on white; parallel rays.
 
     Args:
-        corners: of triangles, x forward and z up [m], shape (n, 3, 3).
-        colors: red, green, blue and opacity of each, 0..1, shape (n, 4).
+        shapes: corners of their triangles, x forward and z up [m], shape (n, 3, 3), in one colour.
     """
-    opaque = colors[:, 3] >= _GLASS
-    corners, colors = corners[opaque], colors[opaque, :3]
-    right, up, towards = _camera()
+    opaque = [(corners, color[:3]) for corners, color in shapes if color[3] >= _GLASS]
+    corners = np.concatenate([np.empty((0, 3, 3)), *(each for each, _ in opaque)])
+    tints = (np.tile(color, (len(each), 1)) for each, color in opaque)
+    colors = np.concatenate([np.empty((0, 3)), *tints])
+    # To the right and up on the screen.
+    towards, right = _TOWARDS, np.cross([0.0, 0.0, 1.0], _TOWARDS)
+    right /= np.linalg.norm(right)
+    up = np.cross(towards, right)
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normal, axis=1)
     seen = length > 0.0
@@ -112,20 +125,6 @@ def picture(corners: FloatArray, colors: FloatArray) -> NDArray[np.uint8]:
     k = _OVERSAMPLING
     total = sum(drawn[shown[row::k, column::k]] for row, column in product(range(k), repeat=2))
     return np.asarray(np.round(_BACKGROUND / k**2 * np.minimum(total, k**2)), dtype=np.uint8)
-
-
-def _camera() -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Unit vectors in B: to the right and up on the screen, and towards the viewer."""
-    towards = np.array(
-        [
-            np.cos(_ELEVATION) * np.cos(_AZIMUTH),
-            np.cos(_ELEVATION) * np.sin(_AZIMUTH),
-            np.sin(_ELEVATION),
-        ]
-    )
-    right = np.cross([0.0, 0.0, 1.0], towards)
-    right /= np.linalg.norm(right)
-    return right, np.cross(towards, right), towards
 
 
 def _nearest(plane: FloatArray, depth: FloatArray) -> NDArray[np.int64]:

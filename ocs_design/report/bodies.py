@@ -58,14 +58,13 @@ def read_bodies(glb: bytes) -> tuple[ShownBody, ...]:
 
 def still(bodies: Sequence[ShownBody]) -> NDArray[np.uint8]:
     """Picture of the bodies for print, for mail, and while the page loads; see `picture`."""
-    corners, colors = [np.empty((0, 3, 3))], [np.empty((0, 4))]
+    shapes = []
     for body in bodies:
         place = body.placement
         for surface in body.surfaces:
             points = surface.vertices @ place.rotation.T + place.position
-            corners.append(points[surface.faces])
-            colors.append(np.tile(surface.color, (len(surface.faces), 1)))
-    return picture(np.concatenate(corners), np.concatenate(colors))
+            shapes.append((points[surface.faces], surface.color))
+    return picture(shapes)
 
 
 class _Reading:

@@ -44,18 +44,15 @@ def off_level(roll: ArrayLike, pitch: ArrayLike) -> FloatArray:
     return np.asarray(np.arccos(np.clip(np.cos(roll) * np.cos(pitch), -1.0, 1.0)))
 
 
-def flight_table(runs: Sequence[ValidationRecord]) -> Table:
-    """Verdict, attitude at touchdown and at the end, and what the wheels did, of each run."""
-    names = (run.scenario if run.ocs else "  without" for run in runs)
-    return _flight_table("<scenario", names, runs)
+def flight_table(runs: Sequence[ValidationRecord], *, of_one: bool = False) -> Table:
+    """Verdict, attitude at touchdown and at the end, and what the wheels did, of each run.
 
-
-def device_table(runs: Sequence[ValidationRecord]) -> Table:
-    """Table of the flights of one scenario, in rows with the device and without."""
-    return _flight_table("<device", ("with" if run.ocs else "without" for run in runs), runs)
-
-
-def _flight_table(first: str, names: Iterable[str], runs: Sequence[ValidationRecord]) -> Table:
+    Args:
+        runs: to show.
+        of_one: whether all are of one scenario; rows are then named by the device alone.
+    """
+    first, bare = ("<device", "without") if of_one else ("<scenario", "  without")
+    names = ((("with" if of_one else run.scenario) if run.ocs else bare) for run in runs)
     rows: list[tuple[Cell, ...]] = []
     for name, run in zip(names, runs, strict=True):
         found, flew = run.metrics, was_in_the_air(*lift_off_and_touchdown(run.metrics))

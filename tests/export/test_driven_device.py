@@ -8,13 +8,12 @@ import numpy as np
 import pinocchio as pin
 import pytest
 import xacro
-from exported import LEGGED, LEGGED_PATHS, pinocchio_model
+from exported import LEGGED, LEGGED_PATHS, mujoco_model, pinocchio_model
 from robots import SOLO12
 from wheels import EC45, EC45_BODY, braked_inertia, driven_device, geared, layout_device
 
 from ocs_design.common.errors import RobotError
 from ocs_design.device.layout import Layout, LayoutName
-from ocs_design.export.mjcf import export_robot_mjcf
 from ocs_design.export.module_bodies import carrier_inertial, flywheel_inertial
 from ocs_design.export.robot_model import robot_model
 from ocs_design.export.snippets import (
@@ -48,9 +47,8 @@ def device(request):
     return DEVICES[request.param]
 
 
-def seen_by_mujoco(path, robot) -> MassProperties:
+def seen_by_mujoco(model, robot) -> MassProperties:
     """The whole model in the robot's posture, in the frame of its trunk."""
-    model = mujoco.MjModel.from_xml_path(str(path))
     data = mujoco.MjData(model)
     for name, value in robot.posture.items():
         data.joint(name).qpos[0] = value
@@ -87,8 +85,7 @@ def check_whole(seen, robot, device):
 
 def test_mujoco_sees_the_whole_robot(device, tmp_path):
     robot = read_robot(SOLO12)
-    path = export_robot_mjcf(robot_model(robot, device), tmp_path / "robot.xml")
-    check_whole(seen_by_mujoco(path, robot), robot, device)
+    check_whole(seen_by_mujoco(mujoco_model(robot, device, tmp_path), robot), robot, device)
 
 
 def test_pinocchio_sees_the_whole_robot(device):
@@ -102,13 +99,7 @@ def test_all_kinds_of_robots_carry_their_motors(path, tmp_path):
     robot, device = read_robot(path), driven_device()
     text = robot_urdf(robot, device).decode()
     check_whole(seen_by_pinocchio(text, robot), robot, device)
-    check_whole(
-        seen_by_mujoco(
-            export_robot_mjcf(robot_model(robot, device), tmp_path / "robot.xml"), robot
-        ),
-        robot,
-        device,
-    )
+    check_whole(seen_by_mujoco(mujoco_model(robot, device, tmp_path), robot), robot, device)
 
 
 def test_a_robot_by_hand_carries_them_in_full(device):
@@ -117,8 +108,7 @@ def test_a_robot_by_hand_carries_them_in_full(device):
 
 
 def test_the_wheel_has_its_momentum_and_the_joint_its_armature(device, tmp_path):
-    path = export_robot_mjcf(robot_model(BLOCK, device), tmp_path / "robot.xml")
-    model = mujoco.MjModel.from_xml_path(str(path))
+    model = mujoco_model(BLOCK, device, tmp_path)
     full = np.empty((model.nv, model.nv))
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
@@ -183,9 +173,8 @@ def test_the_mjcf_snippet_has_them(device, tmp_path):
         f'{" ".join(map(repr, [0.03, 0.05, 0.07, 0.001, 0.002, -0.003]))}"/>'
         '<attach model="ocs" body="mount" prefix="ocs_"/></body></worldbody></mujoco>'
     )
-    seen = seen_by_mujoco(tmp_path / "robot.xml", replace(BLOCK, trunk="base"))
-    check_whole(seen, BLOCK, device)
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "robot.xml"))
+    check_whole(seen_by_mujoco(model, replace(BLOCK, trunk="base")), BLOCK, device)
     for module in device.modules:
         assert model.joint(f"ocs_{module.name}").armature[0] == device.motor.armature
         assert model.body(f"ocs_{module.name}_motor").name
@@ -227,9 +216,7 @@ def test_the_slower_of_voltage_and_mechanics_is_the_joints_limit(top, velocity):
 def test_without_mass_there_is_no_motor_body(tmp_path):
     device = driven_device(carrier=replace(EC45_BODY, mass=0.0))
     assert "_motor" not in robot_urdf(BLOCK, device).decode()
-    model = mujoco.MjModel.from_xml_path(
-        str(export_robot_mjcf(robot_model(BLOCK, device), tmp_path / "a.xml"))
-    )
+    model = mujoco_model(BLOCK, device, tmp_path)
     assert not [i for i in range(model.nbody) if model.body(i).name.endswith("_motor")]
 
 
@@ -255,4 +242,4 @@ def test_a_body_of_that_name_is_a_clash_in_mjcf(tmp_path):
     )
     robot = read_robot(tmp_path / "in.xml", trunk="trunk", posture="zero")
     with pytest.raises(RobotError, match="body named 'ocs_left_motor'"):
-        export_robot_mjcf(robot_model(robot, driven_device()), tmp_path / "out.xml")
+        robot_model(robot, driven_device())

@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ET
 import mujoco
 import numpy as np
 import pytest
-from exported import LEGGED, LEGGED_PATHS, MJCF, check_moments
+from exported import LEGGED, LEGGED_PATHS, MJCF, check_moments, mujoco_model
 from robots import SOLO12
 from scipy.spatial.transform import Rotation
 from wheels import driven_device, paper_device, scaled_device
@@ -23,12 +23,6 @@ from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.scenario import MOMENTUM_GATE
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world import WorldBuilder
-
-
-def read_again(robot, device, folder):
-    return mujoco.MjModel.from_xml_path(
-        str(export_robot_mjcf(robot_model(robot, device), folder / "robot.xml"))
-    )
 
 
 def check_wheels(model, device, trunk):
@@ -91,7 +85,7 @@ def compiled(robot, device):
 @pytest.mark.parametrize("path", LEGGED_PATHS, ids=LEGGED)
 def test_mujoco_reads_the_robot_and_its_wheels(path, tmp_path):
     robot, device = read_robot(path), paper_device()
-    model = read_again(robot, device, tmp_path)
+    model = mujoco_model(robot, device, tmp_path)
     total = robot.mass + 2.0 * device.flywheel.mass
     # Romeo's fingers have no mass; MuJoCo needs some.
     tolerance = 1e-8 if "romeo" in path.name else 1e-12
@@ -101,7 +95,7 @@ def test_mujoco_reads_the_robot_and_its_wheels(path, tmp_path):
 
 def test_every_number_is_exact_for_a_urdf_robot(tmp_path):
     robot, device = read_robot(SOLO12), paper_device()
-    model = read_again(robot, device, tmp_path)
+    model = mujoco_model(robot, device, tmp_path)
     check_same(model, compiled(robot, device), (*EXACT, "body_quat", "body_iquat", "geom_size"))
     np.testing.assert_array_equal(model.body_inertia, compiled(robot, device).body_inertia)
 
@@ -109,7 +103,7 @@ def test_every_number_is_exact_for_a_urdf_robot(tmp_path):
 def test_every_number_is_exact_for_an_mjcf_robot(tmp_path):
     (tmp_path / "in.xml").write_text(MJCF)
     robot, device = read_robot(tmp_path / "in.xml", posture="zero"), paper_device()
-    model = read_again(robot, device, tmp_path)
+    model = mujoco_model(robot, device, tmp_path)
     original = compiled(robot, device)
     check_same(model, original, (*EXACT, "body_quat", "body_iquat", "geom_size", "site_pos"))
     check_wheels(model, device, "trunk")
@@ -137,7 +131,7 @@ def test_an_mjcf_robot_has_the_inertia_that_was_read(tmp_path):
 
 def test_a_robot_by_hand_has_its_inertia_to_the_last_digits(tmp_path):
     robot = robot_by_hand(2.5, (0.03, 0.05, 0.07, 0.001, 0.002, -0.003))
-    model = read_again(robot, paper_device(), tmp_path)
+    model = mujoco_model(robot, paper_device(), tmp_path)
     axes = np.empty(9)
     mujoco.mju_quat2Mat(axes, model.body_iquat[1])
     axes = axes.reshape(3, 3)
@@ -147,7 +141,7 @@ def test_a_robot_by_hand_has_its_inertia_to_the_last_digits(tmp_path):
 
 def test_the_folder_can_be_moved(tmp_path):
     (tmp_path / "here").mkdir()
-    read_again(read_robot(SOLO12), paper_device(), tmp_path / "here")
+    mujoco_model(read_robot(SOLO12), paper_device(), tmp_path / "here")
     shutil.move(tmp_path / "here", tmp_path / "there")
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "there" / "robot.xml"))
     assert model.nmesh == len(list((tmp_path / "there" / "meshes").iterdir()))
@@ -307,7 +301,7 @@ def test_the_readme_has_the_designs_figures_and_a_picture(tmp_path):
 
 
 def test_wheels_look_like_rims_and_touch_like_cylinders(tmp_path):
-    model = read_again(robot_by_hand(2.5, (0.03, 0.05, 0.07)), paper_device(), tmp_path)
+    model = mujoco_model(robot_by_hand(2.5, (0.03, 0.05, 0.07)), paper_device(), tmp_path)
     rim = model.mesh("ocs_flywheel")
     vertices = model.mesh_vert[rim.vertadr[0] : rim.vertadr[0] + rim.vertnum[0]].astype(float)
     # MuJoCo turns meshes into their principal axes and keeps how.

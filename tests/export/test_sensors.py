@@ -3,12 +3,11 @@
 import mujoco
 import numpy as np
 import pytest
-from exported import LEGGED, LEGGED_PATHS
+from exported import LEGGED, LEGGED_PATHS, mujoco_model
 from robots import SOLO12
 from wheels import driven_device
 
 from ocs_design.common.errors import RobotError
-from ocs_design.export.mjcf import export_robot_mjcf
 from ocs_design.export.robot_model import robot_model
 from ocs_design.robot.mujoco_model import build_spec
 from ocs_design.robot.reader import read_robot
@@ -85,8 +84,7 @@ def check_keyframes_kept(before, after):
 def written_again(path, trunk, folder):
     robot = read_robot(path, trunk=trunk, posture="zero")
     folder.mkdir()
-    out = export_robot_mjcf(robot_model(robot, DEVICE), folder / "robot.xml")
-    return mujoco.MjModel.from_xml_path(str(out))
+    return mujoco_model(robot, DEVICE, folder)
 
 
 @pytest.fixture

@@ -7,12 +7,10 @@ import numpy as np
 import pinocchio as pin
 import pytest
 import xacro
-from exported import pinocchio_model
+from exported import mujoco_model, pinocchio_model
 from robots import ROBOTS
 from wheels import paper_device
 
-from ocs_design.export.mjcf import export_robot_mjcf
-from ocs_design.export.robot_model import robot_model
 from ocs_design.export.snippets import (
     snippet_mjcf,
     snippet_urdf,
@@ -100,9 +98,7 @@ def test_wheels_of_a_robot_with_y_up_stand_in_its_base_frame(tmp_path, form):
 
 def test_mjcf_of_a_robot_with_y_up_has_its_wheels_in_its_base_frame(tmp_path):
     robot, device = read_robot(HUMAN), paper_device()
-    model = mujoco.MjModel.from_xml_path(
-        str(export_robot_mjcf(robot_model(robot, device), tmp_path / "h.xml"))
-    )
+    model = mujoco_model(robot, device, tmp_path)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     trunk = data.body(robot.mount.link)

@@ -21,8 +21,8 @@ from ocs_design.export.device_parts import (
     pedestal_kinds,
     wheel_geometry,
 )
-from ocs_design.export.drawing.title_block import RUN_OUT
 from ocs_design.export.drawing.wheel import Seat, seat
+from ocs_design.export.drawing.wheel_sheet import RUN_OUT
 from ocs_design.export.electrics import Electrics
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.foot import LONG_MARKS

@@ -1,10 +1,8 @@
-"""Frame, title block, list of parts and notes of a wheel's drawing (ISO 5457, ISO 7200)."""
+"""Frame, title block and numbered notes of a sheet (ISO 5457, ISO 7200)."""
 
-import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ocs_design.device import joints
 from ocs_design.export.drawing.dimensioning import LEADING
 from ocs_design.export.drawing.sheet import (
     CENTRE,
@@ -25,18 +23,6 @@ from ocs_design.export.drawing.sheet import (
     rectangle,
     wrapped,
 )
-from ocs_design.export.drawing.wheel import (
-    BROKEN_EDGE,
-    Seat,
-    WheelDrawing,
-    inside_corners,
-    lost_by_breaking,
-    plain,
-    rim_inertia_error,
-    seat,
-)
-from ocs_design.parts.bell import GLUE_GAP
-from ocs_design.parts.joints import GRADE
 
 _, _, RIGHT, BOTTOM = FRAME_BOX
 BLOCK_WIDTH, ROW_HEIGHT, ROWS = 180.0, 9.0, 4
@@ -44,20 +30,11 @@ BLOCK_WIDTH, ROW_HEIGHT, ROWS = 180.0, 9.0, 4
 
 BLOCK_LEFT, BLOCK_TOP = RIGHT - BLOCK_WIDTH, BOTTOM - ROWS * ROW_HEIGHT
 
-PARTS_ROW = 5.5
-"""Height of a row of the list of parts, which grows upwards from the title block [mm]."""
-
-_PARTS_COLUMNS = (0.0, 12.0, 62.0, 150.0, BLOCK_WIDTH)
-"""Edges of the columns item, name, material and mass [mm]."""
-
 NOTES_LEFT, NOTES_TOP = MARGIN_LEFT + 3.0, 145.0
 """Place of the notes' first line [mm]."""
 
 NUMBER_WIDTH = 5.0
 """Width of a note's number before its text [mm]."""
-
-RUN_OUT = 1e3 * joints.RUN_OUT
-"""Permissible run-out of the rim to the bore [mm]."""
 
 
 def frame() -> list[Item]:
@@ -150,56 +127,12 @@ def title_block(entries: Entries) -> list[Item]:
     ]
 
 
-def wheel_entries(drawing: WheelDrawing, scale: Scale) -> Entries:
-    """Entries of a wheel's sheet."""
-    fitted_on = seat(drawing.wheel) is Seat.FITTED
-    inertia = f"{1e6 * drawing.mass_properties.inertia[2, 2]:.4g} kg mm²"
-    return Entries(
-        "OCS flywheel",
-        drawing.robot,
-        scale,
-        "see list of parts" if fitted_on else drawing.wheel.rim.material,
-        sum(drawing.masses),
-        ("Spin inertia about the axis", inertia),
-        "Ra 3.2, bore Ra 1.6 (ISO 21920)",
-        drawing.tool,
-        drawing.identity,
-    )
-
-
-def parts_list(drawing: WheelDrawing) -> list[Item]:
-    """List of rim and web where they are two parts; empty otherwise."""
-    wheel = drawing.wheel
-    if wheel.hub is None or seat(wheel) is not Seat.FITTED:
-        return []
-    rim_mass, hub_mass = drawing.masses
-    rows = (
-        ("2", "Web with hub", wheel.hub.material, f"{1e3 * hub_mass:.4g} g"),
-        ("1", "Rim", wheel.rim.material, f"{1e3 * rim_mass:.4g} g"),
-        ("Item", "Name", "Material", "Mass"),
-    )
-    items: list[Item] = []
-    for place, values in enumerate(rows, start=1):
-        top = BLOCK_TOP - place * PARTS_ROW
-        for value, start, end in zip(values, _PARTS_COLUMNS, _PARTS_COLUMNS[1:], strict=False):
-            left, right = BLOCK_LEFT + start, BLOCK_LEFT + end
-            items += outline(rectangle(left, top, right, top + PARTS_ROW), THIN)
-            items.append(Text((left + 1.5, top + 4.0), fitted(value, right - left - 3.0, 2.5)))
-    return items
-
-
-def notes(drawing: WheelDrawing) -> list[Item]:
+def numbered(sentences: Sequence[str], block: float = BLOCK_TOP) -> list[Item]:
     """Numbered notes at the lower left, wrapped to the room; no line ends at a tilde.
 
-    Those that end above the title block and the list of parts are as wide as the sheet. Where
-    they would run out of the frame, lines are nearer to each other.
+    Those that end above `block`, the top of what stands beside them [mm], are as wide as the sheet.
+    Where they would run out of the frame, lines are nearer to each other.
     """
-    block = min([BLOCK_TOP, *(x.start[1] for x in parts_list(drawing) if isinstance(x, Line))])
-    return numbered(list(_sentences(drawing)), block)
-
-
-def numbered(sentences: Sequence[str], block: float = BLOCK_TOP) -> list[Item]:
-    """Numbered sentences at the lower left, as `notes` has them; `block` is its top [mm]."""
     leading = LEADING
     while True:
         items: list[Item] = []
@@ -215,75 +148,3 @@ def numbered(sentences: Sequence[str], block: float = BLOCK_TOP) -> list[Item]:
         if y - leading + 2.0 < FRAME_BOX[3]:
             return items
         leading *= 0.95
-
-
-def _sentences(drawing: WheelDrawing) -> Iterator[str]:
-    wheel = drawing.wheel
-    balance = f"Balance grade G~{GRADE:g} (ISO~21940-11)"
-    if drawing.speed is None:
-        yield f"{balance} at the highest speed in service."
-    else:
-        mass, rpm = sum(drawing.masses), drawing.speed * 30.0 / math.pi
-        eccentricity = 1e6 * joints.permissible_eccentricity(drawing.speed)
-        unbalance = mass * eccentricity
-        yield (
-            f"{balance} at {rpm:,.0f}~rpm: residual unbalance at most {unbalance:.3g}~g~mm "
-            f"(e~=~{eccentricity:.3g}~µm), in one plane. Done on the motor: cad/assembly.pdf."
-        )
-    yield (
-        f"Inertia of the rim within ±{_percent(rim_inertia_error(wheel))} over its tolerances; "
-        "the motor's rotor not included."
-    )
-    chamfer, broken = (
-        wheel.rim.made_chamfer,
-        f"edges without indication broken {1e3 * BROKEN_EDGE:g}",
-    )
-    if chamfer > 0.0 and wheel.hub is not None and wheel.hub.chamfer > 0.0:
-        yield (
-            f"Edges of rim, hub and bore {plain(chamfer)}~×~45°, counted in mass and inertia; all "
-            "others deburred."
-        )
-    elif chamfer > 0.0:
-        yield f"Edges of the rim {plain(chamfer)}~×~45°; {broken}."
-    else:
-        mass, share = lost_by_breaking(wheel)
-        lost = f"{1e3 * mass:.2g}~g and {_percent(share)} of the inertia"
-        yield f"{broken.capitalize()}: those of the rim are {lost}, not taken off here."
-    if drawing.yield_strength is not None:
-        yield (
-            f"Material with a yield strength of at least {drawing.yield_strength / 1e6:.0f}~MPa, "
-            "as it was sized with."
-        )
-    run_out = f"Run-out of the rim, around and on its faces, to the bore at most {RUN_OUT:g}."
-    if drawing.bonded:
-        gap = plain(2.0 * GLUE_GAP)
-        size = plain(2.0 * (wheel.rim.inner_radius - GLUE_GAP))
-        yield (
-            f"Bonded around the motor's bell: bore it {gap} wider than the bell, which is measured "
-            f"first; the bore drawn is that for Ø{size}."
-        )
-        yield run_out
-        return
-    fit = "which is not computed"
-    if drawing.interference is not None:
-        least, most = (f"{1e3 * each:.3f}" for each in drawing.interference)
-        fit = f"its bore {least} to {most} narrower than the web"
-    yield {
-        Seat.FREE: "Rim only: mass and inertia without the spokes and hub that it needs.",
-        Seat.ONE_PIECE: "Rim, web and hub turned from one bar, web and hub in the rim's middle.",
-        Seat.FITTED: f"Rim shrunk on the web, {fit}.",
-    }[seat(wheel)]
-    hub = wheel.hub
-    if hub is not None:
-        radius, share = inside_corners(wheel)
-        if radius > 0.0:
-            yield f"Inside corners at most R~{plain(radius)} (+{_percent(share)} of inertia)."
-        yield run_out
-        if hub.bolts is None and drawing.on_shaft:
-            yield "No bolt circle: bonded on the motor's shaft."
-        elif not drawing.on_shaft:
-            yield "Bore: a pilot hole and the datum; open it where the rotor has a boss."
-
-
-def _percent(part: float) -> str:
-    return f"{100.0 * part:.2g}~%"

@@ -2,6 +2,7 @@
 
 import hashlib
 import math
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,25 +10,58 @@ import msgspec
 
 from ocs_design import __version__
 from ocs_design.catalogue.materials import materials
+from ocs_design.device import joints
 from ocs_design.device.device import Device
 from ocs_design.device.joints import rim_fit
 from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.plate_sheet import plate_sheets
-from ocs_design.export.drawing.sheet import HEIGHT, WIDTH, Item
+from ocs_design.export.drawing.sheet import (
+    HEIGHT,
+    THIN,
+    WIDTH,
+    Item,
+    Line,
+    Text,
+    fitted,
+    outline,
+    rectangle,
+)
 from ocs_design.export.drawing.title_block import (
+    BLOCK_LEFT,
+    BLOCK_TOP,
+    BLOCK_WIDTH,
+    Entries,
     frame,
-    notes,
-    parts_list,
+    numbered,
     title_block,
-    wheel_entries,
 )
 from ocs_design.export.drawing.views import front_view, lay_out, section_view
-from ocs_design.export.drawing.wheel import WheelDrawing
+from ocs_design.export.drawing.wheel import (
+    BROKEN_EDGE,
+    Seat,
+    WheelDrawing,
+    inside_corners,
+    lost_by_breaking,
+    plain,
+    rim_inertia_error,
+    seat,
+)
 from ocs_design.export.drawing.writers import pdf_of_pages, svg_text
 from ocs_design.export.drilling import drilling_of, drilling_pdf
+from ocs_design.parts.bell import GLUE_GAP
+from ocs_design.parts.joints import GRADE
 
 if TYPE_CHECKING:
     from ocs_design.export.formats import Notes, Subject
+
+PARTS_ROW = 5.5
+"""Height of a row of the list of parts, which grows upwards from the title block [mm]."""
+
+_PARTS_COLUMNS = (0.0, 12.0, 62.0, 150.0, BLOCK_WIDTH)
+"""Edges of the columns item, name, material and mass [mm]."""
+
+RUN_OUT = 1e3 * joints.RUN_OUT
+"""Permissible run-out of the rim to the bore [mm]."""
 
 DIGITS = 12
 """Length of the hash that says which design a sheet belongs to."""
@@ -76,15 +110,124 @@ def device_hash(device: Device) -> str:
 
 def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
     """Section and front view in first-angle projection, notes, list of parts and title block."""
-    layout = lay_out(drawing.wheel)
+    layout, wheel = lay_out(drawing.wheel), drawing.wheel
+    inertia = f"{1e6 * drawing.mass_properties.inertia[2, 2]:.4g} kg mm²"
+    entries = Entries(
+        "OCS flywheel",
+        drawing.robot,
+        layout.scale,
+        "see list of parts" if seat(wheel) is Seat.FITTED else wheel.rim.material,
+        sum(drawing.masses),
+        ("Spin inertia about the axis", inertia),
+        "Ra 3.2, bore Ra 1.6 (ISO 21920)",
+        drawing.tool,
+        drawing.identity,
+    )
+    parts = parts_list(drawing)
+    # The notes above the title block and the list of parts are as wide as the sheet.
+    block = min([BLOCK_TOP, *(part.start[1] for part in parts if isinstance(part, Line))])
     return [
         *frame(),
-        *section_view(drawing.wheel, layout),
-        *front_view(drawing.wheel, layout),
-        *notes(drawing),
-        *parts_list(drawing),
-        *title_block(wheel_entries(drawing, layout.scale)),
+        *section_view(wheel, layout),
+        *front_view(wheel, layout),
+        *numbered(list(notes(drawing)), block),
+        *parts,
+        *title_block(entries),
     ]
+
+
+def parts_list(drawing: WheelDrawing) -> list[Item]:
+    """List of rim and web where they are two parts; empty otherwise."""
+    wheel = drawing.wheel
+    if wheel.hub is None or seat(wheel) is not Seat.FITTED:
+        return []
+    rim_mass, hub_mass = drawing.masses
+    rows = (
+        ("2", "Web with hub", wheel.hub.material, f"{1e3 * hub_mass:.4g} g"),
+        ("1", "Rim", wheel.rim.material, f"{1e3 * rim_mass:.4g} g"),
+        ("Item", "Name", "Material", "Mass"),
+    )
+    items: list[Item] = []
+    for place, values in enumerate(rows, start=1):
+        top = BLOCK_TOP - place * PARTS_ROW
+        for value, start, end in zip(values, _PARTS_COLUMNS, _PARTS_COLUMNS[1:], strict=False):
+            left, right = BLOCK_LEFT + start, BLOCK_LEFT + end
+            items += outline(rectangle(left, top, right, top + PARTS_ROW), THIN)
+            items.append(Text((left + 1.5, top + 4.0), fitted(value, right - left - 3.0, 2.5)))
+    return items
+
+
+def notes(drawing: WheelDrawing) -> Iterator[str]:
+    """Sentences below the views; no line ends at a tilde."""
+    wheel = drawing.wheel
+    balance = f"Balance grade G~{GRADE:g} (ISO~21940-11)"
+    if drawing.speed is None:
+        yield f"{balance} at the highest speed in service."
+    else:
+        mass, rpm = sum(drawing.masses), drawing.speed * 30.0 / math.pi
+        eccentricity = 1e6 * joints.permissible_eccentricity(drawing.speed)
+        unbalance = mass * eccentricity
+        yield (
+            f"{balance} at {rpm:,.0f}~rpm: residual unbalance at most {unbalance:.3g}~g~mm "
+            f"(e~=~{eccentricity:.3g}~µm), in one plane. Done on the motor: cad/assembly.pdf."
+        )
+    yield (
+        f"Inertia of the rim within ±{_percent(rim_inertia_error(wheel))} over its tolerances; "
+        "the motor's rotor not included."
+    )
+    chamfer, broken = (
+        wheel.rim.made_chamfer,
+        f"edges without indication broken {1e3 * BROKEN_EDGE:g}",
+    )
+    if chamfer > 0.0 and wheel.hub is not None and wheel.hub.chamfer > 0.0:
+        yield (
+            f"Edges of rim, hub and bore {plain(chamfer)}~×~45°, counted in mass and inertia; all "
+            "others deburred."
+        )
+    elif chamfer > 0.0:
+        yield f"Edges of the rim {plain(chamfer)}~×~45°; {broken}."
+    else:
+        mass, share = lost_by_breaking(wheel)
+        lost = f"{1e3 * mass:.2g}~g and {_percent(share)} of the inertia"
+        yield f"{broken.capitalize()}: those of the rim are {lost}, not taken off here."
+    if drawing.yield_strength is not None:
+        yield (
+            f"Material with a yield strength of at least {drawing.yield_strength / 1e6:.0f}~MPa, "
+            "as it was sized with."
+        )
+    run_out = f"Run-out of the rim, around and on its faces, to the bore at most {RUN_OUT:g}."
+    if drawing.bonded:
+        gap = plain(2.0 * GLUE_GAP)
+        size = plain(2.0 * (wheel.rim.inner_radius - GLUE_GAP))
+        yield (
+            f"Bonded around the motor's bell: bore it {gap} wider than the bell, which is measured "
+            f"first; the bore drawn is that for Ø{size}."
+        )
+        yield run_out
+        return
+    fit = "which is not computed"
+    if drawing.interference is not None:
+        least, most = (f"{1e3 * each:.3f}" for each in drawing.interference)
+        fit = f"its bore {least} to {most} narrower than the web"
+    yield {
+        Seat.FREE: "Rim only: mass and inertia without the spokes and hub that it needs.",
+        Seat.ONE_PIECE: "Rim, web and hub turned from one bar, web and hub in the rim's middle.",
+        Seat.FITTED: f"Rim shrunk on the web, {fit}.",
+    }[seat(wheel)]
+    hub = wheel.hub
+    if hub is not None:
+        radius, share = inside_corners(wheel)
+        if radius > 0.0:
+            yield f"Inside corners at most R~{plain(radius)} (+{_percent(share)} of inertia)."
+        yield run_out
+        if hub.bolts is None and drawing.on_shaft:
+            yield "No bolt circle: bonded on the motor's shaft."
+        elif not drawing.on_shaft:
+            yield "Bore: a pilot hole and the datum; open it where the rotor has a boss."
+
+
+def _percent(part: float) -> str:
+    return f"{100.0 * part:.2g}~%"
 
 
 def draw_wheel(drawing: WheelDrawing) -> dict[str, bytes]:

@@ -1,6 +1,6 @@
 """Momentum of the wheels against inertia and lower bound, and how their axes could stand."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -237,46 +237,52 @@ _ROW, _FRAME = 22.0, 110.0
 
 def criterion_chart(design: OcsDesign) -> Chart:
     """Best incidence under each criterion, with the device and for the robot alone."""
-    ocs = design.ocs
-    names = tuple(ocs.incidence_by_criterion)
-    alone = ocs.incidence_by_criterion_robot_alone
-    known = [(row, alone[name]) for row, name in enumerate(names) if name in alone]
-    marks: list[Mark] = [
-        _chosen(design),
-        _points(known, "robot alone", hollow=True),
-        _points(list(enumerate(ocs.incidence_by_criterion.values())), "with the device"),
-    ]
+    found, alone = (
+        design.ocs.incidence_by_criterion,
+        design.ocs.incidence_by_criterion_robot_alone,
+    )
+    known = [(row, alone[name]) for row, name in enumerate(found) if name in alone]
     return _rows(
+        design,
         "incidence_criterion",
         "Incidence angle by criterion",
         "The best incidence angle under each criterion, with the device and for the robot alone.",
-        names,
-        marks,
+        rows=tuple(found),
+        angles={"robot alone": known, "with the device": list(enumerate(found.values()))},
     )
 
 
 def posture_chart(design: OcsDesign, postures: Sequence[PostureLine]) -> Chart:
     """Best incidence under the paper's criterion in other postures of the robot alone."""
-    marks: list[Mark] = [
-        _chosen(design),
-        _points(
-            [(row, each.incidence) for row, each in enumerate(postures)], "equal-rate, robot alone"
-        ),
-    ]
+    angles = [(row, each.incidence) for row, each in enumerate(postures)]
     return _rows(
+        design,
         "incidence_posture",
         "Incidence angle by posture",
         "Incidence angle of the paper's criterion, the arctangent of roll over pitch inertia, in "
         "several postures of the robot without the device.",
-        tuple(each.posture for each in postures),
-        marks,
+        rows=tuple(each.posture for each in postures),
+        angles={"equal-rate, robot alone": angles},
     )
 
 
 def _rows(
-    name: str, title: str, description: str, rows: tuple[str, ...], marks: list[Mark]
+    design: OcsDesign,
+    name: str,
+    title: str,
+    description: str,
+    *,
+    rows: tuple[str, ...],
+    angles: Mapping[str, Sequence[tuple[int, float]]],
 ) -> Chart:
-    """A row for each name, the first one on top."""
+    """A row for each name, the first one on top, with angles [rad] and that of the design."""
+    chosen = design.ocs.incidence
+    label = f"α* {degrees(chosen)}"
+    marks: list[Mark] = [Rule(in_unit(chosen, "deg"), upright=True, label=label, ink=Ink.VERMILION)]
+    for index, (what, found) in enumerate(angles.items(), start=1):
+        places = np.array([float(row) for row, _ in found])
+        turned = in_unit(np.array([angle for _, angle in found]), "deg")
+        marks.append(Points(turned, places, Ink.BLUE, what, hollow=index < len(angles)))
     return Chart(
         name=name,
         title=title,
@@ -287,17 +293,4 @@ def _rows(
         marks=tuple(marks),
         rows=rows,
         height=_FRAME + _ROW * len(rows),
-    )
-
-
-def _points(rows: Sequence[tuple[int, float]], name: str, *, hollow: bool = False) -> Points:
-    places = np.array([float(row) for row, _ in rows])
-    angles = in_unit(np.array([angle for _, angle in rows]), "deg")
-    return Points(angles, places, Ink.BLUE, name, hollow=hollow)
-
-
-def _chosen(design: OcsDesign) -> Rule:
-    angle = design.ocs.incidence
-    return Rule(
-        in_unit(angle, "deg"), upright=True, label=f"α* {degrees(angle)}", ink=Ink.VERMILION
     )

@@ -14,7 +14,7 @@ from ocs_design.report.charts.momentum import ellipsoid_chart
 from ocs_design.report.charts.svg import svg_file
 from ocs_design.report.device import FIRST_FACTS, device_facts, device_title, share_of_robot
 from ocs_design.report.flights import flights_title, verdict_table
-from ocs_design.report.html.elements import Markup, element, items, joined, table, void
+from ocs_design.report.html.elements import Markup, element, items, table, void
 from ocs_design.report.monte_carlo import campaign_title, certificate_line, success_table
 from ocs_design.report.quantities import grams
 from ocs_design.report.table import Table, columns
@@ -100,5 +100,5 @@ def _front(front: Front) -> tuple[Markup, ...]:
     shown = table("Lightest devices", Table(columns(front.label, "mass", "<drive"), rows))
     return (
         _image("svg+xml", svg_file(front_chart(front)), front_chart(front).title),
-        joined([shown]),
+        shown,
     )

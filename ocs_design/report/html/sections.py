@@ -213,7 +213,7 @@ def maneuvers_section(
             element(
                 "article",
                 element("h3", name, " ", again if number else ""),
-                table(f"{name}: outcome", flights.device_table(runs)),
+                table(f"{name}: outcome", flights.flight_table(runs, of_one=True)),
                 *(element("p", flights.run_sentence(run), class_="note") for run in runs),
                 figures(charts[name], flight=number) if charts.get(name) else "",
             )
