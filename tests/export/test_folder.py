@@ -1,12 +1,14 @@
-"""The output folder appears complete or not at all."""
+"""Folders and files appear complete or not at all."""
 
 import errno
+import re
 
 import pytest
+from commands import everything_in
 
 from ocs_design.common.errors import OutputError
 from ocs_design.device.records.design import DESIGN_FILE
-from ocs_design.export.folder import check_target, staged_folder
+from ocs_design.export.folder import check_target, staged_folder, write_whole
 
 
 def make_output(folder, text="old"):
@@ -102,3 +104,39 @@ def test_a_full_disk_is_an_error_with_a_cure_and_leaves_nothing(tmp_path):
         raise full
     assert "free some space" in caught.value.hint
     assert names(tmp_path) == []
+
+
+def test_it_is_written(tmp_path):
+    write_whole(tmp_path / "a.toml", "ä\n", force=False)
+    assert (tmp_path / "a.toml").read_bytes() == "ä\n".encode()
+    assert everything_in(tmp_path) == ["a.toml"]
+
+
+def test_what_is_there_stays_without_force(tmp_path):
+    file = tmp_path / "a.toml"
+    file.write_text("mine")
+    with pytest.raises(OutputError, match="exists already"):
+        write_whole(file, "new", force=False)
+    assert file.read_text() == "mine"
+    write_whole(file, "new", force=True)
+    assert file.read_text() == "new"
+
+
+@pytest.mark.parametrize(
+    ("place", "why"),
+    [(".", "is not a file"), ("none/a.toml", "no such folder"), (300 * "a", "too long.*shorter")],
+)
+def test_where_no_file_can_be_is_told(tmp_path, place, why):
+    with pytest.raises(OutputError) as refused:
+        write_whole(tmp_path / place, "new", force=place == ".")
+    assert re.search(why, f"{refused.value.message} {refused.value.hint}")
+
+
+def test_a_failure_leaves_everything_as_it_was(tmp_path):
+    file = tmp_path / "a.toml"
+    file.write_text("mine")
+    # A surrogate has no UTF-8; any failure while writing would do.
+    with pytest.raises(UnicodeEncodeError):
+        write_whole(file, "half \ud800", force=True)
+    assert file.read_text() == "mine"
+    assert everything_in(tmp_path) == ["a.toml"]

@@ -1,6 +1,7 @@
 """The device alone, put into robots the way that each snippet's own comment says."""
 
 from dataclasses import replace
+from xml.dom import minidom
 
 import mujoco
 import numpy as np
@@ -8,6 +9,8 @@ import pinocchio as pin
 import pytest
 import xacro
 from exported import mujoco_model, pinocchio_model
+from hypothesis import given
+from hypothesis import strategies as st
 from robots import ROBOTS
 from wheels import paper_device
 
@@ -16,6 +19,7 @@ from ocs_design.export.snippets import (
     snippet_urdf,
     snippet_xacro,
 )
+from ocs_design.export.templates import in_comment
 from ocs_design.export.urdf import robot_urdf
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
@@ -109,3 +113,10 @@ def test_mjcf_of_a_robot_with_y_up_has_its_wheels_in_its_base_frame(tmp_path):
         np.testing.assert_allclose(
             joint.xanchor - trunk.xpos, rotation @ module.position, atol=1e-9
         )
+
+
+@given(st.text("-a b", max_size=12))
+def test_any_text_may_stand_in_a_comment(text):
+    whole = minidom.parseString(f"<x><!--{in_comment(text)}--></x>")
+    found = whole.documentElement.firstChild.data if in_comment(text) else ""
+    assert found.replace(" ", "").rstrip("-") == text.replace(" ", "").rstrip("-")

@@ -10,10 +10,19 @@ import pytest
 from drawn_wheels import FLAT, HOLED, HUB, covers, drawings, overlap, texts
 from hypothesis import HealthCheck, given, settings
 from scipy.integrate import quad
+from wheels import paper_device
 
+from ocs_design.device.device import Web
+from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.sheet import FRAME_BOX, Circle, Line, Text
 from ocs_design.export.drawing.wheel import inside_corners
-from ocs_design.export.drawing.wheel_sheet import draw_wheel, wheel_sheet
+from ocs_design.export.drawing.wheel_sheet import (
+    device_hash,
+    draw_wheel,
+    wheel_drawing,
+    wheel_sheet,
+)
+from ocs_design.parts.rim import WEB_MATERIAL, WEB_THICKNESS, Hub
 from ocs_design.parts.wheel import Wheel
 
 RIM = FLAT.wheel.rim
@@ -201,3 +210,45 @@ def test_the_hub_says_what_holds_it():
         assert said in " ".join(text.text for text in texts(wheel_sheet(drawing)))
     held = texts(wheel_sheet(replace(FLAT, on_shaft=True)))
     assert not [text for text in held if "pilot" in text.text or "bolt circle" in text.text]
+
+
+DEVICE = paper_device()
+BOLTED = Hub(0.010, 0.005, 0.0015, bolts=4, bolt_circle_radius=0.006, bolt_hole_radius=0.0011)
+
+
+def on_a_web(device):
+    wheel = device.flywheel
+    web = Web(WEB_MATERIAL, 2710.0, WEB_THICKNESS, 0.01, BOLTED)
+    return replace(device, flywheel=replace(wheel, web=web))
+
+
+def test_mass_and_inertia_are_the_designed_ones():
+    drawing = wheel_drawing(DEVICE, "solo12")
+    found, wheel = drawing.mass_properties, DEVICE.flywheel
+    assert found.mass == pytest.approx(wheel.mass, rel=1e-9)
+    rotor = DEVICE.motor.rotor_inertia
+    assert found.inertia[2, 2] == pytest.approx(wheel.spin_inertia - rotor, rel=1e-9)
+    assert found.inertia[0, 0] == pytest.approx(wheel.transverse_inertia, rel=1e-9)
+
+
+def test_a_web_is_made_with_the_hub_that_was_sized():
+    made = wheel_geometry(on_a_web(DEVICE).flywheel)
+    assert (made.hub.bolts.count, made.hub.bolts.radius) == (4, 0.006)
+    assert made.hub.material == WEB_MATERIAL
+    no_bolts = replace(BOLTED, bolts=0)
+    web = replace(on_a_web(DEVICE).flywheel.web, hub=no_bolts)
+    assert wheel_geometry(replace(DEVICE.flywheel, web=web)).hub.bolts is None
+
+
+def test_the_hash_follows_the_parts_and_not_their_place():
+    turned = DEVICE.at_incidence(0.3)
+    heavier = replace(DEVICE, flywheel=replace(DEVICE.flywheel, height=0.02))
+    assert device_hash(DEVICE) == device_hash(turned) != device_hash(heavier)
+    assert len(device_hash(DEVICE)) == 12
+
+
+@pytest.mark.parametrize(("fastest", "said"), [(math.inf, None), (800.0, 800.0)])
+def test_a_speed_without_limit_is_no_speed(fastest, said):
+    motor = replace(DEVICE.motor, no_load_speed=fastest, speed_max=None)
+    device = replace(DEVICE, motor=motor)
+    assert wheel_drawing(device, "x").speed == said
