@@ -63,7 +63,19 @@ def read_rows(path: Path, kind: str, faults: list[str]) -> tuple[Row, ...]:
     text = _FILE.read(path)
     if suffix == ".csv":
         return tuple(_csv_rows(text, str(path), faults))
-    return tuple(_toml_rows(text, str(path), kind, faults))
+    content = _FILE.parse_toml(text, str(path))
+    faults.extend(f"{key}: unknown key; known: {kind}" for key in content if key != kind)
+    tables, rows = content.get(kind, []), []
+    if not isinstance(tables, list):
+        faults.append(f"{kind}: write each {kind} as a [[{kind}]] table")
+        return ()
+    for index, table in enumerate(tables, 1):
+        if isinstance(table, Mapping):
+            cells = {key: value for key, value in table.items() if value != ""}
+            rows.append(Row(f"{kind}[{index}]", cells))
+        else:
+            faults.append(f"{kind}[{index}]: must be a table")
+    return tuple(rows)
 
 
 def _csv_rows(text: str, name: str, faults: list[str]) -> Iterator[Row]:
@@ -98,23 +110,6 @@ def _csv_rows(text: str, name: str, faults: list[str]) -> Iterator[Row]:
             f"{name}, line {reader.line_num}: is not CSV: {error}",
             hint='Text with a comma stands in quotes, "like, this".',
         ) from error
-
-
-def _toml_rows(text: str, name: str, kind: str, faults: list[str]) -> Iterator[Row]:
-    """Row of each `[[kind]]` table."""
-    content = _FILE.parse_toml(text, name)
-    faults.extend(f"{key}: unknown key; known: {kind}" for key in content if key != kind)
-    tables = content.get(kind, [])
-    if not isinstance(tables, list):
-        faults.append(f"{kind}: write each {kind} as a [[{kind}]] table")
-        return
-    for index, table in enumerate(tables, 1):
-        if isinstance(table, Mapping):
-            yield Row(
-                f"{kind}[{index}]", {key: value for key, value in table.items() if value != ""}
-            )
-        else:
-            faults.append(f"{kind}[{index}]: must be a table")
 
 
 Reader = Callable[[object], object]

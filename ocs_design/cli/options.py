@@ -365,13 +365,26 @@ def specified_by_command(context: typer.Context) -> "Specification":
     from ocs_design.requirement.reading import read_specification
     from ocs_design.requirement.specification import (
         Specification,
+        all_keys,
         merge,
         specification_from_options,
     )
 
     file = context.params["spec"]
     base = Specification() if file is None else read_specification(Path(file))
-    typed = specification_from_options(_options(context.params))
+    given: dict[str, object] = {}
+    for path, key in all_keys().items():
+        option = key.option or path.partition(".")[2]
+        # A robot's file is no option but the command's argument.
+        parameter = "robot" if path == "robot.file" else option.replace("-", "_")
+        value = context.params.get(parameter)
+        if context.params.get(f"no_{parameter}"):
+            given[path] = False
+        # What is not said is None, empty where it repeats, or a flag that is false; zero equals
+        # False, and is a seed.
+        elif value is not None and value is not False and value not in ((), []):
+            given[path] = list(value) if isinstance(value, tuple) else value
+    typed = specification_from_options(given)
     merged = merge(base, typed)
     if typed.ocs.alpha is not None and typed.ocs.alpha_criterion is not None:
         raise UsageError(
@@ -413,25 +426,3 @@ def package_paths_of_command(context: typer.Context) -> Mapping[str, Path]:
             )
         found[name] = Path(folder)
     return found
-
-
-def _options(parameters: Mapping[str, object]) -> Mapping[str, object]:
-    """What each option says by the path of its key, as in `flywheel.r_max`."""
-    from ocs_design.requirement.specification import all_keys
-
-    stated: dict[str, object] = {}
-    for path, key in all_keys().items():
-        option = key.option or path.partition(".")[2]
-        # A robot's file is no option but the command's argument.
-        parameter = "robot" if path == "robot.file" else option.replace("-", "_")
-        if parameters.get(f"no_{parameter}"):
-            stated[path] = False
-            continue
-        value = parameters.get(parameter)
-        # What repeats comes as a tuple, empty where nothing is said; a flag is then false.
-        if isinstance(value, tuple):
-            value = list(value)
-        # Zero equals False, and is a seed.
-        if value is not None and value is not False and value != []:
-            stated[path] = value
-    return stated

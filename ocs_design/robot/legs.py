@@ -246,10 +246,7 @@ def find_legs(tree: Tree) -> tuple[Leg, ...]:
     stands along it, y and then x are tried, for files of other conventions.
     """
     placements = tree.placements(neutral_posture(tree))
-    masses = [
-        body.mass_properties.moved(place.rotation, place.position)
-        for body, place in zip(tree.bodies, placements, strict=True)
-    ]
+    masses = tree.weighed_at(placements)
     for up in np.eye(3)[[2, 1, 0]]:
         legs = _legs_along(tree, placements, masses, up)
         if legs:

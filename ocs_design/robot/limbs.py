@@ -79,10 +79,7 @@ class Anatomy:
     def __init__(self, tree: Tree) -> None:
         self.tree = tree
         self.placements = tree.placements(neutral_posture(tree))
-        self.masses = [
-            body.mass_properties.moved(place.rotation, place.position)
-            for body, place in zip(tree.bodies, self.placements, strict=True)
-        ]
+        self.masses = tree.weighed_at(self.placements)
         self.robot = combine(self.masses)
         self._known: dict[tuple[float, ...], list[Limb]] = {}
         self.children: dict[int, list[int]] = {}

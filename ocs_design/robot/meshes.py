@@ -56,7 +56,9 @@ def own_bounds(path: Path, *, quick: bool) -> FloatArray | None:
         bounds: FloatArray | None = None
         length = path.stat().st_size
         if binary_stl_facets(path) and (length <= _QUICK_STL or not quick):
-            bounds = _binary_stl_bounds(path)
+            # Along rows it takes a thirtieth of the time.
+            coordinates = np.ascontiguousarray(binary_stl_corners(path).reshape(-1, 3).T)
+            bounds = np.array([coordinates.min(axis=1), coordinates.max(axis=1)])
         elif path.suffix.lower() == ".obj" and (length <= _QUICK_OBJ or not quick):
             bounds = _obj_bounds(path)
         elif not quick:
@@ -108,12 +110,6 @@ def binary_stl_corners(path: Path) -> NDArray[np.float32]:
     facet = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
     content, count = path.read_bytes(), binary_stl_facets(path)
     return np.asarray(np.frombuffer(content, facet, count, offset=_STL_HEADER)["corners"])
-
-
-def _binary_stl_bounds(path: Path) -> FloatArray:
-    # Along rows it takes a thirtieth of the time.
-    coordinates = np.ascontiguousarray(binary_stl_corners(path).reshape(-1, 3).T)
-    return np.array([coordinates.min(axis=1), coordinates.max(axis=1)], dtype=np.float64)
 
 
 def _obj_bounds(path: Path) -> FloatArray:

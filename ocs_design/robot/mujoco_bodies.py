@@ -140,29 +140,23 @@ class MeshLibrary:
         """Name in the model of a shape's mesh; None if there is none that MuJoCo could take."""
         if shape.mesh is None or shape.mesh in self._left_out or shape.mesh in self.unreadable:
             return None
-        key = (shape.mesh, shape.size)
-        if key not in self._meshes:
-            asset = self._asset(shape.mesh)
-            if asset is None:
-                return None
-            name = unused_name(Path(asset).stem, "", self._meshes.values())
-            # Bodies carry explicit inertials, and a shell asks for no closed surface.
-            shell = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
-            self._spec.add_mesh(name=name, file=asset, scale=shape.size, inertia=shell)
-            self._meshes[key] = name
-        return self._meshes[key]
-
-    def _asset(self, path: Path) -> str | None:
+        path, key = shape.mesh, (shape.mesh, shape.size)
         if path not in self._assets:
             try:
                 suffix, content = read_mesh(path)
             except Exception as error:  # Mesh readers fail in as many ways as meshes are broken.
                 self.unreadable[path] = str(error) or type(error).__name__
                 return None
-            name = unused_name(path.stem, suffix, self._spec.assets)
-            self._spec.assets[name] = content
-            self._assets[path] = name
-        return self._assets[path]
+            self._assets[path] = unused_name(path.stem, suffix, self._spec.assets)
+            self._spec.assets[self._assets[path]] = content
+        if key not in self._meshes:
+            asset = self._assets[path]
+            name = unused_name(Path(asset).stem, "", self._meshes.values())
+            # Bodies carry explicit inertials, and a shell asks for no closed surface.
+            shell = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
+            self._spec.add_mesh(name=name, file=asset, scale=shape.size, inertia=shell)
+            self._meshes[key] = name
+        return self._meshes[key]
 
 
 def read_mesh(path: Path) -> tuple[str, bytes]:

@@ -1,18 +1,14 @@
 """Posture that the robot is measured in, and its inertia in others."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from difflib import get_close_matches
 
 import numpy as np
 
 from ocs_design.common.errors import RobotError
 from ocs_design.robot.chain import neutral_posture
-from ocs_design.robot.leg_geometry import (
-    leg_geometries,
-    sole_depths,
-    up_axis,
-)
+from ocs_design.robot.leg_geometry import leg_geometries, sole_depths, up_axis
 from ocs_design.robot.links import listed
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Leg, Robot
@@ -61,7 +57,25 @@ def resolve_posture(
             at the limit nearest to it; None: `stand` for a robot with legs, else `zero`.
         joints: values that replace the posture's [rad or m].
     """
-    chosen = _named(tree, trunk, legs, name or (STAND if legs else ZERO))
+    name = name or (STAND if legs else ZERO)
+    warnings: tuple[str, ...] = ()
+    chosen: Mapping[str, float] = {}
+    if name == STAND:
+        found = stand(tree, trunk, legs)
+        if found is None:
+            raise RobotError(
+                "no legs were found, so there is no posture 'stand'",
+                hint="use --posture zero, a posture named in the file, or --joint NAME=VALUE",
+            )
+        chosen, warnings = found.posture, found.warnings
+    elif name != ZERO:
+        if name not in tree.named_postures:
+            known = [ZERO, *([STAND] if legs else []), *tree.named_postures]
+            raise unknown_name("posture", name, known)
+        chosen = {**neutral_posture(tree), **tree.named_postures[name]}
+    if name in {ZERO, STAND} and name in tree.named_postures:
+        why = "the built-in one has the same name"
+        warnings += (f"the file's own posture '{name}' is not used: {why}",)
     for joint, value in joints.items():
         if joint not in tree.joints:
             raise unknown_name("moving joint", joint, tree.joints)
@@ -72,23 +86,16 @@ def resolve_posture(
             raise RobotError(
                 f"joint '{joint}' follows joint '{mimic[0]}'", hint=f"set '{mimic[0]}' instead"
             )
-    values = tree.complete({**chosen.values, **joints})
+    values = tree.complete({**tree.complete(chosen), **joints})
     outside = [
         joint
         for joint, each in tree.joints.items()
         if not each.lower - _LIMIT_TOLERANCE <= values[joint] <= each.upper + _LIMIT_TOLERANCE
     ]
-    warnings = chosen.warnings
     if outside:
         warnings += (f"{OUTSIDE} {listed(outside)}",)
     height = max(sole_depths(tree, trunk, legs, values)) if legs else None
-    return replace(
-        chosen,
-        values=values,
-        name=f"{chosen.name} + joints" if joints else chosen.name,
-        standing_height=height,
-        warnings=warnings,
-    )
+    return Posture(values, f"{name} + joints" if joints else name, height, warnings)
 
 
 def unknown_name(kind: str, name: str, known: Iterable[str]) -> RobotError:
@@ -101,32 +108,6 @@ def unknown_name(kind: str, name: str, known: Iterable[str]) -> RobotError:
     available = f"available: {listed(ordered, most=12) if ordered else 'none'}"
     likely = f"did you mean '{ordered[0]}'? " if close else ""
     return RobotError(f"the robot has no {kind} '{name}'", hint=likely + available)
-
-
-def _named(tree: Tree, trunk: str, legs: Sequence[Leg], name: str) -> Posture:
-    """A posture by its name, without the checks."""
-    if name == ZERO:
-        return Posture(tree.complete({}), ZERO, None, _hidden(tree, ZERO))
-    if name == STAND:
-        found = stand(tree, trunk, legs)
-        if found is None:
-            raise RobotError(
-                "no legs were found, so there is no posture 'stand'",
-                hint="use --posture zero, a posture named in the file, or --joint NAME=VALUE",
-            )
-        return Posture(found.posture, STAND, None, (*found.warnings, *_hidden(tree, STAND)))
-    if name not in tree.named_postures:
-        raise unknown_name(
-            "posture", name, [ZERO, *([STAND] if legs else []), *tree.named_postures]
-        )
-    values = tree.complete({**neutral_posture(tree), **tree.named_postures[name]})
-    return Posture(values, name, None, ())
-
-
-def _hidden(tree: Tree, name: str) -> tuple[str, ...]:
-    if name not in tree.named_postures:
-        return ()
-    return (f"the file's own posture '{name}' is not used: the built-in one has the same name",)
 
 
 _SHARES = (0.6, 0.7, 0.8, 0.9)

@@ -6,7 +6,7 @@ against it. No sign decides alone: names may mislead, meshes may be missing, and
 may be any.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Sequence
 from itertools import combinations
 
 import numpy as np
@@ -214,16 +214,17 @@ class _Readings(Anatomy):
             signs, doubts = self._signs(chosen, sets, ups[0])
             feet = frozenset(leg.body for leg in usual)
             found[feet] = Reading(find_trunk(self.tree, usual), tuple(usual), signs, doubts)
-        return [*found.values(), *self._on_other_bases(found.values())]
-
-    def _on_other_bases(self, readings: Iterable[Reading]) -> Iterator[Reading]:
-        """The readings of robots with a spine, with the other ends of it as trunk."""
-        for each in readings:
-            for base in sorted({leg.base for leg in each.legs}):
+        readings = list(found.values())
+        # Of robots with a spine, the other ends of it as trunk.
+        for each in found.values():
+            spine = any(doubt.what == SPINE for doubt in each.doubts)
+            for base in sorted({leg.base for leg in each.legs}) if spine else ():
                 name = frame_link(self.tree.bodies[base])
-                if name != each.trunk and any(doubt.what == SPINE for doubt in each.doubts):
+                if name != each.trunk:
                     lighter = Doubt(f"'{name}' is lighter than '{each.trunk}'", 0.9)
-                    yield Reading(name, each.legs, each.signs, (*each.doubts, lighter))
+                    doubts = (*each.doubts, lighter)
+                    readings.append(Reading(name, each.legs, each.signs, doubts))
+        return readings
 
     def without_legs(self, trunk: str | None, *, likely: bool, body: str | None = None) -> Reading:
         """The reading of a robot without legs.

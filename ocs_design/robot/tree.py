@@ -4,7 +4,7 @@ A reader merges everything that is rigidly joined into one `Body`; only moving j
 with one degree of freedom. Mass properties are the file's raw numbers.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
@@ -259,11 +259,14 @@ class Tree:
         The composite rigid body of Featherstone (2008), section 6.2; Pinocchio calls its inertia
         `data.Ig` after `ccrba`.
         """
-        placements = self.placements_from(link, posture)
-        return combine(
+        return combine(self.weighed_at(self.placements_from(link, posture)))
+
+    def weighed_at(self, placements: Sequence[Placement]) -> list[MassProperties]:
+        """Mass properties of each body in the frame that the placements are given in."""
+        return [
             body.mass_properties.moved(place.rotation, place.position)
             for body, place in zip(self.bodies, placements, strict=True)
-        )
+        ]
 
 
 def joint_motion(joint: Joint, value: float) -> Placement:

@@ -23,7 +23,7 @@ from ocs_design.requirement.specification import Specification
 from ocs_design.robot.leg_geometry import axis_name, up_axis
 from ocs_design.robot.legs import ANKLED_JOINTS, is_wheel
 from ocs_design.robot.posture import posture_sensitivity
-from ocs_design.robot.robot import Leg, Recognition, Robot
+from ocs_design.robot.robot import Recognition, Robot
 
 
 def inspect_robot(
@@ -72,9 +72,18 @@ def _recorded(robot: Robot, recognition: Recognition) -> RecognitionRecord:
     reading = recognition.reading
     turn = np.eye(3) if robot.mount is None else robot.mount.placement.rotation
     up = up_axis(robot.tree, robot.trunk, robot.legs) if robot.legs else np.eye(3)[2]
+    legs = []
+    for leg in robot.legs:
+        end = "sole" if len(leg.joints) >= ANKLED_JOINTS else "point"
+        if is_wheel(robot.tree.bodies[leg.body]):
+            end = "wheel"
+        elif leg.foot_radius > 0.0:
+            end = "ball"
+        line = LegLine(foot=leg.name, ends_in=end, length=leg.length, joints=leg.joints)
+        legs.append(line)
     return RecognitionRecord(
         trunk=robot.trunk if robot.mount is None else robot.mount.link,
-        legs=tuple(_leg_line(robot, leg) for leg in robot.legs),
+        legs=tuple(legs),
         forward=axis_name(turn[:, 0]),
         left=axis_name(turn[:, 1]),
         up=axis_name(turn @ up),
@@ -94,16 +103,6 @@ def _recorded(robot: Robot, recognition: Recognition) -> RecognitionRecord:
             for each in recognition.likely
         ),
     )
-
-
-def _leg_line(robot: Robot, leg: Leg) -> LegLine:
-    if is_wheel(robot.tree.bodies[leg.body]):
-        end = "wheel"
-    elif leg.foot_radius > 0.0:
-        end = "ball"
-    else:
-        end = "sole" if len(leg.joints) >= ANKLED_JOINTS else "point"
-    return LegLine(foot=leg.name, ends_in=end, length=leg.length, joints=leg.joints)
 
 
 def _draw(robot: Robot, picture: Path) -> None:

@@ -134,7 +134,13 @@ def size_on_robot(
     )
     resolved = replace(resolved, requirement=replace(resolved.requirement, maneuvers=maneuvers))
     require_trot(resolved.requirement.maneuvers, robot)
-    jumping = _begin_jumps(specification.validation, robot, resolved)
+    stated, jumping = specification.validation, None
+    if stated.enabled is not False and not control_of(stated, robot).ballistic:
+        # CasADi takes a third of a second to import, and what starts at lift-off does without.
+        from ocs_design.jumping.planning import JumpPlanning  # noqa: PLC0415
+
+        # They are planned while the device is sized.
+        jumping = JumpPlanning(robot, resolved.requirement.maneuvers)
     try:
         designed = design_device(specification, robot, resolved, reserve=reserve)
         device = designed.device
@@ -380,15 +386,3 @@ def _kicked(assumption: str, requirement: Requirement) -> str:
             told = f"with the device on, ({turned}) N m s and {moved:.3g} m/s"
             return f"{assumption.removesuffix('.')}; {told}."
     return assumption
-
-
-def _begin_jumps(
-    stated: ValidationSection, robot: Robot, resolved: Resolved
-) -> "JumpPlanning | None":
-    """Jumps, which are planned while the device is sized; None where none will be flown."""
-    if stated.enabled is False or control_of(stated, robot).ballistic:
-        return None
-    # CasADi takes a third of a second to import, and what starts at lift-off does without.
-    from ocs_design.jumping.planning import JumpPlanning  # noqa: PLC0415
-
-    return JumpPlanning(robot, resolved.requirement.maneuvers)
