@@ -4,10 +4,10 @@ Options of the solver, drives of the legs, and the pose in which the robot stand
 tuned for speed stops its solver after one iteration; one for learning clamps every command to one;
 and a class of defaults of the file holds for whatever is added to it.
 
-Legs carry the robot, so their stiffness comes from its weight and their damping from its Froude
-time: `kp = m g L / 2`, `kd = kp sqrt(L / g) / 2` with the length L of the leg. Its joints then give
-way by about a fifth of a radian where it stands. Stiffer or less damped legs throw most quadrupeds
-over after a level landing, softer ones let the heavy ones sink.
+Legs carry robot and device, so their stiffness comes from the weight of both and their damping
+from the robot's Froude time: `kp = m g L / 2`, `kd = kp sqrt(L / g) / 2` with the length L of the
+leg. Its joints then give way by about a fifth of a radian where it stands. Stiffer or less damped
+legs throw most quadrupeds over after a level landing, softer ones let the heavy ones sink.
 
 All other joints, arms, fingers, neck and waist, are held where they are. They would have to be held
 by drives that nobody knows, some of them turn links that their file gives next to no inertia, and
@@ -141,7 +141,9 @@ def set_gains(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> None:
         return
     length_of = {joint: leg.length for leg in robot.legs for joint in leg.joints}
     lengths = np.array([length_of[name] for name in names])
-    stiffness = LEG_STIFFNESS * robot.mass * STANDARD_GRAVITY * lengths
+    # What holds a pivot in place bears its own weight.
+    borne = float(model.body_mass @ (1.0 - model.body_gravcomp))
+    stiffness = LEG_STIFFNESS * borne * STANDARD_GRAVITY * lengths
     damping = LEG_DAMPING * stiffness * np.sqrt(lengths / STANDARD_GRAVITY)
     dofs, actuators = _dofs(model, names), [model.actuator(name).id for name in names]
     inverse = np.empty((model.nv, model.nv))

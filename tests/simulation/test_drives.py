@@ -58,6 +58,18 @@ def test_a_standing_robot_gives_way_by_less_than_half_a_radian(solo12):
     assert np.abs(data.qvel).max() < 0.05
 
 
+def test_legs_are_stiff_enough_for_robot_and_device(solo12):
+    """k_p = m g L / 2 by hand; without the device m is the robot's alone."""
+    device, drop = paper_device(), default_maneuvers(solo12)[1]
+    lengths = [leg.length for leg in solo12.legs for _ in leg.joints]
+    for wheels, mass in ((Wheels.BRAKED, device.mass), (Wheels.ABSENT, 0.0)):
+        model = WorldBuilder(solo12, device).flight(drop, wheels).model
+        stiffness = model.actuator_gainprm[: len(lengths), 0]
+        np.testing.assert_allclose(
+            np.sort(stiffness), np.sort(0.5 * (solo12.mass + mass) * 9.81 * np.array(lengths))
+        )
+
+
 def test_drives_do_not_exceed_the_joint_effort():
     robot = read_robot(ROBOTS / "a1_description" / "urdf" / "a1.urdf")
     model = drop_of(robot).model
