@@ -103,44 +103,6 @@ Children = Mapping[str, Sequence[Connection]]
 """Connections below each link, in file order."""
 
 
-@dataclass
-class _MergedBody:
-    """A body in the making: its links so far, and what they weigh and show."""
-
-    name: str
-    parent: int
-    placement: Placement
-    joint: Joint | None
-    links: dict[str, Placement] = field(default_factory=dict)
-    link_masses: dict[str, float] = field(default_factory=dict)
-    parts: list[MassProperties] = field(default_factory=list)
-    shapes: list[Shape] = field(default_factory=list)
-
-    def add(self, link: Link, place: Placement) -> None:
-        """Join a link that stands at `place` in the body's frame."""
-        weighed = link.mass_properties or MassProperties.zero()
-        self.links[link.name] = place
-        self.link_masses[link.name] = weighed.mass
-        self.parts.append(weighed.moved(place.rotation, place.position))
-        for shape in link.shapes:
-            position = place.rotation @ shape.position + place.position
-            rotation = place.rotation @ shape.rotation
-            self.shapes.append(replace(shape, position=position, rotation=rotation))
-
-    def body(self) -> Body:
-        """The finished body."""
-        return Body(
-            self.name,
-            self.parent,
-            self.placement,
-            self.joint,
-            combine(self.parts),
-            self.links,
-            self.link_masses,
-            tuple(self.shapes),
-        )
-
-
 def make_tree(
     name: str, root: str, links: Mapping[str, Link], children: Children, warnings: Warnings
 ) -> Tree:
@@ -159,9 +121,11 @@ def merge_fixed_links(
     root: str, links: Mapping[str, Link], children: Children, warnings: Warnings
 ) -> tuple[Body, ...]:
     """Moving bodies from `root` down, depth first in file order, parents before children."""
-    merged = [_MergedBody(root, -1, Placement.identity(), None)]
-    merged[0].add(links[root], Placement.identity())
-    home = {root: (0, Placement.identity())}
+    identity = Placement.identity()
+    # Of each body its name, parent, placement and joint; and its links with their frames in it.
+    heads: list[tuple[str, int, Placement, Joint | None]] = [(root, -1, identity, None)]
+    members = [[(links[root], identity)]]
+    home = {root: (0, identity)}
     # A stack of our own: chains of thousands of links would exhaust Python's.
     stack = list(reversed(children.get(root, ())))
     while stack:
@@ -171,13 +135,44 @@ def merge_fixed_links(
         if connection.held:
             warnings.add(f"{connection.held} joints, held at zero", connection.name)
         if connection.joint is not None:
-            merged.append(_MergedBody(connection.child, index, place, connection.joint))
-            index, place = len(merged) - 1, Placement.identity()
+            heads.append((connection.child, index, place, connection.joint))
+            members.append([])
+            index, place = len(heads) - 1, identity
         place = place @ connection.child_in_joint
-        merged[index].add(links[connection.child], place)
+        members[index].append((links[connection.child], place))
         home[connection.child] = (index, place)
         stack.extend(reversed(children.get(connection.child, ())))
-    return tuple(each.body() for each in merged)
+    return tuple(_body(*head, of) for head, of in zip(heads, members, strict=True))
+
+
+def _body(
+    name: str,
+    parent: int,
+    placement: Placement,
+    joint: Joint | None,
+    members: Sequence[tuple[Link, Placement]],
+) -> Body:
+    """Body of links that are rigidly joined, each with its frame in the body's."""
+    weighed = [(link.mass_properties or MassProperties.zero(), place) for link, place in members]
+    shapes = (
+        replace(
+            shape,
+            position=place.rotation @ shape.position + place.position,
+            rotation=place.rotation @ shape.rotation,
+        )
+        for link, place in members
+        for shape in link.shapes
+    )
+    return Body(
+        name,
+        parent,
+        placement,
+        joint,
+        combine(each.moved(place.rotation, place.position) for each, place in weighed),
+        {link.name: place for link, place in members},
+        {link.name: each.mass for (link, _), (each, _) in zip(members, weighed, strict=True)},
+        tuple(shapes),
+    )
 
 
 def resolve_mimics(bodies: Sequence[Body], warnings: Warnings) -> tuple[Body, ...]:

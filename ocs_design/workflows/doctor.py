@@ -28,51 +28,39 @@ from ocs_design.device.findings import Examination, Finding, State
 from ocs_design.export.ffmpeg import FFMPEG_HINT, ffmpeg_program
 from ocs_design.export.opengl import OPENGL_HINT, backends, failure_of
 
-
-@dataclass(frozen=True)
-class Use:
-    """Use of one package: what it is for, and the module that it brings.
-
-    Attributes:
-        purpose: for people.
-        module: to import; empty: named like the package.
-    """
-
-    purpose: str
-    module: str = ""
-
-
-USES: Mapping[str, Use] = MappingProxyType(
+PURPOSES: Mapping[str, str] = MappingProxyType(
     {
-        "numpy": Use("arrays"),
-        "scipy": Use("roots and small optimisations"),
-        "threadpoolctl": Use("the same design on any number of threads"),
-        "cvxpy": Use("wheels by the bound alone: --motor none"),
-        "clarabel": Use("wheels by the bound alone: its solver"),
-        "casadi": Use("maneuvers as optimal control"),
-        "typer": Use("the command line"),
-        "rich": Use("tables and progress"),
-        "msgspec": Use("design.json in and out"),
-        "packaging": Use("this check"),
-        "trimesh": Use("robots with meshes other than STL and OBJ"),
-        "manifold3d": Use("holes in parts as meshes"),
-        "reportlab": Use("drawing and instructions as PDF"),
-        "mujoco": Use("robots, flights and pictures"),
-        "pycollada": Use("robots with .dae meshes", "collada"),
-        "gymnasium": Use("the robot as an environment for learning"),
-        "xacro": Use("robots that come as .xacro"),
-        "resvg-py": Use("figures as PNG"),
-        "dask": Use("Monte Carlo on many machines"),
-        "distributed": Use("Monte Carlo on many machines"),
-        "pyarrow": Use("samples as Parquet"),
-        "pillow": Use("words on videos", "PIL"),
-        "imageio-ffmpeg": Use("videos where the system has no ffmpeg"),
-        "cadquery-ocp-novtk": Use("parts in STEP for CAD", "OCP"),
-        "ezdxf": Use("the wheel in DXF for CAD"),
+        "numpy": "arrays",
+        "scipy": "roots and small optimisations",
+        "threadpoolctl": "the same design on any number of threads",
+        "cvxpy": "wheels by the bound alone: --motor none",
+        "clarabel": "wheels by the bound alone: its solver",
+        "casadi": "maneuvers as optimal control",
+        "typer": "the command line",
+        "rich": "tables and progress",
+        "msgspec": "design.json in and out",
+        "packaging": "this check",
+        "trimesh": "robots with meshes other than STL and OBJ",
+        "manifold3d": "holes in parts as meshes",
+        "reportlab": "drawing and instructions as PDF",
+        "mujoco": "robots, flights and pictures",
+        "pycollada": "robots with .dae meshes",
+        "gymnasium": "the robot as an environment for learning",
+        "xacro": "robots that come as .xacro",
+        "resvg-py": "figures as PNG",
+        "dask": "Monte Carlo on many machines",
+        "distributed": "Monte Carlo on many machines",
+        "pyarrow": "samples as Parquet",
+        "pillow": "words on videos",
+        "imageio-ffmpeg": "videos where the system has no ffmpeg",
+        "cadquery-ocp-novtk": "parts in STEP for CAD",
+        "ezdxf": "the wheel in DXF for CAD",
     }
 )
-"""Uses by the package's name."""
+"""What each package is for, by its name."""
 
+_MODULES = {"pycollada": "collada", "pillow": "PIL", "cadquery-ocp-novtk": "OCP"}
+"""Modules of packages that are not named like them."""
 
 DEVELOPMENT = frozenset({"test", "dev", "docs"})
 """Extras for those who change the code."""
@@ -109,14 +97,9 @@ class Wanted:
     extra: str = ""
 
     @property
-    def use(self) -> Use:
-        """What the package is for."""
-        return USES.get(self.name, Use(f"the extra {self.extra}"))
-
-    @property
     def module(self) -> str:
         """Name of the module to import."""
-        return self.use.module or self.name.replace("-", "_")
+        return _MODULES.get(self.name) or self.name.replace("-", "_")
 
     def cure(self, state: State) -> str:
         """The command that mends it."""
@@ -176,7 +159,7 @@ def package_findings(wanted: Sequence[Wanted]) -> Iterator[Finding]:
             required=not each.extra,
             found=found,
             wanted=each.versions,
-            purpose=each.use.purpose,
+            purpose=PURPOSES.get(each.name, f"the extra {each.extra}"),
             extra=each.extra,
             cure=each.cure(state),
             reason=reason,

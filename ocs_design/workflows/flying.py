@@ -75,14 +75,9 @@ def overridden(control: ControlRecord, stated: ValidationSection) -> ControlReco
                 f"validation.control_period: {steps * STEP:.4g} s is no whole number of "
                 f"milliseconds"
             )
-    return ControlRecord(
-        projection=stated.projection or control.projection,
-        kp=stated.kp or control.kp,
-        kd=stated.kd or control.kd,
-        period=period,
-        desaturate=control.desaturate if stated.desaturate is None else stated.desaturate,
-        ballistic=control.ballistic if stated.ballistic is None else stated.ballistic,
-    )
+    given = {name: getattr(stated, name) for name in vars(control).keys() & vars(stated).keys()}
+    changes = {name: value for name, value in given.items() if value is not None}
+    return replace(control, period=period, **changes)
 
 
 def trajectories(plans: Mapping[str, "Reference"]) -> Mapping[str, Trajectory]:

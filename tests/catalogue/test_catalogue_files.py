@@ -2,6 +2,7 @@
 
 import re
 
+import motor_rows
 import pytest
 
 from ocs_design.catalogue.gears import known_gears, load_gears
@@ -24,24 +25,11 @@ SHEET = {
 
 
 def toml(**changes):
-    stated = {key: value for key, value in (SHEET | changes).items() if value is not None}
-    return "[[motor]]\n" + "\n".join(f"{key} = {value!r}" for key, value in stated.items())
+    return motor_rows.toml(SHEET | changes)
 
 
 def csv(**changes):
-    stated = {key: value for key, value in (SHEET | changes).items() if value is not None}
-    cells = (f'"{value}"' if "," in str(value) else str(value) for value in stated.values())
-    return f"{','.join(stated)}\n{','.join(cells)}\n"
-
-
-@pytest.fixture
-def load(tmp_path):
-    def write_and_load(text, suffix=".toml", read=load_motors):
-        path = tmp_path / f"mine{suffix}"
-        path.write_bytes(text if isinstance(text, bytes) else text.encode())
-        return read(path)
-
-    return write_and_load
+    return motor_rows.csv(SHEET | changes)
 
 
 @pytest.mark.parametrize(("text", "suffix"), [(toml(), ".toml"), (csv(), ".csv")])

@@ -3,9 +3,10 @@
 import json
 
 import pytest
+from motor_rows import csv, toml
 
 from ocs_design.actuation.motor import BY_CONVENTION, BoltCircle, Face, Mounting
-from ocs_design.catalogue.motors import load_motors, motor, motors, motors_to_json
+from ocs_design.catalogue.motors import motor, motors, motors_to_json
 from ocs_design.common.errors import SpecificationError
 from ocs_design.report.text.catalogue import motor_mounting
 
@@ -26,38 +27,16 @@ WHOLE = {
 MOUNTING = Mounting(0.005, BoltCircle(0.017, 3, "M3"), BoltCircle(0.025, 4, "M2.5"), Face.OUTPUT)
 
 
-def stated(**changes):
-    return {key: value for key, value in (WHOLE | changes).items() if value is not None}
-
-
-def toml(cells):
-    return "[[motor]]\n" + "\n".join(f"{key} = {value!r}" for key, value in cells.items())
-
-
-def csv(cells):
-    return f"{','.join(cells)}\n{','.join(str(value) for value in cells.values())}\n"
-
-
-@pytest.fixture
-def load(tmp_path):
-    def write_and_load(text, suffix):
-        path = tmp_path / f"mine{suffix}"
-        path.write_text(text)
-        return load_motors(path)["M"]
-
-    return write_and_load
-
-
 @pytest.mark.parametrize(("write", "suffix"), [(toml, ".toml"), (csv, ".csv")])
 def test_both_formats_say_the_same(load, write, suffix):
-    assert load(write(stated()), suffix).mounting == MOUNTING
+    assert load(write(WHOLE), suffix)["M"].mounting == MOUNTING
 
 
 def test_each_part_may_stand_alone(load):
     nothing = dict.fromkeys(key for key in WHOLE if key.startswith(("shaft", "rotor", "stator")))
-    assert load(toml(stated(**nothing)), ".toml").mounting is None
+    assert load(toml(WHOLE | nothing))["M"].mounting is None
     shaft = nothing | {"shaft_diameter_m": 0.005}
-    assert load(toml(stated(**shaft)), ".toml").mounting == Mounting(0.005)
+    assert load(toml(WHOLE | shaft))["M"].mounting == Mounting(0.005)
 
 
 FAULTS = {
@@ -84,13 +63,14 @@ FAULTS = {
 @pytest.mark.parametrize(("changes", "message"), FAULTS.values(), ids=FAULTS)
 def test_what_cannot_be_is_refused_whatever_the_remark(load, changes, message):
     with pytest.raises(SpecificationError, match=message) as caught:
-        load(toml(stated(remark="so it is", **changes)), ".toml")
+        load(toml(WHOLE | changes | {"remark": "so it is"}))
     assert "(M)" in str(caught.value)
 
 
 def test_the_edges_of_what_can_be_made_pass(load):
     """Of M3 on 17 mm, 3.4 mm holes: 1 mm is left to a shaft of 11.6 mm, and between 11 screws."""
-    edge = load(toml(stated(shaft_diameter_m=0.0116 - 1e-9, rotor_bolts=11)), ".toml").mounting
+    changes = {"shaft_diameter_m": 0.0116 - 1e-9, "rotor_bolts": 11}
+    edge = load(toml(WHOLE | changes))["M"].mounting
     assert edge.rotor.inside - edge.shaft_diameter / 2.0 == pytest.approx(1e-3, abs=1e-9)
     assert 1e-3 < edge.rotor.spacing < 1.4e-3
 

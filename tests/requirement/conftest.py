@@ -1,13 +1,12 @@
 """Robots made of figures alone."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
-import numpy as np
 import pytest
 
-from ocs_design.robot.mass import MassProperties
-from ocs_design.robot.robot import Format, Robot
-from ocs_design.robot.tree import Body, Placement, Tree
+from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.robot import Robot
 
 
 @pytest.fixture
@@ -15,25 +14,8 @@ def make_robot() -> Callable[..., Robot]:
     """Makes a robot of one body from its mass, principal inertias and standing height."""
 
     def make(mass: float, inertia: tuple[float, float, float], standing_height: float | None):
-        properties = MassProperties(mass, np.zeros(3), np.diag(inertia))
-        place = Placement.identity()
-        body = Body("trunk", -1, place, None, properties, {"trunk": place}, {"trunk": mass})
-        return Robot(
-            name="figures",
-            source="by hand",
-            sha256="",
-            format=Format.MANUAL,
-            content=b"",
-            tree=Tree("figures", (body,)),
-            trunk="trunk",
-            floating_base="trunk",
-            posture={},
-            posture_name="zero",
-            mass_properties=properties,
-            legs=(),
-            standing_height=standing_height,
-            warnings=(),
-        )
+        robot = robot_by_hand(mass, inertia, name="figures")
+        return replace(robot, standing_height=standing_height)
 
     return make
 

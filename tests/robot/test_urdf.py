@@ -178,28 +178,24 @@ def test_a_shape_of_no_extent_is_left_out_with_a_warning():
     assert any("trunk" in warning for warning in tree.warnings)
 
 
-def test_a_shape_without_inertial_is_warned_of():
-    shell = link("shell", '<visual><geometry><sphere radius="1"/></geometry></visual>')
-    tree = read(robot(link("trunk", inertial()), shell, joint("j", "trunk", "shell", kind="fixed")))
-    assert any("shell" in warning and "inertial" in warning for warning in tree.warnings)
+SHELL = '<visual><geometry><sphere radius="1"/></geometry></visual>'
 
 
-def test_a_moving_end_without_mass_is_warned_of():
-    tree = read(
-        robot(link("trunk", inertial()), link("foot"), joint("ankle", "trunk", "foot", LIMIT))
-    )
-    assert any("foot" in warning for warning in tree.warnings)
-
-
-def test_an_impossible_body_in_a_possible_robot_is_warned_of():
-    content = robot(
-        link("trunk", inertial(5.0, "1 1 1")),
-        link("arm", inertial(1.0, "0.1 0.1 0.5")),
-        joint("j", "trunk", "arm", LIMIT),
-    )
-    (warning,) = read(content).warnings
-    assert "arm" in warning
-    assert "triangle" in warning
+@pytest.mark.parametrize(
+    ("parts", "words"),
+    [
+        ((link("shell", SHELL), joint("j", "trunk", "shell", kind="fixed")), ("shell", "inertial")),
+        ((link("foot"), joint("ankle", "trunk", "foot", LIMIT)), ("foot", "without mass")),
+        (
+            (link("arm", inertial(1.0, "0.1 0.1 0.5")), joint("j", "trunk", "arm", LIMIT)),
+            ("arm", "triangle"),
+        ),
+    ],
+    ids=["a shape without inertial", "a moving end without mass", "an impossible body"],
+)
+def test_what_can_hardly_be_meant_is_warned_of(parts, words):
+    (warning,) = read(robot(link("trunk", inertial(5.0, "1 1 1")), *parts)).warnings
+    assert all(word in warning for word in words)
 
 
 def test_an_impossible_link_in_a_possible_lump_is_not():

@@ -8,7 +8,7 @@ from packaging.requirements import Requirement
 
 from ocs_design.device.findings import State
 from ocs_design.workflows import doctor
-from ocs_design.workflows.doctor import DEVELOPMENT, USES, import_failures, package_findings
+from ocs_design.workflows.doctor import DEVELOPMENT, PURPOSES, import_failures, package_findings
 
 PROJECT = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())["project"]
 
@@ -103,4 +103,4 @@ def test_every_package_that_users_may_want_has_its_purpose():
     lines = [*PROJECT["dependencies"]]
     for extra, requirements in PROJECT["optional-dependencies"].items():
         lines += [] if extra in DEVELOPMENT else requirements
-    assert set(USES) == {Requirement(line).name for line in lines}
+    assert set(PURPOSES) == {Requirement(line).name for line in lines}

@@ -1,0 +1,17 @@
+"""Files of users, read."""
+
+import pytest
+
+from ocs_design.catalogue.motors import load_motors
+
+
+@pytest.fixture
+def load(tmp_path):
+    """Reads a text as a file with this suffix, of motors unless another reader is given."""
+
+    def write_and_load(text, suffix=".toml", read=load_motors):
+        path = tmp_path / f"mine{suffix}"
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return read(path)
+
+    return write_and_load
