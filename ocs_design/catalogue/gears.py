@@ -214,28 +214,39 @@ class GearSheet:
         """Every stage on offer, by rising ratio; none if figures are missing."""
         if self.missing:
             return ()
-        found = self._belts() if self.kind is GearKind.BELT else self._fixed()
+        motor_speed = math.inf
+        if self.motor_speed_max_rpm is not None:
+            motor_speed = self.motor_speed_max_rpm * math.pi / 30.0
+        # What all stages of one gear share; the rest follows.
+        shared = Gear(
+            name=self.name,
+            ratio=1.0,
+            efficiency=_stated(self.efficiency),
+            mass=_stated(self.mass_kg),
+            inertia=0.0,
+            motor_speed_max=motor_speed,
+            wheel_speed_max=math.inf,
+            torque_max=0.0,
+            reverses=self.reverses,
+            source=self.source,
+        )
+        found = self._belts(shared) if self.kind is GearKind.BELT else self._fixed(shared)
         return tuple(sorted(found, key=lambda gear: (gear.ratio, gear.name)))
 
-    def _fixed(self) -> Iterator[Gear]:
+    def _fixed(self, shared: Gear) -> Iterator[Gear]:
         """Stage of each ratio."""
         for ratio in self.ratios:
             # Seen at the wheel, what turns with the motor counts with the square of the ratio.
             scale = ratio**2 if self.inertia_at is InertiaAt.MOTOR else 1.0
-            yield Gear(
+            yield replace(
+                shared,
                 name=f"{self.name} {ratio:g}:1",
                 ratio=ratio,
-                efficiency=_stated(self.efficiency),
-                mass=_stated(self.mass_kg),
                 inertia=scale * _stated(self.inertia_kg_m2),
-                motor_speed_max=_speed(self.motor_speed_max_rpm),
-                wheel_speed_max=math.inf,
                 torque_max=_stated(self.torque_max_nm),
-                reverses=self.reverses,
-                source=self.source,
             )
 
-    def _belts(self) -> Iterator[Gear]:
+    def _belts(self, shared: Gear) -> Iterator[Gear]:
         """Stage of every two different pulleys; two of a size would only add mass."""
         for motor_teeth, wheel_teeth in itertools.permutations(self.teeth, 2):
             belt = BeltStage(
@@ -247,18 +258,15 @@ class GearSheet:
                 pulley_density=_stated(self.pulley_density_kg_m3),
                 working_tension=_stated(self.working_tension_n),
             )
-            mass = _stated(self.mass_kg) + belt.mass
-            yield Gear(
+            mass = shared.mass + belt.mass
+            yield replace(
+                shared,
                 name=f"{self.name} {motor_teeth}:{wheel_teeth}",
                 ratio=belt.ratio,
-                efficiency=_stated(self.efficiency),
                 mass=mass,
                 inertia=belt.inertia,
-                motor_speed_max=_speed(self.motor_speed_max_rpm),
                 wheel_speed_max=belt.wheel_speed_max(_stated(self.belt_speed_max_m_s)),
                 torque_max=belt.torque_max,
-                reverses=self.reverses,
-                source=self.source,
                 room=replace(belt.room, center=belt.room.center * belt.mass / mass),
             )
 
@@ -267,11 +275,6 @@ def _stated(figure: float | None) -> float:
     """A figure that `missing` has found to be stated."""
     assert figure is not None
     return figure
-
-
-def _speed(speed_rpm: float | None) -> float:
-    """[rad/s]; inf: not limited."""
-    return math.inf if speed_rpm is None else speed_rpm * math.pi / 30.0
 
 
 _NEEDED: Mapping[GearKind, tuple[str, ...]] = {

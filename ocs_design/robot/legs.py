@@ -322,7 +322,18 @@ def _legs_along(
                 lowest = float(up @ chain.pose(chain.stretched(tip, -up)).point(tip))
                 hanging.append(_Limb(last, -lowest, hip - lowest, at_rest))
         carriers = [masses[i] for i in ancestors(tree, trunk) if masses[i].mass > 0.0]
-        legs = _standing(hanging, robot, carriers, up)
+        # They hang low, can lift the robot off the ground, and do so to the same height.
+        low = [
+            limb
+            for limb in hanging
+            if limb.at_rest > _SHARE_AT_REST * limb.reach
+            and limb.depth + up @ robot.com < _LARGEST_HEIGHT * limb.reach
+            and all(
+                limb.depth + up @ each.com > _SHARE_BELOW_TRUNK * limb.reach
+                for each in (robot, *carriers)
+            )
+        ]
+        legs = [leg for leg in low if _depth(low) - leg.depth < _LARGEST_DEVIATION * leg.reach]
         if _leave_twins(tree, ends, {leg.last for leg in legs}):
             continue
         if len(legs) >= 2 and (not best or _depth(legs) > _depth(best)):
@@ -402,26 +413,6 @@ def far_ends(tree: Tree) -> list[int]:
         if length >= lengths[body.parent]:
             lengths[body.parent], ends[body.parent] = length, ends[index]
     return ends
-
-
-def _standing(
-    limbs: Sequence[_Limb],
-    robot: MassProperties,
-    carriers: Sequence[MassProperties],
-    up: FloatArray,
-) -> list[_Limb]:
-    """The limbs that hang low, can lift the robot off the ground, and do so to the same height."""
-    legs = [
-        limb
-        for limb in limbs
-        if limb.at_rest > _SHARE_AT_REST * limb.reach
-        and limb.depth + up @ robot.com < _LARGEST_HEIGHT * limb.reach
-        and all(
-            limb.depth + up @ each.com > _SHARE_BELOW_TRUNK * limb.reach
-            for each in (robot, *carriers)
-        )
-    ]
-    return [leg for leg in legs if _depth(legs) - leg.depth < _LARGEST_DEVIATION * leg.reach]
 
 
 def _depth(limbs: Sequence[_Limb]) -> float:

@@ -66,7 +66,15 @@ def find_base(model: mujoco.MjModel, named: Sequence[str], warnings: Warnings) -
     moving = set(moved.tolist())
     jointed = set(moved[model.jnt_bodyid != moved].tolist())
     free = set(moved[model.jnt_type == mujoco.mjtJoint.mjJNT_FREE].tolist())
-    kinds = (_driven_roots(model) | (jointed & free), jointed, moving, set(roots))
+    # Of which some actuator moves a joint; muscles and tendons count.
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    mujoco.mj_tendon(model, data)
+    mujoco.mj_transmission(model, data)
+    degrees = data.moment_colind[data.actuator_moment != 0.0]
+    driven = set(model.body_rootid[model.dof_bodyid[degrees]].tolist())
+    kinds = (driven | (jointed & free), jointed, moving, set(roots))
     candidates = next(
         found for kind in kinds if (found := [each for each in roots if each in kind])
     )
@@ -87,17 +95,6 @@ def find_base(model: mujoco.MjModel, named: Sequence[str], warnings: Warnings) -
         if body != base and body in moving:
             warnings.add("beside the robot, left out", model.body(body).name)
     return base
-
-
-def _driven_roots(model: mujoco.MjModel) -> set[int]:
-    """Children of the world of which some actuator moves a joint; muscles and tendons count."""
-    data = mujoco.MjData(model)
-    mujoco.mj_kinematics(model, data)
-    mujoco.mj_comPos(model, data)
-    mujoco.mj_tendon(model, data)
-    mujoco.mj_transmission(model, data)
-    degrees = data.moment_colind[data.actuator_moment != 0.0]
-    return set(model.body_rootid[model.dof_bodyid[degrees]].tolist())
 
 
 def bodies_of(model: mujoco.MjModel, base: int) -> Sequence[int]:

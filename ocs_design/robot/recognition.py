@@ -200,9 +200,15 @@ class _Readings(Anatomy):
             sets = [self.one_of_each_pair(each, up) for each in sets]
             for chosen in (*sets, *self.spines(sets, up), *self.single(limbs, up)):
                 feet = frozenset(limb.last for limb in chosen)
-                reading = self._judged(chosen, sets, up)
-                if reading is None or feet in found:
+                ordered = sorted(chosen, key=lambda limb: limb.last)
+                legs = tuple(
+                    leg_of(self.tree, limb.base, limb.last, up, self.placements) for limb in ordered
+                )
+                if feet in found or any(leg.length <= 0.0 for leg in legs):
                     continue
+                trunk = self._spine_trunk([limb.base for limb in chosen])
+                signs, doubts = self._signs(chosen, sets, up)
+                reading = Reading(frame_link(self.tree.bodies[trunk]), legs, signs, doubts)
                 # With a wrong direction for up some limbs hang by chance.
                 if up[2] == 1.0 or usual or _speaks(reading, NAMES):
                     found[feet] = reading
@@ -351,19 +357,6 @@ class _Readings(Anatomy):
         joint = max(set.intersection(*map(set, paths)))
         between = {body for path in paths for body in path if body >= joint}
         return max(between, key=lambda body: (self.masses[body].mass, -body))
-
-    def _judged(
-        self, chosen: Sequence[Limb], sets: Sequence[Sequence[Limb]], up: FloatArray
-    ) -> Reading | None:
-        signs, doubts = self._signs(chosen, sets, up)
-        ordered = sorted(chosen, key=lambda limb: limb.last)
-        legs = tuple(
-            leg_of(self.tree, limb.base, limb.last, up, self.placements) for limb in ordered
-        )
-        if any(leg.length <= 0.0 for leg in legs):
-            return None
-        trunk = self._spine_trunk([limb.base for limb in chosen])
-        return Reading(frame_link(self.tree.bodies[trunk]), legs, signs, doubts)
 
     def _signs(
         self, chosen: Sequence[Limb], sets: Sequence[Sequence[Limb]], up: FloatArray
