@@ -18,7 +18,7 @@ from ocs_design.parts.moments import Carrier
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Robot
-from ocs_design.sizing.selection.device import braked
+from ocs_design.sizing.place import braked
 
 _BRAKE = 0.15
 _SWING = 1.5

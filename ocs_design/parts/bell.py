@@ -5,9 +5,10 @@ MN4006 (github.com/wheelbot/Mini-Wheelbot, hardware/how-to-assemble-motors.md). 
 the floor of the housing, inside the ring, and is screwed to floor and plate by its back.
 """
 
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, TypeAlias
 
-from ocs_design.actuation.motor import Face, Mounting
+from ocs_design.actuation.drive import Drive
+from ocs_design.actuation.motor import Face, Motor
 from ocs_design.parts.part import Part
 from ocs_design.parts.printed import CLEARANCE, DENSITY, WALL
 from ocs_design.parts.solids import revolved
@@ -29,20 +30,8 @@ GLUE_ROOM = 1.0e-3
 """Width and depth of the groove under the glue gap [m]: what is squeezed out of it."""
 
 
-class HeldMotor(Protocol):
-    """The figures of a motor that its mount, or a ring around its bell, needs."""
-
-    @property
-    def mounting(self) -> Mounting | None:
-        """Its shaft and threads."""
-
-    @property
-    def diameter(self) -> float | None:
-        """Size of the motor's body [m]."""
-
-    @property
-    def length(self) -> float | None:
-        """Size of the motor's body [m]."""
+HeldMotor: TypeAlias = Motor | Drive
+"""What has the figures of a motor that its mount, or a ring around its bell, needs."""
 
 
 class Bell(NamedTuple):

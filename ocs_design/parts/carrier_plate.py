@@ -250,16 +250,16 @@ class CarrierPlate:
 
     def own_mass_properties(self) -> MassProperties:
         """Mass properties of plate, sleeves and the trunk's screws in its own frame."""
-        return combine(self._bodies())
-
-    def _bodies(self) -> Iterator[MassProperties]:
-        """Mass properties of everything in the plate's own frame, screws as points."""
-        for part, place in plate_bodies(self):
-            yield part.mass_properties().moved(place.rotation, place.position)
+        bodies = [
+            part.mass_properties().moved(place.rotation, place.position)
+            for part, place in plate_bodies(self)
+        ]
+        # Screws as points.
         for place, length in zip(self.screw_places, self.screw_lengths, strict=True):
             up = np.array([0.0, 0.0, self.clamped - self.screw.centre(length)])
             at = place.rotation @ up + place.position
-            yield MassProperties(self.screw.mass(length), at, np.zeros((3, 3)))
+            bodies.append(MassProperties(self.screw.mass(length), at, np.zeros((3, 3))))
+        return combine(bodies)
 
 
 def _chord(radius: float, off: FloatArray) -> FloatArray:

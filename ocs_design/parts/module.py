@@ -1,7 +1,7 @@
 """A module without its wheel: motor, gear, housing and foot, with what holds them together."""
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from ocs_design.parts.foot import Foot, foot_mass_per_height, foot_moments, trun
 from ocs_design.parts.housing import (
     LID_SCREWS,
     Housing,
+    PlainDrum,
     half_height,
     housing_mass_per_height,
     housing_moments,
@@ -30,16 +31,6 @@ SHELL_SCREWS = LID_SCREWS.mass + TRUNK_SCREWS.mass
 def part_name(part: str, module: str) -> str:
     """Part of a module for people, as in "left foot"; with a number "foot 1" or "foot left_1"."""
     return f"{part} {module}" if module[-1:].isdigit() else f"{module} {part}"
-
-
-class Shell(Protocol):
-    """What stands around a wheel, whose mass grows with the rim's outer radius and height [m]."""
-
-    def mass(self, outer_radius: FloatArray, height: FloatArray) -> FloatArray:
-        """Mass [kg]."""
-
-    def mass_per_height(self, outer_radius: FloatArray, height: FloatArray) -> FloatArray:
-        """Change of the mass with the height, R held [kg/m]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,6 +71,10 @@ class Printed:
     def _foot(self, outer_radius: FloatArray, height: FloatArray) -> Foot[FloatArray]:
         reach, height = np.asarray(self.mount_reach), np.maximum(height, self.room)
         return _foot(outer_radius, height, reach, self.guard_wall, self.foot_plate)
+
+
+Shell: TypeAlias = Printed | PlainDrum
+"""What stands around a wheel, whose mass grows with the rim's outer radius and height [m]."""
 
 
 def shell_moments(

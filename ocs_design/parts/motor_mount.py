@@ -171,7 +171,12 @@ def mount_of(
     mounting = motor.mounting
     bell = bell_of(motor) if on_bell and room is None else None
     if bell is not None and mounting is not None and mounting.stator is not None:
-        return _in_housing(motor, mounting, mounting.stator, bell, foot_plate)
+        # On the housing's floor, with screws from behind the foot's plate.
+        thick, backed = PANEL + foot_plate, mounting.stator
+        fastening = _fastening(backed, thick, f"motor on housing and foot; {_DEPTH}", 1.0)
+        screwed = (Screwed(fastening, backed, -foot_plate, 1.0),)
+        holes, gap = screwed_by_face(mounting, backed), -(thick + (motor.length or 0.0))
+        return MotorMount(holes, None, screwed, gap=gap, foot_plate=foot_plate, bell=bell)
     if room is not None:
         return MotorMount(gap=room.depth, up=room.offset, foot_plate=foot_plate)
     if mounting is None:
@@ -201,18 +206,6 @@ def mount_of(
     fastening = _fastening(stator, FLOOR, f"motor in its cage; {_DEPTH}", 1.0)
     held = Screwed(fastening, stator, -cage.back, 1.0, by_wheel=True)
     return MotorMount(passage, cage, (*wheel, held, on_plate), foot_plate=foot_plate)
-
-
-def _in_housing(
-    motor: HeldMotor, mounting: Mounting, stator: BoltCircle, bell: Bell, foot_plate: float
-) -> MotorMount:
-    """Mount of a motor on the housing's floor, with screws from behind the foot's plate."""
-    thick = PANEL + foot_plate
-    fastening = _fastening(stator, thick, f"motor on housing and foot; {_DEPTH}", 1.0)
-    screwed = Screwed(fastening, stator, -foot_plate, 1.0)
-    gap = -(thick + (motor.length or 0.0))
-    holes = screwed_by_face(mounting, stator)
-    return MotorMount(holes, None, (screwed,), gap=gap, foot_plate=foot_plate, bell=bell)
 
 
 def is_held(motor: HeldMotor, room: GearRoom | None) -> bool:

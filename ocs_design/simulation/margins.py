@@ -107,21 +107,8 @@ def _of_drive(
     motions: Sequence[tuple[str, Motion]],
     braked: Sequence[tuple[str, Sequence[Margin]]],
 ) -> tuple[Margin, ...]:
-    chosen, stated = choice.chosen, choice.problem.wheel_speed_max
-    wheel = DrivenWheel(
-        chosen.inner_radius,
-        chosen.outer_radius,
-        chosen.height,
-        chosen.material,
-        chosen.motor,
-        chosen.gear,
-        choice.problem.bus_voltage,
-        float("inf") if stated is None else stated,
-        chosen.hub,
-        chosen.cuts,
-        chosen.web_material,
-        device.supply,
-    )
+    problem = choice.problem
+    wheel = DrivenWheel.of(choice.chosen, problem.supply.told, problem.wheel_speed_max)
     maneuvers = {maneuver.name: maneuver for maneuver in resolved.requirement.maneuvers}
     driven = (
         (name, margins(motion, device.as_flown(maneuvers[name]).axes, wheel))

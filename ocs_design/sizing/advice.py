@@ -22,6 +22,7 @@ from ocs_design.requirement.bound import per_wheel, spin_demands
 from ocs_design.requirement.kinds import change_text
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.pivoted import Balance
+from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.links import listed
 from ocs_design.sizing.bound.rim_problem import largest_spin_inertia
 from ocs_design.sizing.limits import (
@@ -110,6 +111,10 @@ class Field:
             drives = drives_of(problem, np.column_stack([drives.motor, drives.gear]))
         return Field.of(problem, drives)
 
+    def with_requirement(self, requirement: Requirement) -> "Field":
+        """Field of these drives for another requirement."""
+        return self.changed(replace(self.problem, requirement=requirement))
+
     @property
     def possible(self) -> bool:
         """Whether any of the most promising has a device; what can only just be may be missed."""
@@ -129,11 +134,10 @@ class Field:
 
     def _bounded(self) -> Iterator[tuple[Candidates, Guess]]:
         """Candidates that no bound rules out, the most promising first, few at first."""
-        kinds, rows = np.arange(len(self.problem.materials)), np.arange(len(self.drives))
-        material, row = (each.ravel() for each in np.meshgrid(kinds, rows))
-        every = Candidates(self.problem, self.drives.take(row), material)
+        every = Candidates.of_each_material(self.problem, self.drives)
         # First comes whose largest wheel has the most to spare; too small a one is left out.
-        beside, needed = every.drives.beside_rim, self.needed[row]
+        beside = every.drives.beside_rim
+        needed = np.repeat(self.needed, len(self.problem.materials))
         largest = largest_spin_inertia(every.limits) + beside
         spare = largest / np.maximum(needed, 1e-15)
         roomy = np.flatnonzero((largest > beside) & (spare >= 1.0))
@@ -183,8 +187,19 @@ def advice_on(
             changes = single_changes(field, progress)
         model = next(each for each in problem.motors if each.name == refused.nearest.motor)
         needed = needed_motor(problem, model)
-        hints = [
-            *([_default_hint(field)] if default else []),
+        hints = []
+        if default:
+            asked = problem.requirement
+            hints.append(unasked(asked.maneuvers))
+            fine = [
+                each.name
+                for each in asked.maneuvers
+                if field.with_requirement(replace(asked, maneuvers=(each,))).possible
+            ]
+            if fine:
+                how = " as it is" if len(fine) == 1 else ", each by itself"
+                hints.append(f"{listed(fine)} can be done{how}.")
+        hints += [
             *_caught(field),
             *([] if needed is None else [needed.text]),
             *_hints(field, reason, changes, lightest=lightest),
@@ -212,8 +227,7 @@ def _caught(field: Field) -> Iterator[str]:
             each.times(part) if isinstance(each, Balance) else each
             for each in requirement.maneuvers
         )
-        less = replace(requirement, maneuvers=maneuvers)
-        return field.changed(replace(field.problem, requirement=less)).possible
+        return field.with_requirement(replace(requirement, maneuvers=maneuvers)).possible
 
     least = 1.0 / MOST_CHANGE
     if not asked or not does(least):
@@ -272,23 +286,6 @@ def _hints(
         )
     elif not changes:
         yield advice([], MOST_CHANGE, "loosen several, ask for less, or add stronger motors.")
-
-
-def _default_hint(field: Field) -> str:
-    """Which maneuvers nobody asked for, and which of them can be done as they are."""
-    problem = field.problem
-    asked = problem.requirement
-    fine = [
-        each.name
-        for each in asked.maneuvers
-        if field.changed(replace(problem, requirement=replace(asked, maneuvers=(each,)))).possible
-    ]
-    texts = [
-        unasked(asked.maneuvers),
-        f"{listed(fine)} can be done as it is." if len(fine) == 1 else "",
-        f"{listed(fine)} can be done, each by itself." if len(fine) > 1 else "",
-    ]
-    return " ".join(filter(None, texts))
 
 
 def unasked(maneuvers: Sequence[Maneuver]) -> str:

@@ -48,20 +48,8 @@ def assemble(sizing: DeviceSizing, resolved: Resolved) -> Device:
 
 def assemble_selected(candidate: Candidate, supply: Supply) -> Device:
     """Modules as they were selected, fed by `supply`."""
-    wheel = DrivenWheel(
-        candidate.inner_radius,
-        candidate.outer_radius,
-        candidate.height,
-        candidate.material,
-        candidate.motor,
-        candidate.gear,
-        supply.voltage,
-        hub=candidate.hub,
-        cuts=candidate.cuts,
-        web_material=candidate.web_material,
-    )
     device = assemble_driven(
-        wheel,
+        DrivenWheel.of(candidate, supply),
         candidate.carrier,
         candidate.incidence,
         candidate.centers,

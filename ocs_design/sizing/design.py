@@ -19,13 +19,15 @@ from ocs_design.robot.links import listed
 from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.assembly import assemble, assemble_selected
+from ocs_design.sizing.bound.device_problem import DeviceProblem
 from ocs_design.sizing.bound.device_sizing import size_device
 from ocs_design.sizing.footing.standing import stand_on_trunk
 from ocs_design.sizing.limits import DEVICE_MASS, Progress
 from ocs_design.sizing.on_robot import in_rings, on_its_footing, with_plate
+from ocs_design.sizing.place import braked
 from ocs_design.sizing.placement import specified_place
 from ocs_design.sizing.reserve import Reality, Reserve, account
-from ocs_design.sizing.selection.device import braked, with_demands
+from ocs_design.sizing.selection.device import with_demands
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.select import device_at
 from ocs_design.sizing.sized import Choice, Designed, sized_by_bound, sized_selection
@@ -118,13 +120,15 @@ def _designed(
         ocs, envelope = specification.ocs, resolved.envelope
         criterion = Criterion(ocs.alpha_criterion or Criterion.EQUAL_RATE)
         sizing = size_device(
-            robot.mass_properties,
-            resolved.requirement,
-            envelope,
-            resolved.material,
-            specified_place(ocs.position, robot, envelope),
-            incidence=ocs.alpha,
-            criterion=criterion,
+            DeviceProblem(
+                robot.mass_properties,
+                resolved.requirement,
+                envelope,
+                resolved.material,
+                specified_place(ocs.position, robot, envelope),
+                incidence=ocs.alpha,
+                criterion=criterion,
+            )
         )
         designed = Designed(
             device=assemble(sizing, resolved),

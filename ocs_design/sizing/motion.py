@@ -27,6 +27,7 @@ from ocs_design.common.errors import OcsError
 from ocs_design.parts.joints import OVERSPEED
 from ocs_design.parts.moments import Carrier
 from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts, hoop_stress, wheel_body
+from ocs_design.sizing.selection.problem import Candidate
 from ocs_design.sizing.trajectory.flight import Trajectory
 
 
@@ -159,6 +160,26 @@ class DrivenWheel:
     cuts: RimCuts = NO_CUTS
     web_material: Material | None = None
     supply: Supply | None = None
+
+    @classmethod
+    def of(
+        cls, device: Candidate, supply: Supply, wheel_speed_max: float | None = None
+    ) -> "DrivenWheel":
+        """Wheel of a selected device, fed by a supply, up to a stated speed [rad/s]."""
+        return cls(
+            device.inner_radius,
+            device.outer_radius,
+            device.height,
+            device.material,
+            device.motor,
+            device.gear,
+            supply.voltage,
+            inf if wheel_speed_max is None else wheel_speed_max,
+            device.hub,
+            device.cuts,
+            device.web_material,
+            supply,
+        )
 
     @cached_property
     def line(self) -> DriveLine:

@@ -1,4 +1,4 @@
-"""How much room a module takes, and where modules stand as that grows."""
+"""How much room a module takes, where modules stand as that grows, and all of them on the robot."""
 
 from dataclasses import dataclass
 from typing import Generic, NamedTuple, TypeVar
@@ -13,8 +13,10 @@ from ocs_design.device.solids import motor_mount
 from ocs_design.parts.bell import HeldMotor
 from ocs_design.parts.foot import base_radius, larger, wheel_height
 from ocs_design.parts.housing import half_height, housing_outer_radius, plate_back
+from ocs_design.parts.moments import Carrier
 from ocs_design.parts.motor_mount import Behind, mount_of
 from ocs_design.parts.printed import PLATE_THICKNESS
+from ocs_design.robot.mass import MassProperties, combine
 
 CLEARANCE = 1.1
 """Room kept around a wheel, over the radius of the sphere that it sweeps at any incidence."""
@@ -159,3 +161,25 @@ def place_at(position: tuple[float, ...], layout: Layout = PAIR) -> Place:
     if layout == PAIR:
         places = np.concatenate([places, places * [1.0, -1.0, 1.0]])
     return Place(tuple(vector(each) for each in places), ((0.0, 0.0, 0.0),) * len(places))
+
+
+def braked(
+    robot: MassProperties,
+    bodies: tuple[Carrier, ...],
+    centers: FloatArray,
+    incidence: float,
+    layout: Layout = PAIR,
+) -> MassProperties:
+    """Robot and all modules as one rigid body in B.
+
+    Args:
+        robot: without the modules.
+        bodies: of one module, in its own frame (`Layout.frames`).
+        centers: of the wheels in B [m], shape (n, 3).
+        incidence: of their axes, or the layout's angle [rad].
+        layout: of the modules.
+    """
+    parts = [robot]
+    for center, attitude in zip(centers, layout.frames(incidence), strict=True):
+        parts += [body.mass_properties().moved(attitude, center) for body in bodies]
+    return combine(parts)

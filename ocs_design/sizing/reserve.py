@@ -425,11 +425,6 @@ def _line(line: DriveLine, drawn: Mapping[str, FloatArray]) -> DriveLine:
     )
 
 
-def _turns_over(maneuver: Maneuver, axes: FloatArray) -> bool:
-    """Whether a roll at lift-off turns with the trunk, and its wheels do not reach yaw."""
-    return isinstance(maneuver, Flip) and bool((np.abs(axes[2]) <= OUT_OF_REACH).all())
-
-
 def _lift_off(maneuver: Maneuver) -> float:
     """Upward speed at the end of a push-off [m/s]; 0 where there is none."""
     match maneuver:
@@ -476,7 +471,9 @@ class _Flown:
 
     @property
     def _turns_over(self) -> bool:
-        return _turns_over(self.maneuver, self.designed)
+        """Whether a roll at lift-off turns with the trunk, and its wheels do not reach yaw."""
+        blind = bool((np.abs(self.designed[2]) <= OUT_OF_REACH).all())
+        return isinstance(self.maneuver, Flip) and blind
 
     @property
     def _undoes_roll(self) -> bool:

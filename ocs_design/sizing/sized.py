@@ -22,6 +22,7 @@ from ocs_design.sizing.bound.device_problem import design_momenta
 from ocs_design.sizing.bound.device_sizing import DeviceSizing
 from ocs_design.sizing.bound.rim_problem import RimProblem
 from ocs_design.sizing.lightest_module import lightest_module
+from ocs_design.sizing.limits import RIM_LIMITS, STRESS
 from ocs_design.sizing.reserve import Reserve
 from ocs_design.sizing.selection.device import inertia_at
 from ocs_design.sizing.selection.problem import Candidate, Selection, SelectionProblem
@@ -30,17 +31,6 @@ if TYPE_CHECKING:
     from ocs_design.sizing.trajectory.co_design import CoDesign
 
 METHOD = "branch and bound over the catalogue, each module in closed form"
-
-_LIMIT_OF_NAME: Mapping[str, str] = {
-    "r_max": "outer_radius_max",
-    "r_min": "inner_radius_min",
-    "h_max": "height_max",
-    "h_min": "height_min",
-    "wall_min": "wall_min",
-    "wheel_mass_max": "mass_max",
-    "hoop_stress": "stretch_max",
-}
-"""Field of `RimLimits` behind each name of a limit that can bind."""
 
 _STEP = 1e-5
 """Half the distance of the two points of a difference, relative."""
@@ -152,9 +142,10 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
     shell = Printed(mount.holes.reach, mount.posts, chosen.guard_wall, plate, mount.room)
     prices = {}
     for name in chosen.binding:
-        field = _LIMIT_OF_NAME.get(name)
-        if field is None:
+        limit = next((each for each in RIM_LIMITS if each.name == name), None)
+        if limit is None:
             continue
+        field = "stretch_max" if limit is STRESS else limit.field
         value = float(np.asarray(getattr(limits, field)))
         steps = np.array([-_STEP, 0.0, _STEP]) * value
         changed = [replace(limits, **{field: value + step}) for step in steps]
@@ -164,8 +155,7 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
         if steps.size < 2:  # The smallest wheel there is, on the edge of what closes.
             continue
         slope = float((masses[-1] - masses[0]) / (steps[-1] - steps[0]))
-        stress = name == "hoop_stress"
-        prices[name] = slope * (rim.stretch_max / rim.hoop_stress_max if stress else 1.0)
+        prices[name] = slope * (rim.stretch_max / rim.hoop_stress_max if limit is STRESS else 1.0)
     return prices
 
 

@@ -338,6 +338,21 @@ def test_motors_by_angles_by_turns():
     assert h[2, 1, 2] == pytest.approx(float(one), rel=1e-13)
 
 
+def by_programme(axes, momentum):
+    """Least of the busiest wheel by a linear program; inf where the axes do not span it."""
+    dimensions, wheels = axes.shape
+    each = np.hstack([np.eye(wheels), -np.ones((wheels, 1))])
+    answer = linprog(
+        np.append(np.zeros(wheels), 1.0),
+        A_eq=np.hstack([axes, np.zeros((dimensions, 1))]),
+        b_eq=momentum,
+        A_ub=np.vstack([each, each * np.append(-np.ones(wheels), 1.0)]),
+        b_ub=np.zeros(2 * wheels),
+        bounds=[(None, None)] * wheels + [(0.0, None)],
+    )
+    return answer.fun if answer.success else INF
+
+
 @settings(deadline=None)
 @given(st.integers(2, 3), st.integers(1, 5), st.integers(0, 2**32 - 1))
 def test_the_gauge_is_the_linear_programmes(dimensions, wheels, seed):
@@ -349,16 +364,7 @@ def test_the_gauge_is_the_linear_programmes(dimensions, wheels, seed):
     if np.linalg.matrix_rank(axes, 1e-6) != np.linalg.matrix_rank(axes, 1e-12):
         return
     momentum = axes @ rng.normal(size=wheels)
-    each = np.hstack([np.eye(wheels), -np.ones((wheels, 1))])
-    answer = linprog(
-        np.append(np.zeros(wheels), 1.0),
-        A_eq=np.hstack([axes, np.zeros((dimensions, 1))]),
-        b_eq=momentum,
-        A_ub=np.vstack([each, each * np.append(-np.ones(wheels), 1.0)]),
-        b_ub=np.zeros(2 * wheels),
-        bounds=[(None, None)] * wheels + [(0.0, None)],
-    )
-    assert held(axes, momentum).most == pytest.approx(answer.fun, rel=1e-12)
+    assert held(axes, momentum).most == pytest.approx(by_programme(axes, momentum), rel=1e-12)
     beyond = np.linalg.svd(axes)[0][:, -1]
     assert np.isinf(held(axes, beyond).most) == (np.linalg.matrix_rank(axes) < dimensions)
 
@@ -487,18 +493,8 @@ def test_what_is_left_of_the_gauge_is_the_linear_programmes(wheels, seed):
     axes = rng.normal(size=(2, wheels)) * np.array([1.0, rng.choice([1.0, 0.0])])[:, None]
     momentum = axes[:, 0] + axes[:, 1]
     for lost, left in enumerate(without_each(axes)):
-        others = np.delete(axes, lost, axis=1)
-        each = np.hstack([np.eye(wheels - 1), -np.ones((wheels - 1, 1))])
-        answer = linprog(
-            np.append(np.zeros(wheels - 1), 1.0),
-            A_eq=np.hstack([others, np.zeros((2, 1))]),
-            b_eq=momentum,
-            A_ub=np.vstack([each, each * np.append(-np.ones(wheels - 1), 1.0)]),
-            b_ub=np.zeros(2 * (wheels - 1)),
-            bounds=[(None, None)] * (wheels - 1) + [(0.0, None)],
-        )
-        found = held(left, momentum).most
-        assert found == pytest.approx(answer.fun if answer.success else INF, rel=1e-9)
+        others, found = np.delete(axes, lost, axis=1), held(left, momentum).most
+        assert found == pytest.approx(by_programme(others, momentum), rel=1e-9)
         assert found >= held(axes, momentum).most * (1.0 - 1e-12)
 
 

@@ -55,8 +55,12 @@ def asks(*maneuvers, rate_change=None, wheel_speed_max=SPEED, spin_inertia=None)
     return Requirement(maneuvers, rate_change, wheel_speed_max, spin_inertia, 0.25)
 
 
-def size(requirement, envelope=ROOM, **options):
-    return size_device(SOLO12, requirement, envelope, STEEL, place, **options)
+def problem_of(requirement, envelope=ROOM, *, incidence=None, criterion=Criterion.EQUAL_RATE):
+    return DeviceProblem(SOLO12, requirement, envelope, STEEL, place, incidence, criterion)
+
+
+def size(*asked, **options):
+    return size_device(problem_of(*asked, **options))
 
 
 def by_pinocchio(rim, centers, incidence):
@@ -211,11 +215,11 @@ def test_infeasible_by_its_robot():
     assert error.required_spin_inertia > error.largest_spin_inertia > 0.0
     assert "wheel_speed_max" in error.relaxations
     assert "r_max" in error.relaxations
-    problem = DeviceProblem(SOLO12, requirement, envelope, STEEL, place, None, Criterion.EQUAL_RATE)
+    problem = problem_of(requirement, envelope)
     by_name = {limit.name: limit for limit in (*RIM_LIMITS, WHEEL_SPEED)}
     for name, value in error.relaxations.items():
         mended = with_limit(problem, by_name[name], value)
-        size_device(SOLO12, mended.requirement, mended.envelope, STEEL, place)
+        size_device(mended)
         tighter = by_name[name].loosened(value, 1.0 / (1.0 + 3.0 * DEVICE_PRECISION))
         assert isinstance(find_fixed_point(with_limit(problem, by_name[name], tighter)), DeadEnd)
 

@@ -13,7 +13,7 @@ from ocs_design.device.layout import PAIR, Layout, LayoutName
 from ocs_design.parts.moments import Carrier, MassMoments, point, round_body
 from ocs_design.requirement.requirement import ManeuverReserve
 from ocs_design.robot.mass import MassProperties
-from ocs_design.sizing.place import Place, Size, around
+from ocs_design.sizing.place import Place, Size, around, braked
 from ocs_design.sizing.selection.bounds import (
     Cell,
     RimFloor,
@@ -26,12 +26,10 @@ from ocs_design.sizing.selection.candidates import Candidates, drives_of
 from ocs_design.sizing.selection.composite_inertia import (
     Least,
     LeastInertia,
-    Modules,
     composite_inertia,
     least_composite_inertia,
 )
 from ocs_design.sizing.selection.demand import columns, wheel_task
-from ocs_design.sizing.selection.device import braked
 from ocs_design.sizing.selection.fixed_point import Design, Tolerance, fixed_point
 
 ROBOT = MassProperties(
@@ -60,19 +58,18 @@ def random_modules(rng, count):
 
 
 def whole_of(wheel, motor, depth, foot, size):
-    whole = wheel + motor.shifted(-depth, np.zeros_like(depth)) + foot
-    return whole, Modules.of(whole, size)
+    return wheel + motor.shifted(-depth, np.zeros_like(depth)) + foot, size
 
 
 @pytest.mark.parametrize("layout", AROUND)
 def test_inertia_as_joined_body_by_body(layout):
-    whole, modules = whole_of(*random_modules(np.random.default_rng(0), 20))
+    whole, size = whole_of(*random_modules(np.random.default_rng(0), 20))
     angles, place = np.linspace(0.0, np.pi / 2.0, 7), AROUND[layout]
-    composed, asked = composite_inertia(ROBOT, place, modules, layout), np.tile(angles, (20, 1))
+    composed, asked = composite_inertia(ROBOT, place, whole, size, layout), np.tile(angles, (20, 1))
     found, upright = composed.at(asked), composed.upright(asked)
     for row in range(20):
         body = Carrier.of(whole.take(row))
-        centers = place.centers(Size(*(float(values[row]) for values in modules.size)))
+        centers = place.centers(Size(*(float(values[row]) for values in size)))
         expected = [braked(ROBOT, (body,), centers, a, layout).inertia for a in angles]
         np.testing.assert_allclose(
             found.diagonal[row], [np.diag(whole)[:2] for whole in expected], rtol=1e-12
@@ -94,12 +91,12 @@ def test_no_larger_or_heavier_module_has_less_inertia(layout):
     least = Least(wheel.mass, own, motor.mass, depth, zero, size, largest, heaviest)
     grown = Size(*(values * rng.uniform(1.0, 2.0, 500) for values in size))
     more, ahead = rng.uniform(1.0, 2.0, 500), rng.uniform(0.3, 1.0, 500)
-    _, modules = whole_of(each(wheel, more), motor, ahead * depth, foot, grown)
+    modules = whole_of(each(wheel, more), motor, ahead * depth, foot, grown)
     bound = least_composite_inertia(ROBOT, place, least, layout)
     angles = rng.uniform(0.0, np.pi / 2.0, (500, 1))
     if layout.angle is not None:
         angles[:] = layout.angle
-    whole = composite_inertia(ROBOT, place, modules, layout).at(angles)
+    whole = composite_inertia(ROBOT, place, *modules, layout).at(angles)
     assert (bound.inertia.diagonal <= whole.diagonal[:, 0] * (1.0 + 1e-12)).all()
     assert np.median(bound.inertia.diagonal / whole.diagonal[:, 0]) > 0.6
     assert (np.abs(whole.product[:, 0] - bound.inertia.product) <= bound.spread).all()

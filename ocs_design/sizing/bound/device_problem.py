@@ -17,18 +17,20 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import UsageError
-from ocs_design.device.layout import Criterion, incidence_by_criterion, module_axes
+from ocs_design.device.layout import Criterion, incidence_by_criterion
+from ocs_design.parts.moments import Carrier
 from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia
 from ocs_design.requirement.bound import SpinDemand, spin_demands
 from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.robot.mass import MassProperties, combine
+from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.rim_problem import (
     RimProblem,
     RimShape,
     lightest_rim,
     smallest_spin_inertia,
 )
+from ocs_design.sizing.place import braked
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,38 +61,16 @@ class DeviceProblem:
         return RimProblem(spin_inertia, self.envelope, self.material, speed)
 
 
-def both_wheels(
-    shape: RimShape, density: float, centers: FloatArray, incidence: float
-) -> MassProperties:
-    """Mass properties of both rims in B, braked.
-
-    Args:
-        shape: of one rim.
-        density: [kg/m^3].
-        centers: of the left and the right one in B [m], shape (2, 3).
-        incidence: of their axes [rad].
-    """
-    inner, outer, height, mass = (float(value) for value in shape)
-    spin = cylinder_spin_inertia(inner, outer, height, density)
-    transverse = cylinder_transverse_inertia(inner, outer, height, density)
-    axes = module_axes(incidence)
-    com = (centers[0] + centers[1]) / 2.0
-    apart = centers[0] - com
-    own = 2.0 * transverse * np.eye(3) + (spin - transverse) * axes @ axes.T
-    moved = 2.0 * mass * (apart @ apart * np.eye(3) - np.outer(apart, apart))
-    return MassProperties(2.0 * mass, com, own + moved)
-
-
 def braked_total(
     problem: DeviceProblem, shape: RimShape | None, incidence: float
 ) -> MassProperties:
     """Robot and both wheels as one rigid body in B; the robot alone if there is no rim yet."""
     if shape is None:
         return problem.robot
-    centers = problem.place(float(shape.outer_radius), float(shape.height))
-    return combine(
-        [problem.robot, both_wheels(shape, problem.material.density, centers, incidence)]
-    )
+    inner, outer, height, mass = (float(value) for value in shape)
+    cylinder = inner, outer, height, problem.material.density
+    wheel = Carrier(mass, cylinder_spin_inertia(*cylinder), cylinder_transverse_inertia(*cylinder))
+    return braked(problem.robot, (wheel,), problem.place(outer, height), incidence)
 
 
 def device_demands(
@@ -125,12 +105,7 @@ def chosen_incidence(problem: DeviceProblem, shape: RimShape | None, incidence: 
     """The incidence of the design [rad], with the wheels standing at `incidence` so far."""
     if problem.incidence is not None:
         return problem.incidence
-    if problem.criterion in {Criterion.WEIGHTED, Criterion.SIMULTANEOUS}:
-        return best_incidences(problem, shape, incidence)[problem.criterion]
-    # The others look at no momenta.
-    return incidence_by_criterion(braked_total(problem, shape, incidence).inertia)[
-        problem.criterion
-    ]
+    return best_incidences(problem, shape, incidence)[problem.criterion]
 
 
 def best_incidences(
@@ -192,20 +167,15 @@ class FixedPoint:
     iterations: int
 
 
-@dataclass(frozen=True, eq=False)
-class DeadEnd:
-    """The iteration came to a spin inertia that no rim has.
+class DeadEnd(NamedTuple):
+    """Where an iteration stands, or has come to a spin inertia that no rim has.
 
     Attributes:
         spin_inertia: at least asked of each wheel [kg m^2]; inf if an axis is out of reach.
+        incidence: [rad].
         demands: on the wheels.
     """
 
-    spin_inertia: float
-    demands: tuple[SpinDemand, ...]
-
-
-class _Guess(NamedTuple):
     spin_inertia: float
     incidence: float
     demands: tuple[SpinDemand, ...]
@@ -235,15 +205,15 @@ def find_fixed_point(problem: DeviceProblem) -> FixedPoint | DeadEnd:
                 iterations=iterations,
             )
         guess = following
-    return DeadEnd(guess.spin_inertia, guess.demands)
+    return guess
 
 
-def _follow(problem: DeviceProblem, shape: RimShape | None, incidence: float) -> _Guess:
+def _follow(problem: DeviceProblem, shape: RimShape | None, incidence: float) -> DeadEnd:
     """The incidence, the demands and the spin inertia that a rim at an incidence entails."""
     incidence = chosen_incidence(problem, shape, incidence)
     demands = device_demands(problem, shape, incidence)
     if problem.requirement.spin_inertia is not None:
-        return _Guess(problem.requirement.spin_inertia, incidence, demands)
+        return DeadEnd(problem.requirement.spin_inertia, incidence, demands)
     largest = max((demand.spin_inertia for demand in demands), default=0.0)
     if largest == 0.0:
         raise UsageError(
@@ -251,4 +221,4 @@ def _follow(problem: DeviceProblem, shape: RimShape | None, incidence: float) ->
             hint="Ask for a rate change, for a maneuver, or for a spin inertia.",
         )
     smallest = smallest_spin_inertia(problem.rim_problem(largest).limits)
-    return _Guess(max(largest, float(smallest) * _OFF_THE_EDGE), incidence, demands)
+    return DeadEnd(max(largest, float(smallest) * _OFF_THE_EDGE), incidence, demands)

@@ -1,14 +1,10 @@
 """Size both wheels on the robot that carries them: incidence, spin inertia and rim at once."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import Criterion
-from ocs_design.requirement.froude import Envelope
-from ocs_design.requirement.requirement import Requirement
-from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.device_problem import (
     DeadEnd,
     DeviceProblem,
@@ -38,47 +34,19 @@ class DeviceSizing(FixedPoint):
     centers: FloatArray
 
 
-def size_device(
-    robot: MassProperties,
-    requirement: Requirement,
-    envelope: Envelope,
-    material: Material,
-    place: Callable[[float, float], FloatArray],
-    *,
-    incidence: float | None = None,
-    criterion: Criterion = Criterion.EQUAL_RATE,
-) -> DeviceSizing:
-    """The lightest wheels that meet the requirement on this robot.
+def size_device(problem: DeviceProblem) -> DeviceSizing:
+    """The lightest wheels that meet the requirement on their robot.
 
-    Args:
-        robot: without the wheels, in B.
-        requirement: maneuvers, rate change, wheel speed; or the spin inertia itself.
-        envelope: room for one rim.
-        material: of the rim.
-        place: centres of the left and the right wheel in B [m], shape (2, 3), for an outer radius
-            and a height [m].
-        incidence: of the wheel axes [rad]; None: by `criterion`.
-        criterion: for the incidence, applied to robot and device together.
+    The fixed point in closed form, and the proof of its rim by the convex program.
 
     Raises:
         Infeasible: no rim within the envelope will do, or an axis is out of the wheels' reach.
         UsageError: the requirement asks for nothing, or a limit is no positive number.
     """
-    check_limits(envelope, material, requirement.wheel_speed_max)
-    return solve_device(
-        DeviceProblem(robot, requirement, envelope, material, place, incidence, criterion)
-    )
-
-
-def solve_device(problem: DeviceProblem) -> DeviceSizing:
-    """The fixed point in closed form, and the proof of its rim by the convex program.
-
-    Raises:
-        Infeasible, UsageError: see `size_device`.
-    """
+    check_limits(problem.envelope, problem.material, problem.requirement.wheel_speed_max)
     found = find_fixed_point(problem)
     if isinstance(found, DeadEnd):
-        raise infeasible_device(problem, found, solve_device)
+        raise infeasible_device(problem, found, size_device)
     rim_problem = problem.rim_problem(found.spin_inertia)
     rim = solve_rim(rim_problem)
     shape = lightest_rim(found.spin_inertia, rim_problem.limits)

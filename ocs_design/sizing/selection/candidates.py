@@ -44,7 +44,6 @@ from ocs_design.sizing.bound.rim_problem import (
 )
 from ocs_design.sizing.lightest_module import ModuleShape, lightest_module_at
 from ocs_design.sizing.place import Size, module_size
-from ocs_design.sizing.selection.composite_inertia import Modules
 from ocs_design.sizing.selection.problem import SelectionProblem
 
 _OFF_THE_EDGE = 1.0 + 1e-10
@@ -222,6 +221,13 @@ class Candidates(Table):
     def __len__(self) -> int:
         return self.material.size
 
+    @classmethod
+    def of_each_material(cls, problem: SelectionProblem, drives: Drives) -> "Candidates":
+        """Every drive with a rim of every material of the problem, one drive after the other."""
+        kinds, rows = np.arange(len(problem.materials)), np.arange(len(drives))
+        material, row = (each.ravel() for each in np.meshgrid(kinds, rows))
+        return cls(problem, drives.take(row), material)
+
     @cached_property
     def drives(self) -> Drives:
         """Motor and gear of each, with the hub of its wheel."""
@@ -267,8 +273,10 @@ class Candidates(Table):
         rim = spin_inertia - self.drives.beside_rim
         return lightest_module_at(rim, radius, self.limits, self.shell)
 
-    def modules(self, spin_inertia: FloatArray, shapes: ModuleShape) -> Modules:
-        """One module of each candidate, braked."""
+    def modules(
+        self, spin_inertia: FloatArray, shapes: ModuleShape
+    ) -> tuple[MassMoments[FloatArray], Size[FloatArray]]:
+        """One module of each candidate, braked: its moments about the wheel's centre, its room."""
         drives, wheel = self.drives, spin_inertia - self.drives.rotor_share
         seat, guard = drives.seat, self.problem.guard_wall
         inner, outer, height = shapes.inner_radius, shapes.outer_radius, shapes.height
@@ -286,7 +294,7 @@ class Candidates(Table):
             + seat.by_wheel
             + seat.by_floor.shifted(-half_height(tall), np.zeros_like(tall))
         )
-        return Modules.of(whole, drives.size(outer + guard, height))
+        return whole, drives.size(outer + guard, height)
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,55 +14,19 @@ from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.place import Place, Size
 
 
-class Modules(NamedTuple):
-    """One of the equal modules of each device, all of shape (n,).
-
-    Attributes:
-        mass: [kg].
-        along, up: of its centre of mass from the wheel's, in the module's frame [m].
-        xx, yy, zz, yz: of its mass times two coordinates off its centre of mass [kg m^2].
-        size: the room that it takes.
-    """
-
-    mass: FloatArray
-    along: FloatArray
-    up: FloatArray
-    xx: FloatArray
-    yy: FloatArray
-    zz: FloatArray
-    yz: FloatArray
-    size: Size[FloatArray]
-
-    @classmethod
-    def of(cls, moments: MassMoments[FloatArray], size: Size[FloatArray]) -> "Modules":
-        """Modules of this mass and these moments about the wheel's centre."""
-        mass = moments.mass
-        along, up = moments.y / mass, moments.z / mass
-        return cls(
-            mass=mass,
-            along=along,
-            up=up,
-            xx=moments.xx,
-            yy=moments.yy - mass * along**2,
-            zz=moments.zz - mass * up**2,
-            yz=moments.yz - mass * along * up,
-            size=size,
-        )
-
-
 @dataclass(frozen=True, eq=False)
 class CompositeInertia:
     """Inertia of robot and n devices about roll and pitch as a function of the layout's angle.
 
     Attributes:
         robot: without the modules, in B. layout: of the modules.
-        modules: one of each device.
+        module: moments of one of each device about its wheel's centre, in its own frame.
         centers: of the wheels in B, from the robot's centre of mass [m], shape (n, w, 3).
     """
 
     robot: MassProperties
     layout: Layout
-    modules: Modules
+    module: MassMoments[FloatArray]
     centers: FloatArray
 
     def at(self, angle: FloatArray) -> TiltInertia:
@@ -82,32 +46,42 @@ class CompositeInertia:
 
         With the modules at angles [rad], of the shape of `angle`, (n, k) or (1, k).
 
-        By parallel axes of second moments: S = S_robot + sum_i (m p_i p_i^T + R_i S_i R_i^T)
-        - (sum_i m p_i) (sum_i m p_i)^T / (M + sum_i m) from the robot's centre of mass.
+        By parallel axes of second moments, with a module's mass m, first moment f_i = R_i f and
+        second moments S about its wheel's centre c_i, all from the robot's centre of mass:
+        S = S_robot + sum_i (m c_i c_i^T + c_i f_i^T + f_i c_i^T + R_i S R_i^T)
+        - F F^T / (M + sum_i m), F = sum_i (m c_i + f_i).
         """
-        mass, along, up, xx, yy, zz, yz = (each[:, None] for each in self.modules[:7])
+        one = MassMoments(*(np.asarray(each)[..., None] for each in vars(self.module).values()))
         frames = self.layout.frames(angle)
-        # Components of outward and upward, and places of the modules, shape (3, w, n, k).
+        # Components of outward and upward, and places of the wheels, shape (3, w, n, k).
         y, z = np.ascontiguousarray(frames.T[1:].swapaxes(-1, -2))
-        place = self.centers.T[..., None] + along * y + up * z
-        first, count = mass * place.sum(axis=1), frames.shape[-3]
-        whole = self.robot.mass + count * mass
+        place, first = self.centers.T[..., None], one.y * y + one.z * z
+        count = frames.shape[-3]
+        whole = self.robot.mass + count * one.mass
+        total = one.mass * place.sum(axis=1) + first.sum(axis=1)
         of_robot = np.trace(self.robot.inertia) / 2.0 * np.eye(3) - self.robot.inertia
         second: dict[tuple[int, int], FloatArray] = {}
         for i, j in combinations_with_replacement(range(3), 2):
-            # R_i S_i R_i^T = xx 1 + (yy - xx) y y^T + (zz - xx) z z^T + yz (y z^T + z y^T).
-            own = (yy - xx) * (y[i] * y[j]).sum(axis=0) + (zz - xx) * (z[i] * z[j]).sum(axis=0)
-            own = own + yz * (y[i] * z[j] + z[i] * y[j]).sum(axis=0) + (i == j) * count * xx
-            apart = mass * (place[i] * place[j]).sum(axis=0) - first[i] * first[j] / whole
-            second[i, j] = of_robot[i, j] + own + apart
+            # R_i S R_i^T = xx 1 + (yy - xx) y y^T + (zz - xx) z z^T + yz (y z^T + z y^T).
+            own = (one.yy - one.xx) * (y[i] * y[j]).sum(axis=0)
+            own = own + (one.zz - one.xx) * (z[i] * z[j]).sum(axis=0)
+            own = own + one.yz * (y[i] * z[j] + z[i] * y[j]).sum(axis=0)
+            apart = one.mass * (place[i] * place[j]).sum(axis=0)
+            apart = apart + (place[i] * first[j] + first[i] * place[j]).sum(axis=0)
+            round_ = (i == j) * count * one.xx
+            second[i, j] = of_robot[i, j] + own + round_ + apart - total[i] * total[j] / whole
         return second
 
 
 def composite_inertia(
-    robot: MassProperties, place: Place, modules: Modules, layout: Layout
+    robot: MassProperties,
+    place: Place,
+    module: MassMoments[FloatArray],
+    size: Size[FloatArray],
+    layout: Layout,
 ) -> CompositeInertia:
-    """Inertia of each device on the robot; see `CompositeInertia`."""
-    return CompositeInertia(robot, layout, modules, place.centers(modules.size) - robot.com)
+    """Inertia of devices on the robot, whose modules take that room; see `CompositeInertia`."""
+    return CompositeInertia(robot, layout, module, place.centers(size) - robot.com)
 
 
 _Range: TypeAlias = tuple[FloatArray, FloatArray]

@@ -55,49 +55,42 @@ def margins_of(
         Parts that are done at the design's angle, shape (n, k), and those that are done at an
         incidence of their own, shape (n, 1).
     """
-    whole_axes, spin = whole.layout.axes(angle), spin_inertia[:, None]
-    axes, inertia = whole_axes[..., :2, :], whole.at(angle)
+    spin, begun = spin_inertia[:, None], bool(requirement.reserves)
+
+    def tried(maneuvers: Sequence[Maneuver], at: FloatArray, *, begun: bool) -> list[Margins]:
+        """Margins of each maneuver, and of each that begins with a rate if any shall."""
+        if not maneuvers:
+            return []
+        # A device that is turned by hand leaves the heading to itself.
+        headed = maneuvers[0].headed and maneuvers[0].incidence is None
+        axes = whole.layout.axes(at)[..., : 3 if headed else 2, :]
+        # All at once, as a call of numpy costs more than its work on few.
+        starts = [False] * len(maneuvers) + [True] * (len(maneuvers) * begun)
+        every = [*maneuvers, *maneuvers] if begun else maneuvers
+        upright = whole.upright(at) if headed else None
+        task = wheel_task(every, requirement, whole.at(at), axes, begun=starts, upright=upright)
+        demand = spin_demand(task, columns(drives.line), drives.armature[:, None])
+        can = capability(demand, spin)
+        following = newton_step(demand, spin, can)
+        with np.errstate(divide="ignore"):
+            margin = can.sweep / demand.sweep
+        return [Margins(*both) for both in zip(margin, following, strict=True)]
+
+    by_design, turned = list[Margins](), list[Margins]()
     free = [maneuver for maneuver in requirement.maneuvers if maneuver.incidence is None]
-    headed = [maneuver for maneuver in free if maneuver.headed]
-    begun = requirement.free and bool(requirement.reserves)
-    by_design = _tried(
-        [maneuver for maneuver in free if not maneuver.headed],
-        requirement,
-        drives,
-        spin_inertia=spin,
-        inertia=inertia,
-        axes=axes,
-        begun=begun,
-    )
-    if headed:
-        by_design += _tried(
-            headed,
-            requirement,
-            drives,
-            spin_inertia=spin,
-            inertia=inertia,
-            axes=whole_axes,
-            begun=begun,
-            upright=whole.upright(angle),
-        )
+    for headed in (False, True):
+        some = [maneuver for maneuver in free if maneuver.headed == headed]
+        by_design += tried(some, angle, begun=requirement.free and begun)
     if requirement.rate_change is not None:
-        one_stops = requirement.detection is not None
+        axes, one_stops = whole.layout.axes(angle)[..., :2, :], requirement.detection is not None
+        inertia = whole.at(angle)
         needed = needed_by_rate(requirement.rate_change, drives, inertia, axes, one_stops=one_stops)
         by_design.append(Margins(spin / needed, needed))
-    turned: list[Margins] = []
     for maneuver in requirement.maneuvers:
         own = angle
         if maneuver.incidence is not None:
             own = np.full((len(drives), 1), maneuver.incidence)
-            turned += _tried(
-                [maneuver],
-                requirement,
-                drives,
-                spin_inertia=spin,
-                inertia=whole.at(own),
-                axes=whole.layout.axes(own)[..., :2, :],
-                begun=bool(requirement.reserves),
-            )
+            turned += tried([maneuver], own, begun=begun)
         kept = requirement.reserves.get(maneuver.name)
         if kept is not None and kept.roll > 0.0:
             inertia, upright = whole.at(own), whole.upright(own)
@@ -117,32 +110,6 @@ def worst(parts: Sequence[Margins], shape: tuple[int, ...]) -> Margins:
         margin = np.minimum(margin, part.margin)
         following = np.maximum(following, part.following)
     return Margins(margin, following)
-
-
-def _tried(
-    maneuvers: Sequence[Maneuver],
-    requirement: Requirement,
-    drives: Drives,
-    *,
-    spin_inertia: FloatArray,
-    inertia: TiltInertia,
-    axes: FloatArray,
-    begun: bool,
-    upright: FloatArray | None = None,
-) -> list[Margins]:
-    """Margins of each maneuver, and of each that begins with a rate if any shall, shape (n, k)."""
-    if not maneuvers:
-        return []
-    # All at once, as a call of numpy costs more than its work on few.
-    starts = [False] * len(maneuvers) + [True] * (len(maneuvers) * begun)
-    every = [*maneuvers, *maneuvers] if begun else maneuvers
-    task = wheel_task(every, requirement, inertia, axes, begun=starts, upright=upright)
-    demand = spin_demand(task, columns(drives.line), drives.armature[:, None])
-    can = capability(demand, spin_inertia)
-    following = newton_step(demand, spin_inertia, can)
-    with np.errstate(divide="ignore"):
-        margin = can.sweep / demand.sweep
-    return [Margins(*both) for both in zip(margin, following, strict=True)]
 
 
 def wheel_task(

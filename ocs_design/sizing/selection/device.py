@@ -10,20 +10,17 @@ from ocs_design.actuation.slew import slew_profile
 from ocs_design.actuation.spin_root import capability
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_load import WheelTask, smallest_spin_inertia, spin_demand
-from ocs_design.common.arrays import FloatArray, frozen
-from ocs_design.device.layout import PAIR, Layout
+from ocs_design.common.arrays import frozen
 from ocs_design.device.records.selection import TaskDemand
 from ocs_design.parts.module import standing
-from ocs_design.parts.moments import Carrier
 from ocs_design.parts.rim import wheel_body
 from ocs_design.requirement.bound import AXES
 from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.sizing.bound.rim_problem import RimLimits
 from ocs_design.sizing.lightest_module import ModuleShape
-from ocs_design.sizing.place import motor_size
+from ocs_design.sizing.place import braked, motor_size
 from ocs_design.sizing.selection.demand import held_by_rate, held_in_roll, wheel_task
 from ocs_design.sizing.selection.fixed_point import Solved
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
@@ -107,28 +104,6 @@ def device_of(solved: Solved) -> Candidate:
         layout=problem.layout,
         on_bell=on_bell,
     )
-
-
-def braked(
-    robot: MassProperties,
-    bodies: tuple[Carrier, ...],
-    centers: FloatArray,
-    incidence: float,
-    layout: Layout = PAIR,
-) -> MassProperties:
-    """Robot and all modules as one rigid body in B.
-
-    Args:
-        robot: without the modules.
-        bodies: of one module, in its own frame (`Layout.frames`).
-        centers: of the wheels in B [m], shape (n, 3).
-        incidence: of their axes, or the layout's angle [rad].
-        layout: of the modules.
-    """
-    parts = [robot]
-    for center, attitude in zip(centers, layout.frames(incidence), strict=True):
-        parts += [body.mass_properties().moved(attitude, center) for body in bodies]
-    return combine(parts)
 
 
 def inertia_at(problem: SelectionProblem, device: Candidate, incidence: float) -> TiltInertia:

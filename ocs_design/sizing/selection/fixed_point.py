@@ -243,7 +243,7 @@ def _step(candidates: Candidates, spin: FloatArray, shapes: ModuleShape, design:
     """
     problem = candidates.problem
     whole = composite_inertia(
-        problem.robot, problem.place, candidates.modules(spin, shapes), problem.layout
+        problem.robot, problem.place, *candidates.modules(spin, shapes), problem.layout
     )
     offsets = design.width[:, None] * (_POINTS if design.width.any() else np.zeros(1))
     angles = np.clip(design.angle[:, None] + offsets, 0.0, np.pi / 2.0)

@@ -14,7 +14,7 @@ that the choice may jump is told by how much heavier the next drive is.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -78,7 +78,9 @@ def refine(candidates: Candidates, point: FixedPoint) -> FixedPoint:
         point: where to start, feasible or not.
     """
     programme = Programme(candidates)
-    optimum = lightest(programme, coordinates(point.shapes, float(point.angle[0])))
+    shape = point.shapes.take(0)
+    outer, height, inner = map(float, (shape.outer_radius, shape.height, shape.inner_radius))
+    optimum = lightest(programme, coordinates(outer, height, inner, float(point.angle[0])))
     if optimum.violation <= HELD:
         return programme.fixed_point(optimum.point)
     # SLSQP comes no closer where a slope jumps: the device beside it has the same radius.
@@ -95,24 +97,37 @@ def lightest(programme: "Programme", start: FloatArray) -> Optimum:
     turn = (angle, angle) if held else (0.0, np.pi / 2.0)
     low: FloatArray = np.append(start[:3] - _AROUND, turn[0])
     high: FloatArray = np.append(start[:3] + _AROUND, turn[1])
-    evaluations = _Evaluations(programme, low, high)
+
+    @lru_cache(maxsize=1)
+    def evaluation(point: bytes) -> _Evaluation:
+        """The last one is kept: SLSQP asks for each in parts."""
+        return programme.evaluation(np.frombuffer(point), low, high)
+
+    def at(point: FloatArray) -> _Evaluation:
+        return evaluation(point.tobytes())
+
+    def value(point: FloatArray) -> float:
+        return at(point).value
+
+    def slope(point: FloatArray) -> FloatArray:
+        return at(point).slope
 
     def constraint(rows: slice, most: float) -> NonlinearConstraint:
         """Limits between 0 and `most`."""
         return NonlinearConstraint(
-            lambda point: evaluations.at(point).limits[rows],
+            lambda point: at(point).limits[rows],
             0.0,
             most,
-            jac=lambda point: evaluations.at(point).slopes[rows],
+            jac=lambda point: at(point).slopes[rows],
         )
 
     stated = programme.candidates.problem.requirement.spin_inertia is not None
     equal, unequal = slice(int(stated)), slice(int(stated), None)
     with _libraries().limit(limits=1, user_api="blas"):
         found = minimize(
-            evaluations.value,
+            value,
             np.clip(start, low, high),
-            jac=evaluations.slope,
+            jac=slope,
             method="SLSQP",
             bounds=Bounds(low, high),
             constraints=[
@@ -121,7 +136,7 @@ def lightest(programme: "Programme", start: FloatArray) -> Optimum:
             ],
             options={"maxiter": _ITERATIONS_MAX, "ftol": _DIGITS},
         )
-    end = evaluations.at(np.asarray(found.x))
+    end = at(np.asarray(found.x))
     missed = np.append(-end.limits, end.limits[equal])
     return Optimum(np.asarray(found.x), end.value, max(float(missed.max()), 0.0))
 
@@ -145,41 +160,6 @@ class _Evaluation(NamedTuple):
     slopes: FloatArray
 
 
-@dataclass(eq=False)
-class _Evaluations:
-    """The programme at single points, all of a central difference in one call."""
-
-    programme: "Programme"
-    low: FloatArray
-    high: FloatArray
-    last: tuple[FloatArray, _Evaluation] | None = None
-
-    def value(self, point: FloatArray) -> float:
-        """Logarithm of the mass."""
-        return self.at(point).value
-
-    def slope(self, point: FloatArray) -> FloatArray:
-        """Gradient of the value, shape (4,)."""
-        return self.at(point).slope
-
-    def at(self, point: FloatArray) -> _Evaluation:
-        """Value, limits and slopes; those of the last point are kept."""
-        if self.last is not None and np.array_equal(self.last[0], point):
-            return self.last[1]
-        # Differences stay within the bounds: beyond, there may be nothing to evaluate.
-        n, width = point.size, _DIFFERENCE * np.eye(point.size)
-        ahead, behind = np.minimum(point + width, self.high), np.maximum(point - width, self.low)
-        values, limits = self.programme(np.concatenate([point[None], ahead, behind]))
-        apart = np.diag(ahead - behind)
-        # A held variable has no slope.
-        over = np.where(apart > 0.0, apart, np.inf)
-        slope = (values[1 : n + 1] - values[n + 1 :]) / over
-        slopes = ((limits[1 : n + 1] - limits[n + 1 :]) / over[:, None]).T
-        found = _Evaluation(float(values[0]), limits[0], slope, slopes)
-        self.last = point.copy(), found
-        return found
-
-
 @dataclass(frozen=True, eq=False)
 class Programme:
     """Mass and limits of one candidate on its robot at points as `coordinates` gives them."""
@@ -200,6 +180,21 @@ class Programme:
         if requirement.spin_inertia is not None:
             limits = np.concatenate([np.log(spin / requirement.spin_inertia)[None], limits])
         return np.log(candidates.drives.mass + shapes.mass), limits.T
+
+    def evaluation(self, point: FloatArray, low: FloatArray, high: FloatArray) -> _Evaluation:
+        """The programme at a point, with all of a central difference in one call.
+
+        Differences stay within the bounds: beyond, there may be nothing to evaluate.
+        """
+        n, width = point.size, _DIFFERENCE * np.eye(point.size)
+        ahead, behind = np.minimum(point + width, high), np.maximum(point - width, low)
+        values, limits = self(np.concatenate([point[None], ahead, behind]))
+        apart = np.diag(ahead - behind)
+        # A held variable has no slope.
+        over = np.where(apart > 0.0, apart, np.inf)
+        slope = (values[1 : n + 1] - values[n + 1 :]) / over
+        slopes = ((limits[1 : n + 1] - limits[n + 1 :]) / over[:, None]).T
+        return _Evaluation(float(values[0]), limits[0], slope, slopes)
 
     def holds_incidence(self, point: FloatArray) -> bool:
         """Whether the incidence is stated, or no other one is near it.
@@ -251,7 +246,7 @@ class Programme:
         web = web_inertia(limits, shapes.inner_radius)
         spin = rim + web + candidates.drives.beside_rim
         modules = candidates.modules(spin, shapes)
-        return spin, composite_inertia(problem.robot, problem.place, modules, problem.layout)
+        return spin, composite_inertia(problem.robot, problem.place, *modules, problem.layout)
 
     def _shapes(self, points: FloatArray) -> ModuleShape:
         outer, height, wall = np.exp(points[:, :3]).T
@@ -288,11 +283,9 @@ class Programme:
             return [np.broadcast_to(most / value, outer.shape) for value, most in pairs]
 
 
-def coordinates(shapes: ModuleShape, angle: float) -> FloatArray:
-    """Logarithms of outer radius, height and wall of a single shape, and the incidence [rad]."""
-    outer, height = shapes.outer_radius.item(), shapes.height.item()
-    wall = outer - shapes.inner_radius.item()
-    return np.array([np.log(outer), np.log(height), np.log(wall), angle])
+def coordinates(outer: float, height: float, inner: float, angle: float) -> FloatArray:
+    """Logarithms of a rim's outer radius, height and wall [m], and the incidence [rad]."""
+    return np.append(np.log([outer, height, outer - inner]), angle)
 
 
 _UNITS = {STRESS: 0.1, TIME: 0.01, WHEEL_SPEED: 100.0}
@@ -316,9 +309,8 @@ def mass_prices(problem: SelectionProblem, chosen: Candidate) -> Iterator[PriceR
         chosen: its lightest device, as it was selected.
     """
     alone = of_parts(problem, chosen)
-    wall = chosen.outer_radius - chosen.inner_radius
-    sizes = np.log([chosen.outer_radius, chosen.height, wall])
-    start = np.append(sizes, chosen.incidence)
+    sizes = chosen.outer_radius, chosen.height, chosen.inner_radius
+    start = coordinates(*sizes, chosen.incidence)
     (before,), (held,) = _programme(alone)(start[None])
     for limit, value in limits_of(problem).items():
         if not (np.isfinite(value) and value > 0.0):

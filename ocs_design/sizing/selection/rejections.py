@@ -24,16 +24,11 @@ from ocs_design.parts.rim import web_axial_inertia
 from ocs_design.requirement.froude import Envelope
 from ocs_design.requirement.pivoted import Balance, Pivoted
 from ocs_design.requirement.turns import TurnTo
-from ocs_design.sizing.bound.rim_problem import (
-    BORE_SHARE,
-    RimLimits,
-)
-from ocs_design.sizing.bound.rim_problem import (
-    smallest_spin_inertia as smallest_rim,
-)
+from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits
+from ocs_design.sizing.bound.rim_problem import smallest_spin_inertia as smallest_rim
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.selection.bounds import PairBounds, cells_of, least_inertia
-from ocs_design.sizing.selection.candidates import Drives, drives_of, rim_limits
+from ocs_design.sizing.selection.candidates import Candidates, Drives, drives_of
 from ocs_design.sizing.selection.demand import (
     column,
     columns,
@@ -211,7 +206,8 @@ def _unable(found: PairBounds, motors: Sequence[int]) -> dict[int, Rejection]:
             detail = f"{detail}; {_at_least(found, motor)}"
         beyond = float(needed[row, angle] / max(largest[row], _NOTHING))
         # An inertia goes with the fourth power of the radius.
-        narrow = (_narrowest(_limits(problem, drive))[1] / problem.envelope.outer_radius_max) ** 4
+        limits = Candidates.of_each_material(problem, drive).limits
+        narrow = (_narrowest(limits)[1] / problem.envelope.outer_radius_max) ** 4
         reasons[motor] = Rejection(
             motor=problem.motors[motor].name,
             reason=reason,
@@ -276,7 +272,7 @@ def _reason(problem: SelectionProblem, drive: Drives, part: _Obstacle) -> tuple[
         return Reason.INCIDENCE, f"{part.name} asks for an axis out of reach {place}"
     if not part.late > 1.0:
         # A wheel would fit, but for its hoop stress, or for what it adds to the robot's inertia.
-        limits = _limits(problem, drive)
+        limits = Candidates.of_each_material(problem, drive).limits
         rims = np.maximum(part.needed - drive.beside_rim, smallest_rim(limits) * (1.0 + 1e-9))
         if not _any_rim(rims, replace(limits, stretch_max=np.inf)):
             return Reason.ENVELOPE, f"{wheel}, and no rim of that size fits{_too_narrow(limits)}"
@@ -318,16 +314,6 @@ def largest_wheel(problem: SelectionProblem, room: Envelope) -> float:
         beside = web - density * cut
     inertia = np.where(inner >= bore, mass * (outer**2 + inner**2) / 2.0 + beside, 0.0)
     return float(inertia.max(initial=0.0))
-
-
-def _limits(problem: SelectionProblem, drive: Drives) -> RimLimits:
-    """Limits of the rims of each material on one drive."""
-    kinds = np.arange(len(problem.materials))
-    each = drive.repeat(kinds.size)
-    size = (each.hub_radius, each.seat.reach)
-    return rim_limits(
-        problem, kinds, each.overspeed, *size, bell=each.seat.bell, rim_height=each.rim_height
-    )
 
 
 def _any_rim(spin_inertia: FloatArray, limits: RimLimits) -> bool:

@@ -15,7 +15,7 @@ from ocs_design.requirement.maneuver import End, Maneuver, Unforeseen
 from ocs_design.requirement.pivoted import Balance, Pivoted
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.robot.mass import MassProperties
-from ocs_design.sizing.selection.device import braked
+from ocs_design.sizing.place import braked
 from ocs_design.sizing.trajectory.boundary import (
     HELD_ON,
     Boundary,

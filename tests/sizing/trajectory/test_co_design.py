@@ -12,7 +12,7 @@ from selections import random_problem
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.layout import module_axes
 from ocs_design.requirement.maneuver import Drop, Flip
-from ocs_design.sizing.selection.device import braked
+from ocs_design.sizing.place import braked
 from ocs_design.sizing.selection.select import select
 from ocs_design.sizing.trajectory import program
 from ocs_design.sizing.trajectory.co_design import (
