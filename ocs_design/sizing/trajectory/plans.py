@@ -43,7 +43,11 @@ GENTLE = (0.8, 0.9)
 put right by tilting more, which takes more torque than holding the trunk level."""
 
 LEAST_SPARE, SPARE = 0.9, 1.1
-"""Share of the drives that the plan of a heading may take, and factor where it takes more."""
+"""Share of the drives that the plan of a heading may take, and least factor where it takes more."""
+
+TALL_SPARE = 0.65
+"""The same share for a tall body that turns by a loop of the tilt. What is left of a push-off turns
+its heading by so much more as it has more inertia about roll or pitch than about yaw."""
 
 TIME_STEP, LONGEST = 0.05, 8.0
 """How closely a time is looked for, and how long at most, over the one asked for."""
@@ -95,6 +99,7 @@ class Reference:
             no time would do.
         share: of voltage, current and power that the trajectory keeps to; where a drive may stop,
             that it leaves the others to keep to.
+        most: share that a plan of a heading may take of the drives.
         part: of the tilt from which a robot on a pivot would stand up, where it does not from all.
         spun: speed of the fastest wheel that a brake stops at the start [rad/s]; 0: none does.
     """
@@ -104,6 +109,7 @@ class Reference:
     planned: Planned | None
     needed: float | None = None
     share: float = 1.0
+    most: float = LEAST_SPARE
     part: float | None = None
     spun: float = 0.0
 
@@ -116,10 +122,12 @@ class Reference:
         Args:
             end: of the turn, see `End`.
         """
-        if self.trajectory is not None and (end == End.LEVEL or self.share <= LEAST_SPARE):
+        if self.trajectory is not None and (end == End.LEVEL or self.share <= self.most):
             return None
         if self.part is not None:
             return SPARE / max(self.part, 0.5)
+        if self.trajectory is not None:
+            return max(SPARE, self.share / self.most)
         return SPARE if self.needed is None else SPARE * self.needed**1.5
 
 
@@ -196,7 +204,9 @@ def reference(
             told = " and ".join(map(rpm, (spun, most)))
             note = f"speed of the wheels that the brake takes, and that the motors reach: {told}"
             return Reference(None, note, None, part=most / spun, spun=spun)
-    first = GENTLE if asked.end != End.LEVEL else ()
+    first, most = GENTLE if asked.end != End.LEVEL else (), LEAST_SPARE
+    if asked.end == End.ATTITUDE and not isinstance(maneuver, Pivoted) and _tall(gyrostat):
+        first, most = (TALL_SPARE, *GENTLE), TALL_SPARE
     shares = tuple(dict.fromkeys((*first, PLANNED / kept, PLANNED, 1.0)))
     grows = taken_over(gyrostat.axes) if one_stops else 1.0
     for share, left in [(own, each) for each in dict.fromkeys((grows, 1.0)) for own in shares]:
@@ -222,7 +232,16 @@ def reference(
     elif asked.end != End.LEVEL:
         # What holds the trunk level corrects no heading.
         trajectory = replace(trajectory, gains=tracking_gains(gyrostat, line, trajectory, share))
-    return Reference(replace(trajectory, note=note), note, planned, share=share, spun=spun)
+    return Reference(
+        replace(trajectory, note=note), note, planned, share=share, most=most, spun=spun
+    )
+
+
+def _tall(gyrostat: Gyrostat) -> bool:
+    """Whether it turns its heading by a loop of the tilt, and is easier turned than tilted."""
+    spanned = int(np.linalg.matrix_rank(gyrostat.axes, OUT_OF_REACH))
+    x, y, z = np.diag(gyrostat.inertia)
+    return spanned == 2 and max(x, y) > z
 
 
 def _refused(

@@ -17,8 +17,10 @@ ON_THE_WAY = np.radians(2.0)
 """Error of attitude that is worth all torque beyond a plan's share, on the way [rad]."""
 
 AT_THE_END = np.radians(0.3)
-"""Error of attitude that is worth that torque for the whole time, at the end [rad]."""
+"""Tilt that is worth that torque for the whole time, at the end [rad]."""
 
+HEADING_AT_THE_END = np.radians(2.0)
+"""The same of a heading: what puts it right is a tilt that must be taken back in time."""
 
 AT_REST = 0.2
 """Speed of wheels beside upright that is worth it, over that without load."""
@@ -32,8 +34,8 @@ def tracking_gains(
     The motors get the planned torque minus gain times error: attitude as the rotation vector from
     the plan in B [rad], rate in B [rad/s], wheel speeds [rad/s]. Discrete Riccati equation from the
     last sample backwards (Anderson and Moore, Optimal Control, 1990, section 2.4). Weights by
-    Bryson's rule: `ON_THE_WAY` and `AT_THE_END` against the torque that a plan leaves to the
-    feedback. Rates count at the end by the angle that they would turn in the time constant of the
+    Bryson's rule: `ON_THE_WAY`, `AT_THE_END` and `HEADING_AT_THE_END` against the torque that a
+    plan leaves to the feedback. Rates count at the end by the angle that they would turn in the time constant of the
     two. About a pivot, where a plan leaves off the robot is to be held for ever: there the value is
     that of the steady regulator, all torque counts, and wheels at `AT_REST` count like
     `ON_THE_WAY`, so that they come to rest.
@@ -79,7 +81,9 @@ def tracking_gains(
         quickness = np.sqrt(spare * authority / ON_THE_WAY)
         running = np.diag([ON_THE_WAY**-2.0] * 3 + [0.0] * (3 + wheels))
         at_end = AT_THE_END**-2.0 * trajectory.time[-1]
-        value = np.diag([at_end] * 3 + [at_end / quickness**2] * 3 + [0.0] * wheels)
+        heading = HEADING_AT_THE_END**-2.0 * trajectory.time[-1]
+        rates = [at_end / quickness**2] * 3
+        value = np.diag([at_end, at_end, heading, *rates] + [0.0] * wheels)
     for k in range(count - 2, -1, -1):
         free, driven = discrete[k, :size, :size], discrete[k, :size, size:]
         weighed = driven.T @ value

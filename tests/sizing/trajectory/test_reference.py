@@ -9,7 +9,7 @@ from ocs_design.device.layout import ISOTROPIC, Layout, LayoutName
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.sizing.trajectory.flight import limit_violation
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
-from ocs_design.sizing.trajectory.plans import PLANNED, reference
+from ocs_design.sizing.trajectory.plans import GENTLE, PLANNED, SPARE, TALL_SPARE, reference
 
 FORTY = np.radians(40.0)
 
@@ -120,3 +120,22 @@ def test_the_supply_is_enough_for_the_others_whenever_a_drive_stops():
         shares[one_stops] = largest / (4.0 * line.power_max)
     assert shares[True] < 0.95
     assert shares[False] > 2.0
+
+
+def test_a_loop_of_a_tall_body_leaves_more_of_the_drives():
+    """As of Unitree's G1 with 3.5 times as much inertia about roll and pitch as about yaw."""
+    yaw = TurnTo(name="yaw", jump_height=1.0, yaw=np.pi / 2.0, duration=4.0, gravity=1.62)
+    axes = Layout(LayoutName.PAIR).axes(np.radians(45.0))
+    line = DriveLine(25.0, 600.0, 7.4, np.inf, np.inf)
+    found = {}
+    for shape in ((3.2, 3.2, 0.9), (0.9, 0.9, 3.2)):
+        for inertia in (2e-2, 8e-3):
+            gyrostat = Gyrostat(np.diag(shape), axes, inertia)
+            found[shape[0], inertia] = reference(gyrostat, line, yaw, STANDING)
+    assert found[3.2, 2e-2].share == TALL_SPARE
+    assert found[0.9, 2e-2].share == GENTLE[0]
+    assert found[3.2, 2e-2].lacking(yaw.end) is None
+    short = found[3.2, 8e-3]
+    assert short.trajectory is not None
+    assert short.lacking(yaw.end) == max(SPARE, short.share / TALL_SPARE) > SPARE
+    assert found[0.9, 8e-3].lacking(yaw.end) is None
