@@ -49,6 +49,10 @@ TALL_SPARE = 0.65
 """The same share for a tall body that turns by a loop of the tilt. What is left of a push-off turns
 its heading by so much more as it has more inertia about roll or pitch than about yaw."""
 
+_TALL = 1.5
+"""Inertia about roll or pitch over that about yaw, from which a body counts as tall: quadrupeds
+have 0.4 to 1.0, humanoids 3 to 5."""
+
 TIME_STEP, LONGEST = 0.05, 8.0
 """How closely a time is looked for, and how long at most, over the one asked for."""
 
@@ -204,9 +208,9 @@ def reference(
             told = " and ".join(map(rpm, (spun, most)))
             note = f"speed of the wheels that the brake takes, and that the motors reach: {told}"
             return Reference(None, note, None, part=most / spun, spun=spun)
-    first, most = GENTLE if asked.end != End.LEVEL else (), LEAST_SPARE
-    if asked.end == End.ATTITUDE and not isinstance(maneuver, Pivoted) and _tall(gyrostat):
-        first, most = (TALL_SPARE, *GENTLE), TALL_SPARE
+    loops = asked.end == End.ATTITUDE and _tall(gyrostat)
+    most = TALL_SPARE if loops else LEAST_SPARE
+    first = () if asked.end == End.LEVEL else (TALL_SPARE, *GENTLE)[not loops :]
     shares = tuple(dict.fromkeys((*first, PLANNED / kept, PLANNED, 1.0)))
     grows = taken_over(gyrostat.axes) if one_stops else 1.0
     for share, left in [(own, each) for each in dict.fromkeys((grows, 1.0)) for own in shares]:
@@ -238,10 +242,10 @@ def reference(
 
 
 def _tall(gyrostat: Gyrostat) -> bool:
-    """Whether it turns its heading by a loop of the tilt, and is easier turned than tilted."""
+    """Whether it turns its heading by a loop of the tilt, and yaws more easily than it tilts."""
     spanned = int(np.linalg.matrix_rank(gyrostat.axes, OUT_OF_REACH))
     x, y, z = np.diag(gyrostat.inertia)
-    return spanned == 2 and max(x, y) > z
+    return not gyrostat.stands and spanned == 2 and max(x, y) > _TALL * z
 
 
 def _refused(

@@ -212,6 +212,9 @@ def _plan_program(
         options["ipopt.mu_strategy"] = "monotone"
         options["ipopt.mu_linear_decrease_factor"] = 0.1
         options["ipopt.mu_superlinear_decrease_power"] = 1.6
+    if shape.one_stops:
+        # Its many rows make an iteration three times as long, and plans that exist need no more.
+        options["ipopt.max_resto_iter"] = 4
     program.solver("ipopt", IPOPT_OPTIONS | options)
     return program, parameters, variables
 

@@ -35,10 +35,10 @@ def tracking_gains(
     the plan in B [rad], rate in B [rad/s], wheel speeds [rad/s]. Discrete Riccati equation from the
     last sample backwards (Anderson and Moore, Optimal Control, 1990, section 2.4). Weights by
     Bryson's rule: `ON_THE_WAY`, `AT_THE_END` and `HEADING_AT_THE_END` against the torque that a
-    plan leaves to the feedback. Rates count at the end by the angle that they would turn in the time constant of the
-    two. About a pivot, where a plan leaves off the robot is to be held for ever: there the value is
-    that of the steady regulator, all torque counts, and wheels at `AT_REST` count like
-    `ON_THE_WAY`, so that they come to rest.
+    plan leaves to the feedback. Rates count at the end by the angle that they would turn in the
+    time constant of the first two. About a pivot, where a plan leaves off the robot is to be held
+    for ever: there the value is that of the steady regulator, all torque counts, and wheels at
+    `AT_REST` count like `ON_THE_WAY`, so that they come to rest.
 
     Args:
         gyrostat: robot and device. line: of the drives, nothing held back.
