@@ -324,6 +324,13 @@ _FASTER = (1.2, 1.6, 2.2)
 _AS_WEAK = 1.1
 """A slower motor is named in place of one that may be weaker by this factor at most."""
 
+_DENSER = (1.0, 2.0, 4.0)
+"""Torques over masses that are tried in turn, over the model's: where six motors weigh as much as
+the robot, none built as the model would do, however large."""
+
+_ANGLES = np.radians(np.arange(5.0, 90.0, 5.0))
+"""Incidences of which the one that asks for the least torque is taken, where it is free [rad]."""
+
 _STALL = (2.0, 10.0)
 """Stall torque over peak torque that a winding is taken to have, least and most."""
 
@@ -336,12 +343,14 @@ class NeededMotor:
         peak_torque: [N m]. no_load_speed: at the supply's voltage [rad/s].
         mass: at most [kg].
         voltage: of the supply [V].
+        heavier: motor that none would do of that is as heavy for its torque; empty: some would.
     """
 
     peak_torque: float
     no_load_speed: float
     mass: float
     voltage: float
+    heavier: str = ""
 
     @property
     def text(self) -> str:
@@ -353,49 +362,64 @@ class NeededMotor:
         return (
             f"A motor of about {torque:.3g} N m peak torque and {rpm:,.0f} rpm without load at "
             f"{self.voltage:g} V, of at most {mass:.3g} kg, would do."
+            + (f" None as heavy for its torque as {self.heavier} would." if self.heavier else "")
         )
 
 
 def needed_motor(problem: SelectionProblem, model: Motor) -> NeededMotor | None:
-    """The weakest motor that would do, built as `model` is.
+    """The weakest motor that would do, built as `model` is, or with more torque for its mass.
 
     Torque and mass grow with the third power of a motor's lengths. Its speed is that with which the
     largest wheel has the momentum asked for, and somewhat more where that lets it be much weaker.
 
     Args:
-        problem: that no motor solves, at a stated incidence.
+        problem: that no motor solves. Where its incidence is free, the motor is for the one that
+            asks for the least torque.
         model: a motor whose figures are known.
 
     Returns:
         None: no such motor would do, or no time is set, or the wheels are no pairs.
     """
-    incidence = problem.incidence
-    if not problem.layout.pairs or incidence is None or not (model.mass and model.peak_torque):
+    if not problem.layout.pairs or not (model.mass and model.peak_torque):
         return None
-    demands = spin_demands(problem.requirement, problem.robot.inertia, incidence)
-    pairs = problem.layout.pairs
-    momentum = max(per_wheel(demand.momentum, demand.incidence) for demand in demands) / pairs
-    torque = max(demand.torque for demand in demands) / pairs
-    largest = largest_wheel(problem, problem.envelope)
+
+    def asked(incidence: float) -> tuple[float, float]:
+        """Torque [N m] and momentum [N m s] of a wheel at the most."""
+        demands = spin_demands(problem.requirement, problem.robot.inertia, incidence)
+        return (
+            max(demand.torque for demand in demands) / problem.layout.pairs,
+            max(per_wheel(demand.momentum, demand.incidence) for demand in demands)
+            / problem.layout.pairs,
+        )
+
+    if problem.incidence is None:
+        problem = replace(problem, incidence=float(min(_ANGLES, key=asked)))
+    assert problem.incidence is not None, "it was chosen"
+    (torque, momentum), largest = asked(problem.incidence), largest_wheel(problem, problem.envelope)
     if not (torque > 0.0 and np.isfinite(momentum) and largest > 0.0):
         return None
 
-    def does(speed: float, peak: float) -> bool:
+    def does(built: Motor, speed: float, peak: float) -> bool:
         """Whether a motor of this speed without load [rad/s] and peak torque [N m] does."""
-        motor = _scaled(model, peak, speed, problem.bus_voltage)
+        motor = _scaled(built, peak, speed, problem.bus_voltage)
         return Field.of(replace(problem, motors=(motor,), gears=(DIRECT,))).possible
 
-    found = []
-    for faster in _FASTER:
-        speed = faster * momentum / largest
-        enough = partial(does, speed)
-        high = next((peak for peak in (torque * _STRONGER).tolist() if enough(peak)), None)
-        if high is not None:
-            _, peak = narrowed(enough, high / _STRONGER[0], high, PRECISION)
-            mass = model.mass * peak / model.peak_torque
-            found.append(NeededMotor(peak, speed, mass, problem.bus_voltage))
-    weakest = min((need.peak_torque for need in found), default=0.0)
-    return next((need for need in found if need.peak_torque <= _AS_WEAK * weakest), None)
+    for denser in _DENSER:
+        own, found = replace(model, peak_torque=denser * model.peak_torque), []
+        for faster in _FASTER:
+            speed = faster * momentum / largest
+            enough = partial(does, own, speed)
+            high = next((peak for peak in (torque * _STRONGER).tolist() if enough(peak)), None)
+            if high is not None:
+                _, peak = narrowed(enough, high / _STRONGER[0], high, PRECISION)
+                mass = model.mass * peak / (denser * model.peak_torque)
+                heavier = model.name if denser > 1.0 else ""
+                found.append(NeededMotor(peak, speed, mass, problem.bus_voltage, heavier))
+        weakest = min((need.peak_torque for need in found), default=0.0)
+        for need in found:
+            if need.peak_torque <= _AS_WEAK * weakest:
+                return need
+    return None
 
 
 def _scaled(model: Motor, peak_torque: float, speed: float, voltage: float) -> Motor:

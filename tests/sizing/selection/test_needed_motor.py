@@ -70,6 +70,25 @@ def test_it_is_no_weaker_than_what_turns_the_robot_alone(seed):
     assert needed_motor(problem, model).peak_torque > max(demand.torque for demand in demands)
 
 
+def test_where_motors_are_too_heavy_for_their_torque_a_denser_one_is_named():
+    """No motor 20 times as heavy does at any size: one of twice or four times its torque does."""
+    problem, model = too_weak(0)
+    heavy = replace(model, mass=20.0 * model.mass)
+    need = needed_motor(problem, heavy)
+    assert need.text.endswith(f"would do. None as heavy for its torque as {model.name} would.")
+    denser = need.peak_torque / need.mass / (heavy.peak_torque / heavy.mass)
+    assert round(denser, 6) in {2.0, 4.0}
+    model = replace(heavy, peak_torque=denser * heavy.peak_torque)
+    select(replace(problem, gears=(DIRECT,), motors=(bought(need, model),)))
+
+
+def test_where_the_incidence_is_free_it_is_for_one_that_there_is():
+    problem, model = too_weak(0)
+    free = replace(problem, incidence=None)
+    need = needed_motor(free, model)
+    select(replace(free, gears=(DIRECT,), motors=(bought(need, model),)))
+
+
 def test_the_refusal_names_it():
     problem, _ = too_weak(0)
     with pytest.raises(Refused) as caught:
