@@ -75,12 +75,12 @@ def buildable(
     if motor is None:
         return Buildable(yes=None)
     points: list[OpenPoint] = []
-    # Shapes that the device stands on and hits are then not known.
-    bodies = [] if robot is None else [b.name for b in robot.tree.bodies if unmeasured(b)]
-    missing = bool(bodies and robot is not None and robot.mesh_cure)
-    if missing and robot is not None:
-        what = f"meshes are missing: the shape of {some_of(bodies)} is not known"
-        points.append(OpenPoint(what=what, cure=robot.mesh_cure))
+    # Without meshes it is not known what the device stands on and hits.
+    bodies = () if robot is None else robot.tree.bodies
+    unknown, cure = [b.name for b in bodies if unmeasured(b)], robot.mesh_cure if robot else ""
+    if missing := bool(unknown and cure):
+        what = f"meshes are missing: the shape of {some_of(unknown)} is not known"
+        points.append(OpenPoint(what=what, cure=cure))
     if gaps := build_gaps(motor):
         points.append(
             OpenPoint(
@@ -100,8 +100,9 @@ def buildable(
             by = f" by {margin.scenario}" if margin.scenario else ""
             what = f"{margin.name}: {asked} asked{by}, {there} is allowed"
             points.append(OpenPoint(what=what, cure=CURES[margin.name]))
-    unknown = not missing and (mounting is None or not mounting.known)
-    return Buildable(yes=None if unknown else not points, open=tuple(points))
+    if not missing and (mounting is None or not mounting.known):
+        return Buildable(yes=None, open=tuple(points))
+    return Buildable(yes=not points, open=tuple(points))
 
 
 def _joint_points(joints: Sequence[Margin]) -> Iterator[OpenPoint]:
