@@ -12,13 +12,13 @@ from math import pi
 
 import numpy as np
 from naive_outline import green
+from standing_parts import standard
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.parts import motor_mount
 from ocs_design.parts.foot import Foot
 from ocs_design.parts.housing import Housing
 from ocs_design.parts.printed import (
-    BASE_THICKNESS,
     CLEARANCE,
     DENSITY,
     LID_SCREW,
@@ -80,18 +80,24 @@ def drum_and_lid(outer, height, mount, half):
     return whole - layer(*_mount_outline(mount), -half, -half + PANEL, "y")
 
 
+def base_of(thick):
+    """Thickness of a base under a plate."""
+    return max(3e-3, 0.52 * thick)
+
+
 def foot_of(outer, height, mount, half, thick):
     back = half + thick
     edge, tall = bases(outer, height, mount, thick)
     base = pi * edge**2, (pi * edge**4 / 4.0,) * 2
-    body = layer(*base, 0.0, BASE_THICKNESS, "z")
+    low = base_of(thick)
+    body = layer(*base, 0.0, low, "z")
     slots, in_x, in_y = per_value(lambda h: _slots(h, thick), height)
-    body = body - layer(slots, (in_x, in_y), 0.0, BASE_THICKNESS, "z")
+    body = body - layer(slots, (in_x, in_y), 0.0, low, "z")
     for count, length in MARKS:
         middle = edge - WALL - length / 2.0
         ring = count * length * 0.8e-3 * (middle**2 + (length**2 + 0.8e-3**2) / 12.0) / 2.0
         flat = count * length * 0.8e-3 + 0.0 * edge
-        body = body - layer(flat, (ring, ring), BASE_THICKNESS - 0.4e-3, BASE_THICKNESS, "z")
+        body = body - layer(flat, (ring, ring), low - 0.4e-3, low, "z")
     body = lifted(body, -tall)
     least = np.maximum(outer, least_outer(mount) + 1e-9)
     area, first_z, in_x, in_z = per_value(lambda r: _plate(r, mount), least)
@@ -155,10 +161,11 @@ def mount_of(motor, gear, thick):
 
 
 def screws_around(outer, height, thick):
-    """Four M2 x 6 on the lid, two M3 x 6 on the base, as points; one by one in `standing_parts`."""
+    """Four M2 x 6 on the lid, two M3 on the base, as points; one by one in `standing_parts`."""
     m2, m3, half = screw("M2"), screw("M3"), height / 2.0 + DEEP
-    lid, trunk = 4.0 * m2.mass(6e-3), 2.0 * m3.mass(6e-3)
-    along, up = half - m2.centre(6e-3), -(outer + GAP + CLEARANCE) - m3.centre(6e-3)
+    long = standard(base_of(thick) + m3.diameter)
+    lid, trunk = 4.0 * m2.mass(6e-3), 2.0 * m3.mass(long)
+    along, up = half - m2.centre(6e-3), -(outer + GAP + CLEARANCE) - m3.centre(long)
     ears = lid * (outer + GAP + m2.clearance_hole / 2.0) ** 2 / 2.0
     slots = trunk * (half + thick + m3.head_diameter / 2.0 + WALL) ** 2
     one, zero = np.ones_like(outer), np.zeros_like(outer)
@@ -184,7 +191,7 @@ def room_taken(outer, height, motor, gear, thick):
     back = np.maximum(half + thick + depth, least)
     swept = np.maximum(np.hypot(outer + GAP, half), np.hypot(back, radius))
     edge, _ = bases(outer, height, mount_of(motor, gear, thick), thick)
-    return np.maximum(swept, edge), outer + GAP + CLEARANCE + BASE_THICKNESS
+    return np.maximum(swept, edge), outer + GAP + CLEARANCE + base_of(thick)
 
 
 def least_bore(motor, gear, thick):

@@ -9,11 +9,11 @@ import numpy as np
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import Face
-from ocs_design.parts.cage import FLOOR, cage_part
+from ocs_design.parts.cage import cage_part
 from ocs_design.parts.foot import PLATE_THICKNESS, Foot, foot_part
 from ocs_design.parts.housing import Housing, housing_parts
 from ocs_design.parts.motor_mount import mount_of
-from ocs_design.parts.printed import BASE_THICKNESS, LID_SCREW, PANEL
+from ocs_design.parts.printed import LID_SCREW, PANEL
 from ocs_design.robot.mass import MassProperties
 
 UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
@@ -37,20 +37,21 @@ def standing_parts(motor, gear, outer, height, thick=PLATE_THICKNESS):
 
 
 def shell_screws(foot):
-    """M2 x 6 through the lid, M3 x 6 through the foot's base."""
+    """M2 x 6 through the lid, M3 through the foot's base, with a thread of 3 mm at least."""
     housing, each = foot.housing, screw("M2")
     radius = housing.radius + each.clearance_hole / 2.0
     along = housing.half_height - each.centre(6e-3)
     for k in range(4):
         angle = pi / 4.0 + k * pi / 2.0
         yield point(each.mass(6e-3), radius * cos(angle), along, radius * sin(angle))
-    each = screw("M3")
-    up = BASE_THICKNESS - each.centre(6e-3) - foot.wheel_height
+    each, base = screw("M3"), max(3e-3, 0.52 * foot.thickness)
+    long = standard(base + 3e-3)
+    up = base - each.centre(long) - foot.wheel_height
     # Two on the left foot, two on the right one that mirror them: on average half of one each.
     for k in range(4):
         angle = pi / 4.0 + k * pi / 2.0
         x, y = foot.slot_radius * cos(angle), foot.slot_radius * sin(angle)
-        yield point(each.mass(6e-3) / 2.0, x, y, up)
+        yield point(each.mass(long) / 2.0, x, y, up)
 
 
 def driving_parts(motor, gear, height, thick=PLATE_THICKNESS):
@@ -77,10 +78,11 @@ def driving_parts(motor, gear, height, thick=PLATE_THICKNESS):
         through = PANEL + thick + metric(mounting.stator)
         yield from screws_on(mounting.stator, through, floor + PANEL, -1.0)
     if cage is not None:
-        back = front - length - FLOOR
+        bottom = max(3e-3, 0.42 * thick)
+        back = front - length - bottom
         yield cage_part(cage).mass_properties().moved(UPRIGHT, [0.0, back, 0.0])
         yield from screws_on(cage.passage.screws, thick + 5.2e-3, floor + PANEL, -1.0)
-        yield from screws_on(mounting.stator, FLOOR + metric(mounting.stator), back, 1.0)
+        yield from screws_on(mounting.stator, bottom + metric(mounting.stator), back, 1.0)
 
 
 def metric(circle):
@@ -88,10 +90,15 @@ def metric(circle):
     return screw(circle.thread).diameter
 
 
+def standard(at_least):
+    """The next length of a screw that there is."""
+    return next(n * 1e-3 for n in (4, 5, 6, 8, 10, 12, 16) if n * 1e-3 >= at_least - 1e-12)
+
+
 def screws_on(circle, at_least, along, towards):
     """The first straight up, the next length that there is, their tips `towards`."""
     each = screw(circle.thread)
-    length = next(n * 1e-3 for n in (4, 5, 6, 8, 10, 12, 16) if n * 1e-3 >= at_least - 1e-12)
+    length = standard(at_least)
     for k in range(circle.bolts):
         angle = 2.0 * pi * k / circle.bolts
         up, forward = circle.diameter / 2.0 * cos(angle), circle.diameter / 2.0 * sin(angle)

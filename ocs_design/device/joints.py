@@ -39,7 +39,6 @@ from ocs_design.parts.joints import (
 )
 from ocs_design.parts.pedestal import seat_compliance
 from ocs_design.parts.plate_strength import plate_frequency, plate_sway
-from ocs_design.parts.printed import BASE_THICKNESS
 from ocs_design.parts.rim import LIGAMENT
 from ocs_design.parts.turning_rings import (
     Ring,
@@ -324,7 +323,7 @@ def resonances_of(device: Device) -> tuple[Resonance, ...]:
     wheel, foot = device.flywheel, foot_of(device)
     mass = wheel.mass + device.carrier.mass
     inertia = wheel.transverse_inertia + float(device.carrier.inertia[0, 0])
-    lever = 1.5 * (foot.back - device.foot_plate / 2.0) / (foot.wheel_height - BASE_THICKNESS)
+    lever = 1.5 * (foot.back - device.foot_plate / 2.0) / (foot.wheel_height - foot.base)
     modes = [("foot", stem_frequency(foot, mass, inertia), lever)]
     if device.pedestals:
         square, along = map(max, zip(*map(seat_compliance, device.pedestals), strict=True))

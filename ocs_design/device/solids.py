@@ -18,8 +18,8 @@ from ocs_design.parts.motor_mount import (
     motor_front,
     mount_of,
 )
-from ocs_design.parts.pedestal import FLANGE, Pedestal, strengthened
-from ocs_design.parts.printed import BASE_THICKNESS, CLEARANCE, LID_SCREW, PANEL, TRUNK_SCREW, WALL
+from ocs_design.parts.pedestal import Pedestal, strengthened
+from ocs_design.parts.printed import CLEARANCE, LID_SCREW, PANEL, TRUNK_SCREW, WALL
 from ocs_design.robot.tree import BACKWARDS, Drum
 
 PLATE_DISCS = 0.5
@@ -100,6 +100,7 @@ def pedestal_of(device: Device, module: Module, plane: float | None = None) -> P
         foot.wheel_height,
         lean,
         max(foot.base_radius, middle),
+        foot_base=float(foot.base),
         module=module.name,
         heading=atan2(along[1], along[0]),
     )
@@ -115,7 +116,7 @@ def pedestal_solids(pedestal: Pedestal) -> tuple[Drum, ...]:
     end, far = pedestal.length, pedestal.seat.rotation[:, 1] * pedestal.length
     floor, up = np.array([0.0, 0.0, pedestal.base / 2.0]), np.array([0.0, 0.0, pedestal.base])
     along = np.array([0.0, 1.0, 0.0])
-    bars = [(floor - FLANGE * along, floor + (end + FLANGE) * along)]
+    bars = [(floor - pedestal.flange * along, floor + (end + pedestal.flange) * along)]
     bars += [(up, up + far), (up + end * along, up + far)]
     found = []
     for start, stop in bars:
@@ -152,9 +153,9 @@ def module_solids(device: Device, module: Module) -> ModuleSolids:
         return ModuleSolids((Drum(module.position, module.axis, wheel.outer_radius, wheel.height),))
     foot = foot_of(device)
     housing, tall = foot.housing, 2.0 * foot.housing.half_height
-    down = foot.wheel_height - BASE_THICKNESS / 2.0
+    down = foot.wheel_height - foot.base / 2.0
     _, outward, up = module.frame.T
-    base = Drum(module.position - down * up, up, foot.base_radius, BASE_THICKNESS)
+    base = Drum(module.position - down * up, up, foot.base_radius, foot.base)
     drum = Drum(module.position, module.axis, housing.radius, tall)
     # What drives the wheel stands behind the foot's plate; the other modules are behind both.
     driving = [

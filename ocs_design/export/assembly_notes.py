@@ -16,10 +16,10 @@ from ocs_design.parts.bell import BELL_SHARE
 from ocs_design.parts.carrier_plate import DENSITY as PLATE_DENSITY
 from ocs_design.parts.carrier_plate import MODULUS as PLATE_MODULUS
 from ocs_design.parts.carrier_plate import YIELD_STRENGTH
-from ocs_design.parts.foot import Foot, foot_part, stem_shock
+from ocs_design.parts.foot import Foot, foot_part, foot_shock
 from ocs_design.parts.joints import GRADE
 from ocs_design.parts.motor_mount import motor_front
-from ocs_design.parts.printed import DENSITY, MODULUS, SHOCK, STRENGTH_ACROSS, TRUNK_SCREW
+from ocs_design.parts.printed import DENSITY, MODULUS, SHOCK, STRENGTH, TRUNK_SCREW
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import trunk_surface
 
@@ -176,17 +176,17 @@ def _apart(device: Device, foot: Foot) -> Iterator[str]:
 def _shaken(device: Device, foot: Foot) -> Iterator[str]:
     """Landings that the feet do not bear, and speeds at which they or the plate shake."""
     module, modes = device.flywheel.mass + device.carrier.mass, resonances_of(device)
-    bears, own = stem_shock(foot, module), foot_part(foot).mass_properties().mass
+    bears, own = foot_shock(foot, module), foot_part(foot).mass_properties().mass
     if bears < SHOCK:
-        stronger, heavier = YIELD_STRENGTH / STRENGTH_ACROSS, own * (PLATE_DENSITY / DENSITY - 1.0)
+        stronger, heavier = YIELD_STRENGTH / STRENGTH, own * (PLATE_DENSITY / DENSITY - 1.0)
         sway = "".join(
             f", and let it sway at {mode.frequency:.0f} Hz" for mode in modes if mode.name == "foot"
         )
         yield (
             f"printed of PETG the feet bear {bears / STANDARD_GRAVITY:.2g} g of {module:.2g} kg "
-            f"along the wheel's axis, across their layers, and not {SHOCK / STANDARD_GRAVITY:.0f}"
+            f"along the wheel's axis, and not {SHOCK / STANDARD_GRAVITY:.0f}"
             f"{sway}: where landings are harder, mill them of 6061-T6 to the same file, "
-            f"{stronger:.0f} times as strong, "
+            f"at least {stronger:.0f} times as strong, "
             f"{sqrt(PLATE_MODULUS / MODULUS):.0f} times as high a frequency and "
             f"{1e3 * heavier:.0f} g heavier each"
         )

@@ -16,8 +16,8 @@ from ocs_design.parts.carrier_plate import mast_part, plate_part
 from ocs_design.parts.foot import foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
 from ocs_design.parts.part import Part
-from ocs_design.parts.pedestal import SEAT_SCREWS, Pedestal, drilled
-from ocs_design.parts.printed import TRUNK_SCREWS
+from ocs_design.parts.pedestal import Pedestal, drilled
+from ocs_design.parts.printed import trunk_screws
 from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel, wheel_parts
 
 
@@ -140,8 +140,9 @@ def pedestal_kinds(device: Device) -> tuple[PedestalKind, ...]:
 def foot_screws(device: Device, module: Module) -> Fastening:
     """Screws of a module's foot, into its pedestal, the plate or the trunk."""
     if any(each.module == module.name for each in device.pedestals):
-        return SEAT_SCREWS
-    return TRUNK_SCREWS if device.plate is None else replace(TRUNK_SCREWS, purpose="foot on plate")
+        return device.pedestals[0].seat_screws
+    held = trunk_screws(device.foot_plate)
+    return held if device.plate is None else replace(held, purpose="foot on plate")
 
 
 def printed_parts(device: Device) -> tuple[Part, ...]:

@@ -32,8 +32,7 @@ from ocs_design.export.drawing.writers import pdf_of_pages
 from ocs_design.export.formats import Subject
 from ocs_design.parts.flattening import flat_outline
 from ocs_design.parts.module import part_name
-from ocs_design.parts.pedestal import FLANGE
-from ocs_design.parts.printed import TRUNK_SCREW, TRUNK_SCREWS
+from ocs_design.parts.printed import TRUNK_SCREW, trunk_screws
 
 MILLIMETRES = 1000.0
 
@@ -130,7 +129,7 @@ def drilling_of(subject: Subject) -> Drilling | None:
     if plate is None:
         holes, thread = _millimetres([*feet, *pedestals]), TRUNK_SCREW
         screws = [each.base_screws for each in device.pedestals]
-        screws += [TRUNK_SCREWS] if standing else []
+        screws += [trunk_screws(device.foot_plate)] if standing else []
         reach = [each.length - each.thickness for each in screws]
     else:
         x, y, z = plate.position
@@ -154,7 +153,7 @@ def drilling_of(subject: Subject) -> Drilling | None:
         items += [Circle(middle, base, THIN), *cross(middle, CROSS)]
         items.append(Text((middle[0] + base / 2.0, middle[1]), part_name("foot", module.name), 2.5))
     for each in device.pedestals:
-        side, near, far = each.width / 2.0, -FLANGE, each.length + FLANGE
+        side, near, far = each.width / 2.0, -each.flange, each.length + each.flange
         around = [(-side, near), (side, near), (side, far), (-side, far), (0.0, each.length / 2.0)]
         *rim, inside = _millimetres(each.in_base(around))
         items.append(Polyline((*rim, rim[0]), THIN))

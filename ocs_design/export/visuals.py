@@ -21,8 +21,7 @@ from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
 from ocs_design.parts.part import Part
-from ocs_design.parts.pedestal import FLANGE, Pedestal, drilled
-from ocs_design.parts.printed import BASE_THICKNESS
+from ocs_design.parts.pedestal import Pedestal, drilled
 from ocs_design.robot.tree import Placement, ShapeKind
 
 WHEEL_MESH = "meshes/ocs_flywheel.stl"
@@ -158,7 +157,7 @@ def _plain_pedestal(pedestal: Pedestal) -> Iterator[Visual]:
     """Boxes for base, seat and brace, whose slopes stand for the lean's."""
     place, half, end = pedestal.placement, pedestal.width / 2.0, pedestal.length / 2.0
     thick, lean = pedestal.thickness / 2.0, pedestal.lean
-    long = end + FLANGE
+    long = end + pedestal.flange
     base = _shifted(0.0, end, pedestal.base / 2.0)
     yield Visual("pedestal", ShapeKind.BOX, (half, long, pedestal.base / 2.0), place @ base)
     seat = Placement(pedestal.seat.rotation, np.array([0.0, 0.0, pedestal.base]))
@@ -192,8 +191,8 @@ def plain_carrier_visuals(device: Device, module: Module) -> tuple[Visual, ...]:
     if device.carrier.mass == 0.0:
         return ()
     foot, turn = foot_of(device), carrier_placement(module)
-    half_base, half_plate = BASE_THICKNESS / 2.0, device.foot_plate / 2.0
-    half_height, behind = (foot.wheel_height - BASE_THICKNESS) / 2.0, half_plate - foot.back
+    half_base, half_plate = float(foot.base) / 2.0, device.foot_plate / 2.0
+    half_height, behind = (foot.wheel_height - foot.base) / 2.0, half_plate - foot.back
     base = turn @ foot.placement @ _shifted(0.0, 0.0, half_base)
     plate, top = turn @ _shifted(0.0, half_height, behind), turn @ _shifted(0.0, 0.0, behind)
     return (

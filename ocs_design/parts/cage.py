@@ -12,9 +12,10 @@ along -y, as in the wheel's frame.
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import pi
+from math import pi, sqrt
 from typing import Generic
 
+from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import BoltCircle
 from ocs_design.common.arrays import Table
 from ocs_design.parts.housing import half_height, plate_back
@@ -23,8 +24,12 @@ from ocs_design.parts.part import Part
 from ocs_design.parts.printed import (
     CLEARANCE,
     DENSITY,
+    FLOOR,
+    FLOOR_SHARE,
     LID_SCREW,
     PLATE_THICKNESS,
+    SHOCK,
+    STRENGTH,
     UPRIGHT,
     WALL,
     MountHoles,
@@ -35,9 +40,6 @@ from ocs_design.parts.printed import (
 )
 from ocs_design.parts.shapes import EAR_COUNT, Eared, Post
 from ocs_design.parts.solids import Prism
-
-FLOOR = 3.0e-3
-"""Thickness [m]: the motor's screws press on it, as the trunk's do on the foot's base."""
 
 LEAST_POST = 6.0e-3
 """Shortest post [m]: three diameters of the thread of M2 that is cut into it."""
@@ -120,6 +122,11 @@ class Cage:
         return self.bore + WALL
 
     @property
+    def floor(self) -> float:
+        """Thickness of its floor [m]."""
+        return max(FLOOR, FLOOR_SHARE * self.foot_plate)
+
+    @property
     def seat(self) -> float:
         """Distance of the motor's back from the wheel's middle [m]."""
         return self.front + self.motor_length
@@ -127,12 +134,12 @@ class Cage:
     @property
     def back(self) -> float:
         """Distance of its floor's back from the wheel's middle [m]."""
-        return self.seat + FLOOR
+        return self.seat + self.floor
 
     @property
     def length(self) -> float:
         """Length from the foot's plate to the back of its floor [m]."""
-        return self.posts.length(self.rim_height) + FLOOR
+        return self.posts.length(self.rim_height) + self.floor
 
     @property
     def rim_height_max(self) -> float:
@@ -169,12 +176,34 @@ class Cage:
 
     def floor_moments(self) -> MassMoments[float]:
         """Moments of its floor in the module's frame."""
-        floor = Part("floor", DENSITY, (Prism(self.band, 0.0, FLOOR),), self._drilled)
+        floor = Part("floor", DENSITY, (Prism(self.band, 0.0, self.floor),), self._drilled)
         return floor.moments().turned(UPRIGHT).shifted(-self.back, 0.0)
 
     @property
     def _drilled(self) -> tuple[Prism[float], ...]:
-        return tuple(self.holes.prisms(0.0, FLOOR))
+        return tuple(self.holes.prisms(0.0, self.floor))
+
+
+def floor_at_shock(cage: Cage, motor: float, wheel: float) -> float:
+    """Thickness at which a cage's floor breaks under `SHOCK` [m].
+
+    Motor and wheel stand on it and tilt it by M, as a stiff middle of radius b, around the heads of
+    the motor's screws, does in a plate that is clamped at radius a: Kirchhoff's plate with
+    w = (A r + B / r + C r^3 + D r log r) cos(theta) has at b the stress
+
+        3 M (a^2 - b^2) / (pi b t^2 (a^2 + b^2)).
+
+    Posts clamp half of the edge, so that it is counted twice.
+
+    Args:
+        cage: with the holes of the motor's screws. motor, wheel: mass of each [kg].
+    """
+    circle = cage.holes.screws
+    assert circle is not None, "a motor in a cage is screwed on"
+    tilting = SHOCK * (motor * cage.motor_length / 2.0 + wheel * cage.seat)
+    held, clamped = circle.radius + screw(circle.thread).head_diameter / 2.0, cage.bore
+    ring = (clamped**2 - held**2) / (clamped**2 + held**2)
+    return sqrt(2.0 * 3.0 * tilting * max(ring, 0.0) / (pi * held * STRENGTH))
 
 
 def _posts(cage: Cage, low: float, high: float) -> tuple[Prism[float], Prism[float]]:
@@ -186,5 +215,7 @@ def _posts(cage: Cage, low: float, high: float) -> tuple[Prism[float], Prism[flo
 
 def cage_part(cage: Cage) -> Part[float]:
     """The cage in its own frame."""
-    posts, tapped = _posts(cage, FLOOR, cage.length)
-    return Part("cage", DENSITY, (Prism(cage.band, 0.0, FLOOR), posts), (*cage._drilled, tapped))
+    posts, tapped = _posts(cage, cage.floor, cage.length)
+    return Part(
+        "cage", DENSITY, (Prism(cage.band, 0.0, cage.floor), posts), (*cage._drilled, tapped)
+    )

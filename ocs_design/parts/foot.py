@@ -9,29 +9,34 @@ Sizes, the rim's outer radius R and height h and the reach of the mount's holes 
 arrays that broadcast, or CasADi's symbols.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil, pi, sqrt
 from typing import Any, Generic
 
 import numpy as np
 
+from ocs_design.actuation.fasteners import Fastening
 from ocs_design.parts.housing import Housing, housing_outer_radius, plate_back
 from ocs_design.parts.moments import MassMoments, Real, flat_ring
 from ocs_design.parts.part import Part
 from ocs_design.parts.printed import (
     AROUND_SLOT,
-    BASE_THICKNESS,
     CLEARANCE,
     DENSITY,
+    FLOOR,
+    FLOOR_SHARE,
     MODULUS,
     PLATE_THICKNESS,
     SHOCK,
+    STRENGTH,
     STRENGTH_ACROSS,
     TRUNK_SCREW,
-    TRUNK_SCREWS,
+    TRUNK_SCREW_COUNT,
     UPRIGHT,
     WALL,
     MountHoles,
+    base_thickness,
+    trunk_screws,
 )
 from ocs_design.parts.shapes import ArcSlot, Disc, Keyhole, Rectangle
 from ocs_design.parts.solids import Prism
@@ -71,9 +76,10 @@ STANDING = Placement(UPRIGHT, np.zeros(3))
 """The wheel's axes in the foot's frame: x forward in both, z along the wheel's axis, y down."""
 
 
-def wheel_height(outer_radius: Real) -> Real:
-    """Height of the wheel's centre above the foot's underside [m]."""
-    return housing_outer_radius(outer_radius) + (BASE_THICKNESS + CLEARANCE)
+def wheel_height(outer_radius: Real, thickness: Real | float = PLATE_THICKNESS) -> Real:
+    """Height of the wheel's centre above the underside of a foot with such a plate [m]."""
+    base: Real = base_thickness(thickness)
+    return housing_outer_radius(outer_radius) + (base + CLEARANCE)
 
 
 def base_radius(
@@ -105,9 +111,19 @@ class Foot(Generic[Real]):
     thickness: Real | float = PLATE_THICKNESS
 
     @property
+    def base(self) -> Real:
+        """Thickness of its base [m]."""
+        return base_thickness(self.thickness)
+
+    @property
+    def screws(self) -> Fastening:
+        """Screws that hold it on the trunk; its thickness is a number."""
+        return trunk_screws(float(self.thickness))
+
+    @property
     def wheel_height(self) -> Real:
         """Height of the wheel's centre above the underside [m]."""
-        return wheel_height(self.housing.rim_radius + self.housing.guard_wall)
+        return wheel_height(self.housing.rim_radius + self.housing.guard_wall, self.thickness)
 
     @property
     def half_width(self) -> Real:
@@ -152,7 +168,7 @@ class Foot(Generic[Real]):
     @property
     def plate(self) -> Keyhole[Real]:
         """The plate from the base up to a disc around the wheel's axis; y points down."""
-        return Keyhole(self.half_width, self.stem, -self.wheel_height, -BASE_THICKNESS)
+        return Keyhole(self.half_width, self.stem, -self.wheel_height, -self.base)
 
     @property
     def slot(self) -> ArcSlot[Real]:
@@ -161,38 +177,69 @@ class Foot(Generic[Real]):
         return ArcSlot(self.slot_radius, TRUNK_SCREW.clearance_hole, *ends)
 
 
-def stem_shock(foot: Foot[float], mass: float) -> float:
-    """Acceleration along the wheel's axis at which a stem of PETG breaks at the base [m/s^2].
-
-    Feet are printed upright, so that the stem is bent across its layers.
-
-    M = m a H and sigma = 6 M / (w t^2): Roark's Formulas for Stress and Strain, 7th edition, table
-    8.1, case 1a, with the section modulus of a rectangle.
+def foot_shock(foot: Foot[float], mass: float) -> float:
+    """Acceleration along the wheel's axis at which a foot of PETG breaks [m/s^2].
 
     Args:
-        foot: with its stem, 2 `stem` wide and as thick as the plate.
+        foot: see `plate_thickness`.
         mass: of the module above it [kg].
     """
-    return SHOCK * float(foot.thickness / _thickness_at_shock(foot, mass)) ** 2
+    stem = float(foot.thickness) / _stem_at_shock(foot, mass)
+    base = float(foot.base) / _base_at_shock(foot, mass)
+    return SHOCK * min(stem, base) ** 2
 
 
-def plate_thickness(foot: Foot[float], mass: float) -> float:
-    """Thickness of a plate whose stem bears `SHOCK`, to the next 0.1 mm [m].
+def plate_thickness(foot: Foot[float], mass: float, floor: float = 0.0) -> float:
+    """Thickness of a plate with which a foot and a cage bear `SHOCK`, to the next 0.1 mm [m].
 
-    It is never less than `PLATE_THICKNESS`, and never more than half the stem's width, a solid
-    block.
+    Stem, base and the cage's floor are as thick as it or a share of it. It is never less than
+    `PLATE_THICKNESS`, and never more than half the stem's width, a solid block.
 
     Args:
-        foot: whose plate may have another thickness. mass: of the module above it [kg].
+        foot: whose plate's own thickness is not looked at. mass: of the module above it [kg].
+        floor: least thickness of the cage's floor (`floor_at_shock`) [m]; 0: there is no cage.
     """
-    needed = ceil(1e4 * _thickness_at_shock(foot, mass)) / 1e4
-    return max(PLATE_THICKNESS, min(needed, foot.stem))
+    asked = max(PLATE_THICKNESS, _stem_at_shock(foot, mass))
+    if floor > FLOOR:
+        asked = max(asked, floor / FLOOR_SHARE)
+    tenths = ceil(round(1e4 * asked, 6))
+    # A thicker plate moves the screws outwards, where they pull less at a longer arm.
+    while tenths < 1e4 * foot.stem:
+        if foot_shock(replace(foot, thickness=tenths / 1e4), mass) >= SHOCK:
+            break
+        tenths += 1
+    return max(PLATE_THICKNESS, min(tenths / 1e4, foot.stem))
 
 
-def _thickness_at_shock(foot: Foot[float], mass: float) -> float:
-    """Thickness at which the stem breaks under `SHOCK`, t = sqrt(6 m a H / (w sigma)) [m]."""
-    arm, width = foot.wheel_height - BASE_THICKNESS, 2.0 * foot.stem
+def _stem_at_shock(foot: Foot[float], mass: float) -> float:
+    """Thickness at which the stem breaks under `SHOCK` [m].
+
+    M = m a H and sigma = 6 M / (w t^2): Roark's Formulas for Stress and Strain, 7th edition, table
+    8.1, case 1a, with the section modulus of a rectangle. Feet are printed upright, so that the
+    stem, 2 `stem` wide, is bent across its layers.
+    """
+    arm, width = foot.wheel_height - foot.base, 2.0 * foot.stem
     return sqrt(6.0 * mass * SHOCK * arm / (width * STRENGTH_ACROSS))
+
+
+def _base_at_shock(foot: Foot[float], mass: float) -> float:
+    """Thickness at which the base breaks under `SHOCK` [m].
+
+    The screw on the far side pulls at a cantilever that is as wide as the stem, and bends it along
+    its layers: the same case.
+    """
+    pulled = mass * SHOCK * foot.wheel_height / screw_lever(foot.base_radius, foot.slot_radius)
+    arm, width = foot.slot_radius + foot.housing.half_height, 2.0 * foot.stem
+    return sqrt(6.0 * pulled * arm / (width * STRENGTH))
+
+
+def screw_lever(base_radius: float, slot_radius: float) -> float:
+    """Moment that tilts a foot over the largest pull of its two screws [m].
+
+    The foot turns about the edge of its base, and a screw holds it as far as it is from there; most
+    is asked of one where the other is behind it.
+    """
+    return 2.0 * (base_radius**2 + slot_radius**2) / (base_radius + slot_radius)
 
 
 def stem_frequency(foot: Foot[float], mass: float, inertia: float) -> float:
@@ -202,10 +249,10 @@ def stem_frequency(foot: Foot[float], mass: float, inertia: float) -> float:
     2 L^3: 3 E I / L^3 over m + 33/140 m_stem + J (3 / 2 L)^2.
 
     Args:
-        foot: see `stem_shock`.
+        foot: of PETG.
         mass: at the wheel's middle [kg]. inertia: of it about the forward axis there [kg m^2].
     """
-    arm, width = foot.wheel_height - BASE_THICKNESS, 2.0 * foot.stem
+    arm, width = foot.wheel_height - foot.base, 2.0 * foot.stem
     thickness = float(foot.thickness)
     stiffness = MODULUS * width * thickness**3 / (4.0 * arm**3)
     stem = DENSITY * width * thickness * arm
@@ -222,14 +269,14 @@ def foot_part(foot: Foot[float]) -> Part[float]:
 
 def undrilled(foot: Foot[Real]) -> Part[Real]:
     """The foot in its own frame without the mount's holes; see the module for sizes."""
-    base = Prism(Disc(foot.base_radius), 0.0, BASE_THICKNESS)
+    base = Prism(Disc(foot.base_radius), 0.0, foot.base)
     plate = Prism(foot.plate, -foot.back, -foot.housing.half_height, STANDING)
-    cut = [Prism(foot.slot, 0.0, BASE_THICKNESS, count=TRUNK_SCREWS.count)]
-    end, low = foot.base_radius - WALL, BASE_THICKNESS - MARK_DEPTH
+    cut = [Prism(foot.slot, 0.0, foot.base, count=TRUNK_SCREW_COUNT)]
+    end, low = foot.base_radius - WALL, foot.base - MARK_DEPTH
     for third, length in enumerate((LONG_MARK_LENGTH, MARK_LENGTH, MARK_LENGTH)):
         groove = Rectangle(end - length, end, -MARK_WIDTH / 2.0, MARK_WIDTH / 2.0)
         first = 2.0 * pi / LONG_MARKS * third / 3.0
-        cut.append(Prism(groove, low, BASE_THICKNESS, count=LONG_MARKS, first=first))
+        cut.append(Prism(groove, low, foot.base, count=LONG_MARKS, first=first))
     return Part("foot", DENSITY, (base, plate), tuple(cut))
 
 
@@ -245,7 +292,7 @@ def foot_mass_per_height(foot: Foot[Real]) -> Real:
     by_slot = (1.0 + beyond / (beyond**2 + KNEE**2) ** 0.5) / 2.0
     outward = by_slot * sqrt(0.5) + (1.0 - by_slot) * foot.back / (2.0 * corner)
     slots = pi * TRUNK_SCREW.clearance_hole * sqrt(0.5)
-    slope: Real = DENSITY * BASE_THICKNESS * (2.0 * pi * foot.base_radius * outward - slots)
+    slope: Real = DENSITY * foot.base * (2.0 * pi * foot.base_radius * outward - slots)
     return slope
 
 
@@ -256,5 +303,5 @@ def trunk_screw_moments(foot: Foot[Real]) -> MassMoments[Real]:
     other: as much forward as sideways. Their product of both is the left one's against the right
     one's, and is left out.
     """
-    up = BASE_THICKNESS - TRUNK_SCREWS.centre - foot.wheel_height
-    return flat_ring(TRUNK_SCREWS.mass + 0.0 * up, foot.slot_radius).shifted(0.0, up)
+    up = foot.base - foot.screws.centre - foot.wheel_height
+    return flat_ring(foot.screws.mass + 0.0 * up, foot.slot_radius).shifted(0.0, up)

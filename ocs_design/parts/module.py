@@ -22,10 +22,7 @@ from ocs_design.parts.housing import (
 )
 from ocs_design.parts.moments import Carrier, MassMoments, Real, point, round_body
 from ocs_design.parts.motor_mount import MotorMount, mount_of
-from ocs_design.parts.printed import LID_SCREW, PLATE_THICKNESS, TRUNK_SCREWS, MountHoles
-
-SHELL_SCREWS = LID_SCREWS.mass + TRUNK_SCREWS.mass
-"""Mass of the screws of lid and foot [kg]."""
+from ocs_design.parts.printed import LID_SCREW, PLATE_THICKNESS, MountHoles
 
 
 def part_name(part: str, module: str) -> str:
@@ -57,7 +54,7 @@ class Printed:
         foot = self._foot(outer_radius, height)
         ring = (housings.guard_ring(foot.housing),) if self.guard_wall else ()
         parts = (*housings.undrilled(foot.housing), *ring, feet.undrilled(foot))
-        bought: FloatArray = SHELL_SCREWS + self.posts.mass(height)
+        bought: FloatArray = LID_SCREWS.mass + foot.screws.mass + self.posts.mass(height)
         return sum((part.mass() for part in parts), bought)
 
     def mass_per_height(self, outer_radius: FloatArray, height: FloatArray) -> FloatArray:

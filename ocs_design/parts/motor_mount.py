@@ -16,7 +16,7 @@ from ocs_design.actuation.fasteners import CLASSES, IN_PLASTIC, Fastening, screw
 from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
 from ocs_design.common.arrays import Table
 from ocs_design.parts.bell import Bell, HeldMotor, bell_of
-from ocs_design.parts.cage import FLOOR, HALF_POST, NO_POSTS, Cage, Posts
+from ocs_design.parts.cage import HALF_POST, NO_POSTS, Cage, Posts
 from ocs_design.parts.housing import half_height, plate_back
 from ocs_design.parts.moments import MassMoments, Real, nothing, ring
 from ocs_design.parts.printed import LID_SCREW, PANEL, PLATE_THICKNESS, WALL, MountHoles, ear_radius
@@ -203,7 +203,7 @@ def mount_of(
     assert passage.screws is not None
     purpose = "cage on housing and foot, it is tapped"
     on_plate = _through_walls(passage.screws, foot_plate, purpose, IN_PLASTIC)
-    fastening = _fastening(stator, FLOOR, f"motor in its cage; {_DEPTH}", 1.0)
+    fastening = _fastening(stator, cage.floor, f"motor in its cage; {_DEPTH}", 1.0)
     held = Screwed(fastening, stator, -cage.back, 1.0, by_wheel=True)
     return MotorMount(passage, cage, (*wheel, held, on_plate), foot_plate=foot_plate)
 

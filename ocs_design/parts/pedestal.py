@@ -18,6 +18,7 @@ import numpy as np
 
 from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening
 from ocs_design.common.arrays import FloatArray
+from ocs_design.parts.foot import screw_lever
 from ocs_design.parts.joints import pattern_use
 from ocs_design.parts.part import Part
 from ocs_design.parts.printed import (
@@ -28,7 +29,7 @@ from ocs_design.parts.printed import (
     SHOCK,
     STRENGTH_ACROSS,
     TRUNK_SCREW,
-    TRUNK_SCREWS,
+    TRUNK_SCREW_COUNT,
     WALL,
 )
 from ocs_design.parts.shapes import Disc, Polygon
@@ -39,16 +40,8 @@ from ocs_design.robot.tree import Placement
 LEAST_SEAT = IN_PLASTIC * TRUNK_SCREW.diameter
 """Least thickness of the seat [m]: that of a thread that holds in plastic."""
 
-FLANGE_SCREW = BASE_THICKNESS + TRUNK_SCREW.head_diameter / 2.0 + WALL
-"""Distance of the trunk's screws from the ends of the triangle [m]: their heads clear a foot whose
-base stands upright on the near end."""
-
-FLANGE = FLANGE_SCREW + AROUND_SLOT
-"""Length of each flange [m]."""
-
-SEAT_SCREWS = Fastening(
-    TRUNK_SCREW, 2, BASE_THICKNESS, "foot on pedestal, which is tapped", IN_PLASTIC
-)
+SEATED = "foot on pedestal, which is tapped"
+"""What the screws in a seat hold."""
 
 SHEAR = 0.577
 """Shear strength over tensile strength: von Mises."""
@@ -70,7 +63,7 @@ class Pedestal:
         lean: angle of the seat over the horizontal, more than 0 and up to pi/2 [rad].
         middle: of the foot's base along the seat, from its near end [m].
         thickness: of seat and brace [m].
-        base: thickness of base and flanges [m].
+        base: thickness of base and flanges [m]. foot_base: of the base of the foot on it [m].
         module: name of what stands on it.
         position: of its origin in B [m].
         heading: of its y axis in B, from x to y [rad].
@@ -83,6 +76,7 @@ class Pedestal:
     middle: float
     thickness: float = LEAST_SEAT
     base: float = BASE_THICKNESS
+    foot_base: float = BASE_THICKNESS
     module: str = ""
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     heading: float = pi / 2.0
@@ -91,6 +85,24 @@ class Pedestal:
     def length(self) -> float:
         """Length of the seat, and of the base without its flanges [m]."""
         return self.middle + self.base_radius
+
+    @property
+    def flange_screw(self) -> float:
+        """Distance of the trunk's screws from the ends of the triangle [m].
+
+        Their heads clear a foot whose base stands upright on the near end.
+        """
+        return self.foot_base + TRUNK_SCREW.head_diameter / 2.0 + WALL
+
+    @property
+    def flange(self) -> float:
+        """Length of each flange [m]."""
+        return self.flange_screw + AROUND_SLOT
+
+    @property
+    def seat_screws(self) -> Fastening:
+        """Screws of the foot on it."""
+        return Fastening(TRUNK_SCREW, TRUNK_SCREW_COUNT, self.foot_base, SEATED, IN_PLASTIC)
 
     @property
     def off(self) -> float:
@@ -110,7 +122,7 @@ class Pedestal:
     @property
     def sizes(self) -> tuple[float, float, float]:
         """Length with its flanges, width and height [m]."""
-        return self.length + 2.0 * FLANGE, self.width, self.height
+        return self.length + 2.0 * self.flange, self.width, self.height
 
     @property
     def seat(self) -> Placement:
@@ -127,7 +139,7 @@ class Pedestal:
     @property
     def holes(self) -> tuple[tuple[float, float], ...]:
         """Places of the trunk's screws, x and y [m]."""
-        ends = -FLANGE_SCREW, self.length + FLANGE_SCREW
+        ends = -self.flange_screw, self.length + self.flange_screw
         return tuple((x, y) for x in (-self.off, self.off) for y in ends)
 
     @property
@@ -157,10 +169,10 @@ class Pedestal:
     @property
     def profile(self) -> Polygon[float]:
         """Outline from the side."""
-        end, base = self.length, self.base
+        end, base, flange = self.length, self.base, self.flange
         far = end * cos(self.lean), base + end * sin(self.lean)
-        low = ((-FLANGE, 0.0), (end + FLANGE, 0.0), (end + FLANGE, base), (end, base))
-        return Polygon((*low, far, (0.0, base), (-FLANGE, base)))
+        low = ((-flange, 0.0), (end + flange, 0.0), (end + flange, base), (end, base))
+        return Polygon((*low, far, (0.0, base), (-flange, base)))
 
     @property
     def window(self) -> Polygon[float]:
@@ -184,7 +196,10 @@ class Pedestal:
     def _bodies(self) -> tuple[MassProperties, ...]:
         held, none = self.base_screws, np.zeros((3, 3))
         head = self.base - held.centre
-        seat = self.seat.position + (BASE_THICKNESS - SEAT_SCREWS.centre) * self._directions[1]
+        seated, foot = self.seat_screws, self.foot_base
+        # The same for any plate of that base.
+        own = replace(seated, depth=1.0)
+        seat = self.seat.position + (foot - seated.centre) * self._directions[1]
         return (
             drilled(self).mass_properties(),
             *(
@@ -192,7 +207,7 @@ class Pedestal:
                 for x, y in self.holes
             ),
             # A foot's own are counted with its module.
-            MassProperties(SEAT_SCREWS.mass - TRUNK_SCREWS.mass, seat, none),
+            MassProperties(seated.mass - own.mass, seat, none),
         )
 
 
@@ -255,7 +270,7 @@ def _arms(pedestal: Pedestal) -> tuple[float, float, float, float]:
     """Wheel beside and above the middle of the trunk's screws, and half of their distances [m]."""
     _, y, above = pedestal.wheel.tolist()
     half = pedestal.length / 2.0
-    return abs(y - half), above, half + FLANGE_SCREW, pedestal.off
+    return abs(y - half), above, half + pedestal.flange_screw, pedestal.off
 
 
 def _flange_needed(pedestal: Pedestal, mass: float) -> float:
@@ -265,7 +280,7 @@ def _flange_needed(pedestal: Pedestal, mass: float) -> float:
     """
     aside, above, along, across = _arms(pedestal)
     pulled = mass * SHOCK / 4.0 * (1.0 + max((above + aside) / along, above / across))
-    return sqrt(6.0 * pulled * FLANGE_SCREW / (pedestal.width / 2.0 * STRENGTH_ACROSS))
+    return sqrt(6.0 * pulled * pedestal.flange_screw / (pedestal.width / 2.0 * STRENGTH_ACROSS))
 
 
 def seat_compliance(pedestal: Pedestal) -> tuple[float, float]:
@@ -297,8 +312,7 @@ def pedestal_use(pedestal: Pedestal, mass: float) -> float:
     screws = float(pattern_use(TRUNK_SCREW, force, arms, pattern))
     flange = (_flange_needed(pedestal, mass) / pedestal.base) ** 2
     seat = (_seat_needed(pedestal, mass) / pedestal.thickness) ** 2
-    edge, out = pedestal.base_radius, pedestal.slot_radius
-    lever = min(2.0 * edge, 2.0 * (edge**2 + out**2) / (edge + out))
+    lever = screw_lever(pedestal.base_radius, pedestal.slot_radius)
     thread = pi * TRUNK_SCREW.diameter * IN_PLASTIC * TRUNK_SCREW.diameter
     pulled_out = force * (pedestal.wheel_height / lever + 0.5) / (thread * SHEAR * STRENGTH_ACROSS)
     return float(max(screws, flange, seat, pulled_out))

@@ -55,20 +55,41 @@ data sheet, ISO 527-2: 1.7 to 1.9 GPa); additive.tools/materials/petg has 2 to 3
 LID_SCREW = screw("M2")
 
 BASE_THICKNESS = 3.0e-3
-"""Of a foot [m]: the trunk's screws press on it."""
+"""Least thickness of the base of a foot [m]: the trunk's screws press on it."""
 
-TRUNK_SCREW = screw("M3")
+BASE_SHARE = 0.52
+"""Thickness of a base over that of the foot's plate, where that is more. One moment bends both: a
+base bears `SHOCK` with 0.28 to 0.54 of its plate's thickness, on modules of 0.16 to 3.7 kg."""
 
-TRUNK_SCREWS = Fastening(
-    TRUNK_SCREW, 2, BASE_THICKNESS, "foot on trunk; longer if its thread begins deeper"
-)
-"""Through a slot of a foot each."""
+FLOOR = 3.0e-3
+"""Least thickness of the floor of a cage [m]: the motor's screws press on it, as the trunk's do on
+the foot's base."""
+
+FLOOR_SHARE = 0.42
+"""Thickness of that floor over that of the foot's plate, where that is more: it bears `SHOCK` with
+0.12 to 0.42 of it."""
+
+TRUNK_SCREW, TRUNK_SCREW_COUNT = screw("M3"), 2
+"""One through each slot of a foot."""
 
 AROUND_SLOT = max(TRUNK_SCREW.head_diameter / 2.0, TRUNK_SCREW.clearance_hole / 2.0 + WALL)
 """Room of heads, or of a wall, around the middle of a slot [m]."""
 
 UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 """Takes coordinates of the wheel's frame, z along its axis and y down, to the module's own."""
+
+
+def base_thickness(plate: Real | float) -> Real:
+    """Thickness of the base of a foot, by that of its plate [m]."""
+    thick: Real = np.maximum(BASE_THICKNESS, BASE_SHARE * plate)
+    return thick
+
+
+def trunk_screws(plate: float) -> Fastening:
+    """Screws of a foot with a plate of that thickness [m], one through each slot."""
+    through = float(base_thickness(plate))
+    purpose = "foot on trunk; longer if its thread begins deeper"
+    return Fastening(TRUNK_SCREW, TRUNK_SCREW_COUNT, through, purpose)
 
 
 def ear_radius(held: Screw) -> float:

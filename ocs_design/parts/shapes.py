@@ -199,7 +199,7 @@ class Keyhole(_Stemmed[Real]):
     radius: Real
     side: Real
     low: Real
-    high: float
+    high: Real
 
     @cached_property
     def area(self) -> Real:

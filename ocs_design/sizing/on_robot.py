@@ -10,7 +10,8 @@ from ocs_design.common.errors import Infeasible
 from ocs_design.common.units import format_quantity
 from ocs_design.device.joints import burst_of
 from ocs_design.device.layout import Criterion
-from ocs_design.device.solids import foot_of
+from ocs_design.device.solids import foot_of, motor_mount
+from ocs_design.parts.cage import floor_at_shock
 from ocs_design.parts.foot import plate_thickness
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.assembly import assemble_selected
@@ -223,7 +224,9 @@ def _own_footing(problem: SelectionProblem, best: Candidate, robot: Robot) -> Se
     """The problem for the plate, the place and the feet of this device."""
     device, stated = assemble_selected(best, problem.supply), problem.place.stated
     module = best.modules_mass / len(best.layout)
-    least, feet = plate_thickness(foot_of(device), module), best.foot_plate
+    cage, feet = motor_mount(device).cage, best.foot_plate
+    floor = 0.0 if cage is None else floor_at_shock(cage, best.motor.mass or 0.0, best.wheel.mass)
+    least = plate_thickness(foot_of(device), module, floor)
     # Thicker feet are a little heavier, and ask for more.
     if not least <= feet <= least + _TOO_THICK:
         feet = least

@@ -63,7 +63,7 @@ def module_size(
     depth = larger(plate_back(half, foot_plate) + behind.depth, behind.from_wheel)
     motor = (depth**2 + behind.radius**2) ** 0.5
     base = base_radius(outer_radius, height, mount_reach, foot_plate)
-    return Size(larger(larger(housing, motor), base), wheel_height(outer_radius))
+    return Size(larger(larger(housing, motor), base), wheel_height(outer_radius, foot_plate))
 
 
 def motor_size(

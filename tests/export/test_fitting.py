@@ -14,7 +14,7 @@ from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly_notes import device_notes, drive_notes
 from ocs_design.export.module_bodies import wheel_placement
 from ocs_design.export.visuals import carrier_visuals
-from ocs_design.parts.foot import plate_thickness, stem_shock
+from ocs_design.parts.foot import foot_shock, plate_thickness
 from ocs_design.parts.rim import Hub, RimCuts
 
 M3 = BoltCircle(0.02, 4, "M3")
@@ -61,7 +61,7 @@ def test_feet_bear_the_shock_or_it_is_told(mass, share):
     device = replace(device, carrier=replace(device.carrier, mass=mass))
     thick = plate_thickness(foot_of(device), mass + device.flywheel.mass)
     device = replace(device, foot_plate=0.005 + share * (thick - 0.005))
-    bears = stem_shock(foot_of(device), mass + device.flywheel.mass) / 9.80665
+    bears = foot_shock(foot_of(device), mass + device.flywheel.mass) / 9.80665
     told = "printed of PETG the feet bear" in said(device)
     assert told == (bears < 20.0)
     assert "mill them of 6061-T6" in said(device) or not told

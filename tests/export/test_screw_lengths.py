@@ -12,11 +12,10 @@ from ocs_design.actuation.fasteners import (
 )
 from ocs_design.catalogue.motors import known_motors
 from ocs_design.export.assembly.content import tightened
-from ocs_design.parts.cage import FLOOR
 from ocs_design.parts.foot import PLATE_THICKNESS
 from ocs_design.parts.housing import LID_SCREWS
 from ocs_design.parts.motor_mount import mount_of
-from ocs_design.parts.printed import BASE_THICKNESS, CLEARANCE, PANEL, TRUNK_SCREWS
+from ocs_design.parts.printed import BASE_THICKNESS, CLEARANCE, FLOOR, PANEL, trunk_screws
 
 HELD = [
     motor
@@ -42,7 +41,7 @@ def test_there_are_motors_to_look_at():
 @pytest.mark.parametrize("motor", HELD, ids=lambda motor: motor.name)
 def test_every_screw_is_standard_and_holds(motor):
     """As short as it may be: the next shorter standard length would not hold."""
-    for each in (*fastenings(motor), LID_SCREWS, TRUNK_SCREWS):
+    for each in (*fastenings(motor), LID_SCREWS, trunk_screws(PLATE_THICKNESS)):
         length, least = round(1e3 * each.length), 1e3 * each.depth * each.screw.diameter
         held = length - 1e3 * each.thickness
         assert length in STANDARD
@@ -69,7 +68,7 @@ def test_the_lid_s_screws_end_in_the_drum_s_ears():
     """The ears are as long as the room in the drum, of the lowest rim too."""
     assert LID_SCREWS.length - LID_SCREWS.thickness <= LEAST_RIM + 2.0 * CLEARANCE
     assert LID_SCREWS.thickness == PANEL
-    assert TRUNK_SCREWS.thickness == BASE_THICKNESS
+    assert trunk_screws(PLATE_THICKNESS).thickness == BASE_THICKNESS
 
 
 VDI_2230 = {"M4": (4.4e3, 3.0), "M5": (7.2e3, 5.9), "M6": (10.2e3, 10.1)}
@@ -86,7 +85,7 @@ def test_torques_are_those_of_vdi_2230(name):
 
 @pytest.mark.parametrize("motor", HELD, ids=lambda motor: motor.name)
 def test_no_torque_is_beyond_what_screw_thread_and_print_stand(motor):
-    for each in (*fastenings(motor), LID_SCREWS, TRUNK_SCREWS):
+    for each in (*fastenings(motor), LID_SCREWS, trunk_screws(PLATE_THICKNESS)):
         soft, hard = (tightened(each, on_metal=metal) for metal in (False, True))
         stronger = CLASSES[each.strength].yields / CLASSES[USUAL_CLASS].yields
         most = each.screw.torque(stronger * each.screw.preload)

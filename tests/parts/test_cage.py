@@ -2,13 +2,16 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from made_parts import CAGE
 from part_gaps import overlap_volume, thinnest_wall, turning_clearance
+from scipy.integrate import solve_bvp
 
-from ocs_design.parts.cage import FLOOR, LEAST_POST, cage_part
+from ocs_design.actuation.fasteners import screw
+from ocs_design.parts.cage import LEAST_POST, cage_part, floor_at_shock
 from ocs_design.parts.part import Part
-from ocs_design.parts.printed import CLEARANCE, UPRIGHT, WALL
+from ocs_design.parts.printed import CLEARANCE, FLOOR, SHOCK, STRENGTH, UPRIGHT, WALL
 from ocs_design.parts.solids import hollow_cylinder
 
 MOTOR = Part(
@@ -45,3 +48,32 @@ def test_posts_and_floor_weigh_what_the_cage_weighs(height):
     found = cage.posts.moments(height) + cage.floor_moments()
     for name in ("mass", "y", "xx", "yy", "zz"):
         assert getattr(found, name) == pytest.approx(getattr(whole, name), rel=1e-12), name
+
+
+def test_a_floor_bears_what_tilts_it_as_a_clamped_plate_does():
+    """Kirchhoff's plate w = f(r) cos(theta) by a boundary value solver: a stiff middle is tilted.
+
+    What bends it there, over shear and bending that together are the moment that tilts it.
+    """
+    motor, wheel, poisson = 0.26, 0.85, 0.35
+    circle = CAGE.holes.screws
+    held, clamped = circle.radius + screw(circle.thread).head_diameter / 2.0, CAGE.bore
+
+    def slopes(r, y):
+        f, first, second, third = y
+        fourth = 3.0 * (f / r**4 - first / r**3 + second / r**2) - 2.0 * third / r
+        return np.stack([first, second, third, fourth])
+
+    def ends(middle, edge):
+        return np.array([middle[0] - held, middle[1] - 1.0, edge[0], edge[1]])
+
+    radii = np.linspace(held, clamped, 50)
+    solved = solve_bvp(slopes, ends, radii, np.zeros((4, 50)), tol=1e-10, max_nodes=10_000)
+    f, first, second, third = solved.sol(held)
+    twist = first / held - f / held**2
+    bent, shear = second + poisson * twist, 2.0 * twist / held - second / held - third
+    whole = np.pi * held * (held * shear + bent)
+    tilting = SHOCK * (motor * CAGE.motor_length / 2.0 + wheel * CAGE.seat)
+    # Half of its edge is clamped, by the posts: counted twice.
+    needed = np.sqrt(2.0 * 6.0 * tilting * bent / whole / STRENGTH)
+    assert floor_at_shock(CAGE, motor, wheel) == pytest.approx(needed, rel=1e-3)

@@ -14,9 +14,9 @@ from ocs_design.parts.foot import (
     PLATE_THICKNESS,
     Foot,
     foot_part,
+    foot_shock,
     plate_thickness,
     stem_frequency,
-    stem_shock,
 )
 from ocs_design.parts.housing import Housing, housing_parts
 from ocs_design.parts.printed import BASE_THICKNESS, CLEARANCE, SHOCK, TRUNK_SCREW, WALL, MountHoles
@@ -113,21 +113,40 @@ def test_holes_are_within_the_disc_and_the_disc_over_the_base():
 
 def test_a_stem_yields_where_a_cantilever_does():
     """Half of 0.3 kg x a x H x t over w t^3 / 12, H above the base, against 25 MPa."""
-    shock = stem_shock(FOOT, 0.3)
+    shock = foot_shock(FOOT, 0.3)
     arm, second = FOOT.wheel_height - 0.003, 2.0 * FOOT.stem * 0.005**3 / 12.0
     assert 0.3 * shock * arm * 0.0025 / second == pytest.approx(25e6)
-    assert stem_shock(FOOT, 1.2) == pytest.approx(shock / 4.0)
-    assert stem_shock(replace(FOOT, thickness=0.01), 0.3) == pytest.approx(4.0 * shock)
+    assert foot_shock(FOOT, 1.2) == pytest.approx(shock / 4.0)
 
 
-def test_a_stem_is_as_thick_as_its_load_asks_for():
-    """1.35 kg x 20 g x 82.1 mm = 21.7 N m on 74.3 mm: t^2 = 6 M / (w 25 MPa), 8.4 mm."""
-    foot = Foot(Housing(0.0765, 0.0153, MountHoles(0.0495)))
-    assert (foot.wheel_height, 2.0 * foot.stem) == pytest.approx((0.0851, 0.0742), abs=1e-4)
-    thickness = plate_thickness(foot, 1.35)
-    assert thickness == 0.0084
-    moment, modulus = 1.35 * 20.0 * 9.80665 * (foot.wheel_height - 0.003), 2.0 * foot.stem / 6.0
-    assert moment / (modulus * thickness**2) < 25e6 < moment / (modulus * (thickness - 1e-4) ** 2)
+def test_a_base_yields_where_a_screw_bends_it():
+    """1.38 kg and 20 g at 86.8 mm tilt the foot by 23.5 N m, about the edge of its base.
+
+    Its screws are at 34.2 mm on either side of the middle, 13.5 and 82.0 mm from there, and pull
+    as they are far away: 279 N, 45.1 mm from a stem 74.2 mm wide, and 4.65 mm of 47 MPa bear it.
+    """
+    foot = Foot(Housing(0.0765, 0.0153, MountHoles(0.0495)), 0.009)
+    edge, out = foot.base_radius, foot.slot_radius
+    assert (1e3 * edge, 1e3 * out) == pytest.approx((47.75, 34.22), abs=0.01)
+    moment = 1.38 * 20.0 * 9.80665 * foot.wheel_height
+    near, far = edge - out, edge + out
+    pulled = moment * far / (near**2 + far**2)
+    assert (moment, pulled) == pytest.approx((23.5, 279.0), rel=1e-3)
+    arm, width = out + foot.housing.half_height, 2.0 * foot.stem
+    needed = np.sqrt(6.0 * pulled * arm / (width * 47e6))
+    assert needed == pytest.approx(0.00465, abs=1e-5)
+    assert foot_shock(foot, 1.38) == pytest.approx(SHOCK * (foot.base / needed) ** 2)
+
+
+def test_a_foot_is_as_thick_as_its_load_asks_for():
+    """Go2's, of 1.35 kg: stem and base bear 20 g, and with 0.1 mm less one of them does not."""
+    housing = Housing(0.0765, 0.0153, MountHoles(0.0495))
+    thickness = plate_thickness(Foot(housing), 1.35)
+    assert thickness == 0.0089
+    assert foot_shock(Foot(housing, thickness), 1.35) >= SHOCK
+    assert foot_shock(Foot(housing, thickness - 1e-4), 1.35) < SHOCK
+    assert 1e3 * Foot(housing, thickness).base == pytest.approx(0.52 * 8.9)
+    assert Foot(housing).base == BASE_THICKNESS
 
 
 @given(st.floats(0.01, 0.2), st.floats(0.1, 1.0), st.floats(0.01, 50.0))
@@ -137,9 +156,9 @@ def test_a_foot_bears_the_shock_or_is_a_solid_block(radius, share, mass):
     foot = Foot(housing, thickness)
     block = max(PLATE_THICKNESS, foot.stem)
     assert PLATE_THICKNESS <= thickness <= block
-    assert stem_shock(foot, mass) >= SHOCK or thickness == block
+    assert foot_shock(foot, mass) >= SHOCK or thickness == block
     if thickness > PLATE_THICKNESS:
-        assert stem_shock(Foot(housing, thickness - 1e-4), mass) < SHOCK
+        assert foot_shock(Foot(housing, thickness - 1e-4), mass) < SHOCK
     assert plate_thickness(foot, mass) == thickness <= plate_thickness(foot, 1.1 * mass)
 
 

@@ -12,7 +12,6 @@ from ocs_design.parts.foot import foot_part
 from ocs_design.parts.housing import housing_parts
 from ocs_design.parts.pedestal import (
     LEAST_SEAT,
-    SEAT_SCREWS,
     Pedestal,
     drilled,
     pedestal_part,
@@ -20,7 +19,13 @@ from ocs_design.parts.pedestal import (
     seat_compliance,
     strengthened,
 )
-from ocs_design.parts.printed import BASE_THICKNESS, MODULUS, TRUNK_SCREW, TRUNK_SCREWS
+from ocs_design.parts.printed import (
+    BASE_THICKNESS,
+    MODULUS,
+    PLATE_THICKNESS,
+    TRUNK_SCREW,
+    trunk_screws,
+)
 from ocs_design.parts.solids import Prism, hollow_cylinder
 
 LEANS = np.radians([25.0, np.degrees(np.arctan(np.sqrt(0.5))), 60.0, 90.0])
@@ -65,7 +70,7 @@ def test_mass_is_that_of_its_mesh_and_of_its_screws_in_its_place(lean):
     mesh = body.to_mesh()
     found = trimesh.Trimesh(mesh.vert_properties[:, :3], mesh.tri_verts)
     # A foot that stands on the trunk has two screws of its own, which its module counts.
-    screws = made.base_screws.mass + SEAT_SCREWS.mass - TRUNK_SCREWS.mass
+    screws = made.base_screws.mass + made.seat_screws.mass - trunk_screws(PLATE_THICKNESS).mass
     printed = body.volume() * drilled(made).density
     assert made.mass == pytest.approx(printed + screws, rel=1e-9)
     whole = made.mass_properties()

@@ -16,7 +16,7 @@ from ocs_design.common.errors import Infeasible
 from ocs_design.device.joints import SHAFT_JOINT, burst_of, joints_of
 from ocs_design.device.solids import foot_of
 from ocs_design.export.bill_of_materials import bill_rows
-from ocs_design.parts.foot import stem_shock
+from ocs_design.parts.foot import foot_shock
 from ocs_design.parts.printed import CLEARANCE, SHOCK
 from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.phrases import Kick
@@ -102,7 +102,7 @@ def test_feet_of_a_heavy_device_are_as_thick_as_its_shock_asks_for():
     device = design_device(task.specification, task.robot, task.resolved).device
     thick = device.foot_plate
     assert thick > 0.006
-    bears = stem_shock(foot_of(device), device.flywheel.mass + device.carrier.mass)
+    bears = foot_shock(foot_of(device), device.flywheel.mass + device.carrier.mass)
     assert SHOCK <= bears <= SHOCK * (thick / (thick - 3e-4)) ** 2
     whole = sum(row.quantity * row.mass for row in bill_rows(device))
     assert whole == pytest.approx(device.mass, rel=1e-9)

@@ -29,7 +29,7 @@ from ocs_design.parts.carrier_plate import plate_bodies
 from ocs_design.parts.housing import FIRST_EAR, LID_SCREWS, guard_ring
 from ocs_design.parts.motor_mount import DriveSolid, Screwed
 from ocs_design.parts.part import Part
-from ocs_design.parts.printed import BASE_THICKNESS, LID_SCREW, ear_axis
+from ocs_design.parts.printed import LID_SCREW, ear_axis
 from ocs_design.parts.solids import HERE, Revolution, hollow_cylinder, revolved
 from ocs_design.robot.tree import Placement
 
@@ -250,7 +250,7 @@ def _foot_screws(device: Device) -> Iterator[Piece]:
             off = foot.slot_radius * sin(pi / 4.0)
             places, place = [(off, off), (-off, -off)], foot.placement
             under = 0.0
-        heads = [_screw(held).moved(np.array([x, y, under + BASE_THICKNESS])) for x, y in places]
+        heads = [_screw(held).moved(np.array([x, y, under + float(foot.base)])) for x, y in places]
         screws = merged(heads).placed(place)
         apart = -_APART * foot.housing.radius
         yield Piece(held.purpose, screws, held, drop=apart, modules=feet.count(held))

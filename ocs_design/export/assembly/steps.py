@@ -28,7 +28,7 @@ from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.foot import LONG_MARKS
 from ocs_design.parts.joints import EPOXY
 from ocs_design.parts.module import part_name
-from ocs_design.parts.pedestal import SEAT_SCREWS
+from ocs_design.parts.pedestal import SEATED
 from ocs_design.parts.printed import CLEARANCE, LID_SCREW, WALL
 
 FREE_SPAN = 10.0e-3
@@ -296,7 +296,7 @@ def _turned(assembly: Assembly, standing: Sequence[str]) -> str:
     screws, found = next(
         each
         for each in assembly.screws.items()
-        if each[0].startswith("foot on") and each[0] != SEAT_SCREWS.purpose
+        if each[0].startswith("foot on") and each[0] != SEATED
     )
     modules = [each for each in assembly.device.modules if each.name in standing]
     # Each axis's own, from the lateral direction: those of a ring's modules differ.
@@ -346,7 +346,7 @@ def _on_pedestals(assembly: Assembly) -> Iterator[str]:
             + assembly.screwed(kind.screws.purpose)
         )
     if assembly.device.pedestals:
-        name = SEAT_SCREWS.purpose
+        name = SEATED
         middles = " and ".join(f"{1e3 * kind.alike[0].middle:.1f} mm" for kind in kinds)
         yield (
             f"Scribe a line across each seat, {middles} up from its low end, put the foot's "

@@ -18,7 +18,7 @@ from ocs_design.device.solids import foot_of, pedestal_of
 from ocs_design.parts.carrier_plate import CarrierPlate, Point
 from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.module import part_name
-from ocs_design.parts.pedestal import FLANGE, Pedestal
+from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import AROUND_SLOT
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_back, trunk_surface
@@ -115,7 +115,7 @@ def under_pedestal(
         and pedestal.middle >= pedestal_of(device, module).middle - 1e-6
     )
     held = gap <= FLATNESS and proud <= PROUD and seated
-    area = share * pedestal.width * (pedestal.length + 2.0 * FLANGE)
+    area = share * pedestal.width * (pedestal.length + 2.0 * pedestal.flange)
     return FootContact(part_name("pedestal", module.name), "trunk", area, share, gap, proud, held)
 
 

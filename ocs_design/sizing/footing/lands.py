@@ -13,7 +13,7 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.dog_bone import DogBone
-from ocs_design.parts.pedestal import FLANGE, Pedestal
+from ocs_design.parts.pedestal import Pedestal
 from ocs_design.robot.surface import Surface
 
 FLATNESS = 1e-3
@@ -77,7 +77,7 @@ def _within(shape: DogBone) -> FloatArray:
 def base_points(pedestal: Pedestal) -> FloatArray:
     """Points all over a pedestal's underside in B [m], shape (n, 2)."""
     half, place = pedestal.width / 2.0, pedestal.placement
-    ends = (-half, half), (-FLANGE, pedestal.length + FLANGE)
+    ends = (-half, half), (-pedestal.flange, pedestal.length + pedestal.flange)
     grid = [np.linspace(low, high, 2 + int((high - low) / 1e-3)) for low, high in ends]
     points = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
     return points @ place.rotation[:2, :2].T + place.position[:2]

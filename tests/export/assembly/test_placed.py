@@ -14,7 +14,7 @@ from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.export.device_parts import foot_holes
 from ocs_design.parts.housing import LID_SCREWS
-from ocs_design.parts.printed import CLEARANCE, TRUNK_SCREWS
+from ocs_design.parts.printed import CLEARANCE, trunk_screws
 
 BUILT = ("caged", "by its face", "unknown threads", "in a guard ring")
 
@@ -30,7 +30,7 @@ def test_pieces_and_screws_weigh_what_stands_still(name):
         if name not in turning
     )
     screws = sum(each.fastening.mass for each in motor_mount(device).screwed)
-    screws += LID_SCREWS.mass + TRUNK_SCREWS.mass
+    screws += LID_SCREWS.mass + trunk_screws(device.foot_plate).mass
     assert pieces + screws == pytest.approx(device.carrier.mass, rel=1e-9)
 
 
@@ -47,7 +47,9 @@ def test_wheels_that_lean_on_nothing_have_the_screws_of_their_feet():
     """No drilling sheet has holes for them, and the booklet is written all the same."""
     device = around(Layout(LayoutName.PYRAMID))
     assert not foot_holes(device)
-    (feet,) = (each for each in module_pieces(device) if each.fastening is TRUNK_SCREWS)
+    (feet,) = (
+        each for each in module_pieces(device) if each.fastening == trunk_screws(device.foot_plate)
+    )
     assert feet.modules == len(device.modules)
 
 
