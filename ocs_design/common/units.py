@@ -133,7 +133,18 @@ def parse_quantity(value: object, dimension: Dimension, where: str) -> float:
             `LARGEST`.
     """
     if isinstance(value, str):
-        number = _parse_text(value, dimension, where)
+        match = _QUANTITY.fullmatch(value) if len(value) <= LONGEST_QUANTITY else None
+        if match is None:
+            shown = value if len(value) <= LONGEST_QUANTITY else f"{value[:LONGEST_QUANTITY]}..."
+            empty, what = not value.strip(), f"{shown!r} is not a finite number with a unit"
+            hint = f"Write {_example(dimension)}."
+            raise QuantityError(f"{where}: {'is empty' if empty else what}", hint=hint)
+        figure, unit = match.groups()
+        factor = _factor(unit, dimension, value, where) if unit else _ONE
+        number = _finite(float(figure), repr(value), where)
+        # Below the smallest double: as a fraction it would have a giant denominator.
+        if number != 0.0:
+            number = _finite(Fraction(figure) * factor, repr(value), where)
     elif isinstance(value, bool) or not isinstance(value, (int, float)):
         raise QuantityError(
             f"{where}: {shortened(value)} is not a number", hint=f"Write {_example(dimension)}."
@@ -205,19 +216,6 @@ def round_outwards(value: float, *, upwards: bool, digits: int = 3) -> float:
     # A figure that has no more digits than that stays what it is.
     scaled = round(value / unit, 6)
     return (math.ceil(scaled) if upwards else math.floor(scaled)) * unit
-
-
-def _parse_text(text: str, dimension: Dimension, where: str) -> float:
-    match = _QUANTITY.fullmatch(text) if len(text) <= LONGEST_QUANTITY else None
-    if match is None:
-        shown = text if len(text) <= LONGEST_QUANTITY else f"{text[:LONGEST_QUANTITY]}..."
-        what = "is empty" if not text.strip() else f"{shown!r} is not a finite number with a unit"
-        raise QuantityError(f"{where}: {what}", hint=f"Write {_example(dimension)}.")
-    number, unit = match.groups()
-    factor = _factor(unit, dimension, text, where) if unit else _ONE
-    rough = _finite(float(number), repr(text), where)
-    # Below the smallest double: as a fraction it would have a giant denominator.
-    return rough if rough == 0.0 else _finite(Fraction(number) * factor, repr(text), where)
 
 
 def _factor(unit: str, dimension: Dimension, text: str, where: str) -> Fraction:

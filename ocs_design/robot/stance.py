@@ -79,12 +79,29 @@ class StanceProblem:
 
         A stance with the knee on the other side is taken only if the limits leave no better.
         """
+        # Half a second to import, and a robot in a known posture does without.
+        from scipy.optimize import least_squares  # noqa: PLC0415
+
+        lower, upper, columns = self.chain.lower, self.chain.upper, list(self.plane.columns)
         found: list[Stance] = []
         stretched = self.chain.stretched(self.foot, -self.up, self.plane.pitch)
         # The straight and the stretched leg, each bent to the wanted side, then to the other.
         for side, values in product((1.0, -1.0), (self.chain.neutral(), stretched)):
-            bent = np.clip(values + side * self._bend(), self.chain.lower, self.chain.upper)
-            stance = self._refined(bent)
+            start = np.clip(values + side * self._bend(), lower, upper)[columns]
+            solution = least_squares(
+                self._residual,
+                start,
+                jac=self._jacobian,
+                bounds=(lower[columns], upper[columns]),
+                args=(start,),
+                method="dogbox",
+                xtol=1e-9,
+                ftol=1e-9,
+                gtol=1e-12,
+                max_nfev=40,
+            )
+            # Whole nanoradians: a joint that has nothing to do is at zero, not at 1e-17.
+            stance = self._stance(np.round(self._values(solution.x), 9) + 0.0)
             if stance.good and stance.knee_ahead >= 0.0:
                 return stance
             found.append(stance)
@@ -119,25 +136,8 @@ class StanceProblem:
         values[list(self.plane.columns)] = free
         return values
 
-    def _refined(self, start: FloatArray) -> Stance:
-        # Half a second to import, and a robot in a known posture does without.
-        from scipy.optimize import least_squares  # noqa: PLC0415
-
-        columns = list(self.plane.columns)
-        solution = least_squares(
-            self._residual,
-            start[columns],
-            jac=self._jacobian,
-            bounds=(self.chain.lower[columns], self.chain.upper[columns]),
-            args=(start[columns],),
-            method="dogbox",
-            xtol=1e-9,
-            ftol=1e-9,
-            gtol=1e-12,
-            max_nfev=40,
-        )
-        # Whole nanoradians: a joint that has nothing to do is at zero, not at 1e-17.
-        values = np.round(self._values(solution.x), 9) + 0.0
+    def _stance(self, values: FloatArray) -> Stance:
+        """How the leg stands at these values of all driven joints [rad or m]."""
         pose = self.chain.pose(values)
         foot, tilt, ahead = pose.point(self.foot), 0.0, 0.0
         if self.plane.flat:

@@ -1,5 +1,6 @@
 """Robots in MuJoCo: the same masses, joints and names as in the file, free and ready to touch."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import mujoco
@@ -66,21 +67,16 @@ def unposed_robot(path: Path) -> Robot:
         for name, joint in tree.joints.items()
     }
     posture = tree.complete(posture)
-    return Robot(
-        name=tree.name,
+    return replace(
+        robot_by_hand(1.0, (1e-2, 1e-2, 1e-2), name=tree.name),
         source=loaded.source,
-        sha256=loaded.sha256,
         format=loaded.format,
         content=loaded.content,
         tree=tree,
         trunk=base,
         floating_base=base,
         posture=posture,
-        posture_name="random",
         mass_properties=tree.locked_mass_properties(posture, base),
-        legs=(),
-        standing_height=None,
-        warnings=(),
     )
 
 
