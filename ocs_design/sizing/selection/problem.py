@@ -294,11 +294,13 @@ class Candidate:
 
     @property
     def binding_maneuver(self) -> str:
-        """Maneuver that asks for the most; "" where the smallest rim or a stated one has more."""
-        most = max(self.demands, key=lambda demand: demand.spin_inertia, default=None)
-        if most is None or most.spin_inertia < self.spin_inertia * (1.0 - 1e-6):
-            return ""
-        return most.source
+        """Maneuver that asks for the most; "" where the smallest rim or a stated one has more.
+
+        Of several that ask for as much, the first: no rounding decides which of them is named.
+        """
+        most = max((demand.spin_inertia for demand in self.demands), default=0.0)
+        asked = (each.source for each in self.demands if each.spin_inertia >= most * (1.0 - 1e-9))
+        return "" if most < self.spin_inertia * (1.0 - 1e-6) else next(asked, "")
 
 
 def of_parts(problem: SelectionProblem, *devices: Candidate) -> SelectionProblem:
