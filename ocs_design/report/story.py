@@ -18,7 +18,7 @@ from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.time_series import series_file
 from ocs_design.report.bodies import ShownBody, read_bodies
-from ocs_design.simulation.run import Metrics, Poses, Run
+from ocs_design.simulation.run import Poses, Run
 
 RunMetrics: TypeAlias = Mapping[str, float | bool | None]
 """Metrics of a recorded run by their names, SI."""
@@ -44,6 +44,14 @@ class Flight:
     touchdown: float | None
     poses: Poses | None
     on_pivot: bool = False
+
+    @classmethod
+    def of(
+        cls, record: ValidationRecord, columns: Mapping[str, FloatArray], poses: Poses | None = None
+    ) -> "Flight":
+        """Flight of a record with its time series."""
+        times = lift_off_and_touchdown(record.metrics)
+        return cls(record.scenario, record.ocs, columns, *times, poses, was_on_pivot(record))
 
     @property
     def time(self) -> FloatArray:
@@ -89,17 +97,13 @@ def was_in_the_air(lift_off: float | None, touchdown: float | None) -> bool:
     return lift_off is not None and (touchdown is None or touchdown > lift_off)
 
 
-def was_on_pivot(run: Run | ValidationRecord) -> bool:
+def was_on_pivot(run: ValidationRecord) -> bool:
     """Whether a run stood on a pivot: it is judged by its stand alone, and was not pushed.
 
     What others have for touchdown is when it is to be upright.
     """
-    found = run.metrics
-    if isinstance(found, Metrics):
-        times = found.lift_off_time, found.touchdown_time
-    else:
-        times = lift_off_and_touchdown(found or {})
-    return run.level is None and run.stands is not None and was_in_the_air(*times)
+    flew = was_in_the_air(*lift_off_and_touchdown(run.metrics))
+    return run.level is None and run.stands is not None and flew
 
 
 def lift_off_and_touchdown(metrics: RunMetrics) -> tuple[float | None, float | None]:
@@ -109,20 +113,10 @@ def lift_off_and_touchdown(metrics: RunMetrics) -> tuple[float | None, float | N
     return lift_off, metrics.get("touchdown_time")
 
 
-def flights_of(runs: Sequence[Run]) -> tuple[Flight, ...]:
-    """Runs of a simulation as flights to be drawn."""
-    return tuple(
-        Flight(
-            run.scenario,
-            run.ocs,
-            run.series.columns(),
-            None if run.metrics is None else run.metrics.lift_off_time,
-            None if run.metrics is None else run.metrics.touchdown_time,
-            run.poses,
-            was_on_pivot(run),
-        )
-        for run in runs
-    )
+def flights_of(records: Sequence[ValidationRecord], runs: Sequence[Run]) -> tuple[Flight, ...]:
+    """Runs of a simulation, with their records, as flights to be drawn."""
+    pairs = zip(records, runs, strict=True)
+    return tuple(Flight.of(record, run.series.columns(), run.poses) for record, run in pairs)
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,7 +151,7 @@ def story_in(
     folders: Sequence[Path],
     design: OcsDesign,
     *,
-    flights: Sequence[Flight] = (),
+    runs: Sequence[Run] = (),
     postures: tuple[PostureLine, ...] = (),
     command: str = "",
     assembly: Assembly | None = None,
@@ -167,33 +161,23 @@ def story_in(
     Args:
         folders: that were written or are being written; the first that has a file is asked for it.
         design: that they are of.
-        flights: as they were simulated; empty: they are read.
+        runs: as its flights were simulated; empty: they are read.
         postures, command, assembly: see `Story`.
     """
-    recorded = flights or [
-        flight
-        for record in design.validation
-        if (flight := _recorded_flight(folders, record)) is not None
-    ]
+    flights: list[Flight] = []
+    for record in design.validation if not runs else ():
+        # The file of its time series may not be there any more.
+        path = _first_file(folders, f"validation/{series_file(record.scenario, ocs=record.ocs)}")
+        if path is not None:
+            with path.open(encoding="utf-8", newline="") as file:
+                heading, *rows = csv.reader(file)
+            values = np.array(rows, dtype=np.float64)
+            flights.append(Flight.of(record, dict(zip(heading, values.T, strict=True))))
+    shown = flights_of(design.validation, runs) if runs else tuple(flights)
     picture = _first_file(folders, f"robot/{safe_name(design.robot.name)}_ocs.glb")
     bodies = () if picture is None else read_bodies(picture.read_bytes())
     campaign = read_campaign(folders)
-    return Story(design, tuple(recorded), bodies, postures, campaign, command, assembly)
-
-
-def _recorded_flight(folders: Sequence[Path], record: ValidationRecord) -> Flight | None:
-    """Flight of a recorded run; None if the file of its time series is not there any more."""
-    path = _first_file(folders, f"validation/{series_file(record.scenario, ocs=record.ocs)}")
-    if path is None:
-        return None
-    with path.open(encoding="utf-8", newline="") as file:
-        heading, *rows = csv.reader(file)
-    values = np.array(rows, dtype=np.float64)
-    columns = dict(zip(heading, values.T, strict=True))
-    lift_off, touchdown = lift_off_and_touchdown(record.metrics)
-    return Flight(
-        record.scenario, record.ocs, columns, lift_off, touchdown, None, was_on_pivot(record)
-    )
+    return Story(design, shown, bodies, postures, campaign, command, assembly)
 
 
 def _first_file(folders: Sequence[Path], name: str) -> Path | None:

@@ -20,7 +20,7 @@ from ocs_design.report.charts.figures import FOLDER, all_charts
 from ocs_design.report.charts.svg import write_svgs
 from ocs_design.report.html.notebook import as_html
 from ocs_design.report.html.page import write_report
-from ocs_design.report.story import flights_of, story_in
+from ocs_design.report.story import story_in
 from ocs_design.report.text.console import Steps, Tell
 from ocs_design.report.video.film import film_or_tell
 from ocs_design.requirement.froude import standing_height
@@ -251,7 +251,7 @@ def _write_report(
     story = story_in(
         [folder],
         design,
-        flights=flights_of(runs),
+        runs=runs,
         postures=posture_lines(subject.carrier),
         command=command,
         assembly=assembly_of(subject),

@@ -17,6 +17,7 @@ from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.tree import Placement
 from ocs_design.simulation.scenario import Options, run_scenarios
+from ocs_design.workflows.recording import record_run
 
 KINDS = {"f4": "<f4", "i2": "<i2", "u2": "<u2", "u4": "<u4"}
 TRIANGLE = np.array([[0.0, 0.0, 0.0], [0.4, 0.0, 0.1], [0.0, 0.2, 0.1]])
@@ -25,9 +26,8 @@ TRIANGLE = np.array([[0.0, 0.0, 0.0], [0.4, 0.0, 0.1], [0.0, 0.2, 0.1]])
 @pytest.fixture(scope="module")
 def flights(solo12):
     drop = default_maneuvers(solo12)[1]
-    return flights_of(
-        run_scenarios(solo12, paper_device(), [drop], options=Options(pose_rate=20.0))
-    )
+    runs = run_scenarios(solo12, paper_device(), [drop], options=Options(pose_rate=20.0))
+    return flights_of([*map(record_run, runs)], runs)
 
 
 @pytest.fixture(scope="module")
