@@ -8,7 +8,7 @@ import pytest
 from exported import LEGGED
 from robots import ROBOTS
 
-from ocs_design.device.naming import flywheel_names
+from ocs_design.device.bodies import flywheel_names
 from ocs_design.export.attach import attach_device
 from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.resolving import resolve

@@ -5,9 +5,8 @@ It is attached to the robot's own model, not pasted into its text; simulations a
 
 import mujoco
 
-from ocs_design.device import naming
+from ocs_design.device import bodies
 from ocs_design.device.device import Device
-from ocs_design.export.module_bodies import WHEEL_CONTACT_BIT, device_bodies, largest_torque
 from ocs_design.robot.mujoco_bodies import inertial, quaternion
 from ocs_design.robot.mujoco_model import trunk_body
 from ocs_design.robot.robot import Robot
@@ -25,22 +24,22 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
         robot: that the spec was built from.
         device: its wheels turn about the z axis of their own frames.
     """
-    bodies, joints = naming.flywheel_names(device), naming.joint_names(device)
-    fixed = naming.carrier_names(device) + naming.plate_names(device)
-    naming.require_free("body", (body.name for body in spec.bodies), bodies + fixed)
-    naming.require_free("joint", (joint.name for joint in spec.joints), joints)
-    naming.require_free("actuator", (actuator.name for actuator in spec.actuators), joints)
-    naming.require_free("geom", (geom.name for geom in spec.geoms), bodies)
+    wheels, joints = bodies.flywheel_names(device), bodies.joint_names(device)
+    fixed = bodies.carrier_names(device) + bodies.plate_names(device)
+    bodies.require_free("body", (body.name for body in spec.bodies), wheels + fixed)
+    bodies.require_free("joint", (joint.name for joint in spec.joints), joints)
+    bodies.require_free("actuator", (actuator.name for actuator in spec.actuators), joints)
+    bodies.require_free("geom", (geom.name for geom in spec.geoms), wheels)
     trunk, base = trunk_body(spec, robot)
     attached = mujoco.MjSpec()
     frame = attached.worldbody.add_frame()
-    limit = largest_torque(device.motor)
-    for each in device_bodies(device):
+    limit = bodies.largest_torque(device.motor)
+    for each in bodies.device_bodies(device):
         body = inertial(each.own)
         place = base @ each.place
         # Attaching puts the prefix in front of the names.
         made = attached.worldbody.add_body(
-            name=each.name.removeprefix(naming.PREFIX),
+            name=each.name.removeprefix(bodies.PREFIX),
             pos=place.position,
             quat=quaternion(place.rotation),
             mass=body.mass,
@@ -52,7 +51,7 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
         made.set_frame(frame)
         if not each.joint:
             continue
-        joint = each.joint.removeprefix(naming.PREFIX)
+        joint = each.joint.removeprefix(bodies.PREFIX)
         made.add_joint(
             name=joint,
             type=mujoco.mjtJoint.mjJNT_HINGE,
@@ -64,7 +63,7 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
             type=mujoco.mjtGeom.mjGEOM_CYLINDER,
             size=(device.flywheel.outer_radius, device.flywheel.height / 2.0, 0.0),
             contype=0,
-            conaffinity=WHEEL_CONTACT_BIT,
+            conaffinity=bodies.WHEEL_CONTACT_BIT,
             rgba=STEEL,
         )
         actuator = attached.add_actuator(name=joint, target=joint, trntype=_TO_JOINT)
@@ -73,7 +72,7 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
             actuator.ctrllimited = True
             actuator.ctrlrange = (-limit, limit)
     # Bodies added in any other way shift the values of keyframes to wrong joints.
-    trunk.attach_frame(frame, naming.PREFIX, "")
+    trunk.attach_frame(frame, bodies.PREFIX, "")
 
 
 def add_sensors(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
@@ -86,21 +85,21 @@ def add_sensors(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
         robot: that the spec was built from.
         device: that was attached.
     """
-    attitude, rate = naming.imu_sensors()
+    attitude, rate = bodies.imu_sensors()
     wanted = {
-        name(module): (kind, _JOINT, naming.joint_name(module))
+        name(module): (kind, _JOINT, bodies.joint_name(module))
         for module in device.modules
         for name, kind in (
-            (naming.velocity_sensor, mujoco.mjtSensor.mjSENS_JOINTVEL),
-            (naming.torque_sensor, mujoco.mjtSensor.mjSENS_JOINTACTFRC),
+            (bodies.velocity_sensor, mujoco.mjtSensor.mjSENS_JOINTVEL),
+            (bodies.torque_sensor, mujoco.mjtSensor.mjSENS_JOINTACTFRC),
         )
     }
-    wanted[attitude] = (mujoco.mjtSensor.mjSENS_FRAMEQUAT, _SITE, naming.IMU)
-    wanted[rate] = (mujoco.mjtSensor.mjSENS_GYRO, _SITE, naming.IMU)
-    naming.require_free("sensor", (sensor.name for sensor in spec.sensors), wanted)
+    wanted[attitude] = (mujoco.mjtSensor.mjSENS_FRAMEQUAT, _SITE, bodies.IMU)
+    wanted[rate] = (mujoco.mjtSensor.mjSENS_GYRO, _SITE, bodies.IMU)
+    bodies.require_free("sensor", (sensor.name for sensor in spec.sensors), wanted)
     # A site at the base frame B, where rates and attitude are those of the paper's law.
-    naming.require_free("site", (site.name for site in spec.sites), (naming.IMU,))
+    bodies.require_free("site", (site.name for site in spec.sites), (bodies.IMU,))
     trunk, base = trunk_body(spec, robot)
-    trunk.add_site(name=naming.IMU, pos=base.position, quat=quaternion(base.rotation))
+    trunk.add_site(name=bodies.IMU, pos=base.position, quat=quaternion(base.rotation))
     for name, (kind, objtype, objname) in wanted.items():
         spec.add_sensor(name=name, type=kind, objtype=objtype, objname=objname)

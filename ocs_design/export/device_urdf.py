@@ -4,9 +4,9 @@ from collections.abc import Iterable, Iterator, Mapping
 
 import numpy as np
 
+from ocs_design.device.bodies import DeviceBody, device_bodies, largest_torque
 from ocs_design.device.device import Device, Flywheel
 from ocs_design.export.formats import Seat
-from ocs_design.export.module_bodies import DeviceBody, device_bodies, largest_torque
 from ocs_design.export.templates import fill, numbers, quoted
 from ocs_design.export.visuals import Visual, plain_visuals, still_visuals
 from ocs_design.robot.leg_geometry import BASE_FRAME

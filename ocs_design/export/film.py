@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.device.bodies import carrier_names, flywheel_names
 from ocs_design.device.device import Device
-from ocs_design.device.naming import carrier_names, flywheel_names
 from ocs_design.export.opengl import draw
 from ocs_design.export.robot_model import robot_model
 from ocs_design.robot.mjcf_spec import compiled

@@ -11,7 +11,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from ocs_design.device.naming import IMU
+from ocs_design.device.bodies import IMU
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Color, Mesh
 from ocs_design.export.robot_model import model_of

@@ -14,9 +14,8 @@ import numpy as np
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import format_quantity, rpm, significant
-from ocs_design.device.naming import IMU, joint_names
+from ocs_design.device.bodies import IMU, WHEEL_CONTACT_BIT, joint_names, largest_torque
 from ocs_design.export.formats import Notes, Subject
-from ocs_design.export.module_bodies import WHEEL_CONTACT_BIT, largest_torque
 from ocs_design.export.offscreen import shown_box
 from ocs_design.export.physics import STEADY_LEGS, leg_joints
 from ocs_design.export.png import png_bytes

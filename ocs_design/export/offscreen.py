@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.naming import IMU
+from ocs_design.device.bodies import IMU
 from ocs_design.export.png import png_bytes
 
 FIELD_OF_VIEW = 30.0

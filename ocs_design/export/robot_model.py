@@ -8,11 +8,10 @@ import mujoco
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.device.bodies import PREFIX, device_bodies, flywheel_names, require_free
 from ocs_design.device.device import Device
-from ocs_design.device.naming import PREFIX, flywheel_names, require_free
 from ocs_design.export.attach import add_sensors, attach_device
 from ocs_design.export.formats import Subject
-from ocs_design.export.module_bodies import device_bodies
 from ocs_design.export.physics import (
     add_drives,
     flight_options,

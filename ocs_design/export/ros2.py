@@ -14,7 +14,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from ocs_design.common.files import safe_name
-from ocs_design.device.naming import joint_names
+from ocs_design.device.bodies import joint_names
 from ocs_design.export.device_urdf import MOCK_PLUGIN, control_joint, control_wheels
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.snippets import snippet_xacro

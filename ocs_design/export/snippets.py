@@ -6,7 +6,7 @@ from textwrap import indent
 
 import numpy as np
 
-from ocs_design.device import naming
+from ocs_design.device import bodies
 from ocs_design.device.device import Device
 from ocs_design.device.layout import PAIR
 from ocs_design.export.device_urdf import (
@@ -23,15 +23,6 @@ from ocs_design.export.device_urdf import (
     visuals_urdf,
 )
 from ocs_design.export.formats import Notes, Seat, Subject
-from ocs_design.export.module_bodies import (
-    WHEEL_CONTACT_BIT,
-    DeviceBody,
-    carrier_inertial,
-    device_bodies,
-    flywheel_inertial,
-    largest_torque,
-    wheel_rpy,
-)
 from ocs_design.export.templates import fill, in_comment, numbers, quoted
 from ocs_design.export.visuals import plain_carrier_visuals, plain_visuals
 from ocs_design.robot.leg_geometry import BASE_FRAME
@@ -79,7 +70,7 @@ def snippet_urdf(device: Device, seat: Seat) -> str:
 
 def snippet_xacro(device: Device, seat: Seat) -> str:
     """Xacro macro `ocs`."""
-    joints = [f"${{prefix}}{joint}" for joint in naming.joint_names(device)]
+    joints = [f"${{prefix}}{joint}" for joint in bodies.joint_names(device)]
     control = ros2_control_urdf(device, joints, name="${prefix}ocs", plugin="${hardware_plugin}")
     rotation = np.eye(3) if seat.mount is None else seat.mount.placement.rotation
     # What is under the feet stands on the macro's own base.
@@ -92,13 +83,13 @@ def snippet_xacro(device: Device, seat: Seat) -> str:
                 "visuals": visuals_urdf(plain_visuals(device, body)),
             },
         )
-        for body in device_bodies(device)
+        for body in bodies.device_bodies(device)
         if body.module is None
     ]
     values = {
         **_names(seat),
         "base_rpy": numbers(rpy_from_rotation(rotation)),
-        **inertial_values(flywheel_inertial(device)),
+        **inertial_values(bodies.flywheel_inertial(device)),
         **_macro_wheels(device),
         "cylinder": cylinder_urdf(device.flywheel),
         "limit": limit_urdf(device),
@@ -126,7 +117,7 @@ def _macro_wheels(device: Device) -> dict[str, str]:
         place = f"{name}_position" if pair else f"position_{name}"
         what[place] = f"centre of the {name} flywheel" if pair else f"centre of flywheel {name}"
         params.append(f"{place}:='{numbers(module.position)}'")
-        rpy = turns[name] if pair else numbers(wheel_rpy(module.axis))
+        rpy = turns[name] if pair else numbers(bodies.wheel_rpy(module.axis))
         wheels.append(
             f'    <xacro:ocs_flywheel side="{name}" rpy="{rpy}" position="${{{place}}}" '
             'parent="${prefix}ocs_base" prefix="${prefix}"/>\n'
@@ -143,7 +134,7 @@ def _macro_wheels(device: Device) -> dict[str, str]:
 
 def _macro_carrier(device: Device) -> str:
     """Carrier, with what differs between the modules left to the macro's argument."""
-    found = [carrier_inertial(device, module) for module in device.modules]
+    found = [bodies.carrier_inertial(device, module) for module in device.modules]
     each = [inertial_values(body) for body in found if body is not None]
     if not each:
         return ""
@@ -173,24 +164,24 @@ def _macro_carrier(device: Device) -> str:
 
 def snippet_ros2_control(device: Device) -> str:
     """The wheels' motors for ros2_control, to paste into a URDF that has the device."""
-    element = ros2_control_urdf(device, naming.joint_names(device))
+    element = ros2_control_urdf(device, bodies.joint_names(device))
     return fill("ocs_ros2_control.urdf", {"ros2_control": element})
 
 
 def snippet_mjcf(device: Device, seat: Seat) -> str:
     """Model to attach to a MJCF robot."""
-    limit = largest_torque(device.motor)
+    limit = bodies.largest_torque(device.motor)
     limits = "" if limit is None else f' ctrllimited="true" ctrlrange="{numbers((-limit, limit))}"'
     # Attaching puts the prefix in front of the names.
     imu, attitude, rate = (
-        name.removeprefix(naming.PREFIX) for name in (naming.IMU, *naming.imu_sensors())
+        name.removeprefix(bodies.PREFIX) for name in (bodies.IMU, *bodies.imu_sensors())
     )
     motors, sensors = [], []
     for module in device.modules:
-        joint = naming.joint_name(module).removeprefix(naming.PREFIX)
+        joint = bodies.joint_name(module).removeprefix(bodies.PREFIX)
         speed, torque = (
-            name(module).removeprefix(naming.PREFIX)
-            for name in (naming.velocity_sensor, naming.torque_sensor)
+            name(module).removeprefix(bodies.PREFIX)
+            for name in (bodies.velocity_sensor, bodies.torque_sensor)
         )
         motors.append(f'<motor name="{joint}" joint="{joint}"{limits}/>')
         sensors.append(f'<jointvel name="{speed}" joint="{joint}"/>')
@@ -202,16 +193,16 @@ def snippet_mjcf(device: Device, seat: Seat) -> str:
         **_names(seat),
         "bodies": ", ".join(
             (
-                *naming.flywheel_names(device),
-                *naming.carrier_names(device),
-                *naming.plate_names(device),
+                *bodies.flywheel_names(device),
+                *bodies.carrier_names(device),
+                *bodies.plate_names(device),
             )
         ),
-        "joints": ", ".join(naming.joint_names(device)),
-        "speed": naming.velocity_sensor(device.modules[0]),
-        "torque": naming.torque_sensor(device.modules[0]),
+        "joints": ", ".join(bodies.joint_names(device)),
+        "speed": bodies.velocity_sensor(device.modules[0]),
+        "torque": bodies.torque_sensor(device.modules[0]),
         "base_quaternion": numbers(quaternion(rotation)),
-        "modules": "".join(_body_mjcf(device, body) for body in device_bodies(device)),
+        "modules": "".join(_body_mjcf(device, body) for body in bodies.device_bodies(device)),
         "motors": "".join(f"    {motor}\n" for motor in motors),
         "imu": imu,
         "sensors": "".join(f"    {sensor}\n" for sensor in sensors),
@@ -219,19 +210,19 @@ def snippet_mjcf(device: Device, seat: Seat) -> str:
     return fill("ocs.xml", values)
 
 
-def _body_mjcf(device: Device, body: DeviceBody) -> str:
+def _body_mjcf(device: Device, body: bodies.DeviceBody) -> str:
     values = {
         **inertial_values(body.own),
-        "body": body.name.removeprefix(naming.PREFIX),
+        "body": body.name.removeprefix(bodies.PREFIX),
         "position": numbers(body.position),
         "quaternion": numbers(quaternion(body.place.rotation)),
     }
     if body.joint:
         wheel = device.flywheel
-        values["joint"] = body.joint.removeprefix(naming.PREFIX)
+        values["joint"] = body.joint.removeprefix(bodies.PREFIX)
         values["armature"] = numbers(device.motor.armature)
         values["size"] = numbers((wheel.outer_radius, wheel.height / 2.0))
-        values["contact_bit"] = str(WHEEL_CONTACT_BIT)
+        values["contact_bit"] = str(bodies.WHEEL_CONTACT_BIT)
         return fill("flywheel.xml", values)
     geoms = (
         {
@@ -258,12 +249,12 @@ def snippet_sdf(device: Device, seat: Seat) -> str:
         pose = numbers([*at.position, *rpy_from_rotation(at.rotation)])
         parent = quoted(seat.mount.link)
         base = fill("base_frame.sdf", {"frame": BASE_FRAME, "parent": parent, "pose": pose})
-    bodies = "".join(_body_sdf(device, body, place) for body in device_bodies(device))
-    values = {**place, "parent_in_comment": in_comment(link), "device": base + bodies}
+    parts = "".join(_body_sdf(device, body, place) for body in bodies.device_bodies(device))
+    values = {**place, "parent_in_comment": in_comment(link), "device": base + parts}
     return fill("ocs.sdf", values)
 
 
-def _body_sdf(device: Device, body: DeviceBody, place: dict[str, str]) -> str:
+def _body_sdf(device: Device, body: bodies.DeviceBody, place: dict[str, str]) -> str:
     values = {
         **place,
         **inertial_values(body.own),
@@ -275,7 +266,11 @@ def _body_sdf(device: Device, body: DeviceBody, place: dict[str, str]) -> str:
     if body.joint:
         values["radius"] = numbers(device.flywheel.outer_radius)
         values["length"] = numbers(device.flywheel.height)
-        motor, torque, speed = device.motor, largest_torque(device.motor), device.motor.top_speed
+        motor, torque, speed = (
+            device.motor,
+            bodies.largest_torque(device.motor),
+            device.motor.top_speed,
+        )
         effort = "" if torque is None else f"<effort>{numbers(torque)}</effort>"
         velocity = f"<velocity>{numbers(speed)}</velocity>" if np.isfinite(speed) else ""
         limit = f"<limit>{effort}{velocity}</limit>" if effort or velocity else ""

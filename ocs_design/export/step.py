@@ -40,6 +40,7 @@ from OCP.XCAFApp import XCAFApp_Application
 from OCP.XCAFDoc import XCAFDoc_DocumentTool
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.device.bodies import carrier_placement, wheel_placement
 from ocs_design.device.device import Device
 from ocs_design.export.assembly.placed import placed_parts
 from ocs_design.export.device_parts import (
@@ -50,7 +51,6 @@ from ocs_design.export.device_parts import (
 )
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Color
-from ocs_design.export.module_bodies import carrier_placement, wheel_placement
 from ocs_design.export.visuals import ALUMINIUM, GEAR, MOTOR, PRINT
 from ocs_design.parts.carrier_plate import mast_part, plate_part
 from ocs_design.parts.outline import Arc

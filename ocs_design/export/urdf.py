@@ -12,8 +12,8 @@ from xml.parsers import expat
 import numpy as np
 
 from ocs_design.common.errors import RobotError
+from ocs_design.device.bodies import carrier_names, flywheel_names, joint_names, require_free
 from ocs_design.device.device import Device
-from ocs_design.device.naming import carrier_names, flywheel_names, joint_names, require_free
 from ocs_design.export.device_urdf import UNLIMITED, device_urdf, mount_urdf
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.stl import device_meshes

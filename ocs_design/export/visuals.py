@@ -11,10 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
+from ocs_design.device.bodies import DeviceBody, carrier_placement
 from ocs_design.device.device import Device, Module
 from ocs_design.device.solids import drive_solids, foot_of, motor_mount
 from ocs_design.export.meshes import Color, Mesh, merged, part_mesh
-from ocs_design.export.module_bodies import DeviceBody, carrier_placement
 from ocs_design.parts.cage import Cage, cage_part
 from ocs_design.parts.carrier_plate import plate_bodies
 from ocs_design.parts.dog_bone import directions

@@ -9,9 +9,9 @@ import mujoco
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.device.bodies import PREFIX
 from ocs_design.device.device import Device
 from ocs_design.device.layout import Layout
-from ocs_design.device.naming import PREFIX
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.uncertainty import (
     Distribution,

@@ -18,7 +18,6 @@ from typing import Generic
 from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import BoltCircle
 from ocs_design.common.arrays import Table
-from ocs_design.parts.housing import half_height, plate_back
 from ocs_design.parts.moments import MassMoments, Real, round_body
 from ocs_design.parts.part import Part
 from ocs_design.parts.printed import (
@@ -37,6 +36,8 @@ from ocs_design.parts.printed import (
     ear_holes,
     ear_radius,
     eared,
+    half_height,
+    plate_back,
 )
 from ocs_design.parts.shapes import EAR_COUNT, Eared, Post
 from ocs_design.parts.solids import Prism

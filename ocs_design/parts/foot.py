@@ -16,7 +16,7 @@ from typing import Any, Generic
 import numpy as np
 
 from ocs_design.actuation.fasteners import Fastening
-from ocs_design.parts.housing import Housing, housing_outer_radius, plate_back
+from ocs_design.parts.housing import Housing, housing_outer_radius
 from ocs_design.parts.moments import MassMoments, Real, flat_ring
 from ocs_design.parts.part import Part
 from ocs_design.parts.printed import (
@@ -36,6 +36,8 @@ from ocs_design.parts.printed import (
     WALL,
     MountHoles,
     base_thickness,
+    plate_back,
+    screw_lever,
     trunk_screws,
 )
 from ocs_design.parts.shapes import ArcSlot, Disc, Keyhole, Rectangle
@@ -231,15 +233,6 @@ def _base_at_shock(foot: Foot[float], mass: float) -> float:
     pulled = mass * SHOCK * foot.wheel_height / screw_lever(foot.base_radius, foot.slot_radius)
     arm, width = foot.slot_radius + foot.housing.half_height, 2.0 * foot.stem
     return sqrt(6.0 * pulled * arm / (width * STRENGTH))
-
-
-def screw_lever(base_radius: float, slot_radius: float) -> float:
-    """Moment that tilts a foot over the largest pull of its two screws [m].
-
-    The foot turns about the edge of its base, and a screw holds it as far as it is from there; most
-    is asked of one where the other is behind it.
-    """
-    return 2.0 * (base_radius**2 + slot_radius**2) / (base_radius + slot_radius)
 
 
 def stem_frequency(foot: Foot[float], mass: float, inertia: float) -> float:

@@ -27,6 +27,7 @@ from ocs_design.parts.printed import (
     ear_axis,
     ear_holes,
     eared,
+    half_height,
 )
 from ocs_design.parts.shapes import EAR_COUNT, Disc, Eared
 from ocs_design.parts.solids import Prism, Shape
@@ -40,16 +41,6 @@ LID_SCREWS = Fastening(LID_SCREW, EAR_COUNT, PANEL, "lid on drum, which is tappe
 def housing_outer_radius(outer_radius: Real) -> Real:
     """Radius of the band around a rim, outside [m]."""
     return outer_radius + (CLEARANCE + WALL)
-
-
-def half_height(height: Real) -> Real:
-    """Distance from the wheel's middle to the outside of floor and lid [m]."""
-    return height / 2.0 + (CLEARANCE + PANEL)
-
-
-def plate_back(half: Real, thickness: Real | float) -> Real:
-    """Distance of the plate's back from the middle of a housing of that half height [m]."""
-    return half + thickness
 
 
 @dataclass(frozen=True)

@@ -15,14 +15,13 @@ from ocs_design.parts.housing import (
     LID_SCREWS,
     Housing,
     PlainDrum,
-    half_height,
     housing_mass_per_height,
     housing_moments,
     lid_screw_moments,
 )
 from ocs_design.parts.moments import Carrier, MassMoments, Real, point, round_body
 from ocs_design.parts.motor_mount import MotorMount, mount_of
-from ocs_design.parts.printed import LID_SCREW, PLATE_THICKNESS, MountHoles
+from ocs_design.parts.printed import LID_SCREW, PLATE_THICKNESS, MountHoles, half_height
 
 
 def part_name(part: str, module: str) -> str:

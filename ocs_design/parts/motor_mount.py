@@ -17,9 +17,17 @@ from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
 from ocs_design.common.arrays import Table
 from ocs_design.parts.bell import Bell, HeldMotor, bell_of
 from ocs_design.parts.cage import HALF_POST, NO_POSTS, Cage, Posts
-from ocs_design.parts.housing import half_height, plate_back
 from ocs_design.parts.moments import MassMoments, Real, nothing, ring
-from ocs_design.parts.printed import LID_SCREW, PANEL, PLATE_THICKNESS, WALL, MountHoles, ear_radius
+from ocs_design.parts.printed import (
+    LID_SCREW,
+    PANEL,
+    PLATE_THICKNESS,
+    WALL,
+    MountHoles,
+    ear_radius,
+    half_height,
+    plate_back,
+)
 from ocs_design.parts.rim import BOLTED_HUB_HEIGHT, HUB_WALL, hub_height
 
 SHAFT_ROOM = 1.0e-3

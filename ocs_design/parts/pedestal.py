@@ -18,7 +18,6 @@ import numpy as np
 
 from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening
 from ocs_design.common.arrays import FloatArray
-from ocs_design.parts.foot import screw_lever
 from ocs_design.parts.joints import pattern_use
 from ocs_design.parts.part import Part
 from ocs_design.parts.printed import (
@@ -31,6 +30,7 @@ from ocs_design.parts.printed import (
     TRUNK_SCREW,
     TRUNK_SCREW_COUNT,
     WALL,
+    screw_lever,
 )
 from ocs_design.parts.shapes import Disc, Polygon
 from ocs_design.parts.solids import Prism

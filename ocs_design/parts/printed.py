@@ -154,3 +154,22 @@ class MountHoles:
         """Moments of what they take of a printed plate [m], about its middle."""
         holes = (hole.moments() for hole in self.prisms(-thickness / 2.0, thickness / 2.0))
         return reduce(add, holes, nothing()).turned(UPRIGHT).times(-DENSITY)
+
+
+def half_height(height: Real) -> Real:
+    """Distance from the wheel's middle to the outside of floor and lid [m]."""
+    return height / 2.0 + (CLEARANCE + PANEL)
+
+
+def plate_back(half: Real, thickness: Real | float) -> Real:
+    """Distance of the plate's back from the middle of a housing of that half height [m]."""
+    return half + thickness
+
+
+def screw_lever(base_radius: float, slot_radius: float) -> float:
+    """Moment that tilts a foot over the largest pull of its two screws [m].
+
+    The foot turns about the edge of its base, and a screw holds it as far as it is from there; most
+    is asked of one where the other is behind it.
+    """
+    return 2.0 * (base_radius**2 + slot_radius**2) / (base_radius + slot_radius)

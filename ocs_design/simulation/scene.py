@@ -7,8 +7,8 @@ import mujoco
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.device.bodies import flywheel_names, joint_names
 from ocs_design.device.device import Device
-from ocs_design.device.naming import flywheel_names, joint_names
 from ocs_design.export.attach import attach_device
 from ocs_design.export.physics import (
     HELD,

@@ -12,8 +12,8 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import STANDARD_GRAVITY
+from ocs_design.device.bodies import flywheel_names, joint_names
 from ocs_design.device.device import Device
-from ocs_design.device.naming import flywheel_names, joint_names
 from ocs_design.export.physics import (
     STEADY_LEGS,
     leg_joints,

@@ -10,9 +10,9 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
 from ocs_design.common.units import format_quantity
+from ocs_design.device.bodies import flywheel_name
 from ocs_design.device.device import Device
 from ocs_design.device.layout import PAIR, SIDES
-from ocs_design.device.naming import flywheel_name
 from ocs_design.device.records.device import Clearance, OpenPoint
 from ocs_design.device.solids import (
     ModuleSolids,

@@ -7,7 +7,7 @@ from pathlib import Path
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import AnyPath, safe_name, to_json
 from ocs_design.device.answers import Exported, PostureLine
-from ocs_design.device.naming import joint_names
+from ocs_design.device.bodies import joint_names
 from ocs_design.device.records.design import (
     DESIGN_FILE,
     SCHEMA_VERSION,

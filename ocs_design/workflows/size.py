@@ -8,8 +8,8 @@ from pathlib import Path
 from ocs_design.common.beside import Beside
 from ocs_design.common.errors import UsageError
 from ocs_design.common.files import AnyPath, safe_name, to_json
+from ocs_design.device.bodies import require_no_device
 from ocs_design.device.device import Device
-from ocs_design.device.naming import require_no_device
 from ocs_design.device.records.design import DESIGN_FILE, OcsDesign
 from ocs_design.device.records.flights import falls_short
 from ocs_design.device.records.selection import Alternative, Lighter, Owed

@@ -7,8 +7,8 @@ from robots import ROBOTS, SOLO12
 from wheels import motor, paper_device
 
 from ocs_design.common.errors import RobotError
+from ocs_design.device.bodies import WHEEL_CONTACT_BIT
 from ocs_design.export.attach import attach_device
-from ocs_design.export.module_bodies import WHEEL_CONTACT_BIT
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.mujoco_model import build_spec
 from ocs_design.robot.reader import read_robot

@@ -13,8 +13,8 @@ from robots import SOLO12
 from wheels import EC45, EC45_BODY, braked_inertia, driven_device, geared, layout_device
 
 from ocs_design.common.errors import RobotError
+from ocs_design.device.bodies import carrier_inertial, flywheel_inertial
 from ocs_design.device.layout import Layout, LayoutName
-from ocs_design.export.module_bodies import carrier_inertial, flywheel_inertial
 from ocs_design.export.robot_model import robot_model
 from ocs_design.export.snippets import (
     snippet_mjcf,

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from wheels import EC45, PAPER_WHEEL, driven_device, geared, paper_device
 
 from ocs_design.actuation.motor import BoltCircle, Face, Mounting
+from ocs_design.device.bodies import wheel_placement
 from ocs_design.device.device import Device, Web
 from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly_notes import device_notes, drive_notes
-from ocs_design.export.module_bodies import wheel_placement
 from ocs_design.export.visuals import carrier_visuals
 from ocs_design.parts.foot import foot_shock, plate_thickness
 from ocs_design.parts.rim import Hub, RimCuts

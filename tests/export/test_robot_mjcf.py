@@ -12,7 +12,7 @@ from robots import SOLO12
 from scipy.spatial.transform import Rotation
 from wheels import driven_device, paper_device, scaled_device
 
-from ocs_design.device.naming import joint_names
+from ocs_design.device.bodies import joint_names
 from ocs_design.export.formats import Subject
 from ocs_design.export.mjcf import export_robot_mjcf, write
 from ocs_design.export.physics import leg_joints

@@ -7,14 +7,21 @@ from ocs_design.parts.cage import NO_POSTS
 from ocs_design.parts.housing import (
     Housing,
     PlainDrum,
-    half_height,
     housing_mass_per_height,
     housing_moments,
     housing_outer_radius,
     undrilled,
 )
 from ocs_design.parts.module import Printed, shell_moments
-from ocs_design.parts.printed import CLEARANCE, DENSITY, LID_SCREW, PANEL, WALL, MountHoles
+from ocs_design.parts.printed import (
+    CLEARANCE,
+    DENSITY,
+    LID_SCREW,
+    PANEL,
+    WALL,
+    MountHoles,
+    half_height,
+)
 
 SIZES = [(0.03, 0.01), (0.05, 0.003), (0.012, 0.03)]
 

@@ -11,9 +11,9 @@ from trajectories import from_rest
 from wheels import EC45, driven_device, paper_device
 
 from ocs_design.actuation.supply import Supply
+from ocs_design.device.bodies import joint_names
 from ocs_design.device.device import Module
 from ocs_design.device.layout import Layout, LayoutName
-from ocs_design.device.naming import joint_names
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.maneuver import Flip
 from ocs_design.simulation import quaternions

@@ -16,6 +16,7 @@ from wheels import driven_device
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.errors import Infeasible, OcsError
+from ocs_design.device.bodies import wheel_placement
 from ocs_design.device.checks import check_device
 from ocs_design.device.device import Module
 from ocs_design.device.layout import Layout, LayoutName
@@ -23,7 +24,6 @@ from ocs_design.device.solids import foot_of, module_solids, plate_heads, plate_
 from ocs_design.export.assembly.placed import placed_parts
 from ocs_design.export.device_parts import foot_holes, wheel_pieces
 from ocs_design.export.meshes import part_manifold
-from ocs_design.export.module_bodies import wheel_placement
 from ocs_design.parts.carrier_plate import SAFETY, STOCK, YIELD_STRENGTH, plate_bodies
 from ocs_design.parts.mast import MAST_YIELD
 from ocs_design.parts.part import Part

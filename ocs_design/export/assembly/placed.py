@@ -12,6 +12,7 @@ import numpy as np
 
 from ocs_design.actuation.fasteners import Fastening
 from ocs_design.common.arrays import FloatArray
+from ocs_design.device.bodies import carrier_placement, wheel_placement
 from ocs_design.device.device import Device
 from ocs_design.device.solids import drive_solids, foot_of, motor_mount, shaft_cut
 from ocs_design.export.device_parts import (
@@ -23,7 +24,6 @@ from ocs_design.export.device_parts import (
     wheel_pieces,
 )
 from ocs_design.export.meshes import Mesh, merged, part_mesh, solid_mesh
-from ocs_design.export.module_bodies import carrier_placement, wheel_placement
 from ocs_design.export.visuals import cage_placement
 from ocs_design.parts.carrier_plate import plate_bodies
 from ocs_design.parts.housing import FIRST_EAR, LID_SCREWS, guard_ring

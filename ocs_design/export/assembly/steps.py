@@ -9,9 +9,9 @@ import numpy as np
 from ocs_design.actuation.fasteners import IN_PLASTIC
 from ocs_design.catalogue.materials import materials
 from ocs_design.common.units import format_quantity
+from ocs_design.device.bodies import joint_name
 from ocs_design.device.joints import SHAFT_JOINT, joints_of, rim_fit
 from ocs_design.device.layout import PAIR
-from ocs_design.device.naming import joint_name
 from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly.content import Assembly, places
 from ocs_design.export.assembly.trials import balance, safety, spin_test

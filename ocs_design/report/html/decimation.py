@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.naming import PREFIX
+from ocs_design.device.bodies import PREFIX
 from ocs_design.report.bodies import ShownBody, Surface
 
 FINEST = 1.0 / 4096.0

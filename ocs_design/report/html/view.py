@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.naming import PREFIX, flywheels_among
+from ocs_design.device.bodies import PREFIX, flywheels_among
 from ocs_design.export.png import png_bytes
 from ocs_design.export.snapshot import HEIGHT, WIDTH
 from ocs_design.report.bodies import ShownBody, still

@@ -34,9 +34,10 @@ from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.actuation.wheel_load import WheelBound, spin_demand
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import Layout
-from ocs_design.parts.housing import PlainDrum, half_height
+from ocs_design.parts.housing import PlainDrum
 from ocs_design.parts.module import Printed
 from ocs_design.parts.motor_mount import mount_of
+from ocs_design.parts.printed import half_height
 from ocs_design.parts.rim import LIGHTENED, hub_of
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement

@@ -19,7 +19,6 @@ from ocs_design.actuation.drive import (
 from ocs_design.actuation.motor import DIRECT, Gear, GearRoom, Motor
 from ocs_design.common.arrays import FloatArray, Table, stacked
 from ocs_design.parts.cage import Posts
-from ocs_design.parts.housing import half_height
 from ocs_design.parts.joints import OVERSPEED
 from ocs_design.parts.module import (
     Printed,
@@ -30,7 +29,7 @@ from ocs_design.parts.module import (
 )
 from ocs_design.parts.moments import MassMoments, Real, round_body
 from ocs_design.parts.motor_mount import Behind, mount_of
-from ocs_design.parts.printed import PANEL
+from ocs_design.parts.printed import PANEL, half_height
 from ocs_design.parts.rim import NO_HUB, cylinder_transverse_inertia
 from ocs_design.sizing.bound.rim_problem import (
     RimLimits,

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from wheels import paper_device
 
 from ocs_design.catalogue.materials import materials
+from ocs_design.device.bodies import carrier_placement, wheel_placement
 from ocs_design.device.device import Module
 from ocs_design.device.joints import balance_of, burst_of, rim_fit
 from ocs_design.device.layout import Layout, LayoutName
@@ -27,7 +28,6 @@ from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.export.device_parts import printed_parts
 from ocs_design.export.drawing.sheet import FRAME_BOX, Circle, Line, Polyline, Text
 from ocs_design.export.meshes import part_mesh
-from ocs_design.export.module_bodies import carrier_placement, wheel_placement
 from ocs_design.parts.pedestal import Pedestal
 
 

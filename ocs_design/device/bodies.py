@@ -1,4 +1,4 @@
-"""Bodies of the device in robot files: wheels, carriers, what is under feet; limits of motors.
+"""Bodies of the device in robot files: names of their own, places, inertia, limits of motors.
 
 Braked, a module is its wheel and its carrier, the rotor held still within the motor. Turning, the
 wheel's body carries all momentum about the spin axis, the rotor's through the gear included: h =
@@ -7,18 +7,28 @@ pendulum would say of the braked module. For direct drive this is the rotor itse
 the carrier keeps J_r - s N J_r of it, and the joint's armature holds the rest of its energy.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from ocs_design.actuation.drive import Drive
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import RobotError
 from ocs_design.device.device import Device, Module
-from ocs_design.device.naming import PLATE, carrier_name, flywheel_name, joint_name
+from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.rotations import rotation_from_rpy
 from ocs_design.robot.tree import Placement
+
+PREFIX = "ocs_"
+PLATE = f"{PREFIX}plate"
+"""Link and fixed joint in URDF, body in MJCF: the plate that the feet stand on."""
+
+IMU = f"{PREFIX}imu"
+"""Site in MJCF, at the base frame B."""
+
+_FLYWHEEL = "_flywheel"
 
 WHEEL_CONTACT_BIT = 1 << 16
 """`conaffinity` of the wheels in MJCF: a floor with this bit in its `contype` meets them."""
@@ -36,6 +46,85 @@ _ROUNDING = 1e-12
 
 _FROM_MODULE = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """Rotation from the left module's frame, its axis along y, to its wheel's, the axis along z."""
+
+
+def flywheel_name(module: Module) -> str:
+    """Name of a module's wheel: link in URDF, body in MJCF."""
+    return f"{PREFIX}{module.name}{_FLYWHEEL}"
+
+
+def flywheels_among(bodies: Iterable[str]) -> list[str]:
+    """Bodies of a robot that are wheels of the device, in their order."""
+    return [name for name in bodies if name.startswith(PREFIX) and name.endswith(_FLYWHEEL)]
+
+
+def joint_name(module: Module) -> str:
+    """Name of a wheel's joint, and in MJCF also of its motor."""
+    return f"{PREFIX}{module.name}"
+
+
+def carrier_name(module: Module) -> str:
+    """Name of what stands still of a module: link and fixed joint in URDF, body in MJCF."""
+    return f"{PREFIX}{module.name}_motor"
+
+
+def velocity_sensor(module: Module) -> str:
+    """Name of the sensor in MJCF of the wheel's speed relative to the trunk [rad/s]."""
+    return f"{joint_name(module)}_velocity"
+
+
+def torque_sensor(module: Module) -> str:
+    """Name of the sensor in MJCF of the motor's torque on the wheel [N m]."""
+    return f"{joint_name(module)}_torque"
+
+
+def imu_sensors() -> tuple[str, str]:
+    """Names of the sensors in MJCF of B's attitude as a quaternion and of its rate [rad/s]."""
+    return f"{IMU}_attitude", f"{IMU}_rate"
+
+
+def require_free(kind: str, taken: Iterable[str], wanted: Iterable[str]) -> None:
+    """Refuse a robot that uses one of the device's names itself.
+
+    Args:
+        kind: what is named, for the message: link, joint, actuator.
+        taken: the robot's own names.
+        wanted: the device's.
+    """
+    clash = sorted(set(taken) & set(wanted))
+    if clash:
+        raise RobotError(
+            f"the robot already has a {kind} named {clash[0]!r}, which the device needs",
+            hint=f"rename that {kind} in the robot's file, or give the file without a device in it",
+        )
+
+
+def require_no_device(joints: Iterable[str]) -> None:
+    """Refuse a robot that has a device already, by its joints, before another one is sized."""
+    names = (name for each in LayoutName for name in Layout(each).names)
+    require_free("joint", joints, (f"{PREFIX}{name}" for name in names))
+
+
+def flywheel_names(device: Device) -> tuple[str, ...]:
+    """Names of the wheels, in the modules' order."""
+    return tuple(flywheel_name(module) for module in device.modules)
+
+
+def carrier_names(device: Device) -> tuple[str, ...]:
+    """Names of what stands still of each module; none where it weighs nothing."""
+    if device.carrier.mass == 0.0:
+        return ()
+    return tuple(carrier_name(module) for module in device.modules)
+
+
+def plate_names(device: Device) -> tuple[str, ...]:
+    """Name of the body of what is under the feet; none where they stand on the trunk."""
+    return (PLATE,) if device.under else ()
+
+
+def joint_names(device: Device) -> tuple[str, ...]:
+    """Names of the wheels' joints, in the modules' order."""
+    return tuple(joint_name(module) for module in device.modules)
 
 
 def wheel_rpy(axis: FloatArray) -> tuple[float, float, float]:
