@@ -40,7 +40,9 @@ from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_surface
 from ocs_design.robot.tree import Drum
 from ocs_design.sizing.footing.contact import FootContact, contacts_of
+from ocs_design.sizing.footing.feet import feet_of
 from ocs_design.sizing.footing.lands import PROUD
+from ocs_design.sizing.footing.mast import Pads, pads_needed
 from ocs_design.sizing.footing.screws import SPREAD
 from ocs_design.sizing.place import device_size
 from ocs_design.sizing.placement import place_free
@@ -60,6 +62,7 @@ class Mounting:
         feet: what each foot stands on, the plate among them; empty where wheels have no feet.
         pedestals: what holds each foot that leans, or would.
         module_mass: of what stands on each [kg].
+        pads: flat spots that would hold a mast; None: they are no pairs, or none bears them.
     """
 
     nearest: Clearance | None
@@ -70,6 +73,7 @@ class Mounting:
     feet: tuple[FootContact, ...] = ()
     pedestals: tuple[Pedestal, ...] = ()
     module_mass: float = 0.0
+    pads: Pads | None = None
 
     @property
     def known(self) -> bool:
@@ -85,7 +89,7 @@ def mounting_open_points(mounting: Mounting) -> tuple[OpenPoint, ...]:
     return (
         *_leaning(mounting),
         *_weak(mounting),
-        *_hanging(mounting.feet),
+        *_hanging(mounting),
         *_hitting(mounting),
     )
 
@@ -121,8 +125,9 @@ def _weak(mounting: Mounting) -> Iterator[OpenPoint]:
         )
 
 
-def _hanging(feet: Sequence[FootContact]) -> Iterator[OpenPoint]:
+def _hanging(mounting: Mounting) -> Iterator[OpenPoint]:
     """Feet that are not held, and what would hold them; alike ones are told once."""
+    feet, pads = mounting.feet, mounting.pads
     loose = [contact for contact in feet if contact.held is False and not contact.leans]
     in_pairs = any(contact.name.startswith(SIDES[0]) for contact in feet)
     more_feet = (
@@ -150,7 +155,20 @@ def _hanging(feet: Sequence[FootContact]) -> Iterator[OpenPoint]:
             "give a place on the trunk with --position X,Y,Z or another trunk with --trunk, or "
             f"make a flat spot of {flat_spot} by {flat_spot} on top of it for a plate's four screws"
         )
-        yield OpenPoint(what=what, cure=cure if in_pairs else more_feet)
+        cures = [cure] if in_pairs else []
+        if pads is not None:
+            wide, aside, up = (
+                format_quantity(each, "mm", digits=2)
+                for each in (pads.diameter, pads.aside, pads.up)
+            )
+            cures.append(
+                "keep limbs and what stands out off its back, which is flat enough for the "
+                f"{pads.screw} screws of a mast"
+                if pads.there
+                else f"make four flat spots of {wide} on its back, {aside} apart sideways and at "
+                f"least {up} up and down, for a mast's {pads.screw} screws, nothing behind them"
+            )
+        yield OpenPoint(what=what, cure=", or ".join(cures) or more_feet)
 
 
 def _hitting(mounting: Mounting) -> Iterator[OpenPoint]:
@@ -204,6 +222,9 @@ def mounting_of(
             if contact.leans
         ),
         module_mass=device.flywheel.mass + device.carrier.mass,
+        pads=pads_needed(robot, feet_of(device), device_size(device), device.layout)
+        if any(contact.held is False for contact in feet)
+        else None,
     )
 
 

@@ -591,3 +591,16 @@ def test_what_cannot_carry_its_mast_is_refused(column):
 
 def test_a_back_too_narrow_for_two_screws_side_by_side_holds_no_mast(column):
     assert stand_on_trunk(DEVICE, column(0.01), stated=False).plate is None
+
+
+def test_the_flat_spots_that_a_mast_would_need_are_told(column):
+    """On a back that is just wide enough for them there is one."""
+    narrow = column(0.01)
+    device = stand_on_trunk(DEVICE, narrow, stated=False)
+    mounting = mounting_of(narrow, device, (), narrow.mass_properties)
+    pads, points = mounting.pads, mounting_open_points(mounting)
+    assert any(f"for a mast's {pads.screw} screws" in point.cure for point in points)
+    wide = column(pads.aside + pads.diameter + 2e-3)
+    held = stand_on_trunk(DEVICE, wide, stated=False)
+    assert held.plate.mast is not None
+    assert mounting_of(wide, held, (), wide.mass_properties).pads is None

@@ -1,7 +1,7 @@
 """Pairs of modules behind the trunk, one above the other, on a mast."""
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import product
 from math import sqrt
@@ -55,6 +55,46 @@ def footing_behind(robot: Robot, feet: Feet, size: Size[float], layout: Layout) 
     arms = _all_arms(feet, size, far=far)
     masted = (_masted(back, feet, plate, search, (height, spacer)) for plate in arms)
     return next((footing for footing in masted if footing is not None), None)
+
+
+@dataclass(frozen=True)
+class Pads:
+    """Flat spots on a trunk's back that the four screws of a mast would do with.
+
+    Attributes:
+        screw: by name. diameter: of each spot [m].
+        aside, up: their distances, sideways and, at the least, up and down [m].
+        there: whether the trunk's back has them, so that what lacks is room behind.
+    """
+
+    screw: str
+    diameter: float
+    aside: float
+    up: float
+    there: bool
+
+
+def pads_needed(robot: Robot, feet: Feet, size: Size[float], layout: Layout) -> Pads | None:
+    """Spots for a mast level with its modules and right on the trunk; None: no mast bears them."""
+    back = trunk_back(robot)
+    if back is None or not layout.pairs:
+        return None
+    feet, force = _stacked(feet, size, layout), 2.0 * feet.mass * SHOCK * layout.pairs
+    half = np.arange(SPREAD, SPREAD_MAX, PATTERN_STEP) / 2.0
+    for plate, held in product(_all_arms(feet, size, far=False), MAST_SCREWS):
+        own = replace(plate, thread=held.name)
+        assert own.mast is not None, "a plate on arms"
+        aside = own.mast.bore / 2.0 - own.sleeve_radius
+        if aside < held.head_diameter / 2.0 + HEAD_ROOM:
+            continue
+        arms = own.mast.face, np.zeros(len(half))
+        bearing = half[pattern_use(held, force, arms, (half, np.full(len(half), aside))) <= 1.0]
+        if len(bearing):
+            least, radius = float(bearing.min()), own.sleeve_radius
+            z, _, (low, high) = _pads(back, radius, aside)
+            there = bool(((z[high] - z[low]) / 2.0 >= least).any())
+            return Pads(held.name, 2.0 * radius, 2.0 * aside, 2.0 * least, there)
+    return None
 
 
 def _stacked(feet: Feet, size: Size[float], layout: Layout) -> Feet:
