@@ -215,7 +215,7 @@ class DeviceBody:
 
     @property
     def place(self) -> Placement:
-        """The same frame in the base frame B."""
+        """Frame of the body in the base frame B."""
         return Placement(rotation_from_rpy(*self.rpy), self.position)
 
 

@@ -214,7 +214,7 @@ def still_visuals(device: Device, body: DeviceBody) -> tuple[Visual, ...]:
 
 
 def plain_visuals(device: Device, body: DeviceBody) -> tuple[Visual, ...]:
-    """The same of boxes and cylinders, for files that stand alone."""
+    """Shapes of such a body as boxes and cylinders, for files that stand alone."""
     if body.module is None:
         return plain_plate_visuals(device)
     return plain_carrier_visuals(device, body.module)
