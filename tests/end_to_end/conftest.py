@@ -50,7 +50,15 @@ def exported(product):
 def no_alternatives():
     """`size` compares with no other device: a third of its time, where nothing is asked of it."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("ocs_design.workflows.size.alternatives", lambda *_: ())
+        patch.setattr("ocs_design.sizing.alternatives.alternatives", lambda *_: ())
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def one_process():
+    """Tests run on all processors already; commands in processes of their own use a second one."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("ocs_design.common.beside.processors", lambda: 1)
         yield
 
 

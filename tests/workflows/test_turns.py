@@ -31,7 +31,7 @@ def test_a_closed_form_that_asks_too_little_is_made_good_by_the_plan(rounds, tmp
     monkeypatch.setattr(turns, "loop_length", lambda heading: 0.6 * full(heading))
     monkeypatch.setattr(rounds_of, "TURN_ROUNDS", rounds)
     # What else could be built is not asked, nor any part.
-    monkeypatch.setattr(size, "alternatives", lambda *_: ())
+    monkeypatch.setattr("ocs_design.sizing.alternatives.alternatives", lambda *_: ())
     monkeypatch.setattr(size, "USUAL_FORMATS", ())
     told = []
     outcome = size.design_ocs(
