@@ -162,8 +162,12 @@ def test_a_real_motor_never_does_what_it_cannot(solo12, speed_max, tracked):
     assert np.abs(torque).max() <= 1.0
     assert np.abs(speed + slope * torque).max() <= 650.4 * (1.0 + 1e-12)
     assert np.abs(speed[torque * speed > 0.0]).max() <= speed_max
-    # With the motor off, the trunk's own motion still changes what is measured against it.
-    assert np.abs(speed).max() <= speed_max * (1.0 + 1e-5)
+    # With the motor off, the trunk's own motion still changes what is measured against it: a little
+    # up to touchdown, and in a bounce by a hundredth of what the floor turns the trunk by.
+    before = int(np.argmax(run.series.contact != 0))
+    assert np.abs(run.series.wheel_speed[:before]).max() <= speed_max * (1.0 + 2e-6)
+    struck = np.abs(np.diff(run.series.rate[before - 1 :] @ device.axes, axis=0)).max()
+    assert np.abs(speed).max() <= speed_max + 0.01 * struck
     lowest, highest = run.series.torque_lowest[flight], run.series.torque_highest[flight]
     assert np.all((lowest <= torque + 1e-12) & (torque <= highest + 1e-12))
     assert np.abs(torque).max() > 0.5, "it was not asked for much"
