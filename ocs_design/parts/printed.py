@@ -81,7 +81,10 @@ UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 
 def base_thickness(plate: Real | float) -> Real:
     """Thickness of the base of a foot, by that of its plate [m]."""
-    thick: Real = np.maximum(BASE_THICKNESS, BASE_SHARE * plate)
+    share: Any = BASE_SHARE * plate
+    # A number stays one of Python's, which files take.
+    larger: Any = max if isinstance(share, float) else np.maximum
+    thick: Real = larger(BASE_THICKNESS, share)
     return thick
 
 

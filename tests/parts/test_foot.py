@@ -147,6 +147,7 @@ def test_a_foot_is_as_thick_as_its_load_asks_for():
     assert foot_shock(Foot(housing, thickness - 1e-4), 1.35) < SHOCK
     assert 1e3 * Foot(housing, thickness).base == pytest.approx(0.52 * 8.9)
     assert Foot(housing).base == BASE_THICKNESS
+    assert type(Foot(housing, thickness).wheel_height) is float
 
 
 @given(st.floats(0.01, 0.2), st.floats(0.1, 1.0), st.floats(0.01, 50.0))

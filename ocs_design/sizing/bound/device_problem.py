@@ -168,7 +168,7 @@ class FixedPoint:
 
 
 class DeadEnd(NamedTuple):
-    """Where an iteration stands, or has come to a spin inertia that no rim has.
+    """Standing of an iteration, or the spin inertia that it came to and no rim has.
 
     Attributes:
         spin_inertia: at least asked of each wheel [kg m^2]; inf if an axis is out of reach.
