@@ -153,7 +153,7 @@ def drive_legs(model: mujoco.MjModel, data: mujoco.MjData, robot: dict) -> None:
     mass_matrix = np.empty((model.nv, model.nv))
     mujoco.mj_fullM(model, data, mass_matrix)
     felt = 1.0 / np.diag(np.linalg.inv(mass_matrix))
-    stiffness = 0.5 * robot["mass"] * GRAVITY * LEG
+    stiffness = 0.5 * model.body_mass.sum() * GRAVITY * LEG
     damping = 0.5 * stiffness * np.sqrt(LEG / GRAVITY)
     for name, angle in robot["posture"].items():
         drive, joint = model.actuator(name).id, model.joint(name)
