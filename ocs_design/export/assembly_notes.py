@@ -16,7 +16,7 @@ from ocs_design.parts.bell import BELL_SHARE
 from ocs_design.parts.carrier_plate import DENSITY as PLATE_DENSITY
 from ocs_design.parts.carrier_plate import MODULUS as PLATE_MODULUS
 from ocs_design.parts.carrier_plate import YIELD_STRENGTH
-from ocs_design.parts.foot import Foot, foot_part, foot_shock
+from ocs_design.parts.foot import Foot, foot_part, foot_shock, screw_pull
 from ocs_design.parts.joints import GRADE
 from ocs_design.parts.motor_mount import motor_front
 from ocs_design.parts.printed import DENSITY, MODULUS, SHOCK, STRENGTH, TRUNK_SCREW
@@ -174,7 +174,7 @@ def _apart(device: Device, foot: Foot) -> Iterator[str]:
 
 
 def _shaken(device: Device, foot: Foot) -> Iterator[str]:
-    """Landings that the feet do not bear, and speeds at which they or the plate shake."""
+    """What feet and heads on them do not bear in a landing, and speeds at which parts shake."""
     module, modes = device.flywheel.mass + device.carrier.mass, resonances_of(device)
     bears, own = foot_shock(foot, module), foot_part(foot).mass_properties().mass
     if bears < SHOCK:
@@ -189,6 +189,13 @@ def _shaken(device: Device, foot: Foot) -> Iterator[str]:
             f"at least {stronger:.0f} times as strong, "
             f"{sqrt(PLATE_MODULUS / MODULUS):.0f} times as high a frequency and "
             f"{1e3 * heavier:.0f} g heavier each"
+        )
+    pressed = screw_pull(foot, module) / TRUNK_SCREW.head_area
+    if pressed > STRENGTH:
+        yield (
+            f"put a washer ISO 7089 {TRUNK_SCREW.name} under each head of the feet's screws: at "
+            f"{SHOCK / STANDARD_GRAVITY:.0f} g a bare head presses with {1e-6 * pressed:.0f} MPa "
+            f"on PETG that yields at {1e-6 * STRENGTH:.0f}"
         )
     for mode in modes:
         if mode.acceleration > STANDARD_GRAVITY:

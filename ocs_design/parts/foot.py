@@ -230,9 +230,17 @@ def _base_at_shock(foot: Foot[float], mass: float) -> float:
     The screw on the far side pulls at a cantilever that is as wide as the stem, and bends it along
     its layers: the same case.
     """
-    pulled = mass * SHOCK * foot.wheel_height / screw_lever(foot.base_radius, foot.slot_radius)
     arm, width = foot.slot_radius + foot.housing.half_height, 2.0 * foot.stem
-    return sqrt(6.0 * pulled * arm / (width * STRENGTH))
+    return sqrt(6.0 * screw_pull(foot, mass) * arm / (width * STRENGTH))
+
+
+def screw_pull(foot: Foot[float], mass: float) -> float:
+    """Largest pull of one of a foot's screws under `SHOCK` along its wheel's axis [N].
+
+    Args:
+        foot, mass: see `foot_shock`.
+    """
+    return mass * SHOCK * foot.wheel_height / screw_lever(foot.base_radius, foot.slot_radius)
 
 
 def stem_frequency(foot: Foot[float], mass: float, inertia: float) -> float:
