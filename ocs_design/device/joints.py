@@ -7,11 +7,12 @@ from math import inf, pi, sqrt
 from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.materials import Material, materials
-from ocs_design.common.units import format_quantity
+from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
 from ocs_design.device.device import Device, Flywheel, Web
-from ocs_design.device.solids import foot_of, housing_of
+from ocs_design.device.solids import foot_of, housing_of, motor_mount
 from ocs_design.parts.bell import GLUE_GAP
-from ocs_design.parts.foot import stem_frequency
+from ocs_design.parts.cage import floor_at_shock
+from ocs_design.parts.foot import foot_shock, stem_frequency
 from ocs_design.parts.guard import Containment, containment, fragment_of
 from ocs_design.parts.joints import (
     BOND_SHARE,
@@ -39,6 +40,7 @@ from ocs_design.parts.joints import (
 )
 from ocs_design.parts.pedestal import seat_compliance
 from ocs_design.parts.plate_strength import plate_frequency, plate_sway
+from ocs_design.parts.printed import SHOCK
 from ocs_design.parts.rim import LIGAMENT
 from ocs_design.parts.turning_rings import (
     Ring,
@@ -47,6 +49,8 @@ from ocs_design.parts.turning_rings import (
 )
 
 RIM_JOINT, SHAFT_JOINT = "rim joint", "shaft joint"
+
+FOOT_SHOCK, FLOOR_SHOCK = "landing shock, foot", "landing shock, cage"
 
 RUN_OUT = 0.05e-3
 """Permissible run-out of the rim to the bore, on the wheel's drawing [m]; half of it is the
@@ -69,14 +73,33 @@ def burst_of(device: Device) -> Containment:
 
 
 def joints_of(device: Device) -> tuple[Margin, ...]:
-    """Joints of one module's wheel, those of the rim first; none with massless spokes.
+    """Joints of one module: the rim's, the shaft's and what holds it; none with massless spokes.
 
     Where no capacity is known, the joint keeps the device from being built.
     """
     if device.on_bell:
-        return tuple(_bell_joints(device))
+        return (*_bell_joints(device), *_shocks(device))
     web = device.flywheel.web
-    return () if web is None else (*_rim_joints(device, web), *_shaft_joints(device, web))
+    if web is None:
+        return ()
+    return (*_rim_joints(device, web), *_shaft_joints(device, web), *_shocks(device))
+
+
+def _shocks(device: Device) -> Iterator[Margin]:
+    """Accelerations at which what holds the module breaks."""
+    module = device.flywheel.mass + device.carrier.mass
+    held = format_quantity(module, "kg" if module >= 1.0 else "g", digits=3)
+    shock = f"{SHOCK / STANDARD_GRAVITY:.0f} g"
+    along = f"{shock} on {held} along the wheel's axis, until the foot, printed of PETG, breaks"
+    yield Margin(FOOT_SHOCK, SHOCK, foot_shock(foot_of(device), module), "m/s2", along)
+    cage = motor_mount(device).cage
+    if cage is not None:
+        drive, wheel = device.motor.mass or 0.0, device.flywheel.mass
+        breaks = floor_at_shock(cage, drive, wheel)
+        if breaks > 0.0:
+            bears = SHOCK * (cage.floor / breaks) ** 2
+            note = f"{shock} on motor and wheel, which tilt the cage's floor, until it breaks"
+            yield Margin(FLOOR_SHOCK, SHOCK, bears, "m/s2", note)
 
 
 def wheel_rings(wheel: Flywheel) -> tuple[Ring, ...] | None:

@@ -340,13 +340,13 @@ def _rim_limits(design: OcsDesign) -> Iterator[tuple[Cell, ...]]:
             used, allowed = (
                 quantity(each, margin.unit) for each in (margin.demand, margin.capacity)
             )
-            yield f"{margin.name} ({name})", used, allowed, _rim_price(design, name)
+            yield f"{margin.name} ({name})", used, allowed, rim_price(design, name)
     for name in design.sizing.binding:
         if name not in listed_limits:
-            yield name, "all of it", "", _rim_price(design, name)
+            yield name, "all of it", "", rim_price(design, name)
 
 
-def _rim_price(design: OcsDesign, name: str) -> str:
+def rim_price(design: OcsDesign, name: str) -> str:
     """Shadow price per unit that an engineer would change: kg per m is g per mm."""
     if name not in design.sizing.binding:
         return "0, not reached"

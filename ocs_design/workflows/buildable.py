@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 
 from ocs_design.actuation.motor import Motor, build_gaps
-from ocs_design.device.joints import RIM_JOINT, SHAFT_JOINT
+from ocs_design.device.joints import FLOOR_SHOCK, FOOT_SHOCK, RIM_JOINT, SHAFT_JOINT
 from ocs_design.device.records.device import Buildable, MarginRecord, OpenPoint
 from ocs_design.parts.joints import EPOXY, Margin
 from ocs_design.report.quantities import quantity
@@ -48,8 +48,8 @@ _JOINT_CURES = {
     SHAFT_JOINT: "choose a motor with threads in its rotor (--motor)",
 }
 _BOND_CURE = "choose a slower motor, or a disc in place of the ring (--wheel disc)"
-_SPARE = ("shaft joint, screws in shear",)
-"""Joints that are a reserve: friction carries the torque."""
+_SPARE = ("shaft joint, screws in shear", FOOT_SHOCK, FLOOR_SHOCK)
+"""What may fall short: friction carries the torque, and what PETG does not bear can be milled."""
 
 TOLERANCE = 1e-3
 """Share by which a capacity may be exceeded: what a wheel gains within one control step, beyond

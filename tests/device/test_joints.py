@@ -18,7 +18,7 @@ from ocs_design.device.joints import (
     rim_fit,
     wheel_rings,
 )
-from ocs_design.device.solids import foot_of
+from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.parts.joints import (
     friction_torque,
 )
@@ -56,6 +56,29 @@ def test_one_piece_stands_its_largest_stress_at_over_speed():
     assert joint.capacity == STEEL.yield_strength
     assert joint.factor == pytest.approx(joint.capacity / joint.demand)
     assert one.motor.top_speed == pytest.approx(min(650.4, 300.0 * pi))
+
+
+def test_a_foot_breaks_at_the_shock_that_is_told():
+    """253 g x 355 m/s^2 x 45.6 mm on 39.2 mm x (5 mm)^2 / 6: the 25 MPa of PETG across layers."""
+    shock = named(device())["landing shock, foot"]
+    assert (shock.demand, shock.unit) == (pytest.approx(20.0 * 9.80665), "m/s2")
+    assert 0.2527 * shock.capacity * 0.0456 / (0.03924 * 0.005**2 / 6.0) == pytest.approx(
+        25e6, rel=1e-3
+    )
+    assert "landing shock, cage" not in named(device())
+
+
+def test_a_cages_floor_breaks_at_the_shock_that_is_told():
+    """As a plate, clamped where the posts stand, that what is on it tilts; half of it is clamped."""
+    caged = DEVICES["caged"]
+    shock, cage = named(caged)["landing shock, cage"], motor_mount(caged).cage
+    tilting = caged.motor.mass * cage.motor_length / 2.0 + caged.flywheel.mass * cage.seat
+    around = cage.holes.screws
+    held = around.radius + screw(around.thread).head_diameter / 2.0
+    ring = (cage.bore**2 - held**2) / (cage.bore**2 + held**2)
+    stress = 3.0 * tilting * shock.capacity * ring / (pi * held * cage.floor**2)
+    assert 2.0 * stress == pytest.approx(47e6)
+    assert shock.factor > 1.0
 
 
 def test_a_rim_on_another_web_is_shrunk_on():

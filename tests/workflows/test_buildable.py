@@ -81,8 +81,9 @@ def test_a_joint_that_does_not_hold_or_is_not_known_is_open(joint, words):
     assert words in found.open[0].what
 
 
-def test_screws_in_shear_are_a_reserve():
-    spare = Margin("shaft joint, screws in shear", 2.0, 1.0, "N m", "")
+@pytest.mark.parametrize("name", ["shaft joint, screws in shear", "landing shock, foot"])
+def test_what_friction_or_a_milled_foot_makes_up_for_is_a_reserve(name):
+    spare = Margin(name, 2.0, 1.0, "N m", "")
     assert buildable(WHOLE, FREE, (), (spare,)).yes is True
 
 

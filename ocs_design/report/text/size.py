@@ -125,7 +125,10 @@ def print_solution(console: Console, design: OcsDesign) -> None:
             ("objective", f"{sizing.objective:.6g} kg, {'the device' if chosen else 'one rim'}"),
             *(() if chosen else (("relative duality gap", f"{sizing.gap:.1e}"),)),
             ("fixed point", f"residual {sizing.residual:.1e} after {sizing.iterations} iterations"),
-            *((f"price of {name}", f"{price!r}") for name, price in sizing.shadow_prices.items()),
+            *(
+                (f"price of {name}", limits.rim_price(design, name))
+                for name in sizing.shadow_prices
+            ),
         ],
     )
 
