@@ -69,7 +69,7 @@ def test_a_foot_breaks_at_the_shock_that_is_told():
 
 
 def test_a_cages_floor_breaks_at_the_shock_that_is_told():
-    """As a plate, clamped where the posts stand, that what is on it tilts; half of it is clamped."""
+    """As a plate that motor and wheel tilt, clamped by the posts along half of its edge."""
     caged = DEVICES["caged"]
     shock, cage = named(caged)["landing shock, cage"], motor_mount(caged).cage
     tilting = caged.motor.mass * cage.motor_length / 2.0 + caged.flywheel.mass * cage.seat
