@@ -112,26 +112,22 @@ def _report(error: Failure, *, as_json: bool, color: bool) -> int:
         # What could not be printed is still there to be printed.
         _write_nowhere(sys.stdout)
     try:
-        _print(told, as_json=as_json and not unprinted, color=color)
+        if as_json and not unprinted:
+            stated = {"kind": told.kind, "message": told.message, "hint": told.hint}
+            document = {"schema_version": SCHEMA_VERSION, "error": {**stated, **told.data()}}
+            print(json.dumps(document, indent=2))
+        else:
+            from ocs_design.report.text.console import error_panel, make_console
+
+            problems = told.problems if isinstance(told, SpecificationError) else ()
+            lines = [told.message, *(f"  - {problem}" for problem in problems)]
+            error_panel(lines, told.hint, color=color)
+            if isinstance(told, Infeasible):
+                from ocs_design.report.text.size import print_assumed
+
+                print_assumed(make_console(color=color, stderr=True), told.assumptions)
     except OSError:
         if not isinstance(error, OSError):
             raise
         _write_nowhere(sys.stderr)
     return told.exit_code
-
-
-def _print(error: OcsError, *, as_json: bool, color: bool) -> None:
-    if as_json:
-        stated = {"kind": error.kind, "message": error.message, "hint": error.hint}
-        document = {"schema_version": SCHEMA_VERSION, "error": {**stated, **error.data()}}
-        print(json.dumps(document, indent=2))
-        return
-    from ocs_design.report.text.console import error_panel, make_console
-
-    problems = error.problems if isinstance(error, SpecificationError) else ()
-    lines = [error.message, *(f"  - {problem}" for problem in problems)]
-    error_panel(lines, error.hint, color=color)
-    if isinstance(error, Infeasible):
-        from ocs_design.report.text.size import print_assumed
-
-        print_assumed(make_console(color=color, stderr=True), error.assumptions)

@@ -114,20 +114,23 @@ def obstacle_to_jumping(robot: Robot) -> str:
         return "the robot has no legs"
     if up_axis(robot.tree, robot.trunk, robot.legs)[2] != 1.0:
         return "the legs do not hang along -z of the trunk frame"
-    geometries = leg_geometries(robot.tree, robot.trunk, robot.legs)
-    return next(filter(None, map(_obstacle_of_leg, geometries)), "")
-
-
-def _obstacle_of_leg(each: LegGeometry) -> str:
-    name, joints = each.leg.name, each.chain.joints
-    if is_wheel(each.chain.bodies[-1]):
-        return f"the leg '{name}' ends in a wheel"
-    if each.plane.flat:
-        return f"the leg '{name}' stands on a sole, not on a point"
-    if any(joint.mimic is not None for joint in joints):
-        return f"joints of the leg '{name}' follow each other"
-    if len(joints) < _FEWEST_JOINTS:
-        return f"the leg '{name}' has fewer than {_FEWEST_JOINTS} joints"
+    for each in leg_geometries(robot.tree, robot.trunk, robot.legs):
+        name, joints = each.leg.name, each.chain.joints
+        obstacles = (
+            (is_wheel(each.chain.bodies[-1]), f"the leg '{name}' ends in a wheel"),
+            (each.plane.flat, f"the leg '{name}' stands on a sole, not on a point"),
+            (
+                any(joint.mimic is not None for joint in joints),
+                f"joints of the leg '{name}' follow each other",
+            ),
+            (
+                len(joints) < _FEWEST_JOINTS,
+                f"the leg '{name}' has fewer than {_FEWEST_JOINTS} joints",
+            ),
+        )
+        for found, obstacle in obstacles:
+            if found:
+                return obstacle
     return ""
 
 

@@ -9,7 +9,6 @@ that has passed, the forces on the feet in units of the weight, and the duration
 its own copy of the duration, so that the program stays banded. All rows are free of units.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -171,9 +170,14 @@ class Node:
             [symbols],
             [unknown],
         )
-        efforts, velocities = (
-            _both_ways([getattr(joint, name) for joint in body.joints])
+        limits = (
+            np.array([limit_or_inf(getattr(joint, name)) for joint in body.joints])
             for name in ("effort", "velocity")
+        )
+        # Values of the joints over their limits, both ways, where they have one, shape (m, n).
+        efforts, velocities = (
+            _sparse(np.kron(np.diag(1.0 / each)[np.isfinite(each)], [[1.0], [-1.0]]))
+            for each in limits
         )
         root = ca.sqrt(duration / units.time)
         return cls(
@@ -255,12 +259,6 @@ def _slips(body: LeggedBody, base: FloatingBase) -> ca.SX:
         rolled = leg.foot_radius * ca.vertcat(about_y, -about_x, 0.0)
         rows.append(base.feet[i] - found[i] - rolled)
     return ca.vertcat(*rows)
-
-
-def _both_ways(values: Sequence[float]) -> ca.DM:
-    """Values of the joints over their limits, both ways, where they have one, shape (m, n)."""
-    limits = np.array([limit_or_inf(value) for value in values])
-    return _sparse(np.kron(np.diag(1.0 / limits)[np.isfinite(limits)], [[1.0], [-1.0]]))
 
 
 def limit_or_inf(value: float) -> float:

@@ -168,7 +168,20 @@ class JumpPlanner:
             flight = self._fly(push_off, jump, trunk)
         if push_off.forbidden:
             return Planned(JumpPlan(None, push_off.forbidden), push_off)
-        return Planned(JumpPlan(_joined(self._body, push_off, flight), ""), push_off)
+        # Push-off and flight one after the other.
+        lift_off = float(push_off.time[-1])
+        pushing = np.arange(0.0, lift_off, _SAMPLE)
+        position, velocity = push_off.joints_at(pushing)
+        torque = [np.interp(pushing, push_off.time, column) for column in push_off.torque.T]
+        trajectory = LegTrajectory(
+            joints=tuple(joint.name for joint in self._body.joints),
+            time=np.append(pushing, lift_off + flight.time),
+            position=np.vstack([position, flight.position]),
+            velocity=np.vstack([velocity, flight.velocity]),
+            torque=np.vstack([np.column_stack(torque), flight.torque]),
+            lift_off=lift_off,
+        )
+        return Planned(JumpPlan(trajectory, ""), push_off)
 
     def _fly(self, push_off: PushOff, jump: Jump, trunk: MassProperties) -> LegFlight:
         body, y, v = self._body, push_off.y[-1], push_off.v[-1]
@@ -177,19 +190,3 @@ class JumpPlanner:
         swing = min(_SWING * float(time), _LATEST * duration)
         legs = LegReturn(y[POSE:], v[POSE:], body.posture, _BRAKE * float(time), swing)
         return self._free.fly(y, v, legs, Load.values(jump.gravity, trunk), duration)
-
-
-def _joined(body: LeggedBody, push_off: PushOff, flight: LegFlight) -> LegTrajectory:
-    """Push-off and flight one after the other."""
-    lift_off = float(push_off.time[-1])
-    pushing = np.arange(0.0, lift_off, _SAMPLE)
-    position, velocity = push_off.joints_at(pushing)
-    torque = [np.interp(pushing, push_off.time, column) for column in push_off.torque.T]
-    return LegTrajectory(
-        joints=tuple(joint.name for joint in body.joints),
-        time=np.append(pushing, lift_off + flight.time),
-        position=np.vstack([position, flight.position]),
-        velocity=np.vstack([velocity, flight.velocity]),
-        torque=np.vstack([np.column_stack(torque), flight.torque]),
-        lift_off=lift_off,
-    )

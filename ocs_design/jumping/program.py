@@ -82,7 +82,47 @@ class Program:
     def __init__(self, node: Node) -> None:
         self._rows = _Rows.of(node)
         self._torque = ca.Function("torque", [node.unknowns, node.load], [node.torque]).map(NODES)
-        self._nlp, self._options = _posed(node, self._rows)
+        pieces, size, rows = _Pieces.of(node), node.layout.size, self._rows
+        weights = ca.DM(np.array(WEIGHTS)).T
+        flat, load = ca.MX.sym("x", size * NODES + _EXCESS), ca.MX.sym("load", node.load.numel())
+        z, excess = ca.reshape(flat[:-_EXCESS], size, NODES), flat[-_EXCESS:]
+        last = z[:, -1]
+
+        goal = ca.dot(weights, pieces.cost.map(NODES)(z, load)) + _PENALTY * ca.sum1(excess)
+        climbs = pieces.cost_slope.map(NODES)(z, load) * ca.repmat(weights, size, 1)
+        # IPOPT takes the gradient as dense, whatever its sparsity.
+        gradient = ca.densify(ca.vertcat(ca.vec(climbs), _PENALTY * ca.DM.ones(_EXCESS)))
+
+        kept = rows.selection @ ca.vec(pieces.rows.map(NODES)(z, load)) + rows.overdrawn @ excess
+        constraints = ca.vertcat(rows.defects @ flat, kept, pieces.end(last, load))
+        slopes = ca.diagcat(*ca.horzsplit(pieces.slope.map(NODES)(z, load), size))
+        end_slope = pieces.end_slope(last, load)
+        before, after = (ca.MX(end_slope.size1(), count) for count in (size * (NODES - 1), _EXCESS))
+        jacobian = ca.vertcat(
+            rows.defects,
+            ca.horzcat(rows.selection @ slopes, rows.overdrawn),
+            ca.horzcat(before, end_slope, after),
+        )
+
+        on_goal, on_rows = ca.MX.sym("on_goal"), ca.MX.sym("on_rows", constraints.numel())
+        _, on_kept, on_end = ca.vertsplit(
+            on_rows, [0, rows.defects.size1(), len(rows.lower), constraints.numel()]
+        )
+        on_nodes = ca.reshape(rows.selection.T @ on_kept, -1, NODES)
+        bent = pieces.curvature.map(NODES)(z, load, on_nodes, on_goal * weights)
+        blocks = ca.horzsplit(bent, size)
+        blocks[-1] += pieces.end_curvature(last, load, on_end)
+        hessian = ca.diagcat(*blocks, ca.MX(_EXCESS, _EXCESS))
+        self._options: dict[str, Any] = {
+            **IPOPT_OPTIONS,
+            **_MUMPS,
+            "ipopt.tol": _TOLERANCE,
+            "ipopt.max_iter": _ITERATIONS_MAX,
+            "grad_f": ca.Function("grad_f", [flat, load], [goal, gradient]),
+            "jac_g": ca.Function("jac_g", [flat, load], [constraints, jacobian]),
+            "hess_lag": ca.Function("hess_lag", [flat, load, on_goal, on_rows], [hessian]),
+        }
+        self._nlp = {"x": flat, "p": load, "f": goal, "g": constraints}
 
     def solve(self, start: FloatArray | Found, bounds: Bounds) -> Found:
         """The push-off of least cost; several threads may search at once.
@@ -217,50 +257,6 @@ class _Pieces:
             "end_curvature": ([*given, on_end], ca.triu(end_bent)),
         }
         return cls(**{name: ca.Function(name, i, [o]) for name, (i, o) in functions.items()})
-
-
-def _posed(node: Node, rows: _Rows) -> tuple[dict[str, ca.MX], dict[str, Any]]:
-    """The program, and IPOPT's options with the derivatives among them."""
-    pieces, size, weights = _Pieces.of(node), node.layout.size, ca.DM(np.array(WEIGHTS)).T
-    flat, load = ca.MX.sym("x", size * NODES + _EXCESS), ca.MX.sym("load", node.load.numel())
-    z, excess = ca.reshape(flat[:-_EXCESS], size, NODES), flat[-_EXCESS:]
-    last = z[:, -1]
-
-    goal = ca.dot(weights, pieces.cost.map(NODES)(z, load)) + _PENALTY * ca.sum1(excess)
-    climbs = pieces.cost_slope.map(NODES)(z, load) * ca.repmat(weights, size, 1)
-    # IPOPT takes the gradient as dense, whatever its sparsity.
-    gradient = ca.densify(ca.vertcat(ca.vec(climbs), _PENALTY * ca.DM.ones(_EXCESS)))
-
-    kept = rows.selection @ ca.vec(pieces.rows.map(NODES)(z, load)) + rows.overdrawn @ excess
-    constraints = ca.vertcat(rows.defects @ flat, kept, pieces.end(last, load))
-    slopes = ca.diagcat(*ca.horzsplit(pieces.slope.map(NODES)(z, load), size))
-    end_slope = pieces.end_slope(last, load)
-    before, after = (ca.MX(end_slope.size1(), count) for count in (size * (NODES - 1), _EXCESS))
-    jacobian = ca.vertcat(
-        rows.defects,
-        ca.horzcat(rows.selection @ slopes, rows.overdrawn),
-        ca.horzcat(before, end_slope, after),
-    )
-
-    on_goal, on_rows = ca.MX.sym("on_goal"), ca.MX.sym("on_rows", constraints.numel())
-    _, on_kept, on_end = ca.vertsplit(
-        on_rows, [0, rows.defects.size1(), len(rows.lower), constraints.numel()]
-    )
-    on_nodes = ca.reshape(rows.selection.T @ on_kept, -1, NODES)
-    bent = pieces.curvature.map(NODES)(z, load, on_nodes, on_goal * weights)
-    blocks = ca.horzsplit(bent, size)
-    blocks[-1] += pieces.end_curvature(last, load, on_end)
-    hessian = ca.diagcat(*blocks, ca.MX(_EXCESS, _EXCESS))
-    options: dict[str, Any] = {
-        **IPOPT_OPTIONS,
-        **_MUMPS,
-        "ipopt.tol": _TOLERANCE,
-        "ipopt.max_iter": _ITERATIONS_MAX,
-        "grad_f": ca.Function("grad_f", [flat, load], [goal, gradient]),
-        "jac_g": ca.Function("jac_g", [flat, load], [constraints, jacobian]),
-        "hess_lag": ca.Function("hess_lag", [flat, load, on_goal, on_rows], [hessian]),
-    }
-    return {"x": flat, "p": load, "f": goal, "g": constraints}, options
 
 
 def _defects(layout: Layout) -> ca.DM:

@@ -204,8 +204,34 @@ class Storage:
         """
         self.folder = folder
         try:
+            recorded = None
             if folder.exists():
-                self._check(identity, force=force)
+                if not folder.is_dir():
+                    hint = "choose another name with -o"
+                    raise OutputError(f"{folder}: is not a folder", hint=hint)
+                with suppress(OSError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+                    content = (folder / CAMPAIGN_FILE).read_bytes()
+                    recorded = msgspec.json.decode(content, type=Identity)
+                if recorded is None and any(folder.iterdir()):
+                    raise OutputError(
+                        f"{folder}: exists, and holds no samples of ocs-design", hint=_HINT
+                    )
+            if recorded is not None and recorded.key != identity.key:
+                if not force:
+                    differs = [
+                        name
+                        for name in recorded.__dataclass_fields__
+                        if getattr(recorded, name) != getattr(identity, name)
+                    ]
+                    raise OutputError(
+                        f"{folder}: holds samples of another campaign; not the same: "
+                        f"{', '.join(differs)}",
+                        hint=_HINT,
+                    )
+                # What was made of the samples goes first: it is not to stand beside those of
+                # another.
+                (folder / RESULT_FILE).unlink(missing_ok=True)
+                shutil.rmtree(folder / BLOCKS, ignore_errors=True)
             (folder / BLOCKS).mkdir(parents=True, exist_ok=True)
             with whole_file(folder / CAMPAIGN_FILE) as file:
                 file.write_bytes(to_json(identity))
@@ -235,32 +261,6 @@ class Storage:
             outcomes.save(self._path(block))
         except OSError as error:
             raise output_error(error, self._path(block)) from error
-
-    def _check(self, identity: Identity, *, force: bool) -> None:
-        """Whether this folder may be added to; other samples are thrown away if that is wanted."""
-        folder = self.folder
-        if not folder.is_dir():
-            raise OutputError(f"{folder}: is not a folder", hint="choose another name with -o")
-        recorded = None
-        with suppress(OSError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
-            recorded = msgspec.json.decode((folder / CAMPAIGN_FILE).read_bytes(), type=Identity)
-        if recorded is None and any(folder.iterdir()):
-            raise OutputError(f"{folder}: exists, and holds no samples of ocs-design", hint=_HINT)
-        if recorded is None or recorded.key == identity.key:
-            return
-        if not force:
-            differs = [
-                name
-                for name in recorded.__dataclass_fields__
-                if getattr(recorded, name) != getattr(identity, name)
-            ]
-            raise OutputError(
-                f"{folder}: holds samples of another campaign; not the same: {', '.join(differs)}",
-                hint=_HINT,
-            )
-        # What was made of the samples goes first: it is not to stand beside those of another.
-        (folder / RESULT_FILE).unlink(missing_ok=True)
-        shutil.rmtree(folder / BLOCKS, ignore_errors=True)
 
     def _path(self, block: Block) -> Path:
         return self.folder / BLOCKS / f"{block.start:07d}.npz"

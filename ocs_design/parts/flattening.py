@@ -44,26 +44,21 @@ def flat_outline(outline: Outline, sections: int = SECTIONS) -> FloatArray:
         count = arc_sections(radius, sections)
         ring = ring_points(2.0 * pi * np.arange(count) / count)
         return np.asarray((start + end) / 2.0 + radius * circle_radius_factor(count) * ring)
-    return np.concatenate(
-        [
-            start[None] if bulge == 0.0 else _flat_arc(start, Arc.of(start, end, bulge), sections)
-            for start, end, bulge in outline.edges()
-        ]
-    )
-
-
-def _flat_arc(start: FloatArray, arc: Arc, sections: int) -> FloatArray:
-    """All corners but the end's; the ends stay, those between move out for the arc's own area.
-
-    With m chords of the angle d and the radius rho, those in between at k rho:
-    (m - 2) k^2 sin d + 2 k sin d = m d.
-    """
-    chords = max(2, ceil(abs(arc.half_angle) * arc_sections(arc.radius, sections) / pi))
-    step = 2.0 * arc.half_angle / chords
-    target = chords * step / sin(step)
-    factor = target / (1.0 + sqrt(1.0 + (chords - 2.0) * target))
-    angles = frozen(step * np.arange(1, chords) - arc.half_angle)
-    return np.concatenate([start[None], arc.points(angles, factor * arc.radius)])
+    corners = []
+    for start, end, bulge in outline.edges():
+        corners.append(start[None])
+        if bulge != 0.0:
+            # Both ends stay, and the corners between them move out for the arc's own area. With m
+            # chords of the angle d and the radius rho, those in between at k rho:
+            # (m - 2) k^2 sin d + 2 k sin d = m d.
+            arc = Arc.of(start, end, bulge)
+            chords = max(2, ceil(abs(arc.half_angle) * arc_sections(arc.radius, sections) / pi))
+            step = 2.0 * arc.half_angle / chords
+            target = chords * step / sin(step)
+            factor = target / (1.0 + sqrt(1.0 + (chords - 2.0) * target))
+            angles = frozen(step * np.arange(1, chords) - arc.half_angle)
+            corners.append(arc.points(angles, factor * arc.radius))
+    return np.concatenate(corners)
 
 
 def ring_points(angles: FloatArray) -> FloatArray:

@@ -259,7 +259,13 @@ def write_controller(
     own = list(worlds.values())
     targets = targets_of(own, period)
     function, constants, columns = law_function(own, list(chain(*targets)), period)
-    counts, identifiers = [len(each) for each in targets], _identifiers(worlds)
+    counts = [len(each) for each in targets]
+    plain = [re.sub(r"[^A-Z0-9]+", "_", maneuver.upper()).strip("_") for maneuver in worlds]
+    # A constant in C for each maneuver.
+    identifiers = [
+        f"OCS_{each}" if each and plain.count(each) == 1 else f"OCS_{each or 'MANEUVER'}_{i}"
+        for i, each in enumerate(plain)
+    ]
     values = {
         "name": name,
         "wheels": str(function.size1_out(0)),
@@ -298,15 +304,6 @@ _FILES = {
     "controller/README.md": "README.md",
 }
 """Templates, and the files that they become."""
-
-
-def _identifiers(names: Iterable[str]) -> list[str]:
-    """A constant in C for each maneuver."""
-    plain = [re.sub(r"[^A-Z0-9]+", "_", name.upper()).strip("_") for name in names]
-    return [
-        f"OCS_{each}" if each and plain.count(each) == 1 else f"OCS_{each or 'MANEUVER'}_{i}"
-        for i, each in enumerate(plain)
-    ]
 
 
 def _rows(rows: FloatArray) -> str:

@@ -7,7 +7,6 @@ import numpy as np
 
 from ocs_design.common.records import recorded
 from ocs_design.common.units import rpm
-from ocs_design.device.device import Device
 from ocs_design.device.joints import SHAFT_JOINT, joints_of
 from ocs_design.device.records.device import MarginRecord
 from ocs_design.parts.joints import SERVICE, Margin
@@ -24,7 +23,7 @@ from ocs_design.sizing.margins import (
     worst,
 )
 from ocs_design.sizing.motion import DrivenWheel, Motion
-from ocs_design.sizing.sized import Choice, Designed
+from ocs_design.sizing.sized import Designed
 
 if TYPE_CHECKING:
     from ocs_design.sizing.trajectory.plans import Reference
@@ -46,12 +45,15 @@ def record_margins(
     if designed.choice is None:
         found = tuple(_without_motor(resolved, designed, runs))
     else:
-        motions = (*_planned(plans), *_flown(runs))
-        braked = tuple(_braked(resolved, designed, plans))
-        found = (
-            *_of_drive(designed.choice, designed.device, resolved, motions, braked),
-            *joints_of(designed.device),
+        problem = designed.choice.problem
+        drive = DrivenWheel.of(designed.choice.chosen, problem.supply.told, problem.wheel_speed_max)
+        maneuvers = {maneuver.name: maneuver for maneuver in resolved.requirement.maneuvers}
+        driven = (
+            (name, margins(motion, designed.device.as_flown(maneuvers[name]).axes, drive))
+            for name, motion in (*_planned(plans), *_flown(runs))
         )
+        braked = _braked(resolved, designed, plans)
+        found = (*worst((*driven, *braked)), *joints_of(designed.device))
     wheel, envelope = designed.device.flywheel, resolved.envelope
     room = (
         Margin("outer radius", wheel.outer_radius, envelope.outer_radius_max, "m"),
@@ -98,23 +100,6 @@ def _flown(runs: Sequence[Run]) -> Iterator[tuple[str, Motion]]:
                         series.rate[part],
                     ),
                 )
-
-
-def _of_drive(
-    choice: Choice,
-    device: Device,
-    resolved: Resolved,
-    motions: Sequence[tuple[str, Motion]],
-    braked: Sequence[tuple[str, Sequence[Margin]]],
-) -> tuple[Margin, ...]:
-    problem = choice.problem
-    wheel = DrivenWheel.of(choice.chosen, problem.supply.told, problem.wheel_speed_max)
-    maneuvers = {maneuver.name: maneuver for maneuver in resolved.requirement.maneuvers}
-    driven = (
-        (name, margins(motion, device.as_flown(maneuvers[name]).axes, wheel))
-        for name, motion in motions
-    )
-    return worst((*driven, *braked))
 
 
 def _braked(

@@ -90,7 +90,11 @@ def within_supply(
         ends = factor[..., None] * gain * torque**2 + shaft
         share = np.where(ends > 0.0, 1.0 / efficiency, efficiency)
         square = heat + (share * gain * torque**2).sum(axis=-1)
-        factor = np.minimum(factor, _reaching(limit, square, (share * shaft).sum(axis=-1)))
+        linear = (share * shaft).sum(axis=-1)
+        # Factor f up to which `square f^2 + linear f` is within the limit; inf: all.
+        depth = linear + np.sqrt(linear**2 + 4.0 * square * limit)
+        most = np.where(depth > 0.0, 2.0 * limit / np.where(depth > 0.0, depth, 1.0), np.inf)
+        factor = np.minimum(factor, most)
     share = np.where(shaft > 0.0, 1.0 / efficiency, efficiency)
     given = (share * shaft).sum(axis=-1)
     # Beyond the larger root, more torque burns what it brakes in the windings.
@@ -99,12 +103,6 @@ def within_supply(
     least = 2.0 * limit / np.where(feeds, root - given, 1.0)
     scaled: FloatArray = torque * np.where(feeds, np.minimum(factor, least), factor)[..., None]
     return scaled
-
-
-def _reaching(limit: FloatArray, square: FloatArray, linear: FloatArray) -> FloatArray:
-    """Factor f up to which `square f^2 + linear f` is within a limit; inf: all."""
-    depth = linear + np.sqrt(linear**2 + 4.0 * square * limit)
-    return np.where(depth > 0.0, 2.0 * limit / np.where(depth > 0.0, depth, 1.0), np.inf)
 
 
 _ENDLESS = 1e100

@@ -248,25 +248,23 @@ def fly(worlds: Sequence[World], options: Options, progress: Progress | None = N
             and flight.metrics.momentum_error > MOMENTUM_GATE
             and not flight.objection
         ]
-        again = [_finer(flights[i].world, worlds[i].note, error) for i, error in coarse]
+        again = []
+        for index, error in coarse:
+            world = flights[index].world
+            model, drives = copy(world.model), world.imperfections
+            model.opt.timestep /= 2.0
+            step = 1e3 * model.opt.timestep
+            why = (
+                f"flown again in steps of {step:g} ms: at {2.0 * step:g} ms its angular momentum "
+                f"was off by {error:.1e}"
+            )
+            if drives is not None:
+                drives = replace(drives, delay=2 * drives.delay)
+            note = "; ".join(filter(None, (worlds[index].note, why)))
+            again.append(replace(world, model=model, imperfections=drives, note=note))
         for (index, _error), flight in zip(coarse, _flown(again, options), strict=True):
             flights[index] = flight
     return flights
-
-
-def _finer(world: World, note: str, error: float) -> World:
-    """World with half the step, and its own note with what that is for."""
-    model, drives = copy(world.model), world.imperfections
-    model.opt.timestep /= 2.0
-    step = 1e3 * model.opt.timestep
-    why = (
-        f"flown again in steps of {step:g} ms: at {2.0 * step:g} ms its angular momentum was off "
-        f"by {error:.1e}"
-    )
-    if drives is not None:
-        drives = replace(drives, delay=2 * drives.delay)
-    note = "; ".join(filter(None, (note, why)))
-    return replace(world, model=model, imperfections=drives, note=note)
 
 
 def _flown(

@@ -1,6 +1,6 @@
 """What keeps a device from being built as it stands, gathered from all that was looked at."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 from ocs_design.actuation.motor import Motor, build_gaps
 from ocs_design.device.joints import FLOOR_SHOCK, FOOT_SHOCK, RIM_JOINT, SHAFT_JOINT
@@ -89,7 +89,15 @@ def buildable(
                 "state its figures in a file of your own (--motors FILE)",
             )
         )
-    points += _joint_points(joints)
+    for joint in joints:
+        cure = _JOINT_CURES[SHAFT_JOINT if joint.name.startswith(SHAFT_JOINT) else RIM_JOINT]
+        if EPOXY in joint.note:
+            cure = _BOND_CURE
+        if joint.capacity is None:
+            points.append(OpenPoint(what=f"{joint.name}: {joint.note}", cure=cure))
+        elif joint.factor is not None and joint.factor < 1.0 and joint.name not in _SPARE:
+            asked, there = (quantity(each, joint.unit) for each in (joint.demand, joint.capacity))
+            points.append(OpenPoint(what=f"{joint.name}: {asked} asked, {there} held", cure=cure))
     points += () if mounting is None else mounting_open_points(mounting)
     for margin in margins:
         short = margin.margin is not None and margin.margin < 1.0 - TOLERANCE
@@ -103,16 +111,3 @@ def buildable(
     if not missing and (mounting is None or not mounting.known):
         return Buildable(yes=None, open=tuple(points))
     return Buildable(yes=not points, open=tuple(points))
-
-
-def _joint_points(joints: Sequence[Margin]) -> Iterator[OpenPoint]:
-    """Joints that do not hold, or of which it is not known."""
-    for joint in joints:
-        cure = _JOINT_CURES[SHAFT_JOINT if joint.name.startswith(SHAFT_JOINT) else RIM_JOINT]
-        if EPOXY in joint.note:
-            cure = _BOND_CURE
-        if joint.capacity is None:
-            yield OpenPoint(what=f"{joint.name}: {joint.note}", cure=cure)
-        elif joint.factor is not None and joint.factor < 1.0 and joint.name not in _SPARE:
-            asked, there = (quantity(each, joint.unit) for each in (joint.demand, joint.capacity))
-            yield OpenPoint(what=f"{joint.name}: {asked} asked, {there} held", cure=cure)

@@ -52,7 +52,23 @@ def inspect_robot(
         specification, package_paths=package_paths, strict=strict, sure=False
     )
     if picture is not None:
-        _draw(robot, picture)
+        if robot.recognition is None:
+            raise UsageError("a robot by hand has nothing to draw", hint="leave out --picture")
+        # As recognised or, where that is not clear, in its likeliest reading.
+        asked = robot.recognition.likely
+        shown = asked[0] if asked else robot.recognition.reading
+        words = [
+            f"{robot.name}: trunk {shown.trunk}, {len(shown.legs)} legs, "
+            f"confidence {shown.confidence:.0%}, posture {robot.posture_name}",
+            *(f"or {each.options} ({each.confidence:.0%})" for each in asked[1:]),
+        ]
+        try:
+            picture.write_text(stick_figure(robot, shown.legs, words), encoding="utf-8")
+        except OSError as error:
+            raise OutputError(
+                f"cannot write {picture}: {error.strerror or error}",
+                hint="name a folder that exists",
+            ) from error
     roll, pitch = heading_drift(robot.inertia)
     return Inspection(
         schema_version=SCHEMA_VERSION,
@@ -103,25 +119,6 @@ def _recorded(robot: Robot, recognition: Recognition) -> RecognitionRecord:
             for each in recognition.likely
         ),
     )
-
-
-def _draw(robot: Robot, picture: Path) -> None:
-    """Draw the robot as recognised or, where that is not clear, in its likeliest reading."""
-    if robot.recognition is None:
-        raise UsageError("a robot by hand has nothing to draw", hint="leave out --picture")
-    asked = robot.recognition.likely
-    shown = asked[0] if asked else robot.recognition.reading
-    words = [
-        f"{robot.name}: trunk {shown.trunk}, {len(shown.legs)} legs, "
-        f"confidence {shown.confidence:.0%}, posture {robot.posture_name}",
-        *(f"or {each.options} ({each.confidence:.0%})" for each in asked[1:]),
-    ]
-    try:
-        picture.write_text(stick_figure(robot, shown.legs, words), encoding="utf-8")
-    except OSError as error:
-        raise OutputError(
-            f"cannot write {picture}: {error.strerror or error}", hint="name a folder that exists"
-        ) from error
 
 
 def posture_lines(robot: Robot) -> tuple[PostureLine, ...]:
