@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 from math import sqrt
 
-from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import DIRECT, Face, GearRoom, Mounting
 from ocs_design.catalogue.motors import known_motors
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
@@ -46,7 +45,25 @@ def drive_notes(device: Device) -> tuple[str, ...]:
         return ()
     motor, foot = device.motor, foot_of(device)
     if motor.gear != DIRECT.name:
-        return (*_geared(motor), *_apart(device, foot))
+        # Dimensions that would have to be known to hold motor and gear.
+        room = motor.gear_room or GearRoom()
+        above = format_quantity(room.offset, "mm")
+        beside = f", its axis {above} above the wheel's" if room.offset else ""
+        unknown = "shafts" if room.depth else "room and threads"
+        known = known_motors(None).get(motor.name)
+        stator = None if known is None or known.mounting is None else known.mounting.stator
+        threads = "" if stator is None else f"; the motor's threads are {stator}"
+        stands = (
+            f"the motor stands {format_quantity(room.depth, 'mm')} behind the plate{beside}, where "
+            "it is counted and shown"
+            if room.depth
+            else "the motor is counted right behind the plate"
+        )
+        held = (
+            f"how motor and gear are held is not designed, because the gear's {unknown} are not "
+            f"in the catalogue: {stands}; {_UNDRILLED}{threads}"
+        )
+        return (held, *_apart(device, foot))
     mounting = motor.mounting or Mounting()
     return (
         *_held(mounting, device),
@@ -54,28 +71,6 @@ def drive_notes(device: Device) -> tuple[str, ...]:
         *_driven(mounting, device),
         *_apart(device, foot),
         *_shaken(device, foot),
-    )
-
-
-def _geared(motor: Drive) -> Iterator[str]:
-    """Dimensions that would have to be known to hold motor and gear."""
-    room = motor.gear_room or GearRoom()
-    beside = (
-        f", its axis {format_quantity(room.offset, 'mm')} above the wheel's" if room.offset else ""
-    )
-    unknown = "shafts" if room.depth else "room and threads"
-    known = known_motors(None).get(motor.name)
-    stator = None if known is None or known.mounting is None else known.mounting.stator
-    threads = "" if stator is None else f"; the motor's threads are {stator}"
-    stands = (
-        f"the motor stands {format_quantity(room.depth, 'mm')} behind the plate{beside}, where it "
-        "is counted and shown"
-        if room.depth
-        else "the motor is counted right behind the plate"
-    )
-    yield (
-        f"how motor and gear are held is not designed, because the gear's {unknown} are not in the "
-        f"catalogue: {stands}; {_UNDRILLED}{threads}"
     )
 
 

@@ -132,7 +132,7 @@ def bill_rows(device: Device, margins: Sequence[MarginRecord] = ()) -> Sequence[
         }
         rows += [_screws(each, of) for each, of in held.items()]
     plate = () if device.plate is None else _plate_rows(device.plate)
-    return [*rows, *plate, *_pedestal_rows(device), *_electrics(device, margins), *_used_up(device)]
+    return [*rows, *plate, *_pedestal_rows(device), *_unweighed_rows(device, margins)]
 
 
 def _pedestal_rows(device: Device) -> Iterator[BillRow]:
@@ -190,8 +190,8 @@ def _screws(held: Fastening, modules: int) -> BillRow:
     return BillRow(name, count, "steel", "", held.screw.mass(held.length), held.purpose, source)
 
 
-def _electrics(device: Device, margins: Sequence[MarginRecord]) -> Iterator[BillRow]:
-    """Controllers and battery, which are not chosen."""
+def _unweighed_rows(device: Device, margins: Sequence[MarginRecord]) -> Iterator[BillRow]:
+    """Controllers and battery, which are not chosen, and what is used up in the assembly."""
     ratings, left_out = Electrics(device, margins), "of your choice; not in the device's mass"
     controller, battery = ratings.controller(), ratings.battery()
     if controller:
@@ -203,10 +203,7 @@ def _electrics(device: Device, margins: Sequence[MarginRecord]) -> Iterator[Bill
         yield BillRow("battery", 1, "", "", 0.0, f"{battery}; {left_out}")
         braking = "switches on above the full battery, below the controllers' limit"
         yield BillRow("brake resistor with switch", 1, "", "", 0.0, f"{braking}; {left_out}")
-
-
-def _used_up(device: Device) -> Iterator[BillRow]:
-    """What is used up in putting it together; wheels alone are not put together."""
+    # Wheels alone are not put together.
     if device.carrier.mass == 0.0:
         return
     fixture = ring_fixture(device)

@@ -21,7 +21,7 @@ from ocs_design.export.drawing.sheet import Area, Circle, Line, Polyline, Text
 from ocs_design.export.drilling import CHECK, Drilling, bounds, drilling_of
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.part import Part
-from ocs_design.parts.solids import Prism, Revolution
+from ocs_design.parts.solids import Prism
 
 MILLIMETRES = 1000.0
 
@@ -69,7 +69,17 @@ def dxf_text(piece: Part) -> str:
             edges.append(body.outline.points)
             _add_outline(space, MILLIMETRES * edges[-1], body.outline.bulges, OUTLINE)
         else:
-            _add_turned(space, body)
+            # Its circles, and half its section beside them, with their centre lines.
+            radii, heights = MILLIMETRES * body.profile.T
+            inner, outer = float(radii.min()), float(radii.max())
+            for radius in (outer, inner) if inner > 0.0 else (outer,):
+                space.add_circle((0.0, 0.0), radius, dxfattribs={"layer": OUTLINE})
+            start, beyond = outer + GAP - float(heights.min()), GAP / 4.0
+            section = np.column_stack([start + heights, radii])
+            _add_outline(space, section, np.zeros(len(section)), SECTION)
+            left, right = section[:, 0].min() - beyond, section[:, 0].max() + beyond
+            _add_axes(space, outer + beyond, outer + beyond)
+            space.add_line((float(left), 0.0), (float(right), 0.0), dxfattribs={"layer": AXES})
     if edges:
         across, along = MILLIMETRES * np.abs(np.concatenate(edges)).max(axis=0) + GAP / 4.0
         _add_axes(space, float(across), float(along) + float(across))
@@ -135,20 +145,6 @@ def _add_axes(space: Modelspace, across: float, along: float) -> None:
     """Add centre lines through the origin, so far to both sides [mm]."""
     for x, y in ((across, 0.0), (0.0, along)):
         space.add_line((-x, -y), (x, y), dxfattribs={"layer": AXES})
-
-
-def _add_turned(space: Modelspace, turned: Revolution) -> None:
-    """Add circles and half the section of a body of revolution, with its centre lines."""
-    radii, heights = MILLIMETRES * turned.profile.T
-    inner, outer = float(radii.min()), float(radii.max())
-    for radius in (outer, inner) if inner > 0.0 else (outer,):
-        space.add_circle((0.0, 0.0), radius, dxfattribs={"layer": OUTLINE})
-    start, beyond = outer + GAP - float(heights.min()), GAP / 4.0
-    section = np.column_stack([start + heights, radii])
-    _add_outline(space, section, np.zeros(len(section)), SECTION)
-    left, right = section[:, 0].min() - beyond, section[:, 0].max() + beyond
-    _add_axes(space, outer + beyond, outer + beyond)
-    space.add_line((float(left), 0.0), (float(right), 0.0), dxfattribs={"layer": AXES})
 
 
 def _add_outline(space: Modelspace, points: FloatArray, bulges: FloatArray, layer: str) -> None:

@@ -71,13 +71,30 @@ class _Scene:
         bodies = self._bodies_on(0, Placement(site.xmat.reshape(3, 3), site.xpos))
         name = self._model.names[: self._model.names.index(b"\0")].decode("utf-8", "replace")
         root = self._add_node(name, _UPRIGHT, bodies)
+        materials = []
+        for color in self._materials:
+            # glTF mixes light, not the codes of sRGB (IEC 61966-2-1).
+            red, green, blue = (
+                part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
+                for part in color[:3]
+            )
+            look = {
+                "baseColorFactor": [red, green, blue, color[3]],
+                "metallicFactor": 0.0,
+                "roughnessFactor": 0.7,
+            }
+            # Seen from both sides: robots' meshes are often turned inside out.
+            material: dict[str, object] = {"pbrMetallicRoughness": look, "doubleSided": True}
+            if color[3] < 1.0:
+                material["alphaMode"] = "BLEND"
+            materials.append(material)
         document = {
             "asset": {"version": "2.0", "generator": "ocs-design"},
             "scene": 0,
             "scenes": [{"nodes": [root]}],
             "nodes": self._nodes,
             "meshes": self._meshes,
-            "materials": [_material(color) for color in self._materials],
+            "materials": materials,
             "accessors": self._accessors,
             "bufferViews": self._views,
             "buffers": [{"byteLength": len(self._buffer)}],
@@ -114,7 +131,11 @@ class _Scene:
             self._surfaces[key] = self._add_surface(found)
         surface, name = self._surfaces[key], model.geom(geom).name or f"geom{geom}"
         if (surface, color) not in self._mesh_of:
-            self._mesh_of[surface, color] = self._add_mesh(name, surface, color)
+            material = self._materials.setdefault(color, len(self._materials))
+            points, faces = surface
+            primitive = {"attributes": {"POSITION": points}, "indices": faces, "material": material}
+            self._mesh_of[surface, color] = len(self._meshes)
+            self._meshes.append({"name": name, "primitives": [primitive]})
         rotation = rotation_from_quaternion(model.geom_quat[geom])
         place = Placement(rotation, model.geom_pos[geom])
         return self._add_node(name, place, mesh=self._mesh_of[surface, color])
@@ -129,14 +150,6 @@ class _Scene:
         self._accessors[points]["max"] = vertices.max(axis=0).tolist()
         kind = _UINT16 if small else _UINT32
         return points, self._accessor(faces.tobytes(), _INDICES, kind, faces.size, "SCALAR")
-
-    def _add_mesh(self, name: str, surface: tuple[int, int], color: Color) -> int:
-        """Add a surface in one colour."""
-        material = self._materials.setdefault(color, len(self._materials))
-        points, faces = surface
-        primitive = {"attributes": {"POSITION": points}, "indices": faces, "material": material}
-        self._meshes.append({"name": name, "primitives": [primitive]})
-        return len(self._meshes) - 1
 
     def _add_node(
         self, name: str, place: Placement, children: Sequence[int] = (), mesh: int | None = None
@@ -163,21 +176,6 @@ class _Scene:
         entry = {"bufferView": number, "componentType": kind, "count": count, "type": shape}
         self._accessors.append(entry)
         return number
-
-
-def _material(color: Color) -> Mapping[str, object]:
-    """Material that is seen from both sides: robots' meshes are often turned inside out."""
-    # glTF mixes light, not the codes of sRGB (IEC 61966-2-1).
-    red, green, blue = (
-        part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in color[:3]
-    )
-    look = {
-        "baseColorFactor": [red, green, blue, color[3]],
-        "metallicFactor": 0.0,
-        "roughnessFactor": 0.7,
-    }
-    material = {"pbrMetallicRoughness": look, "doubleSided": True}
-    return material if color[3] >= 1.0 else {**material, "alphaMode": "BLEND"}
 
 
 def _chunk(kind: bytes, content: bytes, filler: bytes) -> bytes:

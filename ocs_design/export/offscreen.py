@@ -96,9 +96,28 @@ def sheet_of_views(model: mujoco.MjModel, qpos: FloatArray) -> NDArray[np.uint8]
     mujoco.mj_forward(model, data)
     box = shown_box(model, data)
     renderer = mujoco.Renderer(model, HEIGHT * OVERSAMPLING, WIDTH * OVERSAMPLING)
-    rows = [[_image(renderer, data, _camera(model, view, box)) for view in row] for row in VIEWS]
+    rows = []
+    for row in VIEWS:
+        images = []
+        for each in row:
+            # Before white, whatever the model has behind it, with a line around each geom.
+            renderer.update_scene(data, _camera(model, each, box))
+            image = renderer.render()
+            renderer.enable_segmentation_rendering()
+            geoms = renderer.render()[:, :, 0]
+            renderer.disable_segmentation_rendering()
+            image[geoms < 0] = WHITE
+            image[:, 1:][geoms[:, 1:] != geoms[:, :-1]] = EDGE
+            image[1:][geoms[1:] != geoms[:-1]] = EDGE
+            # Each pixel is the mean of those that it was drawn with.
+            k = OVERSAMPLING
+            total = np.zeros((HEIGHT, WIDTH, 3), dtype=np.uint16)
+            for i, j in product(range(k), repeat=2):
+                total += image[i::k, j::k]
+            images.append(np.asarray(total // k**2, dtype=np.uint8))
+        rows.append(np.concatenate(images, axis=1))
     renderer.close()
-    return np.concatenate([np.concatenate(row, axis=1) for row in rows])
+    return np.concatenate(rows)
 
 
 def shown_box(model: mujoco.MjModel, data: mujoco.MjData) -> Box:
@@ -139,26 +158,6 @@ def _camera(model: mujoco.MjModel, view: View, box: Box) -> mujoco.MjvCamera:
     camera.distance = float(np.max(away))
     model.vis.global_.fovy = FIELD_OF_VIEW
     return camera
-
-
-def _image(
-    renderer: mujoco.Renderer, data: mujoco.MjData, camera: mujoco.MjvCamera
-) -> NDArray[np.uint8]:
-    """Image before white, whatever the model has behind it, with a line around each geom."""
-    renderer.update_scene(data, camera)
-    image = renderer.render()
-    renderer.enable_segmentation_rendering()
-    geoms = renderer.render()[:, :, 0]
-    renderer.disable_segmentation_rendering()
-    image[geoms < 0] = WHITE
-    image[:, 1:][geoms[:, 1:] != geoms[:, :-1]] = EDGE
-    image[1:][geoms[1:] != geoms[:-1]] = EDGE
-    # Each pixel is the mean of those that it was drawn with.
-    k = OVERSAMPLING
-    total = np.zeros((HEIGHT, WIDTH, 3), dtype=np.uint16)
-    for row, column in product(range(k), repeat=2):
-        total += image[row::k, column::k]
-    return np.asarray(total // k**2, dtype=np.uint8)
 
 
 def frames(model: mujoco.MjModel, qpos: FloatArray) -> NDArray[np.uint8]:

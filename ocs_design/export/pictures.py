@@ -1,6 +1,6 @@
 """Pictures of a design as PNG: the wheel, a module, and the robot with its device."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TypeAlias
 
@@ -58,7 +58,20 @@ def draw_pictures(device: Device, robot: Robot, model: RobotModel) -> dict[str, 
     turning = list(zip(pieces, (STEEL, ALUMINIUM), strict=False))
     takes = {"wheel": parts_take(turning)}
     if device.carrier.mass > 0.0:
-        takes["module"] = parts_take([*turning, *_carrier(device)])
+        # Motor and gear, where their sizes are known, and what is printed around them.
+        foot, (drum, lid, base, *_) = foot_of(device), printed_parts(device)
+        colors, shown = {"motor": MOTOR, "gear": GEAR}, turning.copy()
+        for solid in drive_solids(device):
+            if solid.name in colors:
+                mesh = solid_mesh(hollow_cylinder(0.0, solid.radius, solid.low, solid.high))
+                above = Placement(np.eye(3), np.array([0.0, -solid.up, 0.0]))
+                shown.append((mesh.placed(above), colors[solid.name]))
+        shown.append((part_mesh(base).placed(foot.placement), PRINT))
+        cage = motor_mount(device).cage
+        if cage is not None:
+            shown.append((part_mesh(cage_part(cage)).placed(cage_placement(foot, cage)), PRINT))
+        shown += [(part_mesh(part), SHELL) for part in (drum, lid)]
+        takes["module"] = parts_take(shown)
     qpos = np.array(model.compiled.qpos0)
     for joint, value in robot.posture.items():
         qpos[model.compiled.joint(joint).qposadr[0]] = value
@@ -91,19 +104,3 @@ def parts_take(shown: Sequence[Shown]) -> Take:
         body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, rgba=color)
     model = spec.compile()
     return Take(model, model.qpos0[None])
-
-
-def _carrier(device: Device) -> Iterator[Shown]:
-    """Motor and gear, where their sizes are known, and what is printed around them."""
-    foot, (drum, lid, base, *_) = foot_of(device), printed_parts(device)
-    colors = {"motor": MOTOR, "gear": GEAR}
-    for solid in drive_solids(device):
-        if solid.name in colors:
-            mesh = solid_mesh(hollow_cylinder(0.0, solid.radius, solid.low, solid.high))
-            above = Placement(np.eye(3), np.array([0.0, -solid.up, 0.0]))
-            yield (mesh.placed(above), colors[solid.name])
-    yield (part_mesh(base).placed(foot.placement), PRINT)
-    cage = motor_mount(device).cage
-    if cage is not None:
-        yield (part_mesh(cage_part(cage)).placed(cage_placement(foot, cage)), PRINT)
-    yield from ((part_mesh(part), SHELL) for part in (drum, lid))

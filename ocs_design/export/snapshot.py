@@ -137,7 +137,15 @@ def _nearest(plane: FloatArray, depth: FloatArray) -> NDArray[np.int64]:
         triangle, y, first, last = covered_rows(some, 0.5)
         left, right = (np.ceil(end - 0.5).astype(np.int64) for end in (first, last))
         count = np.maximum(right - left, 0)
-        start, along = _nearness(some, deep, triangle, y)
+        # Nearness of each row at the centre of its pixel 0, and its change per pixel.
+        b, c = some[:, 1] - some[:, 0], some[:, 2] - some[:, 0]
+        db, dc = deep[:, 1] - deep[:, 0], deep[:, 2] - deep[:, 0]
+        area = b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]
+        scale = np.divide(1.0, area, out=np.zeros_like(area), where=area != 0.0)
+        slope = scale * (db * c[:, 1] - dc * b[:, 1])
+        across = scale * (dc * b[:, 0] - db * c[:, 0])
+        corner = deep[:, 0] + slope * (0.5 - some[:, 0, 0]) - across * some[:, 0, 1]
+        start, along = corner[triangle] + across[triangle] * (y + 0.5), slope[triangle]
         # The upper part of a number is how near, the lower which triangle: the largest one wins.
         near = np.repeat(step * (start + along * left - depth.min()), count)
         near += np.repeat(step * along, count) * ranges(np.zeros_like(count), count)
@@ -146,17 +154,3 @@ def _nearest(plane: FloatArray, depth: FloatArray) -> NDArray[np.int64]:
         np.maximum.at(shown, ranges(y * width + left, count), number)
     np.bitwise_and(shown, (1 << _BITS) - 1, out=shown, where=shown >= 0)
     return shown.reshape(height, width)
-
-
-def _nearness(
-    plane: FloatArray, depth: FloatArray, triangle: NDArray[np.int64], y: NDArray[np.int64]
-) -> tuple[FloatArray, FloatArray]:
-    """Nearness of each row at the centre of its pixel 0, and its change per pixel."""
-    b, c = plane[:, 1] - plane[:, 0], plane[:, 2] - plane[:, 0]
-    db, dc = depth[:, 1] - depth[:, 0], depth[:, 2] - depth[:, 0]
-    area = b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]
-    scale = np.divide(1.0, area, out=np.zeros_like(area), where=area != 0.0)
-    along = scale * (db * c[:, 1] - dc * b[:, 1])
-    across = scale * (dc * b[:, 0] - db * c[:, 0])
-    start = depth[:, 0] + along * (0.5 - plane[:, 0, 0]) - across * plane[:, 0, 1]
-    return start[triangle] + across[triangle] * (y + 0.5), along[triangle]

@@ -274,7 +274,18 @@ def _shape(solid: Solid) -> TopoDS_Shape:
             axis = gp_Ax1(gp_Pnt(0.0, 0.0, 0.0), gp_Dir(0.0, 0.0, 1.0))
             return BRepPrimAPI_MakeRevol(face, axis).Shape()
         case Prism():
-            face = _face([_edge(*edge, solid.low) for edge in solid.outline.edges()])
+            edges = []
+            for start, end, bulge in solid.outline.edges():
+                first, last = _point(start, solid.low), _point(end, solid.low)
+                if bulge == 0.0:
+                    edges.append(BRepBuilderAPI_MakeEdge(first, last).Edge())
+                    continue
+                # An arc through both ends and its middle.
+                arc = Arc.of(start, end, bulge)
+                middle = _point(arc.centre + arc.radius * arc.outward, solid.low)
+                curve = GC_MakeArcOfCircle(first, middle, last).Value()
+                edges.append(BRepBuilderAPI_MakeEdge(curve).Edge())
+            face = _face(edges)
             length = round(MILLIMETRES * (solid.high - solid.low), DECIMALS)
             shape = BRepPrimAPI_MakePrism(face, gp_Vec(0.0, 0.0, length)).Shape()
             place = _transformation(solid.placement)
@@ -286,16 +297,6 @@ def _transformation(place: Placement) -> gp_Trsf:
     transformation = gp_Trsf()
     transformation.SetValues(*rows.ravel().tolist())
     return transformation
-
-
-def _edge(start: FloatArray, end: FloatArray, bulge: float, height: float) -> TopoDS_Edge:
-    """Line, or arc through both ends and its middle."""
-    first, last = _point(start, height), _point(end, height)
-    if bulge == 0.0:
-        return BRepBuilderAPI_MakeEdge(first, last).Edge()
-    arc = Arc.of(start, end, bulge)
-    middle = _point(arc.centre + arc.radius * arc.outward, height)
-    return BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(first, middle, last).Value()).Edge()
 
 
 def _face(edges: list[TopoDS_Edge]) -> TopoDS_Face:

@@ -187,7 +187,10 @@ def foot_shock(foot: Foot[float], mass: float) -> float:
         mass: of the module above it [kg].
     """
     stem = float(foot.thickness) / _stem_at_shock(foot, mass)
-    base = float(foot.base) / _base_at_shock(foot, mass)
+    # The base as a cantilever as wide as the stem, which the screw on the far side pulls at: the
+    # same case, but bent along its layers.
+    arm, width = foot.slot_radius + foot.housing.half_height, 2.0 * foot.stem
+    base = float(foot.base) / sqrt(6.0 * screw_pull(foot, mass) * arm / (width * STRENGTH))
     return SHOCK * min(stem, base) ** 2
 
 
@@ -222,16 +225,6 @@ def _stem_at_shock(foot: Foot[float], mass: float) -> float:
     """
     arm, width = foot.wheel_height - foot.base, 2.0 * foot.stem
     return sqrt(6.0 * mass * SHOCK * arm / (width * STRENGTH_ACROSS))
-
-
-def _base_at_shock(foot: Foot[float], mass: float) -> float:
-    """Thickness at which the base breaks under `SHOCK` [m].
-
-    The screw on the far side pulls at a cantilever that is as wide as the stem, and bends it along
-    its layers: the same case.
-    """
-    arm, width = foot.slot_radius + foot.housing.half_height, 2.0 * foot.stem
-    return sqrt(6.0 * screw_pull(foot, mass) * arm / (width * STRENGTH))
 
 
 def screw_pull(foot: Foot[float], mass: float) -> float:

@@ -64,8 +64,19 @@ def write(subject: Subject, folder: Path) -> Notes:
 
 def assembly_pages(assembly: Assembly) -> list[list[Item]]:
     """Sheets of the booklet."""
-    texts = chapters(assembly)
-    bodies = [_first_page(assembly), *_text_pages(assembly, texts)]
+    # The exploded view, and below it the pieces by their numbers.
+    view, scale = _exploded(assembly)
+    first = [*view, *_scale("One module pulled apart", scale, EXPLODED_BOX)]
+    cells = [tuple(map(str, row)) for row in assembly.piece_rows()]
+    top = EXPLODED_BOX[3] + 3.0
+    half = (len(cells) + 1) // 2
+    width = (RIGHT - LEFT - 2.0 * _INSET - _GUTTER) / 2.0
+    widths = (6.0, 8.0, 40.0, 0.0, 29.0)
+    header = ("No.", "Qty", "Piece (of the whole device)", "Made", "File in cad/")
+    for column, part in enumerate((cells[:half], cells[half:])):
+        left = LEFT + _INSET + column * (width + _GUTTER)
+        first += _table(header, part, widths, (left, top, left + width))[0]
+    bodies = [first, *_text_pages(assembly, chapters(assembly))]
     identity = f"design {device_hash(assembly.device)} · ocs-design {__version__}"
     title, y = fitted(f"Assembly, {assembly.robot}", 130.0, _TITLE), TOP + 7.0
     pages: list[list[Item]] = []
@@ -115,22 +126,6 @@ def _around(items: Iterable[Item]) -> Box:
     across, down = zip(*points, strict=True)
     margin = BALLOON + 2.0
     return (min(across) - margin, min(down) - margin, max(across) + margin, max(down) + margin)
-
-
-def _first_page(assembly: Assembly) -> list[Item]:
-    """Exploded view, and below it the pieces by their numbers."""
-    view, scale = _exploded(assembly)
-    items = [*view, *_scale("One module pulled apart", scale, EXPLODED_BOX)]
-    cells = [tuple(map(str, row)) for row in assembly.piece_rows()]
-    top = EXPLODED_BOX[3] + 3.0
-    half = (len(cells) + 1) // 2
-    width = (RIGHT - LEFT - 2.0 * _INSET - _GUTTER) / 2.0
-    widths = (6.0, 8.0, 40.0, 0.0, 29.0)
-    header = ("No.", "Qty", "Piece (of the whole device)", "Made", "File in cad/")
-    for column, part in enumerate((cells[:half], cells[half:])):
-        left = LEFT + _INSET + column * (width + _GUTTER)
-        items += _table(header, part, widths, (left, top, left + width))[0]
-    return items
 
 
 def _text_pages(assembly: Assembly, texts: Sequence[Chapter]) -> list[list[Item]]:

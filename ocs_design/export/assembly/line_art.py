@@ -92,36 +92,31 @@ class _DepthMap:
         size = np.ceil((flat[:, :2].max(axis=0) - self._low) / self.pixel).astype(int) + 3
         # Ten million pixels: single precision tells a thousandth of one.
         self._depth = np.full((size[1], size[0]), -np.inf, dtype=np.float32)
-        for start in range(0, len(corners), _CHUNK):
-            self._fill(corners[start : start + _CHUNK])
+        # Triangles that look at the eye, line by line of the grid; of closed meshes the others are
+        # behind them.
+        for begin in range(0, len(corners), _CHUNK):
+            points = corners[begin : begin + _CHUNK].copy()
+            points[:, :, :2] = (points[:, :, :2] - self._low) / self.pixel
+            edge_1, edge_2 = points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]
+            area = edge_1[:, 0] * edge_2[:, 1] - edge_1[:, 1] * edge_2[:, 0]
+            front = area > 1e-9
+            points, area, edge_1, edge_2 = points[front], area[front], edge_1[front], edge_2[front]
+            slope_x = (edge_1[:, 2] * edge_2[:, 1] - edge_2[:, 2] * edge_1[:, 1]) / area
+            slope_y = (edge_2[:, 2] * edge_1[:, 0] - edge_1[:, 2] * edge_2[:, 0]) / area
+            at_zero = points[:, 0, 2] - slope_x * points[:, 0, 0] - slope_y * points[:, 0, 1]
+            owner, rows, left, right = covered_rows(points[:, :, :2], 0.0)
+            first = np.ceil(left).astype(int)
+            counts = np.maximum(np.floor(right).astype(int) - first + 1, 0)
+            columns = ranges(first, counts)
+            start = at_zero[owner] + slope_y[owner] * rows
+            depth = np.repeat(start, counts) + np.repeat(slope_x[owner], counts) * columns
+            np.maximum.at(self._depth, (np.repeat(rows, counts), columns), depth)
         # The farthest around each pixel: what lies at an edge of a face is not hidden by it.
         farthest = self._depth
         for axis in (0, 1):
             least = np.minimum(farthest, np.roll(farthest, 1, axis))
             farthest = np.minimum(least, np.roll(farthest, -1, axis), out=least)
         self._farthest = farthest
-
-    def _fill(self, corners: FloatArray) -> None:
-        """Fill the triangles that look at the eye, line by line of the grid.
-
-        Of closed meshes the others are behind them.
-        """
-        points = corners.copy()
-        points[:, :, :2] = (points[:, :, :2] - self._low) / self.pixel
-        edge_1, edge_2 = points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]
-        area = edge_1[:, 0] * edge_2[:, 1] - edge_1[:, 1] * edge_2[:, 0]
-        front = area > 1e-9
-        points, area, edge_1, edge_2 = points[front], area[front], edge_1[front], edge_2[front]
-        slope_x = (edge_1[:, 2] * edge_2[:, 1] - edge_2[:, 2] * edge_1[:, 1]) / area
-        slope_y = (edge_2[:, 2] * edge_1[:, 0] - edge_1[:, 2] * edge_2[:, 0]) / area
-        at_zero = points[:, 0, 2] - slope_x * points[:, 0, 0] - slope_y * points[:, 0, 1]
-        owner, rows, left, right = covered_rows(points[:, :, :2], 0.0)
-        first = np.ceil(left).astype(int)
-        counts = np.maximum(np.floor(right).astype(int) - first + 1, 0)
-        columns = ranges(first, counts)
-        start = at_zero[owner] + slope_y[owner] * rows
-        depth = np.repeat(start, counts) + np.repeat(slope_x[owner], counts) * columns
-        np.maximum.at(self._depth, (np.repeat(rows, counts), columns), depth)
 
     def sees(self, points: FloatArray) -> FloatArray:
         """Whether nothing is in front of each point, shape (n,)."""

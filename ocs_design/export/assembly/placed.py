@@ -174,8 +174,7 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
         *back,
         *parts.values(),
         *_foot_screws(device),
-        *_plate_pieces(device),
-        *_pedestal_pieces(device),
+        *_pieces_below(device),
         base,
         drum,
         *inside,
@@ -256,46 +255,39 @@ def _foot_screws(device: Device) -> Iterator[Piece]:
         yield Piece(held.purpose, screws, held, drop=apart, modules=feet.count(held))
 
 
-def _pedestal_pieces(device: Device) -> Iterator[Piece]:
-    """A pedestal of each kind under the foot, with the screws of its flanges."""
-    foot = foot_of(device)
+def _pieces_below(device: Device) -> Iterator[Piece]:
+    """Plate, mast and sleeves, or a pedestal of each kind, and the screws that hold them."""
+    foot, plate = foot_of(device), device.plate
     apart, beside = _APART * foot.housing.radius, np.inf
+    if plate is not None:
+        on_trunk = Placement(np.eye(3), np.array(plate.position))
+        place = wheel_placement(device.modules[0]).inverse() @ on_trunk
+        lowest = 1.5 * apart + max(plate.screw_lengths)
+        head = Placement(np.eye(3), np.array([0.0, 0.0, plate.clamped]))
+        for held in plate.fastenings:
+            own = zip(plate.screw_places, plate.screw_lengths, strict=True)
+            heads = [_screw(held).placed(at @ head) for at, length in own if length == held.length]
+            yield Piece(held.purpose, merged(heads).placed(place), held, drop=apart, shared=True)
+        bodies: dict[str, list[Mesh]] = {}
+        for part, at in plate_bodies(plate):
+            bodies.setdefault(part.name, []).append(part_mesh(part, SECTIONS).placed(place @ at))
+        sleeves = bodies.pop("sleeve", [])
+        if sleeves:
+            down = lowest + apart
+            yield Piece("sleeves", merged(sleeves), drop=down, shared=True, count=len(sleeves))
+        for name, meshes in bodies.items():
+            yield Piece(name, merged(meshes), drop=lowest, shared=True)
     for kind in pedestal_kinds(device):
         one, held = kind.alike[0], kind.screws
         place = foot.placement @ one.seat.inverse()
-        heads = merged([_screw(held).moved(np.array([x, y, one.base])) for x, y in one.holes])
-        heads, mesh = (each.placed(place) for each in (heads, part_mesh(kind.part, SECTIONS)))
-        along = np.concatenate([heads.vertices[:, 2], mesh.vertices[:, 2]])
+        flange = merged([_screw(held).moved(np.array([x, y, one.base])) for x, y in one.holes])
+        screws, mesh = (each.placed(place) for each in (flange, part_mesh(kind.part, SECTIONS)))
+        along = np.concatenate([screws.vertices[:, 2], mesh.vertices[:, 2]])
         aside = min(0.0, beside - apart - float(along.max()))
         beside = aside + float(along.min())
         drawn = partial(Piece, aside=aside, modules=len(kind.alike))
-        yield drawn(held.purpose, heads, held, drop=apart)
+        yield drawn(held.purpose, screws, held, drop=apart)
         yield drawn(kind.name, mesh, drop=2.0 * apart)
-
-
-def _plate_pieces(device: Device) -> Iterator[Piece]:
-    """The plate under the feet, its sleeves and its screws; none where there is no plate."""
-    plate = device.plate
-    if plate is None:
-        return
-    on_trunk = Placement(np.eye(3), np.array(plate.position))
-    place = wheel_placement(device.modules[0]).inverse() @ on_trunk
-    apart = _APART * foot_of(device).housing.radius
-    lowest = 1.5 * apart + max(plate.screw_lengths)
-    head = Placement(np.eye(3), np.array([0.0, 0.0, plate.clamped]))
-    for held in plate.fastenings:
-        own = zip(plate.screw_places, plate.screw_lengths, strict=True)
-        heads = [_screw(held).placed(at @ head) for at, length in own if length == held.length]
-        yield Piece(held.purpose, merged(heads).placed(place), held, drop=apart, shared=True)
-    bodies: dict[str, list[Mesh]] = {}
-    for part, at in plate_bodies(plate):
-        bodies.setdefault(part.name, []).append(part_mesh(part, SECTIONS).placed(place @ at))
-    sleeves = bodies.pop("sleeve", [])
-    if sleeves:
-        down = lowest + apart
-        yield Piece("sleeves", merged(sleeves), drop=down, shared=True, count=len(sleeves))
-    for name, meshes in bodies.items():
-        yield Piece(name, merged(meshes), drop=lowest, shared=True)
 
 
 def _screw(held: Fastening) -> Mesh:

@@ -138,7 +138,18 @@ def section_view(wheel: Wheel, layout: Layout) -> list[Item]:
         beyond = width + scale.length(2.0)
         start, end = _placed([(-beyond, ring.radius), (beyond, ring.radius)], layout, side)
         items.append(Line(start, end, CENTRE))
-    items += [*_diameters(wheel, layout), *_widths(wheel, layout)]
+    items += _diameters(wheel, layout)
+    # Width of the rim above the view; those of web and hub between hub and rim, on either side of
+    # the axis.
+    label, top = toleranced(rim.height, Grade.IT11), y - edge
+    items += _width(label, rim.height, wheel, layout, y=top - ABOVE, start=top)
+    hub = wheel.hub
+    if hub is not None:
+        away = max(NEAREST, scale(hub.radius + rim.inner_radius) / 2.0)
+        items += _width(plain(hub.web_thickness), hub.web_thickness, wheel, layout, y=y - away)
+        items += _width(
+            plain(hub.height), hub.height, wheel, layout, y=y + away, start=y + scale(hub.radius)
+        )
     # The size of the rim's edges, below the view, where it is not too small to be written.
     chamfer = plain(rim.made_chamfer)
     if float(chamfer) > 0.0:
@@ -204,19 +215,6 @@ def _diameters(wheel: Wheel, layout: Layout) -> Iterator[Item]:
             column += 1
 
 
-def _widths(wheel: Wheel, layout: Layout) -> Iterator[Item]:
-    """The rim's above the view; web and hub between hub and rim, on either side of the axis."""
-    (_, y), edge, hub = layout.section, layout.scale(wheel.rim.outer_radius), wheel.hub
-    label = toleranced(wheel.rim.height, Grade.IT11)
-    yield from _width(label, wheel.rim.height, wheel, layout, y=y - edge - ABOVE, start=y - edge)
-    if hub is None:
-        return
-    away = max(NEAREST, layout.scale(hub.radius + wheel.rim.inner_radius) / 2.0)
-    yield from _width(plain(hub.web_thickness), hub.web_thickness, wheel, layout, y=y - away)
-    start = y + layout.scale(hub.radius)
-    yield from _width(plain(hub.height), hub.height, wheel, layout, y=y + away, start=start)
-
-
 def _width(
     label: str,
     width: float,
@@ -248,7 +246,20 @@ def cut_faces(wheel: Wheel, *, above: bool) -> Iterator[tuple[Profile, bool]]:
     if hub is None:
         yield rim, False
         return
-    *inner, outermost = _hub_profiles(hub, wheel.rim.inner_radius, above=above)
+    # Web and hub up to the rim's bore, in pieces where holes are cut.
+    rings = [ring for ring in (hub.bolts, hub.lightening) if ring is not None]
+    cuts = [ring for ring in rings if is_cut(ring, above=above)]
+    starts = [hub.bore_radius, *(ring.radius + ring.hole_radius for ring in cuts)]
+    ends = [*(ring.radius - ring.hole_radius for ring in cuts), wheel.rim.inner_radius]
+    profiles, edge = [], hub.chamfer
+    for inside, outside in zip(starts, ends, strict=True):
+        low, high = half_width(hub, inside), half_width(hub, outside)
+        at_bore = [(low - edge, inside), (low, inside + edge)]
+        start = at_bore if inside == hub.bore_radius else [(low, inside)]
+        step = [(low, hub.radius - edge), (low - edge, hub.radius), (high, hub.radius)]
+        right = [*start, *(step if inside < hub.radius < outside else []), (high, outside)]
+        profiles.append(_distinct([*right, *[(-z, radius) for z, radius in reversed(right)]]))
+    *inner, outermost = profiles
     if wheel.one_piece:
         # One polygon of both: the rim goes where the web's outer end was.
         end = max(range(len(outermost)), key=lambda i: (outermost[i][1], outermost[i][0]))
@@ -281,23 +292,6 @@ def rim_profile(rim: Rim, *, above: bool) -> Profile:
     right = [(half - c, r), (half, r + c), *notch, (half, R - c), (half - c, R)]
     left = [(-z, radius) for z, radius in reversed(right)]
     return _distinct([left[-1], *right, *left[:-1]])
-
-
-def _hub_profiles(hub: Hub, seat_radius: float, *, above: bool) -> list[Profile]:
-    """Web and hub up to the rim's bore, in pieces where holes are cut."""
-    rings = [ring for ring in (hub.bolts, hub.lightening) if ring is not None]
-    cuts = [ring for ring in rings if is_cut(ring, above=above)]
-    starts = [hub.bore_radius, *(ring.radius + ring.hole_radius for ring in cuts)]
-    ends = [*(ring.radius - ring.hole_radius for ring in cuts), seat_radius]
-    profiles, edge = [], hub.chamfer
-    for inner, outer in zip(starts, ends, strict=True):
-        low, high = half_width(hub, inner), half_width(hub, outer)
-        at_bore = [(low - edge, inner), (low, inner + edge)]
-        start = at_bore if inner == hub.bore_radius else [(low, inner)]
-        step = [(low, hub.radius - edge), (low - edge, hub.radius), (high, hub.radius)]
-        right = [*start, *(step if inner < hub.radius < outer else []), (high, outer)]
-        profiles.append(_distinct([*right, *[(-z, radius) for z, radius in reversed(right)]]))
-    return profiles
 
 
 def _distinct(profile: Profile) -> Profile:
