@@ -229,8 +229,18 @@ def _factor(unit: str, dimension: Dimension, text: str, where: str) -> Fraction:
             nominal, full = (f"{count * volts:.4g} V" for volts in (CELL_NOMINAL, CELL_FULL))
             cells = f"{count}S is {nominal} nominal, {full} full: state the voltage under load."
             hint = f"{cells} {hint}"
-        elif meant := _likely_texts(text, dimension):
-            hint = f"Did you mean {' or '.join(meant)}? {hint}"
+        else:
+            # With a decimal point or nothing for its comma, and the unit's usual capitals.
+            bare, meant = text.strip(" ,;."), []
+            known = {name.casefold(): name for name in UNITS[dimension]}
+            # A comma before three digits may part thousands.
+            for comma in (".", "") if re.search(r"[0-9],[0-9]{3}(?![0-9])", bare) else (".",):
+                match = _QUANTITY.fullmatch(re.sub(r"(?<=[0-9]),(?=[0-9])", comma, bare, count=1))
+                likely = _normalised(match[2]).casefold() if match else ""
+                if match and (not likely or likely in known):
+                    meant.append(f"{match[1]}{known.get(likely, '')}")
+            if meant:
+                hint = f"Did you mean {' or '.join(meant)}? {hint}"
         what = "holds a comma" if "," in unit else f"has the unknown unit {unit!r}"
         raise QuantityError(f"{where}: {text.strip()!r} {what}", hint=hint)
     if found[0] is not dimension:
@@ -238,19 +248,6 @@ def _factor(unit: str, dimension: Dimension, text: str, where: str) -> Fraction:
             f"{where}: {text.strip()!r} has a unit of {found[0]}, not of {dimension}", hint=hint
         )
     return UNITS[dimension][found[1]]
-
-
-def _likely_texts(text: str, dimension: Dimension) -> list[str]:
-    """The text with a decimal point or nothing for its comma, and the unit's usual capitals."""
-    bare, known = text.strip(" ,;."), {name.casefold(): name for name in UNITS[dimension]}
-    meant = []
-    # A comma before three digits may part thousands.
-    for comma in (".", "") if re.search(r"[0-9],[0-9]{3}(?![0-9])", bare) else (".",):
-        match = _QUANTITY.fullmatch(re.sub(r"(?<=[0-9]),(?=[0-9])", comma, bare, count=1))
-        unit = _normalised(match[2]).casefold() if match else ""
-        if match and (not unit or unit in known):
-            meant.append(f"{match[1]}{known.get(unit, '')}")
-    return meant
 
 
 def _normalised(unit: str) -> str:

@@ -87,30 +87,29 @@ class _Reading:
         place = parent @ _placement(node)
         children = node.get("children", ())
         geoms = [child for child in children if "mesh" in self._document["nodes"][child]]
-        yield ShownBody(node["name"], place, tuple(self._surfaces(geoms)))
-        for child in children:
-            if child not in geoms:
-                yield from self._below(child, place)
-
-    def _surfaces(self, geoms: list[int]) -> Iterator[Surface]:
-        """Surfaces of a body, one for all geoms of one colour."""
+        # Surfaces, one for all geoms of one colour.
         by_color: dict[Color, list[tuple[FloatArray, NDArray[np.int64]]]] = {}
         for geom in geoms:
-            node = self._document["nodes"][geom]
-            place = _placement(node)
-            for part in self._document["meshes"][node["mesh"]]["primitives"]:
+            shown = self._document["nodes"][geom]
+            at = _placement(shown)
+            for part in self._document["meshes"][shown["mesh"]]["primitives"]:
                 points = self._values(part["attributes"]["POSITION"]).reshape(-1, 3)
-                moved = points.astype(np.float64) @ place.rotation.T + place.position
+                moved = points.astype(np.float64) @ at.rotation.T + at.position
                 faces = self._values(part["indices"]).reshape(-1, 3).astype(np.int64)
                 look = self._document["materials"][part["material"]]["pbrMetallicRoughness"]
                 red, green, blue, opacity = look["baseColorFactor"]
                 color = _screen(red), _screen(green), _screen(blue), opacity
                 by_color.setdefault(color, []).append((moved, faces))
+        surfaces = []
         for color, pieces in by_color.items():
             counts = np.cumsum([0, *(len(points) for points, _ in pieces)])
             shifted = [faces + first for (_, faces), first in zip(pieces, counts, strict=False)]
             vertices = np.concatenate([points for points, _ in pieces])
-            yield Surface(vertices, np.concatenate(shifted), color)
+            surfaces.append(Surface(vertices, np.concatenate(shifted), color))
+        yield ShownBody(node["name"], place, tuple(surfaces))
+        for child in children:
+            if child not in geoms:
+                yield from self._below(child, place)
 
     def _values(self, accessor: int) -> NDArray[Any]:
         entry = self._document["accessors"][accessor]

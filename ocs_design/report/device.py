@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping
 
-from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.common.units import rpm
 from ocs_design.device.layout import PAIR
@@ -109,8 +108,33 @@ def share_of_robot(design: OcsDesign) -> str:
 
 def device_facts(design: OcsDesign) -> Rows:
     """Wheel, masses, drive and place of the device."""
-    ocs = design.ocs
-    return (*_wheel(ocs), *_masses(design), *_drive(ocs.motor), *_place(ocs))
+    ocs, motor = design.ocs, design.ocs.motor
+    rows = [*_wheel(ocs), *_masses(design), ("motor", motor.full_name)]
+    if motor.bus_voltage is not None:
+        if motor.gear != DIRECT.name:
+            loss = f"efficiency {motor.gear_efficiency:.0%}"
+            rows.append(("gear", f"{motor.gear}, ratio {motor.gear_ratio:.3g}, {loss}"))
+        allowed = []
+        if motor.speed_max is not None:
+            allowed.append(rpm(motor.speed_max))
+        if motor.torque_limit is not None:
+            allowed.append(f"{motor.torque_limit:.3g} N m")
+        free = f"{rpm(motor.no_load_speed)} without load at {motor.bus_voltage:g} V"
+        drive = f"{free}; allowed {listed(allowed)}" if allowed else free
+        rows.append(("drive at the wheel", drive))
+    at = (f"{each.name} ({', '.join(map(tenths, each.position))})" for each in ocs.modules)
+    rows.append(("wheels at", f"{', '.join(at)} mm"))
+    rows.append(("nearest, standing", _nearest(ocs.clearance)))
+    if ocs.mounting is not None:
+        if ocs.mounting.landing is not None:
+            rows.append(("nearest, landing", _nearest(ocs.mounting.landing)))
+        shift = ", ".join(map(tenths, ocs.mounting.com_shift))
+        changes = zip(("roll", "pitch", "yaw"), ocs.mounting.inertia_change, strict=True)
+        inertias = ", ".join(f"{name} {change:+.1%}" for name, change in changes)
+        shifted = f"the centre of mass by {shift} mm; the inertia: {inertias}"
+        rows.append(("the device shifts", shifted))
+    rows.append(("heading drift", f"{heading_drift(ocs.heading_drift)} (cannot be commanded)"))
+    return tuple(rows)
 
 
 def _wheel(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
@@ -180,36 +204,6 @@ def _masses(design: OcsDesign) -> Iterator[tuple[str, str]]:
         count, each = len(ocs.modules), grams(ocs.motor.controller_mass)
         rest = grams(ocs.mass_total - controllers)
         yield "without controllers", f"{rest} (controllers {count} x {each})"
-
-
-def _drive(motor: Drive) -> Iterator[tuple[str, str]]:
-    yield "motor", motor.full_name
-    if motor.bus_voltage is None:
-        return
-    if motor.gear != DIRECT.name:
-        loss = f"efficiency {motor.gear_efficiency:.0%}"
-        yield "gear", f"{motor.gear}, ratio {motor.gear_ratio:.3g}, {loss}"
-    limits = []
-    if motor.speed_max is not None:
-        limits.append(rpm(motor.speed_max))
-    if motor.torque_limit is not None:
-        limits.append(f"{motor.torque_limit:.3g} N m")
-    free = f"{rpm(motor.no_load_speed)} without load at {motor.bus_voltage:g} V"
-    yield "drive at the wheel", f"{free}; allowed {listed(limits)}" if limits else free
-
-
-def _place(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
-    at = (f"{each.name} ({', '.join(map(tenths, each.position))})" for each in ocs.modules)
-    yield "wheels at", f"{', '.join(at)} mm"
-    yield "nearest, standing", _nearest(ocs.clearance)
-    if ocs.mounting is not None:
-        if ocs.mounting.landing is not None:
-            yield "nearest, landing", _nearest(ocs.mounting.landing)
-        shift = ", ".join(map(tenths, ocs.mounting.com_shift))
-        changes = zip(("roll", "pitch", "yaw"), ocs.mounting.inertia_change, strict=True)
-        inertias = ", ".join(f"{name} {change:+.1%}" for name, change in changes)
-        yield "the device shifts", f"the centre of mass by {shift} mm; the inertia: {inertias}"
-    yield "heading drift", f"{heading_drift(ocs.heading_drift)} (cannot be commanded)"
 
 
 def _nearest(clearance: Clearance | None) -> str:

@@ -1,6 +1,6 @@
 """Facts about demand and capacity: what is asked, the margins, and which limits set the mass."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from ocs_design.common.units import ceiled, floored, significant
 from ocs_design.device.records.design import OcsDesign
@@ -258,9 +258,20 @@ def saving_table(design: OcsDesign) -> Table:
     """What moving each limit changes: of a device with its drive, else of one rim."""
     selection = design.selection
     if selection is None or not selection.prices:
+        # Room of the rim, from the margins; then every active limit that is none of them.
+        active = {}
+        for margin in recorded_margins(design):
+            name = _ROOM.get(margin.name)
+            if name is not None and margin.capacity is not None:
+                used, allowed = (
+                    quantity(each, margin.unit) for each in (margin.demand, margin.capacity)
+                )
+                active[name] = (f"{margin.name} ({name})", used, allowed)
+        for name in design.sizing.binding:
+            active.setdefault(name, (name, "all of it", ""))
         return Table(
             columns("<limit", "used", "allowed", "<changes the rim's mass by"),
-            tuple(_rim_limits(design)),
+            tuple((*texts, rim_price(design, name)) for name, texts in active.items()),
         )
     rows = []
     for price in selection.prices:
@@ -328,22 +339,6 @@ def reserve_note(kept: ReserveRecord, mass: float) -> str:
         f"{100.0 * kept.predicted:.1f} % pass; the reserve costs "
         f"{grams(max(mass - kept.nominal, 0.0))}. {curve}"
     )
-
-
-def _rim_limits(design: OcsDesign) -> Iterator[tuple[Cell, ...]]:
-    """Room of the rim, from the margins; then every active limit that is none of them."""
-    listed_limits = set()
-    for margin in recorded_margins(design):
-        name = _ROOM.get(margin.name)
-        if name is not None and margin.capacity is not None:
-            listed_limits.add(name)
-            used, allowed = (
-                quantity(each, margin.unit) for each in (margin.demand, margin.capacity)
-            )
-            yield f"{margin.name} ({name})", used, allowed, rim_price(design, name)
-    for name in design.sizing.binding:
-        if name not in listed_limits:
-            yield name, "all of it", "", rim_price(design, name)
 
 
 def rim_price(design: OcsDesign, name: str) -> str:

@@ -10,7 +10,6 @@ from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.device.layout import PAIR
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.records.device import OcsRecord
-from ocs_design.device.records.requirement import ManeuverRecord
 from ocs_design.export.electrics import controller_rating
 from ocs_design.report.flights import flight_remarks, hand_turn
 from ocs_design.report.quantities import degrees, inertia
@@ -153,9 +152,15 @@ def coupling_notes(design: OcsDesign) -> Iterator[str]:
     maneuvers = {maneuver.name: maneuver for maneuver in design.requirement.maneuvers}
     whole = TiltInertia.of(design.ocs.total_inertia)
     for demand in design.requirement.demands:
-        axis = _only_axis(maneuvers.get(demand.source))
-        if axis is None or design.ocs.axes != PAIR:
+        maneuver = maneuvers.get(demand.source)
+        if maneuver is None or design.ocs.axes != PAIR:
             continue
+        roll, pitch = (maneuver.parameters.get(name, 0.0) != 0.0 for name in AXES)
+        pitch = pitch or maneuver.kind == "flip"
+        # It turns about both, or about none.
+        if roll == pitch:
+            continue
+        axis = int(pitch)
         shares, about, across = authority(demand.incidence), AXES[axis], AXES[1 - axis]
         if shares[1 - axis] <= OUT_OF_REACH:
             drift = float(whole.drift[1 - axis])
@@ -175,13 +180,3 @@ def coupling_notes(design: OcsDesign) -> Iterator[str]:
                 f"momentum about {across} too, {more:.0%} more from the busier wheel at "
                 f"{degrees(demand.incidence)}; the device is sized for it"
             )
-
-
-def _only_axis(maneuver: ManeuverRecord | None) -> int | None:
-    """Index in `AXES` of the one axis that a maneuver turns about; None: both, or it is no turn."""
-    if maneuver is None:
-        return None
-    roll, pitch = (maneuver.parameters.get(axis, 0.0) != 0.0 for axis in AXES)
-    if maneuver.kind == "flip":
-        pitch = True
-    return None if roll == pitch else int(pitch)

@@ -50,7 +50,7 @@ def record_margins(
         maneuvers = {maneuver.name: maneuver for maneuver in resolved.requirement.maneuvers}
         driven = (
             (name, margins(motion, designed.device.as_flown(maneuvers[name]).axes, drive))
-            for name, motion in (*_planned(plans), *_flown(runs))
+            for name, motion in _motions(plans, runs)
         )
         braked = _braked(resolved, designed, plans)
         found = (*worst((*driven, *braked)), *joints_of(designed.device))
@@ -63,7 +63,12 @@ def record_margins(
     return tuple(recorded(MarginRecord, each, margin=each.factor) for each in (*found, *room))
 
 
-def _planned(plans: Mapping[str, "Reference"]) -> Iterator[tuple[str, Motion]]:
+def _motions(plans: Mapping[str, "Reference"], runs: Sequence[Run]) -> Iterator[tuple[str, Motion]]:
+    """Each plan; then each run from its start to its end, and from lift-off to touchdown once more.
+
+    What the wheels do as the robot lands and while they are damped is asked of the drive too. Means
+    over time are of the maneuver alone: on the ground a motor has time to cool.
+    """
     for name, reference in plans.items():
         if reference.trajectory is None:
             continue
@@ -74,14 +79,6 @@ def _planned(plans: Mapping[str, "Reference"]) -> Iterator[tuple[str, Motion]]:
             wheels = np.full((2, motion.wheel_speed.shape[1]), reference.spun)
             still = np.zeros((2, 3))
             yield name, Motion(np.array([0.0, 1e-3]), wheels, 0.0 * wheels, still, still)
-
-
-def _flown(runs: Sequence[Run]) -> Iterator[tuple[str, Motion]]:
-    """Each run from its start to its end, and from lift-off to touchdown once more.
-
-    What the wheels do as the robot lands and while they are damped is asked of the drive too. Means
-    over time are of the maneuver alone: on the ground a motor has time to cool.
-    """
     for run in runs:
         if not run.ocs or run.metrics is None:
             continue

@@ -171,27 +171,25 @@ def fit_turn(turn: Turn, body: Gyrostat, limits: MotorLimits) -> FittedTurn:
             return FittedTurn(option, _FLATTENED)
     if not turn.extendable:
         return FittedTurn(replace(turn, profile=Step()), _STEPPED)
-    stretched = [_stretched(option, body, usable) for option in (turn, *options)]
+    stretched = []
+    for option in (turn, *options):
+        # The shortest time that keeps the limits, by bisection.
+        too_short, enough = option.duration, 2.0 * option.duration
+        while utilisation(replace(option, duration=enough), body, usable) > 1.0:
+            too_short, enough = enough, 2.0 * enough
+        for _ in range(30):
+            middle = 0.5 * (too_short + enough)
+            if utilisation(replace(option, duration=middle), body, usable) > 1.0:
+                too_short = middle
+            else:
+                enough = middle
+        stretched.append(replace(option, duration=enough))
     shortest = min(stretched, key=lambda option: option.duration)
     note = (
         f"the turn takes {shortest.duration:.3g} s in place of the {turn.duration:.3g} s asked "
         f"for: the wheels cannot turn the trunk faster"
     )
     return FittedTurn(shortest, note)
-
-
-def _stretched(turn: Turn, body: Gyrostat, limits: MotorLimits) -> Turn:
-    """Profile stretched to the shortest time that keeps the limits, by bisection."""
-    too_short, enough = turn.duration, 2.0 * turn.duration
-    while utilisation(replace(turn, duration=enough), body, limits) > 1.0:
-        too_short, enough = enough, 2.0 * enough
-    for _ in range(30):
-        middle = 0.5 * (too_short + enough)
-        if utilisation(replace(turn, duration=middle), body, limits) > 1.0:
-            too_short = middle
-        else:
-            enough = middle
-    return replace(turn, duration=enough)
 
 
 def utilisation(turn: Turn, body: Gyrostat, limits: MotorLimits) -> float:

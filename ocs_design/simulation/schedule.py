@@ -182,17 +182,6 @@ class References:
         )
 
 
-def _mass_and_com(world: World) -> tuple[float, FloatArray]:
-    """Mass of all that flies [kg], and its centre of mass at the start in B [m], shape (3,)."""
-    model, data, trunk = world.model, mujoco.MjData(world.model), world.addresses.trunk
-    data.qpos[:] = world.qpos
-    mujoco.mj_kinematics(model, data)
-    mujoco.mj_comPos(model, data)
-    origin = data.xpos[trunk] + data.xmat[trunk].reshape(3, 3) @ world.chain.origin
-    to_world = quaternions.matrix(world.chain.attitude(world.qpos))
-    return float(model.body_mass.sum()), (data.subtree_com[0] - origin) @ to_world
-
-
 class Pushes:
     """Outer torques on the trunks [N m] and accelerations [m/s^2] in B, by control steps."""
 
@@ -200,7 +189,19 @@ class Pushes:
         self._pushed = np.zeros((len(times), len(worlds), 2, 3))
         for index, world in enumerate(worlds):
             for given in world.pushes:
-                push = given.of_force(*_mass_and_com(world)) if given.force.any() else given
+                push = given
+                if given.force.any():
+                    # Centre of mass of all that flies, at the start in B.
+                    model, data = world.model, mujoco.MjData(world.model)
+                    data.qpos[:] = world.qpos
+                    mujoco.mj_kinematics(model, data)
+                    mujoco.mj_comPos(model, data)
+                    trunk = world.addresses.trunk
+                    to_body = data.xmat[trunk].reshape(3, 3)
+                    origin = data.xpos[trunk] + to_body @ world.chain.origin
+                    to_world = quaternions.matrix(world.chain.attitude(world.qpos))
+                    com = (data.subtree_com[0] - origin) @ to_world
+                    push = given.of_force(float(model.body_mass.sum()), com)
                 share = push.share(times, period)[:, None, None]
                 self._pushed[:, index] += share * np.stack([push.torque, push.acceleration])
         acting = np.flatnonzero(self._pushed.any(axis=(1, 2, 3)))

@@ -181,11 +181,20 @@ def bound_charts(story: Story) -> Iterator[Chart]:
     found, design = taken(story), story.design
     speeds = [part * design.requirement.wheel_speed_max for part in _SPEEDS]
     for axis, name in reversed(list(enumerate(AXES))):
-        asked = _bound_points(design, axis, found)
+        # Name, change of rate that its momentum is worth, and the device's inertia for it, of each
+        # maneuver but those that hardly turn about this axis.
+        asked = []
+        most = max((each.largest(axis) for each in found), default=0.0)
+        for each in found:
+            momentum = each.largest(axis)
+            share = float(np.abs(design.ocs.axes.axes(each.incidence)[axis]).sum())
+            if momentum > _HARDLY * max(most, each.largest(1 - axis)) and share > 0.0:
+                change = momentum / design.ocs.total_inertia[axis][axis]
+                asked.append((each.source, change, share * design.ocs.spin_inertia))
         if not asked:
             continue
         changes = np.array([change for _, change, _ in asked])
-        present = np.array([each for _, _, each in asked])
+        present = np.array([inertia for _, _, inertia in asked])
         rates = np.linspace(1e-3, 1.25 * changes.max(), _SAMPLES)
         bound = design.robot.inertia[axis][axis] * bound_curve(rates, speeds)
         curves = np.where(np.isfinite(bound), bound, np.nan)
@@ -210,25 +219,6 @@ def bound_charts(story: Story) -> Iterator[Chart]:
             marks=(*lines, Points(changes, present, Ink.PLAIN, "the design", labels=labels)),
             height=290.0,
         )
-
-
-def _bound_points(
-    design: OcsDesign, axis: int, found: Sequence[Taken]
-) -> list[tuple[str, float, float]]:
-    """Name, change of rate [rad/s] and inertia of the device for it [kg m^2], by maneuver.
-
-    The change of rate is what the maneuver's momentum is worth; maneuvers that hardly turn about
-    this axis are left out.
-    """
-    total = design.ocs.total_inertia[axis][axis]
-    most = max((each.largest(axis) for each in found), default=0.0)
-    points = []
-    for each in found:
-        axes = design.ocs.axes.axes(each.incidence)
-        momentum, share = each.largest(axis), float(np.abs(axes[axis]).sum())
-        if momentum > _HARDLY * max(most, each.largest(1 - axis)) and share > 0.0:
-            points.append((each.source, momentum / total, share * design.ocs.spin_inertia))
-    return points
 
 
 _ROW, _FRAME = 22.0, 110.0

@@ -193,7 +193,13 @@ class _Drawing:
                     for whole in wholes
                     if len(whole) > 1
                 ]
-                self._curves += map(_traced, curves)
+                for curve in curves:
+                    # Points along it, a pixel apart or less across and down, shape (n, 2).
+                    steps = np.ceil(np.abs(np.diff(curve, axis=0)).max(axis=1)).astype(int).clip(1)
+                    nodes = np.concatenate([[0], np.cumsum(steps)])
+                    along = np.arange(nodes[-1] + 1)
+                    traced = [np.interp(along, nodes, each) for each in curve.T]
+                    self._curves.append(np.stack(traced, axis=-1))
                 paths = "".join(map(_path, curves))
                 return f'<path class="{_line_look(mark)}" d="{paths}"/>' if paths else ""
             case Area():
@@ -303,14 +309,6 @@ def _disc_look(mark: Points) -> str:
 def _stretched(axis: Axis, span: float) -> Axis:
     middle = (axis.low + axis.high) / 2.0
     return replace(axis, low=middle - span / 2.0, high=middle + span / 2.0)
-
-
-def _traced(curve: FloatArray) -> FloatArray:
-    """Points along a curve, a pixel apart or less across and down, shape (n, 2)."""
-    steps = np.ceil(np.abs(np.diff(curve, axis=0)).max(axis=1)).astype(int).clip(1)
-    nodes = np.concatenate([[0], np.cumsum(steps)])
-    along = np.arange(nodes[-1] + 1)
-    return np.stack([np.interp(along, nodes, each) for each in curve.T], axis=-1)
 
 
 def _path(places: FloatArray, *, closed: bool = False) -> str:

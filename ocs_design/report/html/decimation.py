@@ -99,7 +99,18 @@ def clustered(surface: Surface, cell: float) -> Surface:
     moved = cluster[surface.faces]
     kept, key = _keyed(*moved.T)
     faces = moved[kept][np.unique(key, return_index=True)[1]]
-    vertices = _representatives(surface, cluster, cell)
+    # Point of each cluster nearest to the planes of its triangles, no further than a cell.
+    count = int(cluster.max()) + 1
+    weight = np.bincount(cluster, minlength=count)[:, None]
+    middle = _summed(surface.vertices, cluster, count) / weight
+    quadric, vector = _quadrics(surface, cluster, middle)
+    values, axes = np.linalg.eigh(quadric)
+    says = values > _FLAT * values[:, -1:]
+    inverse = np.divide(1.0, values, out=np.zeros_like(values), where=says)
+    step = np.einsum("nij,nj,nkj,nk->ni", axes, inverse, axes, vector)
+    far = np.linalg.norm(step, axis=1) > cell
+    step[far] = 0.0
+    vertices = np.asarray(middle + step)
     used, renumbered = np.unique(faces, return_inverse=True)
     return Surface(vertices[used], renumbered.reshape(-1, 3), surface.color)
 
@@ -117,21 +128,6 @@ def _keyed(
     a, b, c = a[kept], b[kept], c[kept]
     low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
     return kept, (low << 2 * _BITS) | ((a + b + c - low - high) << _BITS) | high
-
-
-def _representatives(surface: Surface, cluster: NDArray[np.intp], cell: float) -> FloatArray:
-    """Point of each cluster nearest to the planes of its triangles, no further than a cell [m]."""
-    count = int(cluster.max()) + 1
-    weight = np.bincount(cluster, minlength=count)[:, None]
-    middle = _summed(surface.vertices, cluster, count) / weight
-    quadric, vector = _quadrics(surface, cluster, middle)
-    values, axes = np.linalg.eigh(quadric)
-    says = values > _FLAT * values[:, -1:]
-    inverse = np.divide(1.0, values, out=np.zeros_like(values), where=says)
-    step = np.einsum("nij,nj,nkj,nk->ni", axes, inverse, axes, vector)
-    far = np.linalg.norm(step, axis=1) > cell
-    step[far] = 0.0
-    return np.asarray(middle + step)
 
 
 def _quadrics(

@@ -32,12 +32,33 @@ def as_html(found: OcsDesign | Front | Validated, folder: Path | None = None) ->
         folder: of a design, whose picture of the robot is shown; None: wheel axes and inertia are.
     """
     if isinstance(found, OcsDesign):
-        parts = _design(found, folder)
-    elif isinstance(found, Front):
-        parts = _front(found)
-    else:
-        parts = _validated(found)
-    return element("div", *parts)
+        return element("div", *_design(found, folder))
+    if isinstance(found, Front):
+        chart = front_chart(found)
+        rows = tuple(
+            (format_quantity(point.value, found.unit), "-", point.reason)
+            if point.device is None
+            else (
+                format_quantity(point.value, found.unit),
+                grams(point.device.mass),
+                f"{point.device.motor}, {point.device.gear}, {point.device.material}",
+            )
+            for point in found.points
+        )
+        return element(
+            "div",
+            _image("svg+xml", svg_file(chart), chart.title),
+            table("Lightest devices", Table(columns(found.label, "mass", "<drive"), rows)),
+        )
+    flown = found.monte_carlo
+    certified = None if flown is None else flown.certificate
+    parts = [_head(found.robot, flights_headline(found.validation, certified, found.survival))]
+    if flown is not None:
+        parts.append(table(campaign_title(flown), success_table(flown)))
+    if certified is not None:
+        parts.append(element("p", certificate_line(certified)))
+    reasons = (f"{run.scenario}: {run.reason}" for run in found.validation if run.ocs)
+    return element("div", *parts, items(reasons))
 
 
 def _design(design: OcsDesign, folder: Path | None) -> tuple[Markup, ...]:
@@ -72,33 +93,3 @@ def _image(kind: str, content: bytes, name: str) -> Markup:
 def _head(title: str, line: Headline) -> Markup:
     matter = (void("br"), line.matter) if line.matter else ()
     return element("p", element("strong", title), void("br"), line.text, *matter)
-
-
-def _validated(found: Validated) -> tuple[Markup, ...]:
-    flown = found.monte_carlo
-    certified = None if flown is None else flown.certificate
-    parts = [_head(found.robot, flights_headline(found.validation, certified, found.survival))]
-    if flown is not None:
-        parts.append(table(campaign_title(flown), success_table(flown)))
-    if certified is not None:
-        parts.append(element("p", certificate_line(certified)))
-    reasons = (f"{run.scenario}: {run.reason}" for run in found.validation if run.ocs)
-    return (*parts, items(reasons))
-
-
-def _front(front: Front) -> tuple[Markup, ...]:
-    rows = tuple(
-        (format_quantity(point.value, front.unit), "-", point.reason)
-        if point.device is None
-        else (
-            format_quantity(point.value, front.unit),
-            grams(point.device.mass),
-            f"{point.device.motor}, {point.device.gear}, {point.device.material}",
-        )
-        for point in front.points
-    )
-    shown = table("Lightest devices", Table(columns(front.label, "mass", "<drive"), rows))
-    return (
-        _image("svg+xml", svg_file(front_chart(front)), front_chart(front).title),
-        shown,
-    )

@@ -220,6 +220,12 @@ def _flight(flight: Flight, poses: Poses, names: Sequence[str], blob: Blob) -> R
     places = [poses.bodies.index(name) for name in names]
     tilt = [flight.columns[f"{axis}_rad"] for axis in ("pitch", "roll")]
     at_frames = [np.interp(poses.time, flight.time, np.degrees(angle)) for angle in tilt]
+    # Without the wheels' own turns, which are many from one pose to the next.
+    attitude = poses.attitude.copy()
+    for wheel, name in enumerate(flywheels_among(poses.bodies)):
+        body = poses.bodies.index(name)
+        back = from_axis_angle(np.array([0.0, 0.0, 1.0]), -poses.wheel_angle[:, wheel])
+        attitude[:, body] = hamilton(attitude[:, body], back)
     return {
         "scenario": flight.scenario,
         "ocs": flight.ocs,
@@ -228,20 +234,10 @@ def _flight(flight: Flight, poses: Poses, names: Sequence[str], blob: Blob) -> R
         "frames": len(poses.time),
         "time": blob.add(poses.time, "f4"),
         "position": blob.add(np.round(_FINE * poses.position[:, places]) / _FINE, "f4"),
-        "attitude": blob.add(np.round(_LARGEST * _unspun(poses)[:, places]), "i2"),
+        "attitude": blob.add(np.round(_LARGEST * attitude[:, places]), "i2"),
         "wheels": blob.add(poses.wheel_angle, "f4"),
         "tilt": blob.add(np.stack(at_frames, axis=1), "f4"),
     }
-
-
-def _unspun(poses: Poses) -> FloatArray:
-    """Attitudes with the wheels' own turns taken out, which are many from one pose to the next."""
-    attitude = poses.attitude.copy()
-    for wheel, name in enumerate(flywheels_among(poses.bodies)):
-        body = poses.bodies.index(name)
-        back = from_axis_angle(np.array([0.0, 0.0, 1.0]), -poses.wheel_angle[:, wheel])
-        attitude[:, body] = hamilton(attitude[:, body], back)
-    return attitude
 
 
 def _radius(low: FloatArray, high: FloatArray) -> float:

@@ -139,29 +139,21 @@ def _narrower(table: Table, excess: int) -> Table:
     for _ in range(excess if wordy else 0):
         widest = max(wordy, key=wordy.__getitem__)
         wordy[widest] = max(wordy[widest] - 1, _NARROWEST)
-    return replace(
-        table,
-        rows=tuple(
-            tuple(
-                _broken(cell, wordy[index]) if index in wordy else cell
-                for index, cell in enumerate(row)
-            )
-            for row in table.rows
-        ),
-    )
+    rows = []
+    for row in table.rows:
+        cells = list(row)
+        for index, width in wordy.items():
+            text = _text(row[index])
+            # A cell of several lines, as plots have them, stays.
+            if len(text) > width and "\n" not in text:
+                lines, cell = wrapped(text, width), row[index]
+                cells[index] = replace(cell, text=lines) if isinstance(cell, Toned) else lines
+        rows.append(tuple(cells))
+    return replace(table, rows=tuple(rows))
 
 
 def _text(cell: Cell) -> str:
     return cell.text if isinstance(cell, Toned) else cell
-
-
-def _broken(cell: Cell, width: int) -> Cell:
-    """A cell in lines of that width; one of several lines, as plots have them, stays."""
-    text = _text(cell)
-    if len(text) <= width or "\n" in text:
-        return cell
-    lines = wrapped(text, width)
-    return replace(cell, text=lines) if isinstance(cell, Toned) else lines
 
 
 def _width(console: Console, drawn: rich_table.Table) -> int:

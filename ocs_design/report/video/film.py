@@ -1,6 +1,6 @@
 """Each maneuver as a film: with the device and without it, side by side, in real time."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -16,7 +16,7 @@ from ocs_design.report.flights import off_level
 from ocs_design.report.quantities import degrees
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.run import Poses, Run
+from ocs_design.simulation.run import Run
 
 EXTRA = extra_command("video")
 
@@ -80,13 +80,17 @@ def _film(robot: Robot, device: Device, runs: Sequence[Run], folder: Path) -> Pa
     ]
     sides = []
     for run, pose, frames in zip(runs, poses, render_takes(takes), strict=True):
-        captions = _captions(run, pose)
-        sides.append(
-            [
-                pictures.captioned(frame, *caption)
-                for frame, caption in zip(frames, captions, strict=True)
-            ]
-        )
+        title, side = f"{run.scenario}, {'with' if run.ocs else 'without'} the device", []
+        series = run.series
+        for frame, time in zip(frames, pose.time[::STRIDE], strict=True):
+            at = min(int(np.searchsorted(series.time, time - 1e-9)), len(series.time) - 1)
+            tilt = float(off_level(series.roll[at], series.pitch[at]))
+            lines = [f"{time:.2f} s   tilt {degrees(tilt, 0)}"]
+            if run.ocs:
+                speeds = (rpm(float(speed)) for speed in series.wheel_speed[at])
+                lines.append(f"wheels {', '.join(speeds)}")
+            side.append(pictures.captioned(frame, title, run.passed, lines))
+        sides.append(side)
     longest = max(map(len, sides))
     film: list[Frames] = [
         np.concatenate([side[min(k, len(side) - 1)] for side in sides], axis=1)
@@ -94,17 +98,3 @@ def _film(robot: Robot, device: Device, runs: Sequence[Run], folder: Path) -> Pa
     ]
     seconds = STRIDE * float(poses[0].time[1] - poses[0].time[0])
     return pictures.encode(film, seconds, folder / safe_name(runs[0].scenario))
-
-
-def _captions(run: Run, poses: Poses) -> Iterator[tuple[str, bool | None, tuple[str, ...]]]:
-    """Title, verdict and lines of each frame."""
-    title = f"{run.scenario}, {'with' if run.ocs else 'without'} the device"
-    series = run.series
-    for time in poses.time[::STRIDE]:
-        at = min(int(np.searchsorted(series.time, time - 1e-9)), len(series.time) - 1)
-        tilt = float(off_level(series.roll[at], series.pitch[at]))
-        lines = [f"{time:.2f} s   tilt {degrees(tilt, 0)}"]
-        if run.ocs:
-            speeds = (rpm(float(speed)) for speed in series.wheel_speed[at])
-            lines.append(f"wheels {', '.join(speeds)}")
-        yield title, run.passed, tuple(lines)
