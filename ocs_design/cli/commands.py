@@ -92,9 +92,18 @@ def init(
         """Read the robot."""
         return read_start(specification, package_paths=packages, strict=strict)
 
+    def with_robot(answer: str) -> "Start":
+        """Read what is stated, with the robot in a file or none."""
+        file = answer.strip() or None
+        return start_from(replace(stated, robot=replace(stated.robot, file=file)))
+
     asking = not (yes or as_json) and sys.stdin.isatty() and sys.stderr.isatty()
     stated = specified_by_command(context)
-    start = _ask_robot(stated, start_from) if asking else start_from(stated)
+    own = stated.robot
+    if asking and all(item is None for item in (own.file, own.mass, own.inertia, own.human)):
+        start = _ask("Robot file (URDF, xacro or MJCF), or nothing", "", with_robot)
+    else:
+        start = start_from(stated)
     file = out or start.default_file
     check_file_target(file, force=force)
     chosen: tuple[str, ...] = ()
@@ -104,26 +113,17 @@ def init(
     Output(as_json, no_color, quiet).give(written, print_initialized)
 
 
-def _ask_robot(
-    stated: "Specification", start_from: Callable[["Specification"], "Start"]
-) -> "Start":
-    """What is stated, with a robot if the user names one."""
-    own = stated.robot
-    if any(item is not None for item in (own.file, own.mass, own.inertia, own.human)):
-        return start_from(stated)
-
-    def read(answer: str) -> "Start":
-        """The robot in a file, or none."""
-        file = answer.strip() or None
-        return start_from(replace(stated, robot=replace(stated.robot, file=file)))
-
-    return _ask("Robot file (URDF, xacro or MJCF), or nothing", "", read)
-
-
 def _ask_task(start: "Start") -> tuple["Start", tuple[str, ...]]:
     """The start with what was answered, and the maneuvers that were chosen."""
+    from ocs_design.requirement.specification import merge, specification_from_options
     from ocs_design.requirement.vocabulary import NO_MOTOR
     from ocs_design.requirement.writing import rounded_text
+
+    def with_key(path: str, default: str, answer: str) -> "Start":
+        """The start with an answer as that key; a bare number is in the default's unit."""
+        unit = default.partition(" ")[2] if answer.strip()[-1:].isdigit() else ""
+        given = {} if answer == default else {path: f"{answer} {unit}".rstrip()}
+        return replace(start, stated=merge(start.stated, specification_from_options(given)))
 
     chosen: tuple[str, ...] = ()
     if start.stated.takes_default_maneuvers:
@@ -144,18 +144,8 @@ def _ask_task(start: "Start") -> tuple["Start", tuple[str, ...]]:
         is_moot = section in {"motor", "supply"} and start.stated.motor.name == NO_MOTOR
         if not is_moot and getattr(getattr(start.stated, section), name) is None:
             default = rounded_text(start.default, path)
-            read = partial(_with_key, start, path, default)
-            start = _ask(question, default, read)
+            start = _ask(question, default, partial(with_key, path, default))
     return start, chosen
-
-
-def _with_key(start: "Start", path: str, default: str, answer: str) -> "Start":
-    """The start with an answer as that key; a bare number is in the default's unit."""
-    from ocs_design.requirement.specification import merge, specification_from_options
-
-    unit = default.partition(" ")[2] if answer.strip()[-1:].isdigit() else ""
-    given = {} if answer == default else {path: f"{answer} {unit}".rstrip()}
-    return replace(start, stated=merge(start.stated, specification_from_options(given)))
 
 
 def _ask(question: str, default: str, read: Callable[[str], Answer]) -> Answer:

@@ -83,16 +83,12 @@ class Beside:
         return answer
 
 
-def _serve() -> None:
-    """Import the module that is named, take one call from the standard input and answer it."""
-    # What is printed on the way is not to get among the bytes of the answer.
-    answer, sys.stdout = sys.stdout.buffer, sys.stderr
-    import_module(sys.argv[1])
-    call = pickle.load(sys.stdin.buffer)
-    pickle.dump(call(), answer)
-    answer.flush()
-
-
 if __name__ == "__main__":
+    # Import the module that is named, take one call from the standard input and answer it.
     with suppress(EOFError, BrokenPipeError):
-        _serve()
+        # What is printed on the way is not to get among the bytes of the answer.
+        answer, sys.stdout = sys.stdout.buffer, sys.stderr
+        import_module(sys.argv[1])
+        call = pickle.load(sys.stdin.buffer)
+        pickle.dump(call(), answer)
+        answer.flush()

@@ -23,7 +23,6 @@ from ocs_design.export.device_parts import (
 from ocs_design.export.electrics import Electrics
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.carrier_plate import (
-    CarrierPlate,
     mast_part,
     plate_part,
     sleeve_part,
@@ -131,12 +130,43 @@ def bill_rows(device: Device, margins: Sequence[MarginRecord] = ()) -> Sequence[
             each: feet.count(each) for each in feet
         }
         rows += [_screws(each, of) for each, of in held.items()]
-    plate = () if device.plate is None else _plate_rows(device.plate)
-    return [*rows, *plate, *_pedestal_rows(device), *_unweighed_rows(device, margins)]
+    return [*rows, *_support_rows(device), *_unweighed_rows(device, margins)]
 
 
-def _pedestal_rows(device: Device) -> Iterator[BillRow]:
-    """The pedestals under the feet that lean, and the screws that hold them on the trunk."""
+def _support_rows(device: Device) -> Iterator[BillRow]:
+    """What is under the feet: plate, mast and sleeves, or pedestals, each with its screws."""
+    plate = device.plate
+    if plate is not None:
+        size = " x ".join(map(_mm, plate.sizes))
+        made = (
+            "milled or cut by water jet to plate.pdf (outline: `export --formats dxf`), "
+            f"neck {_mm(2.0 * plate.neck)}; "
+            f"{len(plate.feet) // len(plate.rows)} threads {plate.foot_thread} for the feet"
+        )
+        mass = plate_part(plate.each[0]).mass()
+        yield BillRow("plate under the feet", len(plate.rows), plate.material, size, mass, made)
+        mast, under = plate.mast, "plate"
+        if mast is not None:
+            stock, under = f"square tube {_mm(mast.side)} x {_mm(mast.wall)}", "mast"
+            spacer = f", a block of {_mm(mast.spacer)} before it" if mast.spacer > 0.0 else ""
+            made = (
+                f"upright of {_mm(mast.high - mast.low)}{spacer}, {len(plate.rows)} arms of "
+                f"{_mm(mast.back + plate.neck)}, welded, and a plate on each arm"
+            )
+            mass = mast_part(plate, mast).mass()
+            yield BillRow("mast", 1, plate.material, stock, mass, made)
+            stock = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(plate.sleeve_wall)} wall"
+            made = f"cut to {_mm(mast.bore)}, in the upright around each screw"
+            mass, count = sleeve_part(plate, mast.bore).mass(), len(plate.trunk)
+            yield BillRow("sleeve in the mast", count, plate.material, stock, mass, made)
+        for length in sorted({length for length in plate.sleeves if length > 0.0}):
+            stock = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(plate.sleeve_wall)} wall"
+            shims = ", or shim washers" if length < SHIM else ""
+            made = f"cut to {_mm(length)}{shims}, between {under} and trunk"
+            count, mass = plate.sleeves.count(length), sleeve_part(plate, length).mass()
+            yield BillRow(f"sleeve under the {under}", count, plate.material, stock, mass, made)
+        for held in plate.fastenings:
+            yield _screws(held, 1)
     for kind in pedestal_kinds(device):
         one, count = kind.alike[0], len(kind.alike)
         made = (
@@ -147,40 +177,6 @@ def _pedestal_rows(device: Device) -> Iterator[BillRow]:
         whose = " and ".join(each.module for each in kind.alike)
         yield BillRow(f"pedestal of {whose}", count, "PETG", size, kind.part.mass(), made)
         yield _screws(kind.screws, count)
-
-
-def _plate_rows(plate: CarrierPlate) -> Iterator[BillRow]:
-    """The plate under the feet, its sleeves and the screws that hold it on the trunk."""
-    size = " x ".join(map(_mm, plate.sizes))
-    made = (
-        "milled or cut by water jet to plate.pdf (outline: `export --formats dxf`), "
-        f"neck {_mm(2.0 * plate.neck)}; "
-        f"{len(plate.feet) // len(plate.rows)} threads {plate.foot_thread} for the feet"
-    )
-    mass = plate_part(plate.each[0]).mass()
-    yield BillRow("plate under the feet", len(plate.rows), plate.material, size, mass, made)
-    mast, under = plate.mast, "plate"
-    if mast is not None:
-        stock, under = f"square tube {_mm(mast.side)} x {_mm(mast.wall)}", "mast"
-        spacer = f", a block of {_mm(mast.spacer)} before it" if mast.spacer > 0.0 else ""
-        made = (
-            f"upright of {_mm(mast.high - mast.low)}{spacer}, {len(plate.rows)} arms of "
-            f"{_mm(mast.back + plate.neck)}, welded, and a plate on each arm"
-        )
-        mass = mast_part(plate, mast).mass()
-        yield BillRow("mast", 1, plate.material, stock, mass, made)
-        stock = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(plate.sleeve_wall)} wall"
-        made = f"cut to {_mm(mast.bore)}, in the upright around each screw"
-        mass, count = sleeve_part(plate, mast.bore).mass(), len(plate.trunk)
-        yield BillRow("sleeve in the mast", count, plate.material, stock, mass, made)
-    for length in sorted({length for length in plate.sleeves if length > 0.0}):
-        stock = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(plate.sleeve_wall)} wall"
-        shims = ", or shim washers" if length < SHIM else ""
-        made = f"cut to {_mm(length)}{shims}, between {under} and trunk"
-        count, mass = plate.sleeves.count(length), sleeve_part(plate, length).mass()
-        yield BillRow(f"sleeve under the {under}", count, plate.material, stock, mass, made)
-    for held in plate.fastenings:
-        yield _screws(held, 1)
 
 
 def _screws(held: Fastening, modules: int) -> BillRow:

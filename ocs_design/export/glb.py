@@ -13,7 +13,7 @@ import numpy as np
 
 from ocs_design.device.bodies import IMU
 from ocs_design.export.formats import Notes, Subject
-from ocs_design.export.meshes import Color, Mesh
+from ocs_design.export.meshes import Color
 from ocs_design.export.robot_model import model_of
 from ocs_design.export.snapshot import geom_mesh, shown_color
 from ocs_design.robot.mujoco_bodies import quaternion
@@ -128,7 +128,16 @@ class _Scene:
             found = geom_mesh(model, geom)
             if found is None:
                 return None
-            self._surfaces[key] = self._add_surface(found)
+            # A surface that meshes may share, by the indices of its vertices and faces.
+            vertices = np.ascontiguousarray(found.vertices, dtype="<f4")
+            small = len(vertices) <= _MOST_UINT16
+            corners = np.ascontiguousarray(found.triangles, dtype="<u2" if small else "<u4").ravel()
+            points = self._accessor(vertices.tobytes(), _VERTICES, _FLOAT, len(vertices), "VEC3")
+            self._accessors[points]["min"] = vertices.min(axis=0).tolist()
+            self._accessors[points]["max"] = vertices.max(axis=0).tolist()
+            width = _UINT16 if small else _UINT32
+            faces = self._accessor(corners.tobytes(), _INDICES, width, corners.size, "SCALAR")
+            self._surfaces[key] = points, faces
         surface, name = self._surfaces[key], model.geom(geom).name or f"geom{geom}"
         if (surface, color) not in self._mesh_of:
             material = self._materials.setdefault(color, len(self._materials))
@@ -139,17 +148,6 @@ class _Scene:
         rotation = rotation_from_quaternion(model.geom_quat[geom])
         place = Placement(rotation, model.geom_pos[geom])
         return self._add_node(name, place, mesh=self._mesh_of[surface, color])
-
-    def _add_surface(self, mesh: Mesh) -> tuple[int, int]:
-        """Add a surface that meshes may share; gives the indices of its vertices and faces."""
-        vertices = np.ascontiguousarray(mesh.vertices, dtype="<f4")
-        small = len(vertices) <= _MOST_UINT16
-        faces = np.ascontiguousarray(mesh.triangles, dtype="<u2" if small else "<u4").ravel()
-        points = self._accessor(vertices.tobytes(), _VERTICES, _FLOAT, len(vertices), "VEC3")
-        self._accessors[points]["min"] = vertices.min(axis=0).tolist()
-        self._accessors[points]["max"] = vertices.max(axis=0).tolist()
-        kind = _UINT16 if small else _UINT32
-        return points, self._accessor(faces.tobytes(), _INDICES, kind, faces.size, "SCALAR")
 
     def _add_node(
         self, name: str, place: Placement, children: Sequence[int] = (), mesh: int | None = None

@@ -105,14 +105,21 @@ def _take_meshes(urdf: ET.Element, robot: Robot, folder: Path, package: str) -> 
     places = {path.name: path.name for path in folder.iterdir()}
     copies: dict[Path, str] = {}
     lost: dict[str, None] = {}
+
+    def alike(path: Path) -> int:
+        """Number of parts, counted from the file's name, that agree with the mesh's address."""
+        pairs = zip(reversed(path.parts), reversed(name.parts), strict=False)
+        return next((k for k, (a, b) in enumerate(pairs) if a != b), len(name.parts))
+
     for mesh in urdf.iter("mesh"):
         address = mesh.get("filename", "")
         name = PurePosixPath(unquote(address.strip()).rpartition("://")[2])
         # The device's own lie there already.
         place = places.get(name.name) if address == f"meshes/{name.name}" else None
         if place is None:
-            path = _best(found, name)
-            if path is None:
+            # The file that ends as the address does, in the most of its folders.
+            path = max(found, key=alike, default=None)
+            if path is None or not alike(path):
                 lost[address] = None
                 continue
             if path not in copies:
@@ -122,18 +129,6 @@ def _take_meshes(urdf: ET.Element, robot: Robot, folder: Path, package: str) -> 
             place = copies[path]
         mesh.set("filename", f"package://{package}/meshes/{place}")
     return list(lost)
-
-
-def _best(paths: Iterable[Path], name: PurePosixPath) -> Path | None:
-    """File that ends as a mesh's address does, in the most of its folders."""
-
-    def alike(path: Path) -> int:
-        """Number of parts, counted from the file's name, that agree with the address."""
-        pairs = zip(reversed(path.parts), reversed(name.parts), strict=False)
-        return next((k for k, (a, b) in enumerate(pairs) if a != b), len(name.parts))
-
-    best = max(paths, key=alike, default=None)
-    return best if best is not None and alike(best) else None
 
 
 def _controllers(robot: Robot, wheels: Iterable[str]) -> dict[str, str]:

@@ -8,7 +8,6 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.robot.chain import Chain
 from ocs_design.robot.leg_geometry import (
-    LegGeometry,
     leg_geometries,
     up_axis,
 )
@@ -65,8 +64,20 @@ class LeggedBody:
     def of(cls, robot: Robot) -> "LeggedBody":
         """Trunk and legs of a robot for which `obstacle_to_jumping` is empty."""
         geometries = leg_geometries(robot.tree, robot.trunk, robot.legs)
-        masses = _merged_masses(robot, geometries)
-        index = {body.name: i for i, body in enumerate(robot.tree.bodies)}
+        tree = robot.tree
+        index = {body.name: i for i, body in enumerate(tree.bodies)}
+        # Mass properties by index of the body that carries them; -1 is the trunk, in B.
+        in_chain = {index[body.name] for each in geometries for body in each.chain.bodies}
+        placements = tree.placements_from(robot.trunk, robot.posture)
+        carried: dict[int, list[MassProperties]] = {-1: []}
+        for i, body in enumerate(tree.bodies):
+            carrier = i
+            while carrier >= 0 and carrier not in in_chain:
+                carrier = tree.bodies[carrier].parent
+            place = placements[i] if carrier < 0 else placements[carrier].inverse() @ placements[i]
+            part = body.mass_properties.moved(place.rotation, place.position)
+            carried.setdefault(carrier, []).append(part)
+        masses = {carrier: combine(parts) for carrier, parts in carried.items()}
         legs = tuple(
             JumpingLeg(
                 chain=each.chain,
@@ -132,20 +143,3 @@ def obstacle_to_jumping(robot: Robot) -> str:
             if found:
                 return obstacle
     return ""
-
-
-def _merged_masses(robot: Robot, geometries: tuple[LegGeometry, ...]) -> dict[int, MassProperties]:
-    """Mass properties by index of the body that carries them; -1 is the trunk, in B."""
-    tree = robot.tree
-    names = {body.name for each in geometries for body in each.chain.bodies}
-    in_chain = {i for i, body in enumerate(tree.bodies) if body.name in names}
-    placements = tree.placements_from(robot.trunk, robot.posture)
-    carried: dict[int, list[MassProperties]] = {-1: []}
-    for i, body in enumerate(tree.bodies):
-        carrier = i
-        while carrier >= 0 and carrier not in in_chain:
-            carrier = tree.bodies[carrier].parent
-        place = placements[i] if carrier < 0 else placements[carrier].inverse() @ placements[i]
-        part = body.mass_properties.moved(place.rotation, place.position)
-        carried.setdefault(carrier, []).append(part)
-    return {carrier: combine(parts) for carrier, parts in carried.items()}

@@ -10,7 +10,6 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.robot.leg_geometry import up_axis
 from ocs_design.robot.meshes import extent_of, solid_shapes
 from ocs_design.robot.robot import Leg, Robot
-from ocs_design.robot.tree import Placement
 
 _SIDE = 300.0
 """Width and height of one view [px]."""
@@ -65,7 +64,18 @@ def stick_figure(robot: Robot, legs: Sequence[Leg], words: Sequence[str]) -> str
     feet = {
         leg.name: places[leg.body].rotation @ leg.foot + places[leg.body].position for leg in legs
     }
-    corners = _trunk_corners(robot, places)
+    # Corners of the box around the trunk's shapes along B's axes; none without shapes.
+    index = robot.tree.body_of_link[robot.trunk]
+    place, shapes = places[index], solid_shapes(robot.tree.bodies[index])
+    corners: list[FloatArray] = []
+    reaches = [
+        reach + float(side @ place.position)
+        for side in np.vstack([np.eye(3), -np.eye(3)])
+        if (reach := extent_of(shapes, place.rotation.T @ side)) is not None
+    ]
+    if len(reaches) == 6:
+        ends = np.array([[-reaches[axis + 3], reaches[axis]] for axis in range(3)])
+        corners += list(np.stack(np.meshgrid(*ends), axis=-1).reshape(-1, 3))
     points = np.array([*(place.position for place in places), *feet.values(), *corners])
     low, high = points.min(axis=0), points.max(axis=0)
     scale = (_SIDE - 2.0 * _EDGE) / max(float((high - low).max()), 1e-9)
@@ -91,20 +101,6 @@ def stick_figure(robot: Robot, legs: Sequence[Leg], words: Sequence[str]) -> str
         f"<title>{escape(robot.name)}</title>\n"
         f'<rect width="100%" height="100%" fill="white"/>\n' + "\n".join(marks) + "\n</svg>\n"
     )
-
-
-def _trunk_corners(robot: Robot, places: Sequence[Placement]) -> list[FloatArray]:
-    """Corners of the box around the trunk's shapes along B's axes [m]; none without shapes."""
-    index = robot.tree.body_of_link[robot.trunk]
-    place, shapes = places[index], solid_shapes(robot.tree.bodies[index])
-    reaches = []
-    for side in np.vstack([np.eye(3), -np.eye(3)]):
-        reach = extent_of(shapes, place.rotation.T @ side)
-        if reach is None:
-            return []
-        reaches.append(reach + float(side @ place.position))
-    ends = np.array([[-reaches[axis + 3], reaches[axis]] for axis in range(3)])
-    return [np.array(corner) for corner in np.stack(np.meshgrid(*ends), axis=-1).reshape(-1, 3)]
 
 
 def _drawn(

@@ -134,25 +134,18 @@ def read_design(path: AnyPath) -> OcsDesign:
     try:
         if version == SCHEMA_VERSION:
             return msgspec.json.decode(content, type=OcsDesign)
-        return msgspec.convert(_renewed(msgspec.json.decode(content)), OcsDesign)
+        # Version 1 said of a run only whether it passed, which takes a level touchdown, and an
+        # upright end where the legs bear one. What else it lacks takes its default.
+        document = msgspec.json.decode(content)
+        for margin in _objects(document.get("margins")):
+            margin["scenario"] = margin.pop("maneuver", "")
+        for run in _objects(document.get("validation")):
+            if run.get("passed") is True:
+                run["level"] = True
+                run["stands"] = True if run.get("can_stand") is True else None
+        return msgspec.convert({**document, "schema_version": SCHEMA_VERSION}, OcsDesign)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise OcsError(f"{path}: {error}", hint="run `ocs-design size` again") from error
-
-
-def _renewed(document: dict[str, Any]) -> dict[str, Any]:
-    """Document of version 1 in the names of version 2; what it lacks takes its default.
-
-    Version 1 said of a run only whether it passed, which takes a level touchdown, and an upright
-    end where the legs bear one.
-    """
-    margins, runs = (document.get(name) for name in ("margins", "validation"))
-    for margin in _objects(margins):
-        margin["scenario"] = margin.pop("maneuver", "")
-    for run in _objects(runs):
-        if run.get("passed") is True:
-            run["level"] = True
-            run["stands"] = True if run.get("can_stand") is True else None
-    return {**document, "schema_version": SCHEMA_VERSION}
 
 
 def _objects(entries: object) -> list[dict[str, Any]]:

@@ -25,6 +25,7 @@ from ocs_design.export.drawing.wheel import Seat, seat
 from ocs_design.export.drawing.wheel_sheet import RUN_OUT
 from ocs_design.export.electrics import Electrics
 from ocs_design.parts.bell import GLUE_GAP
+from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.foot import LONG_MARKS
 from ocs_design.parts.joints import EPOXY
 from ocs_design.parts.module import part_name
@@ -50,8 +51,27 @@ class Chapter:
 
 def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
     """All text, in the order of the work."""
+    notes = dict.fromkeys((*drive_notes(assembly.device), *assembly.notes))
+    before = [
+        "Read the safety notes at the end before anything turns.",
+        *(f"{note[:1].upper()}{note[1:]}." for note in notes),
+    ]
+    if any(
+        found.fastening.depth < IN_PLASTIC and "motor" in found.fastening.purpose
+        for found in assembly.screws.values()
+    ):
+        before.append(
+            "Measure how deep the motor's threads are before you put screws into them: the "
+            "catalogue does not know. A screw that is too long cuts into the winding; take a "
+            "shorter one, or washers, so that its tip stays 0.5 mm off the bottom."
+        )
+    before.append(
+        "Tools: torque screwdriver from 0.05 N m, hex keys, taps for the threads in the prints "
+        "(drill sizes are those of the holes), dial gauge, hand drill on a stand, scales to "
+        "0.01 g, tachometer."
+    )
     whole = (
-        Chapter("Before you start", tuple(_before(assembly))),
+        Chapter("Before you start", tuple(before)),
         Chapter("Steps, for each module", tuple(_steps(assembly)), numbered=True),
         Chapter("Balance", tuple(balance(assembly))),
         Chapter("Spin test, before anything goes on the robot", tuple(spin_test(assembly)), True),
@@ -59,26 +79,6 @@ def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
         Chapter("Safety", tuple(safety(assembly))),
     )
     return tuple(chapter for chapter in whole if chapter.texts)
-
-
-def _before(assembly: Assembly) -> Iterator[str]:
-    yield "Read the safety notes at the end before anything turns."
-    notes = (*drive_notes(assembly.device), *assembly.notes)
-    yield from (f"{note[:1].upper()}{note[1:]}." for note in dict.fromkeys(notes))
-    if any(
-        found.fastening.depth < IN_PLASTIC and "motor" in found.fastening.purpose
-        for found in assembly.screws.values()
-    ):
-        yield (
-            "Measure how deep the motor's threads are before you put screws into them: the "
-            "catalogue does not know. A screw that is too long cuts into the winding; take a "
-            "shorter one, or washers, so that its tip stays 0.5 mm off the bottom."
-        )
-    yield (
-        "Tools: torque screwdriver from 0.05 N m, hex keys, taps for the threads in the prints "
-        "(drill sizes are those of the holes), dial gauge, hand drill on a stand, scales to "
-        "0.01 g, tachometer."
-    )
 
 
 def _steps(assembly: Assembly) -> Iterator[str]:
@@ -200,94 +200,95 @@ def _joint(assembly: Assembly) -> Iterator[str]:
 
 def _on_the_trunk(assembly: Assembly) -> Iterator[str]:
     """How trunk, plate, mast, feet and pedestals come together."""
-    foot = foot_of(assembly.device)
-    standing = foot_holes(assembly.device)
+    device, foot, standing = assembly.device, foot_of(assembly.device), foot_holes(assembly.device)
     drilled = [
         f"{part_name('foot', module)} {' and '.join(places(ends))}"
         for module, ends in standing.items()
     ]
-    holes = {each.module: each.in_base(each.holes) for each in assembly.device.pedestals}
+    holes = {each.module: each.in_base(each.holes) for each in device.pedestals}
     drilled += [
         f"{part_name('pedestal', module)} {', '.join(places(ends))}"
         for module, ends in holes.items()
     ]
     heights = [
-        *(
-            float(module.position[2]) - foot.wheel_height
-            for module in assembly.device.modules
-            if module.name not in holes
-        ),
-        *(each.position[2] for each in assembly.device.pedestals),
+        float(module.position[2]) - foot.wheel_height
+        for module in device.modules
+        if module.name not in holes
     ]
+    heights += [each.position[2] for each in device.pedestals]
     stand = " and ".join(dict.fromkeys(f"{1e3 * height:.1f}" for height in heights))
-    motor, plate = assembly.device.motor, assembly.device.plate
-    mass = assembly.device.flywheel.mass + assembly.device.carrier.mass - motor.controller_mass
+    mass = device.flywheel.mass + device.carrier.mass - device.motor.controller_mass
     yield (
         f"Weigh the module with all its screws, without its controller: {1e3 * mass:.0f} g. If "
         "it is 2 % off, weigh its parts against cad/bill_of_materials.csv."
     )
-    if assembly.device.layout == PAIR:
+    if device.layout == PAIR:
         yield (
             "Both modules are of the same parts. On the robot the right one is turned by half "
             "a turn about the vertical, so that both motors are on the inner side."
         )
     else:
         yield "All modules are of the same parts, each turned as its wheel's axis points."
-    frame = "in mm forward and to the left of the frame that the design is in (`robot.trunk` of"
+    frame = (
+        "in mm forward and to the left of the frame that the design is in (`robot.trunk` of "
+        "design.json)"
+    )
     what = "feet and pedestals" if standing and holes else "pedestals" if holes else "the feet"
     places_of = f"{'; '.join(drilled)}; {what} stand at z = {stand} mm"
-    if plate is None:
+    if device.plate is None:
         yield (
             "Drill the trunk by cad/drilling.pdf, printed at 100 %; it says how deep. Places, "
-            f"{frame} design.json): "
-            f"{places_of}."
+            f"{frame}: {places_of}."
         )
     else:
-        cut = (
-            f"Make the plate{assembly.number('plate')} to cad/plate.pdf (`export --formats dxf` "
-            f"writes its outline for a cutter), with holes of "
-            f"{1e3 * plate.screw.clearance_hole:g} mm for the trunk's screws, and threads "
-            f"{plate.foot_thread} for the feet, which are, "
-            f"{frame} design.json), at {places_of}. Drill and tap the trunk"
-        )
-        if plate.mast is None:
-            yield (
-                f"{cut} {plate.thread} where its other {len(plate.trunk)} holes come to lie "
-                "(cad/drilling.pdf, printed at 100 %, which says how deep)."
-            )
-        else:
-            yield (
-                f"{cut}'s back {plate.thread} by cad/drilling.pdf, printed at 100 %. Whether "
-                "its wall bears them is not looked at: put a plate behind it where it is thin."
-            )
-            mast, ends = plate.mast, [f"{1e3 * z:.1f}" for z in plate.heights]
-            yield (
-                f"Weld the mast{assembly.number('mast')} to cad/plate.pdf, of square tube "
-                f"{1e3 * mast.side:.0f} x {1e3 * mast.wall:.0f} mm: an upright of "
-                f"{1e3 * (mast.high - mast.low):.1f} mm, an arm of "
-                f"{1e3 * (mast.back + plate.neck):.1f} mm whose top is "
-                f"{' and '.join(ends)} mm above the lowest plate, and a plate on each arm. "
-                f"Drill it {1e3 * plate.screw.clearance_hole:.1f} mm through both walls, with "
-                f"a sleeve of {1e3 * mast.bore:.1f} mm between them around each screw."
-            )
-        origin = plate.position[:2] if plate.mast is None else plate.position[1:]
-        sleeves = [
-            f"{1e3 * length:.2f} mm at ({1e3 * (origin[0] + x):.1f}, {1e3 * (origin[1] + y):.1f})"
-            for (x, y), length in zip(plate.trunk, plate.sleeves, strict=True)
-            if length > 0.0
-        ]
-        if sleeves:
-            yield f"Under its holes stand sleeves{assembly.number('sleeves')}: " + (
-                ", ".join(sleeves) + ". File them to the trunk where it slopes under them."
-            )
-        yield from (
-            assembly.screwed(each)
-            for each in assembly.late
-            if each.startswith(("plate on", "mast on"))
-        )
+        yield from _on_plate(assembly, device.plate, f"{frame}, at {places_of}")
     yield from _on_pedestals(assembly)
     if standing:
         yield _turned(assembly, list(standing))
+
+
+def _on_plate(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterator[str]:
+    """How plate, mast and sleeves are made and come on the trunk; `holes`: those for the feet."""
+    cut = (
+        f"Make the plate{assembly.number('plate')} to cad/plate.pdf (`export --formats dxf` "
+        f"writes its outline for a cutter), with holes of "
+        f"{1e3 * plate.screw.clearance_hole:g} mm for the trunk's screws, and threads "
+        f"{plate.foot_thread} for the feet, which are, "
+        f"{holes}. Drill and tap the trunk"
+    )
+    if plate.mast is None:
+        yield (
+            f"{cut} {plate.thread} where its other {len(plate.trunk)} holes come to lie "
+            "(cad/drilling.pdf, printed at 100 %, which says how deep)."
+        )
+    else:
+        yield (
+            f"{cut}'s back {plate.thread} by cad/drilling.pdf, printed at 100 %. Whether "
+            "its wall bears them is not looked at: put a plate behind it where it is thin."
+        )
+        mast, ends = plate.mast, [f"{1e3 * z:.1f}" for z in plate.heights]
+        yield (
+            f"Weld the mast{assembly.number('mast')} to cad/plate.pdf, of square tube "
+            f"{1e3 * mast.side:.0f} x {1e3 * mast.wall:.0f} mm: an upright of "
+            f"{1e3 * (mast.high - mast.low):.1f} mm, an arm of "
+            f"{1e3 * (mast.back + plate.neck):.1f} mm whose top is "
+            f"{' and '.join(ends)} mm above the lowest plate, and a plate on each arm. "
+            f"Drill it {1e3 * plate.screw.clearance_hole:.1f} mm through both walls, with "
+            f"a sleeve of {1e3 * mast.bore:.1f} mm between them around each screw."
+        )
+    origin = plate.position[:2] if plate.mast is None else plate.position[1:]
+    sleeves = [
+        f"{1e3 * length:.2f} mm at ({1e3 * (origin[0] + x):.1f}, {1e3 * (origin[1] + y):.1f})"
+        for (x, y), length in zip(plate.trunk, plate.sleeves, strict=True)
+        if length > 0.0
+    ]
+    if sleeves:
+        yield f"Under its holes stand sleeves{assembly.number('sleeves')}: " + (
+            ", ".join(sleeves) + ". File them to the trunk where it slopes under them."
+        )
+    yield from (
+        assembly.screwed(each) for each in assembly.late if each.startswith(("plate on", "mast on"))
+    )
 
 
 def _turned(assembly: Assembly, standing: Sequence[str]) -> str:

@@ -305,6 +305,16 @@ def record_section(story: Story) -> Markup:
     read = items(design.robot.warnings, look="warnings")
     hashes = Table(columns("<file", "<SHA-256"), tuple(design.files.items()))
     lines = (element("span", name) for name in ("Designed by", "Reviewed by", "Date"))
+    motor, wheel = design.ocs.motor, design.ocs.flywheel
+    sources = [("method", PAPER), ("motor", f"{motor.full_name}: {motor.source}")]
+    gear = known_gears(None).get(motor.gear) if motor.gear != DIRECT.name else None
+    if gear is not None:
+        sources.append(("gear", f"{gear.name}: {gear.source}"))
+    used = [wheel.material] + ([] if wheel.web is None else [wheel.web.material])
+    for name in dict.fromkeys(used):
+        material = materials().get(name)
+        if material is not None:
+            sources.append(("material", f"{name}: {material.source}"))
     return section(
         "record",
         "Assumptions, sources and provenance",
@@ -313,7 +323,7 @@ def record_section(story: Story) -> Markup:
         details("What samples are drawn from", facts(drawn_facts(design.reality))),
         *((element("h3", "Warnings about the robot's file"), read) if read else ()),
         element("h3", "Sources"),
-        facts(_sources(design)),
+        facts(sources),
         element("h3", "Provenance"),
         facts(_provenance(story)),
         details(
@@ -328,20 +338,6 @@ def record_section(story: Story) -> Markup:
         ),
         element("div", *lines, class_="signature"),
     )
-
-
-def _sources(design: OcsDesign) -> Iterator[tuple[str, str]]:
-    yield "method", PAPER
-    motor, wheel = design.ocs.motor, design.ocs.flywheel
-    yield "motor", f"{motor.full_name}: {motor.source}"
-    gear = known_gears(None).get(motor.gear) if motor.gear != DIRECT.name else None
-    if gear is not None:
-        yield "gear", f"{gear.name}: {gear.source}"
-    used = [wheel.material] + ([] if wheel.web is None else [wheel.web.material])
-    for name in dict.fromkeys(used):
-        material = materials().get(name)
-        if material is not None:
-            yield "material", f"{name}: {material.source}"
 
 
 def _provenance(story: Story) -> Iterator[tuple[str, str]]:

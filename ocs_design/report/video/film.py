@@ -60,41 +60,39 @@ def film_flights(
     Raises:
         MissingToolError: OpenGL does not work here.
     """
-    films = []
-    for maneuver in maneuvers:
-        pair = [run for run in runs if run.scenario == maneuver.name and run.poses is not None]
-        if pair:
-            films.append(_film(robot, device.as_flown(maneuver), pair, folder))
-    return tuple(films)
-
-
-def _film(robot: Robot, device: Device, runs: Sequence[Run], folder: Path) -> Path:
-    """Film of one maneuver; who is done first stands still until the other is."""
     # Pillow is an extra.
     from ocs_design.report.video import pictures  # noqa: PLC0415
 
-    poses = [run.poses for run in runs if run.poses is not None]
-    takes = [
-        Take(film_model(robot, device, ocs=run.ocs), pose.qpos[::STRIDE])
-        for run, pose in zip(runs, poses, strict=True)
-    ]
-    sides = []
-    for run, pose, frames in zip(runs, poses, render_takes(takes), strict=True):
-        title, side = f"{run.scenario}, {'with' if run.ocs else 'without'} the device", []
-        series = run.series
-        for frame, time in zip(frames, pose.time[::STRIDE], strict=True):
-            at = min(int(np.searchsorted(series.time, time - 1e-9)), len(series.time) - 1)
-            tilt = float(off_level(series.roll[at], series.pitch[at]))
-            lines = [f"{time:.2f} s   tilt {degrees(tilt, 0)}"]
-            if run.ocs:
-                speeds = (rpm(float(speed)) for speed in series.wheel_speed[at])
-                lines.append(f"wheels {', '.join(speeds)}")
-            side.append(pictures.captioned(frame, title, run.passed, lines))
-        sides.append(side)
-    longest = max(map(len, sides))
-    film: list[Frames] = [
-        np.concatenate([side[min(k, len(side) - 1)] for side in sides], axis=1)
-        for k in range(longest)
-    ]
-    seconds = STRIDE * float(poses[0].time[1] - poses[0].time[0])
-    return pictures.encode(film, seconds, folder / safe_name(runs[0].scenario))
+    films = []
+    for maneuver in maneuvers:
+        pair = [run for run in runs if run.scenario == maneuver.name and run.poses is not None]
+        if not pair:
+            continue
+        flown = device.as_flown(maneuver)
+        poses = [run.poses for run in pair if run.poses is not None]
+        takes = [
+            Take(film_model(robot, flown, ocs=run.ocs), pose.qpos[::STRIDE])
+            for run, pose in zip(pair, poses, strict=True)
+        ]
+        sides = []
+        for run, pose, frames in zip(pair, poses, render_takes(takes), strict=True):
+            title, side = f"{run.scenario}, {'with' if run.ocs else 'without'} the device", []
+            series = run.series
+            for frame, time in zip(frames, pose.time[::STRIDE], strict=True):
+                at = min(int(np.searchsorted(series.time, time - 1e-9)), len(series.time) - 1)
+                tilt = float(off_level(series.roll[at], series.pitch[at]))
+                lines = [f"{time:.2f} s   tilt {degrees(tilt, 0)}"]
+                if run.ocs:
+                    speeds = (rpm(float(speed)) for speed in series.wheel_speed[at])
+                    lines.append(f"wheels {', '.join(speeds)}")
+                side.append(pictures.captioned(frame, title, run.passed, lines))
+            sides.append(side)
+        # Who is done first stands still until the other is.
+        longest = max(map(len, sides))
+        film: list[Frames] = [
+            np.concatenate([side[min(k, len(side) - 1)] for side in sides], axis=1)
+            for k in range(longest)
+        ]
+        seconds = STRIDE * float(poses[0].time[1] - poses[0].time[0])
+        films.append(pictures.encode(film, seconds, folder / safe_name(maneuver.name)))
+    return tuple(films)
