@@ -14,7 +14,7 @@ from ocs_design import design_ocs
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.export.drawing.wheel import WheelDrawing
 from ocs_design.export.drawing.wheel_sheet import draw_wheel
-from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel
+from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre
 from ocs_design.requirement.sections import RobotSection, ValidationSection
 from ocs_design.requirement.specification import Specification
 
@@ -26,7 +26,7 @@ WIDTH, HEIGHT, OVERSAMPLING = 900, 560, 2
 WHEEL = WheelDrawing(
     wheel=Wheel(
         Rim(0.0392, 0.0413, 0.00305, "stainless-304", 8000.0),
-        Hub(
+        WheelCentre(
             web_thickness=0.0015,
             radius=0.0115,
             height=0.005,

@@ -8,11 +8,11 @@ from hypothesis import strategies as st
 from ocs_design.common.errors import PartError
 from ocs_design.export.drawing.sheet import Circle, Line, Text
 from ocs_design.export.drawing.wheel import WheelDrawing
-from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel
+from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre
 
 MADE_FOR = {"robot": "solo12", "identity": "9f3c0a1b2d4e", "tool": "ocs-design 0.1.0"}
 
-HUB = Hub(0.0015, 0.012, 0.008, 0.004, "EN AW-6082", 2700.0, HoleRing(0.008, 4, 0.0017))
+HUB = WheelCentre(0.0015, 0.012, 0.008, 0.004, "EN AW-6082", 2700.0, HoleRing(0.008, 4, 0.0017))
 
 FLAT = WheelDrawing(
     wheel=Wheel(Rim(0.0392, 0.0413, 0.00305, "stainless-304", 8000.0), HUB),
@@ -24,7 +24,7 @@ FLAT = WheelDrawing(
 HOLED = WheelDrawing(
     wheel=Wheel(
         Rim(0.03, 0.04, 0.01, "EN AW-6082", 2700.0, 0.0012, HoleRing(0.035, 12, 0.0015, 0.003)),
-        Hub(
+        WheelCentre(
             web_thickness=0.0015,
             radius=0.010,
             height=0.012,
@@ -57,7 +57,7 @@ def rings(draw, inner, outer, depth=math.inf):
 def hubs(draw, rim):
     radius = rim.inner_radius * draw(st.floats(0.15, 0.8))
     bore = radius * draw(st.floats(0.1, 0.8) | st.just(0.0))
-    return Hub(
+    return WheelCentre(
         web_thickness=rim.height * draw(st.floats(0.05, 0.5)),
         radius=radius,
         height=rim.height * draw(st.floats(0.5, 4.0)),

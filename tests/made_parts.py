@@ -11,14 +11,14 @@ from ocs_design.parts.part import Part
 from ocs_design.parts.printed import MountHoles
 from ocs_design.parts.shapes import ArcSlot, Disc, Rectangle
 from ocs_design.parts.solids import Prism, hollow_cylinder
-from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel, wheel_parts
+from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre, wheel_parts
 from ocs_design.robot.tree import Placement
 
 STEEL, ALUMINIUM = 7860.0, 2700.0
 
 RIM = Rim(0.022, 0.03, 0.01, "steel", STEEL, balancing=HoleRing(0.026, 12, 0.001, 0.002))
 
-HUB = Hub(
+HUB = WheelCentre(
     web_thickness=1.5e-3,
     radius=0.010,
     height=0.006,

@@ -18,7 +18,7 @@ from ocs_design.parts.housing import guard_ring, housing_parts
 from ocs_design.parts.part import Part
 from ocs_design.parts.pedestal import Pedestal, drilled
 from ocs_design.parts.printed import trunk_screws
-from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel, wheel_parts
+from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre, wheel_parts
 
 
 def wheel_geometry(flywheel: Flywheel) -> Wheel:
@@ -46,7 +46,7 @@ def wheel_geometry(flywheel: Flywheel) -> Wheel:
     lightening = None
     if holes is not None:
         lightening = HoleRing(holes.circle_radius, holes.count, holes.hole_radius)
-    hub = Hub(
+    hub = WheelCentre(
         web_thickness=web.thickness,
         radius=web.hub.radius,
         height=web.hub.height,

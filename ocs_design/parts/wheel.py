@@ -72,17 +72,17 @@ class Rim:
 
 
 @dataclass(frozen=True)
-class Hub:
-    """A thin disc that carries the rim at its edge, with a cylinder in its middle, both at z = 0.
+class WheelCentre:
+    """The wheel within its rim: a thin web with a hub in its middle, both at z = 0.
 
     Attributes:
         web_thickness: [m].
-        radius, height: of the cylinder [m].
+        radius, height: of the hub [m].
         bore_radius: of the hole for the shaft [m]; 0: none.
         material: name. density: [kg/m^3].
-        bolts: through holes in the cylinder; None where the motor's are not known.
+        bolts: through holes in the hub; None where the motor's are not known.
         lightening: through holes in the web; None: none.
-        chamfer: of the cylinder's edges and of its bore's, at 45 degrees [m].
+        chamfer: of the hub's edges and of its bore's, at 45 degrees [m].
     """
 
     web_thickness: float
@@ -98,14 +98,14 @@ class Hub:
 
 @dataclass(frozen=True)
 class Wheel:
-    """Rim and hub; the rim alone where `hub` is None.
+    """A rim on its centre, or the rim alone where `hub` is None.
 
     Raises:
         PartError: it cannot be made; see `wheel_faults`.
     """
 
     rim: Rim
-    hub: Hub | None = None
+    hub: WheelCentre | None = None
 
     def __post_init__(self) -> None:
         faults = list(wheel_faults(self))

@@ -16,7 +16,7 @@ from ocs_design.parts.housing import Housing, housing_parts
 from ocs_design.parts.part import Part
 from ocs_design.parts.printed import CLEARANCE, MountHoles
 from ocs_design.parts.shapes import EAR_COUNT
-from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel, wheel_parts
+from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre, wheel_parts
 from ocs_design.robot.mass import physical_defect
 
 SECTIONS = 48
@@ -51,7 +51,7 @@ def wheels(draw: st.DrawFn) -> Wheel:
         thickness = min(1.5e-3, rim.height - 2.0 * rim.made_chamfer)
         radius = max(bore, 0.0 if bolts is None else bolts.radius + bolts.hole_radius) + 2e-3
         height = max(thickness, min(6e-3, rim.height))
-        hub = Hub(thickness, radius, height, bore, "aluminium", ALUMINIUM, bolts)
+        hub = WheelCentre(thickness, radius, height, bore, "aluminium", ALUMINIUM, bolts)
         return Wheel(rim, hub)
     except PartError:
         assume(False)

@@ -30,8 +30,7 @@ from ocs_design.parts.turning_rings import (
     Ring,
     holed_peaks,
 )
-from ocs_design.parts.wheel import HoleRing, Rim, Wheel, wheel_parts
-from ocs_design.parts.wheel import Hub as MadeHub
+from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre, wheel_parts
 from ocs_design.requirement.vocabulary import LIGHTENINGS
 from ocs_design.sizing.bound.rim_problem import (
     RimProblem,
@@ -61,7 +60,7 @@ def made(inner, outer, height, hub, web, cuts=NO_CUTS):
     holes, lightening = hub.holes(inner), None
     if holes is not None:
         lightening = HoleRing(holes.circle_radius, holes.count, holes.hole_radius)
-    made_hub = MadeHub(*sizes, *of, bolts, lightening, chamfer=hub.chamfer)
+    made_hub = WheelCentre(*sizes, *of, bolts, lightening, chamfer=hub.chamfer)
     return total(wheel_parts(Wheel(rim, made_hub)))
 
 

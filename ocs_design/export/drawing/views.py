@@ -40,7 +40,7 @@ from ocs_design.export.drawing.wheel import (
     widest,
 )
 from ocs_design.parts.joints import Grade
-from ocs_design.parts.wheel import HoleRing, Hub, Rim, Wheel
+from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre
 
 AXIS_Y = 82.0
 """y of the wheel's axis in both views [mm]."""
@@ -275,7 +275,7 @@ def is_cut(ring: HoleRing, *, above: bool) -> bool:
     return above or ring.count % 2 == 0
 
 
-def half_width(hub: Hub, radius: float) -> float:
+def half_width(hub: WheelCentre, radius: float) -> float:
     """Half the thickness of web or hub at a radius [m]."""
     return (hub.height if radius < hub.radius else hub.web_thickness) / 2.0
 
