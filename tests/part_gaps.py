@@ -3,9 +3,8 @@
 import numpy as np
 
 from ocs_design.export.meshes import Mesh, part_manifold
-from ocs_design.parts.flattening import SECTIONS
-from ocs_design.parts.part import Part
-from ocs_design.parts.solids import Revolution
+from ocs_design.parts.outline import SECTIONS
+from ocs_design.parts.solids import Part, Revolution
 
 OFF_THE_SURFACE = 1e-7
 """Where rays begin below it [m], so that they do not meet it."""

@@ -15,9 +15,9 @@ from ocs_design.parts.cage import cage_part
 from ocs_design.parts.carrier_plate import mast_part, plate_part
 from ocs_design.parts.foot import foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
-from ocs_design.parts.part import Part
 from ocs_design.parts.pedestal import Pedestal, drilled
 from ocs_design.parts.printed import trunk_screws
+from ocs_design.parts.solids import Part
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre, wheel_parts
 
 

@@ -30,8 +30,8 @@ from ocs_design.export.drawing.sheet import (
 )
 from ocs_design.export.drawing.writers import pdf_of_pages
 from ocs_design.export.formats import Subject
-from ocs_design.parts.flattening import flat_outline
 from ocs_design.parts.module import part_name
+from ocs_design.parts.outline import flat_outline
 from ocs_design.parts.printed import TRUNK_SCREW, trunk_screws
 
 MILLIMETRES = 1000.0

@@ -20,8 +20,7 @@ from ocs_design.export.drawing import sheet
 from ocs_design.export.drawing.sheet import Area, Circle, Line, Polyline, Text
 from ocs_design.export.drilling import CHECK, Drilling, bounds, drilling_of
 from ocs_design.export.formats import Notes, Subject
-from ocs_design.parts.part import Part
-from ocs_design.parts.solids import Prism
+from ocs_design.parts.solids import Part, Prism
 
 MILLIMETRES = 1000.0
 

@@ -10,14 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.parts.flattening import (
+from ocs_design.parts.outline import (
     SECTIONS,
     circle_radius_factor,
     flat_outline,
     ring_points,
 )
-from ocs_design.parts.part import Part
-from ocs_design.parts.solids import Prism, Revolution, Solid
+from ocs_design.parts.solids import Part, Prism, Revolution, Solid
 from ocs_design.robot.tree import Placement
 
 if TYPE_CHECKING:

@@ -54,8 +54,7 @@ from ocs_design.export.meshes import Color
 from ocs_design.export.visuals import ALUMINIUM, GEAR, MOTOR, PRINT
 from ocs_design.parts.carrier_plate import mast_part, plate_part
 from ocs_design.parts.outline import Arc
-from ocs_design.parts.part import Part
-from ocs_design.parts.solids import Prism, Revolution, Solid
+from ocs_design.parts.solids import Part, Prism, Revolution, Solid
 from ocs_design.robot.tree import Placement
 
 MILLIMETRES = 1000.0

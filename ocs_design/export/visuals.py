@@ -20,8 +20,8 @@ from ocs_design.parts.carrier_plate import plate_bodies
 from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
-from ocs_design.parts.part import Part
 from ocs_design.parts.pedestal import Pedestal, drilled
+from ocs_design.parts.solids import Part
 from ocs_design.robot.tree import Placement, ShapeKind
 
 WHEEL_MESH = "meshes/ocs_flywheel.stl"

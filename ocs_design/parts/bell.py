@@ -9,9 +9,8 @@ from typing import NamedTuple, TypeAlias
 
 from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import Face, Motor
-from ocs_design.parts.part import Part
 from ocs_design.parts.printed import CLEARANCE, DENSITY, WALL
-from ocs_design.parts.solids import revolved
+from ocs_design.parts.solids import Part, revolved
 
 GLUE_GAP = 0.1e-3
 """Gap between bell and ring [m]: what epoxy fills and a printed fixture keeps even."""

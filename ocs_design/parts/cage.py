@@ -19,7 +19,6 @@ from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import BoltCircle
 from ocs_design.common.arrays import Table
 from ocs_design.parts.moments import MassMoments, Real, round_body
-from ocs_design.parts.part import Part
 from ocs_design.parts.printed import (
     CLEARANCE,
     DENSITY,
@@ -40,7 +39,7 @@ from ocs_design.parts.printed import (
     plate_back,
 )
 from ocs_design.parts.shapes import EAR_COUNT, Eared, Post
-from ocs_design.parts.solids import Prism
+from ocs_design.parts.solids import Part, Prism
 
 LEAST_POST = 6.0e-3
 """Shortest post [m]: three diameters of the thread of M2 that is cut into it."""

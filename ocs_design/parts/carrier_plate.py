@@ -24,9 +24,8 @@ from ocs_design.actuation.fasteners import Fastening, Screw, screw
 from ocs_design.common.arrays import FloatArray
 from ocs_design.parts.dog_bone import DogBone, directions
 from ocs_design.parts.mast import Mast
-from ocs_design.parts.part import Part
 from ocs_design.parts.shapes import Disc, Rectangle
-from ocs_design.parts.solids import Prism, hollow_cylinder
+from ocs_design.parts.solids import Part, Prism, hollow_cylinder
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.tree import BACKWARDS, Placement
 

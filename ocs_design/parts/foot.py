@@ -18,7 +18,6 @@ import numpy as np
 from ocs_design.actuation.fasteners import Fastening
 from ocs_design.parts.housing import Housing, housing_outer_radius
 from ocs_design.parts.moments import MassMoments, Real, flat_ring
-from ocs_design.parts.part import Part
 from ocs_design.parts.printed import (
     AROUND_SLOT,
     CLEARANCE,
@@ -41,7 +40,7 @@ from ocs_design.parts.printed import (
     trunk_screws,
 )
 from ocs_design.parts.shapes import ArcSlot, Disc, Keyhole, Rectangle
-from ocs_design.parts.solids import Prism
+from ocs_design.parts.solids import Part, Prism
 from ocs_design.robot.tree import Placement
 
 PLATE_MARGIN = 3.0e-3

@@ -19,9 +19,8 @@ from dataclasses import dataclass
 from math import ceil, pi, sin, sqrt
 
 from ocs_design.actuation.fasteners import STEEL
-from ocs_design.parts.part import Part
 from ocs_design.parts.printed import CLEARANCE
-from ocs_design.parts.solids import hollow_cylinder
+from ocs_design.parts.solids import Part, hollow_cylinder
 
 PIECES = 3
 """Equal parts that a rim bursts into."""

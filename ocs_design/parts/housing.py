@@ -15,7 +15,6 @@ from typing import Generic
 from ocs_design.actuation.fasteners import IN_PLASTIC, STEEL, Fastening, Screw
 from ocs_design.common.errors import PartError
 from ocs_design.parts.moments import MassMoments, Real, cylinder_mass, ring
-from ocs_design.parts.part import Part
 from ocs_design.parts.printed import (
     CLEARANCE,
     DENSITY,
@@ -30,7 +29,7 @@ from ocs_design.parts.printed import (
     half_height,
 )
 from ocs_design.parts.shapes import EAR_COUNT, Disc, Eared
-from ocs_design.parts.solids import Prism, Shape
+from ocs_design.parts.solids import Part, Prism, Shape
 
 FIRST_EAR = pi / 4.0
 """Angle from the x axis [rad]: nothing stands out below, above, before and behind."""

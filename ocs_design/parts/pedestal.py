@@ -19,7 +19,6 @@ import numpy as np
 from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening
 from ocs_design.common.arrays import FloatArray
 from ocs_design.parts.joints import pattern_use
-from ocs_design.parts.part import Part
 from ocs_design.parts.printed import (
     AROUND_SLOT,
     BASE_THICKNESS,
@@ -33,7 +32,7 @@ from ocs_design.parts.printed import (
     screw_lever,
 )
 from ocs_design.parts.shapes import Disc, Polygon
-from ocs_design.parts.solids import Prism
+from ocs_design.parts.solids import Part, Prism
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.tree import Placement
 

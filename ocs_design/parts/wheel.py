@@ -5,10 +5,9 @@ from dataclasses import dataclass
 from math import inf, pi, sin
 
 from ocs_design.common.errors import PartError
-from ocs_design.parts.part import Part
 from ocs_design.parts.rim import CHAMFER_SHARE, LIGAMENT
 from ocs_design.parts.shapes import Disc
-from ocs_design.parts.solids import Prism, Revolution, revolved
+from ocs_design.parts.solids import Part, Prism, Revolution, revolved
 
 CHAMFER = 0.3e-3
 """Chamfer of the rim's four edges, at 45 degrees [m]: enough that hands may touch it."""

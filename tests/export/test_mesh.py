@@ -6,8 +6,7 @@ import trimesh
 from made_parts import PARTS, TUBE
 
 from ocs_design.export.meshes import Mesh, part_mesh
-from ocs_design.parts.part import Part
-from ocs_design.parts.solids import hollow_cylinder
+from ocs_design.parts.solids import Part, hollow_cylinder
 
 SECTIONS = (32, 64, 128, 256)
 ORDER_OF_ARCS, ORDER_OF_CIRCLES = 2.5, 3.8

@@ -21,9 +21,8 @@ from ocs_design.parts.joints import (
     bell_bond_tension,
 )
 from ocs_design.parts.motor_mount import mount_of
-from ocs_design.parts.part import Part
 from ocs_design.parts.printed import CLEARANCE, PANEL
-from ocs_design.parts.solids import hollow_cylinder
+from ocs_design.parts.solids import Part, hollow_cylinder
 from ocs_design.parts.turning_rings import (
     Ring,
     TurningRings,

@@ -10,9 +10,8 @@ from scipy.integrate import solve_bvp
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.parts.cage import LEAST_POST, cage_part, floor_at_shock
-from ocs_design.parts.part import Part
 from ocs_design.parts.printed import CLEARANCE, FLOOR, SHOCK, STRENGTH, UPRIGHT, WALL
-from ocs_design.parts.solids import hollow_cylinder
+from ocs_design.parts.solids import Part, hollow_cylinder
 
 MOTOR = Part(
     "motor", 1.0, (hollow_cylinder(0.0, CAGE.motor_radius, FLOOR, FLOOR + CAGE.motor_length),)

@@ -13,9 +13,9 @@ from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import BoltCircle
 from ocs_design.common.errors import PartError
 from ocs_design.parts.housing import Housing, PlainDrum, housing_parts
-from ocs_design.parts.part import total
 from ocs_design.parts.printed import CLEARANCE, DENSITY, PANEL, WALL, MountHoles
 from ocs_design.parts.shapes import EAR_COUNT
+from ocs_design.parts.solids import total
 from ocs_design.parts.wheel import wheel_parts
 
 POLYGONS = 5e-6

@@ -5,9 +5,8 @@ import pytest
 from made_parts import TWO_PIECES
 from part_gaps import overlap_volume, turning_clearance
 
-from ocs_design.parts.part import Part
 from ocs_design.parts.shapes import Rectangle
-from ocs_design.parts.solids import Prism, hollow_cylinder
+from ocs_design.parts.solids import Part, Prism, hollow_cylinder
 from ocs_design.parts.wheel import wheel_parts
 
 BAND = Part("band", 1.0, (hollow_cylinder(0.032, 0.034, -0.01, 0.01),))

@@ -16,7 +16,6 @@ from ocs_design.catalogue.motors import motor, motors
 from ocs_design.device.device import Flywheel, Web
 from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.meshes import part_mesh
-from ocs_design.parts.part import total
 from ocs_design.parts.rim import (
     HUB_WALL,
     LIGAMENT,
@@ -27,6 +26,7 @@ from ocs_design.parts.rim import (
     web_mass,
     wheel_body,
 )
+from ocs_design.parts.solids import total
 from ocs_design.parts.wheel import wheel_parts
 
 PLAIN = replace(motor("MN5212 KV340"), diameter=0.05, mounting=None)

@@ -13,9 +13,9 @@ from ocs_design.common.errors import PartError
 from ocs_design.export.meshes import part_manifold
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import Housing, housing_parts
-from ocs_design.parts.part import Part
 from ocs_design.parts.printed import CLEARANCE, MountHoles
 from ocs_design.parts.shapes import EAR_COUNT
+from ocs_design.parts.solids import Part
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre, wheel_parts
 from ocs_design.robot.mass import physical_defect
 

@@ -6,9 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from naive_outline import flat_figures, green
 
-from ocs_design.parts.flattening import flat_outline
 from ocs_design.parts.moments import MassMoments
-from ocs_design.parts.outline import Outline
+from ocs_design.parts.outline import Outline, flat_outline
 from ocs_design.parts.shapes import ArcSlot, Disc, Eared, Keyhole, Post, Rectangle
 
 RADII = st.floats(0.5, 3.0)

@@ -6,10 +6,9 @@ from part_gaps import thinnest_wall
 
 from ocs_design.parts.foot import MARK_DEPTH, foot_part
 from ocs_design.parts.housing import housing_parts
-from ocs_design.parts.part import Part
 from ocs_design.parts.printed import BASE_THICKNESS, PANEL, WALL
 from ocs_design.parts.shapes import Rectangle
-from ocs_design.parts.solids import Prism, hollow_cylinder
+from ocs_design.parts.solids import Part, Prism, hollow_cylinder
 from ocs_design.parts.wheel import wheel_parts
 
 POLYGONS = 0.01

@@ -8,7 +8,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rims import STEEL, room
 
-from ocs_design.parts.part import total
 from ocs_design.parts.rim import (
     LIGAMENT,
     LIGHTENED,
@@ -26,6 +25,7 @@ from ocs_design.parts.rim import (
     hoop_stress,
     wheel_body,
 )
+from ocs_design.parts.solids import total
 from ocs_design.parts.turning_rings import (
     Ring,
     holed_peaks,

@@ -11,8 +11,8 @@ from wheels import PAPER_WHEEL
 
 from ocs_design.common.errors import PartError
 from ocs_design.parts.moments import cylinder_mass
-from ocs_design.parts.part import total
 from ocs_design.parts.rim import cylinder_spin_inertia
+from ocs_design.parts.solids import total
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel, wheel_parts
 
 SHARP = Rim(0.022, 0.03, 0.01, "steel", 7860.0, chamfer=0.0)

@@ -26,12 +26,11 @@ from ocs_design.export.device_parts import foot_holes, wheel_pieces
 from ocs_design.export.meshes import part_manifold
 from ocs_design.parts.carrier_plate import SAFETY, STOCK, YIELD_STRENGTH, plate_bodies
 from ocs_design.parts.mast import MAST_YIELD
-from ocs_design.parts.part import Part
 from ocs_design.parts.pedestal import drilled
 from ocs_design.parts.plate_strength import mast_screws_use, mast_stress, plate_stress, posts_use
 from ocs_design.parts.printed import TRUNK_SCREW
 from ocs_design.parts.shapes import Disc, Rectangle
-from ocs_design.parts.solids import Prism, Revolution, hollow_cylinder
+from ocs_design.parts.solids import Part, Prism, Revolution, hollow_cylinder
 from ocs_design.requirement.device_sections import OcsSection
 from ocs_design.requirement.froude import default_envelope
 from ocs_design.requirement.phrases import Tilt

@@ -28,9 +28,8 @@ from ocs_design.export.visuals import cage_placement
 from ocs_design.parts.carrier_plate import plate_bodies
 from ocs_design.parts.housing import FIRST_EAR, LID_SCREWS, guard_ring
 from ocs_design.parts.motor_mount import DriveSolid, Screwed
-from ocs_design.parts.part import Part
 from ocs_design.parts.printed import LID_SCREW, ear_axis
-from ocs_design.parts.solids import HERE, Revolution, hollow_cylinder, revolved
+from ocs_design.parts.solids import HERE, Part, Revolution, hollow_cylinder, revolved
 from ocs_design.robot.tree import Placement
 
 SECTIONS = 64

@@ -40,8 +40,8 @@ from ocs_design.export.drawing.title_block import Entries, frame, numbered, titl
 from ocs_design.export.drawing.wheel import plain
 from ocs_design.parts.carrier_plate import CarrierPlate, mast_part, plate_part
 from ocs_design.parts.dog_bone import directions
-from ocs_design.parts.flattening import flat_outline
 from ocs_design.parts.mast import Mast
+from ocs_design.parts.outline import flat_outline
 
 LEFT, TOP, RIGHT, _ = FRAME_BOX
 

@@ -10,7 +10,7 @@ from functools import cached_property
 from math import isinf, pi
 
 from ocs_design.parts.joints import Grade, tolerance_width
-from ocs_design.parts.part import total
+from ocs_design.parts.solids import total
 from ocs_design.parts.wheel import HoleRing, Wheel, wheel_parts
 from ocs_design.robot.mass import MassProperties
 

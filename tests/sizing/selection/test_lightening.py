@@ -9,7 +9,7 @@ from drawn_selections import draw
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import Infeasible
 from ocs_design.export.device_parts import wheel_geometry
-from ocs_design.parts.part import total
+from ocs_design.parts.solids import total
 from ocs_design.parts.wheel import wheel_parts
 from ocs_design.sizing.assembly import assemble_selected
 from ocs_design.sizing.selection.problem import SelectionProblem
