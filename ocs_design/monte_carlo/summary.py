@@ -184,14 +184,14 @@ def standing_advice(campaign: Campaign, outcomes: Outcomes, number: int) -> str:
     )
 
 
-def _with_legs(world: World, factor: float) -> World:
-    """The flight with leg drives so many times as stiff, damped alike."""
+def _with_stiff_legs(world: World) -> World:
+    """The flight with leg drives twice as stiff, damped alike."""
     model = copy.copy(world.model)
     drives = np.setdiff1d(np.arange(model.nu), world.addresses.motors)
-    model.actuator_gainprm[drives, 0] *= factor
-    model.actuator_biasprm[drives, 1] *= factor
-    model.actuator_biasprm[drives, 2] *= sqrt(factor)
-    return replace(world, model=model, support=world.support / factor)
+    model.actuator_gainprm[drives, 0] *= 2.0
+    model.actuator_biasprm[drives, 1] *= 2.0
+    model.actuator_biasprm[drives, 2] *= sqrt(2.0)
+    return replace(world, model=model, support=world.support / 2.0)
 
 
 def _with_law(world: World, **changes: FloatArray) -> World:
@@ -201,7 +201,7 @@ def _with_law(world: World, **changes: FloatArray) -> World:
 
 REMEDIES: Mapping[str, Callable[[World], World]] = MappingProxyType(
     {
-        "legs twice as stiff": lambda world: _with_legs(world, 2.0),
+        "legs twice as stiff": _with_stiff_legs,
         "wheels that damp twice as hard": lambda world: _with_law(
             world, standing_damping=2.0 * world.law.damping
         ),

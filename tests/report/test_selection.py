@@ -18,7 +18,7 @@ from ocs_design.device.records.selection import (
     TaskDemand,
 )
 from ocs_design.report.limits import saving_notes, saving_table
-from ocs_design.report.selection import task_note
+from ocs_design.report.selection import rejection_details, task_note
 from ocs_design.report.text.size import print_selection
 
 LONGEST = ("Antigravity MN6007 II KV320", "GT3 5 mm x 15 mm 18:48", "tungsten-alloy-class-4")
@@ -53,10 +53,10 @@ SELECTION = SelectionRecord(
 )  # fmt: skip
 
 
-def printed(selection=SELECTION, width=80, *, verbose=False):
+def printed(selection=SELECTION, width=80):
     file = io.StringIO()
     console = Console(file=file, width=width, color_system=None, highlight=False)
-    print_selection(console, selection, verbose=verbose)
+    print_selection(console, selection)
     return [line.rstrip() for line in file.getvalue().splitlines()]
 
 
@@ -93,11 +93,10 @@ def test_the_longest_names_of_the_catalogues_stay_whole():
         assert len(rows) == 4
 
 
-def test_rejections_are_counted_by_reason_and_listed_on_demand():
+def test_rejections_are_counted_by_reason_and_the_report_lists_them():
     assert "  3 motors ruled out: torque (2), heavier (1)." in printed()
     assert not any("detail" in line for line in printed())
-    details = [line for line in printed(verbose=True) if "detail" in line]
-    assert details == [f"  - motor {i}: detail {i}" for i in range(3)]
+    assert rejection_details(SELECTION) == tuple(f"motor {i}: detail {i}" for i in range(3))
 
 
 def test_where_no_time_is_set_there_is_none():

@@ -137,20 +137,16 @@ def print_selection(
     console: Console,
     chosen: SelectionRecord,
     maneuvers: Sequence[ManeuverRecord] = (),
-    *,
-    verbose: bool = False,
 ) -> None:
     """What the drive is asked for, the lightest ones, and how many were ruled out."""
     heading(console, f"Choice: {selection.choice_title(chosen)}")
     show(console, selection.task_table(chosen))
     note(console, selection.task_note(chosen, maneuvers))
-    drives = selection.best_drives if verbose else selection.shown_drives
-    show(console, selection.drive_table(drives(chosen.ranking)), fewest=_FEWEST)
+    drives = selection.shown_drives(chosen.ranking)
+    show(console, selection.drive_table(drives), fewest=_FEWEST)
     ruled_out = selection.ruled_out(chosen)
     if ruled_out:
         note(console, ruled_out)
-    if verbose:
-        items(console, selection.rejection_details(chosen))
     co_design = selection.co_design_facts(chosen)
     if co_design:
         heading(console, "Co-design: all dimensions together with the maneuvers, in 3-D")
