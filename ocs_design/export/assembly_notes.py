@@ -67,7 +67,6 @@ def drive_notes(device: Device) -> tuple[str, ...]:
     mounting = motor.mounting or Mounting()
     return (
         *_held(mounting, device),
-        *_on_bell(device),
         *_driven(mounting, device),
         *_apart(device, foot),
         *_shaken(device, foot),
@@ -75,7 +74,7 @@ def drive_notes(device: Device) -> tuple[str, ...]:
 
 
 def _held(mounting: Mounting, device: Device) -> Iterator[str]:
-    """Notes on how the motor is fixed to plate and floor."""
+    """Notes on how the motor is fixed to plate and floor, and on a ring around its bell."""
     stator, mount = mounting.stator, motor_mount(device)
     if stator is None:
         bare = mount.holes.pilot_radius == 0.0
@@ -93,11 +92,7 @@ def _held(mounting: Mounting, device: Device) -> Iterator[str]:
         yield (
             f"the motor's screws, {stator}, do not fit the housing's floor of {room}: {_UNDRILLED}"
         )
-
-
-def _on_bell(device: Device) -> Iterator[str]:
-    """Notes on a ring around the motor's bell, and on the motor in the housing."""
-    bell, wheel = motor_mount(device).bell, device.flywheel
+    bell, wheel = mount.bell, device.flywheel
     if bell is None:
         return
     length = device.motor.length or 0.0
@@ -110,7 +105,6 @@ def _on_bell(device: Device) -> Iterator[str]:
         f"estimate, {BELL_SHARE:.0%} of the motor's length in its middle, which no source gives: "
         "measure it before the ring is made"
     )
-    mounting = device.motor.mounting or Mounting()
     if mounting.shaft_diameter is not None and mounting.shaft_length is None:
         yield (
             "how far the shaft stands out of the motor is in no source, and counts as nothing: if "

@@ -4,7 +4,7 @@ MuJoCo by itself prints six digits. The folder is made as MuJoCo Menagerie makes
 that can be included, a scene that can be looked at, and a page that says what is in it.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path, PurePath
 from xml.etree import ElementTree as ET
 
@@ -189,23 +189,7 @@ def precise_xml(spec: mujoco.MjSpec, model: mujoco.MjModel, *, assets: str) -> s
         compiler.attrib.update(meshdir=assets, texturedir=assets)
     for option in root.iter("option"):
         _sharpen(option, [model.opt])
-    for element, source in _pairs(root, spec):
-        sources = [source]
-        # The compiled counterpart has angles in radians and unit vectors.
-        match source:
-            case mujoco.MjsActuator():
-                sources.append(model.actuator(source.id))
-            case mujoco.MjsBody() | mujoco.MjsJoint() | mujoco.MjsGeom() | mujoco.MjsSite():
-                sources.append(getattr(model, element.tag)(source.id))
-        _sharpen(element, sources)
-        for inertial in element.findall("inertial"):
-            _sharpen(inertial, sources[1:], _INERTIAL_NAMES)
-    ET.indent(root)
-    return ET.tostring(root, encoding="unicode") + "\n"
-
-
-def _pairs(root: ET.Element, spec: mujoco.MjSpec) -> Iterator[tuple[ET.Element, object]]:
-    """Elements that hold measures, each with the object of the spec that it was printed from."""
+    # Elements that hold measures, by section and tag, and what they were printed from.
     for section, tags, objects in (
         ("worldbody", ("body",), spec.bodies[1:]),
         ("worldbody", ("frame",), spec.frames),
@@ -218,12 +202,25 @@ def _pairs(root: ET.Element, spec: mujoco.MjSpec) -> Iterator[tuple[ET.Element, 
         ("keyframe", (), spec.keys),
     ):
         top = root.find(section)
-        if top is not None:
-            elements = [e for e in top.iter() if e is not top and (e.tag in tags or not tags)]
-            # Matched by name where there is one, else by place.
-            named = {name: each for each in objects if (name := getattr(each, "name", ""))}
-            for element, same_place in zip(elements, objects, strict=False):
-                yield element, named.get(element.get("name", ""), same_place)
+        if top is None:
+            continue
+        elements = [e for e in top.iter() if e is not top and (e.tag in tags or not tags)]
+        # Matched by name where there is one, else by place.
+        named = {name: each for each in objects if (name := getattr(each, "name", ""))}
+        for element, same_place in zip(elements, objects, strict=False):
+            source = named.get(element.get("name", ""), same_place)
+            sources = [source]
+            # The compiled counterpart has angles in radians and unit vectors.
+            match source:
+                case mujoco.MjsActuator():
+                    sources.append(model.actuator(source.id))
+                case mujoco.MjsBody() | mujoco.MjsJoint() | mujoco.MjsGeom() | mujoco.MjsSite():
+                    sources.append(getattr(model, element.tag)(source.id))
+            _sharpen(element, sources)
+            for inertial in element.findall("inertial"):
+                _sharpen(inertial, sources[1:], _INERTIAL_NAMES)
+    ET.indent(root)
+    return ET.tostring(root, encoding="unicode") + "\n"
 
 
 def _sharpen(

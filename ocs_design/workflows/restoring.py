@@ -3,7 +3,7 @@
 Writing parts starts here, so nothing below imports a simulator or a solver.
 """
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -152,7 +152,24 @@ def read_recorded_robot(
         name: next((base / text for base in bases if (base / text).is_dir()), Path(text))
         for name, text in record.package_paths.items()
     }
-    source = where.robot_file or _recorded_file(record, bases, where.hint)
+    source = where.robot_file
+    if source is None and record.format == Format.MANUAL:
+        source = Path(record.source)
+    elif source is None:
+        if record.source == STANDARD_INPUT:
+            raise RobotError("the robot was read from standard input", hint=where.hint)
+        found = [base / record.source for base in bases if (base / record.source).is_file()]
+        if not found:
+            what = f"{record.source}: the robot's file is not there any more"
+            raise RobotError(what, hint=where.hint)
+        # The file that the device was sized for, as it was then.
+        unchanged = (path for path in found if read_source(path).sha256 == record.sha256)
+        source = next(unchanged, None)
+        if source is None:
+            raise RobotError(
+                f"{found[0]}: the robot's file has changed since the device was sized for it",
+                hint=f"size it again, or put the device on it as it is with --robot {found[0]}",
+            )
     robot = robot_of(record, source, {**folders, **where.package_paths})
     warnings = tuple(warning for warning in robot.warnings if warning not in record.warnings)
     if robot.sha256 != record.sha256:
@@ -164,25 +181,3 @@ def read_recorded_robot(
     if strict and warnings:
         raise RobotError("--strict: " + "; ".join(warnings), hint="mend the robot's file")
     return robot, warnings
-
-
-def _recorded_file(record: RobotRecord, bases: Collection[Path], hint: str) -> Path:
-    """The file that the device was sized for, as it was then.
-
-    Raises:
-        RobotError: it is gone, has changed, or was no file.
-    """
-    if record.format == Format.MANUAL:
-        return Path(record.source)
-    if record.source == STANDARD_INPUT:
-        raise RobotError("the robot was read from standard input", hint=hint)
-    found = [base / record.source for base in bases if (base / record.source).is_file()]
-    if not found:
-        raise RobotError(f"{record.source}: the robot's file is not there any more", hint=hint)
-    for path in found:
-        if read_source(path).sha256 == record.sha256:
-            return path
-    raise RobotError(
-        f"{found[0]}: the robot's file has changed since the device was sized for it",
-        hint=f"size it again, or put the device on it as it is with --robot {found[0]}",
-    )

@@ -39,7 +39,7 @@ def visible_lines(meshes: Sequence[Mesh]) -> tuple[tuple[FloatArray, ...], ...]:
     Meshes are in the picture's axes. A line is visible where no pixel around it is nearer.
     """
     depth = _DepthMap(np.concatenate([mesh.corners for mesh in meshes]))
-    return tuple(_chains(_visible_parts(_edges(mesh), depth)) for mesh in meshes)
+    return tuple(_chains(_visible_parts(mesh, depth)) for mesh in meshes)
 
 
 def section_lines(mesh: Mesh) -> tuple[FloatArray, ...]:
@@ -57,24 +57,6 @@ def section_lines(mesh: Mesh) -> tuple[FloatArray, ...]:
                 ends.append((triangle[a] + share * (triangle[b] - triangle[a]))[1:])
         segments.append(np.array(ends))
     return _chains(segments)
-
-
-def _edges(mesh: Mesh) -> FloatArray:
-    """Creases and outlines that look at the eye on one side, by their ends, shape (n, 2, 3)."""
-    corners = mesh.corners
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1)
-    normals = normals / np.where(lengths > 0.0, lengths, 1.0)[:, None]
-    ends = np.sort(mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    faces = np.repeat(np.arange(len(corners)), 3)
-    order = np.lexsort(ends.T)
-    ends, faces = ends[order], faces[order]
-    pairs = np.flatnonzero((ends[1:] == ends[:-1]).all(axis=1))
-    one, other = normals[faces[pairs]], normals[faces[pairs + 1]]
-    front = (one[:, 2] > 0.0).astype(int) + (other[:, 2] > 0.0)
-    crease = np.einsum("ij,ij->i", one, other) < _CREASE
-    drawn = (front == 1) | (crease & (front == 2))
-    return np.asarray(mesh.vertices[ends[pairs[drawn]]])
 
 
 class _DepthMap:
@@ -124,8 +106,23 @@ class _DepthMap:
         return np.asarray(points[:, 2] + 0.5 * self.pixel >= self._farthest[rows, columns])
 
 
-def _visible_parts(edges: FloatArray, depth: _DepthMap) -> list[FloatArray]:
-    """Parts of edges that are seen, each by its two ends, shape (2, 2)."""
+def _visible_parts(mesh: Mesh, depth: _DepthMap) -> list[FloatArray]:
+    """Parts of creases and outlines that are seen, each by its two ends, shape (2, 2)."""
+    corners = mesh.corners
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1)
+    normals = normals / np.where(lengths > 0.0, lengths, 1.0)[:, None]
+    ends = np.sort(mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    faces = np.repeat(np.arange(len(corners)), 3)
+    order = np.lexsort(ends.T)
+    ends, faces = ends[order], faces[order]
+    pairs = np.flatnonzero((ends[1:] == ends[:-1]).all(axis=1))
+    one, other = normals[faces[pairs]], normals[faces[pairs + 1]]
+    front = (one[:, 2] > 0.0).astype(int) + (other[:, 2] > 0.0)
+    crease = np.einsum("ij,ij->i", one, other) < _CREASE
+    drawn = (front == 1) | (crease & (front == 2))
+    # Creases and outlines that look at the eye on one side, by their ends, shape (n, 2, 3).
+    edges = np.asarray(mesh.vertices[ends[pairs[drawn]]])
     if not len(edges):
         return []
     lengths = np.linalg.norm(edges[:, 1, :2] - edges[:, 0, :2], axis=1)
@@ -142,8 +139,8 @@ def _visible_parts(edges: FloatArray, depth: _DepthMap) -> list[FloatArray]:
         for begin, end in zip(turns[::2], turns[1::2], strict=True):
             # Specks are noise of the depth map.
             if end - begin > 1 or count <= 2:
-                ends = np.array([begin, end])[:, None] / count
-                found.append(edge[0] + ends * (edge[1] - edge[0]))
+                shares = np.array([begin, end])[:, None] / count
+                found.append(edge[0] + shares * (edge[1] - edge[0]))
     return found
 
 
