@@ -1,4 +1,4 @@
-"""Faults of a device in a `design.json`, and warnings of one that nobody can want.
+"""Faults of a device in a `design.json`, and warnings about one that makes no sense.
 
 Files are made from it without a second look, so what is no length, mass or direction ends here.
 """
@@ -87,7 +87,7 @@ def check_device(device: Device) -> None:
 
 
 def _plate_faults(plate: CarrierPlate) -> Iterator[str]:
-    """Faults of what is no figure of its own: names of threads, places of holes."""
+    """Faults of a plate beyond single figures: names of threads, numbers of holes, their places."""
     if not {plate.thread, plate.foot_thread} <= set(SCREW_NAMES):
         yield "plate.thread and plate.foot_thread must be " + ", ".join(SCREW_NAMES)
     if len(plate.trunk) != len(plate.sleeves):
@@ -109,7 +109,7 @@ def _plate_faults(plate: CarrierPlate) -> Iterator[str]:
 
 
 def _pedestal_faults(device: Device) -> Iterator[str]:
-    """Faults of pedestals that can be none, or are under nothing."""
+    """Faults of pedestals: sizes out of range, places far off, a module that does not exist."""
     if device.plate is not None and device.pedestals:
         yield "a plate and pedestals at once"
     for pedestal in device.pedestals:
@@ -130,7 +130,7 @@ _PEDESTAL_LENGTHS = "base_radius", "slot_radius", "wheel_height", "middle", "thi
 
 
 def _figures(value: object, path: str) -> Iterator[str]:
-    """Faults of every number at or below a value."""
+    """Faults of every number in a value and in what it holds."""
     if is_dataclass(value):
         for each in fields(value):
             yield from _figures(getattr(value, each.name), f"{path}.{each.name}")

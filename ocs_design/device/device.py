@@ -146,7 +146,7 @@ class Device:
         return (*(() if self.plate is None else (self.plate,)), *self.pedestals)
 
     def plated(self, robot: MassProperties) -> MassProperties:
-        """A robot, in B, with what is under the feet where there is anything."""
+        """Mass properties of a robot with plate or pedestals on it, in B."""
         under = [each.mass_properties() for each in self.under]
         return combine([robot, *under]) if under else robot
 

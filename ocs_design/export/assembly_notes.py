@@ -163,7 +163,7 @@ def _apart(device: Device, foot: Foot) -> Iterator[str]:
 
 
 def _shaken(device: Device, foot: Foot) -> Iterator[str]:
-    """What feet and heads on them do not bear in a landing, and speeds at which parts shake."""
+    """Notes on feet and screws too weak for a landing, and on speeds at which parts resonate."""
     module, modes = device.flywheel.mass + device.carrier.mass, resonances_of(device)
     bears, own = foot_shock(foot, module), foot_part(foot).mass_properties().mass
     if bears < SHOCK:

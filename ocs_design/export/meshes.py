@@ -53,7 +53,7 @@ class Mesh:
         return np.asarray(self.vertices[self.triangles])
 
     def placed(self, place: Placement) -> "Mesh":
-        """The mesh in the frame that its own has this place in."""
+        """The mesh in the frame in which its own has this place."""
         return Mesh(self.vertices @ place.rotation.T + place.position, self.triangles)
 
     def moved(self, offset: FloatArray) -> "Mesh":

@@ -60,7 +60,7 @@ _MODELS: WeakKeyDictionary[Subject, RobotModel] = WeakKeyDictionary()
 
 
 def model_of(subject: Subject) -> RobotModel:
-    """Model of the subject's robot and device: several formats write it, and it goes with it."""
+    """Model of the subject's robot and device; several formats write it, so it is built once."""
     if subject not in _MODELS:
         _MODELS[subject] = robot_model(subject.carrier, subject.device)
     return _MODELS[subject]

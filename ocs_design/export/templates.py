@@ -28,7 +28,7 @@ def fill(template: str, values: dict[str, str]) -> str:
 
 
 def template_text(template: str) -> str:
-    """Text of `templates/<template>` as it stands."""
+    """Text of `templates/<template>` without changes."""
     return template_file(template).read_text(encoding="utf-8")
 
 

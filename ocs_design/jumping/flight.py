@@ -18,7 +18,7 @@ _STEP = 4e-3
 
 @dataclass(frozen=True, eq=False)
 class LegReturn:
-    """Joints from how they leave the ground to the posture to land in.
+    """Motion of the joints from lift-off to the posture to land in.
 
     First at constant deceleration to rest, then rest to rest on a quintic.
 

@@ -218,7 +218,7 @@ def _box(body: LeggedBody, layout: Layout, duration: float) -> tuple[FloatArray,
 
 
 def _forbidden(body: LeggedBody, layout: Layout, found: Found) -> str:
-    """What is overdrawn by how much, joined by "and"; empty if nothing is."""
+    """Limits that the push-off exceeds, and by how much, as text; empty if none."""
     duration = found.nodes[layout.duration, -1]
     speed = found.nodes[layout.v][-layout.joints :] / duration
     sentences = []

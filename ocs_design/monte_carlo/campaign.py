@@ -175,7 +175,7 @@ def fly_samples(
 def _flown_at_once(
     campaign: Campaign, indices: Sequence[int], threads: int | None, progress: Progress
 ) -> Outcomes:
-    """Every scenario of these samples in one batch; its worlds are let go of with it."""
+    """Every scenario of these samples in one batch, whose memory is free on return."""
     samples = [campaign.sample(index) for index in indices]
     scratch = [mujoco.MjData(flight.world.model) for flight in campaign.flights]
     worlds = [
@@ -277,7 +277,7 @@ def write_case(case: Case, folder: Path) -> Path:
 
 
 def read_case(path: Path) -> Case:
-    """What `write_case` wrote.
+    """Read a case that `write_case` wrote.
 
     Raises:
         OcsError: it cannot be read.
@@ -294,7 +294,7 @@ WORST_FOLDER = "worst"
 def write_results(
     campaign: Campaign, outcomes: Outcomes, record: MonteCarloRecord, folder: Path, *, design: str
 ) -> tuple[Path, ...]:
-    """Write what a campaign came to, in place of earlier results.
+    """Write the results of a campaign in place of earlier ones.
 
     Args:
         campaign: that was flown. outcomes: of its samples. record: what they say together.

@@ -50,12 +50,12 @@ class SequentialTest:
 
     @property
     def worse(self) -> float:
-        """Reliability that the asked one is told from."""
+        """The lower reliability that the test tells from the one asked for."""
         return self.asked / (self.asked + WORSE * (1.0 - self.asked))
 
     @property
     def most(self) -> int:
-        """Flights after which it gives up."""
+        """Number of flights after which the test gives up."""
         return ceil(10.0 / (1.0 - self.asked) - 1e-9)
 
     def found(self, passed: NDArray[np.bool_]) -> tuple[Finding | None, int]:

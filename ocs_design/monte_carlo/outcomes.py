@@ -37,7 +37,7 @@ class Block:
 
     @property
     def samples(self) -> range:
-        """Their indices."""
+        """Indices of its samples."""
         return range(self.start, self.stop)
 
 
@@ -101,7 +101,7 @@ class Outcomes(Table):
 
     @classmethod
     def load(cls, path: Path) -> "Outcomes":
-        """What `save` wrote."""
+        """Read a file that `save` wrote."""
         with path.open("rb") as stream, np.load(stream, allow_pickle=False) as stored:
             columns = {field.name: stored[field.name] for field in fields(cls)}
             return cls(**columns | {"names": tuple(columns["names"].tolist())})
@@ -252,7 +252,7 @@ class Storage:
         return kept
 
     def keep(self, block: Block, outcomes: Outcomes) -> None:
-        """Write one.
+        """Write a block.
 
         Raises:
             OutputError: it cannot be written.

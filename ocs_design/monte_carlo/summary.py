@@ -152,7 +152,7 @@ TRIED = 8
 
 
 def standing_advice(campaign: Campaign, outcomes: Outcomes, number: int) -> str:
-    """What keeps up the robots that land level and then fall: the same flights, changed, tell.
+    """Which change keeps robots up that land level and then fall, by flying them again with it.
 
     Args:
         campaign: that was flown. outcomes: of it. number: of the scenario.
@@ -268,7 +268,7 @@ def shares(outcomes: Outcomes) -> tuple[Share, ...]:
 
 
 def _spread(values: FloatArray) -> Spread | None:
-    """None where no flight reached its end."""
+    """Spread of a figure over the flights; None where none reached its end."""
     finite = values[np.isfinite(values)]
     if not finite.size:
         return None

@@ -49,7 +49,7 @@ def quantities(layout: Layout, *, one_stops: bool = False) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Uncertainty:
-    """The distribution of every key of `[reality]`, nothing left open, and whose wheels it is of.
+    """The distribution of every key of `[reality]`, for the wheels of one layout.
 
     Attributes:
         spreads: by key. layout: of the device.
@@ -248,7 +248,7 @@ def built(
 
 
 def _alter_trunk(model: mujoco.MjModel, trunk: int, base: FloatArray, sample: Sample) -> None:
-    """Second moments of mass and centre of mass along the axes of B.
+    """Shift the trunk's centre of mass and scale its inertia as drawn, along the axes of B.
 
     The matrix of second moments `S = tr(I)/2 - I` is scaled from both sides, so that an inertia
     stays one that some distribution of mass has, however far it is off.

@@ -38,7 +38,7 @@ class Surface:
 
 @dataclass(frozen=True, eq=False)
 class ShownBody:
-    """Surfaces that move as one.
+    """Surfaces that move together.
 
     Attributes:
         name: of the body in MuJoCo.
@@ -77,7 +77,7 @@ class _Reading:
         self._buffer = glb[start + length + _CHUNK :]
 
     def bodies(self) -> Iterator[ShownBody]:
-        """All bodies; the root only stands the base frame upright, what hangs on it is in B."""
+        """All bodies in B; the root only turns the base frame upright."""
         (root,) = self._document["scenes"][0]["nodes"]
         for child in self._document["nodes"][root].get("children", ()):
             yield from self._below(child, Placement.identity())

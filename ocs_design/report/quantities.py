@@ -1,4 +1,4 @@
-"""SI numbers as people at the bench read them: mm, g, rpm, degrees."""
+"""SI numbers in the units of the workshop: mm, g, rpm, degrees."""
 
 from typing import TypeVar
 
@@ -22,7 +22,7 @@ _OF_WHEELS = 0.01
 
 
 def in_unit(values: Amount, unit: str) -> Amount:
-    """One SI value or an array of them, counted in `unit`."""
+    """One SI value, or an array of them, in `unit`."""
     return values * to_unit(1.0, unit)
 
 

@@ -1,4 +1,4 @@
-"""What a report is made of: the design, its flights and its looks."""
+"""What a report is made of: the design, its flights and the shapes to show."""
 
 import csv
 from collections.abc import Mapping, Sequence

@@ -1,4 +1,4 @@
-"""Everything that could make a design another than its reader thinks it is, a sentence each."""
+"""Warnings about a design: what a reader could miss or take wrongly, a sentence each."""
 
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-"""What a run is measured by, and whether its start and its integration were sound.
+"""Figures of a run, and whether its start and its integration were sound.
 
 What shows in the figures of a run, momentum and wheels that are too fast, is for the `verdict`.
 """

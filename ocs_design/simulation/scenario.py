@@ -238,7 +238,7 @@ HALVINGS = 2
 
 
 def fly(worlds: Sequence[World], options: Options, progress: Progress | None = None) -> list[Flown]:
-    """Fly them; whose angular momentum is off by more than the gate, again with half the step."""
+    """Fly worlds; where angular momentum is off by more than the gate, again at half the step."""
     flights = _flown(worlds, options, progress)
     for _ in range(HALVINGS):
         coarse = [

@@ -97,7 +97,7 @@ about what is free."""
 
 
 def _anchor(spec: mujoco.MjSpec, robot: Robot, maneuver: Pivoted) -> None:
-    """Holds a point of the trunk in place, or an edge, by a body that gravity does not pull.
+    """Hold a point of the trunk in place, or an edge, by a body that gravity does not pull.
 
     The free joint stays, and with it the layout of the state. The body has so much mass that the
     centre of mass of all is at the pivot, and for an edge so much inertia across it that nothing

@@ -25,7 +25,7 @@ SOLO12_MASS = 2.5
 
 @dataclass(frozen=True, eq=False)
 class Start:
-    """What a specification is written for.
+    """The robot and the defaults that a specification starts from.
 
     Attributes:
         stated: what is stated already.

@@ -92,7 +92,7 @@ class Placed:
     taken: tuple[tuple[str, ...], tuple[str, ...]] = ((), ())
 
     def telling(self, taken: tuple[tuple[str, ...], tuple[str, ...]]) -> "Placed":
-        """This device, with what was taken among its assumptions and warnings."""
+        """This device, with these assumptions and warnings before its own."""
         assumptions, warnings = taken
         resolved = replace(self.resolved, assumptions=(*assumptions, *self.resolved.assumptions))
         return replace(self, resolved=resolved, warnings=(*warnings, *self.warnings), taken=taken)
@@ -175,7 +175,7 @@ def size_on_robot(
 def size_or_advise(
     specification: Specification, robot: Robot, steps: Steps, *, strict: bool
 ) -> Placed:
-    """Size the device, with what is tried in turn where nothing meets the specification.
+    """Size the device; where nothing meets the specification, try the fallbacks in turn.
 
     Raises:
         Infeasible: no attempt has a device; with the smallest changes that would do.
@@ -376,7 +376,7 @@ def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tupl
 
 
 def _kicked(assumption: str, requirement: Requirement) -> str:
-    """An assumption; if it is about a kick, with what the kick is on robot and device."""
+    """An assumption; one about a kick also says what the kick does with the device on."""
     for kick in requirement.maneuvers:
         if not isinstance(kick, Disturbance) or not any(kick.impulse):
             continue

@@ -317,5 +317,5 @@ def places(ends: Iterable[tuple[float, float]]) -> Iterator[str]:
 
 
 def short(purpose: str) -> str:
-    """What screws hold, without what to mind."""
+    """What screws hold, without the notes on it."""
     return purpose.split(";", maxsplit=1)[0].split(", ", maxsplit=1)[0]

@@ -128,7 +128,7 @@ def spin_test(assembly: Assembly) -> Iterator[str]:
 
 
 def safety(assembly: Assembly) -> Iterator[str]:
-    """What a wheel stores, what holds it when it bursts, and what nobody does near it."""
+    """What a wheel stores, what holds it when it bursts, and what not to do near it."""
     speed, burst = assembly.top_speed, assembly.burst
     if speed is None or burst is None:
         return

@@ -33,7 +33,7 @@ _FLAT = 0.05
 
 
 def decimated(bodies: Sequence[ShownBody], most_triangles: int) -> tuple[ShownBody, ...]:
-    """The bodies with at most so many triangles, all in one grain."""
+    """The bodies with at most so many triangles, all merged to cells of one size."""
     points = [surface.vertices for body in bodies for surface in body.surfaces]
     extent = max((float(np.ptp(each, axis=0).max()) for each in points), default=0.0)
     if extent == 0.0:

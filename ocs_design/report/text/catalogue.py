@@ -114,7 +114,7 @@ def motor_mounting(mounting: Mounting | None) -> str:
 
 
 def print_motors(console: Console, found: Sequence[Motor]) -> None:
-    """Every motor with what a choice goes by, the lightest first; then what some lack."""
+    """Every motor with the figures to choose by, the lightest first; then what some lack."""
     heading(console, "Motors")
     heads = columns(
         "<name",

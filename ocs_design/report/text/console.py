@@ -80,7 +80,7 @@ class CleanHook(RenderHook):
 
 
 class _Clean:
-    """Something to print, its texts cleaned."""
+    """Anything to print, with its texts cleaned."""
 
     def __init__(self, inner: ConsoleRenderable) -> None:
         self._inner = inner
@@ -122,7 +122,7 @@ def make_console(*, color: bool = True, stderr: bool = False) -> Console:
 
 
 def breaks_lines(console: Console) -> bool:
-    """Whether people look at it, who like plots and frames; `grep` does not."""
+    """Whether people look at it, for whom plots and frames are; not `grep`."""
     return console.width <= WIDEST
 
 
