@@ -230,21 +230,19 @@ class GearSheet:
             reverses=self.reverses,
             source=self.source,
         )
-        found = self._belts(shared) if self.kind is GearKind.BELT else self._fixed(shared)
-        return tuple(sorted(found, key=lambda gear: (gear.ratio, gear.name)))
-
-    def _fixed(self, shared: Gear) -> Iterator[Gear]:
-        """Stage of each ratio."""
-        for ratio in self.ratios:
+        found = list(self._belts(shared)) if self.kind is GearKind.BELT else []
+        for ratio in self.ratios if self.kind is GearKind.FIXED else ():
             # Seen at the wheel, what turns with the motor counts with the square of the ratio.
             scale = ratio**2 if self.inertia_at is InertiaAt.MOTOR else 1.0
-            yield replace(
+            fixed = replace(
                 shared,
                 name=f"{self.name} {ratio:g}:1",
                 ratio=ratio,
                 inertia=scale * _stated(self.inertia_kg_m2),
                 torque_max=_stated(self.torque_max_nm),
             )
+            found.append(fixed)
+        return tuple(sorted(found, key=lambda gear: (gear.ratio, gear.name)))
 
     def _belts(self, shared: Gear) -> Iterator[Gear]:
         """Stage of every two different pulleys; two of a size would only add mass."""

@@ -168,6 +168,26 @@ def _without_gravity(specification: Specification) -> Iterator[str]:
             yield f"maneuver.{maneuver.name}.jump_height: {told}"
 
 
+def _too_short_flights(maneuvers: Iterable[Maneuver]) -> Iterator[str]:
+    """Jumps that end before what they are for."""
+    for maneuver in maneuvers:
+        match maneuver:
+            case Maneuver(gravity=0.0) | TurnTo(jump_height=0.0):
+                continue
+            case Disturbance(onset=needed):
+                what = "its torque starts"
+            case Flip(duration=needed) | TurnTo(duration=needed):
+                what = "its turn ends"
+            case _:
+                continue
+        if needed >= maneuver.flight_time:
+            flight = max(maneuver.flight_time, 0.0)
+            yield (
+                f"maneuver.{maneuver.name}: {what} {needed:.3g} s after lift-off, "
+                f"but the flight lasts {flight:.3g} s"
+            )
+
+
 def _of_layouts(specification: Specification) -> Iterator[str]:
     """Axes that are none, places that are not one per wheel, and what only pairs have."""
     stated = specification.ocs
@@ -206,26 +226,6 @@ def _of_layouts(specification: Specification) -> Iterator[str]:
     )
 
 
-def _too_short_flights(maneuvers: Iterable[Maneuver]) -> Iterator[str]:
-    """Jumps that end before what they are for."""
-    for maneuver in maneuvers:
-        match maneuver:
-            case Maneuver(gravity=0.0) | TurnTo(jump_height=0.0):
-                continue
-            case Disturbance(onset=needed):
-                what = "its torque starts"
-            case Flip(duration=needed) | TurnTo(duration=needed):
-                what = "its turn ends"
-            case _:
-                continue
-        if needed >= maneuver.flight_time:
-            flight = max(maneuver.flight_time, 0.0)
-            yield (
-                f"maneuver.{maneuver.name}: {what} {needed:.3g} s after lift-off, "
-                f"but the flight lasts {flight:.3g} s"
-            )
-
-
 def _without_motor(specification: Specification) -> Iterator[str]:
     """What only a motor gives a meaning to, where none is wanted, one line each."""
     if specification.motor.name != NO_MOTOR:
@@ -260,7 +260,7 @@ def unfit_for_robot(
 
     `requirement` and `envelope` have their defaults filled in.
     """
-    position, name = specification.ocs.position, specification.flywheel.material
+    position = specification.ocs.position
     yield from _oversized(specification, robot, robot_size)
     stated = specification.ocs
     of_pair = stated.axes is None and stated.layout in {None, PAIR, ALL_LAYOUTS}
@@ -271,14 +271,26 @@ def unfit_for_robot(
         )
     limits = {key: getattr(envelope, limit) for key, limit in LIMIT_OF_KEY.items()}
     yield from _empty_room(specification.flywheel, limits)
-    yield from _impossible(requirement, robot)
+    for each in requirement.maneuvers:
+        try:
+            each.momentum(TiltInertia.of(robot.inertia), requirement.standing_height)
+        except OcsError as error:
+            yield error.message
+    if requirement.rate_change is None and requirement.spin_inertia is None:
+        if not requirement.maneuvers:
+            yield "requirement: nothing is asked for: state a maneuver, rate_change or spin_inertia"
+        idle = {maneuver.name: _zeros(maneuver) for maneuver in requirement.maneuvers}
+        if all(idle.values()):
+            for name, zeros in idle.items():
+                yield f"maneuver.{name}: {zeros}: this asks nothing of the device"
     for each in requirement.maneuvers:
         if isinstance(each, Pivoted):
             yield from _off_its_pivot(each, stated)
     yield from _misfed(specification, robot)
+    chosen = specification.flywheel.material
     try:
-        if name not in {None, STEEL, AUTO}:
-            material(name)
+        if chosen not in {None, STEEL, AUTO}:
+            material(chosen)
     except SpecificationError as error:
         yield f"flywheel.material: {error.message}. {error.hint}"
     yield from unknown_names(specification)
@@ -356,23 +368,6 @@ def _misfed(specification: Specification, robot: Robot) -> Iterator[str]:
             f"supply.power_max: {power:g} W is less than {LEAST_POWER:g} W per kg of the robot "
             f"({robot.mass:.3g} kg): did you mean {power:g}kW?"
         )
-
-
-def _impossible(requirement: Requirement, robot: Robot) -> Iterator[str]:
-    """Maneuvers that this robot cannot be asked for, or nothing asked at all."""
-    for maneuver in requirement.maneuvers:
-        try:
-            maneuver.momentum(TiltInertia.of(robot.inertia), requirement.standing_height)
-        except OcsError as error:
-            yield error.message
-    if requirement.rate_change is not None or requirement.spin_inertia is not None:
-        return
-    if not requirement.maneuvers:
-        yield "requirement: nothing is asked for: state a maneuver, rate_change or spin_inertia"
-    idle = {maneuver.name: _zeros(maneuver) for maneuver in requirement.maneuvers}
-    if all(idle.values()):
-        for name, zeros in idle.items():
-            yield f"maneuver.{name}: {zeros}: this asks nothing of the device"
 
 
 def _zeros(maneuver: Maneuver) -> str:

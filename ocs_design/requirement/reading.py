@@ -95,9 +95,15 @@ def _checked(content: Mapping[str, object], name: str) -> Specification:
     for key in content:
         if key not in known:
             faults.unknown(key, key, known)
+    motor, supply = content.get("motor"), content.get("supply", {})
+    if isinstance(motor, Mapping) and isinstance(supply, Mapping) and "bus_voltage" in motor:
+        # Older files have `motor.bus_voltage`.
+        kept = {key: value for key, value in motor.items() if key != "bus_voltage"}
+        renamed = {"voltage": motor["bus_voltage"], **supply}
+        content = {**content, "motor": kept, "supply": renamed}
     sections: dict[str, Any] = {}
     for title, section in SECTIONS.items():
-        table = _renamed(title, faults.table(content.get(title, {}), title), content)
+        table = faults.table(content.get(title, {}), title)
         values = {key: found.value for key, found in keys_of(section).items()}
         sections[title] = section(**_fields(table, values, title, faults))
     tables, maneuvers = content.get("maneuver", []), []
@@ -135,18 +141,6 @@ def _checked(content: Mapping[str, object], name: str) -> Specification:
             hint="`ocs-design init` writes a file that has every key",
         )
     return specification
-
-
-def _renamed(
-    name: str, table: Mapping[str, object], content: Mapping[str, object]
-) -> Mapping[str, object]:
-    """A section with its keys under today's names: `motor.bus_voltage` is `supply.voltage` now."""
-    motor = content.get("motor")
-    if not isinstance(motor, Mapping) or "bus_voltage" not in motor:
-        return table
-    if name == "motor":
-        return {key: value for key, value in table.items() if key != "bus_voltage"}
-    return {"voltage": motor["bus_voltage"], **table} if name == "supply" else table
 
 
 def _fields(

@@ -147,14 +147,18 @@ class ManeuverSweep(Sweep):
     """A figure of the maneuvers that turn the trunk.
 
     Attributes:
-        figure: of one maneuver; None where it has none.
-        scaled: a maneuver that has one, with its figure times a ratio.
         maneuver: which one varies alone; empty: all in one ratio, and the first gives the value.
     """
 
-    figure: Callable[[Maneuver, float], float | None]
-    scaled: Callable[[Maneuver, float, float], Maneuver]
     maneuver: str = ""
+
+    @abstractmethod
+    def figure(self, maneuver: Maneuver, standing_height: float) -> float | None:
+        """Figure of one maneuver; None where it has none."""
+
+    @abstractmethod
+    def scaled(self, maneuver: Maneuver, ratio: float, standing_height: float) -> Maneuver:
+        """A maneuver that has a figure, with that times a ratio."""
 
     def own(self, task: Task) -> float:
         """Value that the specification has (`Sweep.own`)."""
@@ -201,37 +205,41 @@ class ManeuverSweep(Sweep):
         return {name: figure for name, figure in figures.items() if figure}
 
 
-def _time(maneuver: Maneuver, standing_height: float) -> float | None:
+class TimeSweep(ManeuverSweep):
     """Time of the fall or of the turn [s]."""
-    return maneuver.time(standing_height) if isinstance(maneuver, Drop | Flip) else None
+
+    def figure(self, maneuver: Maneuver, standing_height: float) -> float | None:
+        """Time of a maneuver (`ManeuverSweep.figure`)."""
+        return maneuver.time(standing_height) if isinstance(maneuver, Drop | Flip) else None
+
+    def scaled(self, maneuver: Maneuver, ratio: float, standing_height: float) -> Maneuver:
+        """Maneuver that takes so many times as long: a fall from higher, a longer jump."""
+        if isinstance(maneuver, Flip):
+            height = maneuver.jump_height * ratio**2
+            return replace(maneuver, duration=maneuver.duration * ratio, jump_height=height)
+        return slower(maneuver, ratio, standing_height)
 
 
-def _with_time(maneuver: Maneuver, ratio: float, standing_height: float) -> Maneuver:
-    """Maneuver that takes so many times as long: a fall from higher, a turn in a longer jump."""
-    if isinstance(maneuver, Flip):
-        height = maneuver.jump_height * ratio**2
-        return replace(maneuver, duration=maneuver.duration * ratio, jump_height=height)
-    return slower(maneuver, ratio, standing_height)
-
-
-def _angle(maneuver: Maneuver, _: float) -> float | None:
+class AngleSweep(ManeuverSweep):
     """Angle of the tilt or of the turn [rad], without its sign."""
-    if isinstance(maneuver, Flip):
-        return abs(maneuver.angle)
-    return hypot(maneuver.roll, maneuver.pitch) if isinstance(maneuver, Drop) else None
 
+    def figure(self, maneuver: Maneuver, standing_height: float) -> float | None:
+        """Angle of a maneuver (`ManeuverSweep.figure`)."""
+        del standing_height
+        if isinstance(maneuver, Flip):
+            return abs(maneuver.angle)
+        return hypot(maneuver.roll, maneuver.pitch) if isinstance(maneuver, Drop) else None
 
-def _with_angle(maneuver: Maneuver, ratio: float, _: float) -> Maneuver:
-    """Maneuver by so many times the angle; roll and pitch of a tilt keep their proportion."""
-    turned = ("angle",) if isinstance(maneuver, Flip) else ("roll", "pitch")
-    return replace(maneuver, **{name: getattr(maneuver, name) * ratio for name in turned})
+    def scaled(self, maneuver: Maneuver, ratio: float, standing_height: float) -> Maneuver:
+        """Maneuver by so many times the angle; roll and pitch of a tilt keep their proportion."""
+        del standing_height
+        turned = ("angle",) if isinstance(maneuver, Flip) else ("roll", "pitch")
+        return replace(maneuver, **{name: getattr(maneuver, name) * ratio for name in turned})
 
 
 _SWEEPS = (
-    ManeuverSweep("time", "time of the turn", Dimension.TIME, "ms", (0.8, 1.6), _time, _with_time),
-    ManeuverSweep(
-        "angle", "angle of the turn", Dimension.ANGLE, "deg", (0.4, 1.6), _angle, _with_angle
-    ),
+    TimeSweep("time", "time of the turn", Dimension.TIME, "ms", (0.8, 1.6)),
+    AngleSweep("angle", "angle of the turn", Dimension.ANGLE, "deg", (0.4, 1.6)),
     KeySweep(
         "radius",
         "room for the rim, r_max",

@@ -418,18 +418,20 @@ class JointValues(Value[Mapping[str, float]]):
             raise SpecificationError(
                 f"{where}: {shortened(raw)} is not a table, as in {{ hip = '10deg' }}"
             )
-        return {name: self._value(value, f"{where}.{name}") for name, value in table.items()}
-
-    def _value(self, raw: object, where: str) -> float:
-        """Length where its unit says so, else angle; a bare number is neither far nor long."""
-        try:
-            length = parse_quantity(raw, Dimension.LENGTH, where)
-        except QuantityError:
-            return parse_quantity(raw, Dimension.ANGLE, where)
-        return _BARE_JOINT.read(raw, where) if _is_bare(raw) else length
+        found: dict[str, float] = {}
+        for name, value in table.items():
+            place = f"{where}.{name}"
+            try:
+                length = parse_quantity(value, Dimension.LENGTH, place)
+            except QuantityError:
+                found[name] = parse_quantity(value, Dimension.ANGLE, place)
+            else:
+                found[name] = _BARE_JOINT.read(value, place) if _is_bare(value) else length
+        return found
 
 
 _BARE_JOINT = angle(Sign.ANY, math.inf, ONE_TURN)
+"""A bare number is an angle, and no large one."""
 
 
 def did_you_mean(word: object, known: tuple[str, ...]) -> str:

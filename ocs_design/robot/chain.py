@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.robot.rotations import rotation_about
+from ocs_design.robot.rotations import cross, rotation_about
 from ocs_design.robot.tree import Body, Joint, JointKind, Placement, Tree
 
 BoolArray: TypeAlias = NDArray[np.bool_]
@@ -191,7 +191,7 @@ class Chain:
                     continue
                 lever, axis = tip - pose.origins[row], pose.axes[row]
                 cosine = direction @ (lever - axis * (axis @ lever))
-                sine = direction @ _cross(axis, lever)
+                sine = direction @ cross(axis, lever)
                 if np.hypot(cosine, sine) < 1e-9 * max(1e-9, float(np.linalg.norm(lever))):
                     continue
                 value = nearest_turn(
@@ -204,12 +204,6 @@ class Chain:
             if np.abs(values - before).max(initial=0.0) < 1e-6:
                 break
         return values
-
-
-def _cross(one: FloatArray, other: FloatArray) -> FloatArray:
-    """Cross product of two vectors; NumPy's takes ten times as long for a single pair."""
-    (a, b, c), (x, y, z) = one, other
-    return np.array([b * z - c * y, c * x - a * z, a * y - b * x])
 
 
 def nearest_turn(angle: float, lower: float, upper: float) -> float:

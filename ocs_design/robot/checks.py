@@ -60,8 +60,24 @@ def plausibility_warnings(
         for body in tree.bodies:
             _judge_body(body, warnings)
         _judge_mirror_images(tree, trunk, legs, warnings)
-        _judge_efforts(tree, legs, weighed.mass, warnings)
-        _judge_feet(tree, trunk, legs, posture, warnings)
+        for leg in legs:
+            most = EFFORT * weighed.mass * _GRAVITY * leg.length
+            for name in leg.joints:
+                joint = tree.joints[name]
+                if joint.kind is JointKind.REVOLUTE and most < joint.effort < np.inf:
+                    warnings.add(
+                        f"efforts over {EFFORT:.0f} times weight times leg length limit no jump: "
+                        "state what the motors give",
+                        f"{name} ({joint.effort:.4g} N m)",
+                    )
+        # The trunk is level, and the lowest foot is on the ground.
+        soles = sole_depths(tree, trunk, legs, posture) if legs else ()
+        for leg, sole in zip(legs, soles, strict=True):
+            height = max(soles) - sole
+            if height > IN_THE_AIR * leg.length:
+                warnings.add(
+                    f"foot '{leg.name}' is {1e3 * height:.3g} mm above the ground in this posture"
+                )
     return warnings.sentences()
 
 
@@ -376,34 +392,5 @@ somebody has built lie between 0.3 and 0.7."""
 _GRAVITY = 9.81
 
 
-def _judge_efforts(tree: Tree, legs: Sequence[Leg], mass: float, warnings: Warnings) -> None:
-    """Warn of joints of the legs with efforts that a robot of this mass [kg] has no use for."""
-    for leg in legs:
-        most = EFFORT * mass * _GRAVITY * leg.length
-        for name in leg.joints:
-            joint = tree.joints[name]
-            if joint.kind is JointKind.REVOLUTE and most < joint.effort < np.inf:
-                warnings.add(
-                    f"efforts over {EFFORT:.0f} times weight times leg length limit no jump: state "
-                    f"what the motors give",
-                    f"{name} ({joint.effort:.4g} N m)",
-                )
-
-
 IN_THE_AIR = 0.05
 """Largest height of a foot over the lowest one, over the leg's length: 8 mm of Solo12's."""
-
-
-def _judge_feet(
-    tree: Tree, trunk: str, legs: Sequence[Leg], posture: Mapping[str, float], warnings: Warnings
-) -> None:
-    """Warn of feet above the ground that the lowest foot stands on, the trunk being level."""
-    if not legs:
-        return
-    soles = sole_depths(tree, trunk, legs, posture)
-    for leg, sole in zip(legs, soles, strict=True):
-        height = max(soles) - sole
-        if height > IN_THE_AIR * leg.length:
-            warnings.add(
-                f"foot '{leg.name}' is {1e3 * height:.3g} mm above the ground in this posture"
-            )

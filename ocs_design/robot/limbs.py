@@ -138,23 +138,24 @@ class Anatomy:
 
     def limbs(self, up: FloatArray) -> list[Limb]:
         """Limbs that stretch well below the centre of mass of the robot and of their carriers."""
-        return [limb for limb in self._all_limbs(up) if self._lifts(limb, up)]
-
-    def _lifts(self, limb: Limb, up: FloatArray) -> bool:
-        level = abs(limb.axes[0] @ up) < 0.3
-        rolls = limb.hinges == 1 and level and is_wheel(limb.chain.bodies[-1])
-        swings = limb.hinges == 1 and level and self.names([limb]) is True
-        if limb.reach <= 0.0 or not (limb.hinges >= 2 or rolls or swings):
-            return False
-        lifted = [self.masses[i] for i in ancestors(self.tree, limb.base)]
-        if limb.base != 0 or len(self.children[0]) > 1:
-            # A hopper's heavy foot lowers the centre of mass.
-            lifted.append(self.robot)
-        return all(
-            limb.depth + up @ each.com > _REACHES_BELOW * limb.reach
-            for each in lifted
-            if each.mass > 0.0
-        )
+        found = []
+        for limb in self._all_limbs(up):
+            level = abs(limb.axes[0] @ up) < 0.3
+            rolls = limb.hinges == 1 and level and is_wheel(limb.chain.bodies[-1])
+            swings = limb.hinges == 1 and level and self.names([limb]) is True
+            if limb.reach <= 0.0 or not (limb.hinges >= 2 or rolls or swings):
+                continue
+            lifted = [self.masses[i] for i in ancestors(self.tree, limb.base)]
+            if limb.base != 0 or len(self.children[0]) > 1:
+                # A hopper's heavy foot lowers the centre of mass.
+                lifted.append(self.robot)
+            if all(
+                limb.depth + up @ each.com > _REACHES_BELOW * limb.reach
+                for each in lifted
+                if each.mass > 0.0
+            ):
+                found.append(limb)
+        return found
 
     def share_hips(self, chosen: Sequence[Limb], up: FloatArray) -> bool:
         """Whether every limb shares its hip with another, chosen or not."""

@@ -214,30 +214,28 @@ def _expand_includes(parent: ET.Element, folder: Path, seen: set[Path]) -> None:
         if child.tag != "include":
             _expand_includes(child, folder, seen)
             continue
-        included = _read_include(folder / child.get("file", ""), folder, seen)
+        path = folder / child.get("file", "")
+        if not is_below(path, roots_of(folder / "model.xml")):
+            raise RobotError(
+                f"the included file {path} lies outside of the model's folder and repository",
+                hint="put it into the model's folder",
+            )
+        if path.resolve() in seen:
+            raise RobotError(
+                f"{path} is included twice", hint="MJCF allows each file to be included once"
+            )
+        seen.add(path.resolve())
+        try:
+            included = parse_xml(read_plain_file(path, MAX_BYTES))
+        except OSError as error:
+            raise RobotError(
+                f"the included file {path} cannot be read: {error.strerror}",
+                hint="keep the model's files together; a model from standard input "
+                "finds its includes in the current folder",
+            ) from error
+        except RobotError as error:
+            message = f"the included file {path}: {error.message}"
+            raise RobotError(message, hint=error.hint) from error
         _expand_includes(included, folder, seen)
         place = list(parent).index(child)
         parent[place : place + 1] = list(included)
-
-
-def _read_include(path: Path, folder: Path, seen: set[Path]) -> ET.Element:
-    if not is_below(path, roots_of(folder / "model.xml")):
-        raise RobotError(
-            f"the included file {path} lies outside of the model's folder and repository",
-            hint="put it into the model's folder",
-        )
-    if path.resolve() in seen:
-        raise RobotError(
-            f"{path} is included twice", hint="MJCF allows each file to be included once"
-        )
-    seen.add(path.resolve())
-    try:
-        return parse_xml(read_plain_file(path, MAX_BYTES))
-    except OSError as error:
-        raise RobotError(
-            f"the included file {path} cannot be read: {error.strerror}",
-            hint="keep the model's files together; a model from standard input "
-            "finds its includes in the current folder",
-        ) from error
-    except RobotError as error:
-        raise RobotError(f"the included file {path}: {error.message}", hint=error.hint) from error

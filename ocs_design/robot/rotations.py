@@ -10,12 +10,18 @@ from numpy.typing import ArrayLike
 from ocs_design.common.arrays import FloatArray
 
 
+def cross(one: FloatArray, other: FloatArray) -> FloatArray:
+    """Cross product of two vectors, shape (3,); `np.cross` takes ten times as long on one pair."""
+    (a, b, c), (x, y, z) = one, other
+    return np.array([b * z - c * y, c * x - a * z, a * y - b * x])
+
+
 def rotation_about(axis: FloatArray, angle: float) -> FloatArray:
     """Rotation by `angle` [rad] about the unit vector `axis` (Rodrigues), shape (3, 3)."""
     x, y, z = axis
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    across = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     rotation: FloatArray = (
-        np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)
+        np.eye(3) + np.sin(angle) * across + (1.0 - np.cos(angle)) * (across @ across)
     )
     return rotation
 

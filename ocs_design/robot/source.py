@@ -55,7 +55,21 @@ def read_source(source: AnyPath) -> Source:
     else:
         path = Path(source)
         folder, raw = path.absolute().parent, _read_file(path, path_text)
-    content = _unzipped(raw, path_text) if raw.startswith(_GZIP_MAGIC) else raw
+    content = raw
+    if raw.startswith(_GZIP_MAGIC):
+        try:
+            with gzip.GzipFile(fileobj=io.BytesIO(raw)) as stream:
+                content = _read_bounded(stream, path_text, " unzipped")
+        except EOFError as error:
+            raise RobotError(
+                f"{_shown(path_text)} is a gzip file that ends too early",
+                hint="it was cut off in copying or downloading: fetch it again",
+            ) from error
+        except (OSError, zlib.error) as error:
+            raise RobotError(
+                f"{_shown(path_text)} is a broken gzip file: {error}",
+                hint="fetch it again, or unzip it to see what is in it",
+            ) from error
     if not content.strip():
         raise RobotError(f"{_shown(path_text)} is empty", hint="give a URDF or MJCF file")
     return Source(path_text, folder, content, hashlib.sha256(raw).hexdigest())
@@ -99,22 +113,6 @@ def _read_file(path: Path, name: str) -> bytes:
         reason = getattr(error, "strerror", None) or str(error)
         raise RobotError(
             f"{str(path)!r} cannot be read: {reason}", hint="check the path"
-        ) from error
-
-
-def _unzipped(raw: bytes, path_text: str) -> bytes:
-    try:
-        with gzip.GzipFile(fileobj=io.BytesIO(raw)) as stream:
-            return _read_bounded(stream, path_text, " unzipped")
-    except EOFError as error:
-        raise RobotError(
-            f"{_shown(path_text)} is a gzip file that ends too early",
-            hint="it was cut off in copying or downloading: fetch it again",
-        ) from error
-    except (OSError, zlib.error) as error:
-        raise RobotError(
-            f"{_shown(path_text)} is a broken gzip file: {error}",
-            hint="fetch it again, or unzip it to see what is in it",
         ) from error
 
 

@@ -7,10 +7,8 @@ What is seen counts, for screws go into what is there; collision shapes only sta
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import combinations
-from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.robot.meshes import (
@@ -127,29 +125,22 @@ def surface_of(triangles: FloatArray) -> Surface:
         within = np.arange(len(owner)) - np.repeat(np.cumsum(each) - each, each)
         i = first[owner, 0] + within // count[owner, 1]
         j = first[owner, 1] + within % count[owner, 1]
-        _raise(
-            heights, i * shape[1] + j, triangles[owner], origin + step * np.stack([i, j], axis=1)
-        )
+        # Each place is raised to the triangle above or below it, where it is within that.
+        a, b, c = triangles[owner].transpose(1, 0, 2)
+        places = origin + step * np.stack([i, j], axis=1)
+        one, two, to = b - a, c - a, places - a[:, :2]
+        area = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
+        # Triangles on edge have no inside; those beside them have their edges.
+        solid = np.abs(area) > 1e-16
+        area = np.where(solid, area, 1.0)
+        u = (to[:, 0] * two[:, 1] - to[:, 1] * two[:, 0]) / area
+        v = (one[:, 0] * to[:, 1] - one[:, 1] * to[:, 0]) / area
+        inside = solid & (u >= -1e-9) & (v >= -1e-9) & (u + v <= 1.0 + 1e-9)
+        z = a[:, 2] + u * one[:, 2] + v * two[:, 2]
+        np.maximum.at(heights, (i * shape[1] + j)[inside], z[inside])
     return Surface(
         float(origin[0]), float(origin[1]), step, frozen(heights.reshape(shape[0], shape[1]))
     )
-
-
-def _raise(
-    heights: FloatArray, cells: NDArray[np.int64], triangles: FloatArray, places: FloatArray
-) -> None:
-    """Raise each place to the triangle above or below it, where it is within that."""
-    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
-    one, two, to = b - a, c - a, places - a[:, :2]
-    area = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
-    # Triangles on edge have no inside; those beside them have their edges.
-    solid = np.abs(area) > 1e-16
-    area = np.where(solid, area, 1.0)
-    u = (to[:, 0] * two[:, 1] - to[:, 1] * two[:, 0]) / area
-    v = (one[:, 0] * to[:, 1] - one[:, 1] * to[:, 0]) / area
-    inside = solid & (u >= -1e-9) & (v >= -1e-9) & (u + v <= 1.0 + 1e-9)
-    z = a[:, 2] + u * one[:, 2] + v * two[:, 2]
-    np.maximum.at(heights, cells[inside], z[inside])
 
 
 def trunk_triangles(robot: Robot) -> FloatArray | None:
@@ -174,25 +165,25 @@ def trunk_triangles(robot: Robot) -> FloatArray | None:
 def triangles_of(shape: Shape) -> FloatArray | None:
     """Triangles of a shape in its body's frame [m], shape (n, 3, 3); None if it cannot be read."""
     if shape.kind is ShapeKind.MESH:
-        own = None if shape.mesh is None else _mesh_triangles(shape.mesh)
-        if own is None or not len(own):
+        if shape.mesh is None:
+            return None
+        try:
+            check_mesh_file(shape.mesh)
+            is_plain = binary_stl_facets(shape.mesh) > 0
+            read = (
+                binary_stl_corners(shape.mesh)
+                if is_plain
+                else load_with_trimesh(shape.mesh).triangles
+            )
+            own = np.array(read, dtype=np.float64)
+        except Exception:  # A mesh reader fails in as many ways as there are broken meshes.
+            return None
+        if not (len(own) and np.isfinite(own).all()):
             return None
         own = own * np.asarray(shape.size)
     else:
         own = _primitive_triangles(shape.kind, shape.size)
     return np.asarray(own @ shape.rotation.T + shape.position)
-
-
-def _mesh_triangles(path: Path) -> FloatArray | None:
-    """Triangles of a mesh's file, shape (n, 3, 3)."""
-    try:
-        check_mesh_file(path)
-        is_plain = binary_stl_facets(path) > 0
-        read = binary_stl_corners(path) if is_plain else load_with_trimesh(path).triangles
-        found = np.array(read, dtype=np.float64)
-    except Exception:  # A mesh reader fails in as many ways as there are broken meshes.
-        return None
-    return found if np.isfinite(found).all() else None
 
 
 def _primitive_triangles(kind: ShapeKind, size: tuple[float, ...]) -> FloatArray:

@@ -51,29 +51,26 @@ def expand_job(*, content: str, file: str, packages: Mapping[str, str], seconds:
         seconds: of processor time.
     """
     _limit(seconds)
-    answer = {}
+    answer, path = {}, Path(file)
     try:
-        answer["urdf"] = _expanded(content.encode("latin-1"), Path(file), packages)
+        import xacro  # noqa: PLC0415 - optional
+
+        finder = MeshFinder(path.parent, {name: Path(folder) for name, folder in packages.items()})
+        roots = [*roots_of(path), *finder.package_paths.values()]
+        _tame(xacro, finder, roots)
+        _guard(roots)
+        sys.stdout = io.StringIO()
+        xacro.init_stacks(str(path))
+        document = xacro.parse(io.BytesIO(content.encode("latin-1")), str(path))
+        xacro.process_doc(document)
+        expanded = str(document.toxml())
+        if len(expanded) <= LARGEST:
+            answer["urdf"] = expanded
+        else:
+            answer["error"] = f"it expands to more than {LARGEST >> 20} MiB"
     except Exception as error:  # xacro evaluates expressions: whatever Python can raise
         answer["error"] = " ".join(str(error).split()) or type(error).__name__
     sys.__stdout__.write(json.dumps(answer))  # type: ignore[union-attr]  # a pipe of our own
-
-
-def _expanded(content: bytes, path: Path, packages: Mapping[str, str]) -> str:
-    import xacro  # noqa: PLC0415 - optional
-
-    finder = MeshFinder(path.parent, {name: Path(folder) for name, folder in packages.items()})
-    roots = [*roots_of(path), *finder.package_paths.values()]
-    _tame(xacro, finder, roots)
-    _guard(roots)
-    sys.stdout = io.StringIO()
-    xacro.init_stacks(str(path))
-    document = xacro.parse(io.BytesIO(content), str(path))
-    xacro.process_doc(document)
-    expanded = str(document.toxml())
-    if len(expanded) > LARGEST:
-        raise MemoryError(f"it expands to more than {LARGEST >> 20} MiB")
-    return expanded
 
 
 def _limit(seconds: float) -> None:
@@ -165,23 +162,21 @@ def _guard(roots: list[Path]) -> None:
 
     def refuse(event: str, arguments: tuple[Any, ...]) -> None:
         """Refuse an event of which Python tells before it happens."""
-        if event == "open" and _reads(*arguments):
-            target = Path(os.fsdecode(arguments[0]))
-            if is_below(target, (*roots, _PYTHON)):
-                return
-            # xacro's own message takes the name of the file from the error.
-            raise PermissionError(
-                errno.EACCES,
-                "outside of the robot's folder and packages, to which --package-path NAME=DIR adds",
-                str(target),
-            )
+        if event == "open":
+            path, mode, flags = arguments
+            writes = mode not in {"r", "rb", None} or (flags or 0) & (os.O_WRONLY | os.O_RDWR)
+            if not writes and isinstance(path, (str, bytes, os.PathLike)):
+                target = Path(os.fsdecode(path))
+                if is_below(target, (*roots, _PYTHON)):
+                    return
+                # xacro's own message takes the name of the file from the error.
+                raise PermissionError(
+                    errno.EACCES,
+                    "outside of the robot's folder and packages, to which --package-path NAME=DIR "
+                    "adds",
+                    str(target),
+                )
         if event not in _HARMLESS:
             raise PermissionError(f"{event!r} is refused to xacro files")
 
     sys.addaudithook(refuse)
-
-
-def _reads(path: object, mode: object, flags: int | None) -> bool:
-    """Whether a file is opened by its path, to be read only."""
-    writes = (flags or 0) & (os.O_WRONLY | os.O_RDWR)
-    return mode in {"r", "rb", None} and not writes and isinstance(path, (str, bytes, os.PathLike))

@@ -82,14 +82,18 @@ def margins(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> tuple[Margi
     Raises:
         OcsError: the motor lacks a figure that every drive needs.
     """
-    taken = consumption(motion, wheel)
+    found = [*_drive_margins(motion, wheel), *_electric_margins(consumption(motion, wheel), wheel)]
+    stress = wheel.overspeed_stress
+    if stress is not None:
+        strength = wheel.material.yield_strength
+        note = f"at {OVERSPEED:g} x the highest speed that the drive reaches"
+        found.append(Margin(HOOP_STRESS, stress, strength, "Pa", note, of_motion=False))
+    energy = float((0.5 * wheel.moved_inertia * np.sum(motion.wheel_speed**2, axis=1)).max())
     # No motor of the catalogue states what its bearings stand, or how far apart they are.
     moment = float(bearing_moment(motion, axes, wheel).max())
     return (
-        *_drive_margins(motion, wheel),
-        *_bus_margins(taken, wheel),
-        *_heat_margins(taken, wheel),
-        *_rim_margins(motion, wheel),
+        *found,
+        Margin("stored energy", energy, None, "J", "all wheels with their rotors"),
         Margin("bearing moment", moment, None, "N m", "gyroscopic, and of the trunk's turning"),
     )
 
@@ -123,8 +127,12 @@ def _drive_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
     )
 
 
-def _bus_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin]:
-    """Current and power of the bus against its supply, drawn and fed back, and the energies."""
+def _electric_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin]:
+    """Current and power of the bus against its supply, the energies, and heat of the busier motor.
+
+    Continuous ratings are for hours and a maneuver lasts a second: a current that exceeds one is no
+    fault, but asks for a pause until the mean of i^2 is back at the rating's.
+    """
     supply = wheel.supply
     limits = (None, None) if supply is None else (supply.power / supply.voltage, supply.power)
     current_max, power_max = (None if each is None else _finite(each) for each in limits)
@@ -142,25 +150,6 @@ def _bus_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin]:
     yield Margin(
         "energy fed back", taken.fed_back, None, "J", "braking, if the inverter lets it through"
     )
-
-
-def _rim_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
-    """Stress if the motor runs away, and the energy in both wheels and rotors."""
-    stress = wheel.overspeed_stress
-    if stress is not None:
-        strength = wheel.material.yield_strength
-        note = f"at {OVERSPEED:g} x the highest speed that the drive reaches"
-        yield Margin(HOOP_STRESS, stress, strength, "Pa", note, of_motion=False)
-    energy = 0.5 * wheel.moved_inertia * np.sum(motion.wheel_speed**2, axis=1)
-    yield Margin("stored energy", float(energy.max()), None, "J", "all wheels with their rotors")
-
-
-def _heat_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin]:
-    """Heat of the busier motor.
-
-    Continuous ratings are for hours and a maneuver lasts a second: a current that exceeds one is no
-    fault, but asks for a pause until the mean of i^2 is back at the rating's.
-    """
     note = "cold resistance; its heat capacity is not known"
     yield Margin("winding heat", taken.heat, None, "J", note)
     mean = float(np.sqrt(taken.current_squared_time / taken.duration))

@@ -86,23 +86,28 @@ def mounting_open_points(mounting: Mounting) -> tuple[OpenPoint, ...]:
 
     Feet on a trunk whose shapes are not known are no open point: `Mounting.known` tells of them.
     """
-    return (
-        *_leaning(mounting),
-        *_weak(mounting),
-        *_hanging(mounting),
-        *_hitting(mounting),
-    )
+    found = [*_unsteady(mounting), *_hanging(mounting)]
+    hit = _hit(mounting)
+    if hit:
+        found.append(OpenPoint(what=hit, cure="give another place with --position X,Y,Z"))
+    return tuple(found)
 
 
-def _leaning(mounting: Mounting) -> Iterator[OpenPoint]:
-    """Feet that lean and have no pedestals, and those that would hold them."""
+def _unsteady(mounting: Mounting) -> Iterator[OpenPoint]:
+    """Feet that lean and have no pedestals, or pedestals that do not bear their modules."""
     leaning = [contact.name for contact in mounting.feet if contact.leans]
+    use = max((pedestal_use(each, mounting.module_mass) for each in mounting.pedestals), default=0)
     if not leaning:
+        if use > 1.0:
+            yield OpenPoint(
+                what="the pedestals' screws or threads would use "
+                f"{use:.0%} of their strength at 20 g",
+                cure="take a layout whose axes are horizontal: --layout pair, triad or single",
+            )
         return
     largest = max(mounting.pedestals, key=lambda each: each.mass)
     mass = format_quantity(sum(each.mass for each in mounting.pedestals), "g", digits=3)
     length, width, height = (format_quantity(size, "mm", digits=2) for size in largest.sizes)
-    use = max(pedestal_use(each, mounting.module_mass) for each in mounting.pedestals)
     yield OpenPoint(
         what=f"{listed(leaning, len(leaning))} cannot stand on the trunk: under a wheel whose axis "
         "is not horizontal goes a pedestal, and it is nowhere flat enough for all pedestals and "
@@ -111,18 +116,6 @@ def _leaning(mounting: Mounting) -> Iterator[OpenPoint]:
         "mass nor places nor files count them",
         cure="take a layout whose axes are horizontal: --layout pair, triad or single",
     )
-
-
-def _weak(mounting: Mounting) -> Iterator[OpenPoint]:
-    """Pedestals that do not bear their modules."""
-    if any(contact.leans for contact in mounting.feet):
-        return
-    use = max((pedestal_use(each, mounting.module_mass) for each in mounting.pedestals), default=0)
-    if use > 1.0:
-        yield OpenPoint(
-            what=f"the pedestals' screws or threads would use {use:.0%} of their strength at 20 g",
-            cure="take a layout whose axes are horizontal: --layout pair, triad or single",
-        )
 
 
 def _hanging(mounting: Mounting) -> Iterator[OpenPoint]:
@@ -171,15 +164,8 @@ def _hanging(mounting: Mounting) -> Iterator[OpenPoint]:
         yield OpenPoint(what=what, cure=", or ".join(cures) or more_feet)
 
 
-def _hitting(mounting: Mounting) -> Iterator[OpenPoint]:
-    """Collision in the nominal posture or in a landing."""
-    hit = _hit(mounting)
-    if hit:
-        yield OpenPoint(what=hit, cure="give another place with --position X,Y,Z")
-
-
 def _hit(mounting: Mounting) -> str:
-    """What is hit, as a clause; empty if nothing is."""
+    """What is hit in the nominal posture or in a landing, as a clause; empty if nothing is."""
     nearest, landing = mounting.nearest, mounting.landing
     if nearest is not None and nearest.distance < 0.0:
         overlap = format_quantity(-nearest.distance, "mm")
@@ -208,9 +194,16 @@ def mounting_of(
     solids += [solid for each in device.pedestals for solid in pedestal_solids(each)]
     surface = trunk_surface(robot) if device.carrier.mass > 0.0 else None
     feet = contacts_of(robot, device)
+    # The legs give way in a landing.
+    limbs = [part for part in collision.parts if part.limb]
+    poses, ranges = landing_poses(collision), landing_ranges(collision.robot)
+    near = [(solid, collision.nearest(solid, poses, limbs)) for solid in solids]
+    landing = [
+        descended(collision, solid, each, ranges) for solid, each in near if each is not None
+    ]
     return Mounting(
         nearest=_nearest_part(collision, device, flown, surface),
-        landing=_clearance(_nearest_in_landings(collision, solid) for solid in solids),
+        landing=_clearance(landing),
         reachable=reaches(collision, solids),
         com_shift=whole.com - robot.com,
         inertia_change=np.diag(whole.inertia) / np.diag(robot.inertia) - 1.0,
@@ -252,22 +245,16 @@ def placement_warnings(
     hit = _hit(mounting)
     if not hit:
         return ()
-    hint = _free_place_hint(robot, device, envelope, stated=stated)
+    hint = "no free place was found"
+    if not stated:
+        hint += ": give one with --position X,Y,Z"
+    elif device.layout == PAIR and (best := place_free(robot, envelope, device.layout)).free:
+        left, _ = best.place.centers(device_size(device))
+        place = ",".join(f"{1e3 * float(value):.1f}mm" for value in left)
+        hint = f"free would be --position {place}, {best.face} the trunk"
     if strict:
         raise SpecificationError(f"--strict: {hit}", hint=hint)
     return (f"{hit}; {hint}",)
-
-
-def _free_place_hint(robot: Robot, device: Device, envelope: Envelope, *, stated: bool) -> str:
-    """Clause on where a module would hit nothing."""
-    if not stated:
-        return "no free place was found: give one with --position X,Y,Z"
-    best = place_free(robot, envelope, device.layout)
-    if not best.free or device.layout != PAIR:
-        return "no free place was found"
-    left, _ = best.place.centers(device_size(device))
-    place = ",".join(f"{1e3 * float(value):.1f}mm" for value in left)
-    return f"free would be --position {place}, {best.face} the trunk"
 
 
 def _nearest_part(
@@ -337,15 +324,6 @@ def _above(surface: Surface, solid: Drum) -> float:
     )
     points = solid.center + np.concatenate([mantle.reshape(-1, 3), ends.reshape(-1, 3)])
     return float((points[:, 2] - surface.height(points[:, 0], points[:, 1])).min())
-
-
-def _nearest_in_landings(collision: CollisionModel, solid: Drum) -> Nearest | None:
-    """Limb that comes nearest to a solid while the legs give way in a landing."""
-    moving = [part for part in collision.parts if part.limb]
-    near = collision.nearest(solid, landing_poses(collision), moving)
-    if near is None:
-        return None
-    return descended(collision, solid, near, landing_ranges(collision.robot))
 
 
 def _clearance(found: Iterable[Nearest | None]) -> Clearance | None:

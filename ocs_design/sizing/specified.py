@@ -160,18 +160,18 @@ def _held(
         motors = tuple(held) or motors
     climbs = (each for each in resolved.requirement.maneuvers if isinstance(each, StandUp))
     stop = min((each.stop for each in climbs if each.braked), default=inf)
-    return tuple(_slowed(each, stop) for each in motors) if isfinite(stop) else motors
-
-
-def _slowed(motor: Motor, stop: float) -> Motor:
-    """The motor up to the speed from which a brake on its wheel may stop its rotor in a time [s].
-
-    The rotor's torque J W / t goes through the joint of hub and motor.
-    """
-    carried, speed, rotor = _carried(motor), speed_limit(motor), motor.rotor_inertia
-    if carried is None or speed is None or not rotor:
-        return motor
-    return replace(motor, speed_max=min(speed, carried * stop / (SERVICE * rotor)))
+    if not isfinite(stop):
+        return motors
+    slowed = []
+    for motor in motors:
+        carried, speed, rotor = _carried(motor), speed_limit(motor), motor.rotor_inertia
+        if carried is None or speed is None or not rotor:
+            slowed.append(motor)
+        else:
+            # The rotor's torque J W / t goes through the joint of hub and motor.
+            fastest = min(speed, carried * stop / (SERVICE * rotor))
+            slowed.append(replace(motor, speed_max=fastest))
+    return tuple(slowed)
 
 
 def _carried(motor: Motor) -> float | None:

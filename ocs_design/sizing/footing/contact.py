@@ -22,7 +22,7 @@ from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import AROUND_SLOT
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_back, trunk_surface
-from ocs_design.sizing.footing.feet import Feet, feet_of, leans
+from ocs_design.sizing.footing.feet import feet_of, leans
 from ocs_design.sizing.footing.lands import (
     FLATNESS,
     PROUD,
@@ -85,12 +85,19 @@ def contacts_of(robot: Robot, device: Device) -> tuple[FootContact, ...]:
         elif leans(module):
             found.append(FootContact(name, "trunk", 0.0, 0.0, inf, 0.0, held=False, leans=True))
         elif plate is not None:
-            found.append(_on_plate(name, plate, feet, middle, underside))
+            # It carries a foot around the circle of its screws.
+            gap = min(abs(underside - plate.top - level) for level in plate.heights)
+            share = float(_over_plate(plate, disc_points(middle, feet.radius)).mean())
+            lands = ring_points(middle, *feet.lands)
+            held = bool(_over_plate(plate, lands).all()) and gap <= PROUD
+            area = share * pi * feet.radius**2
+            found.append(FootContact(name, "plate", area, share, gap, 0.0, held))
         elif surface is None:
             found.append(FootContact(name, "trunk", None, None, None, 0.0, held=None))
         else:
-            lands, radius = feet.lands, feet.radius
-            found.append(contact_of(name, surface, middle, radius, plane=underside, lands=lands))
+            found.append(
+                contact_of(name, surface, middle, feet.radius, plane=underside, lands=feet.lands)
+            )
     if plate is not None:
         found += _plate_contacts(robot, plate)
     return tuple(found)
@@ -117,18 +124,6 @@ def under_pedestal(
     held = gap <= FLATNESS and proud <= PROUD and seated
     area = share * pedestal.width * (pedestal.length + 2.0 * pedestal.flange)
     return FootContact(part_name("pedestal", module.name), "trunk", area, share, gap, proud, held)
-
-
-def _on_plate(
-    name: str, plate: CarrierPlate, feet: Feet, middle: Point, underside: float
-) -> FootContact:
-    """Contact of a foot with a plate, which carries it around its screws' circle."""
-    base = disc_points(middle, feet.radius)
-    gap = min(abs(underside - plate.top - level) for level in plate.heights)
-    share = float(_over_plate(plate, base).mean())
-    lands = ring_points(middle, *feet.lands)
-    held = bool(_over_plate(plate, lands).all()) and gap <= PROUD
-    return FootContact(name, "plate", share * pi * feet.radius**2, share, gap, 0.0, held)
 
 
 def _over_plate(plate: CarrierPlate, points: FloatArray) -> NDArray[np.bool_]:

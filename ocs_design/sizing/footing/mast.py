@@ -21,7 +21,6 @@ from ocs_design.parts.printed import SHOCK
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_back
-from ocs_design.robot.tree import Drum
 from ocs_design.sizing.footing.feet import SENSES, Feet, Footing, rough
 from ocs_design.sizing.footing.lands import FLATNESS, PROUD, disc_points
 from ocs_design.sizing.footing.plate import SLOT_EDGE, WIDER, blank_plate, thick_enough
@@ -130,7 +129,16 @@ def _mast_spot(
     # A block is heavier than a longer way up.
     spots.sort(key=lambda each: (each[3], search.cost(each[0])))
     for place, far, height, spacer in spots:
-        tubes = _tubes(arms[far][0], place.centers(size), height, face + spacer)
+        # Upright and arms of the plates of modules at this place.
+        plate, centers = arms[far][0], place.centers(size)
+        assert plate.mast is not None, "a plate on arms"
+        x, levels = float(centers[0, 0]), (centers[:: len(SENSES), 2] - centers[0, 2]).tolist()
+        upright = replace(
+            plate.mast, face=-(face + spacer) - x, below=plate.mast.side, high=levels[-1]
+        )
+        tubes = mast_solids(
+            replace(plate, position=(x, 0.0, height), levels=tuple(levels), mast=upright)
+        )
         if not (search.is_off(tubes) and search.is_free(place)) or any(map(search.touches, tubes)):
             continue
         masted = (_masted(back, feet, plate, search, (height, spacer)) for plate in arms[far])
@@ -148,39 +156,24 @@ def _all_arms(feet: Feet, size: Size[float], *, far: bool) -> Iterator[CarrierPl
 
     On the shortest, pairs stand to both sides of the upright; on the longer ones behind it.
     """
-    masts = (
-        Mast(side, wall, side + max(_between(side, size), side, feet.y * far), 0.0, 0.0, 0.0)
-        for side, wall in TUBES
-    )
-    return (plate for mast in masts if (plate := _on_arms(feet, mast)) is not None)
-
-
-def _on_arms(feet: Feet, mast: Mast) -> CarrierPlate | None:
-    """The lightest plate across the arms of a mast that bears a pair; None: there is none."""
     ring = feet.slot_radius + SLOT_EDGE
-    blanks = (
-        replace(blank_plate(feet, ring, mast.side / 2.0 + wider), mast=mast) for wider in WIDER
-    )
-    # Thicker plates stand higher, which bends the arms more.
-    bearing = (
-        plate
-        for each in blanks
-        if each.shape.half_width(np.asarray(mast.side / 2.0)) <= mast.back
-        and (plate := next(thick_enough(each, feet, MAST_YIELD), None)) is not None
-        and arm_stress(plate, feet.mass, feet.height) <= MAST_YIELD
-    )
-    return min(bearing, key=lambda plate: plate_part(plate).mass(), default=None)
-
-
-def _tubes(
-    plate: CarrierPlate, centers: FloatArray, height: float, face: float
-) -> tuple[Drum, ...]:
-    """Upright and arms of the plates of modules whose centers these are, see `_placed`."""
-    mast, x = plate.mast, float(centers[0, 0])
-    assert mast is not None, "a plate on arms"
-    levels = tuple((centers[:: len(SENSES), 2] - centers[0, 2]).tolist())
-    upright = replace(mast, face=-face - x, below=mast.side, high=levels[-1])
-    return mast_solids(replace(plate, position=(x, 0.0, height), levels=levels, mast=upright))
+    for side, wall in TUBES:
+        back = side + max(_between(side, size), side, feet.y * far)
+        mast = Mast(side, wall, back, 0.0, 0.0, 0.0)
+        blanks = (
+            replace(blank_plate(feet, ring, side / 2.0 + wider), mast=mast) for wider in WIDER
+        )
+        # Thicker plates stand higher, which bends the arms more.
+        bearing = (
+            plate
+            for each in blanks
+            if each.shape.half_width(np.asarray(side / 2.0)) <= mast.back
+            and (plate := next(thick_enough(each, feet, MAST_YIELD), None)) is not None
+            and arm_stress(plate, feet.mass, feet.height) <= MAST_YIELD
+        )
+        lightest = min(bearing, key=lambda plate: plate_part(plate).mass(), default=None)
+        if lightest is not None:
+            yield lightest
 
 
 def _placed(

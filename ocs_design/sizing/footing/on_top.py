@@ -79,9 +79,15 @@ def _nearest_footing(
         if shift == np.inf:
             break
         moved = replace(feet, x=feet.x + shift)
-        held = None
-        if not _in_the_way(surface, moved, search, aside):
-            held = held_at(surface, moved, held_by=held_by)
+        if len(moved.rows) > 1:
+            # A limb may be where modules of several pairs would stand on the trunk itself. A plate,
+            # which takes long to look for, would lift them by its thickness only.
+            bases = [disc_points(middle, moved.radius) for middle in moved.middles]
+            top = highest_of(surface, np.concatenate(bases))
+            on_trunk = around((moved.x, 0.0, top), search.layout, aside)
+            if isfinite(top) and not search.is_clear(on_trunk):
+                continue
+        held = held_at(surface, moved, held_by=held_by)
         if held is not None:
             plate = plate_of(held)
             height = held.top if isinstance(held, CarrierPlate) else held
@@ -91,16 +97,3 @@ def _nearest_footing(
             waiting.append((abs(shift) + lift, Footing(place, plate)))
             waiting.sort(key=lambda each: each[0])
     return None
-
-
-def _in_the_way(surface: Surface, feet: Feet, search: Search, aside: float) -> bool:
-    """Whether a limb is where modules of several pairs would stand on the trunk itself.
-
-    A plate would lift them by its thickness only, and is long looked for.
-    """
-    if len(feet.rows) <= 1:
-        return False
-    bases = [disc_points(middle, feet.radius) for middle in feet.middles]
-    top = highest_of(surface, np.concatenate(bases))
-    standing = around((feet.x, 0.0, top), search.layout, aside)
-    return isfinite(top) and not search.is_clear(standing)

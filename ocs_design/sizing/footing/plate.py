@@ -66,25 +66,22 @@ def held_at(
         underside: height of the feet in B, where it is stated [m]; None: what the trunk has.
         held_by: screws of a plate.
     """
-    plane = _level(surface, feet) if underside is None else underside
+    plane = nan if underside is None else underside
+    if underside is None:
+        # A few points of the screws' lands tell of most places that they are not at one height.
+        few = np.concatenate([ring_points(side, *feet.lands)[::_FEW] for side in feet.middles])
+        heights = heights_at(surface, few)
+        with np.errstate(invalid="ignore"):
+            level = heights.max() - heights.min() <= FLATNESS
+        if level:
+            bases = [disc_points(side, feet.radius) for side in feet.middles]
+            plane = highest_of(surface, np.concatenate(bases))
     if np.isfinite(plane) and all(
         contact_of("", surface, side, feet.radius, plane=plane, lands=feet.lands).held
         for side in feet.middles
     ):
         return float(round(plane, 6))
     return _plate(surface, feet, underside, held_by) if feet.rows else None
-
-
-def _level(surface: Surface, feet: Feet) -> float:
-    """Height of the trunk under feet that it may hold at one height [m]; nan: it holds not all."""
-    # A few points of the screws' lands tell of most places that they are not.
-    few = np.concatenate([ring_points(side, *feet.lands)[::_FEW] for side in feet.middles])
-    heights = heights_at(surface, few)
-    with np.errstate(invalid="ignore"):
-        if not heights.max() - heights.min() <= FLATNESS:
-            return nan
-    bases = [disc_points(side, feet.radius) for side in feet.middles]
-    return highest_of(surface, np.concatenate(bases))
 
 
 def _plate(

@@ -275,7 +275,17 @@ def _reason(problem: SelectionProblem, drive: Drives, part: _Obstacle) -> tuple[
         limits = Candidates.of_each_material(problem, drive).limits
         rims = np.maximum(part.needed - drive.beside_rim, smallest_rim(limits) * (1.0 + 1e-9))
         if not _any_rim(rims, replace(limits, stretch_max=np.inf)):
-            return Reason.ENVELOPE, f"{wheel}, and no rim of that size fits{_too_narrow(limits)}"
+            # What a rim is too narrow to go around, if there is anything.
+            (where, radius), most = _narrowest(limits), float(np.max(limits.outer_radius_max))
+            narrow = ""
+            if radius > most:
+                bonded = np.isfinite(limits.inner_radius_max).any()
+                largest = "by its bond and r_max the most" if bonded else "r_max"
+                narrow = (
+                    f": {where} it has a radius of {format_quantity(radius, 'mm')} at the least, "
+                    f"{largest} is {format_quantity(most, 'mm')}"
+                )
+            return Reason.ENVELOPE, f"{wheel}, and no rim of that size fits{narrow}"
         if not _any_rim(rims, limits):
             rpm = drive.overspeed[0] * 30.0 / np.pi
             return Reason.STRESS, f"{wheel}, and no rim of that size stands {rpm:,.0f} rpm"
@@ -319,19 +329,6 @@ def largest_wheel(problem: SelectionProblem, room: Envelope) -> float:
 def _any_rim(spin_inertia: FloatArray, limits: RimLimits) -> bool:
     """Whether there is a rim of any material."""
     return bool((lightest_module(spin_inertia, limits, PlainDrum()).mass > 0.0).any())
-
-
-def _too_narrow(limits: RimLimits) -> str:
-    """Clause on what a rim is too narrow to go around; empty: there is room."""
-    most, (where, radius) = float(np.max(limits.outer_radius_max)), _narrowest(limits)
-    if radius <= most:
-        return ""
-    bonded = np.isfinite(limits.inner_radius_max).any()
-    largest = "by its bond and r_max the most" if bonded else "r_max"
-    return (
-        f": {where} it has a radius of {format_quantity(radius, 'mm')} at the least, {largest} "
-        f"is {format_quantity(most, 'mm')}"
-    )
 
 
 def _narrowest(limits: RimLimits) -> tuple[str, float]:

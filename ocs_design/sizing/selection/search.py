@@ -16,7 +16,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.sizing.selection.bounds import (
@@ -205,27 +204,23 @@ def _search(found: Found) -> None:
     _, first = np.unique(pairs[:, 0], return_index=True)
     rest = np.delete(pairs, first, axis=0)
     chunks = (rest[start : start + _CHUNK] for start in range(0, len(rest), _CHUNK))
+    problem, webs = found.problem, np.arange(len(found.problem.lightenings))
     for some in (pairs[first], *chunks):
-        worth = some[found.least[tuple(some.T)] < found.enough[some[:, 0]]]
-        if worth.size:
-            _examine(found, worth)
-
-
-def _examine(found: Found, pairs: NDArray[np.intp]) -> None:
-    """Bound these pairs, and solve those that may be listed."""
-    problem = found.problem
-    webs = np.arange(len(problem.lightenings))
-    drives = drives_of(problem, np.repeat(pairs, webs.size, axis=0), np.tile(webs, len(pairs)))
-    spin = np.zeros(len(drives))
-    bound = np.full((len(problem.materials), len(drives)), -np.inf)
-    for count in (1, CELLS):
-        worth = np.flatnonzero(bound.min(axis=0) < found.enough[drives.motor])
-        cells, some = cells_of(problem.incidence, count), drives.take(worth)
-        spin[worth] = least_spin_inertias(problem, some, cells, spin[worth]).min(axis=1)
-        bound[:, worth] = least_masses(found.floor, some, spin[worth])
-    _solve_best(found, drives, spin, bound)
-    for least, values in ((found.spin_inertia, spin), (found.least, bound.min(axis=0))):
-        least[tuple(pairs.T)] = values.reshape(len(pairs), -1).min(axis=1)
+        # Bound those that may be listed, then solve those that still may.
+        asked = some[found.least[tuple(some.T)] < found.enough[some[:, 0]]]
+        if not asked.size:
+            continue
+        drives = drives_of(problem, np.repeat(asked, webs.size, axis=0), np.tile(webs, len(asked)))
+        spin = np.zeros(len(drives))
+        bound = np.full((len(problem.materials), len(drives)), -np.inf)
+        for count in (1, CELLS):
+            worth = np.flatnonzero(bound.min(axis=0) < found.enough[drives.motor])
+            cells, left = cells_of(problem.incidence, count), drives.take(worth)
+            spin[worth] = least_spin_inertias(problem, left, cells, spin[worth]).min(axis=1)
+            bound[:, worth] = least_masses(found.floor, left, spin[worth])
+        _solve_best(found, drives, spin, bound)
+        for least, values in ((found.spin_inertia, spin), (found.least, bound.min(axis=0))):
+            least[tuple(asked.T)] = values.reshape(len(asked), -1).min(axis=1)
 
 
 def _solve_best(found: Found, drives: Drives, spin: FloatArray, bound: FloatArray) -> None:

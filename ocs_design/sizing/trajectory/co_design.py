@@ -248,7 +248,17 @@ class FreeDevice:
             dimensions: of the device. change: of rate [rad/s]; 0: none is asked.
             roll: rate at lift-off that flips undo [rad/s], see `held_in_roll`; 0: none.
         """
-        parts = [self._rate_excess(dimensions, change)] if change else []
+        parts = []
+        if change:
+            plant = self.plant(dimensions)
+            whole, shares = plant.inertia, plant.axes[:2, 0]
+            held = 2.0 * _top_speed(self.selected) * plant.spin_inertia * shares
+            # Either wheel is the busier one; which of them does not change with the device.
+            product = whole[0, 1] - whole[0, 2] * whole[1, 2] / whole[2, 2]
+            sense = np.sign(TiltInertia.of(self.selected.total.inertia).product)
+            across = sense * product * shares / ca.vertcat(shares[1], shares[0])
+            asked = (ca.vertcat(whole[0, 0], whole[1, 1]) + across) * change
+            parts.append((asked - held) / ca.DM(np.diag(self.problem.robot.inertia)[:2] * change))
         if roll:
             plant = self.plant(dimensions)
             whole, sine = plant.inertia, plant.axes[0, 0]
@@ -256,18 +266,6 @@ class FreeDevice:
             asked = whole[0, 0] * (1.0 + whole[0, 0] / whole[2, 2]) * roll / UNDOES
             parts.append((asked - held) / float(self.problem.robot.inertia[0, 0] * roll))
         return ca.vertcat(*parts)
-
-    def _rate_excess(self, dimensions: ca.MX, change: float) -> ca.MX:
-        """Momentum that the wheels lack for a change of rate, relative, (2, 1)."""
-        plant = self.plant(dimensions)
-        whole, shares = plant.inertia, plant.axes[:2, 0]
-        held = 2.0 * _top_speed(self.selected) * plant.spin_inertia * shares
-        # Either wheel is the busier one; which of them does not change with the device.
-        product = whole[0, 1] - whole[0, 2] * whole[1, 2] / whole[2, 2]
-        sense = np.sign(TiltInertia.of(self.selected.total.inertia).product)
-        across = sense * product * shares / ca.vertcat(shares[1], shares[0])
-        asked = (ca.vertcat(whole[0, 0], whole[1, 1]) + across) * change
-        return (asked - held) / ca.DM(np.diag(self.problem.robot.inertia)[:2] * change)
 
 
 def with_wheels(

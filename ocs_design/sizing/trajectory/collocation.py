@@ -56,6 +56,15 @@ def collocation() -> Collocation:
     monomials = np.linalg.inv(np.vander(nodes, increasing=True))
     slopes = powers[1:] * points[:, None] ** (powers[1:] - 1)
     to_bernstein = _from_monomials(DEGREE)
+    # Gram matrix: integrals over 0..1 of the products of two Bernstein polynomials.
+    rows = range(TORQUE_DEGREE + 1)
+    products = [
+        [
+            comb(TORQUE_DEGREE, i) * comb(TORQUE_DEGREE, k) / comb(2 * TORQUE_DEGREE, i + k)
+            for k in rows
+        ]
+        for i in rows
+    ]
     return Collocation(
         nodes=nodes,
         derivative=slopes @ monomials[1:],
@@ -64,7 +73,7 @@ def collocation() -> Collocation:
         elevation=to_bernstein[:, : TORQUE_DEGREE + 1]
         @ np.linalg.inv(_from_monomials(TORQUE_DEGREE)),
         weights=np.asarray(np.linalg.solve(np.vander(points, increasing=True).T, 1.0 / powers[1:])),
-        square=_gram(TORQUE_DEGREE),
+        square=np.array(products) / (2 * TORQUE_DEGREE + 1),
     )
 
 
@@ -103,12 +112,3 @@ def _from_monomials(degree: int) -> FloatArray:
     """Matrix from coefficients of 1, s, s^2, ... to Bernstein coefficients."""
     rows = range(degree + 1)
     return np.array([[comb(i, k) / comb(degree, k) for k in rows] for i in rows])
-
-
-def _gram(degree: int) -> FloatArray:
-    """Integrals of the products of two Bernstein polynomials over 0..1."""
-    rows = range(degree + 1)
-    products = [
-        [comb(degree, i) * comb(degree, k) / comb(2 * degree, i + k) for k in rows] for i in rows
-    ]
-    return np.array(products) / (2 * degree + 1)

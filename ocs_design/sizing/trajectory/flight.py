@@ -12,6 +12,7 @@ import numpy as np
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.arrays import FloatArray
 from ocs_design.requirement.maneuver import End
+from ocs_design.robot.rotations import cross
 from ocs_design.sizing.trajectory.boundary import (
     Boundary,
     conjugate,
@@ -120,9 +121,9 @@ def fly(
     def slope(state: FloatArray, torque: FloatArray) -> FloatArray:
         """Rates of change of attitude, rate, wheel speeds and turned angle, shape (8 + n,)."""
         rate = state[4:7]
-        on_trunk = _cross(mass_matrix[:3] @ state[4 : 7 + wheels], rate)
+        on_trunk = cross(mass_matrix[:3] @ state[4 : 7 + wheels], rate)
         if gyrostat.stands:
-            on_trunk += _cross(vertical_of(state[:4]), pull)
+            on_trunk += cross(vertical_of(state[:4]), pull)
         accelerations = inverse @ np.concatenate([on_trunk, torque])
         turning = 0.5 * product(state[:4], np.append(0.0, rate))
         return np.concatenate([turning, accelerations, [turn.axis @ rate]])
@@ -205,10 +206,3 @@ def _missed(asked: Boundary, attitude: FloatArray) -> float:
         return float(2.0 * np.arccos(np.clip(abs(attitude @ asked.final_attitude), 0.0, 1.0)))
     vertical, wanted = vertical_of(attitude), asked.final_vertical
     return float(np.arctan2(np.linalg.norm(np.cross(vertical, wanted)), vertical @ wanted))
-
-
-def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Cross product of two vectors, shape (3,); `np.cross` takes ten times as long on one pair."""
-    return np.array(
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    )

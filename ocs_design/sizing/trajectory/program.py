@@ -150,8 +150,18 @@ def _solve(
 ) -> Solution:
     """Solve on the intervals of the guesses."""
     if dimensions is None:
+        # One turn of a device that stands, by the program of its shape.
+        turn, guess = turns[0], guesses[0]
         with _ONE_AT_A_TIME:
-            return _planned(turns[0], guesses[0], line)
+            numbers = numbers_of(turn, Plant.of(turn.gyrostat), line, guess)
+            values = {name: ca.sparsify(ca.evalf(each)) for name, each in numbers.items()}
+            patterns = ((name, tuple(each.sparsity().compress())) for name, each in values.items())
+            shape = Shape.of(turn, line, guess)
+            program, parameters, variables = _plan_program(shape, tuple(patterns))
+            for name, parameter in parameters.items():
+                program.set_value(parameter, values[name].nonzeros())
+            variables.begin(program, turn, guess, values)
+            return _solved(program, [variables], [guess], ca.MX(0, 1))
     program = ca.Opti()
     free = program.variable(len(dimensions.start))
     program.set_initial(free, dimensions.start)
@@ -170,18 +180,6 @@ def _solve(
     # One flat graph is quicker; splines of the dimensions have none.
     program.solver("ipopt", IPOPT_OPTIONS | _options(guessed=turns[0].guess is not None))
     return _solved(program, found, guesses, free)
-
-
-def _planned(turn: Turn, guess: Motion, line: DriveLine) -> Solution:
-    """One turn of a device that stands, by the program of its shape."""
-    numbers = numbers_of(turn, Plant.of(turn.gyrostat), line, guess)
-    values = {name: ca.sparsify(ca.evalf(each)) for name, each in numbers.items()}
-    patterns = ((name, tuple(each.sparsity().compress())) for name, each in values.items())
-    program, parameters, variables = _plan_program(Shape.of(turn, line, guess), tuple(patterns))
-    for name, parameter in parameters.items():
-        program.set_value(parameter, values[name].nonzeros())
-    variables.begin(program, turn, guess, values)
-    return _solved(program, [variables], [guess], ca.MX(0, 1))
 
 
 @lru_cache(maxsize=16)
