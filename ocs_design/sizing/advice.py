@@ -35,7 +35,8 @@ from ocs_design.sizing.limits import (
     unseen,
 )
 from ocs_design.sizing.selection.bounds import cells_of, initial_guess, least_spin_inertias
-from ocs_design.sizing.selection.candidates import Candidates, Drives, Guess, drives_of, known_pairs
+from ocs_design.sizing.selection.candidates import Candidates, Guess, drives_of, known_pairs
+from ocs_design.sizing.selection.drives import Drives
 from ocs_design.sizing.selection.fixed_point import solve_stepwise
 from ocs_design.sizing.selection.problem import (
     Reason,

@@ -40,11 +40,10 @@ from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_surface
 from ocs_design.robot.tree import Drum
 from ocs_design.sizing.footing.contact import FootContact, contacts_of
-from ocs_design.sizing.footing.feet import feet_of
+from ocs_design.sizing.footing.feet import device_size, feet_of
 from ocs_design.sizing.footing.lands import PROUD
 from ocs_design.sizing.footing.mast import Pads, pads_needed
 from ocs_design.sizing.footing.screws import SPREAD
-from ocs_design.sizing.place import device_size
 from ocs_design.sizing.placement import place_free
 
 

@@ -7,9 +7,7 @@ import numpy as np
 
 from ocs_design.actuation.motor import GearRoom
 from ocs_design.common.arrays import FloatArray, frozen, vector
-from ocs_design.device.device import Device
 from ocs_design.device.layout import PAIR, Direction, Layout
-from ocs_design.device.solids import motor_mount
 from ocs_design.parts.bell import HeldMotor
 from ocs_design.parts.foot import base_radius, larger, wheel_height
 from ocs_design.parts.housing import housing_outer_radius
@@ -113,22 +111,6 @@ class Place:
         if self.upright:
             centers[..., 2] += standing
         return np.asarray(centers)
-
-
-def device_size(device: Device) -> Size[float]:
-    """The room that each module takes."""
-    wheel, mount = device.flywheel, motor_mount(device)
-    if device.carrier.mass == 0.0:
-        return wheel_size(wheel.outer_radius, wheel.height)
-    behind = mount.behind(device.motor)
-    return module_size(
-        wheel.outer_radius,
-        max(wheel.height, mount.room),
-        behind,
-        mount.holes.reach,
-        device.guard_wall,
-        foot_plate=device.foot_plate,
-    )
 
 
 def sphere_radius(outer_radius: Real, height: Real) -> Real:

@@ -43,12 +43,12 @@ from ocs_design.robot.meshes import size
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.footing.contact import contacts_of
-from ocs_design.sizing.footing.feet import feet_of
+from ocs_design.sizing.footing.feet import device_size, feet_of
 from ocs_design.sizing.footing.lands import FLATNESS
 from ocs_design.sizing.footing.on_top import ASIDE
 from ocs_design.sizing.footing.standing import footing_of, stand_on_trunk
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points
-from ocs_design.sizing.place import CLEARANCE, device_size
+from ocs_design.sizing.place import CLEARANCE
 from ocs_design.sizing.placement import place_free, place_on_top
 
 DEVICE = driven_device()

@@ -10,13 +10,13 @@ from ocs_design.actuation.tilt_inertia import OUT_OF_REACH
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device, Module
 from ocs_design.device.layout import Layout
-from ocs_design.device.solids import foot_of
+from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.parts.carrier_plate import CarrierPlate, Point
 from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import AROUND_SLOT
 from ocs_design.robot.mass import MassProperties, combine
-from ocs_design.sizing.place import CLEARANCE, Place, Size, device_size
+from ocs_design.sizing.place import CLEARANCE, Place, Size, module_size, wheel_size
 
 SENSES = (1.0, -1.0)
 
@@ -117,6 +117,22 @@ class Footing:
         """The robot with plate and pedestals, which the chosen device's own replace."""
         under = [*(() if self.plate is None else (self.plate,)), *self.pedestals]
         return combine([robot, *(each.mass_properties() for each in under)]) if under else robot
+
+
+def device_size(device: Device) -> Size[float]:
+    """The room that each module takes."""
+    wheel, mount = device.flywheel, motor_mount(device)
+    if device.carrier.mass == 0.0:
+        return wheel_size(wheel.outer_radius, wheel.height)
+    behind = mount.behind(device.motor)
+    return module_size(
+        wheel.outer_radius,
+        max(wheel.height, mount.room),
+        behind,
+        mount.holes.reach,
+        device.guard_wall,
+        foot_plate=device.foot_plate,
+    )
 
 
 def feet_of(device: Device) -> Feet:

@@ -15,10 +15,10 @@ from ocs_design.robot.collision import collision_model
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface
 from ocs_design.sizing.footing.contact import contact_of, under_pedestal
-from ocs_design.sizing.footing.feet import Footing, leans, ring_of
+from ocs_design.sizing.footing.feet import Footing, device_size, leans, ring_of
 from ocs_design.sizing.footing.lands import base_points, disc_points, highest_of
 from ocs_design.sizing.footing.on_top import STEP
-from ocs_design.sizing.place import around, device_size, place_at
+from ocs_design.sizing.place import around, place_at
 from ocs_design.sizing.placement import Search, Sizes, place_on_top
 
 SPARE = 1e-3

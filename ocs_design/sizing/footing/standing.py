@@ -14,12 +14,20 @@ from ocs_design.requirement.froude import Envelope
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import trunk_surface
-from ocs_design.sizing.footing.feet import SENSES, Feet, Footing, feet_of, ring_of, slopes_of
+from ocs_design.sizing.footing.feet import (
+    SENSES,
+    Feet,
+    Footing,
+    device_size,
+    feet_of,
+    ring_of,
+    slopes_of,
+)
 from ocs_design.sizing.footing.mast import footing_behind
 from ocs_design.sizing.footing.on_top import footing_on_top
 from ocs_design.sizing.footing.pedestals import footing_on_pedestals
 from ocs_design.sizing.footing.plate import held_at, plate_of
-from ocs_design.sizing.place import device_size, place_at
+from ocs_design.sizing.place import place_at
 from ocs_design.sizing.placement import Search, Sizes, place_free
 
 MODULE_SHARE = 0.1

@@ -50,7 +50,6 @@ from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.module_radii import smallest_radius
 from ocs_design.sizing.selection.candidates import (
     Candidates,
-    Drives,
     Guess,
     known_pairs,
     rim_limits,
@@ -61,6 +60,7 @@ from ocs_design.sizing.selection.composite_inertia import (
     least_composite_inertia,
 )
 from ocs_design.sizing.selection.demand import column, columns, needed_by_rate
+from ocs_design.sizing.selection.drives import Drives
 from ocs_design.sizing.selection.problem import SelectionProblem
 
 CELLS = 18

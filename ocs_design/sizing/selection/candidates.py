@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import Any, Generic, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +18,6 @@ from ocs_design.actuation.drive import (
 )
 from ocs_design.actuation.motor import DIRECT, Gear, GearRoom, Motor
 from ocs_design.common.arrays import FloatArray, Table, stacked
-from ocs_design.parts.cage import Posts
-from ocs_design.parts.joints import OVERSPEED
 from ocs_design.parts.module import (
     Printed,
     by_floor,
@@ -27,8 +25,8 @@ from ocs_design.parts.module import (
     gear_moments,
     shell_moments,
 )
-from ocs_design.parts.moments import MassMoments, Real, round_body
-from ocs_design.parts.motor_mount import Behind, mount_of
+from ocs_design.parts.moments import MassMoments, round_body
+from ocs_design.parts.motor_mount import mount_of
 from ocs_design.parts.printed import PANEL, half_height
 from ocs_design.parts.rim import NO_HUB, cylinder_transverse_inertia
 from ocs_design.sizing.bound.rim_problem import (
@@ -42,7 +40,8 @@ from ocs_design.sizing.bound.rim_problem import (
     stretch_beside_holes,
 )
 from ocs_design.sizing.lightest_module import ModuleShape, lightest_module_at
-from ocs_design.sizing.place import Size, module_size
+from ocs_design.sizing.place import Size
+from ocs_design.sizing.selection.drives import Drives, Seat
 from ocs_design.sizing.selection.problem import SelectionProblem
 
 _OFF_THE_EDGE = 1.0 + 1e-10
@@ -50,34 +49,6 @@ _OFF_THE_EDGE = 1.0 + 1e-10
 
 _NOTHING = 1e-12
 """Spin inertia below that of any wheel [kg m^2]."""
-
-
-@dataclass(frozen=True, eq=False)
-class Seat(Table, Generic[Real]):
-    """Place of a motor behind its floor, whatever the wheel.
-
-    Attributes:
-        by_floor: moments about the middle of the outside of the housing's floor, see
-            `module.by_floor`. by_wheel: about the wheel's middle, see `module.by_wheel`.
-        behind: how far back it reaches.
-        posts: of its cage.
-        reach, holes: radius of the mount's holes [m], and the mass that they take [kg].
-        height_max: of a rim that the mount leaves room for [m].
-        room: least height of a rim that the housing is made for (`MotorMount.room`) [m].
-        bell: radius of the bore of a ring around the motor's bell [m]; 0: there is none.
-        head_reach: of the screws in the housing [m].
-    """
-
-    by_floor: MassMoments[Real]
-    by_wheel: MassMoments[Real]
-    behind: Behind[Real]
-    posts: Posts[Real]
-    reach: Real
-    holes: Real
-    height_max: Real
-    room: Real
-    bell: Real
-    head_reach: Real
 
 
 @lru_cache(maxsize=1024)
@@ -96,111 +67,6 @@ def _seat(motor: Motor, room: GearRoom | None, foot_plate: float, *, on_bell: bo
         bell=0.0 if mount.bell is None else mount.bell.bore,
         head_reach=mount.head_reach,
     )
-
-
-@dataclass(frozen=True, eq=False)
-class Drives(Table):
-    """Motors behind gears, one per row.
-
-    Attributes:
-        motor, gear, web: indices in the problem's motors, gears and lightenings.
-        seat: place of the motor.
-        whole: voltage line and limits at the wheel, nothing held back.
-        rotor_share: of the spin inertia [kg m^2].
-        armature: what the motor accelerates beyond the spin inertia [kg m^2].
-        hub_volume: mass of the wheel's hub, over its density [m^3].
-        hub_radius: of that, or of the screws' heads beside it [m]; 0 without a web.
-        rim_height: least one that leaves room for the hub's screws [m]; 0: any.
-        lightened: share of its web that holes take. lightened_bore: least one of a rim with room
-            for them [m]; 0: any. lightened_stress: see `Hub`.
-        hub_spread: of the spin inertia. hub_across: about any axis across; both over its density
-            [m^5].
-        web_least, web_most: density of web and hub, which is any of the problem's as long as no
-            material is chosen [kg/m^3].
-    """
-
-    motor: NDArray[np.intp]
-    gear: NDArray[np.intp]
-    web: NDArray[np.intp]
-    seat: Seat[FloatArray]
-    whole: DriveLine
-    rotor_share: FloatArray
-    armature: FloatArray
-    hub_volume: FloatArray
-    hub_radius: FloatArray
-    rim_height: FloatArray
-    lightened: FloatArray
-    lightened_bore: FloatArray
-    lightened_stress: FloatArray
-    hub_spread: FloatArray
-    hub_across: FloatArray
-    web_least: FloatArray
-    web_most: FloatArray
-
-    def __len__(self) -> int:
-        return self.motor.size
-
-    def of_webs(self, density: FloatArray) -> "Drives":
-        """Drives with webs and hubs of these densities [kg/m^3]."""
-        return replace(self, web_least=density, web_most=density)
-
-    @property
-    def hub_mass(self) -> FloatArray:
-        """Mass of the wheel's hub beyond its web, at the least [kg]."""
-        return self._of_hub(self.hub_volume).least
-
-    @property
-    def hub_mass_most(self) -> FloatArray:
-        """Mass of the wheel's hub beyond its web, at the most [kg]."""
-        return self._of_hub(self.hub_volume).most
-
-    @property
-    def hub_inertia(self) -> FloatArray:
-        """Inertia of the wheel's hub about any axis, at the least [kg m^2]."""
-        return self._of_hub(np.minimum(self.hub_spread, self.hub_across)).least
-
-    @property
-    def mass(self) -> FloatArray:
-        """Mass of motor, gear and hub, less the mount's holes, without posts, at the least [kg]."""
-        return self.seat.by_floor.mass + self.seat.by_wheel.mass + self.hub_mass
-
-    def size(self, outer_radius: FloatArray, height: FloatArray) -> Size[FloatArray]:
-        """Size of modules with rims of these outer radii, guard rings added, and heights [m]."""
-        seat, plate = self.seat, self.seat.posts.foot_plate
-        height = np.maximum(height, seat.room)
-        return module_size(outer_radius, height, seat.behind, seat.reach, foot_plate=plate)
-
-    @property
-    def beside_rim(self) -> FloatArray:
-        """Part of the spin inertia that rim and web need not have, at the most [kg m^2]."""
-        return self.rotor_share + self._of_hub(self.hub_spread).most
-
-    def _of_hub(self, figure: FloatArray) -> "_Extremes":
-        """A figure per density. A hub of a wide bore has less than the web in its place."""
-        ends = figure * self.web_least, figure * self.web_most
-        return _Extremes(np.minimum(*ends), np.maximum(*ends))
-
-    @property
-    def line(self) -> DriveLine:
-        """Voltage lines and limits that a design may use."""
-        return self.whole.reserved()
-
-    @property
-    def top_speed(self) -> FloatArray:
-        """Speed of the wheel that a design may use [rad/s]."""
-        return np.minimum(self.line.no_load_speed, self.line.speed_max)
-
-    @property
-    def overspeed(self) -> FloatArray:
-        """Speed at which the hoop stress of a rim is limited [rad/s]."""
-        return OVERSPEED * np.minimum(self.whole.no_load_speed, self.whole.speed_max)
-
-
-class _Extremes(NamedTuple):
-    """The least and the largest value of a figure."""
-
-    least: FloatArray
-    most: FloatArray
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,8 +14,8 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.requirement.bound import rate_momenta, turned_roll
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.sizing.selection.candidates import Drives
 from ocs_design.sizing.selection.composite_inertia import CompositeInertia
+from ocs_design.sizing.selection.drives import Drives
 
 UNDOES = 0.35
 """Share of the momentum about roll of all wheels at top speed that undoes a roll at lift-off while

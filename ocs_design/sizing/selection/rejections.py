@@ -28,7 +28,7 @@ from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits
 from ocs_design.sizing.bound.rim_problem import smallest_spin_inertia as smallest_rim
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.selection.bounds import PairBounds, cells_of, least_inertia
-from ocs_design.sizing.selection.candidates import Candidates, Drives, drives_of
+from ocs_design.sizing.selection.candidates import Candidates, drives_of
 from ocs_design.sizing.selection.demand import (
     column,
     columns,
@@ -36,6 +36,7 @@ from ocs_design.sizing.selection.demand import (
     needed_by_rate,
     wheel_task,
 )
+from ocs_design.sizing.selection.drives import Drives
 from ocs_design.sizing.selection.problem import Reason, Rejection, SelectionProblem
 
 _NEVER = 1e9

@@ -26,7 +26,8 @@ from ocs_design.sizing.selection.bounds import (
     least_masses,
     least_spin_inertias,
 )
-from ocs_design.sizing.selection.candidates import Candidates, Drives, Guess, drives_of
+from ocs_design.sizing.selection.candidates import Candidates, Guess, drives_of
+from ocs_design.sizing.selection.drives import Drives
 from ocs_design.sizing.selection.fixed_point import Solved, solve
 from ocs_design.sizing.selection.problem import SelectionProblem, lightest_first
 from ocs_design.sizing.selection.refinement import refine
