@@ -101,6 +101,11 @@ class Maneuver(ABC):
         return np.zeros(2)
 
     @property
+    def lift_off(self) -> float:
+        """Upward speed at the end of a push-off [m/s]; 0 where there is none."""
+        return 0.0
+
+    @property
     def headed(self) -> bool:
         """Whether wheels that reach the vertical turn or stop the trunk about it."""
         return False
@@ -242,6 +247,11 @@ class Disturbance(Unforeseen):
             torque=tuple((turned / self.duration).tolist()),
             velocity_change=tuple((np.array(self.impulse) / body.mass).tolist()),
         )
+
+    @property
+    def lift_off(self) -> float:
+        """Upward speed as specified [m/s]."""
+        return self.takeoff_velocity[1]
 
     @property
     def time_left(self) -> float:
@@ -416,6 +426,11 @@ class Flip(Reorientation):
         """Time as specified [s]."""
         del standing_height
         return self.duration
+
+    @property
+    def lift_off(self) -> float:
+        """Upward speed of the jump [m/s]."""
+        return self.gravity * self.flight_time / 2.0
 
     @property
     def flight_time(self) -> float:

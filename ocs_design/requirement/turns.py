@@ -111,6 +111,11 @@ class TurnTo(Reorientation):
         return 0.0 if self.direct else loop_length(remainder(self.yaw, 2.0 * pi)) * 2.0 / pi
 
     @property
+    def lift_off(self) -> float:
+        """Upward speed of the jump [m/s]; 0 in orbit."""
+        return self.gravity * self.flight_time / 2.0
+
+    @property
     def flight_time(self) -> float:
         """Time until a rigid robot lands where it took off; in orbit, until the turn ends [s]."""
         return sqrt(8.0 * self.jump_height / self.gravity) if self.gravity else self.duration

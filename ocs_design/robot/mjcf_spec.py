@@ -93,9 +93,26 @@ def embed_assets(
     names: dict[Path, str] = {}
     for asset, subfolder in assets:
         missing = _embed(spec, asset, folder / subfolder, names)
-        if missing is not None:
-            warnings.add("files not found, what needs them is left out", missing)
-            _drop(spec, asset, [] if lost is None else lost)
+        if missing is None:
+            continue
+        warnings.add("files not found, what needs them is left out", missing)
+        if isinstance(asset, mujoco.MjsTexture):
+            for material in spec.materials:
+                material.textures = [
+                    "" if used == asset.name else used for used in material.textures
+                ]
+        elif isinstance(asset, mujoco.MjsMesh):
+            geoms = [geom for geom in spec.geoms if geom.meshname == asset.name]
+            left_out = [(geom.parent, bool(geom.contype or geom.conaffinity)) for geom in geoms]
+            if lost is not None:
+                lost += left_out
+            for geom in geoms:
+                require_inertial(spec, geom, asset.file)
+                delete_geom(spec, geom)
+        elif isinstance(asset, mujoco.MjsHField):
+            for geom in [geom for geom in spec.geoms if geom.hfieldname == asset.name]:
+                delete_geom(spec, geom)
+        spec.delete(asset)
     spec.meshdir = spec.texturedir = ""
     spec.strippath = False
 
@@ -122,23 +139,6 @@ def _embed(spec: mujoco.MjSpec, asset: Asset, folder: Path, names: dict[Path, st
     if any(sides):
         asset.cubefiles = sides
     return None
-
-
-def _drop(spec: mujoco.MjSpec, asset: Asset, lost: Lost) -> None:
-    """Delete an asset with all that cannot be without it; geoms of meshes are kept in `lost`."""
-    if isinstance(asset, mujoco.MjsTexture):
-        for material in spec.materials:
-            material.textures = ["" if used == asset.name else used for used in material.textures]
-    elif isinstance(asset, mujoco.MjsMesh):
-        geoms = [geom for geom in spec.geoms if geom.meshname == asset.name]
-        lost += [(geom.parent, bool(geom.contype or geom.conaffinity)) for geom in geoms]
-        for geom in geoms:
-            require_inertial(spec, geom, asset.file)
-            delete_geom(spec, geom)
-    elif isinstance(asset, mujoco.MjsHField):
-        for geom in [geom for geom in spec.geoms if geom.hfieldname == asset.name]:
-            delete_geom(spec, geom)
-    spec.delete(asset)
 
 
 def delete_geom(spec: mujoco.MjSpec, geom: mujoco.MjsGeom) -> None:

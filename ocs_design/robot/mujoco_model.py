@@ -222,21 +222,18 @@ def free_base(spec: mujoco.MjSpec, base: str, warnings: Warnings) -> None:
             each.targetbody, each.mode = "", mujoco.mjtCamLight.mjCAMLIGHT_FIXED
     if not is_free:
         for joint in held:
-            _delete_joint(spec, joint)
+            # What acts on it, measures it or ties it could not compile without it.
+            kind, name = mujoco.mjtObj.mjOBJ_JOINT, joint.name
+            for actuator in [each for each in spec.actuators if each.target == name]:
+                spec.delete(actuator)
+            for sensor in [s for s in spec.sensors if (s.objtype, s.objname) == (kind, name)]:
+                spec.delete(sensor)
+            of_kind = [each for each in spec.equalities if each.objtype == kind]
+            for tie in [each for each in of_kind if name in {each.name1, each.name2}]:
+                spec.delete(tie)
+            spec.delete(joint)
         spec.body(base).add_freejoint()
     put_keyframes(spec, keyframes)
-
-
-def _delete_joint(spec: mujoco.MjSpec, joint: mujoco.MjsJoint) -> None:
-    """Delete a joint with what acts on it, measures it or ties it, which could not compile."""
-    kind, name = mujoco.mjtObj.mjOBJ_JOINT, joint.name
-    for actuator in [each for each in spec.actuators if each.target == name]:
-        spec.delete(actuator)
-    for sensor in [s for s in spec.sensors if (s.objtype, s.objname) == (kind, name)]:
-        spec.delete(sensor)
-    for tie in [e for e in spec.equalities if e.objtype == kind and name in {e.name1, e.name2}]:
-        spec.delete(tie)
-    spec.delete(joint)
 
 
 def write_out_orientations(spec: mujoco.MjSpec) -> None:

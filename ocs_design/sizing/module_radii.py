@@ -35,17 +35,6 @@ _SAME = 1e-13
 _CUT_ROUNDS = 7
 
 
-class _Asked(NamedTuple):
-    """Figures of a plain rim, for chamfers and holes to be cut off it.
-
-    Attributes:
-        full: k [m^5]. mass: largest, over pi rho [m^3].
-    """
-
-    full: FloatArray
-    mass: FloatArray
-
-
 class _Crossing(NamedTuple):
     """Rim at which two limits meet: r and R [m]."""
 
@@ -53,14 +42,134 @@ class _Crossing(NamedTuple):
     outer: FloatArray
 
 
+class _Asked(NamedTuple):
+    """A plain rim that is asked for, with chamfers and holes to be cut off it, and its limits.
+
+    Each method is the rim at which two limits meet.
+
+    Attributes:
+        full: k [m^5]. mass: largest, over pi rho [m^3].
+        limits: of the rim.
+    """
+
+    full: FloatArray
+    mass: FloatArray
+    limits: RimLimits
+
+    def tall_and_narrow(self) -> _Crossing:
+        """The largest height and the least bore."""
+        bore, tall = np.asarray(self.limits.inner_radius_min), np.asarray(self.limits.height_max)
+        # Positive also where the web alone has more than is asked for: then nothing small is too
+        # tall.
+        fourth = np.maximum(self.full - self.limits.web * bore**4, 0.0) / tall + bore**4
+        return _Crossing(bore, np.sqrt(np.sqrt(fourth)))
+
+    def tall_and_closed(self) -> _Crossing:
+        """The largest height and the least share of a bore."""
+        tall = np.asarray(self.limits.height_max)
+        fourth = self.full / tall / (1.0 - (1.0 - self.limits.web / tall) * BORE_SHARE**4)
+        outer = np.sqrt(np.sqrt(fourth))
+        return _Crossing(BORE_SHARE * outer, outer)
+
+    def tall_and_heavy(self) -> _Crossing:
+        """The largest height and the largest mass.
+
+        A rim of both has a - b = m / (pi rho h) = c, so that h c (2 a - c) + t (a - c)^2 = k. Where
+        that leaves no bore, every radius is light enough.
+        """
+        tall, web = np.asarray(self.limits.height_max), self.limits.web
+        apart = self.mass / tall
+        # In b = a - c: t b^2 + 2 h c b = k - h c^2.
+        left, linear = self.full - tall * apart**2, tall * apart
+        bore = left / (linear + np.sqrt(np.maximum(linear**2 + web * left, 0.0)))
+        outer = np.where(left > 0.0, np.sqrt(np.maximum(bore + apart, 0.0)), 0.0)
+        return _Crossing(np.sqrt(np.maximum(bore, 0.0)), outer)
+
+    def thin_and_heavy(self) -> _Crossing:
+        """The least wall and the largest mass."""
+        wall, web = np.asarray(self.limits.wall_min), self.limits.web
+        light = self.full / self.mass
+        start = (wall + np.sqrt(np.maximum(2.0 * light - wall**2, 0.0))) / 2.0
+
+        def excess(radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+            """Excess of what the largest mass has with the least wall, and its slope."""
+            inner = radius - wall
+            value = self.mass * (radius**2 + inner**2) + web * inner**4 - self.full
+            return value, 2.0 * self.mass * (radius + inner) + 4.0 * web * inner**3
+
+        outer = _root_from_above(excess, start, web)
+        return _Crossing(outer - wall, outer)
+
+    def thin_and_flat(self) -> _Crossing:
+        """The least wall and the least height."""
+        wall, web = np.asarray(self.limits.wall_min), np.asarray(self.limits.web)
+        flat = np.asarray(self.limits.height_min)
+
+        def excess(radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+            """Excess of what the flattest rim with the least wall has, and its slope."""
+            inner = radius - wall
+            value = flat * radius**4 - (flat - web) * inner**4 - self.full
+            return value, 4.0 * (flat * radius**3 - (flat - web) * inner**3)
+
+        with np.errstate(divide="ignore"):
+            # Without any rim the web alone would have as much.
+            start = np.minimum(flat_wall_radius(self.full / flat, wall), (self.full / web) ** 0.25)
+        outer = _root_from_above(excess, start, web)
+        return _Crossing(outer - wall, outer)
+
+    def wide_and_heavy(self) -> _Crossing:
+        """The largest bore and the largest mass: m (a + b) = k."""
+        bore = np.asarray(self.limits.inner_radius_max)
+        return _Crossing(bore, np.sqrt(np.maximum(self.full / self.mass - bore**2, 0.0)))
+
+    def wide_and_flat(self) -> _Crossing:
+        """The largest bore and the least height: h (a^2 - b^2) = k."""
+        bore = np.asarray(self.limits.inner_radius_max)
+        return _Crossing(
+            bore, np.sqrt(np.sqrt(self.full / np.asarray(self.limits.height_min) + bore**4))
+        )
+
+    def stretched_and_heavy(self) -> _Crossing:
+        """The hoop stress and the largest mass: t b^2 + m (a + b) = k with b = (S - p a) / n.
+
+        With p = 3 + nu, n = 1 - nu and S the largest stretch.
+        """
+        outer, inner = self.limits.hoop_weights
+        stretch = np.asarray(self.limits.stretch_max)
+        # An unlimited hoop stress leaves any radius light enough.
+        over = self.full / self.mass - np.where(np.isinf(stretch), 0.0, stretch) / outer
+        slope = 1.0 - inner / outer
+        root = np.sqrt(np.maximum(slope**2 + 4.0 * self.limits.web / self.mass * over, 0.0))
+        return self._stretched((stretch - inner * 2.0 * over / (slope + root)) / outer)
+
+    def stretched_and_flat(self) -> _Crossing:
+        """The hoop stress and the least height: (h - t) (S - p a)^2 = n^2 (h a^2 - k)."""
+        outer, inner = self.limits.hoop_weights
+        stretch, web = np.asarray(self.limits.stretch_max), self.limits.web
+        tall = np.asarray(self.limits.height_min) - web
+        more = np.where(web > np.zeros_like(tall), 1.0 + web / tall, 1.0)
+        flat = self.full / tall
+        root = np.sqrt(np.maximum(more - flat * (outer**2 - inner**2 * more) / stretch**2, 0.0))
+        square = (stretch + inner**2 * flat / stretch) / (outer + inner * root)
+        # Where R^4 is less than that already, the least height leaves any bore.
+        return self._stretched(np.where(stretch > outer * np.sqrt(flat / more), square, np.inf))
+
+    def _stretched(self, square: FloatArray) -> _Crossing:
+        """Bore that the hoop stress leaves of a rim with that R^2 [m^2]."""
+        outer, inner = self.limits.hoop_weights
+        square = np.maximum(square, 0.0)
+        bore = (self.limits.stretch_max - outer * square) / inner
+        return _Crossing(np.sqrt(np.maximum(bore, 0.0)), np.sqrt(square))
+
+
 def smallest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
     """Radius below which a wheel of a spin inertia is too tall, too thick or too heavy [m]."""
     wall, bore = np.asarray(limits.wall_min), np.asarray(limits.inner_radius_min)
     by_wall = np.maximum(bore + wall, wall / (1.0 - BORE_SHARE))
-    crossings = [_tall_and_narrow, _tall_and_closed]
+    crossings = [_Asked.tall_and_narrow, _Asked.tall_and_closed]
     if not np.all(np.isinf(limits.mass_max)):
-        crossings += [_tall_and_heavy, _thin_and_heavy]
-        crossings += [_wide_and_heavy] if _held_bore(limits) else []
+        crossings += [_Asked.tall_and_heavy, _Asked.thin_and_heavy]
+        crossings += [_Asked.wide_and_heavy] if _held_bore(limits) else []
     radius: FloatArray = np.maximum(by_wall, np.asarray(limits.outer_radius_min))
     for crossing in crossings:
         radius = np.maximum(radius, _crossing_radius(crossing, inertia, limits))
@@ -73,11 +182,11 @@ def largest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
     by_bore = (stretch - inner * np.asarray(limits.inner_radius_min) ** 2) / outer
     by_share = stretch / (outer + inner * BORE_SHARE**2)
     square = np.minimum(by_bore, by_share)
-    crossings = [_stretched_and_flat, _thin_and_flat]
+    crossings = [_Asked.stretched_and_flat, _Asked.thin_and_flat]
     if not np.all(np.isinf(limits.mass_max)):
-        crossings.append(_stretched_and_heavy)
+        crossings.append(_Asked.stretched_and_heavy)
     if _held_bore(limits):
-        crossings.append(_wide_and_flat)
+        crossings.append(_Asked.wide_and_flat)
     radius: FloatArray = np.minimum(
         np.asarray(limits.outer_radius_max), np.sqrt(np.maximum(square, 0.0))
     )
@@ -87,137 +196,25 @@ def largest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
 
 
 def _crossing_radius(
-    crossing: Callable[[_Asked, RimLimits], _Crossing], inertia: FloatArray, limits: RimLimits
+    crossing: Callable[[_Asked], _Crossing], inertia: FloatArray, limits: RimLimits
 ) -> FloatArray:
     """R where two limits meet on a rim with what is cut off it [m]."""
     cuts, per_volume = limits.cuts, np.pi * limits.density
     full, mass = 2.0 * inertia / per_volume, np.asarray(limits.mass_max) / per_volume
-    found = crossing(_Asked(full, mass), limits)
+    found = crossing(_Asked(full, mass, limits))
     for _ in range(_CUT_ROUNDS if cuts.any else 0):
         # Where they do not meet nothing is cut.
         both = cuts.spread(*found), cuts.area(*found)
         spread, area = (np.where(np.isfinite(cut), cut, 0.0) for cut in both)
-        last, found = found, crossing(_Asked(full + spread, mass + area), limits)
+        last, found = found, crossing(_Asked(full + spread, mass + area, limits))
         if not np.any(np.abs(found.outer - last.outer) > _SAME * found.outer):
             break
     return found.outer
 
 
-def _tall_and_narrow(asked: _Asked, limits: RimLimits) -> _Crossing:
-    """The largest height and the least bore."""
-    bore, tall = np.asarray(limits.inner_radius_min), np.asarray(limits.height_max)
-    # Positive also where the web alone has more than is asked for: nothing small is too tall then.
-    fourth = np.maximum(asked.full - limits.web * bore**4, 0.0) / tall + bore**4
-    return _Crossing(bore, np.sqrt(np.sqrt(fourth)))
-
-
-def _tall_and_closed(asked: _Asked, limits: RimLimits) -> _Crossing:
-    """The largest height and the least share of a bore."""
-    tall = np.asarray(limits.height_max)
-    fourth = asked.full / tall / (1.0 - (1.0 - limits.web / tall) * BORE_SHARE**4)
-    outer = np.sqrt(np.sqrt(fourth))
-    return _Crossing(BORE_SHARE * outer, outer)
-
-
-def _tall_and_heavy(asked: _Asked, limits: RimLimits) -> _Crossing:
-    """The largest height and the largest mass.
-
-    A rim of both has a - b = m / (pi rho h) = c, so that h c (2 a - c) + t (a - c)^2 = k. Where
-    that leaves no bore, every radius is light enough.
-    """
-    tall, web = np.asarray(limits.height_max), limits.web
-    apart = asked.mass / tall
-    # In b = a - c: t b^2 + 2 h c b = k - h c^2.
-    left, linear = asked.full - tall * apart**2, tall * apart
-    bore = left / (linear + np.sqrt(np.maximum(linear**2 + web * left, 0.0)))
-    outer = np.where(left > 0.0, np.sqrt(np.maximum(bore + apart, 0.0)), 0.0)
-    return _Crossing(np.sqrt(np.maximum(bore, 0.0)), outer)
-
-
-def _thin_and_heavy(asked: _Asked, limits: RimLimits) -> _Crossing:
-    """The least wall and the largest mass."""
-    wall, web = np.asarray(limits.wall_min), limits.web
-    light = asked.full / asked.mass
-    start = (wall + np.sqrt(np.maximum(2.0 * light - wall**2, 0.0))) / 2.0
-
-    def excess(radius: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Excess of what the largest mass has with the least wall, and its slope."""
-        inner = radius - wall
-        value = asked.mass * (radius**2 + inner**2) + web * inner**4 - asked.full
-        return value, 2.0 * asked.mass * (radius + inner) + 4.0 * web * inner**3
-
-    outer = _root_from_above(excess, start, web)
-    return _Crossing(outer - wall, outer)
-
-
-def _thin_and_flat(asked: _Asked, limits: RimLimits) -> _Crossing:
-    """The least wall and the least height."""
-    wall, web = np.asarray(limits.wall_min), np.asarray(limits.web)
-    flat = np.asarray(limits.height_min)
-
-    def excess(radius: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Excess of what the flattest rim with the least wall has, and its slope."""
-        inner = radius - wall
-        value = flat * radius**4 - (flat - web) * inner**4 - asked.full
-        return value, 4.0 * (flat * radius**3 - (flat - web) * inner**3)
-
-    with np.errstate(divide="ignore"):
-        # Without any rim the web alone would have as much.
-        start = np.minimum(flat_wall_radius(asked.full / flat, wall), (asked.full / web) ** 0.25)
-    outer = _root_from_above(excess, start, web)
-    return _Crossing(outer - wall, outer)
-
-
 def _held_bore(limits: RimLimits) -> bool:
     """Whether bores have an upper limit; these rims have no webs."""
     return not np.all(np.isinf(limits.inner_radius_max))
-
-
-def _wide_and_heavy(asked: _Asked, limits: RimLimits) -> _Crossing:
-    """The largest bore and the largest mass: m (a + b) = k."""
-    bore = np.asarray(limits.inner_radius_max)
-    return _Crossing(bore, np.sqrt(np.maximum(asked.full / asked.mass - bore**2, 0.0)))
-
-
-def _wide_and_flat(asked: _Asked, limits: RimLimits) -> _Crossing:
-    """The largest bore and the least height: h (a^2 - b^2) = k."""
-    bore = np.asarray(limits.inner_radius_max)
-    return _Crossing(bore, np.sqrt(np.sqrt(asked.full / np.asarray(limits.height_min) + bore**4)))
-
-
-def _stretched_and_heavy(asked: _Asked, limits: RimLimits) -> _Crossing:
-    """The hoop stress and the largest mass: t b^2 + m (a + b) = k with b = (S - p a) / n.
-
-    With p = 3 + nu, n = 1 - nu and S the largest stretch.
-    """
-    outer, inner = limits.hoop_weights
-    stretch = np.asarray(limits.stretch_max)
-    # An unlimited hoop stress leaves any radius light enough.
-    over = asked.full / asked.mass - np.where(np.isinf(stretch), 0.0, stretch) / outer
-    slope = 1.0 - inner / outer
-    root = np.sqrt(np.maximum(slope**2 + 4.0 * limits.web / asked.mass * over, 0.0))
-    return _stretched((stretch - inner * 2.0 * over / (slope + root)) / outer, limits)
-
-
-def _stretched_and_flat(asked: _Asked, limits: RimLimits) -> _Crossing:
-    """The hoop stress and the least height: (h - t) (S - p a)^2 = n^2 (h a^2 - k)."""
-    outer, inner = limits.hoop_weights
-    stretch, web = np.asarray(limits.stretch_max), limits.web
-    tall = np.asarray(limits.height_min) - web
-    more = np.where(web > np.zeros_like(tall), 1.0 + web / tall, 1.0)
-    flat = asked.full / tall
-    root = np.sqrt(np.maximum(more - flat * (outer**2 - inner**2 * more) / stretch**2, 0.0))
-    square = (stretch + inner**2 * flat / stretch) / (outer + inner * root)
-    # Where R^4 is less than that already, the least height leaves any bore.
-    return _stretched(np.where(stretch > outer * np.sqrt(flat / more), square, np.inf), limits)
-
-
-def _stretched(square: FloatArray, limits: RimLimits) -> _Crossing:
-    """Bore that the hoop stress leaves of a rim with that R^2 [m^2]."""
-    outer, inner = limits.hoop_weights
-    square = np.maximum(square, 0.0)
-    bore = (limits.stretch_max - outer * square) / inner
-    return _Crossing(np.sqrt(np.maximum(bore, 0.0)), np.sqrt(square))
 
 
 def _root_from_above(

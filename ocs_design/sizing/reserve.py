@@ -20,9 +20,8 @@ from ocs_design.actuation.wheel_load import WheelTask, held_by_each, spin_demand
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.records.selection import KeptRecord, ReserveRecord, UncertaintyCost
 from ocs_design.requirement.bound import turned_roll
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Unforeseen
+from ocs_design.requirement.maneuver import Drop, Flip, Maneuver, Unforeseen
 from ocs_design.requirement.requirement import ManeuverReserve, Requirement
-from ocs_design.requirement.turns import TurnTo
 from ocs_design.requirement.uncertainty import UncertaintySection, complete_uncertainty, parts_of
 from ocs_design.requirement.vocabulary import RELIABILITY
 from ocs_design.robot.robot import Robot
@@ -344,7 +343,7 @@ class Reality:
         diagonal = nominal.diagonal + added + heavier
         inertia = TiltInertia(diagonal, np.broadcast_to(nominal.product, len(diagonal)))
         slew = maneuver.slew(inertia, problem.requirement.standing_height)
-        speed = _lift_off(maneuver)
+        speed = maneuver.lift_off
         # Forward of the middle the push pitches, left of it it rolls.
         off = drawn["com_error"][:, 1::-1] if self.pushes_off else 0.0
         rates = PUSH_OFF * device.total.mass * speed * off / diagonal
@@ -423,17 +422,6 @@ def _line(line: DriveLine, drawn: Mapping[str, FloatArray]) -> DriveLine:
         speed_max=line.speed_max,
         power_max=line.power_max * np.minimum(constant, 1.0),
     )
-
-
-def _lift_off(maneuver: Maneuver) -> float:
-    """Upward speed at the end of a push-off [m/s]; 0 where there is none."""
-    match maneuver:
-        case Disturbance():
-            return maneuver.takeoff_velocity[1]
-        case Flip() | TurnTo():
-            return maneuver.gravity * maneuver.flight_time / 2.0
-        case _:
-            return 0.0
 
 
 @dataclass(frozen=True, eq=False)

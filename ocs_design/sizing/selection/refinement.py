@@ -176,7 +176,23 @@ class Programme:
         requirement = candidates.problem.requirement
         by_design, turned = margins_of(requirement, candidates.drives, whole, spin, points[:, 3:])
         margins = [part.margin[:, 0] for part in (*by_design, *turned)]
-        limits = np.log(np.clip([*margins, *self._room(shapes)], _LEAST, _MOST))
+        # Ratios by which rims stay within their limits.
+        at = self.candidates.limits
+        inner, outer, height = shapes.inner_radius, shapes.outer_radius, shapes.height
+        weight, bore_weight = at.hoop_weights
+        pairs = (
+            (outer, at.outer_radius_max),
+            (height, at.height_max),
+            (shapes.rim_mass, at.mass_max),
+            (weight * outer**2 + bore_weight * inner**2, at.stretch_max),
+            (at.outer_radius_min, outer),
+            (at.height_min, height),
+            (at.wall_min, outer - inner),
+            (np.maximum(at.inner_radius_min, BORE_SHARE * outer), inner),
+        )
+        with np.errstate(divide="ignore"):
+            room = [np.broadcast_to(most / value, outer.shape) for value, most in pairs]
+        limits = np.log(np.clip([*margins, *room], _LEAST, _MOST))
         if requirement.spin_inertia is not None:
             limits = np.concatenate([np.log(spin / requirement.spin_inertia)[None], limits])
         return np.log(candidates.drives.mass + shapes.mass), limits.T
@@ -262,25 +278,6 @@ class Programme:
         web = np.pi * density * limits.heavy_web * inner**2
         shell = self.candidates.shell.mass(outer, height)
         return ModuleShape(inner, outer, height, mass, web, shell)
-
-    def _room(self, shapes: ModuleShape) -> list[FloatArray]:
-        """Ratios by which rims stay within their limits, shape (k,) each."""
-        limits = self.candidates.limits
-        inner, outer, height = shapes.inner_radius, shapes.outer_radius, shapes.height
-        weight, bore_weight = limits.hoop_weights
-        stretch = weight * outer**2 + bore_weight * inner**2
-        pairs = (
-            (outer, limits.outer_radius_max),
-            (height, limits.height_max),
-            (shapes.rim_mass, limits.mass_max),
-            (stretch, limits.stretch_max),
-            (limits.outer_radius_min, outer),
-            (limits.height_min, height),
-            (limits.wall_min, outer - inner),
-            (np.maximum(limits.inner_radius_min, BORE_SHARE * outer), inner),
-        )
-        with np.errstate(divide="ignore"):
-            return [np.broadcast_to(most / value, outer.shape) for value, most in pairs]
 
 
 def coordinates(outer: float, height: float, inner: float, angle: float) -> FloatArray:
