@@ -43,7 +43,7 @@ def worded_maneuvers(asked: RequirementSection, robot: Robot) -> Worded:
     notes: list[str] = []
 
     def add(maneuver: Maneuver, note: str, told: str = "") -> None:
-        """Keeps it with its summary, or what is told in its place; a second one is numbered."""
+        """Add a maneuver with a note on it; a second one of the same name is numbered."""
         same = sum(each.name.split()[0] == maneuver.name for each in maneuvers)
         name = f"{maneuver.name} {same + 1}" if same else maneuver.name
         maneuvers.append(replace(maneuver, name=name))

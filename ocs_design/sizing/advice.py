@@ -118,7 +118,7 @@ class Field:
 
     @property
     def possible(self) -> bool:
-        """Whether any of the most promising has a device; what can only just be may be missed."""
+        """Whether any of the most promising candidates has a device; others are not tried."""
         tried = 0
         for candidates, guess in self._bounded():
             if any_solved(candidates, guess):
@@ -130,7 +130,7 @@ class Field:
 
     @property
     def conceivable(self) -> bool:
-        """Whether no bound rules all of them out: if not, nothing is possible."""
+        """Whether the bounds leave any candidate; if not, nothing is possible."""
         return any(len(candidates) for candidates, _ in self._bounded())
 
     def _bounded(self) -> Iterator[tuple[Candidates, Guess]]:
@@ -159,7 +159,7 @@ class Field:
 
 
 def any_solved(candidates: Candidates, guess: Guess) -> bool:
-    """Whether any of the candidates has a device; closes in no further than to the first."""
+    """Whether any of the candidates has a device; the search ends at the first that has."""
     return any(solved.point.feasible.any() for solved in solve_stepwise(candidates, guess))
 
 
@@ -218,7 +218,7 @@ def advice_on(
 
 
 def _caught(field: Field) -> Iterator[str]:
-    """The largest part of what is to be balanced that the drives catch, the rest as asked."""
+    """Sentence on the largest upset that the drives can balance, with all else as asked."""
     requirement = field.problem.requirement
     asked = [each for each in requirement.maneuvers if isinstance(each, Balance)]
 
@@ -401,7 +401,7 @@ def needed_motor(problem: SelectionProblem, model: Motor) -> NeededMotor | None:
         return None
 
     def does(built: Motor, speed: float, peak: float) -> bool:
-        """Whether a motor of this speed without load [rad/s] and peak torque [N m] does."""
+        """Whether a motor of this no-load speed [rad/s] and peak torque [N m] would do."""
         motor = _scaled(built, peak, speed, problem.bus_voltage)
         return Field.of(replace(problem, motors=(motor,), gears=(DIRECT,))).possible
 

@@ -190,7 +190,7 @@ def _answer(text: str, device: Candidate, note: str) -> Alternative:
 def _changes(
     specification: Specification, choice: Choice
 ) -> Iterator[tuple[str, SelectionProblem]]:
-    """Each relaxation, and more power, room and time: the question about it alone changed."""
+    """Each relaxation, and more power, room and time, as the problem with that change alone."""
     chosen = choice.chosen
     problem = replace(choice.problem, incidence=chosen.incidence, materials=(chosen.material,))
     for each in relaxations(specification, problem):
@@ -294,7 +294,7 @@ class _Lever:
 def lighter_by(
     mass: float, task: Task, choice: Choice, owed: str, progress: Progress = unseen
 ) -> tuple[Alternative, ...]:
-    """Changes of the question, each of which makes the device lighter by so much.
+    """Changes of the specification, each of which makes the device that much lighter.
 
     Args:
         mass: by which [kg].
@@ -425,7 +425,7 @@ def _levers(task: Task, owed: str) -> Iterator[_Lever]:
 
 
 def _levers_of_one(task: Task, maneuver: Maneuver) -> Iterator[_Lever]:
-    """More time for one maneuver among others, and less of what it asks: part of a flip is none."""
+    """More time for one maneuver of several, and a smaller tilt or push; no flip is smaller."""
 
     def after(percent: int) -> Maneuver:
         """The maneuver with more time."""

@@ -181,5 +181,5 @@ def rough(feet: Feet, size: Size[float]) -> tuple[Feet, Size[float]]:
 
 
 def _rounded_up(value: float) -> float:
-    """A size or mass that is up to a fiftieth larger: what is nearly equal is looked for once."""
+    """A size or mass rounded up by 2 % at most, so that nearly equal modules share one search."""
     return _ALIKE ** ceil(log(value, _ALIKE))

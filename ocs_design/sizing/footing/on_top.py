@@ -28,7 +28,7 @@ STEP = 4e-3
 
 
 def footing_on_top(surface: Surface, feet: Feet, search: Search) -> Footing | None:
-    """The nearest place of the feet, as near to each other as may be, or of pairs another way."""
+    """The nearest place of the feet, as close together as they fit; pairs also farther apart."""
     found = _nearest_footing(surface, feet, search, 0.0, PLATE_SCREW)
     if found is None and search.layout.pairs:
         way = _way(search.collision.robot, *rough(feet, search.sizes.largest), search.layout)
@@ -82,8 +82,8 @@ def _nearest_footing(
         if len(moved.rows) > 1:
             # A limb may be where modules of several pairs would stand on the trunk itself. A plate,
             # which takes long to look for, would lift them by its thickness only.
-            bases = [disc_points(middle, moved.radius) for middle in moved.middles]
-            top = highest_of(surface, np.concatenate(bases))
+            beneath = [disc_points(middle, moved.radius) for middle in moved.middles]
+            top = highest_of(surface, np.concatenate(beneath))
             on_trunk = around((moved.x, 0.0, top), search.layout, aside)
             if isfinite(top) and not search.is_clear(on_trunk):
                 continue

@@ -74,7 +74,7 @@ def footing_on_pedestals(
 def _all_held(
     surface: Surface, device: Device, *, fixed: bool
 ) -> tuple[list[float], tuple[Pedestal, ...]] | None:
-    """Heights of the modules in B and the pedestals under them; None: the trunk holds not all.
+    """Heights of the modules in B and the pedestals under them; None: the trunk does not hold all.
 
     Args:
         surface: of the trunk. device: with its modules over the places that they shall have.
