@@ -146,6 +146,7 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
         mass = plate_part(plate.each[0]).mass()
         yield BillRow("plate under the feet", len(plate.rows), plate.material, size, mass, made)
         mast, under = plate.mast, "plate"
+        tube = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(plate.sleeve_wall)} wall"
         if mast is not None:
             stock, under = f"square tube {_mm(mast.side)} x {_mm(mast.wall)}", "mast"
             spacer = f", a block of {_mm(mast.spacer)} before it" if mast.spacer > 0.0 else ""
@@ -155,16 +156,14 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
             )
             mass = mast_part(plate, mast).mass()
             yield BillRow("mast", 1, plate.material, stock, mass, made)
-            stock = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(plate.sleeve_wall)} wall"
             made = f"cut to {_mm(mast.bore)}, in the upright around each screw"
             mass, count = sleeve_part(plate, mast.bore).mass(), len(plate.trunk)
-            yield BillRow("sleeve in the mast", count, plate.material, stock, mass, made)
+            yield BillRow("sleeve in the mast", count, plate.material, tube, mass, made)
         for length in sorted({length for length in plate.sleeves if length > 0.0}):
-            stock = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(plate.sleeve_wall)} wall"
             shims = ", or shim washers" if length < SHIM else ""
             made = f"cut to {_mm(length)}{shims}, between {under} and trunk"
             count, mass = plate.sleeves.count(length), sleeve_part(plate, length).mass()
-            yield BillRow(f"sleeve under the {under}", count, plate.material, stock, mass, made)
+            yield BillRow(f"sleeve under the {under}", count, plate.material, tube, mass, made)
         for held in plate.fastenings:
             yield _screws(held, 1)
     for kind in pedestal_kinds(device):

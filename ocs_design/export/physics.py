@@ -23,7 +23,6 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import STANDARD_GRAVITY
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.robot import Robot
-from ocs_design.robot.tree import Joint
 
 _Geom = mujoco.mjtGeom
 
@@ -98,7 +97,7 @@ def leg_joints(robot: Robot) -> list[str]:
 def add_drives(spec: mujoco.MjSpec, robot: Robot) -> None:
     """One drive for each leg joint, limited to its effort; gains follow after compiling."""
     for name in leg_joints(robot):
-        limit = effort_limit(robot.tree.joints[name])
+        limit = robot.tree.joints[name].effort
         drive = spec.add_actuator(
             name=name,
             target=name,
@@ -108,7 +107,8 @@ def add_drives(spec: mujoco.MjSpec, robot: Robot) -> None:
         )
         # Nothing of the file's defaults; type, transmission and names stay.
         _copy(mujoco.MjSpec().add_actuator(), drive, _OF_ACTUATOR)
-        if np.isfinite(limit):
+        # Files write 0 where the author left it open.
+        if 0.0 < limit < np.inf:
             drive.forcelimited = 1
             drive.forcerange = [-limit, limit]
 
@@ -121,11 +121,6 @@ def hold_other_joints(spec: mujoco.MjSpec, robot: Robot) -> None:
             joint = spec.joint(name)
             joint.armature, joint.frictionloss = HELD, 0.0
             joint.limited = mujoco.mjtLimited.mjLIMITED_FALSE
-
-
-def effort_limit(joint: Joint) -> float:
-    """[N m or N]; files write 0 where the author left it open."""
-    return joint.effort if joint.effort > 0.0 else np.inf
 
 
 def set_gains(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> None:
