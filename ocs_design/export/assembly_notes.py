@@ -63,17 +63,17 @@ def drive_notes(device: Device) -> tuple[str, ...]:
             f"how motor and gear are held is not designed, because the gear's {unknown} are not "
             f"in the catalogue: {stands}; {_UNDRILLED}{threads}"
         )
-        return (held, *_apart(device, foot))
+        return (held, *_overlap_notes(device, foot))
     mounting = motor.mounting or Mounting()
     return (
-        *_held(mounting, device),
-        *_driven(mounting, device),
-        *_apart(device, foot),
-        *_shaken(device, foot),
+        *_mounting_notes(mounting, device),
+        *_shaft_notes(mounting, device),
+        *_overlap_notes(device, foot),
+        *_landing_notes(device, foot),
     )
 
 
-def _held(mounting: Mounting, device: Device) -> Iterator[str]:
+def _mounting_notes(mounting: Mounting, device: Device) -> Iterator[str]:
     """Notes on how the motor is fixed to plate and floor, and on a ring around its bell."""
     stator, mount = mounting.stator, motor_mount(device)
     if stator is None:
@@ -116,7 +116,7 @@ def _held(mounting: Mounting, device: Device) -> Iterator[str]:
     )
 
 
-def _driven(mounting: Mounting, device: Device) -> Iterator[str]:
+def _shaft_notes(mounting: Mounting, device: Device) -> Iterator[str]:
     """Notes on how the wheel is driven: by the shaft, or by threads behind plate and floor."""
     left, off = shaft_cut(device)
     if off > 0.0:
@@ -149,7 +149,7 @@ def _driven(mounting: Mounting, device: Device) -> Iterator[str]:
         yield f"the shaft ends {short} short of the hub's middle"
 
 
-def _apart(device: Device, foot: Foot) -> Iterator[str]:
+def _overlap_notes(device: Device, foot: Foot) -> Iterator[str]:
     """Feet and motors that reach over the middle of the robot, and so into each other."""
     left = device.modules[0]
     room, inwards = float(left.position[1]), float(left.axis[1])
@@ -162,7 +162,7 @@ def _apart(device: Device, foot: Foot) -> Iterator[str]:
         yield _overlap("motors", reach - room)
 
 
-def _shaken(device: Device, foot: Foot) -> Iterator[str]:
+def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
     """Notes on feet and screws too weak for a landing, and on speeds at which parts resonate."""
     module, modes = device.flywheel.mass + device.carrier.mass, resonances_of(device)
     bears, own = foot_shock(foot, module), foot_part(foot).mass_properties().mass

@@ -89,7 +89,7 @@ def bill_rows(device: Device, margins: Sequence[MarginRecord] = ()) -> Sequence[
         margins: of its flights, which say what the battery gives and takes; empty: not known.
     """
     motor, count = device.motor, len(device.modules)
-    rows = list(_wheel(device.flywheel, count))
+    rows = list(_wheel_rows(device.flywheel, count))
     if motor.mass > 0.0:
         supply = [] if motor.bus_voltage is None else [f"on {motor.bus_voltage:g} V"]
         if motor.bus_voltage and motor.rated_voltage and motor.bus_voltage > motor.rated_voltage:
@@ -129,7 +129,7 @@ def bill_rows(device: Device, margins: Sequence[MarginRecord] = ()) -> Sequence[
         held = dict.fromkeys((*screwed, LID_SCREWS), count) | {
             each: feet.count(each) for each in feet
         }
-        rows += [_screws(each, of) for each, of in held.items()]
+        rows += [_screw_row(each, of) for each, of in held.items()]
     return [*rows, *_support_rows(device), *_unweighed_rows(device, margins)]
 
 
@@ -165,7 +165,7 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
             count, mass = plate.sleeves.count(length), sleeve_part(plate, length).mass()
             yield BillRow(f"sleeve under the {under}", count, plate.material, tube, mass, made)
         for held in plate.fastenings:
-            yield _screws(held, 1)
+            yield _screw_row(held, 1)
     for kind in pedestal_kinds(device):
         one, count = kind.alike[0], len(kind.alike)
         made = (
@@ -175,10 +175,10 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
         size = " x ".join(map(_mm, one.sizes))
         whose = " and ".join(each.module for each in kind.alike)
         yield BillRow(f"pedestal of {whose}", count, "PETG", size, kind.part.mass(), made)
-        yield _screws(kind.screws, count)
+        yield _screw_row(kind.screws, count)
 
 
-def _screws(held: Fastening, modules: int) -> BillRow:
+def _screw_row(held: Fastening, modules: int) -> BillRow:
     """Equal screws of that many modules."""
     name, count = f"screw {held.designation}", modules * held.count
     source = f"mass: steel of {STEEL:g} kg/m^3 of its ISO 4762 dimensions"
@@ -244,7 +244,7 @@ def plain(text: str) -> str:
     return f"'{line}" if line.startswith(_FORMULA_STARTS) else line
 
 
-def _wheel(wheel: Flywheel, count: int) -> Iterator[BillRow]:
+def _wheel_rows(wheel: Flywheel, count: int) -> Iterator[BillRow]:
     """Wheel in one piece where rim and web are of one material, else a rim on its web."""
     web, cuts = wheel.web, wheel.cuts
     rim = f"turned to {_mm(2.0 * wheel.outer_radius)} x {_mm(wheel.height)}"
@@ -259,17 +259,17 @@ def _wheel(wheel: Flywheel, count: int) -> Iterator[BillRow]:
         yield BillRow("flywheel rim", count, wheel.material, stock, wheel.mass, rim + bore)
     elif web.material == wheel.material:
         stock = _stock(wheel.outer_radius, 0.0, max(wheel.height, web.hub.height))
-        made = f"{rim}, {_web(web)}"
+        made = f"{rim}, {_web_text(web)}"
         yield BillRow("flywheel, one piece", count, wheel.material, stock, wheel.mass, made)
     else:
         stock = _stock(wheel.outer_radius, wheel.inner_radius, wheel.height)
         seat = f"{rim}{bore}, seated on the web"
         yield BillRow("flywheel rim", count, wheel.material, stock, wheel.rim_mass, seat)
         stock = _stock(wheel.inner_radius, 0.0, max(web.thickness, web.hub.height))
-        yield BillRow("flywheel web and hub", count, web.material, stock, web.mass, _web(web))
+        yield BillRow("flywheel web and hub", count, web.material, stock, web.mass, _web_text(web))
 
 
-def _web(web: Web) -> str:
+def _web_text(web: Web) -> str:
     hub = web.hub
     bolts = (
         f"{hub.bolts} holes {_mm(2.0 * hub.bolt_hole_radius)} "

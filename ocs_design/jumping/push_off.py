@@ -106,7 +106,7 @@ class PushOffs:
         """
         body, layout = self.body, self._node.layout
         crouch = _Crouch.of(body, jump)
-        lower, upper = _box(body, layout, crouch.duration)
+        lower, upper = _bounds_of_unknowns(body, layout, crouch.duration)
         mass = trunk.mass + body.leg_mass
         unit = np.sqrt(jump.gravity * body.length)
         velocity = np.array([jump.forward, 0.0, jump.upward]) / unit
@@ -127,7 +127,7 @@ class PushOffs:
             a=z[layout.a].T / duration**2,
             torque=found.torque.T,
             force=z[layout.f].T.reshape(NODES, -1, 3) * (mass * jump.gravity),
-            forbidden=_forbidden(body, layout, found),
+            forbidden=_exceeded_limits(body, layout, found),
             iterations=found.iterations,
             answer=found,
         )
@@ -196,7 +196,9 @@ def _initial_guess(body: LeggedBody, jump: Jump, crouch: _Crouch) -> FloatArray:
     return found
 
 
-def _box(body: LeggedBody, layout: Layout, duration: float) -> tuple[FloatArray, FloatArray]:
+def _bounds_of_unknowns(
+    body: LeggedBody, layout: Layout, duration: float
+) -> tuple[FloatArray, FloatArray]:
     """Bounds of all nodes' unknowns, shape (size, nodes) each."""
     lower = np.full((layout.size, NODES), -np.inf)
     upper = np.full((layout.size, NODES), np.inf)
@@ -217,7 +219,7 @@ def _box(body: LeggedBody, layout: Layout, duration: float) -> tuple[FloatArray,
     return lower, upper
 
 
-def _forbidden(body: LeggedBody, layout: Layout, found: Found) -> str:
+def _exceeded_limits(body: LeggedBody, layout: Layout, found: Found) -> str:
     """Limits that the push-off exceeds, and by how much, as text; empty if none."""
     duration = found.nodes[layout.duration, -1]
     speed = found.nodes[layout.v][-layout.joints :] / duration

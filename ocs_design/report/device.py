@@ -109,7 +109,7 @@ def share_of_robot(design: OcsDesign) -> str:
 def device_facts(design: OcsDesign) -> Rows:
     """Wheel, masses, drive and place of the device."""
     ocs, motor = design.ocs, design.ocs.motor
-    rows = [*_wheel(ocs), *_masses(design), ("motor", motor.full_name)]
+    rows = [*_wheel_facts(ocs), *_mass_facts(design), ("motor", motor.full_name)]
     if motor.bus_voltage is not None:
         if motor.gear != DIRECT.name:
             loss = f"efficiency {motor.gear_efficiency:.0%}"
@@ -137,7 +137,7 @@ def device_facts(design: OcsDesign) -> Rows:
     return tuple(rows)
 
 
-def _wheel(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
+def _wheel_facts(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
     wheel, chosen = ocs.flywheel, ocs.incidence_criterion
     alone = ocs.incidence_by_criterion_robot_alone.get(chosen)
     if alone is not None:
@@ -165,7 +165,7 @@ def _wheel(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
     yield "transverse inertia", f"{inertia(wheel.transverse_inertia)} each"
 
 
-def _masses(design: OcsDesign) -> Iterator[tuple[str, str]]:
+def _mass_facts(design: OcsDesign) -> Iterator[tuple[str, str]]:
     ocs = design.ocs
     parts = {
         "rim": ocs.flywheel.rim_mass,

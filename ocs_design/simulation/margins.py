@@ -43,7 +43,7 @@ def record_margins(
         plans: references of the maneuvers, by name.
     """
     if designed.choice is None:
-        found = tuple(_without_motor(resolved, designed, runs))
+        found = tuple(_margins_without_motor(resolved, designed, runs))
     else:
         problem = designed.choice.problem
         drive = DrivenWheel.of(designed.choice.chosen, problem.supply.told, problem.wheel_speed_max)
@@ -52,7 +52,7 @@ def record_margins(
             (name, margins(motion, designed.device.as_flown(maneuvers[name]).axes, drive))
             for name, motion in _motions(plans, runs)
         )
-        braked = _braked(resolved, designed, plans)
+        braked = _brake_margins(resolved, designed, plans)
         found = (*worst((*driven, *braked)), *joints_of(designed.device))
     wheel, envelope = designed.device.flywheel, resolved.envelope
     room = (
@@ -99,7 +99,7 @@ def _motions(plans: Mapping[str, "Reference"], runs: Sequence[Run]) -> Iterator[
                 )
 
 
-def _braked(
+def _brake_margins(
     resolved: Resolved, designed: Designed, plans: Mapping[str, "Reference"]
 ) -> Iterator[tuple[str, tuple[Margin, ...]]]:
     """What a brake that grips the wheels, as the Cubli's does, asks of them and their joints."""
@@ -122,7 +122,9 @@ def _braked(
         yield maneuver.name, tuple(rows)
 
 
-def _without_motor(resolved: Resolved, designed: Designed, runs: Sequence[Run]) -> Iterator[Margin]:
+def _margins_without_motor(
+    resolved: Resolved, designed: Designed, runs: Sequence[Run]
+) -> Iterator[Margin]:
     """What can be said without a motor's figures."""
     device, wheel = designed.device, designed.device.flywheel
     driven = [run for run in runs if run.ocs and run.metrics is not None]

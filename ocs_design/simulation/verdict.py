@@ -78,9 +78,13 @@ def judge(
     if metrics is None or unsound:
         return Verdict(None, unsound, Fault.UNSOUND)
     if isinstance(maneuver, Pivoted):
-        return _balanced(metrics, maneuver)
+        return _pivot_verdict(metrics, maneuver)
     shoved = isinstance(maneuver, Shove)
-    verdict = _shoved(metrics, can_stand) if shoved else _flown(metrics, maneuver, can_stand, legs)
+    verdict = (
+        _shove_verdict(metrics, can_stand)
+        if shoved
+        else _landing_verdict(metrics, maneuver, can_stand, legs)
+    )
     if verdict.passed is None:
         return verdict
     return replace(
@@ -90,7 +94,9 @@ def judge(
     )
 
 
-def _flown(metrics: Metrics, maneuver: Maneuver, can_stand: bool | None, legs: int) -> Verdict:
+def _landing_verdict(
+    metrics: Metrics, maneuver: Maneuver, can_stand: bool | None, legs: int
+) -> Verdict:
     """Verdict on a robot that comes down from the air; see `judge`."""
     failure = _flight_failure(metrics, maneuver)
     if failure is not None:
@@ -119,7 +125,7 @@ def _flown(metrics: Metrics, maneuver: Maneuver, can_stand: bool | None, legs: i
     return Verdict(True, f"{landing}{ending}")
 
 
-def _shoved(metrics: Metrics, can_stand: bool | None) -> Verdict:
+def _shove_verdict(metrics: Metrics, can_stand: bool | None) -> Verdict:
     """Verdict on a robot that is shoved as it stands; see `judge`."""
     if can_stand is None:
         unsupported = "not judged: without legs there is nothing to stand on"
@@ -149,7 +155,7 @@ def _shoved(metrics: Metrics, can_stand: bool | None) -> Verdict:
     return Verdict(True, f"{swing}, is at rest after {metrics.settling_time:.2f} s and stands")
 
 
-def _balanced(metrics: Metrics, maneuver: Pivoted) -> Verdict:
+def _pivot_verdict(metrics: Metrics, maneuver: Pivoted) -> Verdict:
     """Verdict on a robot on a pivot; see `judge`."""
     rate = np.degrees(metrics.touchdown_rate)
     is_at = f"is at {_tilt(metrics)} off balance after {maneuver.duration:.3g} s, turning at "

@@ -80,11 +80,13 @@ def inspect_robot(
         },
         heading_drift=(float(roll), float(pitch)),
         incidence_by_posture=posture_lines(robot),
-        recognition=None if robot.recognition is None else _recorded(robot, robot.recognition),
+        recognition=None
+        if robot.recognition is None
+        else _recognition_record(robot, robot.recognition),
     )
 
 
-def _recorded(robot: Robot, recognition: Recognition) -> RecognitionRecord:
+def _recognition_record(robot: Robot, recognition: Recognition) -> RecognitionRecord:
     reading = recognition.reading
     turn = np.eye(3) if robot.mount is None else robot.mount.placement.rotation
     up = up_axis(robot.tree, robot.trunk, robot.legs) if robot.legs else np.eye(3)[2]

@@ -176,8 +176,8 @@ def record_design(
         tool=Tool(name="ocs-design", version=__version__),
         seed=seed,
         robot=RobotRecord.of(robot, package_paths),
-        requirement=_requirement(resolved, designed.sized),
-        ocs=_ocs(robot, designed, mounting, warnings),
+        requirement=_requirement_record(resolved, designed.sized),
+        ocs=_ocs_record(robot, designed, mounting, warnings),
         sizing=designed.sized.optimum,
         selection=None
         if designed.choice is None
@@ -201,7 +201,7 @@ def record_design(
     )
 
 
-def _requirement(resolved: Resolved, sized: Sized) -> RequirementRecord:
+def _requirement_record(resolved: Resolved, sized: Sized) -> RequirementRecord:
     requirement, speed = resolved.requirement, sized.wheel_speed_max
     roll, pitch = np.max([demand.momentum for demand in sized.demands], axis=0, initial=0.0) / speed
     housing = () if resolved.choice is None else (HOUSING_ASSUMED,)
@@ -239,7 +239,7 @@ def _requirement(resolved: Resolved, sized: Sized) -> RequirementRecord:
     )
 
 
-def _ocs(
+def _ocs_record(
     robot: Robot, designed: Designed, mounting: Mounting | None, warnings: tuple[str, ...]
 ) -> OcsRecord:
     device, sized = designed.device, designed.sized

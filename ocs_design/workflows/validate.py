@@ -205,7 +205,7 @@ def validated(request: Request, steps: Steps) -> Validation:
     steps.doubt(task.warnings)
     runs = task.fly(steps, pose_rate=request.pose_rate)
     if request.many:
-        return _many(request, task, runs, steps)
+        return _fly_samples(request, task, runs, steps)
     if request.sample is not None or request.replay is not None:
         campaign = campaign_of(request, task, runs)
         if request.replay is not None:
@@ -239,7 +239,7 @@ def watch(answer: Validation) -> None:
     watch_takes(takes, 1.0 / POSE_RATE)
 
 
-def _many(request: Request, task: Task, runs: tuple[Run, ...], steps: Steps) -> Validation:
+def _fly_samples(request: Request, task: Task, runs: tuple[Run, ...], steps: Steps) -> Validation:
     """Fly samples of the design as it might be built, keep them, and say what they show."""
     test = None
     if request.stated.validation.certify:

@@ -72,7 +72,7 @@ def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
     )
     whole = (
         Chapter("Before you start", tuple(before)),
-        Chapter("Steps, for each module", tuple(_steps(assembly)), numbered=True),
+        Chapter("Steps, for each module", tuple(_module_steps(assembly)), numbered=True),
         Chapter("Balance", tuple(balance(assembly))),
         Chapter("Spin test, before anything goes on the robot", tuple(spin_test(assembly)), True),
         Chapter("Wiring", tuple(Electrics(assembly.device, assembly.margins).sentences())),
@@ -81,7 +81,7 @@ def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
     return tuple(chapter for chapter in whole if chapter.texts)
 
 
-def _steps(assembly: Assembly) -> Iterator[str]:
+def _module_steps(assembly: Assembly) -> Iterator[str]:
     device, wheel = assembly.device, wheel_geometry(assembly.device.flywheel)
     if "drum" in assembly.numbers:
         caged = "cage" in assembly.numbers
@@ -110,7 +110,7 @@ def _steps(assembly: Assembly) -> Iterator[str]:
             f"in an oven{hot} until it drops on the web on a flat plate, and let both "
             "cool."
         )
-    yield from _bonded(assembly)
+    yield from _bonding_steps(assembly)
     if "guard" in assembly.numbers:
         yield (
             f"Bond the guard ring{assembly.number('guard')} into the drum"
@@ -126,7 +126,7 @@ def _steps(assembly: Assembly) -> Iterator[str]:
             f"{RUN_OUT:g} mm of the middle of their hole, as said above."
         )
     yield from (assembly.screwed(name) for name in assembly.screws if name not in assembly.late)
-    yield from _joint(assembly)
+    yield from _joint_steps(assembly)
     if "lid" in assembly.numbers:
         yield (
             "Turn the wheel by hand: it is free all around, and a strip of "
@@ -138,7 +138,7 @@ def _steps(assembly: Assembly) -> Iterator[str]:
             next(name for name in assembly.screws if name.startswith("lid")), lid=True
         )
         yield "Run the spin test (below), lid on."
-        yield from _on_the_trunk(assembly)
+        yield from _trunk_steps(assembly)
     turns: dict[str, list[str]] = {"counter-clockwise": [], "clockwise": []}
     for module in device.modules:
         outward = module.frame[:, 1] @ module.axis > 0.0
@@ -155,7 +155,7 @@ def _steps(assembly: Assembly) -> Iterator[str]:
     )
 
 
-def _bonded(assembly: Assembly) -> Iterator[str]:
+def _bonding_steps(assembly: Assembly) -> Iterator[str]:
     """How a ring is bonded around the bell of its motor."""
     if not assembly.device.on_bell:
         return
@@ -181,7 +181,7 @@ def _bonded(assembly: Assembly) -> Iterator[str]:
     )
 
 
-def _joint(assembly: Assembly) -> Iterator[str]:
+def _joint_steps(assembly: Assembly) -> Iterator[str]:
     """What the joints of the wheel rest on, and how a wheel is put on a shaft."""
     if "drum" not in assembly.numbers or assembly.device.on_bell:
         return
@@ -198,7 +198,7 @@ def _joint(assembly: Assembly) -> Iterator[str]:
             yield f"That joint carries the wheel by {joint.note}."
 
 
-def _on_the_trunk(assembly: Assembly) -> Iterator[str]:
+def _trunk_steps(assembly: Assembly) -> Iterator[str]:
     """How trunk, plate, mast, feet and pedestals come together."""
     device, foot, standing = assembly.device, foot_of(assembly.device), foot_holes(assembly.device)
     drilled = [
@@ -241,13 +241,13 @@ def _on_the_trunk(assembly: Assembly) -> Iterator[str]:
             f"{frame}: {places_of}."
         )
     else:
-        yield from _on_plate(assembly, device.plate, f"{frame}, at {places_of}")
-    yield from _on_pedestals(assembly)
+        yield from _plate_steps(assembly, device.plate, f"{frame}, at {places_of}")
+    yield from _pedestal_steps(assembly)
     if standing:
-        yield _turned(assembly, list(standing))
+        yield _turning_step(assembly, list(standing))
 
 
-def _on_plate(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterator[str]:
+def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterator[str]:
     """How plate, mast and sleeves are made and come on the trunk; `holes`: those for the feet."""
     cut = (
         f"Make the plate{assembly.number('plate')} to cad/plate.pdf (`export --formats dxf` "
@@ -291,7 +291,7 @@ def _on_plate(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterator[s
     )
 
 
-def _turned(assembly: Assembly, standing: Sequence[str]) -> str:
+def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
     """How the feet of these modules are turned to the incidence by their scales."""
     foot = foot_of(assembly.device)
     screws, found = next(
@@ -330,7 +330,7 @@ def _turned(assembly: Assembly, standing: Sequence[str]) -> str:
     )
 
 
-def _on_pedestals(assembly: Assembly) -> Iterator[str]:
+def _pedestal_steps(assembly: Assembly) -> Iterator[str]:
     """How pedestals come on the trunk, and the feet that lean on them."""
     kinds = pedestal_kinds(assembly.device)
     for kind in kinds:
