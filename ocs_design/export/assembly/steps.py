@@ -82,7 +82,8 @@ def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
 
 
 def _module_steps(assembly: Assembly) -> Iterator[str]:
-    device, wheel = assembly.device, wheel_geometry(assembly.device.flywheel)
+    """How one module is made, put together, tried, and set on the robot."""
+    device = assembly.device
     if "drum" in assembly.numbers:
         caged = "cage" in assembly.numbers
         hole = foot_of(device).housing.mount.pilot_radius
@@ -95,22 +96,7 @@ def _module_steps(assembly: Assembly) -> Iterator[str]:
             f"of solid parts, {supports}. Tap the ears of "
             f"{'drum and cage' if caged else 'the drum'} {LID_SCREW.name}."
         )
-    yield (
-        f"Turn the wheel to cad/wheel.pdf. Rim to bore: run-out at most {RUN_OUT:g} mm. Weigh "
-        f"it: {1e3 * device.flywheel.mass:.1f} g."
-    )
-    if seat(wheel) is Seat.FITTED:
-        hot, fit, material = "", rim_fit(device), materials().get(device.flywheel.material)
-        if fit is not None and material is not None and material.thermal_expansion is not None:
-            grown = 2.0 * fit.most + DROP
-            hotter = grown / (2.0 * device.flywheel.inner_radius * material.thermal_expansion)
-            hot = f", at least {hotter:.0f} K hotter than the web,"
-        yield (
-            f"Shrink the rim{assembly.number('rim')} on the web{assembly.number('hub')}: heat it "
-            f"in an oven{hot} until it drops on the web on a flat plate, and let both "
-            "cool."
-        )
-    yield from _bonding_steps(assembly)
+    yield from _wheel_steps(assembly)
     if "guard" in assembly.numbers:
         yield (
             f"Bond the guard ring{assembly.number('guard')} into the drum"
@@ -155,9 +141,25 @@ def _module_steps(assembly: Assembly) -> Iterator[str]:
     )
 
 
-def _bonding_steps(assembly: Assembly) -> Iterator[str]:
-    """How a ring is bonded around the bell of its motor."""
-    if not assembly.device.on_bell:
+def _wheel_steps(assembly: Assembly) -> Iterator[str]:
+    """How the wheel is turned, shrunk on its web, or bonded around the bell of its motor."""
+    device = assembly.device
+    yield (
+        f"Turn the wheel to cad/wheel.pdf. Rim to bore: run-out at most {RUN_OUT:g} mm. Weigh "
+        f"it: {1e3 * device.flywheel.mass:.1f} g."
+    )
+    if seat(wheel_geometry(device.flywheel)) is Seat.FITTED:
+        hot, fit, material = "", rim_fit(device), materials().get(device.flywheel.material)
+        if fit is not None and material is not None and material.thermal_expansion is not None:
+            grown = 2.0 * fit.most + DROP
+            hotter = grown / (2.0 * device.flywheel.inner_radius * material.thermal_expansion)
+            hot = f", at least {hotter:.0f} K hotter than the web,"
+        yield (
+            f"Shrink the rim{assembly.number('rim')} on the web{assembly.number('hub')}: heat it "
+            f"in an oven{hot} until it drops on the web on a flat plate, and let both "
+            "cool."
+        )
+    if not device.on_bell:
         return
     gap, wide = 1e3 * GLUE_GAP, 2e3 * GLUE_GAP
     yield (
