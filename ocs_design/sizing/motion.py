@@ -33,7 +33,7 @@ from ocs_design.sizing.trajectory.flight import Trajectory
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """Linear between samples; two samples at one time are a jump.
+    """Motion of trunk and wheels, linear between samples; two samples at one time are a jump.
 
     Attributes:
         time: [s], not falling, shape (n,).
@@ -96,7 +96,7 @@ class Motion:
 
     @property
     def duration(self) -> float:
-        """[s]."""
+        """Duration [s]."""
         return float(self.time[-1] - self.time[0])
 
     def between(self) -> "Motion":
@@ -205,7 +205,7 @@ class DrivenWheel:
 
     @property
     def body(self) -> Carrier:
-        """Rim, web and hub; what is known of the rotor's transverse inertia is nothing."""
+        """Rim, web and hub; no source states the rotor's transverse inertia."""
         size = (self.inner_radius, self.outer_radius, self.height)
         web = None if self.web_material is None else self.web_material.density
         return wheel_body(*size, self.material.density, self.hub, cuts=self.cuts, web_density=web)
@@ -227,7 +227,7 @@ class DrivenWheel:
 
     @property
     def _rotor_inertia(self) -> float:
-        """Counted as nothing where it is not stated."""
+        """Inertia of the rotor [kg m^2]; 0 where it is not stated."""
         return self.motor.rotor_inertia or 0.0
 
     @property

@@ -49,7 +49,9 @@ from ocs_design.sizing.placement import place_free
 
 @dataclass(frozen=True, eq=False)
 class Mounting:
-    """Modules are their housings, motors and feet, or bare wheels, at every incidence flown.
+    """How a device sits on its robot, at every incidence flown.
+
+    Modules are their housings, motors and feet, or bare wheels.
 
     Attributes:
         nearest: in the nominal posture; None if the robot has no geometry.
@@ -177,7 +179,7 @@ def _hit(mounting: Mounting) -> str:
 def mounting_of(
     robot: Robot, device: Device, maneuvers: Sequence[Maneuver], whole: MassProperties
 ) -> Mounting:
-    """Look at a device on its robot.
+    """How a device sits on its robot.
 
     Args:
         robot: without it.

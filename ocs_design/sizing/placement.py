@@ -203,13 +203,9 @@ class FreePlace:
     free: bool
 
 
-def specified_place(
-    position: tuple[float, ...] | None, robot: Robot, envelope: Envelope, layout: Layout = PAIR
-) -> Place:
-    """Places as stated in B [m] (`place_at`); None: the free place nearest to the robot's."""
-    if position is None:
-        return place_free(robot, envelope, layout).place
-    return place_at(position, layout)
+def specified_place(position: tuple[float, ...] | None, robot: Robot, envelope: Envelope) -> Place:
+    """Place of a pair as stated in B [m] (`place_at`); None: the nearest free place."""
+    return place_free(robot, envelope, PAIR).place if position is None else place_at(position)
 
 
 @lru_cache(maxsize=1)

@@ -226,7 +226,7 @@ def _options(*, guessed: bool) -> dict[str, Any]:
 def _solved(
     program: ca.Opti, found: Sequence[Variables], guesses: Sequence[Motion], free: ca.MX
 ) -> Solution:
-    """What IPOPT makes of a program."""
+    """Solution that IPOPT finds of a program."""
     try:
         program.solve()
     except RuntimeError:
