@@ -323,6 +323,16 @@ def validate(
     scheduler: Annotated[
         str | None, opt.option("--scheduler", "ADDRESS", "Fly the samples on this Dask cluster.")
     ] = None,
+    engine: Annotated[
+        str,
+        opt.option(
+            "--engine",
+            "NAME",
+            "Fly the samples by this: mujoco on the processors, or warp on an NVIDIA GPU, in "
+            "single precision.",
+            completion.one_of("mujoco", "warp"),
+        ),
+    ] = "mujoco",
     sample: Annotated[
         int | None, opt.option("--sample", "K", "Fly sample K of --seed alone.")
     ] = None,
@@ -384,6 +394,7 @@ def validate(
         samples=samples,
         until_width=width,
         scheduler=scheduler,
+        engine=engine,
         sample=sample,
         replay=replay,
         out=out,

@@ -27,10 +27,11 @@ from ocs_design.simulation.engine import Progress, scaled
 from ocs_design.simulation.imperfections import AirDrag, air_drag
 from ocs_design.simulation.metrics import objection
 from ocs_design.simulation.motor_limits import MotorLimits
+from ocs_design.simulation.physics import Engine
 from ocs_design.simulation.run import Metrics, Run
 from ocs_design.simulation.scenario import Options, fly, world_builder
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.verdict import Verdict, judge
+from ocs_design.simulation.verdict import MOMENTUM_GATE, Verdict, judge
 from ocs_design.simulation.world import World
 from ocs_design.sizing.trajectory.flight import Trajectory
 
@@ -60,6 +61,7 @@ class Campaign:
         air: drag of a wheel.
         limits: of a motor before friction, which is drawn, takes its part.
         seed: of all samples. hold: steps of the physics per control step.
+        engine: of the physics; None: MuJoCo on the processors.
     """
 
     flights: tuple[Flight, ...]
@@ -68,6 +70,7 @@ class Campaign:
     limits: MotorLimits
     seed: int
     hold: int
+    engine: Engine | None = None
 
     def sample(self, index: int) -> Sample:
         """What is drawn for one robot."""
@@ -93,7 +96,11 @@ class Campaign:
         """The verdict on a flight of scenario `number`."""
         flight = self.flights[number]
         return judge(
-            metrics, flight.maneuver, can_stand=flight.can_stand, objection=flight.objection
+            metrics,
+            flight.maneuver,
+            can_stand=flight.can_stand,
+            objection=flight.objection,
+            gate=MOMENTUM_GATE if self.engine is None else self.engine.gate,
         )
 
 
@@ -183,7 +190,8 @@ def _flown_at_once(
         for sample in samples
         for number, own in enumerate(scratch)
     ]
-    flights = fly(worlds, Options(hold=campaign.hold, threads=threads), progress)
+    options = Options(hold=campaign.hold, threads=threads, engine=campaign.engine)
+    flights = fly(worlds, options, progress)
     shape = (len(samples), len(campaign.flights))
     metrics, codes = np.full((*shape, len(METRICS)), np.nan), np.zeros(shape, dtype=np.int8)
     for place, flight in enumerate(flights):

@@ -47,6 +47,9 @@ class Workers(ABC):
 AT_ONCE = 4
 """Blocks that are flown at once where all of them are wanted."""
 
+AT_ONCE_ON_DEVICE = 64
+"""The same where a GPU steps all worlds together; the memory of the worlds limits it, too."""
+
 
 class ThisMachine(Workers):
     """One block after the other, or a few at once, on all processors."""

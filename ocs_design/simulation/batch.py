@@ -1,6 +1,7 @@
 """Worlds that run in step: physics in MuJoCo's `rollout`, the vectorised law in between."""
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, fields, replace
 from threading import Event
 
@@ -13,6 +14,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.desaturation import WheelBrake
 from ocs_design.simulation.imperfections import Drives, Sensing
+from ocs_design.simulation.physics import Engine, Physics
 from ocs_design.simulation.scene import ANCHOR, whole_mass
 from ocs_design.simulation.schedule import (
     FlightClock,
@@ -163,9 +165,15 @@ class Batch:
     Those that still run are a leading slice of every buffer, a view without copies.
     """
 
-    def __init__(self, worlds: Sequence[World], hold: int, pose_rate: float | None = None) -> None:
+    def __init__(
+        self,
+        worlds: Sequence[World],
+        hold: int,
+        pose_rate: float | None = None,
+        engine: Engine | None = None,
+    ) -> None:
         """Batch of worlds with models of equal sizes, longest first; see `simulate`."""
-        first = worlds[0].model
+        self._engine, first = engine, worlds[0].model
         self._hold, self._period = hold, hold * first.opt.timestep
         self._models = [world.model for world in worlds]
         self._lengths = np.array(
@@ -226,8 +234,7 @@ class Batch:
             progress: told the part of the work that is done, 0..1.
         """
         data = [mujoco.MjData(self._models[0]) for _ in range(threads)]
-        # Without a pool the calling thread does the work.
-        with Rollout(nthread=threads if threads > 1 else 0) as pool:
+        with self._made_physics(threads) as pool:
             for k, running, law in self._control_steps():
                 if stop.is_set():
                     break
@@ -237,6 +244,14 @@ class Batch:
                 self._advance(pool, data, k, self._driven(k, asked))
                 self._record_sensors(k, running)
         return self._ended(data[0])
+
+    def _made_physics(self, threads: int) -> AbstractContextManager[Physics]:
+        """What takes the worlds through a control step."""
+        if self._engine is not None:
+            return self._engine.physics()
+        # Without a pool the calling thread does the work.
+        processors: AbstractContextManager[Physics] = Rollout(nthread=threads if threads > 1 else 0)
+        return processors
 
     def _ended(self, last: mujoco.MjData) -> Recording:
         """What happened, with what is known at the end; `last` is to work with."""
@@ -321,7 +336,7 @@ class Batch:
         return law.torque(vertical, rate, speed, target, self._period, attitude=attitude)
 
     def _advance(
-        self, pool: Rollout, data: list[mujoco.MjData], k: int, torque: FloatArray
+        self, pool: Physics, data: list[mujoco.MjData], k: int, torque: FloatArray
     ) -> None:
         """Control step `k` of physics, with the outer torque of that step and its impulse."""
         n, record = len(torque), self._record

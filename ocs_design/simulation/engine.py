@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ocs_design.common.files import processors
 from ocs_design.export.physics import STEP
 from ocs_design.simulation.batch import Batch, Recording, joined
+from ocs_design.simulation.physics import Engine
 from ocs_design.simulation.run import Poses
 from ocs_design.simulation.scene import ANCHOR
 from ocs_design.simulation.world import World
@@ -30,6 +31,7 @@ def simulate(
     threads: int | None = None,
     pose_rate: float | None = None,
     progress: Progress | None = None,
+    engine: Engine | None = None,
 ) -> Recording:
     """Run all worlds to their ends.
 
@@ -42,6 +44,7 @@ def simulate(
         pose_rate: of the recorded poses [1/s]; None: none are, which thousands of worlds have no
             memory for.
         progress: told the part of the work that is done, 0..1.
+        engine: that has all worlds in one batch; None: MuJoCo on the processors.
     """
     tell = progress or _ignore
     recordings: list[Recording] = []
@@ -57,11 +60,11 @@ def simulate(
         order = group[
             np.argsort([-worlds[index].duration for index in group.tolist()], kind="stable")
         ]
-        available = min(threads or processors(), len(group))
+        available = min(threads or processors(), len(group)) if engine is None else 1
         parts = min(available, 2)
         shares = [order[first::parts] for first in range(parts)]
         batches = [
-            Batch([worlds[index] for index in share], round(hold * STEP / step), pose_rate)
+            Batch([worlds[index] for index in share], round(hold * STEP / step), pose_rate, engine)
             for share in shares
         ]
         within = scaled(tell, done, done + part)

@@ -19,6 +19,7 @@ from ocs_design.robot.robot import Robot
 from ocs_design.simulation.batch import Recording
 from ocs_design.simulation.engine import Progress, poses_of, simulate
 from ocs_design.simulation.metrics import breakdown, measure, objection, series_of
+from ocs_design.simulation.physics import Engine
 from ocs_design.simulation.reference import Profile, Quintic
 from ocs_design.simulation.run import Metrics, Poses, Run, Series
 from ocs_design.simulation.scene import Wheels
@@ -49,6 +50,7 @@ class Options:
         desaturate: whether the wheels are braked while the robot stands.
         threads: of the physics; None: one per processor.
         pose_rate: of the recorded poses [1/s]; None: none are.
+        engine: of the physics; None: MuJoCo on the processors.
     """
 
     allocation: Allocation = Allocation.PSEUDO_INVERSE
@@ -58,6 +60,7 @@ class Options:
     desaturate: bool = False
     threads: int | None = None
     pose_rate: float | None = None
+    engine: Engine | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -240,7 +243,8 @@ HALVINGS = 2
 def fly(worlds: Sequence[World], options: Options, progress: Progress | None = None) -> list[Flown]:
     """Fly worlds; where angular momentum is off by more than the gate, again at half the step."""
     flights = _flown(worlds, options, progress)
-    for _ in range(HALVINGS):
+    # In single precision it is off by what is rounded, of which shorter steps make more.
+    for _ in range(HALVINGS if options.engine is None else 0):
         coarse = [
             (index, flight.metrics.momentum_error)
             for index, flight in enumerate(flights)
@@ -278,6 +282,7 @@ def _flown(
         threads=options.threads,
         pose_rate=options.pose_rate,
         progress=progress,
+        engine=options.engine,
     )
     return [
         Flown(world, recording, index, measure(recording, index, world))

@@ -62,6 +62,7 @@ def judge(
     can_stand: bool | None,
     objection: str = "",
     legs: int = STEADY_LEGS,
+    gate: float = MOMENTUM_GATE,
 ) -> Verdict:
     """The pass rule: a sound flight, the turn done, a level touchdown, upright at the end.
 
@@ -73,8 +74,9 @@ def judge(
             end" says nothing about the device and is not judged.
         objection: to the run whatever its figures are, see `soundness`; empty if there is none.
         legs: how many it has.
+        gate: largest relative momentum error that is judged.
     """
-    unsound = objection or _unsound(metrics, maneuver)
+    unsound = objection or _unsound(metrics, maneuver, gate)
     if metrics is None or unsound:
         return Verdict(None, unsound, Fault.UNSOUND)
     if isinstance(maneuver, Pivoted):
@@ -188,7 +190,7 @@ def stands(metrics: Metrics | None) -> bool:
     return bool(tilt <= 0.5 * UPRIGHT_TILT)
 
 
-def _unsound(metrics: Metrics | None, maneuver: Maneuver) -> str:
+def _unsound(metrics: Metrics | None, maneuver: Maneuver, gate: float = MOMENTUM_GATE) -> str:
     """Why a run says nothing; empty if it is sound."""
     if metrics is None:
         return "not judged: the simulation became unstable"
@@ -198,10 +200,10 @@ def _unsound(metrics: Metrics | None, maneuver: Maneuver) -> str:
             f"rad in a step of the physics, more than {NUTATION_LIMIT}: choose heavier and slower "
             f"wheels by a lower `wheel_speed_max`"
         )
-    if metrics.momentum_error > MOMENTUM_GATE:
+    if metrics.momentum_error > gate:
         return (
             f"not judged: angular momentum in flight is off by {metrics.momentum_error:.1e}, "
-            f"more than {MOMENTUM_GATE:.0e}: something moves too fast for the steps of the "
+            f"more than {gate:.0e}: something moves too fast for the steps of the "
             f"physics; look for links with next to no inertia by `ocs-design inspect`"
         )
     if metrics.lift_off_time is None:

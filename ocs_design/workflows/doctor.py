@@ -50,6 +50,7 @@ PURPOSES: Mapping[str, str] = MappingProxyType(
         "resvg-py": "figures as PNG",
         "dask": "Monte Carlo on many machines",
         "distributed": "Monte Carlo on many machines",
+        "mujoco-warp": "Monte Carlo on an NVIDIA GPU",
         "pyarrow": "samples as Parquet",
         "pillow": "words on videos",
         "imageio-ffmpeg": "videos where the system has no ffmpeg",

@@ -18,7 +18,14 @@ from ocs_design.export.watching import check_display, watch_takes
 from ocs_design.monte_carlo.campaign import Campaign, Case, read_case, replayed, write_results
 from ocs_design.monte_carlo.certificate import ROUND, SequentialTest, certificate
 from ocs_design.monte_carlo.outcomes import Identity, Storage, blocks_of
-from ocs_design.monte_carlo.running import AT_ONCE, Cluster, ThisMachine, narrow, run_campaign
+from ocs_design.monte_carlo.running import (
+    AT_ONCE,
+    AT_ONCE_ON_DEVICE,
+    Cluster,
+    ThisMachine,
+    narrow,
+    run_campaign,
+)
 from ocs_design.monte_carlo.summary import summarised
 from ocs_design.report.html.notebook import as_html
 from ocs_design.report.text.console import Steps, Tell
@@ -26,8 +33,10 @@ from ocs_design.requirement.sections import ValidationSection
 from ocs_design.requirement.specification import Specification, merge_section
 from ocs_design.requirement.vocabulary import RELIABILITY
 from ocs_design.simulation.engine import POSE_RATE
+from ocs_design.simulation.physics import Engine, EngineName
 from ocs_design.simulation.run import Run
 from ocs_design.simulation.scenario import refusal
+from ocs_design.simulation.warp_engine import warp_engine
 from ocs_design.workflows.flying import Task, flown_hash, read_task
 from ocs_design.workflows.recording import record_run, write_runs
 
@@ -45,6 +54,7 @@ class Request:
         samples: to fly at most; None: the flights as designed alone, or until it is certified.
         until_width: of the intervals, that fewer samples will do for; None: all are flown.
         scheduler: address of a Dask cluster; None: this machine.
+        engine: of the physics of samples, a word of `EngineName`.
         sample: to fly alone. replay: file of a case to fly alone.
         out: folder to write to; None: nothing is kept.
         force: replace what is there, also the samples of another campaign.
@@ -59,6 +69,7 @@ class Request:
     samples: int | None = None
     until_width: float | None = None
     scheduler: str | None = None
+    engine: str = EngineName.MUJOCO
     sample: int | None = None
     replay: Path | None = None
     out: Path | None = None
@@ -69,8 +80,8 @@ class Request:
         """Refuse what contradicts itself or makes no sense.
 
         Raises:
-            UsageError: options that exclude or need each other, no samples, or no width between 0
-                and 1.
+            UsageError: options that exclude or need each other, no samples, no width between 0 and
+                1, or no engine.
             MissingToolError: there is no display to look at the runs.
         """
         wanted = {"--samples": self.samples, "--sample": self.sample, "--replay": self.replay}
@@ -84,12 +95,29 @@ class Request:
             raise UsageError(
                 "--until-width and --scheduler are about samples", hint="add --samples N"
             )
+        self._check_engine()
         if self.samples is not None and not 1 <= self.samples <= ROUND:
             raise UsageError(f"--samples {self.samples}: must be from 1 to {ROUND:,}")
         if self.until_width is not None and not 0.0 < self.until_width < 1.0:
             raise UsageError(f"--until-width {self.until_width:.4g}: must be between 0 and 100 %")
         if self.view:
             check_display()
+
+    def _check_engine(self) -> None:
+        if self.engine not in tuple(EngineName):
+            words = " or ".join(EngineName)
+            raise UsageError(f"--engine {self.engine}: must be {words}")
+        if self.engine == EngineName.MUJOCO:
+            return
+        if not self.many:
+            raise UsageError(f"--engine {self.engine} is about samples", hint="add --samples N")
+        if self.scheduler is not None:
+            raise UsageError(f"--engine {self.engine} and --scheduler exclude each other")
+        if self.stated.validation.certify is True:
+            raise UsageError(
+                f"--engine {self.engine} and --certify exclude each other: its precision is single",
+                hint="leave --engine out to certify",
+            )
 
     @property
     def many(self) -> bool:
@@ -142,6 +170,7 @@ def validate_design(
     robot_file: AnyPath | None = None,
     package_paths: Mapping[str, AnyPath] | None = None,
     scheduler: str | None = None,
+    engine: str = EngineName.MUJOCO,
     out: AnyPath | None = None,
     force: bool = False,
     strict: bool = False,
@@ -159,13 +188,15 @@ def validate_design(
         robot_file: of the robot, where it has moved.
         package_paths: folder of each package that `package://` addresses name.
         scheduler: address of a Dask cluster; None: this machine.
+        engine: "mujoco" on the processors, or "warp": samples on a GPU, in single precision.
         out: folder for the time series and the samples; None: nothing is kept.
         force: replace an existing folder.
         strict: warnings about the robot are errors.
         progress: see `design_ocs`.
 
     Raises:
-        OcsError: the design or its robot cannot be read, or the folder cannot be written.
+        OcsError: the design or its robot cannot be read, the folder cannot be written, or what is
+            to compute the samples is not there.
     """
     stated = specification or Specification()
     asked = ValidationSection(certify=certify or None, seed=seed)
@@ -178,6 +209,7 @@ def validate_design(
         samples=samples,
         until_width=until_width,
         scheduler=scheduler,
+        engine=engine,
         out=None if out is None else Path(out),
         force=force,
     )
@@ -191,6 +223,8 @@ def validated(request: Request, steps: Steps) -> Validation:
         OcsError: see `exceptions`.
     """
     request.check()
+    # Before minutes of flights: whether it is there at all.
+    engine = warp_engine() if request.engine == EngineName.WARP else None
     if request.out is not None and not request.many:
         check_target(request.out, force=request.force)
     with steps.step("read the design, plan its flights") as step:
@@ -205,7 +239,7 @@ def validated(request: Request, steps: Steps) -> Validation:
     steps.doubt(task.warnings)
     runs = task.fly(steps, pose_rate=request.pose_rate)
     if request.many:
-        return _fly_samples(request, task, runs, steps)
+        return _fly_samples(request, task, runs, steps, engine)
     if request.sample is not None or request.replay is not None:
         campaign = campaign_of(request, task, runs)
         if request.replay is not None:
@@ -239,13 +273,15 @@ def watch(answer: Validation) -> None:
     watch_takes(takes, 1.0 / POSE_RATE)
 
 
-def _fly_samples(request: Request, task: Task, runs: tuple[Run, ...], steps: Steps) -> Validation:
+def _fly_samples(
+    request: Request, task: Task, runs: tuple[Run, ...], steps: Steps, engine: Engine | None
+) -> Validation:
     """Fly samples of the design as it might be built, keep them, and say what they show."""
     test = None
     if request.stated.validation.certify:
         test = SequentialTest(task.design.requirement.reliability or RELIABILITY)
     asked, folder = request.samples or (0 if test is None else test.most), request.out
-    campaign = campaign_of(request, task, runs)
+    campaign = replace(campaign_of(request, task, runs), engine=engine)
     enough = None if request.until_width is None else narrow(request.until_width)
     enough = enough if test is None else test.decided
     storage = None
@@ -254,7 +290,7 @@ def _fly_samples(request: Request, task: Task, runs: tuple[Run, ...], steps: Ste
         identity = Identity(
             schema_version=SAMPLES_VERSION,
             tool=__version__,
-            simulator=version("mujoco"),
+            simulator=version("mujoco") if engine is None else engine.name,
             design=flown_hash(task.design, task.control),
             robot=task.robot.sha256,
             reality=campaign.uncertainty.written(),
@@ -263,13 +299,16 @@ def _fly_samples(request: Request, task: Task, runs: tuple[Run, ...], steps: Ste
             desaturate=task.control.desaturate,
         )
         storage = Storage(folder, identity, force=request.force)
+    at_once = AT_ONCE if enough is None else 1
+    if engine is not None:
+        at_once = AT_ONCE_ON_DEVICE
     cluster = None if request.scheduler is None else Cluster(request.scheduler)
     leaving = nullcontext() if cluster is None else closing(cluster)
     with leaving, steps.step(f"fly {asked:,} samples") as step:
         outcomes = run_campaign(
             campaign,
             blocks_of(asked),
-            workers=cluster or ThisMachine(at_once=AT_ONCE if enough is None else 1),
+            workers=cluster or ThisMachine(at_once=at_once),
             storage=storage,
             enough=enough,
             progress=step.update,
@@ -278,7 +317,8 @@ def _fly_samples(request: Request, task: Task, runs: tuple[Run, ...], steps: Ste
         if certified is not None:
             outcomes = outcomes.take(slice(certified.samples))
         record = replace(summarised(campaign, outcomes, asked), certificate=certified)
-        step.note = f"{record.samples:,} flown"
+        by = "" if engine is None else f" by {engine.name}, in single precision"
+        step.note = f"{record.samples:,} flown{by}"
     found = replace(_validated(task, runs), monte_carlo=record)
     if folder is None:
         return Validation(found, None, (), task, runs)

@@ -114,6 +114,10 @@ CERTAIN = (
         (("--certify", "--until-width", "5%"), "exclude each other"),
         (("--samples", "2", "--until-width", "2"), "between 0 and 100 %"),
         (("--samples", "2", "--until-width", "5deg"), "unit of angle"),
+        (("--samples", "2", "--engine", "cuda"), "must be mujoco or warp"),
+        (("--engine", "warp"), "add --samples"),
+        (("--certify", "--engine", "warp"), "exclude each other"),
+        (("--samples", "2", "--scheduler", "tcp://no:1", "--engine", "warp"), "exclude each other"),
         (("--replay", "nothing.json"), "cannot read the case"),
     ],
 )
