@@ -133,6 +133,7 @@ class Fastening:
         purpose: what they hold, and what to mind.
         depth: of their threads over their diameter, at least.
         strength: their property class.
+        least: by which they reach into what they are screwed in, where its maker says so [m].
     """
 
     screw: Screw
@@ -141,6 +142,7 @@ class Fastening:
     purpose: str
     depth: float = 1.0
     strength: str = USUAL_CLASS
+    least: float = 0.0
 
     @property
     def designation(self) -> str:
@@ -151,7 +153,8 @@ class Fastening:
     @property
     def length(self) -> float:
         """Length of each screw under its head [m]."""
-        return self.screw.length_through(self.thickness, self.depth)
+        depth = max(self.depth, self.least / self.screw.diameter)
+        return self.screw.length_through(self.thickness, depth)
 
     @property
     def mass(self) -> float:

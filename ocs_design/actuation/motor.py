@@ -107,12 +107,15 @@ class BoltCircle:
         bolts: how many.
         thread: of each, such as "M3".
         screws: property class of the screws in them.
+        depth, depth_max: by which its maker wants them in the motor, at least and at most [m].
     """
 
     diameter: float
     bolts: int
     thread: str
     screws: str = USUAL_CLASS
+    depth: float | None = None
+    depth_max: float | None = None
 
     def __str__(self) -> str:
         """Text for people, as in `4 x M3 on 25 mm`."""

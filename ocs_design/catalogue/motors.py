@@ -65,6 +65,8 @@ class MotorSheet:
         rotor_screws: property class of the screws that the wheel takes there, if not 8.8.
         stator_bolt_circle_m, stator_bolts, stator_thread: the same in what stands still, on its
             `stator_face`.
+        rotor_depth_m, rotor_depth_max_m, stator_depth_m, stator_depth_max_m: by which the maker
+            wants the screws in the motor, at least and at most.
         source: where the figures come from. confidence: good, second-hand, ...
         remark: why figures that seem to contradict each other stand as they do.
     """
@@ -106,6 +108,10 @@ class MotorSheet:
     voltage_max_v: float | None = None
     shaft_form: ShaftForm | None = None
     rotor_screws: str | None = None
+    rotor_depth_m: float | None = None
+    rotor_depth_max_m: float | None = None
+    stator_depth_m: float | None = None
+    stator_depth_max_m: float | None = None
 
     @property
     def torque_constant(self) -> float | None:
@@ -127,12 +133,20 @@ class MotorSheet:
     def rotor(self) -> BoltCircle | None:
         """Threads in what turns; None unless all of their figures are stated."""
         found = _circle(self.rotor_bolt_circle_m, self.rotor_bolts, self.rotor_thread)
-        return found and replace(found, screws=self.rotor_screws or USUAL_CLASS)
+        return found and replace(
+            found,
+            screws=self.rotor_screws or USUAL_CLASS,
+            depth=self.rotor_depth_m,
+            depth_max=self.rotor_depth_max_m,
+        )
 
     @property
     def stator(self) -> BoltCircle | None:
         """Threads in what stands still; None unless all of their figures are stated."""
-        return _circle(self.stator_bolt_circle_m, self.stator_bolts, self.stator_thread)
+        found = _circle(self.stator_bolt_circle_m, self.stator_bolts, self.stator_thread)
+        return found and replace(
+            found, depth=self.stator_depth_m, depth_max=self.stator_depth_max_m
+        )
 
     @property
     def mounting(self) -> Mounting | None:
@@ -173,7 +187,7 @@ class MotorSheet:
             no_load_speed=_speed(self.no_load_speed_rpm),
             speed_max=_speed(self.speed_max_rpm),
             peak_torque=torque,
-            peak_current=self._peak_current(),
+            peak_current=self.peak_current,
             continuous_torque=continuous,
             rotor_inertia=inertia,
             peak_basis=basis,
@@ -192,12 +206,13 @@ class MotorSheet:
         """
         if self.peak_torque_nm is not None:
             return self.peak_torque_nm, "peak torque"
-        current = self._peak_current()
+        current = self.peak_current
         if current is not None and self.torque_constant is not None:
             return current * self.torque_constant, "peak current"
         return self.stall_torque_nm, "stall torque" if self.stall_torque_nm else ""
 
-    def _peak_current(self) -> float | None:
+    @property
+    def peak_current(self) -> float | None:
         """Peak current in the convention of `Motor`: the one that gives the same torque [A]."""
         if self.peak_current_a is None or self.kt_convention is None:
             return self.peak_current_a
@@ -267,10 +282,9 @@ def _contradictions(sheet: MotorSheet) -> Iterator[str]:
             yield f"stall torque is {given:g} N m, but V k_t / R is {torque:.4g} N m"
 
     # Saturation takes from k_t times the peak current; nothing adds to it.
-    peak, current_max = sheet.peak_torque_nm, sheet.peak_current_a
-    per_ampere = sheet.kt_nm_per_a or k_t
-    if peak is not None and current_max is not None and per_ampere is not None:
-        most = per_ampere * current_max
+    peak, current_max = sheet.peak_torque_nm, sheet.peak_current
+    if peak is not None and current_max is not None and k_t is not None:
+        most = k_t * current_max
         if peak > most * (1.0 + PEAK_TOLERANCE):
             yield f"peak torque is {peak:g} N m, above k_t times the peak current, {most:.4g} N m"
     short_term = peak or sheet.stall_torque_nm
@@ -308,6 +322,11 @@ LIGAMENT = 1.0e-3
 def _bolt_circle_faults(sheet: MotorSheet, side: str, circle: BoltCircle | None) -> Iterator[str]:
     """Faults of the threads on one side, `rotor` or `stator`, one line each."""
     columns = [f"{side}_{end}" for end in ("bolt_circle_m", "bolts", "thread")]
+    depths = [getattr(sheet, f"{side}_{end}") for end in ("depth_m", "depth_max_m")]
+    if depths.count(None) == 1 or (circle is None and depths != [None, None]):
+        yield f"{side}_depth_m and {side}_depth_max_m belong to each other and to {columns[0]}"
+    elif None not in depths and depths[0] > depths[1]:
+        yield f"{side}_depth_m is {depths[0]:g}, above {side}_depth_max_m, {depths[1]:g}"
     if circle is None:
         missing = [column for column in columns if getattr(sheet, column) is None]
         if len(missing) < len(columns):

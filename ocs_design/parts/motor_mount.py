@@ -277,7 +277,22 @@ def _through_walls(circle: BoltCircle, foot_plate: float, purpose: str, depth: f
 
 
 def _fastening(circle: BoltCircle, thickness: float, purpose: str, depth: float) -> Fastening:
-    return Fastening(screw(circle.thread), circle.bolts, thickness, purpose, depth, circle.screws)
+    found = Fastening(
+        screw(circle.thread),
+        circle.bolts,
+        thickness,
+        purpose,
+        depth,
+        circle.screws,
+        circle.depth or 0.0,
+    )
+    least, most = circle.depth, circle.depth_max
+    if least is None or most is None:
+        return found
+    asked = f"{purpose}, its maker asks for {1e3 * least:.4g} to {1e3 * most:.4g} mm"
+    if found.length > thickness + most:
+        asked += f": shorten them to {1e3 * (thickness + most):.3g} mm"
+    return replace(found, purpose=asked)
 
 
 @dataclass(frozen=True)

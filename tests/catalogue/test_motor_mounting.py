@@ -50,6 +50,19 @@ FAULTS = {
     "half a bolt": ({"rotor_bolts": 3.5}, "rotor_bolts: 3.5 is not a whole number"),
     "no bolts": ({"rotor_bolts": 0}, "rotor_bolts: 0 is not positive"),
     "no class": ({"rotor_screws": "9.9"}, "rotor_screws is '9.9', which is none of 8.8, 10.9"),
+    "half a depth": ({"rotor_depth_m": 0.01}, "rotor_depth_m and rotor_depth_max_m belong to"),
+    "depth of nothing": (
+        {
+            "stator_bolt_circle_m": None,
+            "stator_bolts": None,
+            "stator_thread": None,
+            "stator_face": None,
+            "stator_depth_m": 0.01,
+            "stator_depth_max_m": 0.02,
+        },
+        "belong to each other and to stator_bolt_circle_m",
+    ),
+    "depths": ({"rotor_depth_m": 0.02, "rotor_depth_max_m": 0.01}, "0.02, above rotor_depth_max_m"),
     "inch thread": ({"rotor_thread": "4-40"}, "rotor_thread is '4-40', which is none of M2, M2.5"),
     "wide circle": ({"rotor_bolt_circle_m": 0.05}, "0.05, but the motor is only 0.05 m wide"),
     "thick shaft": ({"shaft_diameter_m": 0.06}, "shaft_diameter_m is 0.06, but the motor is only"),
@@ -102,6 +115,8 @@ def test_it_is_in_the_json_and_in_words():
         "bolts": 3,
         "thread": "M3",
         "screws": "8.8",
+        "depth": None,
+        "depth_max": None,
     }
     said = motor_mounting(motor("MN5212 KV340").mounting)
     assert said == "shaft 4 mm, rotor 3 x M3 on 17 mm, stator 4 x M3 on 25 mm (back)"

@@ -42,7 +42,8 @@ def test_there_are_motors_to_look_at():
 def test_every_screw_is_standard_and_holds(motor):
     """As short as it may be: the next shorter standard length would not hold."""
     for each in (*fastenings(motor), LID_SCREWS, trunk_screws(PLATE_THICKNESS)):
-        length, least = round(1e3 * each.length), 1e3 * each.depth * each.screw.diameter
+        least = 1e3 * max(each.depth * each.screw.diameter, each.least)
+        length = round(1e3 * each.length)
         held = length - 1e3 * each.thickness
         assert length in STANDARD
         assert held >= least - 1e-9
