@@ -4,9 +4,11 @@ Only what is not stated changes, and only as far as all that is stated allows it
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from ocs_design.common.errors import Infeasible
+from ocs_design.common.units import format_quantity
+from ocs_design.device.device import Device
 from ocs_design.requirement.checks import contradictions
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.vocabulary import AUTO, LIGHTEST, MORE_PAIRS, RELIABILITY, WHEELS
@@ -18,7 +20,29 @@ from ocs_design.sizing.selection.rejections import NO_ROOM, Refused
 LESS_SURE = (0.9, 0.8)
 """Reliabilities that are tried in turn where no device has the default one."""
 
-Tried = tuple[Specification, Refused | NeverHeld]
+
+HEAVY_MOTORS = 0.15
+"""Share of the robot's mass above which a device's motors make it worth trying more wheels: four of
+1.7 kg may do what two of 7 kg do."""
+
+
+@dataclass(frozen=True)
+class Heavier:
+    """A device that gave way to a lighter one.
+
+    Attributes:
+        mass: of it [kg].
+    """
+
+    mass: float
+
+    @property
+    def message(self) -> str:
+        """What it weighs."""
+        return f"{format_quantity(self.mass, 'kg', digits=4)}."
+
+
+Tried = tuple[Specification, Refused | NeverHeld | Heavier]
 """A specification, and how it was refused."""
 
 
@@ -50,6 +74,11 @@ def attempts(specification: Specification, tried: Sequence[Tried]) -> Iterator[S
             yield replace(asked, requirement=replace(asked.requirement, reliability=level))
 
 
+def more_wheels_may_do(device: Device, robot_mass: float) -> bool:
+    """Whether the motors are so heavy for the robot that more and smaller ones may be lighter."""
+    return len(device.modules) * (device.motor.mass or 0.0) > HEAVY_MOTORS * robot_mass
+
+
 def attempt_text(specification: Specification, asked: Specification) -> str:
     """What an attempt sizes, as in `a device of 4 wheels at its lightest incidence`."""
     layout, reliability = asked.ocs.layout, asked.requirement.reliability
@@ -69,12 +98,13 @@ def substitutions(
     """What was taken in place of what is not stated, and why: as assumptions, and as warnings."""
     told: list[str] = []
     few: list[str] = []
-    more, less = asked.ocs.layout, asked.requirement.reliability
-    if more is not None and more != specification.ocs.layout:
-        with_two = f"With two: {tried[0][1].message}"
+    stated, more, less = specification.ocs.layout, asked.ocs.layout, asked.requirement.reliability
+    if more is not None and more != stated:
+        two = (error.message for each, error in tried if each.ocs.layout == stated)
+        with_two = f"With two: {next(two)}"
         told.append(f"Layout: {more}, {WHEELS[more]} wheels. {with_two}")
         if specification.motor.name not in {None, AUTO}:
-            few.append(f"{WHEELS[more]} wheels are needed. {with_two}")
+            few.append(f"{WHEELS[more]} wheels are taken. {with_two}")
     criterion = specification.ocs.alpha_criterion
     if asked.ocs.alpha_criterion != criterion:
         at_alpha = replace(asked.ocs, alpha_criterion=criterion)
@@ -104,7 +134,7 @@ def closest(tried: Sequence[Tried], robot_mass: float) -> Refused:
     """
     refused = [error for _, error in tried if isinstance(error, Refused)]
     if not refused:
-        raise tried[0][1]
+        raise next(error for _, error in tried if isinstance(error, NeverHeld))
     if refused[0].nearest.reason in NO_ROOM:
         return refused[0]
     held = [each for each in refused if each.problem.robot.mass > robot_mass]

@@ -45,11 +45,13 @@ from ocs_design.simulation.trotting import require_trot
 from ocs_design.sizing.advice import unasked
 from ocs_design.sizing.design import CannotSurvive, design_device, survivors
 from ocs_design.sizing.fallbacks import (
+    Heavier,
     Tried,
     advised,
     attempt_text,
     attempts,
     closest,
+    more_wheels_may_do,
     substitutions,
 )
 from ocs_design.sizing.mounting import Mounting, mounting_of, placement_warnings
@@ -177,11 +179,19 @@ def size_or_advise(
 ) -> Placed:
     """Size the device; where nothing meets the specification, try the fallbacks in turn.
 
+    Where a device's motors are heavy for the robot, more wheels are tried too until they weigh
+    more, and the lightest device is taken.
+
     Raises:
         Infeasible: no attempt has a device; with the smallest changes that would do.
     """
     tried: list[Tried] = []
+    best: Placed | None = None
     for asked in attempts(specification, tried):
+        if best is not None:
+            of_best = best.specification
+            if asked.ocs.layout == of_best.ocs.layout or asked.requirement != of_best.requirement:
+                continue
         with steps.step(f"size {attempt_text(specification, asked)}") as step:
             try:
                 placed = size_on_robot(asked, robot, strict=strict)
@@ -196,7 +206,17 @@ def size_or_advise(
                 error.hint = f"{survivors(specification, robot, step.update)} {error.hint}"
                 raise
             step.note = placed.combinations
-        return placed.telling(substitutions(specification, asked, tried)) if tried else placed
+        if best is None:
+            best = placed
+        else:
+            best, heavier = sorted((best, placed), key=lambda each: each.designed.device.mass)
+            tried.append((heavier.specification, Heavier(heavier.designed.device.mass)))
+            if heavier.jumping is not None:
+                heavier.jumping.cancel()
+        if best is not placed or not more_wheels_may_do(best.designed.device, robot.mass):
+            break
+    if best is not None:
+        return best.telling(substitutions(specification, best.specification, tried))
     refusal = closest(tried, robot.mass)
     with steps.step("look for the smallest changes that would do") as step:
         found = advised(refusal, specification, tried, step.update)

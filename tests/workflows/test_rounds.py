@@ -1,4 +1,4 @@
-"""What was taken in place of what is not stated is told, however often a device is sized anew."""
+"""What is tried in turn, and that what was taken is told however often a device is sized anew."""
 
 from dataclasses import replace
 
@@ -7,8 +7,9 @@ from designed import designed
 
 from ocs_design.report.text.console import Steps
 from ocs_design.requirement.turns import TurnTo
+from ocs_design.sizing.on_robot import NeverHeld
 from ocs_design.workflows import rounds
-from ocs_design.workflows.rounds import Placed, size_for_turns
+from ocs_design.workflows.rounds import Placed, size_for_turns, size_or_advise
 
 TURN = TurnTo(name="turn", jump_height=1.0, yaw=1.0, duration=1.0)
 
@@ -47,3 +48,67 @@ def test_after_a_round_for_turns(placed, monkeypatch):
     assert found.estimates == {"turn": 1.5}
     assert found.resolved.assumptions == ("Layout: four wheels.", "assumed")
     assert found.warnings == ("four wheels are needed", "near")
+
+
+TWO, FOUR, SIX = None, "double-pair", "triple-pair"
+AT_ALPHA, LIGHTEST = None, "lightest"
+
+
+@pytest.mark.parametrize(
+    ("motor", "weigh", "taken", "why"),
+    [
+        (0.18, {}, [(TWO, AT_ALPHA)], ""),
+        (0.2, {FOUR: 4.0}, [(TWO, AT_ALPHA), (FOUR, AT_ALPHA)], ""),
+        (
+            0.2,
+            {FOUR: 2.0, SIX: 2.5},
+            [(TWO, AT_ALPHA), (FOUR, AT_ALPHA), (SIX, AT_ALPHA)],
+            "Layout: double-pair, 4 wheels. With two: 3 kg.",
+        ),
+        (
+            0.2,
+            {(FOUR, AT_ALPHA): None, FOUR: 2.0, SIX: 2.5},
+            [(TWO, AT_ALPHA), (FOUR, AT_ALPHA), (FOUR, LIGHTEST), (SIX, AT_ALPHA)],
+            "Layout: double-pair, 4 wheels. With two: 3 kg.",
+        ),
+        (
+            0.2,
+            {FOUR: None, SIX: None},
+            [
+                (TWO, AT_ALPHA),
+                (FOUR, AT_ALPHA),
+                (FOUR, LIGHTEST),
+                (SIX, AT_ALPHA),
+                (SIX, LIGHTEST),
+            ],
+            "",
+        ),
+    ],
+    ids=["light motors", "four are heavier", "four are lighter", "lighter at an angle", "no more"],
+)
+def test_heavy_motors_give_way_to_more_wheels_that_weigh_less(
+    placed, monkeypatch, motor, weigh, taken, why
+):
+    """Of devices of 3 kg on a robot of 2.5 kg, whose two motors weigh 14.4 or 16 % of it."""
+    assert placed.robot.mass == pytest.approx(2.5)
+    tried = []
+
+    def size_one(asked, _robot, *, strict):
+        key = asked.ocs.layout, asked.ocs.alpha_criterion
+        tried.append(key)
+        mass = weigh.get(key, weigh.get(key[0], 3.0))
+        if mass is None:
+            raise NeverHeld(placed.designed.choice.chosen, 1.0)
+        device = placed.designed.device
+        carrier = replace(device.carrier, mass=mass / 2.0 - device.flywheel.mass)
+        drive = replace(device.motor, mass=motor)
+        made = replace(device, carrier=carrier, motor=drive)
+        return replace(placed, specification=asked, designed=replace(placed.designed, device=made))
+
+    monkeypatch.setattr(rounds, "size_on_robot", size_one)
+    stated = replace(placed.specification, ocs=replace(placed.specification.ocs, layout=None))
+    found = size_or_advise(stated, placed.robot, Steps.silent(), strict=False)
+    assert tried == taken
+    lightest = min([3.0, *(mass for mass in weigh.values() if mass)])
+    assert found.designed.device.mass == pytest.approx(lightest)
+    assert next(iter(found.resolved.assumptions)) == (why or "assumed")
