@@ -39,7 +39,7 @@ from ocs_design.parts.joints import (
     tightening_torque,
 )
 from ocs_design.parts.pedestal import seat_compliance
-from ocs_design.parts.plate_strength import plate_frequency, plate_sway
+from ocs_design.parts.plate_strength import plate_frequency, plate_screws_use, plate_sway
 from ocs_design.parts.printed import SHOCK
 from ocs_design.parts.rim import LIGAMENT
 from ocs_design.parts.turning_rings import (
@@ -51,6 +51,7 @@ from ocs_design.parts.turning_rings import (
 RIM_JOINT, SHAFT_JOINT = "rim joint", "shaft joint"
 
 FOOT_SHOCK, FLOOR_SHOCK = "landing shock, foot", "landing shock, cage"
+SCREWS_SHOCK = "landing shock, screws in the trunk"
 
 RUN_OUT = 0.05e-3
 """Permissible run-out of the rim to the bore, on the wheel's drawing [m]; half of it is the
@@ -92,6 +93,12 @@ def _shocks(device: Device) -> Iterator[Margin]:
     shock = f"{SHOCK / STANDARD_GRAVITY:.0f} g"
     along = f"{shock} on {held} along the wheel's axis, until the foot, printed of PETG, breaks"
     yield Margin(FOOT_SHOCK, SHOCK, foot_shock(foot_of(device), module), "m/s2", along)
+    plate = device.plate
+    if plate is not None:
+        use = plate_screws_use(plate, module, foot_of(device).wheel_height)
+        count = len(plate.trunk)
+        note = f"{shock} on all modules, until one of {count} {plate.thread} of class 8.8 breaks"
+        yield Margin(SCREWS_SHOCK, SHOCK, SHOCK / use, "m/s2", note)
     cage = motor_mount(device).cage
     if cage is not None:
         drive, wheel = device.motor.mass or 0.0, device.flywheel.mass

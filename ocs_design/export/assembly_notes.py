@@ -1,7 +1,7 @@
 """Work that is left where motor, wheel, printed parts and trunk do not simply fit together."""
 
 from collections.abc import Iterator
-from math import sqrt
+from math import pi, sqrt
 
 from ocs_design.actuation.motor import DIRECT, Face, GearRoom, Mounting
 from ocs_design.catalogue.motors import known_motors
@@ -21,6 +21,9 @@ from ocs_design.parts.motor_mount import motor_front
 from ocs_design.parts.printed import DENSITY, MODULUS, SHOCK, STRENGTH, TRUNK_SCREW
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import trunk_surface
+
+WASHER_AREA = pi / 4.0 * ((7.0e-3) ** 2 - TRUNK_SCREW.clearance_hole**2)
+"""What a washer ISO 7089 presses on under the head of a foot's screw, M3 [m^2]."""
 
 _UNDRILLED = "drill floor and plate for it"
 
@@ -179,11 +182,18 @@ def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
             f"{sqrt(PLATE_MODULUS / MODULUS):.0f} times as high a frequency and "
             f"{1e3 * heavier:.0f} g heavier each"
         )
-    pressed = screw_pull(foot, module) / TRUNK_SCREW.head_area
-    if pressed > STRENGTH:
+    pull, shock = screw_pull(foot, module), f"{SHOCK / STANDARD_GRAVITY:.0f} g"
+    bare, under = pull / TRUNK_SCREW.head_area, pull / WASHER_AREA
+    if under > STRENGTH:
+        yield (
+            f"mill the feet of 6061-T6 to the same file: at {shock} the heads of their screws "
+            f"press with {1e-6 * under:.0f} MPa even on washers, and PETG yields at "
+            f"{1e-6 * STRENGTH:.0f}"
+        )
+    elif bare > STRENGTH:
         yield (
             f"put a washer ISO 7089 {TRUNK_SCREW.name} under each head of the feet's screws: at "
-            f"{SHOCK / STANDARD_GRAVITY:.0f} g a bare head presses with {1e-6 * pressed:.0f} MPa "
+            f"{shock} a bare head presses with {1e-6 * bare:.0f} MPa "
             f"on PETG that yields at {1e-6 * STRENGTH:.0f}"
         )
     for mode in modes:

@@ -9,8 +9,14 @@ from typing import TypeAlias
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.parts.carrier_plate import MODULUS, SAFETY, YIELD_STRENGTH, CarrierPlate
-from ocs_design.parts.joints import pattern_use
+from ocs_design.parts.carrier_plate import (
+    MODULUS,
+    SAFETY,
+    SLEEVE_MAX,
+    YIELD_STRENGTH,
+    CarrierPlate,
+)
+from ocs_design.parts.joints import pattern_use, screw_use
 from ocs_design.parts.printed import SHOCK
 
 _SECTIONS = 101
@@ -149,6 +155,29 @@ def mast_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
     bent = force / 4.0 * (1.0 + up / hypot(p, q)) * gap / 2.0 / section
     used = float(pattern_use(plate.screw, force, (off, np.asarray(up)), (p, q)))
     return max(used, bent / (YIELD_STRENGTH / SAFETY))
+
+
+def plate_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
+    """Largest share of strength that `SHOCK` along any one axis takes of a plate's screws.
+
+    A push at the wheels' height shears all of them alike and pulls at each as far as it is off
+    their middle, M r / sum r^2; see `screw_use`.
+
+    Args:
+        plate, mass, height: see `plate_stress`.
+    """
+    if plate.mast is not None:
+        return mast_screws_use(plate, mass, height)
+    if max(plate.sleeves) > SLEEVE_MAX:
+        return posts_use(plate, mass, height)
+    if len(plate.rows) > 1:
+        return max(plate_screws_use(each, mass, height) for each in plate.each)
+    places = np.array(plate.trunk) - np.mean(plate.trunk, axis=0)
+    share = plate.arms * mass * SHOCK / len(places)
+    arm, off = max(plate.sleeves) + plate.thickness + height, np.abs(places).max(axis=0)
+    pulled = share * len(places) * arm * off / (places**2).sum(axis=0)
+    pushed = screw_use(plate.screw, pulled, np.full(2, share)).max()
+    return float(max(pushed, screw_use(plate.screw, np.asarray(share), np.asarray(0.0))))
 
 
 def posts_use(plate: CarrierPlate, mass: float, height: float) -> float:

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 from ocs_design.actuation.motor import Motor, build_gaps
-from ocs_design.device.joints import FLOOR_SHOCK, FOOT_SHOCK, RIM_JOINT, SHAFT_JOINT
+from ocs_design.device.joints import FLOOR_SHOCK, FOOT_SHOCK, RIM_JOINT, SCREWS_SHOCK, SHAFT_JOINT
 from ocs_design.device.records.device import Buildable, MarginRecord, OpenPoint
 from ocs_design.parts.joints import EPOXY, Margin
 from ocs_design.report.quantities import quantity
@@ -46,6 +46,7 @@ _JOINT_CURES = {
     RIM_JOINT: "make the wheel in one piece, of a stronger material (--material), or choose a "
     "slower motor",
     SHAFT_JOINT: "choose a motor with threads in its rotor (--motor)",
+    SCREWS_SHOCK: "give a place where the plate's screws stand farther apart (--position)",
 }
 _BOND_CURE = "choose a slower motor, or a disc in place of the ring (--wheel disc)"
 _SPARE = ("shaft joint, screws in shear", FOOT_SHOCK, FLOOR_SHOCK)
@@ -90,7 +91,8 @@ def buildable(
             )
         )
     for joint in joints:
-        cure = _JOINT_CURES[SHAFT_JOINT if joint.name.startswith(SHAFT_JOINT) else RIM_JOINT]
+        shaft = SHAFT_JOINT if joint.name.startswith(SHAFT_JOINT) else RIM_JOINT
+        cure = _JOINT_CURES.get(joint.name, _JOINT_CURES[shaft])
         if EPOXY in joint.note:
             cure = _BOND_CURE
         if joint.capacity is None:

@@ -68,6 +68,15 @@ def test_a_foot_breaks_at_the_shock_that_is_told():
     assert "landing shock, cage" not in named(device())
 
 
+def test_screws_of_a_plate_have_a_shock_too():
+    """Beside the cage and the foot that it has without a plate."""
+    plain, on_plate = named(DEVICES["caged"]), named(DEVICES["on a plate"])
+    (name,) = set(on_plate) - set(plain)
+    assert name == "landing shock, screws in the trunk"
+    assert on_plate[name].note.endswith("until one of 4 M3 of class 8.8 breaks")
+    assert on_plate[name].factor > 1.0
+
+
 def test_a_cages_floor_breaks_at_the_shock_that_is_told():
     """As a plate that motor and wheel tilt, clamped by the posts along half of its edge."""
     caged = DEVICES["caged"]

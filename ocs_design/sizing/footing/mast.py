@@ -13,7 +13,7 @@ from ocs_design.actuation.fasteners import screw
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.device.layout import Layout
 from ocs_design.device.solids import mast_solids, plate_solids
-from ocs_design.parts.carrier_plate import EDGE, CarrierPlate, Point, plate_part
+from ocs_design.parts.carrier_plate import EDGE, SLEEVE_MAX, CarrierPlate, Point, plate_part
 from ocs_design.parts.joints import pattern_use
 from ocs_design.parts.mast import MAST_YIELD, TUBES, Mast
 from ocs_design.parts.plate_strength import arm_stress, mast_screws_use, mast_stress
@@ -24,7 +24,7 @@ from ocs_design.robot.surface import Surface, trunk_back
 from ocs_design.sizing.footing.feet import SENSES, Feet, Footing, rough
 from ocs_design.sizing.footing.lands import FLATNESS, PROUD, disc_points
 from ocs_design.sizing.footing.plate import SLOT_EDGE, WIDER, blank_plate, thick_enough
-from ocs_design.sizing.footing.screws import HEAD_ROOM, PATTERN_STEP, SLEEVE_MAX, SPREAD
+from ocs_design.sizing.footing.screws import HEAD_ROOM, PATTERN_STEP, SPREAD
 from ocs_design.sizing.place import CLEARANCE, Place, Size
 from ocs_design.sizing.placement import Search, Sizes
 

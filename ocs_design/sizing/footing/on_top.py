@@ -16,7 +16,7 @@ from ocs_design.robot.surface import Surface, trunk_surface
 from ocs_design.sizing.footing.feet import Feet, Footing, ring_of, rough
 from ocs_design.sizing.footing.lands import disc_points, highest_of
 from ocs_design.sizing.footing.plate import held_at, plate_of
-from ocs_design.sizing.footing.screws import PLATE_SCREW, POST_SCREW
+from ocs_design.sizing.footing.screws import PLATE_SCREW, POST_SCREW, STRONG_SCREW
 from ocs_design.sizing.place import Size, around
 from ocs_design.sizing.placement import Search, Sizes
 
@@ -30,7 +30,7 @@ STEP = 4e-3
 def footing_on_top(surface: Surface, feet: Feet, search: Search) -> Footing | None:
     """The nearest place of the feet, as close together as they fit; pairs also farther apart."""
     found = _nearest_footing(surface, feet, search, 0.0, PLATE_SCREW)
-    if found is None and search.layout.pairs:
+    if found is None:
         way = _way(search.collision.robot, *rough(feet, search.sizes.largest), search.layout)
         return None if way is None else _nearest_footing(surface, feet, search, *way)
     return found
@@ -40,12 +40,16 @@ def footing_on_top(surface: Surface, feet: Feet, search: Search) -> Footing | No
 def _way(robot: Robot, feet: Feet, size: Size[float], layout: Layout) -> tuple[float, Screw] | None:
     """How much farther apart pairs stand than they must, and what screws hold their plate.
 
-    Farther apart first, then on posts, over what stands up from the trunk; None: neither does.
+    With stronger screws first, then farther apart, then on posts, over what stands up from the
+    trunk; None: none does.
     """
     surface, x = trunk_surface(robot), round(float(robot.com[0]), 6) + 0.0
     search = Search(collision_model(robot), Sizes(size, size), layout)
     feet = replace(feet, x=x, bases=ring_of(layout, size.reach))
-    ways = [*((aside, PLATE_SCREW) for aside in ASIDE), (0.0, POST_SCREW)]
+    ways = [(0.0, STRONG_SCREW)]
+    if layout.pairs:
+        both = PLATE_SCREW, STRONG_SCREW
+        ways += [*((aside, each) for aside in ASIDE for each in both), (0.0, POST_SCREW)]
     found = (way for way in ways if surface and _nearest_footing(surface, feet, search, *way))
     return next(found, None)
 
@@ -87,7 +91,7 @@ def _nearest_footing(
             on_trunk = around((moved.x, 0.0, top), search.layout, aside)
             if isfinite(top) and not search.is_clear(on_trunk):
                 continue
-        held = held_at(surface, moved, held_by=held_by)
+        held = held_at(surface, moved, held_by=(held_by,))
         if held is not None:
             plate = plate_of(held)
             height = held.top if isinstance(held, CarrierPlate) else held

@@ -16,7 +16,7 @@ from ocs_design.parts.carrier_plate import (
     YIELD_STRENGTH,
     CarrierPlate,
 )
-from ocs_design.parts.plate_strength import plate_stresses, posts_use
+from ocs_design.parts.plate_strength import plate_screws_use, plate_stresses, posts_use
 from ocs_design.parts.printed import AROUND_SLOT, TRUNK_SCREW
 from ocs_design.robot.surface import Surface
 from ocs_design.sizing.footing.contact import contact_of
@@ -33,8 +33,10 @@ from ocs_design.sizing.footing.lands import (
 from ocs_design.sizing.footing.screws import (
     PATTERN_STEP,
     PLATE_SCREW,
+    POST_SCREW,
     POST_WALL,
     SPREAD,
+    STRONG_SCREW,
     Patterns,
     flat_patterns,
     on_posts,
@@ -57,14 +59,14 @@ def held_at(
     surface: Surface,
     feet: Feet,
     underside: float | None = None,
-    held_by: Screw = PLATE_SCREW,
+    held_by: Sequence[Screw] = (PLATE_SCREW, STRONG_SCREW),
 ) -> CarrierPlate | float | None:
     """What holds the feet at their place: the trunk at a height [m], a plate, or nothing.
 
     Args:
         surface: of the trunk. feet: on it.
         underside: height of the feet in B, where it is stated [m]; None: what the trunk has.
-        held_by: screws of a plate.
+        held_by: screws of a plate, tried in turn.
     """
     plane = nan if underside is None else underside
     if underside is None:
@@ -81,7 +83,8 @@ def held_at(
         for side in feet.middles
     ):
         return float(round(plane, 6))
-    return _plate(surface, feet, underside, held_by) if feet.rows else None
+    plates = (_plate(surface, feet, underside, each) for each in held_by if feet.rows)
+    return next((plate for plate in plates if plate is not None), None)
 
 
 def _plate(
@@ -153,7 +156,7 @@ def _outlines(feet: Feet, held_by: Screw) -> tuple[CarrierPlate, ...]:
             blank_plate(feet, radius, neck),
             thread=held_by.name,
             arms=feet.arms,
-            sleeve_wall=SLEEVE_WALL if held_by is PLATE_SCREW else POST_WALL,
+            sleeve_wall=POST_WALL if held_by is POST_SCREW else SLEEVE_WALL,
         )
         if plate.shape.fits:
             plates.append(plate)
@@ -198,7 +201,8 @@ def _borne(
 def _bearing(held: CarrierPlate, feet: Feet, thicknesses: tuple[float, ...]) -> CarrierPlate | None:
     """The plate in the first of some thicknesses [m] that bears the modules; None: in none."""
     for plate in thick_enough(held, feet, YIELD_STRENGTH / SAFETY, thicknesses):
-        if not on_posts(plate) or posts_use(plate, feet.mass, feet.height) <= 1.0:
+        use = posts_use if on_posts(plate) else plate_screws_use
+        if use(plate, feet.mass, feet.height) <= 1.0:
             return plate
     return None
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ocs_design.actuation.fasteners import Screw, screw
 from ocs_design.common.arrays import FloatArray
-from ocs_design.parts.carrier_plate import EDGE, CarrierPlate, Point
+from ocs_design.parts.carrier_plate import EDGE, SLEEVE_MAX, CarrierPlate, Point
 from ocs_design.parts.dog_bone import directions
 from ocs_design.robot.surface import Surface
 from ocs_design.sizing.footing.feet import SAME, SENSES, Feet
@@ -23,14 +23,12 @@ from ocs_design.sizing.footing.lands import FLATNESS, PROUD, disc_points
 HEAD_ROOM = 0.5e-3
 """Room between a screw's head and a foot's base [m]."""
 
-PLATE_SCREW, POST_SCREW = screw("M3"), screw("M8")
-"""Screws that hold a plate on the trunk: through sleeves at the most, and through posts."""
+PLATE_SCREW, STRONG_SCREW, POST_SCREW = screw("M3"), screw("M5"), screw("M8")
+"""Screws that hold a plate on the trunk: through sleeves at the most, where those do not bear 20 g,
+and through posts."""
 
 SPREAD = 0.02
 """Least distance of a plate's screws, forward and sideways [m]: four heads of M5 and a key."""
-
-SLEEVE_MAX = 0.03
-"""Longest sleeve under a plate [m]: four times as long as wide, for M3."""
 
 POST_WALL, POST_MAX = 4e-3, 0.17
 """Wall of a post, and longest one [m]: with M8 x 200."""
