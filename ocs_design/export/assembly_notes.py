@@ -67,8 +67,10 @@ def drive_notes(device: Device) -> tuple[str, ...]:
             f"in the catalogue: {stands}; {_UNDRILLED}{threads}"
         )
         return (held, *_overlap_notes(device, foot))
-    mounting = motor.mounting or Mounting()
+    mounting, known = motor.mounting or Mounting(), known_motors(None).get(motor.name)
+    remark = () if known is None or not known.remark else (f"of the motor: {known.remark}",)
     return (
+        *remark,
         *_mounting_notes(mounting, device),
         *_shaft_notes(mounting, device),
         *_overlap_notes(device, foot),
