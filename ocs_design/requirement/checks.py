@@ -337,7 +337,7 @@ def _oversized(specification: Specification, robot: Robot, size: float) -> Itera
             )
 
 
-OVERFED = 2.0
+OVERFED = 1.25
 """Times the highest voltage of any motor on offer: more was meant with its point elsewhere."""
 
 EMPTY_CELL = 3.0
