@@ -21,7 +21,7 @@ LESS_SURE = (0.9, 0.8)
 """Reliabilities that are tried in turn where no device has the default one."""
 
 
-HEAVY_MOTORS = 0.15
+HEAVY_MOTORS = 0.2
 """Share of the robot's mass above which a device's motors make it worth trying more wheels: four of
 1.7 kg may do what two of 7 kg do."""
 
