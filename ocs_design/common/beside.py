@@ -74,6 +74,7 @@ class Beside:
             process.stdin.flush()
 
         def answer() -> Found:
+            """What the process found; found here if it failed."""
             written, _ = process.communicate()
             if process.returncode != 0:
                 return here()

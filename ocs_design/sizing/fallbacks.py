@@ -43,7 +43,7 @@ class Heavier:
 
 
 Tried = tuple[Specification, Refused | NeverHeld | Heavier]
-"""A specification, and how it was refused."""
+"""A specification, and how it was refused, or what its device weighs that is not taken."""
 
 
 def attempts(specification: Specification, tried: Sequence[Tried]) -> Iterator[Specification]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ocs_design.common.errors import Infeasible
+from ocs_design.common.errors import Infeasible, SpecificationError
 from ocs_design.device.answers import MonteCarloRecord
 from ocs_design.device.checks import device_warnings
 from ocs_design.device.records.flights import SurvivalRecord
@@ -152,16 +152,9 @@ def size_on_robot(
             resolved = replace(resolved, requirement=own, assumptions=told)
         if jumping is not None:
             jumping.carry(device)
-        device_warnings(device, robot.mass_properties, strict=strict)
         mounting = mounting_of(robot, device, resolved.requirement.maneuvers, designed.sized.total)
-        warnings = placement_warnings(
-            mounting,
-            robot,
-            device,
-            resolved.envelope,
-            stated=specification.ocs.position is not None,
-            strict=strict,
-        )
+        placed = Placed(specification, robot, resolved, designed, mounting, (), jumping, factors)
+        placed = replace(placed, warnings=warnings_of(placed, strict=strict))
     except BaseException as error:
         if jumping is not None:
             jumping.cancel()
@@ -171,7 +164,39 @@ def size_on_robot(
                 error.hint = f"{unasked(resolved.requirement.maneuvers)} {error.hint}"
         raise
     forget_collision_model()
-    return Placed(specification, robot, resolved, designed, mounting, warnings, jumping, factors)
+    return placed
+
+
+def warnings_of(placed: Placed, *, strict: bool) -> tuple[str, ...]:
+    """Warnings about where a device stands.
+
+    Raises:
+        SpecificationError: `strict`, and there is any, or the device is heavy for its robot.
+    """
+    robot, device = placed.robot, placed.designed.device
+    device_warnings(device, robot.mass_properties, strict=strict)
+    return placement_warnings(
+        placed.mounting,
+        robot,
+        device,
+        placed.resolved.envelope,
+        stated=placed.specification.ocs.position is not None,
+        strict=strict,
+    )
+
+
+def refuse_warnings(placed: Placed) -> None:
+    """Refuse a device that there is any warning about.
+
+    Raises:
+        SpecificationError: with the first one; its jumps are no longer planned.
+    """
+    try:
+        warnings_of(placed, strict=True)
+    except SpecificationError:
+        if placed.jumping is not None:
+            placed.jumping.cancel()
+        raise
 
 
 def size_or_advise(
@@ -184,6 +209,7 @@ def size_or_advise(
 
     Raises:
         Infeasible: no attempt has a device; with the smallest changes that would do.
+        SpecificationError: `strict`, and there is a warning about the device that is taken.
     """
     tried: list[Tried] = []
     best: Placed | None = None
@@ -194,7 +220,8 @@ def size_or_advise(
                 continue
         with steps.step(f"size {attempt_text(specification, asked)}") as step:
             try:
-                placed = size_on_robot(asked, robot, strict=strict)
+                # A device that gives way to a lighter one needs not be free of warnings.
+                placed = size_on_robot(asked, robot, strict=False)
             except (Refused, NeverHeld) as error:
                 tried.append((asked, error))
                 step.note = "nothing meets the specification"
@@ -216,6 +243,8 @@ def size_or_advise(
         if best is not placed or not more_wheels_may_do(best.designed.device, robot.mass):
             break
     if best is not None:
+        if strict:
+            refuse_warnings(best)
         return best.telling(substitutions(specification, best.specification, tried))
     refusal = closest(tried, robot.mass)
     with steps.step("look for the smallest changes that would do") as step:

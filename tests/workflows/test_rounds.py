@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 from designed import designed
 
+from ocs_design.common.errors import SpecificationError
 from ocs_design.report.text.console import Steps
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.sizing.on_robot import NeverHeld
@@ -112,3 +113,25 @@ def test_heavy_motors_give_way_to_more_wheels_that_weigh_less(
     lightest = min([3.0, *(mass for mass in weigh.values() if mass)])
     assert found.designed.device.mass == pytest.approx(lightest)
     assert next(iter(found.resolved.assumptions)) == (why or "assumed")
+
+
+def test_strict_looks_at_the_device_that_is_taken(placed, monkeypatch):
+    """The pair of 120 % of the robot gives way to four of 20 %; alone it is refused."""
+    device = placed.designed.device
+
+    def size_one(asked, _robot, *, strict):
+        assert not strict
+        mass = 3.0 if asked.ocs.layout is TWO or not lighter else 0.5
+        carrier = replace(device.carrier, mass=mass / 2.0 - device.flywheel.mass)
+        made = replace(device, carrier=carrier, motor=replace(device.motor, mass=0.26))
+        return replace(placed, specification=asked, designed=replace(placed.designed, device=made))
+
+    monkeypatch.setattr(rounds, "size_on_robot", size_one)
+    monkeypatch.setattr(rounds, "placement_warnings", lambda *_, **__: ())
+    stated = replace(placed.specification, ocs=replace(placed.specification.ocs, layout=None))
+    lighter = True
+    found = size_or_advise(stated, placed.robot, Steps.silent(), strict=True)
+    assert found.designed.device.mass == pytest.approx(0.5)
+    lighter = False
+    with pytest.raises(SpecificationError, match="120% of the robot"):
+        size_or_advise(stated, placed.robot, Steps.silent(), strict=True)

@@ -16,7 +16,7 @@ from ocs_design.parts.carrier_plate import (
     YIELD_STRENGTH,
     CarrierPlate,
 )
-from ocs_design.parts.plate_strength import plate_screws_use, plate_stresses, posts_use
+from ocs_design.parts.plate_strength import plate_screws_use, plate_stresses
 from ocs_design.parts.printed import AROUND_SLOT, TRUNK_SCREW
 from ocs_design.robot.surface import Surface
 from ocs_design.sizing.footing.contact import contact_of
@@ -39,7 +39,6 @@ from ocs_design.sizing.footing.screws import (
     STRONG_SCREW,
     Patterns,
     flat_patterns,
-    on_posts,
     room_to_foot,
     screwed,
 )
@@ -201,8 +200,7 @@ def _borne(
 def _bearing(held: CarrierPlate, feet: Feet, thicknesses: tuple[float, ...]) -> CarrierPlate | None:
     """The plate in the first of some thicknesses [m] that bears the modules; None: in none."""
     for plate in thick_enough(held, feet, YIELD_STRENGTH / SAFETY, thicknesses):
-        use = posts_use if on_posts(plate) else plate_screws_use
-        if use(plate, feet.mass, feet.height) <= 1.0:
+        if plate_screws_use(plate, feet.mass, feet.height) <= 1.0:
             return plate
     return None
 
