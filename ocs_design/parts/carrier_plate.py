@@ -46,7 +46,7 @@ SLEEVE_WALL = 2.0e-3
 """Wall of a sleeve around its screw [m]: 7.4 mm outside for M3, wider than the screw's head."""
 
 SLEEVE_MAX = 0.03
-"""Longest sleeve under a plate, four times as long as wide for M3 [m]; longer ones are posts."""
+"""Longest sleeve under a plate, four times as long as wide for M3 [m]; longer are posts alone."""
 
 POST_DEPTH = 1.9
 """Depth of the threads of posts over their diameter, at least: aluminium then bears all of M8's

@@ -12,7 +12,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.parts.carrier_plate import (
     MODULUS,
     SAFETY,
-    SLEEVE_MAX,
+    SLEEVE_WALL,
     YIELD_STRENGTH,
     CarrierPlate,
 )
@@ -168,7 +168,8 @@ def plate_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
     """
     if plate.mast is not None:
         return mast_screws_use(plate, mass, height)
-    if max(plate.sleeves) > SLEEVE_MAX:
+    # Sleeves with the wall of posts are clamped as those are, however short.
+    if plate.sleeve_wall > SLEEVE_WALL:
         return posts_use(plate, mass, height)
     if len(plate.rows) > 1:
         return max(plate_screws_use(each, mass, height) for each in plate.each)
