@@ -22,16 +22,11 @@ def test_anatomy_covers_every_robot_that_can_be_read():
 
 
 @pytest.mark.parametrize("name", ANATOMY)
-def test_legs_are_found_and_nothing_else(name):
+def test_trunk_and_legs_are_found_and_nothing_else(name):
+    trunk, count = ANATOMY[name]
     legs = legs_of(name)
-    assert len(legs) == ANATOMY[name][1]
-    assert len({leg.name for leg in legs}) == len(legs)
-
-
-@pytest.mark.parametrize("name", ANATOMY)
-def test_trunk(name):
-    tree = tree_of(name)
-    assert find_trunk(tree, legs_of(name)) == ANATOMY[name][0]
+    assert find_trunk(tree_of(name), legs) == trunk
+    assert len({leg.name for leg in legs}) == len(legs) == count
 
 
 @pytest.mark.parametrize("name", LEGGED)

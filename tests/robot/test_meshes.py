@@ -9,7 +9,7 @@ from robots import ROBOTS
 
 from ocs_design.common.errors import RobotError
 from ocs_design.robot.meshes import check_mesh_file, mesh_bounds
-from ocs_design.robot.packages import MOST_FOLDERS, MeshFinder
+from ocs_design.robot.packages import MOST_FOLDERS, MeshFinder, is_below, package_roots, roots_of
 from ocs_design.robot.reader import load
 
 
@@ -138,19 +138,18 @@ def test_vertices_without_face_do_not_count(tmp_path: Path):
     np.testing.assert_array_equal(mesh_bounds(path, (1, 1, 1)), [[0, 0, 0], [1, 1, 0]])
 
 
-@pytest.mark.parametrize("name", ["m.stl", "m.obj", "m.dae", "m.unknown"])
-def test_unreadable_meshes_have_no_bounds(tmp_path: Path, name):
-    path = tmp_path / name
-    assert mesh_bounds(tmp_path / "gone" / name, (1, 1, 1)) is None
-    path.write_bytes(b"\x00garbage\xff")
-    assert mesh_bounds(path, (1, 1, 1)) is None
-
-
-@pytest.mark.parametrize("vertex", ["v 0.0 0.0", "v"])
-def test_vertices_without_three_numbers_have_no_bounds(tmp_path: Path, vertex):
-    path = tmp_path / "m.obj"
-    path.write_text(f"{vertex}\nf 1 1 1\n")
-    assert mesh_bounds(path, (1, 1, 1)) is None
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        *[(f"m.{kind}", b"\x00garbage\xff") for kind in ("stl", "obj", "dae", "unknown")],
+        ("m.obj", b"v 0.0 0.0\nf 1 1 1\n"),
+        ("m.obj", b"v\nf 1 1 1\n"),
+    ],
+)
+def test_unreadable_meshes_have_no_bounds(tmp_path: Path, name, content):
+    assert mesh_bounds(tmp_path / name, (1, 1, 1)) is None
+    (tmp_path / name).write_bytes(content)
+    assert mesh_bounds(tmp_path / name, (1, 1, 1)) is None
 
 
 def test_meshes_that_are_too_large_or_in_archives_are_not_opened(tmp_path: Path, monkeypatch):
@@ -212,3 +211,32 @@ def test_collada_with_y_up_that_lies_right_is_left(robot):
     shapes = [shape for body in tree.bodies for shape in body.shapes if shape.mesh is not None]
     assert any(b"<up_axis>Y_UP" in shape.mesh.read_bytes()[:4096] for shape in shapes)
     assert not any("y is upwards" in each for each in tree.warnings)
+
+
+def test_the_folder_and_the_package_around_it(tmp_path):
+    folder = tmp_path / "package" / "urdf"
+    folder.mkdir(parents=True)
+    assert roots_of(folder / "robot.urdf") == (folder,)
+    (tmp_path / "package" / "package.xml").touch()
+    assert set(roots_of(folder / "robot.urdf")) == {folder, tmp_path / "package"}
+    assert is_below(folder / "../meshes/a.stl", roots_of(folder / "robot.urdf"))
+    assert not is_below(folder / "../../a.stl", roots_of(folder / "robot.urdf"))
+
+
+def test_a_workspace_that_is_installed_by_links(tmp_path):
+    source, installed = tmp_path / "src", tmp_path / "install"
+    source.mkdir()
+    installed.mkdir()
+    for name in ("package.xml", "robot.xacro", "leg.xacro"):
+        (source / name).touch()
+        (installed / name).symlink_to(source / name)
+    assert is_below(installed / "leg.xacro", roots_of(installed / "robot.xacro"))
+    assert package_roots(installed) == (installed, source)
+    assert package_roots(tmp_path) == ()
+
+
+def test_a_link_leads_out(tmp_path):
+    (tmp_path / "robot").mkdir()
+    (tmp_path / "secret").touch()
+    (tmp_path / "robot" / "a").symlink_to(tmp_path / "secret")
+    assert not is_below(tmp_path / "robot" / "a", roots_of(tmp_path / "robot" / "robot.xml"))

@@ -1,5 +1,6 @@
 """The MJCF reader against MuJoCo itself, and against the URDF reader on the same robot."""
 
+import os
 import re
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import trimesh
 from robots import SOLO12
 
 from ocs_design.common.errors import RobotError
+from ocs_design.robot import mjcf_spec
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.mjcf import read_mjcf
 from ocs_design.robot.tree import JointKind, ShapeKind, Tree
@@ -339,3 +341,54 @@ def test_the_robot_is_what_is_driven_or_free_with_joints_else_it_is_asked(bodies
     for part in str(caught.value.hint).split("--trunk ")[1:]:
         name = re.split(r"[;.]", part)[0]
         assert read_mjcf(text, None, [name]).bodies[0].name == name
+
+
+BODY = '<body name="trunk"><freejoint/><geom size="0.1"/></body>'
+MODEL = '<mujoco><include file="{}"/><worldbody>' + BODY + "</worldbody></mujoco>"
+INCLUDED = "<mujoco><option timestep='0.01'/></mujoco>"
+WITH_MESH = (
+    '<mujoco><asset><mesh name="m" file="m.stl"/></asset><worldbody><body name="trunk"><freejoint/>'
+    '<geom type="mesh" mesh="m"/></body></worldbody></mujoco>'
+)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "robot").mkdir()
+    (tmp_path / "out.xml").write_text(INCLUDED)
+    return tmp_path / "robot"
+
+
+def read_with(folder, include):
+    return read_mjcf(MODEL.format(include).encode(), folder)
+
+
+def test_an_include_may_not_leave_the_folder(folder):
+    (folder / "link.xml").symlink_to(folder / "../out.xml")
+    for file in ("../out.xml", folder.parent / "out.xml", "link.xml"):
+        with pytest.raises(RobotError, match="outside of the model's folder"):
+            read_with(folder, file)
+
+
+def test_within_a_repository_it_may(folder):
+    (folder.parent / ".git").mkdir()
+    assert read_with(folder, "../out.xml").bodies[0].name == "trunk"
+
+
+def test_a_pipe_or_a_giant_is_not_waited_for(folder, monkeypatch):
+    os.mkfifo(folder / "pipe.xml")
+    with pytest.raises(RobotError, match="no plain file"):
+        read_with(folder, "pipe.xml")
+    monkeypatch.setattr(mjcf_spec, "LARGEST_ASSET", 10)
+    (folder / "m.stl").write_bytes(bytes(11))
+    with pytest.raises(RobotError, match=r"m\.stl cannot be read: it is larger"):
+        read_mjcf(WITH_MESH.encode(), folder)
+
+
+@pytest.mark.parametrize("number", ["1e300", "-1e80", "inf", "1e999"])
+def test_numbers_beyond_all_measure_are_refused(number):
+    text = (
+        f'<mujoco><worldbody><body name="a" pos="{number} 0 0">{BODY}</body></worldbody></mujoco>'
+    )
+    with pytest.raises(RobotError):
+        read_mjcf(text.encode(), None)

@@ -6,11 +6,22 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
+import trimesh
+from anatomy import tree_of
 from robots import ALL_URDFS, ROBOTS, SOLO12, one_of_each
+from urdf_text import inertial, link
+from urdf_text import robot as urdf
 
 from ocs_design.common.errors import RobotError
 from ocs_design.robot.manual import robot_by_hand
-from ocs_design.robot.mujoco_model import build_spec, foot_geom_name, posture_qpos, trunk_body
+from ocs_design.robot.mujoco_bodies import VISUAL_BYTES, oversized_visuals
+from ocs_design.robot.mujoco_model import (
+    build_spec,
+    foot_geom_name,
+    posture_qpos,
+    reduce_to_hulls,
+    trunk_body,
+)
 from ocs_design.robot.reader import load, read_robot
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import JointKind
@@ -196,31 +207,22 @@ def test_a_foot_of_nothing_gets_something_to_stand_on():
         assert geom.size[0] == pytest.approx(leg.foot_radius or 0.02 * leg.length)
 
 
-@pytest.mark.parametrize("content", [b"", b"solid nothing\nendsolid nothing\n", b"\0" * 84 + b"x"])
-def test_broken_meshes_never_stop_a_robot(tmp_path, content):
-    (tmp_path / "broken.stl").write_bytes(content)
-    path = tmp_path / "robot.urdf"
-    path.write_text(
-        '<robot name="r"><link name="trunk"><inertial><mass value="1"/><inertia ixx="1" iyy="1"'
-        ' izz="1" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry>'
-        '<mesh filename="broken.stl"/></geometry></collision></link></robot>'
-    )
-    built = build_spec(unposed_robot(path))
-    assert any("broken.stl" in warning for warning in built.warnings)
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("empty.stl", b""),
+        ("nothing.stl", b"solid nothing\nendsolid nothing\n"),
+        ("cut.stl", b"\0" * 84 + b"x"),
+        ("flat.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n"),
+    ],
+)
+def test_broken_and_flat_meshes_are_left_out_with_a_warning(tmp_path, name, content):
+    (tmp_path / name).write_bytes(content)
+    mesh = f'<collision><geometry><mesh filename="{name}"/></geometry></collision>'
+    (tmp_path / "robot.urdf").write_bytes(urdf(link("trunk", inertial(), mesh)))
+    built = build_spec(unposed_robot(tmp_path / "robot.urdf"))
+    assert any(name in warning for warning in built.warnings)
     assert built.spec.compile().ngeom == 0
-
-
-def test_a_flat_mesh_is_left_out_with_a_warning(tmp_path):
-    (tmp_path / "flat.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n")
-    path = tmp_path / "robot.urdf"
-    path.write_text(
-        '<robot name="r"><link name="trunk"><inertial><mass value="1"/><inertia ixx="1" iyy="1"'
-        ' izz="1" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry>'
-        '<mesh filename="flat.obj"/></geometry></collision></link></robot>'
-    )
-    built = build_spec(unposed_robot(path))
-    built.spec.compile()
-    assert any("flat.obj" in warning for warning in built.warnings)
 
 
 def test_a_robot_by_hand_is_one_free_box():
@@ -275,3 +277,116 @@ def test_an_mjcf_robot_brings_its_includes(tmp_path):
 
 def test_the_solver_is_dense():
     assert build_spec(robot_by_hand(1.0, (1.0, 1.0, 1.0))).spec.option.jacobian == 0
+
+
+PLAYER = """<mujoco model="player"><worldbody>
+  <light name="lamp" mode="targetbody" target="ball" pos="0 0 3"/>
+  <body name="dog" pos="0 0 0.5"><freejoint/><geom size="0.1" mass="3"/>
+    <camera name="eye" mode="targetbody" target="ball"/>
+    <camera name="self" mode="targetbody" target="tail"/>
+    <body name="tail" pos="-0.2 0 0"><joint name="wag"/><geom size="0.02" mass="0.1"/></body></body>
+  <body name="ball" pos="1 0 0.1"><freejoint/><geom size="0.1" mass="0.3"/></body>
+</worldbody></mujoco>"""
+
+
+def test_nobody_looks_at_what_is_left_out(tmp_path):
+    (tmp_path / "player.xml").write_text(PLAYER)
+    built = build_spec(read_robot(tmp_path / "player.xml"))
+    model = built.spec.compile()
+    fixed = mujoco.mjtCamLight.mjCAMLIGHT_FIXED
+    assert [model.body(i).name for i in range(1, model.nbody)] == ["dog", "tail"]
+    assert model.cam_mode[model.camera("eye").id] == model.light_mode[0] == fixed
+    assert model.cam_targetbodyid[model.camera("self").id] == model.body("tail").id
+    assert any("ball" in warning for warning in built.warnings)
+
+
+DIRECTIONS = np.random.default_rng(0).normal(size=(500, 3))
+
+
+def reach(model):
+    """How far each mesh geom that may touch reaches in each direction [m], by its body and place.
+
+    Two convex bodies are the same if their support functions are.
+    """
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    found = {}
+    for geom in range(model.ngeom):
+        mesh = model.geom_dataid[geom]
+        if mesh < 0 or model.geom_contype[geom] == 0:
+            continue
+        first = model.mesh_vertadr[mesh]
+        own = model.mesh_vert[first : first + model.mesh_vertnum[mesh]].astype(np.float64)
+        placed = own @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom]
+        found[geom] = (placed @ DIRECTIONS.T).max(axis=0)
+    return found
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param("g1_description/urdf/g1_29dof_rev_1_0", marks=pytest.mark.exhaustive),
+        "bolt_description/robots/bolt",
+    ],
+)
+def test_hulls_reach_as_far_as_the_meshes(name):
+    robot = read_robot(ROBOTS / f"{name}.urdf")
+    whole, hulls = (build_spec(robot, visuals=shown).spec for shown in (True, False))
+    for geom in [geom for geom in whole.geoms if geom.contype == 0]:
+        whole.delete(geom)
+    before, after = whole.compile(), hulls.compile()
+    expected, found = reach(before), reach(after)
+    assert expected.keys() == found.keys() != set()
+    for geom, distance in expected.items():
+        np.testing.assert_allclose(found[geom], distance, rtol=0.0, atol=1e-6)
+    assert after.nmeshvert < before.nmeshvert / 3
+    assert after.body_inertia.tolist() == before.body_inertia.tolist()
+    assert not hulls.assets
+
+
+def test_a_box_fitted_to_a_mesh_stays_as_it_is():
+    """Its size comes from the inertia of the mesh, which is not that of the hull."""
+    ring = trimesh.creation.annulus(0.05, 0.1, 0.02)
+    spec = mujoco.MjSpec()
+    spec.assets["ring.stl"] = ring.export(file_type="stl")
+    spec.add_mesh(name="ring", file="ring.stl")
+    for kind in (mujoco.mjtGeom.mjGEOM_BOX, mujoco.mjtGeom.mjGEOM_MESH):
+        spec.worldbody.add_geom(type=kind, meshname="ring")
+    before = spec.compile()
+    reduce_to_hulls(spec, before)
+    after = spec.compile()
+    assert after.geom_size.tolist() == before.geom_size.tolist()
+    assert after.nmeshvert == before.nmeshvert
+
+
+@pytest.mark.parametrize(
+    ("name", "left_out"),
+    [
+        ("go1_description/urdf/go1", {"trunk.dae"}),
+        ("b1_description/urdf/b1", {"trunk.dae"}),
+        ("anymal_b_simple_description/robots/anymal", {"anymal_base.dae"}),
+        ("go2_description/urdf/go2", set()),
+        ("solo_description/robots/solo12", set()),
+    ],
+)
+def test_the_largest_go_first(name, left_out):
+    tree = tree_of(name)
+    found = oversized_visuals(tree)
+    assert {path.name for path in found} == left_out
+    shown = {
+        shape.mesh
+        for body in tree.bodies
+        for shape in body.shapes
+        if shape.mesh is not None and not shape.collides
+    }
+    assert sum(path.stat().st_size for path in shown - found) <= VISUAL_BYTES
+
+
+def test_what_is_left_out_is_told_and_something_else_shown():
+    built = build_spec(read_robot(ROBOTS / "go1_description/urdf/go1.urdf"))
+    told = "meshes too large to be shown in the MuJoCo model, left out: trunk.dae"
+    assert built.warnings == (told,)
+    trunk = built.spec.body("base")
+    visible = [geom for geom in trunk.geoms if geom.group == 0]
+    assert visible
+    assert np.all([geom.contype == 1 for geom in visible])

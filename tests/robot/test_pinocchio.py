@@ -52,11 +52,6 @@ def worst_difference(model: pin.Model, tree: Tree, posture: dict[str, float]) ->
     )
 
 
-def test_all_robots_but_the_unexpanded_xacro_are_compared():
-    assert len(ALL_URDFS) == 69
-    assert len(LOADED) == 68
-
-
 @pytest.mark.parametrize("path", one_of_each(LOADED))
 def test_mass_com_and_inertia_agree(path: Path, record_property):
     model = pin.buildModelFromUrdf(str(path), pin.JointModelFreeFlyer())

@@ -1,16 +1,20 @@
 """From a file to a robot."""
 
 import hashlib
+import os
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
 import pytest
 from anatomy import ANATOMY
-from robots import ROBOTS, SOLO12, one_of_each
-from urdf_text import inertial, link, robot
+from robots import ALL_URDFS, ROBOTS, SOLO12, one_of_each
+from urdf_text import TWO_LINKS
 
 from ocs_design.common.errors import RobotError
-from ocs_design.robot.reader import read_robot
+from ocs_design.robot.reader import find_srdfs, load, read_group_states, read_robot
 from ocs_design.robot.robot import Format
 
 QUADRUPED = ROBOTS / "quadruped_description/urdf/quadruped.urdf"
@@ -81,23 +85,115 @@ def test_no_warning_is_told_twice_and_few_are_of_the_frame(name):
     assert len(of_frame) == (1 if "quadruped_desc" in name or "human_desc" in name else 0)
 
 
-def test_a_robot_without_mass_is_refused(tmp_path):
-    path = tmp_path / "light.urdf"
-    path.write_bytes(robot(link("trunk")))
-    with pytest.raises(RobotError, match="no mass"):
-        read_robot(path)
+MJCF = (
+    b'<mujoco model="m"><worldbody><body name="trunk"><freejoint/><geom size="1"/></body>'
+    b"</worldbody></mujoco>"
+)
 
 
-def test_a_robot_that_cannot_exist_is_refused(tmp_path):
-    path = tmp_path / "odd.urdf"
-    path.write_bytes(robot(link("trunk", inertial(1.0, "0.1 0.1 0.9"))))
-    with pytest.raises(RobotError) as caught:
-        read_robot(path)
-    assert caught.value.hint
+@pytest.mark.parametrize(("content", "expected"), [(TWO_LINKS, Format.URDF), (MJCF, Format.MJCF)])
+@pytest.mark.parametrize("name", ["robot.urdf", "robot.xml", "robot"])
+def test_the_content_chooses_the_format_and_not_the_name(tmp_path: Path, content, expected, name):
+    path = tmp_path / name
+    path.write_bytes(content)
+    loaded = load(path)
+    assert loaded.format is expected
+    assert loaded.content == content
+    assert loaded.source == str(path)
+    assert loaded.sha256 == hashlib.sha256(content).hexdigest()
 
 
-def test_a_point_mass_has_nothing_to_turn(tmp_path):
-    path = tmp_path / "point.urdf"
-    path.write_bytes(robot(link("trunk", inertial(1.0, "0 0 0"))))
-    with pytest.raises(RobotError, match="inertia"):
-        read_robot(path)
+def test_nearly_all_real_robots_find_their_meshes():
+    readable = [path for path in ALL_URDFS if path.name != "ur3.urdf"]
+    without = [path.stem for path in readable if "not found" in str(load(path).tree.warnings)]
+    assert without == ["romeo_laas_small"]
+
+
+def test_reading_a_urdf_imports_nothing_slow():
+    code = (
+        "import sys; from ocs_design.robot.reader import load; load(sys.argv[1]);"
+        "print(sorted({'mujoco', 'trimesh', 'cvxpy', 'scipy'} & set(sys.modules)))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(SOLO12)], check=True, capture_output=True, text=True
+    )
+    assert done.stdout == "[]\n"
+
+
+STATE = (
+    '<group_state name="{name}" group="{group}"><joint name="{joint}" value="{value}"/>'
+    "</group_state>"
+)
+
+
+def srdf(*states: str, name: str = "test") -> bytes:
+    return f'<robot name="{name}">{"".join(states)}</robot>'.encode()
+
+
+def state(name: str, joint: str, value: str, group: str = "all") -> str:
+    return STATE.format(name=name, group=group, joint=joint, value=value)
+
+
+def test_states_of_one_name_are_joined_over_their_groups():
+    content = srdf(
+        state("home", "a", "1", "left"), state("home", "b", "2", "right"), state("up", "a", "3")
+    )
+    assert read_group_states(content) == {"home": {"a": 1.0, "b": 2.0}, "up": {"a": 3.0}}
+
+
+def test_joints_with_several_values_are_left_out():
+    content = srdf(state("home", "root_joint", "0 0 0.2 0 0 0 1"))
+    assert read_group_states(content) == {}
+
+
+def test_what_is_no_srdf_is_refused():
+    with pytest.raises(RobotError, match="SRDF"):
+        read_group_states(b"<html/>")
+
+
+@pytest.mark.parametrize("place", [".", "../srdf"])
+def test_the_loader_finds_the_srdf_of_the_same_robot(tmp_path: Path, place: str):
+    folder = tmp_path / "urdf"
+    folder.mkdir()
+    (folder / "some.urdf").write_bytes(TWO_LINKS)
+    (folder / place).resolve().mkdir(exist_ok=True)
+    (folder / place / "a.srdf").write_bytes(srdf(state("up", "hip", "9"), name="another"))
+    (folder / place / "b.srdf").write_bytes(
+        srdf(state("up", "hip", "0.5"), state("x", "nobody", "1"))
+    )
+    assert load(folder / "some.urdf").tree.named_postures == {"up": {"hip": 0.5}}
+
+
+def test_the_srdf_of_the_same_file_name_goes_first(tmp_path: Path):
+    for name in ("some.srdf", "a.srdf"):
+        (tmp_path / name).write_bytes(srdf())
+    assert find_srdfs(tmp_path, "some", "test") == [tmp_path / "some.srdf"]
+
+
+def test_a_broken_srdf_is_only_warned_of(tmp_path: Path):
+    (tmp_path / "some.urdf").write_bytes(TWO_LINKS)
+    (tmp_path / "some.srdf").write_bytes(srdf(state("up", "hip", "nan")))
+    tree = load(tmp_path / "some.urdf").tree
+    assert tree.named_postures == {}
+    (warning,) = tree.warnings
+    assert "some.srdf" in warning
+
+
+def test_solo12_stands_as_pinocchio_has_it():
+    model = pin.buildModelFromUrdf(str(SOLO12), pin.JointModelFreeFlyer())
+    pin.loadReferenceConfigurations(
+        model, str(ROBOTS / "solo_description" / "srdf" / "solo.srdf"), False
+    )
+    postures = load(SOLO12).tree.named_postures
+    assert set(postures) == {"standing", "straight_standing"}
+    for name, posture in postures.items():
+        q = model.referenceConfigurations[name]
+        assert len(posture) == 12
+        assert posture == {
+            joint: q[model.joints[model.getJointId(joint)].idx_q] for joint in posture
+        }
+
+
+def test_a_pipe_named_like_an_srdf_is_left_alone(tmp_path):
+    os.mkfifo(tmp_path / "robot.srdf")
+    assert find_srdfs(tmp_path, "robot", "robot") == []

@@ -52,6 +52,13 @@ def read(elements) -> Tree:
     return read_urdf(robot(*elements), find_mesh=lambda _: None)
 
 
+def read_file(folder, elements, **options):
+    """The robot by the way of a file."""
+    path = folder / "robot.urdf"
+    path.write_bytes(robot(*elements))
+    return read_robot(path, **options)
+
+
 def found(elements) -> Recognition:
     return recognise(read(elements))
 
@@ -80,9 +87,8 @@ def test_legs_are_found_whatever_they_are_like_at_zero(zero):
 
 
 def test_a_robot_with_level_legs_stands_on_them(tmp_path):
-    path = tmp_path / "level.urdf"
-    path.write_bytes(robot(*quadruped(*ZEROS["level, shank back under the thigh"])))
-    standing, level = read_robot(path), read_robot(path, posture="zero")
+    elements = quadruped(*ZEROS["level, shank back under the thigh"])
+    standing, level = read_file(tmp_path, elements), read_file(tmp_path, elements, posture="zero")
     # Thigh and shank of 0.25 m, bent to 80 % of their length.
     assert standing.standing_height == pytest.approx(0.8 * 0.5, abs=1e-4)
     assert standing.inertia[0, 0] > 1.2 * level.inertia[0, 0]
@@ -141,9 +147,7 @@ def test_a_spine_is_asked_about():
 
 @pytest.mark.parametrize("trunk", ["chest", "pelvis"])
 def test_a_robot_with_a_spine_stands_once_its_trunk_is_stated(tmp_path, trunk):
-    path = tmp_path / "dog.urdf"
-    path.write_bytes(robot(*dog()))
-    standing = read_robot(path, trunk=trunk, legs=ALL_FEET)
+    standing = read_file(tmp_path, dog(), trunk=trunk, legs=ALL_FEET)
     assert standing.trunk == trunk
     assert standing.standing_height == pytest.approx(0.32, abs=1e-4)
     assert [standing.posture[name] for name in ("spine_1", "spine_2")] == [0.0, 0.0]
@@ -257,9 +261,7 @@ def test_legs_that_share_a_hip_are_asked_about_and_one_of_each_pair_is_offered()
 
 
 def test_how_five_bars_are_treated_is_said(tmp_path):
-    path = tmp_path / "bars.urdf"
-    path.write_bytes(robot(*five_bars()))
-    stated = read_robot(path, legs=[f"{name}i_foot" for name in CORNERS])
+    stated = read_file(tmp_path, five_bars(), legs=[f"{name}i_foot" for name in CORNERS])
     assert stated.trunk == "trunk"
     assert any("the other is held" in warning for warning in stated.warnings)
 
@@ -301,10 +303,8 @@ def test_arms_that_are_named_so_are_no_legs():
     ],
 )
 def test_legs_that_cannot_be(tmp_path, legs, message):
-    path = tmp_path / "robot.urdf"
-    path.write_bytes(robot(*quadruped(*ZEROS["hanging"])))
     with pytest.raises(RobotError, match=message):
-        read_robot(path, legs=legs)
+        read_file(tmp_path, quadruped(*ZEROS["hanging"]), legs=legs)
 
 
 def test_stated_legs_are_those_that_would_be_found():
@@ -320,9 +320,7 @@ def test_stated_legs_are_those_that_would_be_found():
 
 
 def test_no_legs_can_be_stated(tmp_path):
-    path = tmp_path / "robot.urdf"
-    path.write_bytes(robot(*quadruped(*ZEROS["hanging"])))
-    bare = read_robot(path, legs=[])
+    bare = read_file(tmp_path, quadruped(*ZEROS["hanging"]), legs=[])
     assert (bare.legs, bare.posture_name, bare.standing_height) == ((), "zero", None)
 
 
@@ -431,9 +429,7 @@ def test_limbs_that_meet_at_their_ends_are_no_legs_without_asking(tmp_path):
     assert len(apart.reading.legs) == 2
     assert not closed.sure
     assert "meet at their ends" in question_about(closed).message
-    path = tmp_path / "five_bar.urdf"
-    path.write_bytes(robot(*closed_pair(0.0)))
-    stated = read_robot(path, legs=["a_e", "b_e"])
+    stated = read_file(tmp_path, closed_pair(0.0), legs=["a_e", "b_e"])
     assert any("meet at their ends" in warning for warning in stated.warnings)
 
 
@@ -463,11 +459,8 @@ def test_limbs_that_a_model_ties_together_at_their_ends_are_asked_about(tmp_path
 
 def test_a_robot_that_its_file_fixes_to_the_world_has_its_own_trunk(tmp_path):
     world = joint("hang", "world", "trunk", '<origin xyz="0 0 1"/>', kind="fixed")
-    path = tmp_path / "hung.urdf"
-    path.write_bytes(robot(link("world"), world, *quadruped(*ZEROS["bent"])))
-    hung = read_robot(path)
+    free = read_file(tmp_path, quadruped(*ZEROS["bent"]))
+    hung = read_file(tmp_path, [link("world"), world, *quadruped(*ZEROS["bent"])])
     assert hung.trunk == "trunk"
-    path.write_bytes(robot(*quadruped(*ZEROS["bent"])))
-    free = read_robot(path)
     assert hung.standing_height == pytest.approx(free.standing_height, abs=1e-12)
     np.testing.assert_allclose(hung.com, free.com, atol=1e-12)

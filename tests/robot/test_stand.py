@@ -6,7 +6,9 @@ import pytest
 from anatomy import ANATOMY, LEGGED, legs_of, stand_of, tree_of
 from robots import ROBOTS
 
-from ocs_design.robot.stance import SHARE_OF_LEG, stand
+from ocs_design.robot.leg_geometry import leg_geometries
+from ocs_design.robot.reader import read_robot
+from ocs_design.robot.stance import SHARE_OF_LEG, lifted, stand
 
 SOLO12 = "solo_description/robots/solo12"
 # Ankles that cannot bend so far: 30 degrees in Romeo, not backwards at all in the simple humanoids.
@@ -174,3 +176,39 @@ def test_what_cannot_be_reached_is_said():
     assert low.warnings
     for name in legs[0].joints:
         assert tree.joints[name].lower <= low.posture[name] <= tree.joints[name].upper
+
+
+HEIGHTS = np.array([0.0, 0.02, 0.04, -0.02])
+
+
+@pytest.fixture(scope="module")
+def robot():
+    return read_robot(ROBOTS / f"{SOLO12}.urdf")
+
+
+@pytest.fixture(scope="module", params=range(4))
+def leg(robot, request):
+    return leg_geometries(robot.tree, robot.trunk, robot.legs)[request.param]
+
+
+def posture_of(robot, leg):
+    return np.array([robot.posture[name] for name in leg.chain.names])
+
+
+def test_a_foot_goes_straight_up_and_down_in_the_whole_robot(robot, leg):
+    found = lifted(leg.chain, leg.leg.foot, leg.leg.length, posture_of(robot, leg), HEIGHTS)
+    feet = []
+    for values in found:
+        posture = {**robot.posture, **dict(zip(leg.chain.names, values, strict=True))}
+        shank = robot.tree.placements_from(robot.trunk, posture)[leg.leg.body]
+        feet.append(shank.rotation @ leg.leg.foot + shank.position)
+    moved = np.array(feet) - feet[0]
+    np.testing.assert_allclose(moved[:, :2], 0.0, atol=1e-9)
+    np.testing.assert_allclose(moved[:, 2], HEIGHTS, atol=1e-9)
+
+
+def test_what_is_out_of_reach_stays_within_the_limits(robot, leg):
+    far = np.array([-2.0 * leg.leg.length])
+    (values,) = lifted(leg.chain, leg.leg.foot, leg.leg.length, posture_of(robot, leg), far)
+    assert np.all((values >= leg.chain.lower) & (values <= leg.chain.upper))
+    assert np.isfinite(values).all()

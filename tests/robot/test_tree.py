@@ -1,10 +1,8 @@
 import numpy as np
-import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from robots import SOLO12
 
-from ocs_design.robot.mass import combine
 from ocs_design.robot.rotations import rotation_from_quaternion
 from ocs_design.robot.tree import Joint, JointKind, Placement, joint_motion
 from ocs_design.robot.urdf import read_urdf
@@ -47,43 +45,13 @@ def test_motions_of_one_joint_add_up(seed):
         assert_same(together, joint_motion(joint, first + second))
 
 
-@given(seeds)
-def test_the_whole_weighs_what_its_links_weigh(seed):
-    posture = random_posture(np.random.default_rng(seed))
-    whole = TREE.locked_mass_properties(posture, "base_link")
-    masses = [mass for body in TREE.bodies for mass in body.link_masses.values()]
-    assert whole.mass == pytest.approx(sum(masses), rel=1e-14)
-
-
+@settings(max_examples=20, deadline=None)
 @given(seeds)
 def test_principal_moments_are_the_same_seen_from_every_link(seed):
     posture = random_posture(np.random.default_rng(seed))
     seen = [TREE.locked_mass_properties(posture, link) for link in TREE.body_of_link]
     moments = [np.linalg.eigvalsh(each.inertia) for each in seen]
     np.testing.assert_allclose(moments, np.broadcast_to(moments[0], np.shape(moments)), rtol=1e-12)
-
-
-def test_the_published_inertia_of_solo12():
-    """docs/theory.md, The robot's inertia, made with Pinocchio."""
-    legs = {"FL": 1, "FR": 1, "HL": -1, "HR": -1}
-    standing = {f"{leg}_HFE": 0.8 * sign for leg, sign in legs.items()}
-    standing |= {f"{leg}_KFE": -1.6 * sign for leg, sign in legs.items()}
-    zero = TREE.locked_mass_properties({}, "base_link")
-    stand = TREE.locked_mass_properties(standing, "base_link")
-    assert zero.mass == pytest.approx(2.50000279, abs=1e-8)
-    np.testing.assert_allclose(np.diag(zero.inertia), [0.0367786, 0.0705134, 0.0802918], atol=5e-8)
-    np.testing.assert_allclose(np.diag(stand.inertia), [0.0300029, 0.0514912, 0.0680453], atol=5e-8)
-    assert stand.com[2] == pytest.approx(-0.0240347, abs=5e-8)
-
-
-def test_in_the_zero_posture_it_is_the_sum_of_its_bodies():
-    placements = TREE.placements({})
-    parts = [
-        body.mass_properties.moved(place.rotation, place.position)
-        for body, place in zip(TREE.bodies, placements, strict=True)
-    ]
-    expected, actual = combine(parts), TREE.locked_mass_properties({}, "base_link")
-    np.testing.assert_allclose(actual.inertia, expected.inertia, atol=1e-15)
 
 
 def test_missing_joints_stand_at_zero_and_unknown_ones_are_ignored():
