@@ -1,12 +1,13 @@
 """Wheels to draw, and what must hold of a sheet."""
 
 import math
+from itertools import combinations
 
 from hypothesis import assume
 from hypothesis import strategies as st
 
 from ocs_design.common.errors import PartError
-from ocs_design.export.drawing.sheet import Circle, Line, Text
+from ocs_design.export.drawing.sheet import FRAME_BOX, Circle, Line, Text
 from ocs_design.export.drawing.wheel import WheelDrawing
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre
 
@@ -106,6 +107,17 @@ def drawings(draw):
 
 def texts(items):
     return [item for item in items if isinstance(item, Text) and item.text]
+
+
+def check_words(page):
+    """All within the frame, and none on another, whose lines may share a third of a millimetre."""
+    left, top, right, bottom = FRAME_BOX
+    boxes = [text.box for text in texts(page)]
+    for x1, y1, x2, y2 in boxes:
+        assert left <= x1 < x2 <= right
+        assert top <= y1 < y2 <= bottom
+    for a, b in combinations(boxes, 2):
+        assert a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] + 0.3 or b[3] <= a[1] + 0.3, (a, b)
 
 
 def overlap(one, other):

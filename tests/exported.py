@@ -1,12 +1,15 @@
-"""What the tests of exported robots share: robots of every kind, and Pinocchio's view of a URDF."""
+"""What the tests of exported robots share: robots of every kind, and two readers' views of them."""
 
 import mujoco
 import numpy as np
 import pinocchio as pin
+import pytest
 from robots import ROBOTS
+from wheels import braked_inertia
 
 from ocs_design.export.mjcf import export_robot_mjcf
 from ocs_design.export.robot_model import robot_model
+from ocs_design.robot.mass import MassProperties, combine
 
 LEGGED = [
     "solo_description/robots/solo12",
@@ -86,3 +89,57 @@ def check_moments(inertia, device):
     across = wheel.transverse_inertia + device.motor.rotor_inertia / 2.0
     expected = np.diag([across, across, wheel.spin_inertia])
     np.testing.assert_allclose(inertia, expected, rtol=0.0, atol=1e-12 * wheel.spin_inertia)
+
+
+def check_wheels_in_mujoco(model, device, trunk):
+    """Mass, inertia, axis and position of each wheel in the trunk body's frame, to 1e-12."""
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    rotation = data.body(trunk).xmat.reshape(3, 3)
+    for module in device.modules:
+        name = f"ocs_{module.name}_flywheel"
+        check_moments(np.diag(model.body(name).inertia), device)
+        assert model.body(name).mass[0] == device.flywheel.mass
+        axis = rotation.T @ data.joint(f"ocs_{module.name}").xaxis
+        np.testing.assert_allclose(axis, module.axis, rtol=0.0, atol=1e-12)
+        position = rotation.T @ (data.body(name).xipos - data.body(trunk).xpos)
+        np.testing.assert_allclose(position, module.position, rtol=0.0, atol=1e-12)
+
+
+def seen_by_mujoco(model, robot):
+    """Mass properties of the whole model in the robot's posture, in the frame of its trunk."""
+    data = mujoco.MjData(model)
+    for name, value in robot.posture.items():
+        data.joint(name).qpos[0] = value
+    mujoco.mj_forward(model, data)
+    axes = data.ximat[1:].reshape(-1, 3, 3)
+    own = axes @ (model.body_inertia[1:, :, None] * axes.transpose(0, 2, 1))
+    bodies = zip(model.body_mass[1:], data.xipos[1:], own, strict=True)
+    trunk = data.body(robot.trunk)
+    turn = trunk.xmat.reshape(3, 3).T
+    return combine(MassProperties(*body) for body in bodies).moved(turn, -turn @ trunk.xpos)
+
+
+def seen_by_pinocchio(text, robot):
+    """The same of a URDF, its wheels at rest."""
+    model = pinocchio_model(text)
+    data, q = model.createData(), pin.neutral(model)
+    for name, value in robot.posture.items():
+        joint = model.joints[model.getJointId(name)]
+        if joint.nq == 1:
+            q[joint.idx_q] = value
+    pin.ccrba(model, data, q, np.zeros(model.nv))
+    pin.updateFramePlacements(model, data)
+    trunk = data.oMf[model.getFrameId(robot.trunk, pin.FrameType.BODY)]
+    com = trunk.actInv(pin.centerOfMass(model, data, q))
+    return MassProperties(data.Ig.mass, com, trunk.rotation.T @ data.Ig.inertia @ trunk.rotation)
+
+
+def check_whole(seen, robot, device):
+    """It is the robot with the braked device."""
+    expected = braked_inertia(robot, device)
+    assert seen.mass == pytest.approx(expected.mass, rel=1e-9)
+    assert expected.mass == pytest.approx(robot.mass + device.mass, rel=1e-12)
+    np.testing.assert_allclose(seen.com, expected.com, rtol=0, atol=1e-9)
+    scale = np.trace(expected.inertia)
+    np.testing.assert_allclose(seen.inertia, expected.inertia, rtol=0, atol=1e-9 * scale)

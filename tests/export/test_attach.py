@@ -3,12 +3,14 @@
 import mujoco
 import numpy as np
 import pytest
+from exported import check_wheels_in_mujoco
 from robots import ROBOTS, SOLO12
-from wheels import motor, paper_device
+from wheels import driven_device, motor, paper_device
 
 from ocs_design.common.errors import RobotError
 from ocs_design.device.bodies import WHEEL_CONTACT_BIT
 from ocs_design.export.attach import attach_device
+from ocs_design.export.robot_model import robot_model
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.mujoco_model import build_spec
 from ocs_design.robot.reader import read_robot
@@ -39,30 +41,6 @@ def read_mjcf(folder, text=MJCF):
     return read_robot(path, trunk="trunk", posture="zero")
 
 
-def check_wheels(model, robot, device):
-    """Axes and positions against the trunk link's frame, with the robot's joints at zero."""
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    trunk = data.body("trunk" if robot.name != "solo" else robot.trunk)
-    rotation = trunk.xmat.reshape(3, 3)
-    for module in device.modules:
-        wheel, joint = data.body(f"ocs_{module.name}_flywheel"), data.joint(f"ocs_{module.name}")
-        np.testing.assert_allclose(rotation.T @ joint.xaxis, module.axis, atol=1e-14)
-        position = rotation.T @ (wheel.xipos - trunk.xpos)
-        np.testing.assert_allclose(position, module.position, atol=1e-14)
-        moments = (device.flywheel.transverse_inertia,) * 2 + (device.flywheel.spin_inertia,)
-        assert tuple(model.body(f"ocs_{module.name}_flywheel").inertia) == moments
-
-
-@pytest.mark.parametrize("incidence", [0.0, 0.7, np.pi / 2])
-def test_wheels_stand_where_the_device_has_them(incidence):
-    robot = read_robot(SOLO12, posture="zero")
-    device = paper_device(incidence)
-    model = with_device(robot, device)
-    check_wheels(model, robot, device)
-    assert model.body_subtreemass[1] == pytest.approx(robot.mass + 2.0 * device.flywheel.mass)
-
-
 def test_a_trunk_link_may_stand_off_its_moving_body():
     """B is the frame of the link that carries the device, not of what it is fixed to."""
     path = ROBOTS / "anymal_c_simple_description/urdf/anymal.urdf"
@@ -81,7 +59,7 @@ def test_a_trunk_link_may_stand_off_its_moving_body():
 def test_the_users_defaults_and_compiler_do_not_reach_the_wheels(tmp_path):
     robot, device = read_mjcf(tmp_path), paper_device()
     model = with_device(robot, device)
-    check_wheels(model, robot, device)
+    check_wheels_in_mujoco(model, device, robot.trunk)
     for name in ("ocs_left", "ocs_right"):
         joint = model.joint(name)
         assert joint.damping[0] == joint.armature[0] == joint.frictionloss[0] == 0.0
@@ -121,20 +99,26 @@ def test_wheels_meet_a_floor_that_has_their_bit_but_no_link():
     assert not np.any(model.geom_contype[links] & WHEEL_CONTACT_BIT)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        MJCF.replace('body name="first"', 'body name="ocs_left_flywheel"'),
-        MJCF.replace('joint name="first"', 'joint name="ocs_right"').replace(
-            'joint="first"', 'joint="ocs_right"'
-        ),
-        MJCF.replace('motor name="first"', 'motor name="ocs_left"'),
-        MJCF.replace('name="chest"', 'name="ocs_left_flywheel"'),
-    ],
-    ids=["body", "joint", "actuator", "geom"],
-)
-def test_a_clash_of_names_is_an_error_that_says_so(tmp_path, text, request):
-    with pytest.raises(RobotError, match=r"'ocs_(left|right)") as error:
-        with_device(read_mjcf(tmp_path, text), paper_device())
-    assert request.node.callspec.id in error.value.message
+SENSOR = '<sensor><jointvel name="{}" joint="first"/></sensor>'
+NAMED = {
+    "body": {'body name="first"': 'body name="ocs_left_flywheel"'},
+    "body 'ocs_left_motor": {'body name="first"': 'body name="ocs_left_motor"'},
+    "joint": {'joint name="first"': 'joint name="ocs_right"', 'joint="first"': 'joint="ocs_right"'},
+    "actuator": {'motor name="first"': 'motor name="ocs_left"'},
+    "geom": {'name="chest"': 'name="ocs_left_flywheel"'},
+    "site": {"<freejoint/>": '<freejoint/><site name="ocs_imu"/>'},
+    "sensor": {"<keyframe>": SENSOR.format("ocs_left_velocity") + "<keyframe>"},
+    "sensor 'ocs_imu_rate": {"<keyframe>": SENSOR.format("ocs_imu_rate") + "<keyframe>"},
+}
+"""What the robot has by the name of something of the device, and what is written for it."""
+
+
+@pytest.mark.parametrize("kind", NAMED)
+def test_a_clash_of_names_is_an_error_that_says_so(tmp_path, kind):
+    text = MJCF
+    for own, clashing in NAMED[kind].items():
+        text = text.replace(own, clashing)
+    what, _, name = kind.partition(" '")
+    with pytest.raises(RobotError, match=f"{what} named '{name or 'ocs_'}") as error:
+        robot_model(read_mjcf(tmp_path, text), driven_device())
     assert "rename" in error.value.hint

@@ -5,17 +5,22 @@ from dataclasses import replace
 
 import mujoco
 import numpy as np
-import pinocchio as pin
 import pytest
-import xacro
-from exported import LEGGED, LEGGED_PATHS, mujoco_model, pinocchio_model
+from exported import (
+    LEGGED,
+    LEGGED_PATHS,
+    check_whole,
+    mujoco_model,
+    pinocchio_model,
+    seen_by_mujoco,
+    seen_by_pinocchio,
+)
 from robots import SOLO12
-from wheels import EC45, EC45_BODY, braked_inertia, driven_device, geared, layout_device
+from seats import TRUNK, TrunkOnly, expanded
+from wheels import EC45, EC45_BODY, driven_device, geared, layout_device
 
-from ocs_design.common.errors import RobotError
 from ocs_design.device.bodies import carrier_inertial, flywheel_inertial
 from ocs_design.device.layout import Layout, LayoutName
-from ocs_design.export.robot_model import robot_model
 from ocs_design.export.snippets import (
     snippet_mjcf,
     snippet_urdf,
@@ -25,7 +30,6 @@ from ocs_design.export.urdf import robot_urdf
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.mass import MassProperties, physical_defect
 from ocs_design.robot.reader import read_robot
-from ocs_design.simulation.scene import locked_inertia
 
 DEVICES = {
     "direct": driven_device(),
@@ -33,13 +37,9 @@ DEVICES = {
     "reversing": driven_device(drive=geared(1.5, reverses=True)),
     "speeding up": driven_device(drive=geared(0.5, inertia=0.0)),
 }
-DEVICES |= {
-    name.value: layout_device(Layout(name))
-    for name in LayoutName
-    if name not in {LayoutName.PAIR, LayoutName.BY_HAND}
-}
+LAYOUTS = [name.value for name in LayoutName if name.value not in {"pair", "by-hand"}]
+DEVICES |= {name: layout_device(Layout(LayoutName(name))) for name in LAYOUTS}
 BLOCK = robot_by_hand(2.5, (0.03, 0.05, 0.07, 0.001, 0.002, -0.003), com=(0.01, 0.0, -0.02))
-MOTORS = ("ocs_left_motor", "ocs_right_motor")
 
 
 @pytest.fixture(params=DEVICES)
@@ -47,56 +47,15 @@ def device(request):
     return DEVICES[request.param]
 
 
-def seen_by_mujoco(model, robot) -> MassProperties:
-    """The whole model in the robot's posture, in the frame of its trunk."""
-    data = mujoco.MjData(model)
-    for name, value in robot.posture.items():
-        data.joint(name).qpos[0] = value
-    mujoco.mj_forward(model, data)
-    trunk = data.body(robot.trunk)
-    rotation = trunk.xmat.reshape(3, 3)
-    com = rotation.T @ (data.subtree_com[1] - trunk.xpos)
-    return MassProperties(
-        float(model.body_subtreemass[1]), com, locked_inertia(model, data, rotation)
-    )
+ROBOTS_AND_DEVICES = {name: (SOLO12, device) for name, device in DEVICES.items()} | {
+    name: (path, driven_device()) for name, path in zip(LEGGED[1:6], LEGGED_PATHS[1:6], strict=True)
+}
 
 
-def seen_by_pinocchio(text, robot) -> MassProperties:
-    """The same of a URDF, its wheels at rest."""
-    model = pinocchio_model(text)
-    data, q = model.createData(), pin.neutral(model)
-    for name, value in robot.posture.items():
-        q[model.joints[model.getJointId(name)].idx_q] = value
-    pin.ccrba(model, data, q, np.zeros(model.nv))
-    pin.updateFramePlacements(model, data)
-    trunk = data.oMf[model.getFrameId(robot.trunk, pin.FrameType.BODY)]
-    com = trunk.actInv(pin.centerOfMass(model, data, q))
-    return MassProperties(data.Ig.mass, com, trunk.rotation.T @ data.Ig.inertia @ trunk.rotation)
-
-
-def check_whole(seen, robot, device):
-    expected = braked_inertia(robot, device)
-    assert seen.mass == pytest.approx(expected.mass, rel=1e-9)
-    assert expected.mass == pytest.approx(robot.mass + device.mass, rel=1e-12)
-    np.testing.assert_allclose(seen.com, expected.com, rtol=0, atol=1e-9)
-    scale = np.trace(expected.inertia)
-    np.testing.assert_allclose(seen.inertia, expected.inertia, rtol=0, atol=1e-9 * scale)
-
-
-def test_mujoco_sees_the_whole_robot(device, tmp_path):
-    robot = read_robot(SOLO12)
-    check_whole(seen_by_mujoco(mujoco_model(robot, device, tmp_path), robot), robot, device)
-
-
-def test_pinocchio_sees_the_whole_robot(device):
-    robot = read_robot(SOLO12)
-    text = robot_urdf(robot, device).decode()
-    check_whole(seen_by_pinocchio(text, robot), robot, device)
-
-
-@pytest.mark.parametrize("path", LEGGED_PATHS[:6], ids=LEGGED[:6])
-def test_all_kinds_of_robots_carry_their_motors(path, tmp_path):
-    robot, device = read_robot(path), driven_device()
+@pytest.mark.parametrize("case", ROBOTS_AND_DEVICES)
+def test_mujoco_and_pinocchio_see_the_whole_robot(case, tmp_path):
+    path, device = ROBOTS_AND_DEVICES[case]
+    robot = read_robot(path)
     text = robot_urdf(robot, device).decode()
     check_whole(seen_by_pinocchio(text, robot), robot, device)
     check_whole(seen_by_mujoco(mujoco_model(robot, device, tmp_path), robot), robot, device)
@@ -139,30 +98,25 @@ def test_a_rotor_heavier_than_its_carrier_leaves_a_little_of_it():
     assert left == pytest.approx(0.01 * EC45_BODY.axial_inertia)
 
 
-def check_snippet(text, device):
-    """The device's own links on a trunk without mass."""
-    nothing = replace(
-        BLOCK, mass_properties=MassProperties(0.0, np.zeros(3), np.zeros((3, 3))), trunk="base_link"
-    )
-    check_whole(seen_by_pinocchio(text, nothing), nothing, device)
-
-
 def test_the_urdf_snippet_has_them(device):
-    robot = replace(BLOCK, trunk="base_link")
-    check_snippet(snippet_urdf(device, robot), device)
+    """The device's own links on a trunk without mass."""
+    nothing = MassProperties(0.0, np.zeros(3), np.zeros((3, 3)))
+    seat = replace(BLOCK, mass_properties=nothing, trunk=TRUNK)
+    check_whole(seen_by_pinocchio(snippet_urdf(device, seat), seat), seat, device)
 
 
-def test_the_macro_has_them_at_any_angle_and_with_a_prefix(tmp_path):
-    robot = replace(BLOCK, trunk="base_link")
-    (tmp_path / "ocs.urdf.xacro").write_text(snippet_xacro(driven_device(), robot))
-    (tmp_path / "robot.urdf.xacro").write_text(
-        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
-        '<xacro:include filename="ocs.urdf.xacro"/><link name="base_link"/>'
-        '<xacro:ocs parent="base_link" prefix="front_" incidence="0.25"/></robot>'
-    )
-    text = xacro.process_file(str(tmp_path / "robot.urdf.xacro")).toxml()
-    assert 'link name="front_ocs_left_motor"' in text
-    check_snippet(text, driven_device(0.25))
+TURNED = ' prefix="front_" incidence="0.25"'
+MACROS = {name: (DEVICES[name], "", DEVICES[name]) for name in ("direct", *LAYOUTS)}
+MACROS |= {"by another name at another angle": (driven_device(), TURNED, driven_device(0.25))}
+
+
+@pytest.mark.parametrize(("written", "arguments", "made"), MACROS.values(), ids=MACROS)
+def test_the_xacro_macro_makes_every_layout_at_any_angle(written, arguments, made, tmp_path):
+    (tmp_path / "ocs.urdf.xacro").write_text(snippet_xacro(written, TrunkOnly()))
+    text = expanded(tmp_path, f'<xacro:ocs parent="{TRUNK}"{arguments}/>')
+    assert ('link name="front_ocs_left_motor"' in text) == bool(arguments)
+    seat = replace(robot_by_hand(1.0, (1.0, 1.0, 1.0)), trunk=TRUNK)
+    check_whole(seen_by_pinocchio(text, seat), seat, made)
 
 
 def test_the_mjcf_snippet_has_them(device, tmp_path):
@@ -178,21 +132,6 @@ def test_the_mjcf_snippet_has_them(device, tmp_path):
     for module in device.modules:
         assert model.joint(f"ocs_{module.name}").armature[0] == device.motor.armature
         assert model.body(f"ocs_{module.name}_motor").name
-
-
-@pytest.mark.parametrize("name", ["direct", "single", "triad", "orthogonal", "pyramid"])
-def test_the_xacro_macro_makes_every_layout(name, tmp_path):
-    device, robot = DEVICES[name], replace(BLOCK, trunk="base_link")
-    (tmp_path / "ocs.urdf.xacro").write_text(snippet_xacro(device, robot))
-    (tmp_path / "robot.urdf.xacro").write_text(
-        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
-        '<xacro:include filename="ocs.urdf.xacro"/><link name="base_link"><inertial>'
-        '<origin xyz="0.01 0 -0.02"/><mass value="2.5"/><inertia ixx="0.03" iyy="0.05" izz="0.07" '
-        'ixy="0.001" ixz="0.002" iyz="-0.003"/></inertial></link>'
-        '<xacro:ocs parent="base_link"/></robot>'
-    )
-    text = xacro.process_file(str(tmp_path / "robot.urdf.xacro")).toxml()
-    check_whole(seen_by_pinocchio(text, robot), BLOCK, device)
 
 
 def test_urdf_says_what_it_cannot_hold():
@@ -218,28 +157,3 @@ def test_without_mass_there_is_no_motor_body(tmp_path):
     assert "_motor" not in robot_urdf(BLOCK, device).decode()
     model = mujoco_model(BLOCK, device, tmp_path)
     assert not [i for i in range(model.nbody) if model.body(i).name.endswith("_motor")]
-
-
-@pytest.mark.parametrize("element", ["link", "joint"])
-def test_a_clash_of_names_is_an_error_only_where_there_are_motors(tmp_path, element):
-    link, joint = ("ocs_left_motor", "weld") if element == "link" else ("other", "ocs_left_motor")
-    extra = (
-        f'<link name="{link}"/><joint name="{joint}" type="fixed">'
-        f'<parent link="base_link"/><child link="{link}"/></joint>'
-    )
-    (tmp_path / "in.urdf").write_text(SOLO12.read_text().replace("</robot>", extra + "</robot>"))
-    robot = read_robot(tmp_path / "in.urdf")
-    with pytest.raises(RobotError, match=f"{element} named 'ocs_left_motor'"):
-        robot_urdf(robot, driven_device())
-    massless = driven_device(carrier=replace(EC45_BODY, mass=0.0))
-    robot_urdf(robot, massless)
-
-
-def test_a_body_of_that_name_is_a_clash_in_mjcf(tmp_path):
-    (tmp_path / "in.xml").write_text(
-        '<mujoco><worldbody><body name="trunk"><freejoint/><geom size="0.1"/>'
-        '<body name="ocs_left_motor"><joint/><geom size="0.1"/></body></body></worldbody></mujoco>'
-    )
-    robot = read_robot(tmp_path / "in.xml", trunk="trunk", posture="zero")
-    with pytest.raises(RobotError, match="body named 'ocs_left_motor'"):
-        robot_model(robot, driven_device())

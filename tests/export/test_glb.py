@@ -1,7 +1,6 @@
 """The whole robot as GLB, read again by trimesh; the Khronos validator finds nothing either."""
 
 import json
-from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -127,10 +126,3 @@ def test_colours_are_linear_and_opacity_is_kept(shapes, tmp_path):
     box = made["materials"][material["box"]]["pbrMetallicRoughness"]["baseColorFactor"]
     # IEC 61966-2-1: codes 128 and 64 of 255 are 21.6 % and 5.1 % of the light.
     np.testing.assert_allclose(box, [0.2140, 0.0509, 0.0, 1.0], atol=2e-4)
-
-
-def test_the_posture_is_the_robots(tmp_path):
-    robot = read_robot(SOLO12)
-    _, stand = drawn(robot, tmp_path)
-    _, zero = drawn(replace(robot, posture=dict.fromkeys(robot.posture, 0.0)), tmp_path)
-    assert stand.bounds[0][1] > zero.bounds[0][1] + 0.01

@@ -14,7 +14,7 @@ from ocs_design.device.device import Web
 from ocs_design.device.records.design import read_design
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.bill_of_materials import bill_csv, bill_rows
-from ocs_design.export.device_parts import printed_parts, wheel_geometry
+from ocs_design.export.device_parts import printed_parts
 from ocs_design.parts.module import standing
 from ocs_design.parts.moments import Carrier
 from ocs_design.parts.motor_mount import screwed_by_face
@@ -97,12 +97,6 @@ def test_a_motor_with_threads_at_its_back_has_a_cage_on_the_plate():
     assert found["motor in its cage"] == ("screw ISO 4762 M3 x 6", 8)
     assert found["wheel on rotor"] == ("screw ISO 4762 M3 x 6", 6)
     assert "cage" in {part.name for part in printed_parts(housed(MN5212.mounting))}
-
-
-def test_the_wheel_is_drilled_for_the_motor():
-    hub = wheel_geometry(device_on(MN5212.mounting).flywheel).hub
-    assert (hub.bolts.count, 2.0 * hub.bolts.radius) == (3, pytest.approx(0.017))
-    assert 2.0 * hub.bore_radius == 0.004
 
 
 def test_mounting_comes_back_from_the_design_file(tmp_path):

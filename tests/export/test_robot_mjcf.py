@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ET
 import mujoco
 import numpy as np
 import pytest
-from exported import LEGGED, LEGGED_PATHS, MJCF, check_moments, mujoco_model
+from exported import LEGGED, LEGGED_PATHS, MJCF, check_wheels_in_mujoco, mujoco_model
 from robots import SOLO12
 from scipy.spatial.transform import Rotation
 from wheels import driven_device, paper_device, scaled_device
@@ -25,48 +25,20 @@ from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world import WorldBuilder
 
 
-def check_wheels(model, device, trunk):
-    """Mass, inertia, axis and position of each wheel in the trunk body's frame."""
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    rotation = data.body(trunk).xmat.reshape(3, 3)
-    for module in device.modules:
-        name = f"ocs_{module.name}_flywheel"
-        check_moments(np.diag(model.body(name).inertia), device)
-        assert model.body(name).mass[0] == device.flywheel.mass
-        axis = rotation.T @ data.joint(f"ocs_{module.name}").xaxis
-        np.testing.assert_allclose(axis, module.axis, rtol=0.0, atol=1e-12)
-        position = rotation.T @ (data.body(name).xipos - data.body(trunk).xpos)
-        np.testing.assert_allclose(position, module.position, rtol=0.0, atol=1e-12)
-
-
-def check_same(model, original, fields):
+def check_same(model, original):
     """Numbers are those of the model that was written, not rounded ones."""
-    for field in fields:
+    for field in EXACT:
         np.testing.assert_allclose(
             getattr(model, field), getattr(original, field), rtol=1e-12, atol=1e-15, err_msg=field
         )
 
 
 EXACT = (
-    "body_mass",
-    "body_inertia",
-    "body_ipos",
-    "body_pos",
-    "jnt_axis",
-    "jnt_pos",
-    "jnt_range",
-    "dof_damping",
-    "dof_armature",
-    "dof_frictionloss",
-    "actuator_ctrlrange",
-    "actuator_forcerange",
-    "actuator_gainprm",
-    "actuator_biasprm",
-    "eq_data",
-    "key_qpos",
-    "key_ctrl",
-)
+    "body_mass", "body_inertia", "body_ipos", "body_iquat", "body_pos", "body_quat", "geom_size",
+    "site_pos", "jnt_axis", "jnt_pos", "jnt_range", "dof_damping", "dof_armature",
+    "dof_frictionloss", "actuator_ctrlrange", "actuator_forcerange", "actuator_gainprm",
+    "actuator_biasprm", "eq_data", "key_qpos", "key_ctrl",
+)  # fmt: skip
 
 
 def at_home(path):
@@ -90,23 +62,17 @@ def test_mujoco_reads_the_robot_and_its_wheels(path, tmp_path):
     # Romeo's fingers have no mass; MuJoCo needs some.
     tolerance = 1e-8 if "romeo" in path.name else 1e-12
     assert model.body_subtreemass[1] == pytest.approx(total, rel=tolerance)
-    check_wheels(model, device, robot.trunk)
+    check_wheels_in_mujoco(model, device, robot.trunk)
 
 
-def test_every_number_is_exact_for_a_urdf_robot(tmp_path):
-    robot, device = read_robot(SOLO12), paper_device()
-    model = mujoco_model(robot, device, tmp_path)
-    check_same(model, compiled(robot, device), (*EXACT, "body_quat", "body_iquat", "geom_size"))
-    np.testing.assert_array_equal(model.body_inertia, compiled(robot, device).body_inertia)
-
-
-def test_every_number_is_exact_for_an_mjcf_robot(tmp_path):
+@pytest.mark.parametrize("form", ["URDF", "MJCF"])
+def test_every_number_of_a_robot_is_written_exactly(form, tmp_path):
     (tmp_path / "in.xml").write_text(MJCF)
-    robot, device = read_robot(tmp_path / "in.xml", posture="zero"), paper_device()
+    robot = read_robot(SOLO12 if form == "URDF" else tmp_path / "in.xml", posture="zero")
+    device = paper_device()
     model = mujoco_model(robot, device, tmp_path)
-    original = compiled(robot, device)
-    check_same(model, original, (*EXACT, "body_quat", "body_iquat", "geom_size", "site_pos"))
-    check_wheels(model, device, "trunk")
+    check_same(model, compiled(robot, device))
+    check_wheels_in_mujoco(model, device, robot.trunk)
 
 
 def test_an_mjcf_robot_has_the_inertia_that_was_read(tmp_path):

@@ -6,7 +6,7 @@ import pytest
 import trimesh
 from exported import LEGGED, LEGGED_PATHS, MJCF, check_wheels_in_pinocchio, pinocchio_model
 from robots import SOLO12
-from wheels import paper_device
+from wheels import driven_device, paper_device
 
 from ocs_design.common.errors import RobotError
 from ocs_design.export.urdf import robot_urdf, write_meshes
@@ -73,17 +73,28 @@ def test_an_mjcf_robot_becomes_the_same_robot_in_urdf(tmp_path):
         assert limits == (joint.lower, joint.upper)
 
 
-@pytest.mark.parametrize("element", ["link", "joint"])
-def test_a_clash_of_names_is_an_error_that_says_so(tmp_path, element):
-    name = {"link": "ocs_left_flywheel", "joint": "ocs_right"}[element]
+@pytest.mark.parametrize(
+    ("element", "name"),
+    [
+        ("link", "ocs_left_flywheel"),
+        ("joint", "ocs_right"),
+        ("link", "ocs_left_motor"),
+        ("joint", "ocs_left_motor"),
+    ],
+)
+def test_a_clash_of_names_is_an_error_that_says_so(tmp_path, element, name):
+    """Names of motors are free where there are none."""
     link, joint = (name, "weld") if element == "link" else ("other", name)
     extra = (
         f'<link name="{link}"/><joint name="{joint}" type="fixed">'
         f'<parent link="base_link"/><child link="{link}"/></joint>'
     )
     (tmp_path / "in.urdf").write_text(SOLO12.read_text().replace("</robot>", extra + "</robot>"))
+    robot = read_robot(tmp_path / "in.urdf")
     with pytest.raises(RobotError, match=rf"{element} named '{name}'"):
-        robot_urdf(read_robot(tmp_path / "in.urdf"), paper_device())
+        robot_urdf(robot, driven_device())
+    if name.endswith("motor"):
+        robot_urdf(robot, paper_device())
 
 
 def test_the_wheels_mesh_lies_beside_the_file_in_metres(tmp_path):

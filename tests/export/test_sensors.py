@@ -7,8 +7,6 @@ from exported import LEGGED, LEGGED_PATHS, mujoco_model
 from robots import SOLO12
 from wheels import driven_device
 
-from ocs_design.common.errors import RobotError
-from ocs_design.export.robot_model import robot_model
 from ocs_design.robot.mujoco_model import build_spec
 from ocs_design.robot.reader import read_robot
 
@@ -148,18 +146,3 @@ def test_sensors_measure_what_their_names_say(tmp_path):
     assert (measured["ocs_left_torque"], measured["ocs_right_torque"]) == (0.25, 0.0)
     np.testing.assert_allclose(measured["ocs_imu_attitude"], [0.8, 0.0, 0.6, 0.0], atol=1e-15)
     np.testing.assert_allclose(measured["ocs_imu_rate"], [0.1, 0.2, 0.3], atol=1e-15)
-
-
-@pytest.mark.parametrize(
-    ("kind", "extra"),
-    [
-        ("sensor", '<sensor><jointvel name="ocs_left_velocity" joint="wag"/></sensor>'),
-        ("sensor", '<sensor><gyro name="ocs_imu_rate" site="nose"/></sensor>'),
-        ("site", '<worldbody><site name="ocs_imu"/></worldbody>'),
-    ],
-)
-def test_a_clash_of_names_is_an_error(tmp_path, kind, extra):
-    (tmp_path / "in.xml").write_text(BRANCHED.replace("</mujoco>", extra + "</mujoco>"))
-    robot = read_robot(tmp_path / "in.xml", trunk="trunk", posture="zero")
-    with pytest.raises(RobotError, match=f"a {kind} named 'ocs_"):
-        robot_model(robot, DEVICE)

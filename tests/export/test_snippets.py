@@ -1,30 +1,142 @@
 """The device alone, put into robots the way that each snippet's own comment says."""
 
+import re
 from dataclasses import replace
 from xml.dom import minidom
+from xml.etree import ElementTree as ET
 
 import mujoco
 import numpy as np
 import pinocchio as pin
 import pytest
 import xacro
-from exported import mujoco_model, pinocchio_model
+from exported import (
+    check_wheels_in_mujoco,
+    check_wheels_in_pinocchio,
+    check_whole,
+    mujoco_model,
+    pinocchio_model,
+    seen_by_mujoco,
+    seen_by_pinocchio,
+)
 from hypothesis import given
 from hypothesis import strategies as st
 from robots import ROBOTS
-from wheels import paper_device
+from seats import TRUNK, TrunkOnly, expanded
+from wheels import driven_device, geared, motor, paper_device
 
+from ocs_design.export.device_urdf import MOCK_PLUGIN
+from ocs_design.export.mjcf import precise_xml
 from ocs_design.export.snippets import (
     snippet_mjcf,
+    snippet_ros2_control,
     snippet_urdf,
     snippet_xacro,
+    snippets,
 )
 from ocs_design.export.templates import in_comment
 from ocs_design.export.urdf import robot_urdf
 from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.mujoco_model import build_spec
 from ocs_design.robot.reader import read_robot
 
-TRUNK = "base_link"
+DEVICE = driven_device()
+THIRD = {
+    "solo12": "solo_description/robots/solo12",
+    "a1": "a1_description/urdf/a1",
+    "anymal_c": "anymal_c_simple_description/urdf/anymal",
+    "go2": "go2_description/urdf/go2",
+    "hyq": "hyq_description/robots/hyq_no_sensors",
+    "bolt": "bolt_description/robots/bolt",
+    "talos": "talos_data/robots/talos_reduced",
+}
+
+
+@pytest.fixture(params=THIRD.values(), ids=THIRD)
+def third(request, tmp_path):
+    """Another robot as it came, with the snippets of ours beside it."""
+    for name, text in snippets(DEVICE, TrunkOnly()).items():
+        (tmp_path / name).write_text(text)
+    return read_robot(ROBOTS / f"{request.param}.urdf", posture="zero")
+
+
+def pasted(robot, *snippets):
+    """The robot's URDF with what stands between the marks of each, for its own trunk."""
+    text = robot.content.decode()
+    for snippet in snippets:
+        words = snippet.read_text()
+        assert words.count("<!-- from here -->") == words.count("<!-- to here -->") == 1
+        part = words.split("<!-- from here -->")[1].split("<!-- to here -->")[0]
+        part = part.replace(f'<parent link="{TRUNK}"/>', f'<parent link="{robot.trunk}"/>')
+        text = text.replace("</robot>", part + "</robot>")
+    return text
+
+
+def with_macro(robot, folder, arguments=""):
+    """The robot's URDF as xacro with the two lines of the macro's comment."""
+    comment = (folder / "ocs.urdf.xacro").read_text().partition("-->")[0]
+    include, call = re.findall(r"<xacro:.*/>", comment)
+    call = call.replace(f'parent="{TRUNK}"', f'parent="{robot.trunk}"{arguments}')
+    text = re.sub(
+        r"<robot\b(?![^>]*xmlns:xacro)",
+        '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"',
+        robot.content.decode(),
+    )
+    (folder / "third.urdf.xacro").write_text(text.replace("</robot>", include + call + "</robot>"))
+    return xacro.process_file(str(folder / "third.urdf.xacro")).toxml()
+
+
+def with_attachment(robot, folder):
+    """The robot as MJCF with the two elements of the model's comment."""
+    spec = build_spec(robot, visuals=False).spec
+    root = ET.fromstring(precise_xml(spec, spec.compile(), assets="."))
+    for name, content in spec.assets.items():
+        (folder / name).write_bytes(content)
+    comment = (folder / "ocs.xml").read_text().partition("-->")[0]
+    model, attach = re.findall(r"<(?:model|attach) .*/>", comment)
+    asset = root.find("asset")
+    (ET.SubElement(root, "asset") if asset is None else asset).append(ET.fromstring(model))
+    root.find(f".//body[@name='{robot.trunk}']").append(ET.fromstring(attach))
+    (folder / "third.xml").write_bytes(ET.tostring(root))
+    return mujoco.MjModel.from_xml_path(str(folder / "third.xml"))
+
+
+FORMS = {
+    "pasted": lambda robot, folder: pasted(robot, folder / "ocs.urdf"),
+    "pasted with ros2_control": lambda robot, folder: pasted(
+        robot, folder / "ocs.urdf", folder / "ocs_ros2_control.urdf"
+    ),
+    "macro": with_macro,
+    "macro with ros2_control": lambda robot, folder: with_macro(
+        robot, folder, ' ros2_control="true"'
+    ),
+}
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_urdf_and_macro_go_into_any_robot(third, tmp_path, form):
+    text = FORMS[form](third, tmp_path)
+    check_whole(seen_by_pinocchio(text, third), third, DEVICE)
+    model = pinocchio_model(text)
+    check_wheels_in_pinocchio(model, DEVICE, third.trunk)
+    wheel = model.idx_vs[model.getJointId("ocs_left")]
+    assert model.upperEffortLimit[wheel] == DEVICE.motor.torque_limit
+    declared = ET.fromstring(text).findall("ros2_control/joint")
+    own = ["ocs_left", "ocs_right"] if "ros2_control" in form else []
+    assert [joint.get("name") for joint in declared] == own
+
+
+def test_the_model_attached(third, tmp_path):
+    model = with_attachment(third, tmp_path)
+    check_whole(seen_by_mujoco(model, third), third, DEVICE)
+    check_wheels_in_mujoco(model, DEVICE, third.trunk)
+    limit = DEVICE.motor.torque_limit
+    for module in DEVICE.modules:
+        actuator = model.actuator(f"ocs_{module.name}")
+        np.testing.assert_array_equal(actuator.ctrlrange, [-limit, limit])
+    assert [model.sensor(i).name for i in range(model.nsensor)][-1] == "ocs_imu_rate"
+
+
 MJCF = """<mujoco><asset><model name="ocs" file="ocs.xml"/></asset><worldbody>
   <body name="trunk"><freejoint/><geom size="0.1" mass="2"/>
     <body name="leg"><joint name="hip" axis="0 1 0"/><geom size="0.05" mass="1"/></body>
@@ -82,21 +194,9 @@ def check_turned_wheels(model, device, mount):
 @pytest.mark.parametrize("form", ["robot", "pasted", "macro"])
 def test_wheels_of_a_robot_with_y_up_stand_in_its_base_frame(tmp_path, form):
     robot, device = read_robot(HUMAN), paper_device()
-    if form == "robot":
-        text = robot_urdf(robot, device).decode()
-    elif form == "pasted":
-        snippet = snippet_urdf(device, robot)
-        part = snippet.split("<!-- from here -->")[1].split("<!-- to here -->")[0]
-        text = HUMAN.read_text().replace("</robot>", part + "</robot>")
-    else:
-        (tmp_path / "ocs.urdf.xacro").write_text(snippet_xacro(device, robot))
-        call = f'<xacro:include filename="ocs.urdf.xacro"/><xacro:ocs parent="{robot.mount.link}"/>'
-        (tmp_path / "h.xacro").write_text(
-            HUMAN.read_text()
-            .replace("<robot ", '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" ', 1)
-            .replace("</robot>", call + "</robot>")
-        )
-        text = xacro.process_file(str(tmp_path / "h.xacro")).toxml()
+    for name, text in snippets(device, robot).items():
+        (tmp_path / name).write_text(text)
+    text = robot_urdf(robot, device).decode() if form == "robot" else FORMS[form](robot, tmp_path)
     check_turned_wheels(pinocchio_model(text), device, robot.mount)
 
 
@@ -120,3 +220,58 @@ def test_any_text_may_stand_in_a_comment(text):
     whole = minidom.parseString(f"<x><!--{in_comment(text)}--></x>")
     found = whole.documentElement.firstChild.data if in_comment(text) else ""
     assert found.replace(" ", "").rstrip("-") == text.replace(" ", "").rstrip("-")
+
+
+CALL = f'<xacro:ocs parent="{TRUNK}" prefix="front_" ros2_control="true" hardware_plugin="a/B"/>'
+
+
+def systems(text):
+    return list(ET.fromstring(text).iter("ros2_control"))
+
+
+def check_system(system, device, prefix, plugin):
+    assert system.attrib == {"name": f"{prefix}ocs", "type": "system"}
+    assert system.findtext("hardware/plugin") == plugin
+    names = [f"{prefix}ocs_{module.name}" for module in device.modules]
+    assert [joint.get("name") for joint in system.iter("joint")] == names
+    for joint in system.iter("joint"):
+        assert [each.get("name") for each in joint.iter("command_interface")] == ["effort"]
+        states = [each.get("name") for each in joint.iter("state_interface")]
+        assert states == ["position", "velocity", "effort"]
+
+
+def bounds(system):
+    return [
+        (param.get("name"), float(param.text))
+        for param in system.findall("joint/command_interface/param")
+    ]
+
+
+def test_the_macro_declares_nothing_unless_asked(tmp_path):
+    (tmp_path / "ocs.urdf.xacro").write_text(snippet_xacro(driven_device(), TrunkOnly()))
+    assert not systems(expanded(tmp_path, f'<xacro:ocs parent="{TRUNK}"/>'))
+
+
+def test_the_macro_declares_both_motors_when_asked(tmp_path):
+    device = driven_device()
+    (tmp_path / "ocs.urdf.xacro").write_text(snippet_xacro(device, TrunkOnly()))
+    text = expanded(tmp_path, CALL)
+    (system,) = systems(text)
+    check_system(system, device, "front_", "a/B")
+    joints = {joint.get("name") for joint in ET.fromstring(text).findall("joint")}
+    assert {joint.get("name") for joint in system.iter("joint")} <= joints
+
+
+@pytest.mark.parametrize("drive", [motor(754.0, torque_limit=0.7), geared(3.0)])
+def test_the_command_is_bounded_by_the_motor(drive):
+    device = driven_device(drive=drive)
+    (system,) = systems(snippet_ros2_control(device))
+    check_system(system, device, "", MOCK_PLUGIN)
+    limit = drive.torque_limit
+    assert bounds(system) == 2 * [("min", -limit), ("max", limit)]
+
+
+def test_a_motor_without_limit_has_no_bounds():
+    (system,) = systems(snippet_ros2_control(paper_device()))
+    check_system(system, paper_device(), "", MOCK_PLUGIN)
+    assert not bounds(system)

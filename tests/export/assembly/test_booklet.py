@@ -2,11 +2,12 @@
 
 import re
 from dataclasses import replace
-from itertools import combinations, pairwise
+from itertools import pairwise
 
 import numpy as np
 import pytest
 from built import DEVICES
+from drawn_wheels import check_words
 from hypothesis import given
 from hypothesis import strategies as st
 from wheels import paper_device
@@ -18,15 +19,13 @@ from ocs_design.device.joints import balance_of, burst_of, rim_fit
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.device.records.device import MarginRecord
 from ocs_design.device.solids import foot_of
-from ocs_design.export.assembly.booklet import (
-    assembly_pages,
-)
+from ocs_design.export.assembly.booklet import assembly_pages
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.assembly.steps import chapters
 from ocs_design.export.assembly.views import pulled_apart, spread
 from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.export.device_parts import printed_parts
-from ocs_design.export.drawing.sheet import FRAME_BOX, Circle, Line, Polyline, Text
+from ocs_design.export.drawing.sheet import Circle, Line, Polyline
 from ocs_design.export.meshes import part_mesh
 from ocs_design.parts.pedestal import Pedestal
 
@@ -36,16 +35,30 @@ def assembly(request):
     return Assembly("solo12", DEVICES[request.param])
 
 
-def test_all_text_is_within_the_frame_and_none_on_another(assembly):
-    left, top, right, bottom = FRAME_BOX
+def test_all_is_on_the_sheet_and_no_text_on_another(assembly):
     for page in assembly_pages(assembly):
-        boxes = [item.box for item in page if isinstance(item, Text) and item.text]
-        for x1, y1, x2, y2 in boxes:
-            assert left <= x1 < x2 <= right
-            assert top <= y1 < y2 <= bottom
-        for a, b in combinations(boxes, 2):
-            apart = a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] + 0.3 or b[3] <= a[1] + 0.3
-            assert apart, (a, b)
+        check_words(page)
+        for item in page:
+            match item:
+                case Polyline(points):
+                    ends = points
+                case Line(start, end):
+                    ends = (start, end)
+                case Circle(center):
+                    ends = (center,)
+                case _:
+                    continue
+            assert all(0.0 <= x <= 297.0 and 0.0 <= y <= 210.0 for x, y in ends)
+
+
+def all_texts(assembly):
+    return [text for chapter in chapters(assembly) for text in chapter.texts]
+
+
+def texts(assembly, title):
+    """Of one chapter."""
+    (chapter,) = (each for each in chapters(assembly) if each.title.startswith(title))
+    return " ".join(chapter.texts)
 
 
 @pytest.mark.parametrize("name", ["caged", "by its face"])
@@ -53,12 +66,7 @@ def test_the_way_that_a_positive_torque_turns_is_told_as_seen_from_the_lid(name)
     """About its axis by the right hand: whoever looks against the axis sees it counter-clockwise.
     A lid is on the far side of its module from the motor, in its own mesh."""
     device = DEVICES[name]
-    (text,) = (
-        text
-        for chapter in chapters(Assembly("dog", device))
-        for text in chapter.texts
-        if "positive torque" in text
-    )
+    (text,) = (text for text in all_texts(Assembly("dog", device)) if "positive torque" in text)
     pieces = {piece.name: piece for piece in Assembly("dog", device).pieces}
     lid, motor = (pieces[each].mesh.vertices.mean(axis=0) for each in ("lid", "motor"))
     for module in device.modules:
@@ -73,31 +81,13 @@ def test_the_way_that_a_positive_torque_turns_is_told_as_seen_from_the_lid(name)
 
 
 def test_the_bench_is_told_what_the_foot_does_and_what_can_be_touched():
-    said = {
-        name: " ".join(
-            text for part in chapters(Assembly("dog", DEVICES[name])) for text in part.texts
-        )
-        for name in ("caged", "by its face")
-    }
-    assert "Between the posts of the cage the motor's bell turns" in said["caged"]
-    assert "Between the posts" not in said["by its face"]
+    caged, by_face = (
+        " ".join(all_texts(Assembly("dog", DEVICES[name]))) for name in ("caged", "by its face")
+    )
+    assert "Between the posts of the cage the motor's bell turns" in caged
+    assert "Between the posts" not in by_face
     hole = 2e3 * foot_of(DEVICES["caged"]).housing.mount.pilot_radius
-    assert f"no supports but in the hole of {hole:.0f} mm" in said["caged"]
-
-
-def test_all_lines_are_on_the_sheet(assembly):
-    for page in assembly_pages(assembly):
-        for item in page:
-            match item:
-                case Polyline(points):
-                    ends = points
-                case Line(start, end):
-                    ends = (start, end)
-                case Circle(center):
-                    ends = (center,)
-                case _:
-                    continue
-            assert all(0.0 <= x <= 297.0 and 0.0 <= y <= 210.0 for x, y in ends)
+    assert f"no supports but in the hole of {hole:.0f} mm" in caged
 
 
 def test_every_screw_of_the_bill_is_numbered_and_has_a_torque(assembly):
@@ -159,11 +149,6 @@ def test_numbers_never_stand_on_each_other(wanted):
     places = spread(sorted(wanted), 8.0, (0.0, 200.0))
     assert np.all(np.diff(places) >= 8.0 - 1e-9)
     assert all(place <= 200.0 for place in places)
-
-
-def texts(assembly, title):
-    (chapter,) = (each for each in chapters(assembly) if each.title.startswith(title))
-    return " ".join(chapter.texts)
 
 
 def test_the_guard_is_told_what_it_does_not_do():
@@ -272,12 +257,7 @@ def test_the_spin_test_keeps_to_the_speed_that_the_motor_is_allowed(allowed, say
     motor = replace(
         device.motor, no_load_speed=free, speed_max=allowed * free, bus_voltage=24.0, gear="direct"
     )
-    (chapter,) = (
-        each
-        for each in chapters(Assembly("solo12", replace(device, motor=motor)))
-        if each.title.startswith("Spin test")
-    )
-    assert says in " ".join(chapter.texts)
+    assert says in texts(Assembly("solo12", replace(device, motor=motor)), "Spin test")
 
 
 def test_each_foot_of_a_ring_is_turned_to_its_own_axis():
@@ -293,8 +273,7 @@ def test_each_foot_of_a_ring_is_turned_to_its_own_axis():
 
 
 def test_large_figures_are_written_out(assembly):
-    said = " ".join(text for chapter in chapters(assembly) for text in chapter.texts)
-    assert not re.search(r"\de[+]", said)
+    assert not re.search(r"\de[+]", " ".join(all_texts(assembly)))
 
 
 def test_pedestals_of_two_shapes_stand_beside_each_other():

@@ -2,14 +2,14 @@
 
 import re
 from dataclasses import replace
-from itertools import combinations
 
 import numpy as np
 import pytest
 from built import DEVICES
+from drawn_wheels import check_words, texts
 
 from ocs_design.export.drawing.plate_sheet import plate_sheets
-from ocs_design.export.drawing.sheet import FRAME_BOX, OUTLINE, Circle, Polyline, Text
+from ocs_design.export.drawing.sheet import OUTLINE, Circle, Polyline
 from ocs_design.export.meshes import part_manifold
 from ocs_design.parts.carrier_plate import plate_part
 from ocs_design.parts.mast import Mast
@@ -38,21 +38,11 @@ def sheets_of(plate):
     return plate_sheets(replace(DEVICES["on a plate"], plate=plate), "dog", "0123456789ab", "tool")
 
 
-def texts(page):
-    return [item for item in page if isinstance(item, Text) and item.text]
-
-
 def test_all_words_are_within_the_frame_and_none_on_another(plate):
-    left, top, right, bottom = FRAME_BOX
     pages = sheets_of(plate)
     assert len(pages) == (1 if plate.mast is None else 2)
     for page in pages:
-        boxes = [item.box for item in texts(page)]
-        for x1, y1, x2, y2 in boxes:
-            assert left <= x1 < x2 <= right
-            assert top <= y1 < y2 <= bottom
-        for a, b in combinations(boxes, 2):
-            assert a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] + 0.3 or b[3] <= a[1] + 0.3, (a, b)
+        check_words(page)
 
 
 def test_the_table_has_every_hole_of_one_plate_where_it_is(plate):

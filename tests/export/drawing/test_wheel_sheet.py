@@ -2,10 +2,13 @@
 
 import math
 import re
+import shutil
+import subprocess
 from dataclasses import replace
 from itertools import combinations
 from xml.etree import ElementTree as ET
 
+import numpy as np
 import pytest
 from drawn_wheels import FLAT, HOLED, HUB, covers, drawings, overlap, texts
 from hypothesis import HealthCheck, given, settings
@@ -14,7 +17,7 @@ from wheels import paper_device
 
 from ocs_design.device.device import Web
 from ocs_design.export.device_parts import wheel_geometry
-from ocs_design.export.drawing.sheet import FRAME_BOX, Circle, Line, Text
+from ocs_design.export.drawing.sheet import FRAME_BOX, OUTLINE, Circle, Line, Text
 from ocs_design.export.drawing.wheel import inside_corners
 from ocs_design.export.drawing.wheel_sheet import (
     device_hash,
@@ -22,6 +25,7 @@ from ocs_design.export.drawing.wheel_sheet import (
     wheel_drawing,
     wheel_sheet,
 )
+from ocs_design.export.drawing.writers import pdf_of_pages
 from ocs_design.parts.rim import WEB_MATERIAL, WEB_THICKNESS, Hub
 from ocs_design.parts.wheel import Wheel
 
@@ -210,6 +214,31 @@ def test_the_hub_says_what_holds_it():
         assert said in " ".join(text.text for text in texts(wheel_sheet(drawing)))
     held = texts(wheel_sheet(replace(FLAT, on_shaft=True)))
     assert not [text for text in held if "pilot" in text.text or "bolt circle" in text.text]
+
+
+NUMBER = rb"-?\d*\.?\d+"
+
+
+def test_lines_and_circles_of_the_pdf_are_those_of_the_sheet():
+    """A PDF counts from the bottom; a circle begins at its right."""
+    pdf = draw_wheel(FLAT)["pdf"]
+    lines = [(*each.start, *each.end) for each in wheel_sheet(FLAT) if isinstance(each, Line)]
+    drawn = re.findall(rb"n (%b) (%b) m (%b) (%b) l S" % ((NUMBER,) * 4), pdf)
+    expected = np.array(lines) * [1, -1, 1, -1] + [0, 210, 0, 210]
+    np.testing.assert_allclose(np.array(drawn, float), expected, atol=1e-4)
+    content = pdf_of_pages([[Circle((100.0, 60.0), 40.0, OUTLINE)]], "")
+    begun = re.search(rb"n\s(%b) (%b) m\s" % (NUMBER, NUMBER), content).groups()
+    assert [float(each) for each in begun] == pytest.approx([140.0, 150.0])
+
+
+@pytest.mark.skipif(shutil.which("pdftotext") is None, reason="poppler is not installed")
+def test_a_reader_of_pdf_finds_the_texts(tmp_path):
+    path = tmp_path / "wheel.pdf"
+    path.write_bytes(draw_wheel(FLAT)["pdf"])
+    done = subprocess.run(["pdftotext", "-layout", path, "-"], capture_output=True, check=True)
+    for label in ("Ø8 H7", "4 × Ø3.4 through", "ISO 2768-mK", "35.95 kg mm²", "OCS flywheel"):
+        assert label in done.stdout.decode()
+    assert done.stderr == b""
 
 
 DEVICE = paper_device()
