@@ -1,3 +1,5 @@
+"""Where meshes lie, how far they reach, and which are not opened."""
+
 from pathlib import Path
 from unittest import mock
 from zipfile import ZipFile

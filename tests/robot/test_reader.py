@@ -1,4 +1,4 @@
-"""From a file to a robot."""
+"""From a file to a robot, and what lies beside it."""
 
 import hashlib
 import os

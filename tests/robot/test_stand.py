@@ -1,4 +1,4 @@
-"""The standing posture, judged by Pinocchio's kinematics."""
+"""The standing posture and feet that are lifted, judged by Pinocchio and the whole tree."""
 
 import numpy as np
 import pinocchio as pin

@@ -1,4 +1,4 @@
-"""Heights of a trunk over a grid: of primitives in closed form, of meshes as of their triangles."""
+"""Heights and reach of shapes: of primitives in closed form, of meshes as of their triangles."""
 
 from dataclasses import replace
 

@@ -1,3 +1,5 @@
+"""URDF as it is read: joints, shapes, colours, lumps, encodings, and what is warned of."""
+
 from pathlib import Path
 
 import numpy as np

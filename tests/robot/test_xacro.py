@@ -1,3 +1,5 @@
+"""Xacro files: expanded, or told why not; none may run code, read, write or never end."""
+
 import sys
 from pathlib import Path
 

@@ -1,3 +1,5 @@
+"""The wheels' law against the gyrostat's equation and brute force."""
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -25,6 +27,10 @@ def gyrostat(incidence=FORTY_DEGREES):
     return Gyrostat(INERTIA, module_axes(incidence), 7.1e-5)
 
 
+def law_of(body, limits=UNLIMITED, allocation=Allocation.PSEUDO_INVERSE, **options):
+    return WheelLaw.of(body, Gains(60.0, 12.0), limits, allocation, **options)
+
+
 def seen_from(rotation):
     """The world's upward direction, by SciPy."""
     return rotation.inv().apply([[0.0, 0.0, 1.0]])
@@ -34,6 +40,16 @@ def level(rate=(0.0, 0.0, 0.0), acceleration=(0.0, 0.0, 0.0)):
     upright = np.array([[0.0, 0.0, 1.0]])
     stands = np.zeros(1, dtype=bool)
     return Target(upright, np.array([rate]), np.array([acceleration]), np.zeros((1, 1)), stands)
+
+
+STILL, RESTING = (0.0, 0.0, 0.0), (0.0, 0.0)
+
+
+def torque_of(law, turn, rate=STILL, speed=RESTING, target=None, period=1e-3):
+    """Torque of each wheel of a trunk turned by a rotation vector; the target is level."""
+    target = level() if target is None else target
+    vertical = seen_from(Rotation.from_rotvec(turn))
+    return law.torque(vertical, np.array([rate]), np.array([speed]), target, period)[0]
 
 
 def acceleration(body, torque, rate, wheel_speed):
@@ -75,11 +91,9 @@ def test_a_heading_that_drifts_changes_nothing(roll, pitch, yaw):
 def test_the_trunk_gets_the_roll_and_pitch_acceleration_that_the_law_asks_for(now, rate, spin):
     """Whatever the rates, the wheel speeds and the products of inertia."""
     body, w, W = gyrostat(), np.array(rate), np.array(spin)
-    vertical = seen_from(Rotation.from_rotvec(now))
-    law = WheelLaw.of(body, Gains(60.0, 12.0), UNLIMITED, Allocation.PSEUDO_INVERSE)
     target = level(rate=(0.3, -0.2, 9.0), acceleration=(1.0, -4.0, 9.0))
-    torque = law.torque(vertical, w[None], W[None], target, 1e-3)[0]
-    error = tilt_error(vertical, target.vertical)[0]
+    torque = torque_of(law_of(body), now, rate, spin, target)
+    error = tilt_error(seen_from(Rotation.from_rotvec(now)), target.vertical)[0]
     wanted = 60.0 * error + 12.0 * (np.array([0.3, -0.2]) - w[:2]) + np.array([1.0, -4.0])
     np.testing.assert_allclose(acceleration(body, torque, w, W)[:2], wanted, rtol=0, atol=1e-8)
 
@@ -89,28 +103,20 @@ def test_wheels_that_span_three_axes_turn_the_trunk_about_yaw_too(now, rate, spi
     """A pyramid of four: what is asked about every axis comes about."""
     tilt, turn = np.radians(35.0), np.radians([45.0, 135.0, 225.0, 315.0])
     axes = np.array([np.cos(tilt) * np.cos(turn), np.cos(tilt) * np.sin(turn), np.full(4, 0.57)])
-    body, w, W = (
-        Gyrostat(INERTIA, axes / np.linalg.norm(axes, axis=0), 7.1e-5),
-        *map(np.array, (rate, spin)),
-    )
-    vertical = seen_from(Rotation.from_rotvec(now))
-    law = WheelLaw.of(body, Gains(60.0, 12.0), UNLIMITED, Allocation.PSEUDO_INVERSE)
+    body = Gyrostat(INERTIA, axes / np.linalg.norm(axes, axis=0), 7.1e-5)
     target = level(rate=(0.3, -0.2, 0.5), acceleration=(1.0, -4.0, 2.0))
-    torque = law.torque(vertical, w[None], W[None], target, 1e-3)[0]
-    error = np.append(tilt_error(vertical, target.vertical)[0], 0.0)
-    wanted = 60.0 * error + 12.0 * (target.rate[0] - w) + target.acceleration[0]
-    np.testing.assert_allclose(acceleration(body, torque, w, W), wanted, rtol=0, atol=1e-8)
+    torque = torque_of(law_of(body), now, rate, spin, target)
+    tilt_off = tilt_error(seen_from(Rotation.from_rotvec(now)), target.vertical)[0]
+    wanted = 60.0 * np.append(tilt_off, 0.0) + 12.0 * (target.rate[0] - rate)
+    found = acceleration(body, torque, np.array(rate), np.array(spin))
+    np.testing.assert_allclose(found, wanted + target.acceleration[0], rtol=0, atol=1e-8)
 
 
 def test_the_transpose_scales_the_torque_by_C_times_its_transpose():
     """C C^T = diag(2 sin^2 a, 2 cos^2 a, 0) (docs/theory.md, The control law)."""
     body = Gyrostat(np.diag([0.03, 0.05, 0.07]), module_axes(np.radians(30.0)), 7e-5)
-    tilted = seen_from(Rotation.from_rotvec([0.1, -0.2, 0.0]))
     torques = {
-        how: -body.axes
-        @ WheelLaw.of(body, Gains(60.0, 12.0), UNLIMITED, how).torque(
-            tilted, np.zeros((1, 3)), np.zeros((1, 2)), level(), 1e-3
-        )[0]
+        how: -body.axes @ torque_of(law_of(body, allocation=how), (0.1, -0.2, 0.0))
         for how in Allocation
     }
     scaled = torques[Allocation.PSEUDO_INVERSE] * [2 * 0.25, 2 * 0.75, 0.0]
@@ -118,10 +124,7 @@ def test_the_transpose_scales_the_torque_by_C_times_its_transpose():
 
 
 def test_wheels_across_the_trunk_leave_roll_alone():
-    body = gyrostat(incidence=0.0)
-    law = WheelLaw.of(body, Gains(60.0, 12.0), UNLIMITED, Allocation.PSEUDO_INVERSE)
-    rolled = seen_from(Rotation.from_rotvec([0.3, 0.0, 0.0]))
-    torque = law.torque(rolled, np.zeros((1, 3)), np.zeros((1, 2)), level(), 1e-3)
+    torque = torque_of(law_of(gyrostat(incidence=0.0)), (0.3, 0.0, 0.0))
     assert np.abs(torque).max() < 0.05
 
 
@@ -138,8 +141,7 @@ def test_no_wheel_passes_its_no_load_speed_and_no_motor_its_current(
     body, W = gyrostat(), np.array([left, right])
     limits = MotorLimits.of(motor(no_load_speed=700.0, stall_torque=stall, torque_limit=1.0))
     law = WheelLaw.of(body, Gains(600.0, 12.0), limits, Allocation.PSEUDO_INVERSE)
-    attitude = seen_from(Rotation.from_rotvec([0.0, tilt, 0.0]))
-    torque = law.torque(attitude, np.zeros((1, 3)), W[None], level(), period)[0]
+    torque = torque_of(law, (0.0, tilt, 0.0), speed=W, period=period)
     w_dot = acceleration(body, torque, np.zeros(3), W)
     later = W + period * (torque / body.spin_inertia - body.axes.T @ w_dot)
     assert np.abs(torque).max() <= 1.0
@@ -152,23 +154,17 @@ def test_no_wheel_passes_its_no_load_speed_and_no_motor_its_current(
 def test_braking_at_full_speed_is_not_cut():
     """The voltage line lets a motor brake with up to twice its stall torque at no-load speed."""
     limits = MotorLimits.of(motor(no_load_speed=700.0, stall_torque=1.0))
-    law = WheelLaw.of(gyrostat(), Gains(60.0, 12.0), limits, Allocation.PSEUDO_INVERSE)
-    pitched = seen_from(Rotation.from_rotvec([0.0, 0.1, 0.0]))
-    free = WheelLaw.of(gyrostat(), Gains(60.0, 12.0), UNLIMITED, Allocation.PSEUDO_INVERSE)
-    arguments = (pitched, np.zeros((1, 3)), np.full((1, 2), -700.0), level(), 1e-3)
-    assert free.torque(*arguments)[0, 0] > 0.0
-    np.testing.assert_array_equal(law.torque(*arguments), free.torque(*arguments))
+    limited, free = (
+        torque_of(law_of(gyrostat(), limits=each), (0.0, 0.1, 0.0), speed=(-700.0, -700.0))
+        for each in (limits, UNLIMITED)
+    )
+    assert free[0] > 0.0
+    np.testing.assert_array_equal(limited, free)
 
 
 def test_a_law_that_is_off_gives_no_torque_whatever_happens():
-    torque = WheelLaw.off(2).torque(
-        seen_from(Rotation.from_rotvec([1.0, 1.0, 1.0])),
-        np.ones((1, 3)),
-        np.ones((1, 2)),
-        level(),
-        1e-3,
-    )
-    np.testing.assert_array_equal(torque, np.zeros((1, 2)))
+    torque = torque_of(WheelLaw.off(2), (1.0, 1.0, 1.0), (1.0, 1.0, 1.0), (1.0, 1.0))
+    np.testing.assert_array_equal(torque, 0.0)
 
 
 def test_unlimited_motors_have_no_line():
@@ -179,23 +175,16 @@ def test_unlimited_motors_have_no_line():
 
 def test_on_the_ground_the_wheels_damp_and_leave_the_attitude_to_the_legs():
     """A lean that the legs settle in asks for no torque, however long it lasts."""
-    law = WheelLaw.of(gyrostat(), Gains(60.0, 12.0), UNLIMITED, Allocation.PSEUDO_INVERSE)
-    leaning = seen_from(Rotation.from_rotvec([0.1, -0.25, 0.0]))
+    law, lean = law_of(gyrostat()), (0.1, -0.25, 0.0)
     planned = level(rate=(0.3, -0.2, 0.0), acceleration=(1.0, -4.0, 0.0))
-    still, spin = np.zeros((1, 3)), np.zeros((1, 2))
     stands = planned.landed(np.ones(1, dtype=bool))
-    assert np.abs(law.torque(leaning, still, spin, planned, 1e-3)).max() > 0.1
-    np.testing.assert_array_equal(law.torque(leaning, still, spin, stands, 1e-3), 0.0)
-    balancing = WheelLaw.of(
-        gyrostat(), Gains(60.0, 12.0), UNLIMITED, Allocation.PSEUDO_INVERSE, balances=True
-    )
-    righting = acceleration(
-        gyrostat(), balancing.torque(leaning, still, spin, stands, 1e-3)[0], still[0], spin[0]
-    )
-    np.testing.assert_allclose(
-        righting[:2], 60.0 * tilt_error(leaning, stands.vertical)[0], atol=1e-9
-    )
-    turning = np.array([[0.4, 0.0, 0.0]])
-    damped = law.torque(leaning, turning, spin, stands, 1e-3)[0]
-    slowing = acceleration(gyrostat(), damped, turning[0], spin[0])
+    assert np.abs(torque_of(law, lean, target=planned)).max() > 0.1
+    np.testing.assert_array_equal(torque_of(law, lean, target=stands), 0.0)
+    balancing = torque_of(law_of(gyrostat(), balances=True), lean, target=stands)
+    righting = acceleration(gyrostat(), balancing, np.array(STILL), np.array(RESTING))
+    error = tilt_error(seen_from(Rotation.from_rotvec(lean)), stands.vertical)[0]
+    np.testing.assert_allclose(righting[:2], 60.0 * error, atol=1e-9)
+    turning = np.array([0.4, 0.0, 0.0])
+    damped = torque_of(law, lean, turning, target=stands)
+    slowing = acceleration(gyrostat(), damped, turning, np.array(RESTING))
     np.testing.assert_allclose(slowing[:2], [-12.0 * 0.4, 0.0], atol=1e-9)

@@ -63,7 +63,6 @@ CASES = {
     "one wheel": (laid_out("single"), False),
     "wheels on all axes": (laid_out("orthogonal"), False),
     "ideal wheels": (paper_device(), False),
-    "motors": (driven_device(), False),
     "motors on a weak supply, braked in stance": (
         replace(driven_device(drive=WOUND), supply=Supply(24.0, 2.0)),
         True,
@@ -212,13 +211,8 @@ def test_names_that_are_no_identifiers_and_those_that_are_alike(solo12, tmp_path
     device = paper_device()
     world = WorldBuilder(solo12, device).flight(default_maneuvers(solo12)[0], Wheels.ACTIVE)
     names = ["*/ übung", "Push 1", "push-1", "§"]
-    write_controller(
-        "solo12",
-        dict.fromkeys(names, world),
-        tmp_path,
-        joints=joint_names(device),
-        period=PERIOD,
-    )
+    worlds = dict.fromkeys(names, world)
+    write_controller("solo12", worlds, tmp_path, joints=joint_names(device), period=PERIOD)
     header = (tmp_path / "solo12_ocs_controller.h").read_text()
     found = re.findall(r"^    (OCS_\w+),$", header, re.MULTILINE)
     assert len(set(found)) == len(names)

@@ -1,11 +1,14 @@
-"""The paper's three experiments on Solo12 with its own wheel (docs/validation.md)."""
+"""The paper's three experiments on Solo12 (docs/validation.md), and scaled to other robots."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from wheels import motor, paper_device, paper_maneuvers
+from robots import ROBOTS
+from sampled import every
+from wheels import motor, paper_device, paper_maneuvers, scaled_device
 
+from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.reference import Step
 from ocs_design.simulation.scenario import Options, run_scenarios
 from ocs_design.simulation.wheel_law import Allocation
@@ -96,3 +99,46 @@ def test_a_simulation_that_breaks_down_is_not_judged(solo12, maneuvers, tmp_path
     assert [run.passed for run in runs] == [None, None]
     assert all("became unstable" in run.reason for run in runs)
     assert not list(tmp_path.iterdir()), "MuJoCo left its log behind"
+
+
+QUADRUPEDS = [
+    "a1_description/urdf/a1",
+    "anymal_c_simple_description/urdf/anymal",
+    "hyq_description/robots/hyq_no_sensors",
+]
+BIPEDS = [
+    "bolt_description/robots/bolt",
+    "icub_description/robots/icub",
+    "talos_data/robots/talos_full_v2",
+]
+
+
+def fly(path):
+    robot = read_robot(ROBOTS / f"{path}.urdf")
+    return run_scenarios(robot, scaled_device(robot), paper_maneuvers(robot))
+
+
+@pytest.mark.parametrize("path", every(3, [*QUADRUPEDS, *BIPEDS]))
+def test_flights_keep_their_momentum_and_land_level_with_the_device(path):
+    runs = fly(path)
+    if path in QUADRUPEDS:
+        assert [run.passed for run in runs] == [True, False] * 3
+    for run in runs:
+        assert run.metrics.momentum_error < 1e-7
+        tilt = max(abs(run.metrics.touchdown_roll), abs(run.metrics.touchdown_pitch))
+        flipped = abs(run.metrics.turned_angle) > np.radians(355.0)
+        if run.ocs:
+            assert tilt < np.radians(5.0), run.reason
+            assert flipped == (run.scenario == "back-flip")
+        else:
+            assert run.passed is False
+
+
+def test_a_biped_without_balance_is_judged_on_touchdown_alone():
+    """On Earth it falls over on its joint drives; at a sixth of the weight they hold it up."""
+    runs = fly("bolt_description/robots/bolt")
+    assert [run.passed for run in runs] == [True, False] * 3
+    jump, drop, flip = (run.reason for run in runs if run.ocs)
+    assert "standing is not judged" in jump
+    assert "standing is not judged" in drop
+    assert "and stands" in flip

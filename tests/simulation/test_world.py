@@ -1,25 +1,36 @@
+"""A maneuver's world: its masses, its start, its settings, and how the trunk is told."""
+
 from dataclasses import replace
 
 import mujoco
 import numpy as np
 import pytest
-from robots import ROBOTS
-from wheels import PAPER_WHEEL, paper_device, paper_maneuvers
+from robots import ROBOTS, SOLO12
+from wheels import EC45_BODY, braked_inertia, driven_device, geared, paper_device, paper_maneuvers
 
 from ocs_design.common.errors import SpecificationError
 from ocs_design.export.physics import lowest_point, set_gains
 from ocs_design.requirement.maneuver import Drop
-from ocs_design.robot.mass import MassProperties, combine
+from ocs_design.robot.mujoco_model import build_spec, trunk_body
 from ocs_design.robot.reader import read_robot
+from ocs_design.simulation import quaternions
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.metrics import measure
-from ocs_design.simulation.scene import Wheels, robot_scene
-from ocs_design.simulation.world import WorldBuilder, wheel_gains
+from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
+from ocs_design.simulation.world import TrunkChain, WorldBuilder, wheel_gains
 
 
 @pytest.fixture(scope="module")
 def builder(solo12):
     return WorldBuilder(solo12, paper_device())
+
+
+GEARED = driven_device(drive=geared(1.5))
+
+
+@pytest.fixture(scope="module", params=[paper_device(), GEARED], ids=["ideal", "geared"])
+def any_builder(request, solo12):
+    return WorldBuilder(solo12, request.param)
 
 
 @pytest.fixture(scope="module")
@@ -34,22 +45,19 @@ def placed(world):
     return data
 
 
-def test_the_law_believes_in_the_inertia_of_robot_and_wheels(solo12, builder, maneuvers):
-    device = paper_device()
-    spin, across = PAPER_WHEEL.spin_inertia, PAPER_WHEEL.transverse_inertia
-    wheels = [
-        MassProperties(
-            PAPER_WHEEL.mass,
-            module.position,
-            across * np.eye(3) + (spin - across) * np.outer(module.axis, module.axis),
-        )
-        for module in device.modules
-    ]
-    expected = combine([solo12.mass_properties, *wheels]).inertia
-    body = builder.flight(maneuvers[0], Wheels.ACTIVE).body
-    np.testing.assert_allclose(body.inertia, expected, atol=1e-9)
-    actuated = expected - spin * device.axes @ device.axes.T
-    np.testing.assert_allclose(body.actuated_inertia, actuated, atol=1e-9)
+@pytest.mark.parametrize("device", [paper_device(), GEARED], ids=["ideal", "geared"])
+def test_the_law_believes_in_robot_rims_and_carriers(solo12, device, maneuvers):
+    """Those of a flip are turned by hand, and their carriers turn along."""
+    builder = WorldBuilder(solo12, device)
+    spin = device.flywheel.spin_inertia
+    for maneuver, placed_so in ((maneuvers[0], device), (maneuvers[2], device.at_incidence(0.0))):
+        body = builder.flight(maneuver, Wheels.ACTIVE).body
+        expected = braked_inertia(solo12, placed_so).inertia
+        np.testing.assert_allclose(body.inertia, expected, rtol=0, atol=1e-9 * np.trace(expected))
+        reacting = spin**2 / (spin + device.motor.armature)
+        actuated = expected - reacting * placed_so.axes @ placed_so.axes.T
+        np.testing.assert_allclose(body.actuated_inertia, actuated, atol=1e-9)
+        assert (body.spin_inertia, body.armature) == (spin, device.motor.armature)
 
 
 def test_absent_wheels_leave_exactly_the_bare_robot(solo12, builder, maneuvers):
@@ -73,9 +81,16 @@ def test_absent_wheels_leave_exactly_the_bare_robot(solo12, builder, maneuvers):
     assert data.ncon > 0
 
 
-def test_all_worlds_fit_the_same_working_memory(builder, maneuvers):
+def test_what_is_absent_has_no_motors_either(solo12, any_builder, maneuvers):
+    model = any_builder.flight(maneuvers[1], Wheels.ABSENT).model
+    assert model.body_subtreemass[1] == pytest.approx(solo12.mass, rel=1e-8)
+
+
+def test_all_worlds_fit_the_same_working_memory(any_builder, maneuvers):
     """MuJoCo's rollout runs them in one MjData and checks only a few of these."""
-    models = [builder.flight(maneuver, wheels).model for maneuver in maneuvers for wheels in Wheels]
+    models = [
+        any_builder.flight(maneuver, wheels).model for maneuver in maneuvers for wheels in Wheels
+    ]
     found = [name for name in dir(models[0]) if name.startswith("n")]
     sizes = [name for name in found if isinstance(getattr(models[0], name), int)]
     assert {"nv", "nbvh", "ngeom", "nC", "nD"} <= set(sizes)
@@ -83,8 +98,9 @@ def test_all_worlds_fit_the_same_working_memory(builder, maneuvers):
         assert len({getattr(model, name) for model in models}) == 1, name
 
 
-def test_braked_wheels_are_part_of_the_trunk(builder, maneuvers):
-    world = builder.flight(maneuvers[0], Wheels.BRAKED)
+def test_braked_wheels_are_part_of_the_trunk(any_builder, maneuvers):
+    """The brake is on the joint, whatever armature the motor has."""
+    world = any_builder.flight(maneuvers[0], Wheels.BRAKED)
     data = placed(world)
     data.qvel[3:6] = (1.0, 2.0, -0.5)
     data.ctrl[:] = world.ctrl
@@ -149,3 +165,84 @@ def test_legs_that_are_told_their_load_stand_as_they_should(held):
     assert leans is not held
     if held:
         assert abs(metrics.final_pitch) < np.radians(1.0)
+
+
+def test_limits_are_told_only_of_motors_that_run_and_have_some(solo12, builder, maneuvers):
+    drop, geared_builder = maneuvers[1], WorldBuilder(solo12, GEARED)
+    assert geared_builder.flight(drop, Wheels.ACTIVE).limits is not None
+    assert geared_builder.flight(drop, Wheels.ABSENT).limits is None
+    assert builder.flight(drop, Wheels.ACTIVE).limits is None
+
+
+def test_a_device_without_carrier_has_no_bodies_for_it(solo12, builder, maneuvers):
+    massless = driven_device(carrier=replace(EC45_BODY, mass=0.0))
+    with_none = WorldBuilder(solo12, massless).flight(maneuvers[1], Wheels.ACTIVE).model
+    assert with_none.nbody == builder.flight(maneuvers[1], Wheels.ACTIVE).model.nbody
+
+
+TALOS = ROBOTS / "talos_data" / "robots" / "talos_full_v2.urdf"
+
+
+@pytest.mark.parametrize(
+    ("path", "trunk", "hinges"),
+    [(SOLO12, "base_link", 0), (TALOS, "imu_link", 2), (TALOS, "base_link", 0)],
+)
+def test_attitude_and_rate_are_mujocos(path, trunk, hinges):
+    robot = read_robot(path, trunk=trunk)
+    spec = build_spec(robot, visuals=False).spec
+    body, frame = trunk_body(spec, robot)
+    model, name = spec.compile(), body.name
+    data = mujoco.MjData(model)
+    chain = TrunkChain.of(robot, model)
+    assert len(chain.links) == hinges
+    random = np.random.default_rng(0)
+    mujoco.mj_integratePos(model, data.qpos, random.normal(size=model.nv), 1.0)
+    data.qvel[:] = random.normal(size=model.nv)
+    mujoco.mj_forward(model, data)
+    expected = data.body(name).xmat.reshape(3, 3) @ frame.rotation
+    qpos, qvel = data.qpos[None], data.qvel[None]
+    found = quaternions.matrix(chain.attitude(qpos))[0]
+    np.testing.assert_allclose(found, expected, atol=1e-12)
+    velocity = np.empty(6)
+    mujoco.mj_objectVelocity(
+        model, data, mujoco.mjtObj.mjOBJ_XBODY, model.body(name).id, velocity, 0
+    )
+    np.testing.assert_allclose(chain.rate(qpos, qvel)[0], expected.T @ velocity[:3], atol=1e-12)
+
+
+DEFAULTS = """<default>
+  <motor gear="75" ctrllimited="true" ctrlrange="-1 1" forcelimited="true" forcerange="-5 5"/>
+  <general dyntype="filter" dynprm="0.1"/><geom margin="0.01" gap="0.001"/></default>"""
+OPTION = """<option iterations="1" ls_iterations="5" noslip_iterations="4" tolerance="1e-3"
+  timestep="0.01" integrator="Euler" density="1000" viscosity="0.1" wind="1 0 0">
+  <flag eulerdamp="disable" warmstart="disable" contact="disable" gravity="disable"/></option>"""
+
+
+@pytest.fixture(scope="module")
+def compiled(solo12, tmp_path_factory):
+    """The scene of Solo12 as MJCF, and of the same file with settings of its own."""
+    text = build_spec(solo12, visuals=False).spec.to_xml()
+    opened = text.index(">", text.index("<mujoco")) + 1
+    folder = tmp_path_factory.mktemp("solo12")
+    models = []
+    for more in ("", OPTION, DEFAULTS):
+        path = folder / "robot.xml"
+        path.write_text(text[:opened] + more + text[opened:])
+        mujoco.MjModel.from_xml_path(str(path))
+        robot = read_robot(path, trunk=solo12.trunk)
+        models.append(
+            compile_scene(robot_scene(robot), robot, driven_device(), Wheels.ACTIVE, 9.81)
+        )
+    return models
+
+
+@pytest.mark.parametrize("case", [1, 2], ids=["options", "defaults"])
+def test_settings_of_the_file_do_not_reach_the_simulation(compiled, case):
+    plain, other = compiled[0], compiled[case]
+    assert plain.nu == other.nu > 0
+    for name in dir(plain):
+        if name.startswith(("actuator_", "geom_margin", "geom_gap")):
+            np.testing.assert_array_equal(getattr(other, name), getattr(plain, name), name)
+    for name in dir(plain.opt):
+        if not name.startswith("_"):
+            np.testing.assert_array_equal(getattr(other.opt, name), getattr(plain.opt, name), name)
