@@ -12,8 +12,26 @@ from part_gaps import overlap_volume, turning_clearance
 from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import BoltCircle
 from ocs_design.common.errors import PartError
-from ocs_design.parts.housing import Housing, PlainDrum, housing_parts
-from ocs_design.parts.printed import CLEARANCE, DENSITY, PANEL, WALL, MountHoles
+from ocs_design.parts.cage import NO_POSTS
+from ocs_design.parts.housing import (
+    Housing,
+    PlainDrum,
+    housing_mass_per_height,
+    housing_moments,
+    housing_outer_radius,
+    housing_parts,
+    undrilled,
+)
+from ocs_design.parts.module import Printed, shell_moments
+from ocs_design.parts.printed import (
+    CLEARANCE,
+    DENSITY,
+    LID_SCREW,
+    PANEL,
+    WALL,
+    MountHoles,
+    half_height,
+)
 from ocs_design.parts.shapes import EAR_COUNT
 from ocs_design.parts.solids import total
 from ocs_design.parts.wheel import wheel_parts
@@ -74,7 +92,69 @@ def test_clearance_holes_of_iso_273_medium(name, hole):
     assert 1e3 * screw(name).clearance_hole == pytest.approx(hole)
 
 
-def test_unknown_screw_lists_the_known_ones():
-    with pytest.raises(PartError, match="'M7'") as caught:
-        screw("M7")
-    assert "M2, M2.5, M3" in caught.value.hint
+SIZES = [(0.03, 0.01), (0.05, 0.003), (0.012, 0.03)]
+
+
+def housing(outer_radius, height):
+    return Housing(outer_radius, height, MountHoles(), LID_SCREW)
+
+
+def housing_mass(outer_radius, height):
+    """Mass of drum and lid without the mount's holes."""
+    return sum(part.mass() for part in undrilled(housing(outer_radius, height)))
+
+
+def solid(radius, height):
+    """Mass of a full cylinder."""
+    return np.pi * DENSITY * radius**2 * height
+
+
+@pytest.mark.parametrize(("outer_radius", "height"), SIZES)
+def test_a_full_drum_less_its_hollow_is_less_than_any_housing(outer_radius, height):
+    radius, tall = outer_radius + CLEARANCE, height + 2.0 * CLEARANCE
+    plain = PlainDrum().mass(outer_radius, height)
+    assert plain == pytest.approx(solid(radius + WALL, tall + 2.0 * PANEL) - solid(radius, tall))
+    assert plain < housing_mass(outer_radius, height) < 1.4 * plain
+
+
+def test_room_for_the_wheel():
+    assert housing_outer_radius(0.05) == pytest.approx(0.05 + CLEARANCE + WALL)
+    assert half_height(0.01) == pytest.approx(0.01 / 2.0 + CLEARANCE + PANEL)
+
+
+@pytest.mark.parametrize(
+    "shell",
+    [
+        PlainDrum(),
+        Printed(0.0),
+        Printed(0.02),
+        Printed(0.02, guard_wall=0.002),
+        Printed(0.02, foot_plate=0.009),
+    ],
+)
+@pytest.mark.parametrize(("outer_radius", "height"), SIZES)
+def test_slopes(shell, outer_radius, height):
+    up, down = (shell.mass(outer_radius, height + step) for step in (1e-6, -1e-6))
+    slope = shell.mass_per_height(outer_radius, height)
+    assert slope == pytest.approx((up - down) / 2e-6, rel=1e-6)
+
+
+@pytest.mark.parametrize(("outer_radius", "height"), SIZES)
+def test_masses_are_those_of_the_moments(outer_radius, height):
+    assert housing_moments(housing(outer_radius, height)).mass == pytest.approx(
+        housing_mass(outer_radius, height), rel=1e-12
+    )
+    for walls in ((0.0, 0.005), (0.002, 0.009)):
+        whole = shell_moments(outer_radius, height, 0.01, *walls).mass
+        shell = Printed(0.01, NO_POSTS, *walls)
+        assert shell.mass(outer_radius, height) == pytest.approx(whole, rel=1e-12)
+
+
+def test_arrays_as_numbers():
+    outer, height = np.array(SIZES).T
+    masses = [housing_mass(*size) for size in SIZES]
+    np.testing.assert_allclose(housing_mass(outer, height), masses, rtol=1e-15)
+    slopes = [housing_mass_per_height(size[0]) for size in SIZES]
+    np.testing.assert_allclose(housing_mass_per_height(outer), slopes, rtol=1e-15)
+    alone = [shell_moments(*size, 0.01).yz for size in SIZES]
+    np.testing.assert_allclose(shell_moments(outer, height, 0.01).yz, alone, rtol=1e-12)

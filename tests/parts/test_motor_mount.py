@@ -2,11 +2,31 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from naive_wheel import hub_body, solid
+from wheels import PAPER_WHEEL
 
+from ocs_design.actuation.fasteners import SCREWS
 from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
 from ocs_design.catalogue.motors import motor
+from ocs_design.device.device import Flywheel, Web
+from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.parts.motor_mount import is_held, mount_of
+from ocs_design.parts.rim import (
+    HUB_WALL,
+    LIGAMENT,
+    PILOT_BORE,
+    WEB_THICKNESS,
+    Hub,
+    hub_of,
+    web_mass,
+    wheel_body,
+)
+from ocs_design.parts.solids import total
+from ocs_design.parts.wheel import wheel_parts
 
 FLAT = replace(motor("MN5212 KV340"), diameter=0.059, length=0.0335)
 AT_BACK = Mounting(0.004, None, BoltCircle(0.025, 4, "M3"), Face.BACK)
@@ -52,3 +72,89 @@ def test_screws_reach_as_deep_as_the_maker_asks(name, wheel):
         reaches = each.fastening.length - each.fastening.thickness
         assert each.circle.depth - 1e-12 <= reaches
         assert reaches <= each.circle.depth_max + (2e-4 if shorten else 0.0) + 1e-12
+
+
+PLAIN = replace(motor("MN5212 KV340"), diameter=0.05, mounting=None)
+
+
+def wheel_on(hub: Hub) -> Flywheel:
+    """A steel rim as narrow as that hub allows."""
+    inner = hub.radius + LIGAMENT
+    of = PAPER_WHEEL.density
+    web = Web(
+        PAPER_WHEEL.material,
+        of,
+        WEB_THICKNESS,
+        web_mass(inner, of, WEB_THICKNESS) + hub.beyond_web(of).mass,
+        hub,
+    )
+    return replace(PAPER_WHEEL, inner_radius=inner, outer_radius=inner + 0.01, web=web)
+
+
+def closed_form(wheel: Flywheel) -> list[float]:
+    """Mass, axial and transverse inertia of the whole wheel."""
+    size = (wheel.inner_radius, wheel.outer_radius, wheel.height, wheel.density)
+    body = wheel_body(*size, wheel.web.hub)
+    return [body.mass, body.axial_inertia, body.transverse_inertia]
+
+
+def on_threads(mounting: Mounting) -> Hub:
+    return hub_of(replace(PLAIN, mounting=mounting))
+
+
+@st.composite
+def mountings(draw: st.DrawFn) -> Mounting:
+    """What the catalogue lets through."""
+    thread = draw(st.sampled_from(SCREWS)).name
+    rotor = BoltCircle(draw(st.floats(0.008, 0.045)), draw(st.integers(3, 8)), thread)
+    shaft = draw(st.none() | st.floats(0.001, 0.01))
+    assume(rotor.inside >= (shaft or 0.0) / 2.0 + LIGAMENT)
+    assume(rotor.spacing >= LIGAMENT)
+    return Mounting(shaft, rotor)
+
+
+@given(mountings())
+def test_what_the_catalogue_lets_through_can_be_made_and_weighs_what_was_sized(mounting):
+    wheel = wheel_on(on_threads(mounting))
+    made = total(wheel_parts(wheel_geometry(wheel)))
+    found = [made.mass, made.inertia[2, 2], made.inertia[0, 0]]
+    np.testing.assert_allclose(found, closed_form(wheel), rtol=1e-9)
+    assert made.inertia[1, 1] == pytest.approx(made.inertia[0, 0], rel=1e-12)
+
+
+@given(mountings())
+def test_hub_is_what_a_sum_hole_by_hole_gives(mounting):
+    hub = on_threads(mounting)
+    body = hub.beyond_web(7850.0)
+    found = [body.mass, body.axial_inertia, body.transverse_inertia]
+    errors = np.abs(hub_body(hub, 7850.0) - found) / solid(hub.radius, hub.height, 7850.0)
+    assert errors.max() < 1e-13
+
+
+def test_hub_of_a_known_shaft_and_threads():
+    """MN5212: a shaft of 4 mm, 3 x M3 on 17 mm; M3 passes through 3.4 mm."""
+    hub = hub_of(motor("MN5212 KV340"))
+    assert (hub.bore_radius, hub.bolts) == (0.002, 3)
+    assert (hub.bolt_circle_radius, hub.bolt_hole_radius) == pytest.approx((0.0085, 0.0017))
+    assert hub.radius == pytest.approx(0.0085 + 0.0017 + HUB_WALL)
+
+
+def test_without_threads_it_is_as_long_and_twice_as_wide_as_the_shaft():
+    bare, shaft = hub_of(PLAIN), on_threads(Mounting(shaft_diameter=0.006))
+    assert (bare.bore_radius, bare.bolts) == (PILOT_BORE / 2.0, 0)
+    assert shaft == replace(bare, bore_radius=0.003, radius=0.006, height=0.006)
+    wide = on_threads(Mounting(shaft_diameter=0.04))
+    assert (wide.radius, wide.height) == pytest.approx((0.04, 0.04))
+    thin = on_threads(Mounting(shaft_diameter=0.003))
+    assert (thin.radius, thin.height) == pytest.approx((0.0015 + HUB_WALL, 0.005))
+
+
+def test_a_pilot_bore_stays_clear_of_the_screws():
+    hub = on_threads(Mounting(rotor=BoltCircle(0.007, 3, "M2")))
+    assert hub.bore_radius == pytest.approx(0.0035 - 0.0012 - LIGAMENT)
+    assert hub.bore_radius < PILOT_BORE / 2.0
+
+
+def test_behind_a_gear_the_motor_s_threads_do_not_count():
+    known = motor("MN5212 KV340")
+    assert hub_of(known, direct=False) == hub_of(replace(known, mounting=None))

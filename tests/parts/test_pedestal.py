@@ -26,7 +26,7 @@ from ocs_design.parts.printed import (
     TRUNK_SCREW,
     trunk_screws,
 )
-from ocs_design.parts.solids import Prism, hollow_cylinder
+from ocs_design.parts.solids import Part, Prism, hollow_cylinder
 
 LEANS = np.radians([25.0, np.degrees(np.arctan(np.sqrt(0.5))), 60.0, 90.0])
 
@@ -45,8 +45,8 @@ def at(part, *placements):
 
 
 @pytest.mark.parametrize("lean", LEANS)
-def test_weighs_what_its_mesh_does(lean):
-    part = pedestal_part(pedestal(lean))
+def test_weighs_what_its_mesh_does_with_holes_that_lie_within_it_and_do_not_overlap(lean):
+    part, holed = pedestal_part(pedestal(lean)), drilled(pedestal(lean))
     mesh, exact = part_mesh(part), part.mass_properties()
     found = trimesh.Trimesh(mesh.vertices, mesh.triangles)
     assert found.is_watertight
@@ -54,13 +54,8 @@ def test_weighs_what_its_mesh_does(lean):
     assert exact.mass == pytest.approx(found.mass, rel=1e-9)
     np.testing.assert_allclose(exact.com, found.center_mass, atol=1e-10)
     np.testing.assert_allclose(exact.inertia, found.moment_inertia, atol=1e-9 * exact.inertia.max())
-
-
-@pytest.mark.parametrize("lean", LEANS)
-def test_holes_lie_within_it_and_do_not_overlap(lean):
-    part = drilled(pedestal(lean))
     # Circles as polygons of their own area.
-    assert part_manifold(part).volume() * part.density == pytest.approx(part.mass(), rel=1e-9)
+    assert part_manifold(holed).volume() * holed.density == pytest.approx(holed.mass(), rel=1e-9)
 
 
 @pytest.mark.parametrize("lean", LEANS)
@@ -81,31 +76,18 @@ def test_mass_is_that_of_its_mesh_and_of_its_screws_in_its_place(lean):
 
 
 @pytest.mark.parametrize("lean", LEANS)
-def test_foot_lies_on_the_seat_and_housing_is_clear(lean):
-    made = pedestal(lean)
-    body = at(drilled(made))
-    foot = at(foot_part(FOOT), made.seat)
+def test_foot_lies_on_the_seat_housing_is_clear_and_a_driver_reaches_every_screw(lean):
+    """Before the foot is on: a cylinder as wide as a screw's head, straight up."""
+    made, radius = pedestal(lean), TRUNK_SCREW.head_diameter / 2.0
+    body, foot = at(drilled(made)), at(foot_part(FOOT), made.seat)
     assert (body ^ foot).volume() < 1e-14
     assert body.min_gap(foot, 0.01) == pytest.approx(0.0, abs=1e-9)
     where = FOOT.placement.inverse()
     for part in housing_parts(HOUSING):
         assert body.min_gap(at(part, where, made.seat), 0.01) > 1e-3
-
-
-@pytest.mark.parametrize("lean", LEANS)
-def test_driver_reaches_every_screw_of_the_base(lean):
-    """Before the foot is on: a cylinder as wide as the head, straight up."""
-    made, radius = pedestal(lean), TRUNK_SCREW.head_diameter / 2.0
-    body = at(drilled(made))
-    foot = at(foot_part(FOOT), made.seat)
+    cylinder = part_manifold(Part("driver", 1.0, (hollow_cylinder(0.0, radius, made.base, 0.3),)))
     for x, y in made.holes:
-        driver = part_manifold(
-            replace(
-                drilled(made),
-                solids=(hollow_cylinder(0.0, radius, made.base, 0.3),),
-                holes=(),
-            )
-        ).translate((x, y, 0.0))
+        driver = cylinder.translate((x, y, 0.0))
         assert (body ^ driver).volume() < 1e-15
         head = driver.trim_by_plane((0.0, 0.0, -1.0), -(made.base + TRUNK_SCREW.head_height))
         assert (foot ^ head).volume() < 1e-15

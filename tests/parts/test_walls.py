@@ -7,23 +7,10 @@ from part_gaps import thinnest_wall
 from ocs_design.parts.foot import MARK_DEPTH, foot_part
 from ocs_design.parts.housing import housing_parts
 from ocs_design.parts.printed import BASE_THICKNESS, PANEL, WALL
-from ocs_design.parts.shapes import Rectangle
-from ocs_design.parts.solids import Part, Prism, hollow_cylinder
 from ocs_design.parts.wheel import wheel_parts
 
 POLYGONS = 0.01
 """Share of a wall that polygons of 128 sections cost."""
-
-
-def test_box_with_a_pocket():
-    block = Prism(Rectangle(0.0, 0.03, 0.0, 0.02), 0.0, 0.01)
-    pocket = Prism(Rectangle(0.004, 0.026, 0.005, 0.0175), 0.003, 0.01)
-    assert thinnest_wall(Part("box", 1.0, (block,), (pocket,))) == pytest.approx(0.0025, rel=1e-9)
-
-
-def test_tube():
-    tube = Part("tube", 1.0, (hollow_cylinder(0.01, 0.012, 0.0, 0.1),))
-    assert thinnest_wall(tube) == pytest.approx(0.002, rel=POLYGONS)
 
 
 def test_thinnest_of_the_wheel_is_its_web():

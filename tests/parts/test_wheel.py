@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from made_parts import DISC, HUB, ONE_PIECE, RIM, RIM_ALONE, TWO_PIECES
+from part_gaps import overlap_volume
 from wheels import PAPER_WHEEL
 
 from ocs_design.common.errors import PartError
@@ -125,3 +126,8 @@ def test_what_cannot_be_made_says_why(wheel, clause):
     with pytest.raises(PartError, match=clause) as caught:
         Wheel(*wheel)
     assert caught.value.hint
+
+
+def test_rim_and_hub_touch_and_do_not_overlap():
+    rim, hub = wheel_parts(TWO_PIECES)
+    assert overlap_volume(rim, hub) < 1e-15

@@ -1,31 +1,37 @@
 """What each maneuver asks for, with figures worked by hand."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from specifications import MANEUVERS
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.bound import per_wheel
+from ocs_design.requirement.kinds import change_text, slower
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.requirement.turns import Catch, TurnTo, loop_length
 
 INERTIA = TiltInertia.uncoupled([0.03, 0.0515])
+PUSH = Disturbance(
+    name="push", takeoff_velocity=(0.5, 2.4), torque=(-0.2, 0.8, 9.0), onset=0.1, duration=0.05
+)
+DROP = Drop(name="drop", height=1.0, roll=np.radians(-10.0), pitch=np.radians(30.0))
+FLIP = Flip(name="flip", gravity=1.62, jump_height=1.0, angle=-2 * np.pi, duration=2.0)
 
 
 def test_a_disturbance_leaves_its_impulse():
-    push = Disturbance(
-        name="push", takeoff_velocity=(0, 2), torque=(-0.2, 0.8, 9.0), onset=0.1, duration=0.05
-    )
-    np.testing.assert_allclose(push.momentum(INERTIA, 0.25), [0.01, 0.04], rtol=1e-15)
+    np.testing.assert_allclose(PUSH.momentum(INERTIA, 0.25), [0.01, 0.04], rtol=1e-15)
 
 
 def test_a_drop_takes_the_time_of_its_fall():
-    drop = Drop(name="drop", height=1.0, roll=np.radians(-10.0), pitch=np.radians(30.0))
-    fall = drop.time(0.25)
+    fall = DROP.time(0.25)
     assert 0.25 + 9.81 * fall**2 / 2 == pytest.approx(1.0, rel=1e-15)
-    expected = [0.03, 0.0515] * np.abs(drop.turn) * 2.0 / fall
-    np.testing.assert_allclose(drop.momentum(INERTIA, 0.25), expected, rtol=1e-14)
+    expected = [0.03, 0.0515] * np.abs(DROP.turn) * 2.0 / fall
+    np.testing.assert_allclose(DROP.momentum(INERTIA, 0.25), expected, rtol=1e-14)
 
 
 @pytest.mark.parametrize("roll", np.radians([-10.0, 0.0, 40.0, 100.0]))
@@ -34,7 +40,7 @@ def test_a_tilt_is_the_smallest_turn_to_level(roll, pitch):
     """SciPy's rotations: the vertical, turned by the tilt about a horizontal axis, is level."""
     trunk = Rotation.from_euler("YX", [pitch, roll])
     vertical = trunk.inv().apply([0.0, 0.0, 1.0])
-    tilt = Drop(name="drop", height=1.0, roll=roll, pitch=pitch).turn
+    tilt = replace(DROP, roll=roll, pitch=pitch).turn
     assert np.linalg.norm(tilt) == pytest.approx(np.arccos(vertical[2]), abs=1e-12)
     np.testing.assert_allclose(
         Rotation.from_rotvec([*tilt, 0.0]).apply(vertical), [0.0, 0.0, 1.0], atol=1e-12
@@ -44,13 +50,12 @@ def test_a_tilt_is_the_smallest_turn_to_level(roll, pitch):
 @pytest.mark.parametrize("height", [0.1, 0.25])
 def test_a_drop_needs_room_to_fall(height):
     with pytest.raises(SpecificationError, match=r"'low'.*stands at 0.25 m"):
-        Drop(name="low", height=height, pitch=0.5).momentum(INERTIA, 0.25)
+        replace(DROP, name="low", height=height).momentum(INERTIA, 0.25)
 
 
 def test_a_flip_peaks_at_twice_its_mean_rate():
     """A triangle of rates over 2 s covers the whole turn."""
-    flip = Flip(name="flip", gravity=1.62, jump_height=1.0, angle=-2 * np.pi, duration=2.0)
-    roll, pitch = flip.momentum(INERTIA, 0.25)
+    roll, pitch = FLIP.momentum(INERTIA, 0.25)
     assert roll == 0.0
     rate = pitch / INERTIA.diagonal[1]
     times = np.linspace(0.0, 2.0, 2001)
@@ -61,27 +66,21 @@ def test_a_flip_peaks_at_twice_its_mean_rate():
 @pytest.mark.parametrize("angle", np.radians([-360.0, -180.0, -20.0, 90.0, 270.0, 720.0]))
 def test_a_turn_strays_by_its_chord(angle):
     """A pencil along the trunk ends as far from where it began; a whole turn brings it back."""
-    flip = Flip(name="flip", gravity=1.62, jump_height=1.0, angle=angle, duration=2.0)
     moved = Rotation.from_rotvec([0.0, angle, 0.0]).apply([1.0, 0.0, 0.0]) - [1.0, 0.0, 0.0]
-    assert flip.stray == pytest.approx(np.linalg.norm(moved), abs=1e-14)
+    assert replace(FLIP, angle=angle).stray == pytest.approx(np.linalg.norm(moved), abs=1e-14)
 
 
 def test_summaries_carry_units():
-    flip = Flip(name="flip", gravity=1.62, jump_height=1.0, angle=-2 * np.pi, duration=2.0)
-    assert flip.summary == ("turns -360 deg of pitch in 2 s, in a jump of 1 m at 1.62 m/s2")
-    drop = Drop(name="drop", height=1.0, pitch=np.radians(30.0))
-    assert drop.summary == "falls from 1 m at roll 0 deg and pitch 30 deg"
-    push = Disturbance(
-        name="push", takeoff_velocity=(0.5, 2.4), torque=(0.2, 0.8, 0), onset=0.1, duration=0.05
-    )
-    assert "(0.2, 0.8, 0) N m on the trunk for 0.05 s, 0.1 s after" in push.summary
+    assert FLIP.summary == ("turns -360 deg of pitch in 2 s, in a jump of 1 m at 1.62 m/s2")
+    assert DROP.summary == "falls from 1 m at roll -10 deg and pitch 30 deg"
+    assert "(-0.2, 0.8, 9) N m on the trunk for 0.05 s, 0.1 s after" in PUSH.summary
 
 
 def test_least_torque_of_the_worked_example():
     """30 deg at 0.30 N m a wheel and 40 deg of incidence take 0.494 s at best (bang-bang)."""
     inertia, at_best, torque, incidence = 0.0535, 0.494, 0.30, np.radians(40.0)
     height = 0.272 + 9.81 * at_best**2 / 2.0
-    drop = Drop(name="drop", height=height, pitch=np.radians(30.0))
+    drop = replace(DROP, height=height, roll=0.0)
     needed = per_wheel(
         drop.least_torque(TiltInertia.uncoupled([inertia, inertia]), 0.272), incidence
     )
@@ -89,24 +88,12 @@ def test_least_torque_of_the_worked_example():
 
 
 def test_least_torque_reaches_the_momentum_in_half_the_time():
-    flip = Flip(name="flip", jump_height=1.0, angle=-np.pi, duration=1.4)
-    inertia = TiltInertia.uncoupled([1.0, 2.0])
-    np.testing.assert_allclose(
-        flip.least_torque(inertia, 0.3) * flip.duration / 2.0, flip.momentum(inertia, 0.3)
-    )
+    reached = FLIP.least_torque(INERTIA, 0.3) * FLIP.duration / 2.0
+    np.testing.assert_allclose(reached, FLIP.momentum(INERTIA, 0.3))
 
 
 def test_a_disturbance_sets_no_time():
-    push = Disturbance(
-        name="push",
-        takeoff_velocity=(0.0, 2.0),
-        torque=(1.0, 1.0, 0.0),
-        onset=0.1,
-        duration=0.1,
-    )
-    np.testing.assert_array_equal(
-        push.least_torque(TiltInertia.uncoupled([1.0, 1.0]), 0.3), [0.0, 0.0]
-    )
+    np.testing.assert_array_equal(PUSH.least_torque(INERTIA, 0.3), [0.0, 0.0])
 
 
 def test_the_shortest_way_round_a_solid_angle():
@@ -118,7 +105,7 @@ def test_the_shortest_way_round_a_solid_angle():
 
 def test_a_turn_asks_for_its_tilt_and_for_the_loop_of_its_heading():
     tilted = TurnTo(name="t", jump_height=1.0, pitch=-0.5, duration=0.8)
-    half = Flip(name="t", jump_height=1.0, angle=-0.5, duration=0.8)
+    half = replace(FLIP, angle=-0.5, duration=0.8, gravity=9.81)
     np.testing.assert_allclose(tilted.momentum(INERTIA, 0.3), half.momentum(INERTIA, 0.3))
     np.testing.assert_allclose(tilted.slew(INERTIA, 0.3).swept, half.slew(INERTIA, 0.3).swept)
     headed = TurnTo(name="h", jump_height=1.0, yaw=-1.5 * np.pi, duration=2.0)
@@ -136,3 +123,40 @@ def test_a_catch_leaves_its_momentum_in_the_wheels():
     np.testing.assert_allclose(slew.momentum, [0.012, -0.0412])
     np.testing.assert_array_equal(slew.swept, 0.0)
     assert catch.end == "level"
+
+
+HEIGHT = 0.25
+COUPLED = TiltInertia(np.array([0.03, 0.05]), np.array(0.004))
+
+
+IN_THE_AIR = [each for each in MANEUVERS if not isinstance(each, Pivoted)]
+
+
+@pytest.mark.parametrize("maneuver", IN_THE_AIR, ids=lambda maneuver: maneuver.name)
+@pytest.mark.parametrize("factor", [1.01, 1.3, 4.0])
+def test_only_the_time_is_other(maneuver, factor):
+    before = maneuver.slew(COUPLED, HEIGHT)
+    after = slower(maneuver, factor, HEIGHT).slew(COUPLED, HEIGHT)
+    assert after.duration == pytest.approx(factor * before.duration, rel=1e-12)
+    np.testing.assert_allclose(after.swept, before.swept, rtol=1e-15)
+    np.testing.assert_allclose(after.momentum, before.momentum, rtol=1e-15)
+
+
+@pytest.mark.parametrize("factor", [1.01, 1.3, 4.0])
+def test_a_turn_ends_before_its_flight(factor):
+    flip = next(maneuver for maneuver in MANEUVERS if isinstance(maneuver, Flip))
+    longer = slower(flip, factor, HEIGHT)
+    assert longer.duration < longer.flight_time
+    assert (longer.jump_height == flip.jump_height) == (factor * flip.duration < flip.flight_time)
+
+
+def test_keys_are_told_rounded_to_the_safe_side():
+    push, nudge, drop, flip, *_ = MANEUVERS
+    for maneuver, factor, told in (
+        (push, 1.1, "push takeoff_velocity [0.5, 2.57] m/s"),
+        (nudge, 1.1, "nudge settling 0.44 s"),
+        (drop, 1.1, "drop height 1.16 m"),
+        (flip, 1.05, "back-flip duration 2.1 s"),
+        (flip, 1.5, "back-flip jump_height 1.9 m and duration 3 s"),
+    ):
+        assert change_text(maneuver, slower(maneuver, factor, HEIGHT)) == told

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ocs_design.common.errors import OcsError, SpecificationError, UsageError
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.reading import parse_specification, read_specification
 from ocs_design.requirement.specification import Specification, specification_from_options
 
@@ -260,22 +260,13 @@ def test_options_that_are_wrong_are_named_as_typed():
         specification_from_options({"robot.joints": ["hip"]})
 
 
-def test_example_of_solo12_states_the_paper():
+def test_example_of_solo12_states_the_paper_and_turns_its_modules_by_hand(solo12):
     specification = read_specification(EXAMPLES / "solo12.toml")
-    push, drop, flip = specification.maneuvers
-    assert isinstance(push, Disturbance)
-    assert isinstance(drop, Drop)
-    assert isinstance(flip, Flip)
     assert Path(specification.robot.file).name == "solo12.urdf"
     assert specification.requirement.spin_inertia == 7.11e-5
     assert (specification.flywheel.r_max, specification.flywheel.h_max) == (0.03, 0.01)
     assert specification.ocs.alpha == pytest.approx(np.radians(40.0))
-
-
-def test_example_of_solo12_states_the_default_maneuvers_and_turns_its_modules_by_hand(solo12):
-    from ocs_design.requirement.froude import default_maneuvers
-
-    stated = read_specification(EXAMPLES / "solo12.toml").maneuvers
+    stated = specification.maneuvers
     assert [maneuver.incidence for maneuver in stated] == [None, None, 0.0]
     for one, other in zip(stated, default_maneuvers(solo12), strict=True):
         assert type(one) is type(other)

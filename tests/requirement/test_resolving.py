@@ -1,16 +1,19 @@
 """Defaults filled in and told, and faults that only the robot shows."""
 
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from commands import SOLO12, run
 
-from ocs_design.common.errors import SpecificationError
+from ocs_design.common.errors import RobotError, SpecificationError
 from ocs_design.requirement.bound import spin_demands
 from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.froude import WHEEL_SPEED_MAX, default_envelope
 from ocs_design.requirement.reading import parse_specification, read_specification
-from ocs_design.requirement.resolving import resolve
+from ocs_design.requirement.resolving import default_specification, read_specified_robot, resolve
+from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification, specification_from_options
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -266,3 +269,75 @@ def test_a_wheel_speed_without_its_unit_is_asked_about(text, fits):
     with pytest.raises(SpecificationError) as caught:
         stated(text)
     assert "Did you mean 9000rpm?" in caught.value.problems[0]
+
+
+LARGE_SIZE = 2.0
+GAINS = {"kp": 60.0, "kd": 12.0}
+
+
+@pytest.fixture
+def large(make_robot):
+    """Of another mass, height and shape than Solo12, on another bus."""
+    return make_robot(50.0, (2.0, 5.0, 6.0), 0.5)
+
+
+@pytest.mark.parametrize("robot", ["solo12", "large"])
+def test_stating_every_default_changes_nothing(robot, request):
+    robot = request.getfixturevalue(robot)
+    default = default_specification(robot, **GAINS)
+    stated = replace(default, requirement=replace(default.requirement, maneuvers=None))
+    assumed, told = (resolve(each, robot, LARGE_SIZE) for each in (Specification(), stated))
+    assert told.envelope == assumed.envelope
+    assert asdict(told.requirement) == asdict(assumed.requirement)
+    for name in ("motors", "gears", "materials", "supply", "wheel_speed_max"):
+        assert getattr(told.choice, name) == getattr(assumed.choice, name)
+
+
+def test_only_that_a_design_keeps_a_reserve_stays_an_assumption(solo12):
+    default = default_specification(solo12, **GAINS)
+    stated = replace(default, requirement=replace(default.requirement, maneuvers=None))
+    left = " ".join(resolve(stated, solo12, LARGE_SIZE).assumptions)
+    for said in ("Rim:", "Rim mass", "Supply:", "Web:", "Stress:", "paper's three"):
+        assert said not in left
+    assert "Reserve" in left
+
+
+def test_maneuvers_fall_as_gravity_has_it(solo12):
+    disturbance, drop, flip = default_specification(solo12, **GAINS, gravity=3.7).maneuvers
+    assert disturbance.gravity == drop.gravity == 3.7
+    np.testing.assert_allclose(disturbance.takeoff_velocity[1], 2.4 * np.sqrt(3.7 / 9.81))
+    assert flip.gravity == 1.62
+
+
+@pytest.mark.parametrize(
+    ("robot", "said"), [("solo12", "at most 250 g"), ("large", "at most 5 kg")]
+)
+def test_the_rim_mass_is_told_in_a_unit_that_needs_no_exponent(robot, said, request):
+    assumptions = resolve(Specification(), request.getfixturevalue(robot), LARGE_SIZE).assumptions
+    assert said in next(each for each in assumptions if each.startswith("Rim mass"))
+
+
+TOLD = "the parts' masses add up to 2.5"
+
+
+def warnings_of(weighed, **options):
+    stated = Specification(robot=RobotSection(file=SOLO12, weighed=weighed))
+    return read_specified_robot(stated, **options).warnings
+
+
+@pytest.mark.parametrize(("weighed", "word"), [(2.7, "missing"), (2.2, "too heavy")])
+def test_parts_that_do_not_add_up_are_told(weighed, word):
+    told = [warning for warning in warnings_of(weighed) if warning.startswith(TOLD)]
+    assert len(told) == 1
+    assert word in told[0]
+    with pytest.raises(RobotError, match=TOLD):
+        warnings_of(weighed, strict=True)
+
+
+@pytest.mark.parametrize("weighed", [2.47, 2.53])
+def test_a_robot_that_weighs_the_sum_of_its_parts_is_no_matter(weighed):
+    assert not any(warning.startswith(TOLD) for warning in warnings_of(weighed))
+
+
+def test_it_is_an_option_with_a_unit():
+    assert TOLD in run("inspect", SOLO12, "--weighed", "2700g").said

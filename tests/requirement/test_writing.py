@@ -16,20 +16,33 @@ from ocs_design.requirement.sections import RequirementSection, RobotSection, Va
 from ocs_design.requirement.specification import SECTIONS, Specification
 from ocs_design.requirement.writing import specification_to_toml, with_absolute_files
 
+STATED = {
+    "everything": FULL,
+    # A bare number so large would be taken for degrees.
+    "a joint beyond a turn": Specification(
+        robot=RobotSection(joints={"wheel": 4.0 * np.pi, "knee": 1.5})
+    ),
+    "axes by hand": Specification(ocs=OcsSection(axes=(0.0, 1.0, 0.0, 0.6, 0.0, -0.8))),
+    "a robot by hand": Specification(
+        robot=RobotSection(mass=2.5, inertia=(0.03, 0.05, 0.07, 0.0, -1e-7, 0.0)),
+        requirement=RequirementSection(maneuvers="none", rate_change=2.0),
+    ),
+    "a person": Specification(robot=RobotSection(human=Person(75.0, 1.75, 10.0))),
+    "numbers of numpy": Specification(
+        robot=RobotSection(mass=np.float64(2.5), inertia=tuple(np.array([0.03, 0.05, 0.07]))),
+        ocs=OcsSection(alpha=np.radians(40.0)),
+        validation=ValidationSection(kp=np.float64(60.0)),
+    ),
+}
 
-def test_everything_that_can_be_stated_is_read_back():
-    assert same(parse_specification(specification_to_toml(FULL), "written"), FULL)
 
-
-def test_a_joint_beyond_a_turn_is_read_back():
-    """A bare number so large would be taken for degrees."""
-    stated = Specification(robot=RobotSection(joints={"wheel": 4.0 * np.pi, "knee": 1.5}))
+def check_read_back(stated):
     assert same(parse_specification(specification_to_toml(stated), "written"), stated)
 
 
-def test_axes_by_hand_are_read_back():
-    stated = Specification(ocs=OcsSection(axes=(0.0, 1.0, 0.0, 0.6, 0.0, -0.8)))
-    assert same(parse_specification(specification_to_toml(stated), "written"), stated)
+@pytest.mark.parametrize("stated", STATED.values(), ids=STATED)
+def test_what_is_stated_is_read_back(stated):
+    check_read_back(stated)
 
 
 def test_the_full_specification_states_every_key_but_the_ones_that_exclude_others():
@@ -41,28 +54,6 @@ def test_the_full_specification_states_every_key_but_the_ones_that_exclude_other
     assert {type(maneuver) for maneuver in FULL.maneuvers} == {
         kind.maneuver for kind in MANEUVER_KINDS.values()
     }
-
-
-def test_a_robot_by_hand():
-    by_hand = Specification(
-        robot=RobotSection(mass=2.5, inertia=(0.03, 0.05, 0.07, 0.0, -1e-7, 0.0)),
-        requirement=RequirementSection(maneuvers="none", rate_change=2.0),
-    )
-    assert same(parse_specification(specification_to_toml(by_hand), "written"), by_hand)
-
-
-def test_a_person():
-    stated = Specification(robot=RobotSection(human=Person(75.0, 1.75, 10.0)))
-    assert same(parse_specification(specification_to_toml(stated), "written"), stated)
-
-
-def test_numbers_of_numpy():
-    stated = Specification(
-        robot=RobotSection(mass=np.float64(2.5), inertia=tuple(np.array([0.03, 0.05, 0.07]))),
-        ocs=OcsSection(alpha=np.radians(40.0)),
-        validation=ValidationSection(kp=np.float64(60.0)),
-    )
-    assert same(parse_specification(specification_to_toml(stated), "written"), stated)
 
 
 def test_nothing_is_written_of_nothing():
@@ -85,7 +76,7 @@ def test_any_number_and_any_text(angle, speed, text):
         requirement=RequirementSection(wheel_speed_max=speed),
         ocs=OcsSection(alpha=angle),
     )
-    assert same(parse_specification(specification_to_toml(stated), "written"), stated)
+    check_read_back(stated)
 
 
 def test_files_are_found_from_any_folder(tmp_path, monkeypatch):
