@@ -1,13 +1,14 @@
-"""Derivatives that the program is given, against CasADi's own of the whole."""
+"""Splines and derivatives that the program is given, against SciPy's and CasADi's own."""
 
 import casadi as ca
 import numpy as np
 import pytest
 from robots import ROBOTS
+from scipy.interpolate import CubicSpline
 
 from ocs_design.jumping.floating_base import FloatingBase, Load
 from ocs_design.jumping.legged_body import LeggedBody
-from ocs_design.jumping.node import NODES, Node
+from ocs_design.jumping.node import NODES, SHARES, STEPS, WEIGHTS, Node, spline_slopes
 from ocs_design.jumping.program import Program
 from ocs_design.robot.reader import read_robot
 
@@ -63,3 +64,18 @@ def test_curvature_of_the_lagrangian(program, point):
         expected = np.asarray(twice(*point)).ravel()
         scale = np.abs(expected).max()
         np.testing.assert_allclose(whole @ direction, expected, atol=1e-10 * scale)
+
+
+def test_the_spline_is_scipys():
+    values = np.random.default_rng(0).normal(size=(3, NODES))
+    ends = ((1, np.zeros(3)), (2, np.zeros(3)))
+    spline = CubicSpline(SHARES, values, axis=1, bc_type=ends)
+    first, second = spline_slopes(values)
+    np.testing.assert_allclose(first, spline(SHARES, 1), atol=1e-9)
+    np.testing.assert_allclose(second, spline(SHARES, 2), atol=1e-8)
+
+
+def test_the_nodes_fill_the_push_off_and_weigh_as_trapezoids():
+    assert SHARES[-1] == pytest.approx(1.0)
+    assert (np.diff(STEPS) < 0.0).all()
+    assert pytest.approx(np.trapezoid(SHARES, SHARES)) == WEIGHTS @ SHARES

@@ -1,14 +1,24 @@
 """Blocks come in any order, from anybody, in several goes: what is counted stays the same."""
 
+import csv
+import os
+import signal
+import sys
+import threading
+import time
+from contextlib import closing
 from dataclasses import fields
 
 import numpy as np
+import pyarrow.parquet
 import pytest
+from campaigns import short_campaign
 from made_outcomes import made_outcomes
 
-from ocs_design.common.errors import OutputError
-from ocs_design.monte_carlo.outcomes import Identity, Outcomes, Storage, blocks_of
-from ocs_design.monte_carlo.running import Workers, narrow, run_campaign
+from ocs_design.common.errors import MissingToolError, OcsError, OutputError
+from ocs_design.monte_carlo.campaign import fly_samples
+from ocs_design.monte_carlo.outcomes import Identity, Outcomes, Storage, blocks_of, write_tables
+from ocs_design.monte_carlo.running import Cluster, Workers, narrow, run_campaign
 
 BLOCKS = blocks_of(100, 8)
 IDENTITY = Identity(
@@ -119,3 +129,67 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path):
 
 def vars_of(identity):
     return {field.name: getattr(identity, field.name) for field in fields(identity)}
+
+
+def test_csv_and_parquet_hold_the_same_rows(tmp_path):
+    outcomes = made_outcomes(range(20), 2)
+    outcomes.metrics[0, 0, 0] = np.nan
+    text, parquet = write_tables(outcomes, ["a drop, tilted", "flip"], tmp_path)
+    with text.open(newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    table = pyarrow.parquet.read_table(parquet).to_pylist()
+    assert len(rows) == len(table) == 40
+    assert [row["scenario"] for row in rows[:2]] == ["a drop, tilted", "flip"]
+    assert rows[0]["touchdown_time"] == ""
+    for one, other in zip(rows, table, strict=True):
+        assert int(one["sample"]) == other["sample"]
+        assert one["verdict"] == other["verdict"]
+        np.testing.assert_allclose(float(one["com_error.x"]), other["com_error.x"], rtol=1e-5)
+        assert other["mass_error"] == other["touchdown_pitch"]
+
+
+def test_nobody_at_the_address_is_an_error_with_its_cure(monkeypatch):
+    monkeypatch.setattr("ocs_design.monte_carlo.running.PATIENCE", 0.2)
+    with pytest.raises(OcsError, match="no Dask scheduler answers") as error:
+        Cluster("tcp://127.0.0.1:1")
+    assert "dask scheduler" in error.value.hint
+
+
+def test_without_dask_the_command_that_installs_it_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(MissingToolError) as error:
+        Cluster("tcp://127.0.0.1:1")
+    assert "ocs-design[cluster]" in error.value.hint
+
+
+@pytest.fixture
+def two_workers():
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0"
+    ) as cluster:
+        yield cluster
+
+
+def kill_one(cluster, flown, killed):
+    """As soon as the first block has arrived."""
+    while not flown:
+        time.sleep(0.01)
+    victim = next(iter(cluster.workers.values()))
+    killed.append(victim.pid)
+    os.kill(victim.pid, signal.SIGKILL)
+
+
+@pytest.mark.slow
+def test_a_lost_worker_loses_nothing(solo12, two_workers):
+    campaign = short_campaign(solo12, drop_only=True, until=0.45)
+    blocks, flown, killed = blocks_of(24, 2), [], []
+    killer = threading.Thread(target=kill_one, args=(two_workers, flown, killed))
+    killer.start()
+    with closing(Cluster(two_workers.scheduler_address)) as cluster:
+        found = run_campaign(campaign, blocks, workers=cluster, progress=flown.append)
+    killer.join()
+    assert killed
+    alone = fly_samples(campaign, range(24), threads=2)
+    for field in fields(Outcomes):
+        np.testing.assert_array_equal(getattr(found, field.name), getattr(alone, field.name))

@@ -1,10 +1,31 @@
+"""Charts: their axes and ticks, their marks as SVG, and the PNG that resvg draws of them."""
+
+import sys
+from dataclasses import replace
+from io import BytesIO
 from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from PIL import Image
+from stories import story
 
-from ocs_design.report.charts.chart import Area, Axis, Chart, Ink, Line, Points, Rule, thinned
-from ocs_design.report.charts.svg import inline_svg, svg_file
+from ocs_design.common.errors import MissingToolError
+from ocs_design.report.charts.chart import (
+    Area,
+    Axis,
+    Chart,
+    Ink,
+    Line,
+    Points,
+    Rule,
+    thinned,
+    tick_text,
+)
+from ocs_design.report.charts.figures import all_charts
+from ocs_design.report.charts.svg import inline_svg, png_file, svg_file, write_charts
 
 SVG = "{http://www.w3.org/2000/svg}"
 HOSTILE = "<script>alert('&')</script>\""
@@ -13,6 +34,11 @@ HOSTILE = "<script>alert('&')</script>\""
 def chart(*marks, **options):
     axis = Axis("value", "m", 0.0, 10.0)
     return Chart("name", "title", "seen", axis, axis, marks, **options)
+
+
+def notes(svg):
+    """Words beside marks."""
+    return [each for each in ET.fromstring(svg).iter(f"{SVG}text") if each.get("class") == "note"]
 
 
 def places(svg):
@@ -87,8 +113,7 @@ def test_words_that_would_lie_on_each_other_or_on_a_disc_give_way():
         Points(np.array([5.5]), np.array([0.5]), Ink.GREEN),
         Rule(5.1, upright=True, label="alpha 28 deg"),
     )
-    words = ET.fromstring(inline_svg(drawn)).iter(f"{SVG}text")
-    first, second, rule = (float(each.get("y")) for each in words if each.get("class") == "note")
+    first, second, rule = (float(each.get("y")) for each in notes(inline_svg(drawn)))
     assert abs(first - second) > 10.0
     disc = places(inline_svg(drawn))[2]
     assert not -4.0 < rule - disc[1] < 13.5, "clear of the disc"
@@ -100,9 +125,8 @@ def test_no_curve_strikes_the_words_of_its_points_through(rise):
     x, y = np.array([0.5, 6.0]), np.array([5.0, 5.0 + rise])
     svg = inline_svg(chart(Line(x, y, Ink.BLUE), Points(x, y, Ink.BLUE, labels=("50 %", "99 %"))))
     slope = np.polyfit(*places(svg).T, 1)
-    words = [each for each in ET.fromstring(svg).iter(f"{SVG}text") if each.get("class") == "note"]
+    first, _ = words = notes(svg)
     assert [each.text for each in words] == ["50 %", "99 %"]
-    first = words[0]
     ends = float(first.get("x")) + np.array([0.0, 25.0])
     baseline = float(first.get("y"))
     line = np.polyval(slope, ends)
@@ -114,9 +138,7 @@ def test_the_word_at_a_rule_stands_where_no_curve_is():
     low = Line(x, np.where(x > 8.0, 4.0, 0.3), Ink.BLUE)
     high = Line(x, np.full(200, 9.8), Ink.GREEN)
     root = ET.fromstring(inline_svg(chart(low, high, Rule(2.0, upright=True, label="touchdown"))))
-    word = next(
-        float(each.get("y")) for each in root.iter(f"{SVG}text") if each.text == "touchdown"
-    )
+    (word,) = (float(each.get("y")) for each in root.iter(f"{SVG}text") if each.text == "touchdown")
     top, bottom = map(float, root.get("data-y").split())
     height = (bottom - word) / (bottom - top)
     assert 0.07 < height < 0.9
@@ -135,3 +157,111 @@ def test_a_level_stretch_is_drawn_by_its_ends():
         f".//{SVG}path[@class='area fill-faint']"
     )
     assert area.get("d").count("L") == 3
+
+
+ENDS = st.tuples(st.floats(-1e6, 1e6), st.floats(1e-6, 1e7))
+
+
+@given(ENDS, st.sampled_from(["", "deg", "rpm"]))
+def test_ticks_lie_on_the_axis_at_equal_round_distances(ends, unit):
+    low, span = ends
+    axis = Axis("x", unit, low, low + span)
+    ticks = np.array(axis.ticks())
+    slack = 1e-6 * span + 1e-9
+    assert ((ticks >= low - slack) & (ticks <= low + span + slack)).all()
+    assert len(ticks) <= 8
+    if len(ticks) > 2:
+        np.testing.assert_allclose(np.diff(ticks), np.diff(ticks)[0], rtol=1e-3, atol=1e-10)
+
+
+def test_angles_have_ticks_that_people_know():
+    assert Axis("pitch", "deg", -380.0, 20.0).ticks() == [-360.0, -270.0, -180.0, -90.0, 0.0]
+    assert Axis("alpha", "deg", 0.0, 90.0).ticks() == [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0]
+
+
+def test_a_logarithmic_axis_has_equal_ratios_at_equal_distances():
+    axis = Axis("I", "kg m2", 1e-6, 1e-2, log=True)
+    np.testing.assert_allclose(axis.parts(np.array([1e-6, 1e-4, 1e-2])), [0.0, 0.5, 1.0])
+    np.testing.assert_allclose(axis.ticks(), [1e-6, 1e-5, 1e-4, 1e-3, 1e-2])
+
+
+def test_a_narrow_logarithmic_axis_has_ticks_between_the_powers():
+    np.testing.assert_allclose(Axis("I", "", 1.1e-5, 8e-5, log=True).ticks(), [2e-5, 5e-5])
+
+
+def test_an_axis_is_not_empty_where_its_values_are_equal_or_none():
+    for values in ([3.0, 3.0], [3.0, 3.0 + 1e-12], [0.0], [], [np.nan]):
+        axis = Axis.around("x", "m", values)
+        assert axis.low < axis.high
+        assert len(axis.ticks()) > 1
+
+
+def test_numbers_are_short_and_typeset():
+    texts = {
+        0.0: "0",
+        -0.25: "\N{MINUS SIGN}0.25",
+        20000.0: "20\N{THIN SPACE}000",
+        1e-4: "10⁻⁴",
+        5e-5: "5·10⁻⁵",
+    }
+    assert {value: tick_text(value) for value in texts} == texts
+
+
+@pytest.mark.parametrize("odd", [np.nan, np.inf, -np.inf, 1.7e308, -1.7e308])
+def test_what_is_beyond_measure_stretches_no_axis(odd):
+    axis = Axis.around("tilt", "deg", [0.0, odd, 10.0, -odd])
+    assert (axis.low, axis.high) == pytest.approx((-0.6, 10.6))
+    assert axis.ticks()[-1] == 10.0
+    parts = axis.parts(np.array([odd, 5.0]))
+    assert np.isnan(parts[0]) or abs(parts[0]) <= 1e3
+    assert parts[1] == pytest.approx(0.5)
+
+
+def picture(chart):
+    return np.asarray(Image.open(BytesIO(png_file(chart))).convert("RGB")).astype(int)
+
+
+def chart_titled(title):
+    axis = Axis("value", "m", 0.0, 10.0)
+    return Chart("name", title, "seen", axis, axis, ())
+
+
+def test_a_chart_is_drawn_twice_as_large_as_in_svg():
+    charts = {chart.name: chart for chart in all_charts(story())}
+    image = picture(charts["bound_pitch"])
+    assert image.shape == (2 * charts["bound_pitch"].height, 880, 3)
+    assert len(np.unique(image.reshape(-1, 3), axis=0)) > 20
+
+
+def test_twice_the_same_chart_gives_the_same_bytes():
+    for chart in all_charts(story()):
+        assert png_file(chart) == png_file(replace(chart))
+
+
+@pytest.mark.parametrize("letters", ["Maß α*", "10⁻⁴ m²", "−1 …", "Ж", "A"])
+def test_every_letter_has_a_shape_in_our_font(letters):
+    """Only the title differs, and each letter leaves ink of its own on it."""
+    blank = picture(chart_titled(""))
+    for letter in letters.replace(" ", ""):
+        drawn = picture(chart_titled(letter))
+        assert (drawn != blank).any(axis=2).sum() > 4
+        # What the font does not have would be drawn as the same box for all.
+        assert (drawn != picture(chart_titled("\ue000"))).any()
+
+
+def test_words_that_would_run_into_their_neighbours_are_narrower_than_the_layout_says():
+    """The layout of the SVG takes letters for 6.2 px wide in the mean."""
+    drawn = picture(chart_titled("an ordinary title of a chart"))
+    blank = picture(chart_titled(""))
+    columns = np.flatnonzero((drawn != blank).any(axis=(0, 2)))
+    assert columns.max() - 8 < 2 * 28 * 6.2 * 13 / 11
+
+
+def test_without_resvg_the_svg_is_written_and_it_is_told_how_to_get_the_rest(monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "resvg_py", None)
+    with pytest.raises(MissingToolError) as caught:
+        png_file(next(all_charts(story())))
+    assert "ocs-design[plot]" in caught.value.hint
+    (told,) = write_charts([chart_titled("one")], tmp_path)
+    assert "resvg-py is not installed: pip install 'ocs-design[plot]'" in told
+    assert [path.name for path in tmp_path.iterdir()] == ["name.svg"]

@@ -65,20 +65,7 @@ def test_lists_without_anything_are_not_there():
 
 def test_tables_have_a_caption_and_heads_for_their_columns():
     page = Reading(table("Margins", TABLE))
-    assert page.tags == [
-        "div",
-        "table",
-        "caption",
-        "thead",
-        "tr",
-        "th",
-        "th",
-        "tbody",
-        "tr",
-        "td",
-        "td",
-        "span",
-    ]
+    assert " ".join(page.tags) == "div table caption thead tr th th tbody tr td td span"
     assert page.attributes.count(("scope", "col")) == 2
     assert page.texts == ["Margins", "name", "time [s]", "torque", "1.2"]
     assert page.attributes.count(("class", "number")) == 2

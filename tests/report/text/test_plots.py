@@ -1,5 +1,6 @@
 """Dots where they belong, and curves of the tilt."""
 
+from itertools import product
 from types import SimpleNamespace
 
 import numpy as np
@@ -27,20 +28,15 @@ def dots(canvas):
     }
 
 
-def test_corners():
-    canvas = Canvas(3, 2)
-    for x, y in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)):
+def test_every_dot_of_a_cell_and_the_corners_of_a_canvas():
+    cell, canvas = Canvas(1, 1), Canvas(3, 2)
+    for x, y in product((0.0, 1.0), (0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0)):
+        cell.dot(x, y)
+    assert cell.rows() == ["⣿"]
+    for x, y in product((0.0, 1.0), (0.0, 1.0)):
         canvas.dot(x, y)
     assert dots(canvas) == {(0, 7), (5, 7), (0, 0), (5, 0)}
     assert canvas.rows() == ["⠁⠀⠈", "⡀⠀⢀"]
-
-
-def test_every_dot_of_a_cell():
-    canvas = Canvas(1, 1)
-    for column in range(2):
-        for row in range(4):
-            canvas.dot(float(column), row / 3.0)
-    assert canvas.rows() == ["⣿"]
 
 
 def test_a_line_has_no_gaps_and_keeps_its_ends():
