@@ -1,15 +1,23 @@
 """Quickest slews: the special cases of the theory, round trips, optimality, limits."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.optimize import brentq, linprog
+from scipy.optimize import linprog
 from scipy.sparse import coo_array, vstack
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.slew import in_units, slew_profile, slew_time
-from ocs_design.actuation.unit_drive import farthest_slew, rise_sweep, rise_to
+from ocs_design.actuation.unit_drive import (
+    exp_remainder,
+    farthest_slew,
+    log_remainder,
+    rise_sweep,
+    rise_to,
+)
 
 INF = np.inf
 EC45 = DriveLine(1.4566, 650.4, 1.0, INF)
@@ -69,28 +77,6 @@ def test_voltage_line_alone():
     np.testing.assert_allclose(profile.brake_from, switch, rtol=1e-13)
     peak = no_load * np.tanh(expected / (2 * constant))
     np.testing.assert_allclose(profile.peak_speed, peak, rtol=1e-13)
-
-
-@pytest.mark.parametrize("phi", [60.0, 80.0, 150.0, 700.0])
-@pytest.mark.parametrize("lam", [0.4, 0.6865, 0.9, 1.0])
-def test_current_limit_and_voltage_line(phi, lam):
-    """The implicit equation for the time s on the line (docs/theory.md), by bisection."""
-    inertia, stall, no_load = 9e-5, 1.4566, 650.4
-    constant, limit = inertia * no_load / stall, lam * stall
-    knee = no_load * (1.0 - lam)
-    at_limit = inertia * knee / limit
-
-    def excess(s):
-        peak = no_load * (1.0 - lam * np.exp(-s / constant))
-        on_line = no_load * s - lam * no_load * constant * (1.0 - np.exp(-s / constant))
-        down = inertia * peak**2 / (2.0 * limit)
-        return knee * at_limit / 2.0 + on_line + down - phi
-
-    s = brentq(excess, 0.0, 10.0, xtol=1e-15)
-    peak = no_load * (1.0 - lam * np.exp(-s / constant))
-    expected = at_limit + s + inertia * peak / limit
-    time = slew_time(phi, inertia, DriveLine(stall, no_load, limit, INF))
-    assert time == pytest.approx(expected, rel=1e-13)
 
 
 def test_there_and_back_to_ten_digits():
@@ -235,3 +221,38 @@ def test_a_supply_whose_power_friction_takes_whole_moves_nothing():
     assert np.isinf(slew_time([1.0, 0.0], 9e-5, line, [0.0, 100.0])).all()
     assert slew_time(0.0, 9e-5, line) == 0.0
     assert np.isnan(slew_profile(1.0, 9e-5, line).end)
+
+
+POINTS = np.concatenate([np.geomspace(1e-12, 0.999, 200), [0.3, np.nextafter(0.3, 0.0)]])
+
+
+def exact_exp(z: float) -> float:
+    term, total, z = Fraction(1), Fraction(0), Fraction(z)
+    for n in range(1, 40):
+        term *= -z / n
+        total += term if n > 1 else 0
+    return float(total)
+
+
+def exact_log(y: float) -> float:
+    """y - log(1 + y), log by the series of 2 artanh(y / (2 + y)), rounded to 2^-200 each step."""
+    ratio = Fraction(y) / (2 + Fraction(y))
+    square, power, total = ratio**2, ratio, Fraction(0)
+    for n in range(1, 120, 2):
+        total += 2 * power / n
+        power = Fraction(round(power * square * 2**400), 2**400)
+    return float(Fraction(y) - total)
+
+
+@pytest.mark.parametrize(
+    ("function", "exact"), [(exp_remainder, exact_exp), (log_remainder, exact_log)]
+)
+def test_full_precision_at_every_size(function, exact):
+    expected = np.array([exact(float(point)) for point in POINTS])
+    np.testing.assert_allclose(function(POINTS), expected, rtol=3e-15)
+
+
+def test_ends():
+    assert exp_remainder(np.array(0.0)) == log_remainder(np.array(0.0)) == 0.0
+    assert exp_remainder(np.array(1e4)) == 9999.0
+    assert exp_remainder(np.array(np.inf)) == np.inf

@@ -1,15 +1,33 @@
-"""The motors' figures against what their data sheets print elsewhere."""
+"""The motors' figures, estimates and threads, against data sheets and each other."""
 
+import json
 import math
 import re
 from dataclasses import fields
+from statistics import median
 
 import pytest
+from motor_rows import csv, toml
 
-from ocs_design.actuation.drive import drive_line, missing_figures
-from ocs_design.actuation.motor import DIRECT
-from ocs_design.catalogue.motors import MotorSheet, motor, motors
+from ocs_design.actuation.drive import Drive, drive_line, missing_figures
+from ocs_design.actuation.motor import (
+    BY_CONVENTION,
+    DIRECT,
+    INERTIA_SHARE,
+    BoltCircle,
+    Face,
+    Gear,
+    MotorKind,
+    Mounting,
+    build_gaps,
+    estimated_continuous_torque,
+    estimated_rotor_inertia,
+)
+from ocs_design.catalogue.motors import MotorSheet, motor, motors, motors_to_json
 from ocs_design.catalogue.rows import columns_of, positive, text, whole
+from ocs_design.common.errors import SpecificationError
+from ocs_design.parts.motor_mount import mount_of
+from ocs_design.report.text.catalogue import motor_mounting
 
 RPM = math.pi / 30.0
 
@@ -105,3 +123,215 @@ def test_a_column_is_a_field_of_a_row_and_is_read_as_its_type_asks():
     assert {name: columns[name] for name in asked} == asked
     with pytest.raises(ValueError, match="none of six-step, foc, foc-rms"):
         columns["kt_convention"]("sine")
+
+
+REDUCER = Gear("r", 3.0, 0.9, 0.1, 1e-6, 1e4, math.inf, 10.0, reverses=False, source="made up")
+
+
+def known_inertia(kind):
+    """Stated rotor inertia over the estimate, for every motor of that kind that has both."""
+    shares = []
+    for found in motors().values():
+        estimate, _ = estimated_rotor_inertia(found.kind, found.mass, found.diameter)
+        stated = None if found.rotor_inertia_source else found.rotor_inertia
+        if found.kind is kind and stated is not None and estimate is not None:
+            shares.append(stated / estimate)
+    return shares
+
+
+@pytest.mark.parametrize(("kind", "least_count"), [("outrunner", 3), ("frameless", 6)])
+def test_known_rotor_inertias_lie_within_the_stated_spread(kind, least_count):
+    """The estimate is never above: a rotor that is counted too heavy makes a wheel too light."""
+    kind = MotorKind(kind)
+    shares = known_inertia(kind)
+    least, most = INERTIA_SHARE[kind]
+    assert len(shares) >= least_count
+    assert min(shares) >= 1.0
+    assert max(shares) <= most / least
+    assert median(shares) < 1.5
+
+
+def test_an_inrunner_and_a_motor_without_mass_have_no_estimate():
+    assert estimated_rotor_inertia(MotorKind.INRUNNER, 0.1, 0.04) == (None, "")
+    assert estimated_rotor_inertia(MotorKind.OUTRUNNER, None, 0.04) == (None, "")
+    assert estimated_rotor_inertia(None, 0.1, 0.04) == (None, "")
+
+
+def test_the_estimate_is_a_share_of_mass_and_diameter_squared():
+    """Worked by hand: 0.05 x 0.108 kg x (35.2 mm)^2."""
+    inertia, source = estimated_rotor_inertia(MotorKind.OUTRUNNER, 0.108, 0.0352)
+    assert inertia == pytest.approx(6.691e-6, rel=1e-3)
+    assert "0.05 m D^2" in source
+
+
+def test_an_estimate_is_named_and_a_stated_figure_is_not():
+    estimated, stated = motor("MN5212 KV340"), motor("EC 45 flat 70 W 411812")
+    assert estimated.rotor_inertia and "estimate" in estimated.rotor_inertia_source
+    assert (stated.rotor_inertia, stated.rotor_inertia_source) == (1.81e-5, "")
+    drive = Drive.of(estimated, DIRECT, 24.0)
+    assert drive.rotor_inertia == estimated.rotor_inertia
+    assert drive.rotor_inertia_source == estimated.rotor_inertia_source
+
+
+def test_behind_a_reducing_gear_the_least_inertia_is_not_the_safe_side():
+    assert missing_figures(motor("MN5212 KV340"), REDUCER) == ("rotor inertia",)
+    assert missing_figures(motor("MN5212 KV340"), DIRECT) == ()
+
+
+def test_continuous_torque_by_hand():
+    """Worked by hand: a cylinder 50 mm wide and 40 mm long, 0.05 ohm, 0.03 N m/A.
+
+    A = pi 0.05 (0.04 + 0.025) = 0.010210 m^2; 10 x 75 A = 7.658 W = 0.05 x 1.29475 i^2: 10.876 A.
+    """
+    torque, source = estimated_continuous_torque(0.03, 0.05, 0.05, 0.04)
+    assert torque == pytest.approx(0.03 * 10.876, rel=1e-4)
+    assert "still air" in source
+    assert estimated_continuous_torque(0.03, 0.05, 0.05, None) == (None, "")
+
+
+def test_the_estimate_of_continuous_torque_is_below_what_makers_state():
+    shares = []
+    for found in motors().values():
+        estimate, _ = estimated_continuous_torque(
+            found.torque_constant, found.resistance, found.diameter, found.length
+        )
+        stated = None if found.continuous_torque_source else found.continuous_torque
+        if estimate is not None and stated is not None:
+            shares.append(estimate / stated)
+    assert len(shares) >= 7
+    assert max(shares) <= 1.0
+    assert median(shares) > 0.5
+
+
+def test_every_complete_motor_is_held_by_known_screws():
+    complete = [found for found in motors().values() if not build_gaps(found)]
+    assert len(complete) >= 60
+    for found in complete:
+        assert mount_of(found, None).holes.screws is not None, found.name
+        assert found.mounting.stator_face in set(Face)
+
+
+def test_heavy_robots_have_motors_that_can_be_built_with():
+    """Up to 230 N m with up to 19 N m/kg, screwed on by their back and by their bell."""
+    complete = [found for found in motors().values() if not build_gaps(found)]
+    strong = [found for found in complete if found.peak_torque > 14.0]
+    assert [found.peak_torque for found in strong if found.maker == "EMRAX"] == [90.0, 140.0, 230.0]
+    assert max(found.peak_torque / found.mass for found in strong) > 19.0
+    assert {(str(found.mounting.stator), str(found.mounting.rotor)) for found in strong} == {
+        ("4 x M6 on 50 mm", "4 x M5 on 30 mm"),
+        ("6 x M6 on 62 mm", "6 x M6 on 64 mm"),
+        ("6 x M8 on 78 mm", "6 x M8 on 75 mm"),
+    }
+
+
+WHOLE = {
+    "name": "M",
+    "maker": "me",
+    "source": "bench",
+    "diameter_m": 0.05,
+    "shaft_diameter_m": 0.005,
+    "rotor_bolt_circle_m": 0.017,
+    "rotor_bolts": 3,
+    "rotor_thread": "M3",
+    "stator_bolt_circle_m": 0.025,
+    "stator_bolts": 4,
+    "stator_thread": "M2.5",
+    "stator_face": "output",
+}
+MOUNTING = Mounting(0.005, BoltCircle(0.017, 3, "M3"), BoltCircle(0.025, 4, "M2.5"), Face.OUTPUT)
+
+
+@pytest.mark.parametrize(("write", "suffix"), [(toml, ".toml"), (csv, ".csv")])
+def test_both_formats_say_the_same(load, write, suffix):
+    assert load(write(WHOLE), suffix)["M"].mounting == MOUNTING
+
+
+def test_each_part_may_stand_alone(load):
+    nothing = dict.fromkeys(key for key in WHOLE if key.startswith(("shaft", "rotor", "stator")))
+    assert load(toml(WHOLE | nothing))["M"].mounting is None
+    shaft = nothing | {"shaft_diameter_m": 0.005}
+    assert load(toml(WHOLE | shaft))["M"].mounting == Mounting(0.005)
+
+
+FAULTS = {
+    "no thread": ({"rotor_thread": None}, "rotor_bolt_circle_m.* belong together: no rotor_thread"),
+    "only a number": (
+        {"stator_bolt_circle_m": None, "stator_thread": None, "stator_face": None},
+        "no stator_bolt_circle_m, stator_thread",
+    ),
+    "two bolts": ({"rotor_bolts": 2}, "rotor_bolts is 2; it must be 3 or more"),
+    "one bolt": ({"stator_bolts": 1}, "stator_bolts is 1; it must be 2 or more"),
+    "half a bolt": ({"rotor_bolts": 3.5}, "rotor_bolts: 3.5 is not a whole number"),
+    "no bolts": ({"rotor_bolts": 0}, "rotor_bolts: 0 is not positive"),
+    "no class": ({"rotor_screws": "9.9"}, "rotor_screws is '9.9', which is none of 8.8, 10.9"),
+    "half a depth": ({"rotor_depth_m": 0.01}, "rotor_depth_m and rotor_depth_max_m belong to"),
+    "depth of nothing": (
+        {
+            "stator_bolt_circle_m": None,
+            "stator_bolts": None,
+            "stator_thread": None,
+            "stator_face": None,
+            "stator_depth_m": 0.01,
+            "stator_depth_max_m": 0.02,
+        },
+        "belong to each other and to stator_bolt_circle_m",
+    ),
+    "depths": ({"rotor_depth_m": 0.02, "rotor_depth_max_m": 0.01}, "0.02, above rotor_depth_max_m"),
+    "inch thread": ({"rotor_thread": "4-40"}, "rotor_thread is '4-40', which is none of M2, M2.5"),
+    "wide circle": ({"rotor_bolt_circle_m": 0.05}, "0.05, but the motor is only 0.05 m wide"),
+    "thick shaft": ({"shaft_diameter_m": 0.06}, "shaft_diameter_m is 0.06, but the motor is only"),
+    "shaft between": ({"shaft_diameter_m": 0.0117}, "leave less than 1 mm to the shaft"),
+    "many bolts": ({"rotor_bolts": 13}, "13 holes for M3 leave less than 1 mm between them"),
+    "no face": ({"stator_face": None}, "stator_face and the stator's bolt circle"),
+    "wrong face": ({"stator_face": "front"}, "'front' is none of output, back"),
+}
+
+
+@pytest.mark.parametrize(("changes", "message"), FAULTS.values(), ids=FAULTS)
+def test_what_cannot_be_is_refused_whatever_the_remark(load, changes, message):
+    with pytest.raises(SpecificationError, match=message) as caught:
+        load(toml(WHOLE | changes | {"remark": "so it is"}))
+    assert "(M)" in str(caught.value)
+
+
+def test_the_edges_of_what_can_be_made_pass(load):
+    """Of M3 on 17 mm, 3.4 mm holes: 1 mm is left to a shaft of 11.6 mm, and between 11 screws."""
+    changes = {"shaft_diameter_m": 0.0116 - 1e-9, "rotor_bolts": 11}
+    edge = load(toml(WHOLE | changes))["M"].mounting
+    assert edge.rotor.inside - edge.shaft_diameter / 2.0 == pytest.approx(1e-3, abs=1e-9)
+    assert 1e-3 < edge.rotor.spacing < 1.4e-3
+
+
+def test_how_many_rows_know_what():
+    known = [found.mounting for found in motors().values() if found.mounting is not None]
+    assert sum(found.shaft_diameter is not None for found in known) >= 82
+    assert sum(found.rotor is not None for found in known) >= 29
+    assert sum(found.stator is not None for found in known) >= 72
+
+
+def test_convention_is_said_where_threads_are_not_of_the_motors_own_drawing():
+    for found in motors().values():
+        words = "convention of makers" in found.source or "of the same series" in found.source
+        assert words <= (BY_CONVENTION in found.confidence), found.name
+
+
+def test_rows_with_threads_say_where_they_are_from():
+    for found in motors().values():
+        mounting = found.mounting
+        if mounting is not None and (mounting.rotor or mounting.stator):
+            assert "threads: " in found.source, found.name
+
+
+def test_it_is_in_the_json_and_in_words():
+    (row,) = json.loads(motors_to_json([motor("MN5212 KV340")]))["motors"]
+    assert row["mounting"]["rotor"] == {
+        "diameter": 0.017,
+        "bolts": 3,
+        "thread": "M3",
+        "screws": "8.8",
+        "depth": None,
+        "depth_max": None,
+    }
+    said = motor_mounting(motor("MN5212 KV340").mounting)
+    assert said == "shaft 4 mm, rotor 3 x M3 on 17 mm, stator 4 x M3 on 25 mm (back)"
+    assert motor_mounting(None) == ""

@@ -1,10 +1,10 @@
 """The policy of the example: its numbers, and one flight with them."""
 
-import importlib.util
 from pathlib import Path
 
 import numpy as np
 import pytest
+from scripts import script_at
 from stories import design
 
 from ocs_design.common.files import to_json
@@ -14,9 +14,7 @@ EXAMPLE = Path(__file__).parents[2] / "examples" / "learn_to_land.py"
 
 @pytest.fixture
 def example(tmp_path):
-    spec = importlib.util.spec_from_file_location("learn_to_land", EXAMPLE)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    module = script_at(EXAMPLE)
     (tmp_path / "design.json").write_bytes(to_json(design()))
     module.begin(str(tmp_path))
     return module

@@ -1,7 +1,5 @@
 """The machines of docs/machines.md: what is asked for follows from what was published of them."""
 
-import importlib.util
-import sys
 from dataclasses import replace
 from functools import cache
 from math import sqrt
@@ -10,6 +8,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
+from scripts import script_at
 
 from ocs_design import Infeasible
 from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia
@@ -28,11 +27,7 @@ MACHINES = ROOT / "examples" / "machines"
 
 def load(name):
     """A script beside the specifications."""
-    spec = importlib.util.spec_from_file_location(f"machines_{name}", MACHINES / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
+    return script_at(MACHINES / f"{name}.py")
 
 
 standing = load("standing")

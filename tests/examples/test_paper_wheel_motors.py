@@ -1,9 +1,9 @@
 """The example that flies the paper's wheel on every motor, for three of them."""
 
-import importlib.util
 from pathlib import Path
 
 import pytest
+from scripts import script_at
 
 from ocs_design.catalogue.motors import motor
 
@@ -12,10 +12,7 @@ SCRIPT = Path(__file__).parents[2] / "examples" / "paper_wheel_motors.py"
 
 @pytest.fixture(scope="module")
 def example():
-    specification = importlib.util.spec_from_file_location(SCRIPT.stem, SCRIPT)
-    module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
-    return module
+    return script_at(SCRIPT)
 
 
 def test_a_gimbal_motor_is_too_slow_and_a_strong_and_fast_one_does_all_three(example):

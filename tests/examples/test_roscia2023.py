@@ -1,10 +1,11 @@
 """docs/paper.md says what the scripts in examples/roscia2023 find."""
 
-import importlib.util
+import importlib
 import sys
 from pathlib import Path
 
 import pytest
+from scripts import script_at
 
 ROOT = Path(__file__).parents[2]
 SCRIPT = ROOT / "examples" / "roscia2023" / "reproduce.py"
@@ -15,10 +16,7 @@ PAGE = ROOT / "docs" / "paper.md"
 def script():
     """With what it loads from beside it, as when it is run."""
     path = list(sys.path)
-    spec = importlib.util.spec_from_file_location("reproduce", SCRIPT)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    yield module
+    yield script_at(SCRIPT)
     sys.path[:] = path
 
 

@@ -5,49 +5,27 @@ from math import pi
 from pathlib import Path
 
 import pytest
-from wheels import EC45, PAPER_WHEEL, driven_device
+from built import CAGED, FLAT, housed
+from wheels import PAPER_WHEEL
 
-from ocs_design.actuation.motor import DIRECT, BoltCircle, Face, Mounting
-from ocs_design.catalogue.motors import motor
+from ocs_design.actuation.motor import BoltCircle, Mounting
 from ocs_design.common.files import to_json
-from ocs_design.device.device import Web
 from ocs_design.device.records.design import read_design
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.bill_of_materials import bill_csv, bill_rows
 from ocs_design.export.device_parts import printed_parts
-from ocs_design.parts.module import standing
 from ocs_design.parts.moments import Carrier
 from ocs_design.parts.motor_mount import screwed_by_face
 from ocs_design.parts.printed import DENSITY, PANEL, WALL
-from ocs_design.parts.rim import WEB_THICKNESS, hub_of, web_mass
 
 OLD = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
-MN5212 = motor("MN5212 KV340")
-FLAT = Mounting(0.004, stator=BoltCircle(0.02, 4, "M3"), stator_face=Face.OUTPUT)
 
 
 def device_on(mounting):
-    """The paper's rim on a web with the hub that such a motor needs, with nothing printed."""
-    motor = replace(MN5212, mounting=mounting)
-    hub = hub_of(motor)
-    of = PAPER_WHEEL.density
-    mass = web_mass(PAPER_WHEEL.inner_radius, of, WEB_THICKNESS) + hub.beyond_web(of).mass
-    web = Web(PAPER_WHEEL.material, of, WEB_THICKNESS, mass, hub)
-    wheel = replace(PAPER_WHEEL, mass=PAPER_WHEEL.mass + mass, web=web)
-    held = replace(
-        EC45, mounting=mounting, mass=motor.mass, diameter=motor.diameter, length=motor.length
-    )
-    alone = Carrier(motor.mass, 1e-4, 1e-4)
-    return replace(driven_device(drive=held, carrier=alone), flywheel=wheel)
-
-
-def housed(mounting, outer_radius=0.04):
-    """In its housing, and so large that its mount fits."""
-    device = device_on(mounting)
-    wheel = replace(device.flywheel, outer_radius=outer_radius)
-    motor = replace(MN5212, mounting=mounting)
-    carrier = standing(motor, DIRECT, wheel.outer_radius, wheel.height)
-    return replace(device, flywheel=wheel, carrier=carrier)
+    """The paper's rim on such a motor, with nothing printed."""
+    device = housed(mounting)
+    rim = replace(device.flywheel, outer_radius=PAPER_WHEEL.outer_radius)
+    return replace(device, flywheel=rim, carrier=Carrier(CAGED.mass, 1e-4, 1e-4))
 
 
 def screws(device):
@@ -56,7 +34,7 @@ def screws(device):
     return {row.remark.split(";")[0]: (row.part, row.quantity) for row in rows}
 
 
-@pytest.mark.parametrize("mounting", [None, FLAT, MN5212.mounting, Mounting(0.004)])
+@pytest.mark.parametrize("mounting", [None, FLAT, CAGED.mounting, Mounting(0.004)])
 def test_parts_and_screws_together_weigh_what_the_device_weighs(mounting):
     device = housed(mounting)
     rows = bill_rows(device)
@@ -92,19 +70,19 @@ def test_screws_of_a_motor_with_threads_beside_its_shaft_go_through_floor_and_fo
 
 def test_a_motor_with_threads_at_its_back_has_a_cage_on_the_plate():
     """M2 through 1.6 and 5 mm with 4 mm of thread in the print, M3 through 3 mm of floor."""
-    found = screws(housed(MN5212.mounting))
+    found = screws(housed(CAGED.mounting))
     assert found["cage on housing and foot, it is tapped"] == ("screw ISO 4762 M2 x 12", 8)
     assert found["motor in its cage"] == ("screw ISO 4762 M3 x 6", 8)
     assert found["wheel on rotor"] == ("screw ISO 4762 M3 x 6", 6)
-    assert "cage" in {part.name for part in printed_parts(housed(MN5212.mounting))}
+    assert "cage" in {part.name for part in printed_parts(housed(CAGED.mounting))}
 
 
 def test_mounting_comes_back_from_the_design_file(tmp_path):
-    design, device = read_design(OLD), device_on(MN5212.mounting)
+    design, device = read_design(OLD), device_on(CAGED.mounting)
     ocs = replace(design.ocs, motor=device.motor, flywheel=device.flywheel)
     (tmp_path / "design.json").write_bytes(to_json(replace(design, ocs=ocs)))
     again = read_design(tmp_path / "design.json").ocs
-    assert again.motor.mounting == MN5212.mounting
+    assert again.motor.mounting == CAGED.mounting
     assert again.flywheel == device.flywheel
 
 
