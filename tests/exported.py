@@ -4,6 +4,7 @@ import mujoco
 import numpy as np
 import pinocchio as pin
 import pytest
+from pinocchio_robots import configuration
 from robots import ROBOTS
 from wheels import braked_inertia
 
@@ -123,11 +124,7 @@ def seen_by_mujoco(model, robot):
 def seen_by_pinocchio(text, robot):
     """The same of a URDF, its wheels at rest."""
     model = pinocchio_model(text)
-    data, q = model.createData(), pin.neutral(model)
-    for name, value in robot.posture.items():
-        joint = model.joints[model.getJointId(name)]
-        if joint.nq == 1:
-            q[joint.idx_q] = value
+    data, q = model.createData(), configuration(model, robot.posture)
     pin.ccrba(model, data, q, np.zeros(model.nv))
     pin.updateFramePlacements(model, data)
     trunk = data.oMf[model.getFrameId(robot.trunk, pin.FrameType.BODY)]

@@ -148,9 +148,7 @@ def test_a_slew_about_both_axes(pair, angle):
     """
     load = pair.task(angle, [0.0, 0.0]).load()
     profile = slew_profile(
-        load.angle(pair.spin_inertia),
-        load.reduced_inertia(pair.spin_inertia, pair.armature),
-        LINE,
+        load.angle(pair.spin_inertia), load.reduced_inertia(pair.spin_inertia, pair.armature), LINE
     )
     roll, pitch = pair.mass_matrix[:2, :2] @ angle
     roll, pitch = roll / np.sin(pair.incidence), pitch / np.cos(pair.incidence)

@@ -266,8 +266,7 @@ def test_where_newton_fails_the_fence_closes_on_the_root(monkeypatch):
     task, line = random_tasks(rng, 500), random_lines(rng, 500)
     h = smallest_spin_inertia(task, line)
     monkeypatch.setattr(
-        "ocs_design.actuation.spin_root.newton_step",
-        lambda demand, h, can: np.full_like(h, INF),
+        "ocs_design.actuation.spin_root.newton_step", lambda demand, h, can: np.full_like(h, INF)
     )
     by_bisection = smallest_spin_inertia(task, line)
     time = wheel_slew_time(task, by_bisection, line)

@@ -11,23 +11,13 @@ from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import BoltCircle, Mounting
 from ocs_design.catalogue.materials import material
 from ocs_design.device.device import Web
-from ocs_design.device.joints import (
-    balance_of,
-    joints_of,
-    resonances_of,
-    rim_fit,
-    wheel_rings,
-)
+from ocs_design.device.joints import balance_of, joints_of, resonances_of, rim_fit, wheel_rings
 from ocs_design.device.solids import foot_of, motor_mount
-from ocs_design.parts.joints import (
-    friction_torque,
-)
+from ocs_design.parts.joints import friction_torque
 from ocs_design.parts.pedestal import Pedestal, seat_compliance, strengthened
 from ocs_design.parts.plate_strength import plate_frequency
 from ocs_design.parts.rim import WEB_THICKNESS, Hub
-from ocs_design.parts.turning_rings import (
-    TurningRings,
-)
+from ocs_design.parts.turning_rings import TurningRings
 
 STEEL, ALUMINIUM = material("steel-4140-normalized"), material("aluminium-6061-t6")
 HUB = Hub(0.0096, 0.005, 0.002, 4, 0.006, 0.0017, chamfer=0.2e-3)
@@ -119,10 +109,7 @@ def test_a_shaft_alone_is_bonded():
 
 @pytest.mark.parametrize(
     "unknown",
-    [
-        device(None),
-        replace(device(), motor=replace(device().motor, gear="5 to 1")),
-    ],
+    [device(None), replace(device(), motor=replace(device().motor, gear="5 to 1"))],
     ids=["no mounting", "a gear"],
 )
 def test_what_is_not_in_the_catalogue_has_no_capacity(unknown):

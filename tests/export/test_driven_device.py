@@ -21,11 +21,7 @@ from wheels import EC45, EC45_BODY, driven_device, geared, layout_device
 
 from ocs_design.device.bodies import carrier_inertial, flywheel_inertial
 from ocs_design.device.layout import Layout, LayoutName
-from ocs_design.export.snippets import (
-    snippet_mjcf,
-    snippet_urdf,
-    snippet_xacro,
-)
+from ocs_design.export.snippets import snippet_mjcf, snippet_urdf, snippet_xacro
 from ocs_design.export.urdf import robot_urdf
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.mass import MassProperties, physical_defect

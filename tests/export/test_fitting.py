@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from built import FLAT
 from hypothesis import given
 from hypothesis import strategies as st
 from wheels import EC45, PAPER_WHEEL, driven_device, geared, paper_device
@@ -18,8 +19,6 @@ from ocs_design.export.visuals import carrier_visuals
 from ocs_design.parts.foot import foot_shock, plate_thickness
 from ocs_design.parts.rim import Hub, RimCuts
 
-M3 = BoltCircle(0.02, 4, "M3")
-FLAT = Mounting(0.004, stator=M3, stator_face=Face.OUTPUT)
 WEB = Web("aluminium-6061-t6", 2710.0, 0.0015, 0.01, Hub(0.008, 0.005, 0.002))
 BACK_OF_PLATE = 0.005 + 0.002 + 0.0012 + 0.005
 """Half of the rim's 10 mm, clearance, floor, plate: to the wheel's middle [m]."""
@@ -136,11 +135,7 @@ def test_feet_in_each_other_s_way():
     assert "the feet stand in each other's way" in said(device_on(FLAT, apart=0.02))
 
 
-@given(
-    incidence=st.floats(0.0, 1.5),
-    diameter=st.floats(0.02, 0.06),
-    length=st.floats(0.005, 0.06),
-)
+@given(incidence=st.floats(0.0, 1.5), diameter=st.floats(0.02, 0.06), length=st.floats(0.005, 0.06))
 def test_motors_are_told_of_where_they_reach_over_the_middle(incidence, diameter, length):
     """By brute force: points on the edges of both ends."""
     drive = replace(EC45, diameter=diameter, length=length)

@@ -8,31 +8,25 @@ import numpy as np
 import pinocchio as pin
 import pytest
 import trimesh
+from built import FLAT
 from robots import ROBOTS, SOLO12
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 from seats import TRUNK, TrunkOnly, expanded
 from wheels import EC45, driven_device, geared, paper_device
 
-from ocs_design.actuation.motor import BoltCircle, Face, Mounting
 from ocs_design.device.solids import foot_of
 from ocs_design.export.device_parts import printed_parts
 from ocs_design.export.glb import robot_glb
 from ocs_design.export.meshes import part_mesh
 from ocs_design.export.mjcf import export_robot_mjcf
 from ocs_design.export.robot_model import robot_model
-from ocs_design.export.snippets import (
-    snippet_mjcf,
-    snippet_sdf,
-    snippet_urdf,
-    snippet_xacro,
-)
+from ocs_design.export.snippets import snippet_mjcf, snippet_sdf, snippet_urdf, snippet_xacro
 from ocs_design.export.urdf import robot_urdf, write_meshes
 from ocs_design.export.visuals import carrier_visuals, plain_carrier_visuals
 from ocs_design.robot.reader import read_robot
 
 ALPHA, LENGTH = np.radians(25.0), 0.021
-FLAT = Mounting(0.004, stator=BoltCircle(0.02, 4, "M3"), stator_face=Face.OUTPUT)
 DRIVE = replace(EC45, diameter=0.043, length=LENGTH, mounting=FLAT)
 DEVICE = driven_device(ALPHA, DRIVE)
 FOOT = foot_of(DEVICE)

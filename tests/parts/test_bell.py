@@ -23,10 +23,7 @@ from ocs_design.parts.joints import (
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.parts.printed import CLEARANCE, PANEL
 from ocs_design.parts.solids import Part, hollow_cylinder
-from ocs_design.parts.turning_rings import (
-    Ring,
-    TurningRings,
-)
+from ocs_design.parts.turning_rings import Ring, TurningRings
 
 MN5006 = motors()["Antigravity MN5006 KV450"]
 STEEL = {"density": 7833.0, "elastic_modulus": 207e9, "poisson_ratio": 0.32}

@@ -30,12 +30,7 @@ from ocs_design.parts.joints import (
 )
 from ocs_design.parts.motor_mount import mount_of
 from ocs_design.parts.rim import hoop_stress
-from ocs_design.parts.turning_rings import (
-    Ring,
-    TurningRings,
-    holed_peaks,
-    ligament_efficiencies,
-)
+from ocs_design.parts.turning_rings import Ring, TurningRings, holed_peaks, ligament_efficiencies
 
 TUNGSTEN = Ring(0.031, 0.0338, 0.0042, 18500.0, 345e9, 0.28)
 ALUMINIUM = Ring(0.0, 0.031, 0.0015, 2700.0, 68.9e9, 0.33)

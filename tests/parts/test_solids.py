@@ -85,9 +85,7 @@ def test_halves_make_the_whole(low, share):
     assert_same(combine(halves), whole, 1e-11)
 
 
-@given(
-    st.lists(st.tuples(st.floats(0.0, 1.0), st.floats(-1.0, 1.0)), min_size=3, max_size=3),
-)
+@given(st.lists(st.tuples(st.floats(0.0, 1.0), st.floats(-1.0, 1.0)), min_size=3, max_size=3))
 def test_any_triangle_turned_weighs_what_its_mesh_does(corners):
     profile = np.array(corners)
     (a, b), (c, d) = profile[1] - profile[0], profile[2] - profile[0]

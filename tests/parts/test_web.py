@@ -26,17 +26,10 @@ from ocs_design.parts.rim import (
     wheel_body,
 )
 from ocs_design.parts.solids import total
-from ocs_design.parts.turning_rings import (
-    Ring,
-    holed_peaks,
-)
+from ocs_design.parts.turning_rings import Ring, holed_peaks
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre, wheel_parts
 from ocs_design.requirement.vocabulary import LIGHTENINGS
-from ocs_design.sizing.bound.rim_problem import (
-    RimProblem,
-    limits_with_web,
-    stretch_beside_holes,
-)
+from ocs_design.sizing.bound.rim_problem import RimProblem, limits_with_web, stretch_beside_holes
 
 BARE = Hub(radius=0.009, height=0.005, bore_radius=0.0015)
 BOLTED = replace(BARE, bolts=4, bolt_circle_radius=0.006, bolt_hole_radius=0.0012)
@@ -76,11 +69,7 @@ def check_like_its_solids(sizes, hub, web, cuts=NO_CUTS):
 
 @WEBS
 @pytest.mark.parametrize("hub", [BARE, BOLTED], ids=["pilot bore", "bolted"])
-@given(
-    bore=st.floats(0.0101, 0.1),
-    wall=st.floats(0.5e-3, 0.05),
-    height=st.floats(2.0e-3, 0.05),
-)
+@given(bore=st.floats(0.0101, 0.1), wall=st.floats(0.5e-3, 0.05), height=st.floats(2.0e-3, 0.05))
 def test_a_wheel_weighs_and_turns_like_its_solids(web, hub, bore, wall, height):
     check_like_its_solids((bore, bore + wall, height), hub, web)
 

@@ -7,12 +7,7 @@ import pytest
 from stories import design
 
 from ocs_design.device.records.flights import ValidationRecord
-from ocs_design.report.flights import (
-    flight_remarks,
-    flight_table,
-    flights_title,
-    short_verdict,
-)
+from ocs_design.report.flights import flight_remarks, flight_table, flights_title, short_verdict
 
 TOP = design().ocs.motor.no_load_speed
 LEVEL = {"roll_swing": 0.0, "final_roll": 0.0, "final_wheel_speed": 0.0}

@@ -12,12 +12,18 @@ from ocs_design.robot.reader import load
 from ocs_design.robot.xml import parse_xml
 
 HIP = joint("hip", "trunk", "leg", LIMIT)
-LEG = link("leg", inertial())
+TRUNK, LEG = link("trunk", inertial()), link("leg", inertial())
 BOMB = (
     b'<!DOCTYPE r [<!ENTITY a0 "ha">'
     + b"".join(b'<!ENTITY a%d "%s">' % (i, b"&a%d;" % (i - 1) * 10) for i in range(1, 12))
     + b']><robot name="&a11;"/>'
 )
+
+
+def on_leg(*figures, **named) -> bytes:
+    """A trunk of these figures on one leg."""
+    return robot(link("trunk", inertial(*figures, **named)), LEG, HIP)
+
 
 BAD = {
     "empty": (b"  \n", "empty"),
@@ -29,16 +35,16 @@ BAD = {
     "included MJCF": (b"<mujocoinclude/>", "MJCF"),
     "no links": (b'<robot name="r"/>', "no <link>"),
     "trunk without inertial": (robot(link("trunk"), LEG, HIP), "'trunk'"),
-    "trunk of zero mass": (robot(link("trunk", inertial(0.0)), LEG, HIP), "'trunk'"),
+    "trunk of zero mass": (on_leg(0.0), "'trunk'"),
     "no inertial at all": (robot(link("trunk"), link("leg"), HIP), "'trunk'"),
     "point mass": (robot(link("trunk", inertial(1.0, "0 0 0"))), "no inertia"),
-    "negative mass": (robot(link("trunk", inertial(-2.0)), LEG, HIP), "'trunk'"),
-    "negative moment": (robot(link("trunk", inertial(2.0, "-1 1 1")), LEG, HIP), "'trunk'"),
-    "impossible inertia": (robot(link("trunk", inertial(2.0, "0.1 0.1 9")), LEG, HIP), "triangle"),
-    "NaN": (robot(link("trunk", inertial("nan")), LEG, HIP), "'trunk'"),
-    "infinite": (robot(link("trunk", inertial(1.0, xyz="0 inf 0")), LEG, HIP), "'trunk'"),
-    "decimal comma": (robot(link("trunk", inertial("0,5")), LEG, HIP), "0,5"),
-    "two numbers": (robot(link("trunk", inertial(1.0, xyz="0 1")), LEG, HIP), "2 numbers"),
+    "negative mass": (on_leg(-2.0), "'trunk'"),
+    "negative moment": (on_leg(2.0, "-1 1 1"), "'trunk'"),
+    "impossible inertia": (on_leg(2.0, "0.1 0.1 9"), "triangle"),
+    "NaN": (on_leg("nan"), "'trunk'"),
+    "infinite": (on_leg(1.0, xyz="0 inf 0"), "'trunk'"),
+    "decimal comma": (on_leg("0,5"), "0,5"),
+    "two numbers": (on_leg(1.0, xyz="0 1"), "2 numbers"),
     "mass without inertia": (
         robot(link("trunk", '<inertial><mass value="1"/></inertial>')),
         "<inertia>",
@@ -46,42 +52,20 @@ BAD = {
     "link without name": (robot("<link/>"), "no name"),
     "two links of one name": (robot(link("a", inertial()), link("a")), "'a'"),
     "two joints of one name": (
-        robot(link("trunk", inertial()), LEG, link("x"), HIP, joint("hip", "trunk", "x")),
+        robot(TRUNK, LEG, link("x"), HIP, joint("hip", "trunk", "x")),
         "'hip'",
     ),
-    "unknown parent": (
-        robot(link("trunk", inertial()), LEG, joint("hip", "trnk", "leg")),
-        "'trnk'",
-    ),
-    "unknown child": (robot(link("trunk", inertial()), LEG, joint("hip", "trunk", "leq")), "'leq'"),
-    "unknown joint type": (
-        robot(link("trunk", inertial()), LEG, joint("hip", "trunk", "leg", kind="ball")),
-        "'ball'",
-    ),
-    "zero axis": (
-        robot(link("trunk", inertial()), LEG, joint("hip", "trunk", "leg", '<axis xyz="0 0 0"/>')),
-        "'hip'",
-    ),
-    "two roots": (robot(link("trunk", inertial()), LEG), "'trunk', 'leg'"),
+    "unknown parent": (robot(TRUNK, LEG, joint("hip", "trnk", "leg")), "'trnk'"),
+    "unknown child": (robot(TRUNK, LEG, joint("hip", "trunk", "leq")), "'leq'"),
+    "unknown joint type": (robot(TRUNK, LEG, joint("hip", "trunk", "leg", kind="ball")), "'ball'"),
+    "zero axis": (robot(TRUNK, LEG, joint("hip", "trunk", "leg", '<axis xyz="0 0 0"/>')), "'hip'"),
+    "two roots": (robot(TRUNK, LEG), "'trunk', 'leg'"),
     "loop by two parents": (
-        robot(
-            link("trunk", inertial()),
-            LEG,
-            link("rod"),
-            HIP,
-            joint("a", "trunk", "rod"),
-            joint("b", "leg", "rod"),
-        ),
+        robot(TRUNK, LEG, link("rod"), HIP, joint("a", "trunk", "rod"), joint("b", "leg", "rod")),
         "'rod'",
     ),
     "loop beside the tree": (
-        robot(
-            link("trunk", inertial()),
-            link("a"),
-            link("b"),
-            joint("ab", "a", "b"),
-            joint("ba", "b", "a"),
-        ),
+        robot(TRUNK, link("a"), link("b"), joint("ab", "a", "b"), joint("ba", "b", "a")),
         "loop",
     ),
     "nothing but a loop": (

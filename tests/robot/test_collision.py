@@ -11,6 +11,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 import trimesh
+from pinocchio_robots import configuration
 from robots import ROBOTS
 
 from ocs_design.robot.clearance import drawn, full_ranges, reaches
@@ -44,9 +45,7 @@ def placed(name, posture):
     """Each collision shape, with its place in the trunk, which is the root."""
     model, geometry = pinocchio_of(name)
     data, geometry_data = model.createData(), geometry.createData()
-    q = pin.neutral(model)
-    for joint, value in posture.items():
-        q[model.joints[model.getJointId(joint)].idx_q] = value
+    q = configuration(model, posture)
     pin.updateGeometryPlacements(model, data, geometry, geometry_data, q)
     return zip(geometry.geometryObjects, geometry_data.oMg, strict=True)
 

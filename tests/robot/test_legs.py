@@ -1,9 +1,9 @@
 """Legs and trunks of real robots, and of small ones made for what the real ones do not show."""
 
 import numpy as np
-import pinocchio as pin
 import pytest
 from anatomy import ANATOMY, LEGGED, legs_of, tree_of
+from pinocchio_robots import free_model
 from robots import ALL_URDFS, ROBOTS
 from urdf_text import inertial, joint, link, robot
 
@@ -39,7 +39,7 @@ def test_base_frame_is_the_frame_of_the_free_flyer(name):
 
 @pytest.mark.parametrize("name", LEGGED)
 def test_leg_joints_lead_from_trunk_to_foot_in_pinocchio(name):
-    model = pin.buildModelFromUrdf(str(ROBOTS / f"{name}.urdf"), pin.JointModelFreeFlyer())
+    model = free_model(ROBOTS / f"{name}.urdf")
     for leg in legs_of(name):
         support = [model.names[i] for i in model.supports[model.getJointId(leg.joints[-1])]]
         assert support[-len(leg.joints) :] == list(leg.joints)

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pinocchio as pin
 import pytest
+from pinocchio_robots import configuration, free_model
 from robots import ALL_URDFS, ROBOTS, one_of_each
 
 from ocs_design.robot.tree import JointKind, Tree
@@ -26,16 +27,6 @@ def random_posture(tree: Tree, rng: np.random.Generator) -> dict[str, float]:
     return tree.complete(posture)
 
 
-def configuration(model: pin.Model, posture: dict[str, float]) -> np.ndarray:
-    """Pinocchio's q: a joint without limits is written as cosine and sine."""
-    q = pin.neutral(model)
-    for index in range(2, model.njoints):
-        joint, value = model.joints[index], posture[model.names[index]]
-        turn = [value] if joint.nq == 1 else [np.cos(value), np.sin(value)]
-        q[joint.idx_q : joint.idx_q + joint.nq] = turn
-    return q
-
-
 def worst_difference(model: pin.Model, tree: Tree, posture: dict[str, float]) -> float:
     """Largest of the relative differences of mass, centre of mass and locked inertia."""
     data = model.createData()
@@ -54,7 +45,7 @@ def worst_difference(model: pin.Model, tree: Tree, posture: dict[str, float]) ->
 
 @pytest.mark.parametrize("path", one_of_each(LOADED))
 def test_mass_com_and_inertia_agree(path: Path, record_property):
-    model = pin.buildModelFromUrdf(str(path), pin.JointModelFreeFlyer())
+    model = free_model(path)
     tree = read_urdf(path.read_bytes(), find_mesh=lambda _: None)
     assert set(model.names[2:]) == set(tree.joints)
     rng = np.random.default_rng(0)
@@ -66,7 +57,7 @@ def test_mass_com_and_inertia_agree(path: Path, record_property):
 
 def test_link_frames_stand_where_pinocchio_has_them():
     path = ROBOTS / "talos_data" / "robots" / "talos_full_v2.urdf"
-    model = pin.buildModelFromUrdf(str(path), pin.JointModelFreeFlyer())
+    model = free_model(path)
     tree = read_urdf(path.read_bytes(), find_mesh=lambda _: None)
     posture = random_posture(tree, np.random.default_rng(1))
     data = model.createData()
@@ -81,7 +72,7 @@ def test_link_frames_stand_where_pinocchio_has_them():
 
 def test_joint_limits_and_drives_are_those_of_pinocchio():
     path = ROBOTS / "g1_description" / "urdf" / "g1_29dof_rev_1_0.urdf"
-    model = pin.buildModelFromUrdf(str(path), pin.JointModelFreeFlyer())
+    model = free_model(path)
     tree = read_urdf(path.read_bytes(), find_mesh=lambda _: None)
     for index in range(2, model.njoints):
         ours, q, v = tree.joints[model.names[index]], model.joints[index].idx_q, model.idx_vs[index]

@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 import pinocchio as pin
 import pytest
-from anatomy import ANATOMY
-from robots import ALL_URDFS, ROBOTS, SOLO12, one_of_each
+from anatomy import ANATOMY, tree_of
+from pinocchio_robots import configuration, free_model
+from robots import ROBOTS, SOLO12, one_of_each
 from urdf_text import TWO_LINKS
 
 from ocs_design.common.errors import RobotError
@@ -39,10 +40,8 @@ def test_solo12_with_no_option():
 
 def test_solo12_at_its_nominal_posture_weighs_what_pinocchio_says():
     found = read_robot(SOLO12)
-    model = pin.buildModelFromUrdf(str(SOLO12), pin.JointModelFreeFlyer())
-    data, q = model.createData(), pin.neutral(model)
-    for name, value in found.posture.items():
-        q[model.joints[model.getJointId(name)].idx_q] = value
+    model = free_model(SOLO12)
+    data, q = model.createData(), configuration(model, found.posture)
     pin.ccrba(model, data, q, np.zeros(model.nv))
     assert found.inertia == pytest.approx(data.Ig.inertia, rel=1e-12, abs=1e-15)
     assert found.com == pytest.approx(pin.centerOfMass(model, data, q), rel=1e-9, abs=1e-12)
@@ -104,9 +103,8 @@ def test_the_content_chooses_the_format_and_not_the_name(tmp_path: Path, content
 
 
 def test_nearly_all_real_robots_find_their_meshes():
-    readable = [path for path in ALL_URDFS if path.name != "ur3.urdf"]
-    without = [path.stem for path in readable if "not found" in str(load(path).tree.warnings)]
-    assert without == ["romeo_laas_small"]
+    without = [name for name in ANATOMY if "not found" in str(tree_of(name).warnings)]
+    assert without == ["romeo_description/urdf/romeo_laas_small"]
 
 
 def test_reading_a_urdf_imports_nothing_slow():
@@ -180,7 +178,7 @@ def test_a_broken_srdf_is_only_warned_of(tmp_path: Path):
 
 
 def test_solo12_stands_as_pinocchio_has_it():
-    model = pin.buildModelFromUrdf(str(SOLO12), pin.JointModelFreeFlyer())
+    model = free_model(SOLO12)
     pin.loadReferenceConfigurations(
         model, str(ROBOTS / "solo_description" / "srdf" / "solo.srdf"), False
     )

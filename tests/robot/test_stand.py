@@ -4,6 +4,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from anatomy import ANATOMY, LEGGED, legs_of, stand_of, tree_of
+from pinocchio_robots import configuration, free_model
 from robots import ROBOTS
 
 from ocs_design.robot.leg_geometry import leg_geometries
@@ -42,12 +43,9 @@ def up_of(name):
 
 def pinocchio_frames(name, posture):
     """Model and data of Pinocchio at a posture, its base in the origin."""
-    model = pin.buildModelFromUrdf(str(ROBOTS / f"{name}.urdf"), pin.JointModelFreeFlyer())
-    data, q = model.createData(), pin.neutral(model)
-    for index in range(2, model.njoints):
-        at, value = model.joints[index], posture[model.names[index]]
-        q[at.idx_q : at.idx_q + at.nq] = [value] if at.nq == 1 else [np.cos(value), np.sin(value)]
-    pin.framesForwardKinematics(model, data, q)
+    model = free_model(ROBOTS / f"{name}.urdf")
+    data = model.createData()
+    pin.framesForwardKinematics(model, data, configuration(model, posture))
     return model, data
 
 

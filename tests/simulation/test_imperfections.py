@@ -45,11 +45,7 @@ STEP, HOLD, INERTIA = 1e-3, 5, 7e-5
 
 def drives(*own, instants=2000):
     return Drives(
-        own,
-        response=np.full(len(own), 1.0 / INERTIA),
-        instants=instants,
-        hold=HOLD,
-        step=STEP,
+        own, response=np.full(len(own), 1.0 / INERTIA), instants=instants, hold=HOLD, step=STEP
     )
 
 

@@ -205,10 +205,7 @@ def _until(time, values, end):
     """Samples up to `end` and the value there."""
     before = time < end
     last = min(end, time[-1])
-    return (
-        np.append(values[before], np.interp(last, time, values)),
-        np.append(time[before], last),
-    )
+    return (np.append(values[before], np.interp(last, time, values)), np.append(time[before], last))
 
 
 def test_after_its_end_the_trunk_is_held_level():

@@ -4,14 +4,7 @@ import math
 
 import pytest
 
-from ocs_design.export.drawing.sheet import (
-    SPACING,
-    Scale,
-    Text,
-    hatching,
-    largest_scale,
-    printable,
-)
+from ocs_design.export.drawing.sheet import SPACING, Scale, Text, hatching, largest_scale, printable
 
 
 def test_a_capital_is_as_high_as_told_and_as_wide_as_the_font_has_it():
