@@ -207,15 +207,6 @@ def test_no_angle_takes_no_time_but_a_final_speed_does():
     assert slew_time(0.0, 9e-5, EC45, 100.0) == pytest.approx(expected, rel=1e-13)
 
 
-def test_arrays_broadcast():
-    line = DriveLine(np.array([[1.0], [2.0]]), 650.0, 1.0, INF)
-    time = slew_time([10.0, 20.0, 30.0], 9e-5, line, [[0.0], [10.0]])
-    assert time.shape == (2, 3)
-    single = slew_time(20.0, 9e-5, DriveLine(2.0, 650.0, 1.0, INF), 10.0)
-    assert time[1, 1] == pytest.approx(float(single), rel=1e-14)
-    assert slew_angle(time, 9e-5, line, [[0.0], [10.0]]).shape == (2, 3)
-
-
 def test_a_supply_whose_power_friction_takes_whole_moves_nothing():
     line = DriveLine(1.4566, 650.4, 1.0, INF, power_max=0.0)
     assert np.isinf(slew_time([1.0, 0.0], 9e-5, line, [0.0, 100.0])).all()

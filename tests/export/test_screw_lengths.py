@@ -5,7 +5,6 @@ import pytest
 from ocs_design.actuation.fasteners import (
     CLASSES,
     IN_PLASTIC,
-    SCREWS,
     SHORT_LENGTHS,
     USUAL_CLASS,
     screw,
@@ -102,8 +101,3 @@ def test_a_print_s_thread_is_tightened_by_hand():
     assert found.torque == pytest.approx(each.torque(136.4), rel=2e-3)
     assert found.engagement == pytest.approx(4.8e-3)
     assert "strips" in found.rule
-
-
-def test_all_screws_have_a_preload_below_their_yield():
-    for each in SCREWS:
-        assert each.preload < 640e6 * 3.1416 / 4.0 * each.diameter**2

@@ -164,7 +164,7 @@ def test_a_module_has_all_its_pieces_in_their_places(tmp_path):
     assert {"flywheel", "motor", "cage", "drum", "lid", "foot"} == set(placed)
     for each, (part, place) in zip(found, placed.values(), strict=True):
         check_solid(each, part, place, COLORS[each.path[-1]])
-    assert isinstance(read(tmp_path / "module.step"), TopoDS_Shape)
+    read(tmp_path / "module.step")
 
 
 ON_A_PLATE = DEVICES["on a plate"].plate

@@ -77,7 +77,6 @@ def test_full_inertia_survives_the_principal_axes():
 def test_an_impossible_inertia_is_mended_and_told():
     found = inertial(MassProperties(1.0, np.zeros(3), np.diag([1.0, 1.0, 5.0])))
     np.testing.assert_allclose(found.moments, [2.0, 2.0, 4.0], rtol=1e-12)
-    assert found.warning is not None
     assert "2, 2, 4 kg m^2" in found.warning
     compiles(found)
 

@@ -225,16 +225,6 @@ def test_broken_and_flat_meshes_are_left_out_with_a_warning(tmp_path, name, cont
     assert built.spec.compile().ngeom == 0
 
 
-def test_a_robot_by_hand_is_one_free_box():
-    robot = robot_by_hand(2.5, (0.03, 0.05, 0.07, 0.001, 0.002, -0.003), com=(0.01, 0.0, -0.02))
-    model = build_spec(robot).spec.compile()
-    assert (model.nbody, model.nq, model.ngeom) == (2, 7, 1)
-    mass, com, inertia = locked_in_mujoco(model, robot)
-    assert mass == robot.mass
-    np.testing.assert_allclose(com, robot.com, atol=1e-15)
-    np.testing.assert_allclose(inertia, robot.inertia, atol=1e-15)
-
-
 @pytest.mark.parametrize("root", [FREE, FIXED, SLIDING, WITH_A_BALL])
 def test_an_mjcf_robot_stands_alone_and_free_with_its_keyframe(tmp_path, root):
     robot = read_robot(write(tmp_path, MJCF.format(**root)), posture="zero")

@@ -4,11 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from calm_flights import calm_metrics
 from designed import MOTOR, designed
 
 from ocs_design.requirement.pivoted import StandUp
 from ocs_design.simulation.margins import record_margins
-from ocs_design.simulation.run import Metrics, Run, Series
+from ocs_design.simulation.run import Run, Series
 from ocs_design.sizing.trajectory.flight import Trajectory
 from ocs_design.sizing.trajectory.plans import Reference
 
@@ -26,11 +27,7 @@ def run(scenario, *, speed=500.0, torque=0.2, ocs=True, knock=1.0):
         wheel_speed=speed * wild * [1.0, -0.5], wheel_torque=torque * wild * [-1.0, 0.5],
         torque_lowest=None, torque_highest=None, contact=AFTER, wheels=("left", "right"),
     )  # fmt: skip
-    metrics = Metrics(
-        LANDED, 0.0, 0.0, 0.0, 0.0, 0.0, speed, torque, 0.0, True, 0.0, 0.0,
-        roll_swing=0.0, pitch_swing=0.0, settling_time=0.0, lift_off_time=0.0, rise=0.0,
-        nutation=0.0, final_wheel_speed=0.0,
-    )  # fmt: skip
+    metrics = calm_metrics(touchdown_time=LANDED, peak_wheel_speed=speed, peak_wheel_torque=torque)
     return Run(scenario, ocs, True, "", metrics, series, "", True)
 
 

@@ -2,32 +2,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from calm_flights import calm_metrics
 
 from ocs_design.requirement.maneuver import Drop, Flip, Shove
 from ocs_design.requirement.turns import TurnTo
-from ocs_design.simulation.run import Metrics
 from ocs_design.simulation.verdict import comes_down_well, judge, stands
 
-GOOD = Metrics(
-    lift_off_time=0.0,
-    rise=0.0,
+GOOD = calm_metrics(
     touchdown_time=0.39,
-    touchdown_roll=0.0,
     touchdown_pitch=np.radians(1.0),
     touchdown_rate=0.05,
     turned_angle=np.radians(-29.0),
-    heading_drift=0.0,
-    peak_wheel_speed=800.0,
-    peak_wheel_torque=1.0,
-    momentum_error=1e-9,
-    upright_at_end=True,
-    final_roll=0.0,
-    final_pitch=0.0,
-    roll_swing=0.0,
     pitch_swing=np.radians(3.0),
-    settling_time=0.2,
-    final_wheel_speed=10.0,
-    nutation=1e-3,
 )
 DROP = Drop(name="drop", height=1.0, pitch=0.5)
 SHOVE = Shove(name="shove", torque=(0.0, 1.0, 0.0), duration=0.05, settling=0.5)
