@@ -1,7 +1,7 @@
 """Metric screws, and the holes that they need."""
 
 from dataclasses import dataclass
-from math import ceil, pi, sqrt
+from math import asin, ceil, pi, sqrt
 
 from ocs_design.common.errors import PartError
 
@@ -84,6 +84,18 @@ class Screw:
     def head_area(self) -> float:
         """What its head presses on, around a medium clearance hole [m^2]."""
         return pi / 4.0 * (self.head_diameter**2 - self.clearance_hole**2)
+
+    def slot_area(self, across: float) -> float:
+        """What a head or washer presses on beside a slot as wide as a clearance hole [m^2].
+
+        Its disc less a strip of that width, of two segments less than half of the disc each.
+
+        Args:
+            across: diameter of the head or washer [m].
+        """
+        radius, half = across / 2.0, self.clearance_hole / 2.0
+        strip = 2.0 * (half * sqrt(radius**2 - half**2) + radius**2 * asin(half / radius))
+        return pi * radius**2 - strip
 
     @property
     def _pitch_diameter(self) -> float:

@@ -1,12 +1,13 @@
 """Work that is left where motor, wheel, printed parts and trunk do not simply fit together."""
 
 from collections.abc import Iterator
-from math import pi, sqrt
+from math import sqrt
 
 from ocs_design.actuation.motor import DIRECT, Face, GearRoom, Mounting
 from ocs_design.catalogue.motors import known_motors
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
 from ocs_design.device.device import Device
+from ocs_design.device.foot_hold import foot_hold
 from ocs_design.device.joints import DAMPING, resonances_of
 from ocs_design.device.solids import drive_solids, foot_of, motor_mount, shaft_cut
 from ocs_design.export.device_parts import foot_holes, wheel_geometry
@@ -15,15 +16,12 @@ from ocs_design.parts.bell import BELL_SHARE
 from ocs_design.parts.carrier_plate import DENSITY as PLATE_DENSITY
 from ocs_design.parts.carrier_plate import MODULUS as PLATE_MODULUS
 from ocs_design.parts.carrier_plate import YIELD_STRENGTH
-from ocs_design.parts.foot import Foot, foot_part, foot_shock, screw_pull
+from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.joints import GRADE
 from ocs_design.parts.motor_mount import motor_front
 from ocs_design.parts.printed import DENSITY, MODULUS, SHOCK, STRENGTH, TRUNK_SCREW
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import trunk_surface
-
-WASHER_AREA = pi / 4.0 * ((7.0e-3) ** 2 - TRUNK_SCREW.clearance_hole**2)
-"""What a washer ISO 7089 presses on under the head of a foot's screw, M3 [m^2]."""
 
 _UNDRILLED = "drill floor and plate for it"
 
@@ -170,7 +168,8 @@ def _overlap_notes(device: Device, foot: Foot) -> Iterator[str]:
 def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
     """Notes on feet and screws too weak for a landing, and on speeds at which parts resonate."""
     module, modes = device.flywheel.mass + device.carrier.mass, resonances_of(device)
-    bears, own = foot_shock(foot, module), foot_part(foot).mass_properties().mass
+    hold, own = foot_hold(device), foot_part(foot).mass_properties().mass
+    bears = hold.prints_bear
     if bears < SHOCK:
         stronger, heavier = YIELD_STRENGTH / STRENGTH, own * (PLATE_DENSITY / DENSITY - 1.0)
         sway = "".join(
@@ -184,19 +183,11 @@ def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
             f"{sqrt(PLATE_MODULUS / MODULUS):.0f} times as high a frequency and "
             f"{1e3 * heavier:.0f} g heavier each"
         )
-    pull, shock = screw_pull(foot, module), f"{SHOCK / STANDARD_GRAVITY:.0f} g"
-    bare, under = pull / TRUNK_SCREW.head_area, pull / WASHER_AREA
-    if under > STRENGTH:
+    if hold.heads_bear < SHOCK:
         yield (
-            f"mill the feet of 6061-T6 to the same file: at {shock} the heads of their screws "
-            f"press with {1e-6 * under:.0f} MPa even on washers, and PETG yields at "
-            f"{1e-6 * STRENGTH:.0f}"
-        )
-    elif bare > STRENGTH:
-        yield (
-            f"put a washer ISO 7089 {TRUNK_SCREW.name} under each head of the feet's screws: at "
-            f"{shock} a bare head presses with {1e-6 * bare:.0f} MPa "
-            f"on PETG that yields at {1e-6 * STRENGTH:.0f}"
+            f"mill the feet of 6061-T6 to the same file: at {SHOCK / STANDARD_GRAVITY:.0f} g the "
+            f"heads of their screws press with {1e-6 * hold.pull / hold.area:.0f} MPa even on "
+            f"washers, and PETG yields at {1e-6 * STRENGTH:.0f}"
         )
     for mode in modes:
         if mode.acceleration > STANDARD_GRAVITY:

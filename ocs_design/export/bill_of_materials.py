@@ -10,6 +10,7 @@ from pathlib import Path
 from ocs_design.actuation.fasteners import IN_PLASTIC, STEEL, Fastening
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.device import Device, Flywheel, Web
+from ocs_design.device.foot_hold import foot_hold, unheld_moment
 from ocs_design.device.joints import joints_of
 from ocs_design.device.records.device import MarginRecord
 from ocs_design.device.solids import foot_of, motor_mount
@@ -29,7 +30,14 @@ from ocs_design.parts.carrier_plate import (
 )
 from ocs_design.parts.housing import LID_SCREWS, guard_ring
 from ocs_design.parts.joints import BOND_STRENGTH, EPOXY
-from ocs_design.parts.printed import CLEARANCE, PANEL, TRUNK_SCREW, WALL
+from ocs_design.parts.printed import (
+    CLEARANCE,
+    PANEL,
+    TRUNK_SCREW,
+    TRUNK_SCREW_COUNT,
+    WALL,
+    WASHER,
+)
 
 COLUMNS = (
     *("part", "quantity", "material", "stock [mm]", "mass each [g]", "mass [g]"),
@@ -213,6 +221,12 @@ def _unweighed_rows(device: Device, margins: Sequence[MarginRecord]) -> Iterator
             "follow its maker's sheet"
         )
         yield BillRow("retaining compound", 1, "", "", 0.0, where)
+    if foot_hold(device).washers:
+        count, where = len(device.modules) * TRUNK_SCREW_COUNT, "under heads of the feet's screws"
+        yield BillRow(f"washer {WASHER}", count, "steel", "", 0.0, f"{where}; not in the mass")
+    if unheld_moment(device, margins):
+        where = "through a foot's base into what it stands on; not in the mass"
+        yield BillRow("pin of 3 mm", len(device.modules), "steel", "", 0.0, where)
     screwed = (each.fastening for each in motor_mount(device).screwed)
     if any(each.depth < IN_PLASTIC for each in screwed):
         where = "medium strength, removable; screws in metal only: it attacks prints"

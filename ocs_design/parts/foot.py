@@ -178,18 +178,19 @@ class Foot(Generic[Real]):
         return ArcSlot(self.slot_radius, TRUNK_SCREW.clearance_hole, *ends)
 
 
-def foot_shock(foot: Foot[float], mass: float) -> float:
+def foot_shock(foot: Foot[float], mass: float, edge: float | None = None) -> float:
     """Acceleration along the wheel's axis at which a foot of PETG breaks [m/s^2].
 
     Args:
         foot: see `plate_thickness`.
         mass: of the module above it [kg].
+        edge: see `screw_pull`.
     """
     stem = float(foot.thickness) / _stem_at_shock(foot, mass)
     # The base as a cantilever as wide as the stem, which the screw on the far side pulls at: the
     # same case, but bent along its layers.
     arm, width = foot.slot_radius + foot.housing.half_height, 2.0 * foot.stem
-    base = float(foot.base) / sqrt(6.0 * screw_pull(foot, mass) * arm / (width * STRENGTH))
+    base = float(foot.base) / sqrt(6.0 * screw_pull(foot, mass, edge) * arm / (width * STRENGTH))
     return SHOCK * min(stem, base) ** 2
 
 
@@ -226,13 +227,15 @@ def _stem_at_shock(foot: Foot[float], mass: float) -> float:
     return sqrt(6.0 * mass * SHOCK * arm / (width * STRENGTH_ACROSS))
 
 
-def screw_pull(foot: Foot[float], mass: float) -> float:
+def screw_pull(foot: Foot[float], mass: float, edge: float | None = None) -> float:
     """Largest pull of one of a foot's screws under `SHOCK` along its wheel's axis [N].
 
     Args:
         foot, mass: see `foot_shock`.
+        edge: radius of what it stands on, whose edge it tilts about [m]; None: all of its base.
     """
-    return mass * SHOCK * foot.wheel_height / screw_lever(foot.base_radius, foot.slot_radius)
+    edge = foot.base_radius if edge is None else edge
+    return mass * SHOCK * foot.wheel_height / screw_lever(edge, foot.slot_radius)
 
 
 def stem_frequency(foot: Foot[float], mass: float, inertia: float) -> float:

@@ -75,6 +75,12 @@ TRUNK_SCREW, TRUNK_SCREW_COUNT = screw("M3"), 2
 AROUND_SLOT = max(TRUNK_SCREW.head_diameter / 2.0, TRUNK_SCREW.clearance_hole / 2.0 + WALL)
 """Room of heads, or of a wall, around the middle of a slot [m]."""
 
+WASHER, WASHER_ACROSS, WASHER_HEIGHT = "ISO 7093-1 - 3", 9.0e-3, 0.8e-3
+"""Large washer for such a screw, its largest diameter and height [m]: ISO 7093-1:2000, table 1."""
+
+PRESSURE_SHARE = 0.5
+"""Pressure under a head on a print over its yield strength: it creeps little then."""
+
 UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 """Takes coordinates of the wheel's frame, z along its axis and y down, to the module's own."""
 
@@ -169,10 +175,10 @@ def plate_back(half: Real, thickness: Real | float) -> Real:
     return half + thickness
 
 
-def screw_lever(base_radius: float, slot_radius: float) -> float:
+def screw_lever(edge: float, slot_radius: float) -> float:
     """Moment that tilts a foot over the largest pull of its two screws [m].
 
-    The foot turns about the edge of its base, and a screw holds it as far as it is from there; most
-    is asked of one where the other is behind it.
+    The foot turns about the edge of what it stands on, and a screw holds it as far as it is from
+    there; most is asked of one where the other is behind it.
     """
-    return 2.0 * (base_radius**2 + slot_radius**2) / (base_radius + slot_radius)
+    return 2.0 * (edge**2 + slot_radius**2) / (edge + slot_radius)

@@ -7,6 +7,7 @@ import numpy as np
 
 from ocs_design.actuation.drive import speed_limit
 from ocs_design.common.arrays import FloatArray
+from ocs_design.device.foot_hold import BEARING_MOMENT
 from ocs_design.parts.joints import OVERSPEED, Margin
 from ocs_design.sizing.motion import (
     Consumption,
@@ -94,7 +95,7 @@ def margins(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> tuple[Margi
     return (
         *found,
         Margin("stored energy", energy, None, "J", "all wheels with their rotors"),
-        Margin("bearing moment", moment, None, "N m", "gyroscopic, and of the trunk's turning"),
+        Margin(BEARING_MOMENT, moment, None, "N m", "gyroscopic, and of the trunk's turning"),
     )
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 from ocs_design.actuation.motor import Motor, build_gaps
+from ocs_design.device.foot_hold import BEARING_MOMENT
 from ocs_design.device.joints import FLOOR_SHOCK, FOOT_SHOCK, RIM_JOINT, SCREWS_SHOCK, SHAFT_JOINT
 from ocs_design.device.records.device import Buildable, MarginRecord, OpenPoint
 from ocs_design.parts.joints import EPOXY, Margin
@@ -35,7 +36,7 @@ CURES: Mapping[str, str] = {
     BUS_POWER + FED_BACK: _SUPPLY,
     HOOP_STRESS: "choose a stronger material (--material), or a slower motor",
     BRAKED_SHAFT: "choose a motor with a lighter rotor or with threads in it (--motor)",
-    "bearing moment": "choose a motor with stronger bearings (--motor)",
+    BEARING_MOMENT: "choose a motor with stronger bearings (--motor)",
 }
 """Margins whose capacity is not to be exceeded, by name, and what can be done.
 

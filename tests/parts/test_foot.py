@@ -119,23 +119,27 @@ def test_a_stem_yields_where_a_cantilever_does():
     assert foot_shock(FOOT, 1.2) == pytest.approx(shock / 4.0)
 
 
-def test_a_base_yields_where_a_screw_bends_it():
+@pytest.mark.parametrize(
+    ("stands", "pull", "thick"), [(None, 279.0, 4.65), (38.72e-3, 321.0, 4.99)]
+)
+def test_a_base_yields_where_a_screw_bends_it(stands, pull, thick):
     """1.38 kg and 20 g at 86.8 mm tilt the foot by 23.5 N m, about the edge of its base.
 
     Its screws are at 34.2 mm on either side of the middle, 13.5 and 82.0 mm from there, and pull
     as they are far away: 279 N, 45.1 mm from a stem 74.2 mm wide, and 4.65 mm of 47 MPa bear it.
+    About the edge of a plate of 38.7 mm, 4.5 and 72.9 mm from there: 321 N and 4.99 mm.
     """
     foot = Foot(Housing(0.0765, 0.0153, MountHoles(0.0495)), 0.009)
     edge, out = foot.base_radius, foot.slot_radius
     assert (1e3 * edge, 1e3 * out) == pytest.approx((47.75, 34.22), abs=0.01)
     moment = 1.38 * 20.0 * 9.80665 * foot.wheel_height
-    near, far = edge - out, edge + out
+    near, far = (stands or edge) - out, (stands or edge) + out
     pulled = moment * far / (near**2 + far**2)
-    assert (moment, pulled) == pytest.approx((23.5, 279.0), rel=1e-3)
+    assert (moment, pulled) == pytest.approx((23.5, pull), rel=2e-3)
     arm, width = out + foot.housing.half_height, 2.0 * foot.stem
     needed = np.sqrt(6.0 * pulled * arm / (width * 47e6))
-    assert needed == pytest.approx(0.00465, abs=1e-5)
-    assert foot_shock(foot, 1.38) == pytest.approx(SHOCK * (foot.base / needed) ** 2)
+    assert 1e3 * needed == pytest.approx(thick, abs=0.01)
+    assert foot_shock(foot, 1.38, stands) == pytest.approx(SHOCK * (foot.base / needed) ** 2)
 
 
 def test_a_foot_is_as_thick_as_its_load_asks_for():

@@ -13,6 +13,7 @@ from typing import NamedTuple
 from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.device import Device
+from ocs_design.device.foot_hold import FootHold, foot_hold
 from ocs_design.device.joints import burst_of
 from ocs_design.device.records.device import MarginRecord
 from ocs_design.device.solids import motor_mount
@@ -27,7 +28,7 @@ from ocs_design.export.formats import Subject
 from ocs_design.parts.guard import Containment
 from ocs_design.parts.joints import preload as joint_preload
 from ocs_design.parts.joints import tightening_torque
-from ocs_design.parts.printed import STRENGTH
+from ocs_design.parts.printed import PRESSURE_SHARE, STRENGTH, WASHER, WASHER_HEIGHT
 
 _LABELS = {
     "flywheel": "flywheel",
@@ -50,9 +51,6 @@ _LABELS = {
 STRIP_SHARE = 1.0 / 3.0
 """Preload of a screw in a print over the one that strips its thread: prints shear along layers, and
 creep."""
-
-PRESSURE_SHARE = 0.5
-"""Pressure under a head on a print over its yield strength: it creeps little then."""
 
 ALUMINIUM_SHEAR = 207e6
 """Shear strength of 6061-T6 [Pa] (ASM), for motors' bells and trunks whose alloy is not known."""
@@ -99,6 +97,7 @@ class Tightened:
         rule: what limits it.
         engagement: length of thread that holds, at least [m].
         on_print: whether their heads press on a print, and they go through it.
+        washers: whether each has one under its head.
     """
 
     fastening: Fastening
@@ -106,9 +105,21 @@ class Tightened:
     rule: str
     engagement: float
     on_print: bool = False
+    washers: bool = False
+
+    @property
+    def with_washers(self) -> str:
+        """What goes under each head; empty: nothing."""
+        return f", a washer {WASHER} under each head" if self.washers else ""
 
 
-def tightened(fastening: Fastening, *, on_metal: bool, head_on_print: bool = True) -> Tightened:
+def tightened(
+    fastening: Fastening,
+    *,
+    on_metal: bool,
+    head_on_print: bool = True,
+    on_slot: FootHold | None = None,
+) -> Tightened:
     """Torque of screws.
 
     Those of the wheel as their joint is computed (`parts.joints`). Others, of class 8.8, with the
@@ -121,8 +132,12 @@ def tightened(fastening: Fastening, *, on_metal: bool, head_on_print: bool = Tru
         fastening: what they are.
         on_metal: whether they hold the wheel, metal on metal.
         head_on_print: whether their heads press on a print, not on metal.
+        on_slot: how they hold a foot, on whose slots they press; None: they do not.
     """
     screw, engagement = fastening.screw, fastening.length - fastening.thickness
+    washers = on_slot is not None and on_slot.washers
+    if washers:
+        engagement -= WASHER_HEIGHT
     sheared = pi * screw.diameter * engagement / 2.0
     if on_metal:
         strength = fastening.strength
@@ -132,7 +147,11 @@ def tightened(fastening: Fastening, *, on_metal: bool, head_on_print: bool = Tru
     limits = [(screw.preload, "class 8.8 at 90 % of yield (VDI 2230, friction 0.12)")]
     if head_on_print:
         pressed = PRESSURE_SHARE * STRENGTH * screw.head_area
-        limits.append((pressed, "head on PETG at half its yield strength"))
+        where = "head on PETG"
+        if on_slot is not None:
+            pressed = on_slot.preload
+            where = f"{'washer' if washers else 'head'} beside a slot in PETG"
+        limits.append((pressed, f"{where} at half its yield strength"))
     if fastening.depth >= IN_PLASTIC:
         stripped = STRIP_SHARE * sheared * STRENGTH / sqrt(3.0)
         limits.append((stripped, "thread in PETG at a third of what strips it"))
@@ -140,7 +159,7 @@ def tightened(fastening: Fastening, *, on_metal: bool, head_on_print: bool = Tru
         stripped = THREAD_SHARE * sheared * ALUMINIUM_SHEAR
         limits.append((stripped, "thread in aluminium at half of what strips it"))
     preload, rule = min(limits)
-    return Tightened(fastening, screw.torque(preload), rule, engagement, head_on_print)
+    return Tightened(fastening, screw.torque(preload), rule, engagement, head_on_print, washers)
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,6 +205,7 @@ class Assembly:
                 piece.fastening,
                 on_metal=piece.name in on_wheel,
                 head_on_print=not piece.shared,
+                on_slot=foot_hold(self.device) if piece.name.startswith("foot on") else None,
             )
             for piece in self.pieces
             if piece.fastening is not None
@@ -229,7 +249,7 @@ class Assembly:
                 self.numbers[name],
                 self._count(piece),
                 held.designation,
-                held.purpose,
+                f"{held.purpose}{found.with_washers}",
                 depth,
                 f"{found.torque:.2g} N m",
                 found.rule,
@@ -278,7 +298,8 @@ class Assembly:
             where = f"; those at {', '.join(places(ends))}"
         return (
             f"{joint}: {held.count} x {held.designation}"
-            f"{self.number(name)}, {found.torque:.2g} N m, crosswise in two rounds; {lock}{where}."
+            f"{self.number(name)}{found.with_washers}, {found.torque:.2g} N m, crosswise in two "
+            f"rounds; {lock}{where}."
         )
 
 

@@ -10,10 +10,11 @@ from ocs_design.actuation.fasteners import IN_PLASTIC
 from ocs_design.catalogue.materials import materials
 from ocs_design.common.units import format_quantity
 from ocs_design.device.bodies import joint_name
+from ocs_design.device.foot_hold import foot_hold, unheld_moment
 from ocs_design.device.joints import SHAFT_JOINT, joints_of, rim_fit
 from ocs_design.device.layout import PAIR
-from ocs_design.device.solids import foot_of
-from ocs_design.export.assembly.content import Assembly, places
+from ocs_design.device.solids import drive_solids, foot_of
+from ocs_design.export.assembly.content import Assembly, Tightened, places
 from ocs_design.export.assembly.trials import balance, safety, spin_test
 from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.device_parts import (
@@ -30,11 +31,17 @@ from ocs_design.parts.foot import LONG_MARKS
 from ocs_design.parts.joints import EPOXY
 from ocs_design.parts.module import part_name
 from ocs_design.parts.pedestal import SEATED
-from ocs_design.parts.printed import CLEARANCE, LID_SCREW, WALL
+from ocs_design.parts.printed import CLEARANCE, LID_SCREW, WALL, WASHER_HEIGHT
 
 FREE_SPAN = 10.0e-3
 """Width that a printer bridges without supports [m]: an assumption. Of a round hole with its axis
 level, what hangs over by more than 45 degrees is sqrt(2) times its radius wide."""
+
+KEY_LEG, KEY_ARM = 18.0e-3, 50.0e-3
+"""Short leg of a hex key for M3, and where its long one is pushed [m]: ISO 2936, 18 and 56 mm."""
+
+LEAST_ROOM = 6.0e-3
+"""Above a head, in which a key with a cut leg can be put in and turned [m]: an assumption."""
 
 DROP = 0.03e-3
 """Air on the diameter with which a hot rim drops on its web before it has cooled [m]."""
@@ -327,8 +334,57 @@ def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
         f"deg apart, long ones {long:g}, and a degree is {degree:.2g} mm at their ends. Scribe "
         "a line forward through the middle of each foot, turn the foot until it meets "
         f"the scale at {scale}, its lid looking {looks}, and tighten {held.count} x "
-        f"{held.designation}{assembly.number(screws)} with {found.torque:.2g} N m each, into "
-        f"{into}."
+        f"{held.designation}{assembly.number(screws)}{found.with_washers}, with "
+        f"{found.torque:.2g} N m each, into {into}."
+        f"{_under_motor(assembly, found)}{_pinned(assembly)}"
+    )
+
+
+def _under_motor(assembly: Assembly, found: Tightened) -> str:
+    """How a foot's screw is tightened that is under motor or cage; empty: none is."""
+    device, foot, driven = assembly.device, foot_of(assembly.device), found.fastening.screw
+    corner = driven.key / sqrt(3.0)
+    top = float(foot.base) + driven.head_height + (WASHER_HEIGHT if found.washers else 0.0)
+    rooms = []
+    for module in device.modules:
+        out = module.frame[:2, 1]
+        for hole in foot_holes(device).get(module.name, ()):
+            aside = np.array(hole) - module.position[:2]
+            along = float(aside @ out)
+            beside = max(0.0, abs(float(out[0] * aside[1] - out[1] * aside[0])) - corner)
+            rooms += [
+                foot.wheel_height + solid.up - sqrt(solid.radius**2 - beside**2) - top
+                for solid in drive_solids(device)
+                if solid.low < along + corner
+                and along - corner < solid.high
+                and beside < solid.radius
+            ]
+    if not rooms:
+        return ""
+    room = min(rooms)
+    if room < LEAST_ROOM:
+        return (
+            " One of them is under the motor, where no key reaches it: set and tighten the foot "
+            "before motor, cage and housing go on it."
+        )
+    cut = "" if room > KEY_LEG else f", its short leg cut to {1e3 * room - 1.0:.0f} mm,"
+    return (
+        f" One of them is under the motor, with {1e3 * room:.0f} mm above its head: tighten it by "
+        f"a hex key of {1e3 * driven.key:g} mm{cut} with "
+        f"{found.torque / KEY_ARM:.1f} N at {1e3 * KEY_ARM:.0f} mm of its long leg."
+    )
+
+
+def _pinned(assembly: Assembly) -> str:
+    """That feet are pinned whose screws do not keep them from turning; empty: they do."""
+    asked = unheld_moment(assembly.device, assembly.margins)
+    if not asked:
+        return ""
+    held = foot_hold(assembly.device).turning
+    return (
+        " Then drill 3 mm through the base of each foot, clear of its slots, into what it stands "
+        f"on, and put a pin in: in a maneuver the wheel turns its foot with up to {asked:.2g} N m, "
+        f"and the friction of its screws holds {held:.2g} N m."
     )
 
 
