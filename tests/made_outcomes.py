@@ -1,5 +1,7 @@
 """Outcomes made up, for what is done with them."""
 
+from dataclasses import fields
+
 import numpy as np
 
 from ocs_design.device.layout import PAIR
@@ -20,3 +22,8 @@ def made_outcomes(samples, scenarios=1, *, fail_from=2.0, seed=0):
     codes = np.where(np.abs(values[:, :1]) > fail_from, 3, 0).astype(np.int8)
     codes = np.broadcast_to(codes, (len(values), scenarios)).copy()
     return Outcomes(np.array(samples), values, metrics, codes, NAMES)
+
+
+def assert_same(one, other):
+    for field in fields(Outcomes):
+        np.testing.assert_array_equal(getattr(one, field.name), getattr(other, field.name))

@@ -126,12 +126,15 @@ def replaced(target, trace):
     return True
 
 
-@pytest.mark.parametrize("aside", [False, True])
-def test_interrupted_at_any_instruction_it_is_the_old_folder_or_the_new(
-    tmp_path, monkeypatch, aside
-):
-    if aside:
+@pytest.fixture(params=[False, True], ids=["exchanged", "put aside"])
+def either_way(request, monkeypatch):
+    """Two folders change places, or the system does not know how and the old one is put aside."""
+    if request.param:
         monkeypatch.setattr(folders, "exchange", lambda one, other: False)
+
+
+@pytest.mark.usefixtures("either_way")
+def test_interrupted_at_any_instruction_it_is_the_old_folder_or_the_new(tmp_path):
     target, moment, done = tmp_path / "out", 0, False
     make_output(target)
     while not done:
@@ -153,10 +156,8 @@ def test_what_another_run_is_writing_stays(tmp_path):
     assert texts(target) == {DESIGN_FILE: "new"}
 
 
-@pytest.mark.parametrize("aside", [False, True])
-def test_of_two_runs_with_force_the_last_one_stays(tmp_path, monkeypatch, aside):
-    if aside:
-        monkeypatch.setattr(folders, "exchange", lambda one, other: False)
+@pytest.mark.usefixtures("either_way")
+def test_of_two_runs_with_force_the_last_one_stays(tmp_path):
     target = tmp_path / "out"
     make_output(target)
     with staged_folder(target, force=True) as slow:

@@ -1,10 +1,11 @@
 """Samples flown: alone or among others, on one thread or two, they have the same numbers."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from campaigns import short_campaign
+from made_outcomes import assert_same
 from wheels import layout_device
 
 import ocs_design.monte_carlo.campaign
@@ -33,11 +34,6 @@ def campaign(solo12):
 @pytest.fixture(scope="module")
 def outcomes(campaign):
     return fly_samples(campaign, range(6))
-
-
-def assert_same(one, other):
-    for field in fields(Outcomes):
-        np.testing.assert_array_equal(getattr(one, field.name), getattr(other, field.name))
 
 
 def test_numbers_do_not_depend_on_company_or_threads(campaign, outcomes):

@@ -7,17 +7,17 @@ import sys
 import threading
 import time
 from contextlib import closing
-from dataclasses import fields
+from dataclasses import replace
 
 import numpy as np
 import pyarrow.parquet
 import pytest
 from campaigns import short_campaign
-from made_outcomes import made_outcomes
+from made_outcomes import assert_same, made_outcomes
 
 from ocs_design.common.errors import MissingToolError, OcsError, OutputError
 from ocs_design.monte_carlo.campaign import fly_samples
-from ocs_design.monte_carlo.outcomes import Identity, Outcomes, Storage, blocks_of, write_tables
+from ocs_design.monte_carlo.outcomes import Identity, Storage, blocks_of, write_tables
 from ocs_design.monte_carlo.running import Cluster, Workers, narrow, run_campaign
 
 BLOCKS = blocks_of(100, 8)
@@ -49,11 +49,6 @@ class Made(Workers):
             yield block, made_outcomes(block.samples, 2, fail_from=1.5)
 
 
-def assert_same(one, other):
-    for field in fields(Outcomes):
-        np.testing.assert_array_equal(getattr(one, field.name), getattr(other, field.name))
-
-
 def test_blocks_hold_every_sample_once():
     assert [n for block in BLOCKS for n in block.samples] == list(range(100))
 
@@ -71,15 +66,17 @@ def test_it_stops_when_enough_is_known_at_the_same_sample_whoever_was_faster():
     assert_same(found, run_campaign(None, BLOCKS, workers=backward, enough=narrow(0.3)))
 
 
-def test_a_run_that_was_cut_short_goes_on(tmp_path):
-    folder = tmp_path / "mc"
+@pytest.fixture
+def stored(tmp_path):
+    """Opens the folder of the campaign's samples."""
+    return lambda: Storage(tmp_path / "mc", IDENTITY, force=False)
+
+
+def test_a_run_that_was_cut_short_goes_on(stored):
     with pytest.raises(KeyboardInterrupt):
-        run_campaign(
-            None, BLOCKS, workers=Made(most=5), storage=Storage(folder, IDENTITY, force=False)
-        )
+        run_campaign(None, BLOCKS, workers=Made(most=5), storage=stored())
     told, rest = [], Made()
-    storage = Storage(folder, IDENTITY, force=False)
-    again = run_campaign(None, BLOCKS, workers=rest, storage=storage, progress=told.append)
+    again = run_campaign(None, BLOCKS, workers=rest, storage=stored(), progress=told.append)
     assert rest.flown == list(BLOCKS[5:])
     assert_same(again, run_campaign(None, BLOCKS, workers=Made()))
     assert told == sorted(told)
@@ -87,20 +84,17 @@ def test_a_run_that_was_cut_short_goes_on(tmp_path):
     assert told[-1] == pytest.approx(1.0)
 
 
-def test_more_samples_of_the_same_campaign_need_only_those(tmp_path):
-    run_campaign(
-        None, BLOCKS, workers=Made(), storage=Storage(tmp_path / "mc", IDENTITY, force=False)
-    )
+def test_more_samples_of_the_same_campaign_need_only_those(stored):
+    run_campaign(None, BLOCKS, workers=Made(), storage=stored())
     more = Made()
-    storage = Storage(tmp_path / "mc", IDENTITY, force=False)
-    run_campaign(None, blocks_of(120, 8), workers=more, storage=storage)
+    run_campaign(None, blocks_of(120, 8), workers=more, storage=stored())
     # The last block was not full.
     assert [block.start for block in more.flown] == [96, 104, 112]
 
 
 @pytest.mark.parametrize("spoil", [lambda text: b"", lambda text: text[: len(text) // 2]])
-def test_a_spoilt_block_is_flown_again(tmp_path, spoil):
-    storage = Storage(tmp_path / "mc", IDENTITY, force=False)
+def test_a_spoilt_block_is_flown_again(tmp_path, stored, spoil):
+    storage = stored()
     run_campaign(None, BLOCKS, workers=Made(), storage=storage)
     path = sorted((tmp_path / "mc" / "samples").iterdir())[2]
     path.write_bytes(spoil(path.read_bytes()))
@@ -109,9 +103,9 @@ def test_a_spoilt_block_is_flown_again(tmp_path, spoil):
     assert again.flown == [BLOCKS[2]]
 
 
-def test_another_campaign_is_not_mixed_in(tmp_path):
-    Storage(tmp_path / "mc", IDENTITY, force=False).keep(BLOCKS[0], made_outcomes(range(8)))
-    other = Identity(**{**vars_of(IDENTITY), "seed": 1})
+def test_another_campaign_is_not_mixed_in(tmp_path, stored):
+    stored().keep(BLOCKS[0], made_outcomes(range(8)))
+    other = replace(IDENTITY, seed=1)
     with pytest.raises(OutputError, match="not the same: seed"):
         Storage(tmp_path / "mc", other, force=False)
     anew = Storage(tmp_path / "mc", other, force=True)
@@ -125,10 +119,6 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path):
     with pytest.raises(OutputError, match="not a folder"):
         Storage(tmp_path / "thesis.tex", IDENTITY, force=True)
     assert (tmp_path / "thesis.tex").read_text() == "years of work"
-
-
-def vars_of(identity):
-    return {field.name: getattr(identity, field.name) for field in fields(identity)}
 
 
 def test_csv_and_parquet_hold_the_same_rows(tmp_path):
@@ -191,5 +181,4 @@ def test_a_lost_worker_loses_nothing(solo12, two_workers):
     killer.join()
     assert killed
     alone = fly_samples(campaign, range(24), threads=2)
-    for field in fields(Outcomes):
-        np.testing.assert_array_equal(getattr(found, field.name), getattr(alone, field.name))
+    assert_same(found, alone)
