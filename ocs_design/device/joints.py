@@ -12,7 +12,7 @@ from ocs_design.device.device import Device, Flywheel, Web
 from ocs_design.device.foot_hold import foot_hold
 from ocs_design.device.solids import foot_of, housing_of, motor_mount
 from ocs_design.parts.bell import GLUE_GAP
-from ocs_design.parts.cage import floor_at_shock
+from ocs_design.parts.cage import floor_at_shock, heads_at_shock
 from ocs_design.parts.foot import stem_frequency
 from ocs_design.parts.guard import Containment, containment, fragment_of
 from ocs_design.parts.joints import (
@@ -112,6 +112,10 @@ def _shocks(device: Device) -> Iterator[Margin]:
         if breaks > 0.0:
             bears = SHOCK * (cage.floor / breaks) ** 2
             note = f"{shock} on motor and wheel, which tilt the cage's floor, until it breaks"
+            sunk = heads_at_shock(cage, drive, wheel)
+            if sunk < bears:
+                bears = sunk
+                note = f"{shock} on motor and wheel, until the heads of the cage's screws sink in"
             yield Margin(FLOOR_SHOCK, SHOCK, bears, "m/s2", note)
 
 

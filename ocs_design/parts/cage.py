@@ -206,6 +206,18 @@ def floor_at_shock(cage: Cage, motor: float, wheel: float) -> float:
     return sqrt(2.0 * 3.0 * tilting * max(ring, 0.0) / (pi * held * STRENGTH))
 
 
+def heads_at_shock(cage: Cage, motor: float, wheel: float) -> float:
+    """Acceleration along the axis at which the heads of a cage's screws sink into PETG [m/s^2].
+
+    They press on the housing's floor, and hold motor, wheel and cage on the foot.
+
+    Args:
+        cage: with its screws. motor, wheel: mass of each [kg].
+    """
+    held = motor + wheel + cage_part(cage).mass()
+    return EAR_COUNT * STRENGTH * LID_SCREW.head_area / held
+
+
 def _posts(cage: Cage, low: float, high: float) -> tuple[Prism[float], Prism[float]]:
     """The posts between two heights, and the holes in them [m]."""
     post = Post(cage.band, cage.bore, HALF_POST)

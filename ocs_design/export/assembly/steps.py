@@ -10,6 +10,7 @@ from ocs_design.actuation.fasteners import IN_PLASTIC
 from ocs_design.catalogue.materials import materials
 from ocs_design.common.units import format_quantity
 from ocs_design.device.bodies import joint_name
+from ocs_design.device.device import Device
 from ocs_design.device.foot_hold import foot_hold, unheld_moment
 from ocs_design.device.joints import SHAFT_JOINT, joints_of, rim_fit
 from ocs_design.device.layout import PAIR
@@ -124,7 +125,7 @@ def _module_steps(assembly: Assembly) -> Iterator[str]:
         yield (
             "Turn the wheel by hand: it is free all around, and a strip of "
             f"{1e3 * CLEARANCE - 0.5:g} mm passes between rim and housing. Check the rim's "
-            f"run-out on its motor: at most {2 * RUN_OUT:g} mm."
+            f"run-out on its motor: at most {2 * RUN_OUT:g} mm.{_centred(device)}"
         )
         yield "Balance the wheel on its motor (below): lid off, behind the spin test's wall."
         yield assembly.screwed(
@@ -146,6 +147,14 @@ def _module_steps(assembly: Assembly) -> Iterator[str]:
         "wheel turns about them by the right hand. Try each at low torque, lid on; where it is "
         "wrong, swap two of the motor's three wires, and set up its sensor again."
     )
+
+
+def _centred(device: Device) -> str:
+    """How a wheel is centred that has no shaft in its bore; empty: its bore centres it."""
+    mounting = device.motor.mounting
+    if mounting is None or mounting.rotor is None or mounting.shaft_diameter is not None:
+        return ""
+    return " Nothing but its screws centres it: loosen them, shift it and tighten them again."
 
 
 def _wheel_steps(assembly: Assembly) -> Iterator[str]:

@@ -259,6 +259,15 @@ def test_the_spin_test_keeps_to_the_speed_that_the_motor_is_allowed(allowed, say
     assert says in texts(Assembly("solo12", replace(device, motor=motor)), "Spin test")
 
 
+@pytest.mark.parametrize(("shaft", "told"), [(None, True), (0.004, False)])
+def test_a_wheel_that_only_its_screws_centre_is_shifted(shaft, told):
+    """In clearance holes it may run out by more than the step allows."""
+    caged = DEVICES["caged"]
+    motor = replace(caged.motor, mounting=replace(caged.motor.mounting, shaft_diameter=shaft))
+    said = texts(Assembly("solo12", replace(caged, motor=motor)), "Steps")
+    assert ("Nothing but its screws centres it" in said) == told
+
+
 def test_each_foot_of_a_ring_is_turned_to_its_own_axis():
     layout = Layout(LayoutName.TRIAD)
     modules = map(Module, layout.names, layout.axes(layout.angle).T, np.eye(3))
