@@ -317,7 +317,7 @@ def _by_selection(
     total = braked(carried, bodies, centers, device.incidence, device.layout)
     return Designed(
         device=device,
-        sized=replace(sized_selection(problem, chosen), total=total),
+        sized=replace(sized_selection(problem, chosen, robot.mass_properties), total=total),
         criterion=BY_HAND if stated else name,
         choice=choice,
         reserve=reserve,

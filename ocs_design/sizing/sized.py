@@ -81,9 +81,14 @@ def sized_by_bound(sizing: DeviceSizing, wheel_speed_max: float) -> Sized:
     )
 
 
-def sized_selection(problem: SelectionProblem, chosen: Candidate) -> Sized:
-    """Figures behind the selected, or the co-designed, device."""
-    inertia, robot = chosen.total.inertia, problem.robot.inertia
+def sized_selection(problem: SelectionProblem, chosen: Candidate, robot: MassProperties) -> Sized:
+    """Figures behind the selected, or the co-designed, device.
+
+    Args:
+        problem: that was solved; its robot carries the plate or the mast already.
+        chosen: the device. robot: the robot alone, in B.
+    """
+    inertia = chosen.total.inertia
     requirement, line = problem.requirement, chosen.line.reserved()
 
     def by_criterion(of: FloatArray) -> Mapping[Criterion, float]:
@@ -94,7 +99,7 @@ def sized_selection(problem: SelectionProblem, chosen: Candidate) -> Sized:
     return Sized(
         wheel_speed_max=min(float(line.no_load_speed), float(line.speed_max)),
         incidence_by_criterion=by_criterion(inertia),
-        incidence_by_criterion_robot=by_criterion(robot),
+        incidence_by_criterion_robot=by_criterion(robot.inertia),
         demands=tuple(_spin_demands(problem, chosen)),
         total=chosen.total,
         optimum=recorded(

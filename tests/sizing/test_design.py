@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from designed import MOTOR, designed
+from products import equal_rate
 from robots import SOLO12
 from wheels import braked_inertia
 
@@ -14,6 +15,7 @@ from ocs_design.actuation.drive import speed_limit
 from ocs_design.catalogue.motors import motor
 from ocs_design.common.errors import Infeasible
 from ocs_design.device.joints import SHAFT_JOINT, burst_of, joints_of
+from ocs_design.device.layout import Criterion
 from ocs_design.device.solids import foot_of
 from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.parts.foot import foot_shock
@@ -36,6 +38,17 @@ def test_the_total_is_robot_and_device_braked(motor):
     assert found.sized.total.mass == pytest.approx(expected.mass, rel=1e-12)
     np.testing.assert_allclose(found.sized.total.com, expected.com, rtol=0.0, atol=1e-12)
     np.testing.assert_allclose(found.sized.total.inertia, expected.inertia, rtol=1e-7, atol=1e-12)
+
+
+def test_the_incidence_of_the_robot_alone_does_not_count_the_plate():
+    asked = specification_from_options(
+        {"robot.file": str(SOLO12), "motor.name": "Antigravity MN5006 KV450"}
+    )
+    task = read_task(asked, package_paths={}, strict=False)
+    found = design_device(asked, task.robot, task.resolved)
+    assert found.device.plate is not None
+    alone = found.sized.incidence_by_criterion_robot[Criterion.EQUAL_RATE]
+    assert alone == pytest.approx(equal_rate(task.robot.inertia), rel=1e-12)
 
 
 def test_wheels_that_a_brake_stops_turn_no_faster_than_their_joint_takes():
