@@ -1,5 +1,7 @@
 """What the tests of exported robots share: robots of every kind, and two readers' views of them."""
 
+from functools import cache
+
 import mujoco
 import numpy as np
 import pinocchio as pin
@@ -11,6 +13,7 @@ from wheels import braked_inertia
 from ocs_design.export.mjcf import export_robot_mjcf
 from ocs_design.export.robot_model import robot_model
 from ocs_design.robot.mass import MassProperties, combine
+from ocs_design.robot.reader import read_robot
 
 LEGGED = [
     "solo_description/robots/solo12",
@@ -54,6 +57,12 @@ MJCF = """<mujoco model="walker">
   <keyframe><key name="home" qpos="0 0 0.6123456789 1 0 0 0 0.1123456789 0.2123456789 0.012"
     ctrl="0.3123456789"/></keyframe>
 </mujoco>"""
+
+
+@cache
+def robot_at(path, posture=None):
+    """A real robot, read once in each process."""
+    return read_robot(path, posture=posture)
 
 
 def mujoco_model(robot, device, folder):

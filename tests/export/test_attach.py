@@ -3,7 +3,7 @@
 import mujoco
 import numpy as np
 import pytest
-from exported import check_wheels_in_mujoco
+from exported import check_wheels_in_mujoco, robot_at
 from robots import ROBOTS, SOLO12
 from wheels import driven_device, motor, paper_device
 
@@ -91,7 +91,7 @@ def test_motors_give_newton_metres_up_to_their_limit(drive, limit):
 
 
 def test_wheels_meet_a_floor_that_has_their_bit_but_no_link():
-    model = with_device(read_robot(SOLO12), paper_device())
+    model = with_device(robot_at(SOLO12), paper_device())
     wheel = model.geom("ocs_left_flywheel")
     assert wheel.conaffinity[0] == WHEEL_CONTACT_BIT
     assert wheel.contype[0] == 0

@@ -12,6 +12,7 @@ from exported import (
     check_whole,
     mujoco_model,
     pinocchio_model,
+    robot_at,
     seen_by_mujoco,
     seen_by_pinocchio,
 )
@@ -25,7 +26,6 @@ from ocs_design.export.snippets import snippet_mjcf, snippet_urdf, snippet_xacro
 from ocs_design.export.urdf import robot_urdf
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.mass import MassProperties, physical_defect
-from ocs_design.robot.reader import read_robot
 
 DEVICES = {
     "direct": driven_device(),
@@ -51,7 +51,7 @@ ROBOTS_AND_DEVICES = {name: (SOLO12, device) for name, device in DEVICES.items()
 @pytest.mark.parametrize("case", ROBOTS_AND_DEVICES)
 def test_mujoco_and_pinocchio_see_the_whole_robot(case, tmp_path):
     path, device = ROBOTS_AND_DEVICES[case]
-    robot = read_robot(path)
+    robot = robot_at(path)
     text = robot_urdf(robot, device).decode()
     check_whole(seen_by_pinocchio(text, robot), robot, device)
     check_whole(seen_by_mujoco(mujoco_model(robot, device, tmp_path), robot), robot, device)

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 import trimesh
-from exported import LEGGED, LEGGED_PATHS
+from exported import LEGGED, LEGGED_PATHS, robot_at
 from robots import SOLO12
 from wheels import driven_device
 
@@ -60,7 +60,7 @@ def seen_by_mujoco(model, posture):
 
 @pytest.mark.parametrize("path", LEGGED_PATHS, ids=LEGGED)
 def test_real_robots_stand_as_mujoco_has_them(path, tmp_path):
-    robot = read_robot(path)
+    robot = robot_at(path)
     model, scene = drawn(robot, tmp_path)
     points = seen_by_mujoco(model, robot.posture) @ UPRIGHT.T
     vertices = scene.to_geometry().vertices
@@ -71,7 +71,7 @@ def test_real_robots_stand_as_mujoco_has_them(path, tmp_path):
 
 
 def test_a_node_for_each_body_where_the_body_is(tmp_path):
-    robot = read_robot(SOLO12)
+    robot = robot_at(SOLO12)
     model, scene = drawn(robot, tmp_path)
     data = mujoco.MjData(model)
     for name, value in robot.posture.items():

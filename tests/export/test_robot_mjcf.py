@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ET
 import mujoco
 import numpy as np
 import pytest
-from exported import LEGGED, LEGGED_PATHS, MJCF, check_wheels_in_mujoco, mujoco_model
+from exported import LEGGED, LEGGED_PATHS, MJCF, check_wheels_in_mujoco, mujoco_model, robot_at
 from robots import SOLO12
 from scipy.spatial.transform import Rotation
 from wheels import driven_device, paper_device, scaled_device
@@ -56,7 +56,7 @@ def compiled(robot, device):
 
 @pytest.mark.parametrize("path", LEGGED_PATHS, ids=LEGGED)
 def test_mujoco_reads_the_robot_and_its_wheels(path, tmp_path):
-    robot, device = read_robot(path), paper_device()
+    robot, device = robot_at(path), paper_device()
     model = mujoco_model(robot, device, tmp_path)
     total = robot.mass + 2.0 * device.flywheel.mass
     # Romeo's fingers have no mass; MuJoCo needs some.
@@ -107,7 +107,7 @@ def test_a_robot_by_hand_has_its_inertia_to_the_last_digits(tmp_path):
 
 def test_the_folder_can_be_moved(tmp_path):
     (tmp_path / "here").mkdir()
-    mujoco_model(read_robot(SOLO12), paper_device(), tmp_path / "here")
+    mujoco_model(robot_at(SOLO12), paper_device(), tmp_path / "here")
     shutil.move(tmp_path / "here", tmp_path / "there")
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "there" / "robot.xml"))
     assert model.nmesh == len(list((tmp_path / "there" / "meshes").iterdir()))
@@ -143,7 +143,7 @@ def test_meshes_of_an_mjcf_robot_go_along(tmp_path):
 @pytest.mark.parametrize("path", LEGGED_PATHS, ids=LEGGED)
 def test_a_free_flight_keeps_its_angular_momentum_as_the_file_stands(path, tmp_path):
     """The gate of the flights, `MOMENTUM_GATE`, for 2 s with fast wheels and a turning trunk."""
-    robot = read_robot(path)
+    robot = robot_at(path)
     device = scaled_device(robot)
     model, data = at_home(export_robot_mjcf(robot_model(robot, device), tmp_path / "robot.xml"))
     data.qpos[2] += 40.0
@@ -166,7 +166,7 @@ def test_a_free_flight_keeps_its_angular_momentum_as_the_file_stands(path, tmp_p
 
 @pytest.mark.parametrize("path", LEGGED_PATHS[:5], ids=LEGGED[:5])
 def test_a_quadruped_stands_in_its_scene(path, tmp_path):
-    robot, device = read_robot(path), paper_device()
+    robot, device = robot_at(path), paper_device()
     write(Subject.of(robot, device, "robot"), tmp_path)
     ET.parse(tmp_path / "scene.xml")  # MuJoCo's own parser is less strict
     model, data = at_home(tmp_path / "scene.xml")
@@ -186,7 +186,7 @@ def test_a_quadruped_stands_in_its_scene(path, tmp_path):
 
 
 def test_its_drives_and_options_are_those_of_the_flights(tmp_path):
-    robot, device = read_robot(SOLO12), paper_device()
+    robot, device = robot_at(SOLO12), paper_device()
     model, _ = at_home(export_robot_mjcf(robot_model(robot, device), tmp_path / "robot.xml"))
     world = WorldBuilder(robot, device).flight(default_maneuvers(robot)[0], Wheels.ACTIVE)
     for name in leg_joints(robot):
@@ -201,7 +201,7 @@ def test_its_drives_and_options_are_those_of_the_flights(tmp_path):
 
 
 def test_joints_in_no_leg_are_held_until_they_are_released(tmp_path):
-    robot = read_robot(LEGGED_PATHS[6])
+    robot = robot_at(LEGGED_PATHS[6])
     model, data = at_home(
         export_robot_mjcf(robot_model(robot, paper_device()), tmp_path / "robot.xml")
     )
@@ -214,7 +214,7 @@ def test_joints_in_no_leg_are_held_until_they_are_released(tmp_path):
 
 
 def test_links_meet_the_floor_and_not_each_other_unless_their_mjcf_says_so(tmp_path):
-    model = compiled(read_robot(LEGGED_PATHS[3]), paper_device())
+    model = compiled(robot_at(LEGGED_PATHS[3]), paper_device())
     links = np.array(["flywheel" not in model.geom(i).name for i in range(model.ngeom)])
     assert not model.geom_contype.any()
     assert set(model.geom_conaffinity[links]) == {0, 1}
@@ -237,7 +237,7 @@ def test_actuators_of_the_robots_own_get_no_others_beside_them(tmp_path):
 
 
 def test_the_floor_of_the_scene_meets_what_can_touch_and_both_wheels(tmp_path):
-    write(Subject.of(read_robot(SOLO12), paper_device(), "robot"), tmp_path)
+    write(Subject.of(robot_at(SOLO12), paper_device(), "robot"), tmp_path)
     model, data = at_home(tmp_path / "scene.xml")
     # On its back, its wheels lowest.
     data.qpos[2:7] = 0.05, 0.0, 1.0, 0.0, 0.0
@@ -247,7 +247,7 @@ def test_the_floor_of_the_scene_meets_what_can_touch_and_both_wheels(tmp_path):
 
 
 def test_the_readme_has_the_designs_figures_and_a_picture(tmp_path):
-    robot, device = read_robot(SOLO12), driven_device()
+    robot, device = robot_at(SOLO12), driven_device()
     write(Subject.of(robot, device, "solo"), tmp_path)
     page = (tmp_path / "README.md").read_text()
     for figure in (

@@ -4,7 +4,14 @@ import numpy as np
 import pinocchio as pin
 import pytest
 import trimesh
-from exported import LEGGED, LEGGED_PATHS, MJCF, check_wheels_in_pinocchio, pinocchio_model
+from exported import (
+    LEGGED,
+    LEGGED_PATHS,
+    MJCF,
+    check_wheels_in_pinocchio,
+    pinocchio_model,
+    robot_at,
+)
 from robots import SOLO12
 from wheels import driven_device, paper_device
 
@@ -24,7 +31,7 @@ def exported_text(robot: Robot, device=None) -> str:
 
 @pytest.mark.parametrize("path", LEGGED_PATHS, ids=LEGGED)
 def test_pinocchio_reads_the_robot_and_its_wheels(path):
-    robot, device = read_robot(path), paper_device()
+    robot, device = robot_at(path), paper_device()
     model = pinocchio_model(exported_text(robot, device))
     total = robot.mass + 2.0 * device.flywheel.mass
     assert pin.computeTotalMass(model) == pytest.approx(total, rel=1e-12)
@@ -33,7 +40,7 @@ def test_pinocchio_reads_the_robot_and_its_wheels(path):
 
 @pytest.mark.parametrize("path", LEGGED_PATHS, ids=LEGGED)
 def test_the_users_file_stays_byte_for_byte(path):
-    robot = read_robot(path)
+    robot = robot_at(path)
     content = robot.content
     result = robot_urdf(robot, paper_device())
     place = content.rindex(b"</robot>")
@@ -98,7 +105,7 @@ def test_a_clash_of_names_is_an_error_that_says_so(tmp_path, element, name):
 
 
 def test_the_wheels_mesh_lies_beside_the_file_in_metres(tmp_path):
-    text = exported_text(read_robot(SOLO12))
+    text = exported_text(robot_at(SOLO12))
     write_meshes(paper_device(), tmp_path)
     assert text.count(f'filename="{WHEEL_MESH}"') == 2
     np.testing.assert_allclose(

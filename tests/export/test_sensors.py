@@ -3,7 +3,7 @@
 import mujoco
 import numpy as np
 import pytest
-from exported import LEGGED, LEGGED_PATHS, mujoco_model
+from exported import LEGGED, LEGGED_PATHS, mujoco_model, robot_at
 from robots import SOLO12
 from wheels import driven_device
 
@@ -102,14 +102,14 @@ def test_keyframes_of_a_branched_robot_stay(branched, tmp_path, trunk):
 @pytest.mark.parametrize("path", LEGGED_PATHS, ids=LEGGED)
 def test_keyframes_of_real_robots_stay(path, tmp_path):
     """As MJCF, of which example-robot-data has none: written by us, without a device."""
-    spec = build_spec(read_robot(path), visuals=False).spec
+    spec = build_spec(robot_at(path), visuals=False).spec
     # The reader names what has no name.
     spec.joints[0].name = "float"
     spec = with_keyframes(spec)
     for name, content in spec.assets.items():
         (tmp_path / name).write_bytes(content)
     (tmp_path / "in.xml").write_text(spec.to_xml())
-    trunk = read_robot(path).trunk
+    trunk = robot_at(path).trunk
     before = mujoco.MjModel.from_xml_path(str(tmp_path / "in.xml"))
     check_keyframes_kept(before, written_again(tmp_path / "in.xml", trunk, tmp_path / "out"))
 

@@ -16,6 +16,7 @@ from exported import (
     check_whole,
     mujoco_model,
     pinocchio_model,
+    robot_at,
     seen_by_mujoco,
     seen_by_pinocchio,
 )
@@ -38,7 +39,6 @@ from ocs_design.export.templates import in_comment
 from ocs_design.export.urdf import robot_urdf
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.mujoco_model import build_spec
-from ocs_design.robot.reader import read_robot
 
 DEVICE = driven_device()
 THIRD = {
@@ -57,7 +57,7 @@ def third(request, tmp_path):
     """Another robot as it came, with the snippets of ours beside it."""
     for name, text in snippets(DEVICE, TrunkOnly()).items():
         (tmp_path / name).write_text(text)
-    return read_robot(ROBOTS / f"{request.param}.urdf", posture="zero")
+    return robot_at(ROBOTS / f"{request.param}.urdf", posture="zero")
 
 
 def pasted(robot, *snippets):
@@ -193,7 +193,7 @@ def check_turned_wheels(model, device, mount):
 
 @pytest.mark.parametrize("form", ["robot", "pasted", "macro"])
 def test_wheels_of_a_robot_with_y_up_stand_in_its_base_frame(tmp_path, form):
-    robot, device = read_robot(HUMAN), paper_device()
+    robot, device = robot_at(HUMAN), paper_device()
     for name, text in snippets(device, robot).items():
         (tmp_path / name).write_text(text)
     text = robot_urdf(robot, device).decode() if form == "robot" else FORMS[form](robot, tmp_path)
@@ -201,7 +201,7 @@ def test_wheels_of_a_robot_with_y_up_stand_in_its_base_frame(tmp_path, form):
 
 
 def test_mjcf_of_a_robot_with_y_up_has_its_wheels_in_its_base_frame(tmp_path):
-    robot, device = read_robot(HUMAN), paper_device()
+    robot, device = robot_at(HUMAN), paper_device()
     model = mujoco_model(robot, device, tmp_path)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
