@@ -14,7 +14,7 @@ from ocs_design.robot.robot import Leg, Mount
 from ocs_design.robot.tree import Placement, Tree
 
 SIDEWAYS = 0.9
-"""Smallest product of a knee's axis with the x axis of a frame whose x points sideways."""
+"""Axes whose unit vectors have at least this product point the same way (26 degrees)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,6 +30,18 @@ class LegGeometry:
     leg: Leg
     chain: Chain
     plane: LegPlane
+
+    def stepping_sideways(self, up: FloatArray) -> bool:
+        """Whether the knee turns about B's x axis while the leg bends to step.
+
+        A hexapod's leg bends to reach out sideways, and steps as its hip swings about the vertical:
+        its knee turns about x where x points forward. It is told by the roll that it lacks.
+        """
+        driven, plane = self.chain.driven, self.plane
+        axes = self.chain.pose(np.zeros(len(driven))).axes
+        swings = 0 not in plane.pitch and abs(axes[driven[0]] @ up) > SIDEWAYS
+        rolls = any(abs(axes[row] @ plane.forward) > SIDEWAYS for row in driven)
+        return bool(abs(plane.axis[0]) > SIDEWAYS and (rolls or not swings))
 
 
 def leg_geometries(tree: Tree, trunk: str, legs: Sequence[Leg]) -> tuple[LegGeometry, ...]:
@@ -81,8 +93,9 @@ def convention_warnings(tree: Tree, trunk: str, legs: Sequence[Leg]) -> list[str
             f"the legs do not hang along -z of the trunk frame '{trunk}' but along "
             f"{axis_name(-up)}, so roll and pitch are about other axes than they should: {cure}"
         ]
-    planes = [geometry.plane for geometry in leg_geometries(tree, trunk, legs)]
-    if all(abs(plane.axis[0]) > SIDEWAYS for plane in planes):
+    geometries = leg_geometries(tree, trunk, legs)
+    planes = [geometry.plane for geometry in geometries]
+    if all(geometry.stepping_sideways(up) for geometry in geometries):
         return [
             f"the knees turn about the x axis of the trunk frame '{trunk}', so x seems to point "
             f"sideways, and roll and pitch are swapped: {cure}"
@@ -149,10 +162,11 @@ def with_base_frame(
 def _base_rotation(tree: Tree, trunk: str, legs: Sequence[Leg]) -> FloatArray:
     """Axes of B in the trunk's frame, turned by right angles, as columns, shape (3, 3)."""
     up = up_axis(tree, trunk, legs)
-    planes = [geometry.plane for geometry in leg_geometries(tree, trunk, legs)]
-    knees = [plane.axis for plane in planes]
-    if up[2] == 1.0 and not all(abs(axis[0]) > SIDEWAYS for axis in knees):
+    geometries = leg_geometries(tree, trunk, legs)
+    if up[2] == 1.0 and not all(geometry.stepping_sideways(up) for geometry in geometries):
         return np.eye(3)
+    planes = [geometry.plane for geometry in geometries]
+    knees = [plane.axis for plane in planes]
     sideways = np.sum(np.abs(knees), axis=0) * (up == 0.0)
     left = np.eye(3)[int(np.argmax(sideways))]
     both = [np.column_stack([np.cross(y, up), y, up]) for y in (left, -left)]

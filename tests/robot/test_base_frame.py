@@ -2,11 +2,14 @@
 
 import re
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
 
 import numpy as np
 import pytest
 from robots import ROBOTS, SOLO12
+from urdf_text import inertial, joint, link
+from urdf_text import robot as urdf_of
 
 from ocs_design.robot.leg_geometry import BASE_FRAME, named_front, with_base_frame
 from ocs_design.robot.legs import find_legs
@@ -63,6 +66,44 @@ def test_inertia_does_not_depend_on_the_trunks_frame(name):
     placements = tree.placements_from(BASE_FRAME, posture.values)
     ahead = {leg.name: placements[leg.body].position[0] > 0.0 for leg in legs}
     assert ahead == {"FL_FOOT": True, "FR_FOOT": True, "HL_FOOT": False, "HR_FOOT": False}
+
+
+SOLE = '<origin xyz="0 0 -0.14"/>'
+
+
+def hexapod():
+    """Three legs on each side that reach out sideways; x is forward."""
+
+    def hinge(name, parent, child, at, axis):
+        limit = '<limit lower="-1.5" upper="1.5" effort="10" velocity="10"/>'
+        return joint(name, parent, child, f'<origin xyz="{at}"/>', f'<axis xyz="{axis}"/>', limit)
+
+    parts = [link("trunk", inertial(2.0, "0.01 0.01 0.02"))]
+    for number, (x, side) in enumerate(product((0.13, 0.0, -0.13), (1.0, -1.0)), 1):
+        coxa, femur, tibia = (f"leg{number}_{part}" for part in ("coxa", "femur", "tibia"))
+        parts += [
+            link(coxa, inertial(0.1, "2e-5 2e-5 2e-5")),
+            link(femur, inertial(0.1, "9e-5 9e-5 9e-5", f"0 {0.05 * side} 0")),
+            link(tibia, inertial(0.1, "9e-5 9e-5 9e-5", "0 0 -0.07")),
+            link(f"leg{number}_foot"),
+            hinge(f"swing{number}", "trunk", coxa, f"{x} {0.1 * side} 0", "0 0 1"),
+            hinge(f"lift{number}", coxa, femur, f"0 {0.04 * side} 0", "1 0 0"),
+            hinge(f"knee{number}", femur, tibia, f"0 {0.1 * side} 0", "1 0 0"),
+            joint(f"sole{number}", tibia, f"leg{number}_foot", SOLE, kind="fixed"),
+        ]
+    return urdf_of(*parts)
+
+
+@pytest.mark.parametrize("options", [{}, {"trunk": "trunk"}])
+def test_legs_that_sprawl_bend_about_the_way_ahead(tmp_path, options):
+    path = tmp_path / "hexapod.urdf"
+    path.write_bytes(hexapod())
+    found = read_robot(path, **options)
+    assert len(found.legs) == 6
+    assert found.mount is None
+    assert not any("frame" in text for text in found.warnings)
+    # The feet are farther apart across the way than along it.
+    assert found.inertia[0, 0] > 1.2 * found.inertia[1, 1]
 
 
 @pytest.mark.parametrize(
