@@ -25,6 +25,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
+from functools import cache
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))  # for those who load this file from elsewhere
@@ -120,6 +121,7 @@ def distributions(_which: str) -> str:
     return table(("key", "default", "drawn", "what it rests on"), rows)
 
 
+@cache  # Two pages show the same one.
 def run(command_line: str, exit_code: int = 0) -> str:
     """The output of a command, both streams in order, in an empty folder with the examples."""
     environment = {
