@@ -23,8 +23,9 @@ def test_a_heavy_device_is_warned_of(folder):
     assert float(share[1]) == pytest.approx(float(of_robot[1]), abs=0.5001)
 
 
+@pytest.mark.usefixtures("no_alternatives", "no_files")
 def test_a_heavy_device_is_refused_where_warnings_are_errors(folder):
-    result = run(*BULKY, "--strict", "--json")
+    result = run(*BULKY, "--motor", "Antigravity MN5006 KV450", *ONE_KIND, "--strict", "--json")
     error = result.document["error"]
     assert (result.code, error["kind"]) == (3, "specification")
     assert "of the robot" in error["message"]
