@@ -29,6 +29,9 @@ MOST_STEPS = 800
 _CHUNK = 1 << 16
 """Pairs of triangles and places at once: few enough for the cache."""
 
+_WINDOW = 1 << 9
+"""Most places under a triangle that is looked at together with others."""
+
 MOST_BYTES = 16 << 20
 """Sum of the meshes that are read to look at a trunk: a .dae takes 0.1 s a MB."""
 
@@ -109,14 +112,16 @@ def surface_of(triangles: FloatArray) -> Surface:
     # Half a step off the edge, so that the first place is not on it.
     origin = low + step / 2.0
     shape = np.maximum(1, np.ceil((high - low) / step).astype(np.int64))
-    heights = np.full(int(shape.prod()), -np.inf)
+    heights = np.full(shape, -np.inf)
     first = np.ceil((flat.min(axis=1) - origin) / step - 1e-9).astype(np.int64)
     last = np.floor((flat.max(axis=1) - origin) / step + 1e-9).astype(np.int64)
     first, last = np.maximum(first, 0), np.minimum(last, shape - 1)
     count = np.maximum(last - first + 1, 0)
     pairs = count.prod(axis=1)
+    # Small triangles together, each pair of one and a place in a row; a large one on its window.
+    large = pairs > _WINDOW
     order = np.argsort(pairs, kind="stable")
-    order = order[pairs[order] > 0]
+    order = order[(pairs[order] > 0) & ~large[order]]
     batches = np.cumsum(pairs[order]) // _CHUNK
     for batch in np.unique(batches):
         rows = order[batches == batch]
@@ -125,22 +130,35 @@ def surface_of(triangles: FloatArray) -> Surface:
         within = np.arange(len(owner)) - np.repeat(np.cumsum(each) - each, each)
         i = first[owner, 0] + within // count[owner, 1]
         j = first[owner, 1] + within % count[owner, 1]
-        # Each place is raised to the triangle above or below it, where it is within that.
-        a, b, c = triangles[owner].transpose(1, 0, 2)
-        places = origin + step * np.stack([i, j], axis=1)
-        one, two, to = b - a, c - a, places - a[:, :2]
-        area = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
-        # Triangles on edge have no inside; those beside them have their edges.
-        solid = np.abs(area) > 1e-16
-        area = np.where(solid, area, 1.0)
-        u = (to[:, 0] * two[:, 1] - to[:, 1] * two[:, 0]) / area
-        v = (one[:, 0] * to[:, 1] - one[:, 1] * to[:, 0]) / area
-        inside = solid & (u >= -1e-9) & (v >= -1e-9) & (u + v <= 1.0 + 1e-9)
-        z = a[:, 2] + u * one[:, 2] + v * two[:, 2]
-        np.maximum.at(heights, (i * shape[1] + j)[inside], z[inside])
-    return Surface(
-        float(origin[0]), float(origin[1]), step, frozen(heights.reshape(shape[0], shape[1]))
-    )
+        x, y = origin[:, None] + step * np.stack([i, j])
+        found = _heights_on(triangles[owner].transpose(1, 2, 0), x, y)
+        np.maximum.at(heights.reshape(-1), i * shape[1] + j, found)
+    for row in np.flatnonzero(large):
+        i, j = (np.arange(low, high + 1) for low, high in zip(first[row], last[row], strict=True))
+        window = heights[i[0] : i[-1] + 1, j[0] : j[-1] + 1]
+        x, y = origin[0] + step * i[:, None], origin[1] + step * j
+        np.maximum(window, _heights_on(triangles[row], x, y), out=window)
+    return Surface(float(origin[0]), float(origin[1]), step, frozen(heights))
+
+
+def _heights_on(corners: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
+    """Heights of triangles over or under places [m], -inf where they are beside them.
+
+    Args:
+        corners: of one, shape (3, 3), or of one for each place, shape (3, 3, n).
+        x, y: of the places, shapes that broadcast.
+    """
+    a, b, c = corners
+    one, two = b - a, c - a
+    to_x, to_y = x - a[0], y - a[1]
+    area = one[0] * two[1] - one[1] * two[0]
+    # Triangles on edge have no inside; those beside them have their edges.
+    solid = np.abs(area) > 1e-16
+    area = np.where(solid, area, 1.0)
+    u = (to_x * two[1] - to_y * two[0]) / area
+    v = (one[0] * to_y - one[1] * to_x) / area
+    inside = solid & (u >= -1e-9) & (v >= -1e-9) & (u + v <= 1.0 + 1e-9)
+    return np.where(inside, a[2] + u * one[2] + v * two[2], -np.inf)
 
 
 def trunk_triangles(robot: Robot) -> FloatArray | None:
