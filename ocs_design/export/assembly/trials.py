@@ -36,7 +36,7 @@ def balance(assembly: Assembly) -> Iterator[str]:
     if balance.off_centre is not None:
         found = balance.off_centre * wheel.mass
         yield (
-            f"As made it may be {1e6 * balance.off_centre:.0f} µm off, {_two(1e6 * found)} g "
+            f"As built it may be {1e6 * balance.off_centre:.0f} µm off, {_two(1e6 * found)} g "
             f"mm (turning, and {balance.centred_by}). So balance it on its motor, and mark "
             "both: taken apart, they go together again the same way."
         )
