@@ -33,7 +33,7 @@ def test_a_little_drift_is_let_pass_and_lightens_the_pitch():
     before, after = select(even).best, select(coupled).best
     inertia = after.total.inertia
     left = inertia[1, 1] - inertia[0, 1] ** 2 / inertia[0, 0]
-    (demand,) = sized_selection(coupled, after).demands
+    (demand,) = sized_selection(coupled, after, coupled.robot).demands
     expected = [0.0, left * 2.0 * np.pi * 2.0 / WHOLE.duration]
     np.testing.assert_allclose(demand.momentum, expected, rtol=1e-9)
     assert after.demands[0].spin_inertia < before.demands[0].spin_inertia

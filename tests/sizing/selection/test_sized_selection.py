@@ -49,7 +49,7 @@ PROBLEMS = {
 def answer(request):
     problem = replace(PROBLEMS[request.param], incidence=0.4)
     best = select(problem).best
-    return problem, best, sized_selection(problem, best)
+    return problem, best, sized_selection(problem, best, problem.robot)
 
 
 def lightest_mass(problem, device, room, stress):
@@ -177,7 +177,7 @@ def test_a_rate_change_is_a_demand_of_each_axis(answer):
     problem, _, _ = answer
     asking = replace(problem, requirement=replace(problem.requirement, rate_change=0.1))
     device = select(asking).best
-    demands = {each.source: each for each in sized_selection(asking, device).demands}
+    demands = {each.source: each for each in sized_selection(asking, device, asking.robot).demands}
     _, coupling = worked_out(asking, device, device.incidence)
     for axis, name in enumerate(("roll", "pitch")):
         expected = np.full(2, 0.1 * abs(coupling.item()))
