@@ -1,9 +1,7 @@
 """The same test run gives the same answer; `HYPOTHESIS_PROFILE=explore pytest` seeks new cases."""
 
-import gc
 import os
 
-import pytest
 from hypothesis import settings
 
 LONGEST = "test_the_commands_that_the_docs_show_still_print_that"
@@ -21,14 +19,3 @@ def pytest_collection_modifyitems(items):
     opens them would wait till they are there.
     """
     items.sort(key=lambda item: (item.name != LONGEST, item.path.name != OPENED_BY_MANY))
-
-
-@pytest.hookimpl(wrapper=True)
-def pytest_collection():
-    """What is imported and collected lives to the end: nobody looks through it for garbage."""
-    gc.disable()
-    try:
-        return (yield)
-    finally:
-        gc.freeze()
-        gc.enable()
