@@ -150,9 +150,11 @@ def _module_steps(assembly: Assembly) -> Iterator[str]:
 
 
 def _centred(device: Device) -> str:
-    """How a wheel is centred that has no shaft in its bore; empty: its bore centres it."""
+    """How a wheel is centred that has no shaft in its bore; empty: shaft or fixture centres it."""
     mounting = device.motor.mounting
-    if mounting is None or mounting.rotor is None or mounting.shaft_diameter is not None:
+    if device.on_bell or mounting is None or mounting.rotor is None:
+        return ""
+    if mounting.shaft_diameter is not None:
         return ""
     return " Nothing but its screws centres it: loosen them, shift it and tighten them again."
 
@@ -385,7 +387,7 @@ def _under_motor(assembly: Assembly, found: Tightened) -> str:
 
 
 def _pinned(assembly: Assembly) -> str:
-    """That feet are pinned whose screws do not keep them from turning; empty: they do."""
+    """Pins through the feet where friction does not keep them from turning; empty: it does."""
     asked = unheld_moment(assembly.device, assembly.margins)
     if not asked:
         return ""
