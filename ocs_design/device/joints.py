@@ -310,6 +310,7 @@ class Balance:
         unbalance: permissible, m e [kg m].
         off_centre: that turning and what centres it may leave [m]; None: nothing centres it.
         centred_by: what does.
+        shifted: whether only screws do, so that it is shifted on them until it runs true.
         correction: holes in the rim's faces that take an unbalance away.
     """
 
@@ -319,6 +320,7 @@ class Balance:
     unbalance: float
     off_centre: float | None
     centred_by: str
+    shifted: bool
     correction: Correction
 
 
@@ -409,15 +411,15 @@ def balance_of(device: Device) -> Balance:
     )
     mounting = device.motor.mounting
     off_centre: float | None = None
-    by = "nothing that is known"
+    by, shifted = "nothing that is known", False
     if device.on_bell:
         off_centre, by = GLUE_GAP, "its glue gap, which the fixture evens out"
     elif mounting is not None and mounting.shaft_diameter is not None:
         off_centre = slip_fit_eccentricity(mounting.shaft_diameter)
         by = "its bore on the shaft, H7/h6"
     elif mounting is not None and mounting.rotor is not None:
-        # In clearance holes it may sit farther off at first: the steps have it shifted.
-        off_centre = RUN_OUT / 2.0
+        # In clearance holes it may sit farther off at first.
+        off_centre, shifted = RUN_OUT / 2.0, True
         by = f"its screws, once it is shifted until it runs true to {2e3 * RUN_OUT:g} mm"
     return Balance(
         grade=GRADE,
@@ -426,5 +428,6 @@ def balance_of(device: Device) -> Balance:
         unbalance=eccentricity * wheel.mass,
         off_centre=None if off_centre is None else RUN_OUT / 2.0 + off_centre,
         centred_by=by,
+        shifted=shifted,
         correction=correction(rim, chamfer=wheel.cuts.chamfer, ligament=LIGAMENT),
     )

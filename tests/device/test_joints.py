@@ -160,6 +160,7 @@ def test_what_centres_a_wheel_says_how_far_off_it_may_be():
     )
     assert on_shaft.off_centre == pytest.approx(35e-6)
     assert screwed.off_centre == pytest.approx(50e-6)
+    assert (on_shaft.shifted, screwed.shifted) == (False, True)
     assert balance_of(device(None)).off_centre is None
 
 

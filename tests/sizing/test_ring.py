@@ -62,6 +62,7 @@ def test_it_is_around_the_bell_within_its_straight_part_and_its_joints_hold():
     ]
     assert all(joint.factor >= 1.0 for joint in joints_of(designed.device))
     assert balance_of(designed.device).off_centre > GLUE_GAP
+    assert not balance_of(designed.device).shifted
 
 
 def test_the_rotor_counts():

@@ -10,9 +10,8 @@ from ocs_design.actuation.fasteners import IN_PLASTIC
 from ocs_design.catalogue.materials import materials
 from ocs_design.common.units import format_quantity
 from ocs_design.device.bodies import joint_name
-from ocs_design.device.device import Device
 from ocs_design.device.foot_hold import foot_hold, unheld_moment
-from ocs_design.device.joints import SHAFT_JOINT, joints_of, rim_fit
+from ocs_design.device.joints import SHAFT_JOINT, balance_of, joints_of, rim_fit
 from ocs_design.device.layout import PAIR
 from ocs_design.device.solids import drive_solids, foot_of
 from ocs_design.export.assembly.content import Assembly, Tightened, places
@@ -122,10 +121,12 @@ def _module_steps(assembly: Assembly) -> Iterator[str]:
     yield from (assembly.screwed(name) for name in assembly.screws if name not in assembly.late)
     yield from _joint_steps(assembly)
     if "lid" in assembly.numbers:
+        loose = " Nothing but its screws centres it: loosen them, shift it and tighten them again."
         yield (
             "Turn the wheel by hand: it is free all around, and a strip of "
             f"{1e3 * CLEARANCE - 0.5:g} mm passes between rim and housing. Check the rim's "
-            f"run-out on its motor: at most {2 * RUN_OUT:g} mm.{_centred(device)}"
+            f"run-out on its motor: at most {2 * RUN_OUT:g} mm."
+            f"{loose if balance_of(device).shifted else ''}"
         )
         yield "Balance the wheel on its motor (below): lid off, behind the spin test's wall."
         yield assembly.screwed(
@@ -147,16 +148,6 @@ def _module_steps(assembly: Assembly) -> Iterator[str]:
         "wheel turns about them by the right hand. Try each at low torque, lid on; where it is "
         "wrong, swap two of the motor's three wires, and set up its sensor again."
     )
-
-
-def _centred(device: Device) -> str:
-    """How a wheel is centred that has no shaft in its bore; empty: shaft or fixture centres it."""
-    mounting = device.motor.mounting
-    if device.on_bell or mounting is None or mounting.rotor is None:
-        return ""
-    if mounting.shaft_diameter is not None:
-        return ""
-    return " Nothing but its screws centres it: loosen them, shift it and tighten them again."
 
 
 def _wheel_steps(assembly: Assembly) -> Iterator[str]:
