@@ -214,7 +214,7 @@ def heads_at_shock(cage: Cage, motor: float, wheel: float) -> float:
     Args:
         cage: with its screws. motor, wheel: mass of each [kg].
     """
-    held = motor + wheel + cage_part(cage).mass()
+    held = motor + wheel + float(cage_part(cage).mass())
     return EAR_COUNT * STRENGTH * LID_SCREW.head_area / held
 
 

@@ -94,6 +94,7 @@ def test_heads_of_a_cage_s_screws_sink_in_where_its_floor_is_strong():
     held = 8.0 + heavy.flywheel.mass + 1270.0 * part_manifold(printed).volume()
     assert "heads of the cage's screws" in found.note
     assert found.capacity == pytest.approx(1282.0 / held, rel=1e-3)
+    assert type(found.capacity) is float, "design.json takes no number of NumPy's"
 
 
 def test_a_rim_on_another_web_is_shrunk_on():
