@@ -8,7 +8,7 @@ from ocs_design.catalogue.motors import known_motors
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
 from ocs_design.device.device import Device
 from ocs_design.device.foot_hold import foot_hold
-from ocs_design.device.joints import DAMPING, resonances_of
+from ocs_design.device.joints import DAMPING, FLOOR_SHOCK, joints_of, resonances_of
 from ocs_design.device.solids import drive_solids, foot_of, motor_mount, shaft_cut
 from ocs_design.export.device_parts import foot_holes, wheel_geometry
 from ocs_design.export.drawing.wheel import BROKEN_EDGE, lost_by_breaking
@@ -166,7 +166,7 @@ def _overlap_notes(device: Device, foot: Foot) -> Iterator[str]:
 
 
 def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
-    """Notes on feet and screws too weak for a landing, and on speeds at which parts resonate."""
+    """Notes on prints and screws too weak for a landing, and on speeds at which parts resonate."""
     module, modes = device.flywheel.mass + device.carrier.mass, resonances_of(device)
     hold, own = foot_hold(device), foot_part(foot).mass_properties().mass
     bears = hold.prints_bear
@@ -189,6 +189,14 @@ def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
             f"heads of their screws press with {1e-6 * hold.pull / hold.area:.0f} MPa even on "
             f"washers, and PETG yields at {1e-6 * STRENGTH:.0f}"
         )
+    for each in joints_of(device):
+        if each.name == FLOOR_SHOCK and each.capacity is not None and each.capacity < SHOCK:
+            yield (
+                "printed of PETG cage and drum hold motor and wheel up to "
+                f"{each.capacity / STANDARD_GRAVITY:.2g} g along the wheel's axis, and not "
+                f"{SHOCK / STANDARD_GRAVITY:.0f}: where landings are harder, mill both of 6061-T6 "
+                "to the same files"
+            )
     for mode in modes:
         if mode.acceleration > STANDARD_GRAVITY:
             yield (

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from built import FLAT
+from built import DEVICES, FLAT
 from hypothesis import given
 from hypothesis import strategies as st
 from wheels import EC45, PAPER_WHEEL, driven_device, geared, paper_device
@@ -66,6 +66,14 @@ def test_feet_bear_the_shock_or_it_is_told(mass, share):
     assert "mill them of 6061-T6" in said(device) or not told
     if share == 1.0 and thick < foot_of(device).stem:
         assert not told
+
+
+@pytest.mark.parametrize(("mass", "told"), [(0.5, False), (8.0, True)])
+def test_cage_and_drum_bear_the_shock_or_it_is_told(mass, told):
+    """Heads of four M2 sink in at 1,282 N (tests/device/test_joints.py): under 8.3 kg at 16 g."""
+    thick = replace(DEVICES["caged"], foot_plate=0.03)
+    heavy = replace(thick, motor=replace(thick.motor, mass=mass, length=0.08))
+    assert ("cage and drum hold motor and wheel up to 16 g" in said(heavy)) == told
 
 
 def test_a_shaft_that_is_too_short_or_not_known():
