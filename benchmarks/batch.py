@@ -20,7 +20,8 @@ from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.world import WorldBuilder, start_states
+from ocs_design.simulation.world import start_states
+from ocs_design.simulation.world_builder import WorldBuilder
 
 SECONDS = 0.2
 WORLDS = 256

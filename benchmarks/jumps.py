@@ -29,7 +29,8 @@ from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.schedule import LegReferences
-from ocs_design.simulation.world import World, WorldBuilder
+from ocs_design.simulation.world import World
+from ocs_design.simulation.world_builder import WorldBuilder
 
 ROBOTS = Path(sysconfig.get_paths()["purelib"]) / "cmeel.prefix/share/example-robot-data/robots"
 JUMPING = (

@@ -22,7 +22,8 @@ from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.world import World, WorldBuilder
+from ocs_design.simulation.world import World
+from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.workflows.size import design_ocs
 
 LIMITS = {"auto": 1.5, "none": 1.2}

@@ -28,7 +28,7 @@ from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.metrics import measure
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import Verdict, judge
-from ocs_design.simulation.world import WorldBuilder
+from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.assembly import assemble_driven
 from ocs_design.sizing.motion import DrivenWheel
 from ocs_design.sizing.placement import place_on_top

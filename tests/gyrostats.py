@@ -9,8 +9,9 @@ from ocs_design.actuation.drive import DriveLine
 from ocs_design.device.layout import module_axes
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.sizing.trajectory.boundary import boundary
-from ocs_design.sizing.trajectory.flight import FineGrid, Trajectory, fly
+from ocs_design.sizing.trajectory.flight import FineGrid, fly
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
+from ocs_design.sizing.trajectory.motion import Trajectory
 from ocs_design.sizing.trajectory.program import Dimensions, Solution, solve
 from ocs_design.sizing.trajectory.transcription import Plant, Turn
 

@@ -4,8 +4,8 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation.reference import Turn
-from ocs_design.sizing.trajectory.flight import Trajectory
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
+from ocs_design.sizing.trajectory.motion import Trajectory
 
 
 def from_rest(body: Gyrostat, turn: Turn, *, samples: int = 4001) -> Trajectory:

@@ -33,7 +33,7 @@ from ocs_design.simulation.scenario import Options, fly, world_builder
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import MOMENTUM_GATE, Verdict, judge
 from ocs_design.simulation.world import World
-from ocs_design.sizing.trajectory.flight import Trajectory
+from ocs_design.sizing.trajectory.motion import Trajectory
 
 
 @dataclass(frozen=True, eq=False)

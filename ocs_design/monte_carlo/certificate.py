@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from ocs_design.device.records.flights import ReliabilityRecord
 from ocs_design.monte_carlo.campaign import Campaign
-from ocs_design.monte_carlo.outcomes import Outcomes
-from ocs_design.monte_carlo.summary import share
+from ocs_design.monte_carlo.outcomes import Outcomes, share
 from ocs_design.simulation.run import LANDING_TOLERANCE
 
 ERROR = 0.05

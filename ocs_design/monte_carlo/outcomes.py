@@ -1,4 +1,4 @@
-"""Blocks of samples and their outcomes, as arrays, tables and the folder of a campaign."""
+"""Blocks of samples and their outcomes, as arrays, shares, tables and the folder of a campaign."""
 
 import csv
 import hashlib
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ocs_design.common.arrays import FloatArray, Table
 from ocs_design.common.errors import OutputError
 from ocs_design.common.files import to_json
-from ocs_design.device.answers import RESULT_FILE
+from ocs_design.device.answers import CONFIDENCE, RESULT_FILE, Share
 from ocs_design.export.folder import output_error, whole_file
 from ocs_design.simulation.run import Metrics
 from ocs_design.simulation.verdict import Fault, Verdict
@@ -113,6 +113,30 @@ def code_of(verdict: Verdict) -> int:
 
 
 NAME = "samples"
+
+
+def share(passed: int, flown: int, confidence: float = CONFIDENCE) -> Share:
+    """The exact interval of Clopper and Pearson (Biometrika 26, 1934, 404-413).
+
+    Args:
+        passed: successes, of `flown` > 0 trials.
+        confidence: that the interval holds the probability, at least.
+    """
+    # Importing SciPy's special functions takes a tenth of a second, its statistics a second more.
+    from scipy.special import betaincinv  # noqa: PLC0415
+
+    tail = 0.5 * (1.0 - confidence)
+    low = float(betaincinv(passed, flown - passed + 1, tail)) if passed else 0.0
+    high = 1.0
+    if passed < flown:
+        high = float(betaincinv(passed + 1, flown - passed, 1.0 - tail))
+    return Share(passed=passed, flown=flown, estimate=passed / flown, low=low, high=high)
+
+
+def shares(outcomes: Outcomes) -> tuple[Share, ...]:
+    """How often each scenario passes."""
+    passed = outcomes.passed.sum(axis=0).tolist()
+    return tuple(share(count, len(outcomes.index)) for count in passed)
 
 
 def write_tables(outcomes: Outcomes, scenarios: Sequence[str], folder: Path) -> tuple[Path, ...]:

@@ -1,4 +1,4 @@
-"""What many samples say together: shares with their intervals, causes of failures, advice."""
+"""What many samples say together: causes of failures, spreads, advice."""
 
 import copy
 from collections.abc import Callable, Mapping
@@ -16,35 +16,15 @@ from ocs_design.device.answers import (
     Cause,
     MonteCarloRecord,
     ScenarioSummary,
-    Share,
     Spread,
 )
 from ocs_design.monte_carlo.campaign import Campaign
-from ocs_design.monte_carlo.outcomes import FAULTS, Outcomes
+from ocs_design.monte_carlo.outcomes import FAULTS, Outcomes, share, shares
 from ocs_design.requirement.maneuver import Flip, Maneuver, Shove
 from ocs_design.simulation.run import LANDING_TOLERANCE
 from ocs_design.simulation.scenario import Options, fly
 from ocs_design.simulation.verdict import Fault, landing_attitude
 from ocs_design.simulation.world import World
-
-
-def share(passed: int, flown: int, confidence: float = CONFIDENCE) -> Share:
-    """The exact interval of Clopper and Pearson (Biometrika 26, 1934, 404-413).
-
-    Args:
-        passed: successes, of `flown` > 0 trials.
-        confidence: that the interval holds the probability, at least.
-    """
-    # Importing SciPy's special functions takes a tenth of a second, its statistics a second more.
-    from scipy.special import betaincinv  # noqa: PLC0415
-
-    tail = 0.5 * (1.0 - confidence)
-    low = float(betaincinv(passed, flown - passed + 1, tail)) if passed else 0.0
-    high = 1.0
-    if passed < flown:
-        high = float(betaincinv(passed + 1, flown - passed, 1.0 - tail))
-    return Share(passed=passed, flown=flown, estimate=passed / flown, low=low, high=high)
-
 
 SIGNIFICANT = 4.0
 """Standard deviations of a rank correlation of independent numbers; 60 are looked at at a time."""
@@ -259,12 +239,6 @@ def summarised(campaign: Campaign, outcomes: Outcomes, asked: int) -> MonteCarlo
         success=share(int(whole.sum()), flown),
         scenarios=tuple(scenarios),
     )
-
-
-def shares(outcomes: Outcomes) -> tuple[Share, ...]:
-    """How often each scenario passes."""
-    passed = outcomes.passed.sum(axis=0).tolist()
-    return tuple(share(count, len(outcomes.index)) for count in passed)
 
 
 def _spread(values: FloatArray) -> Spread | None:

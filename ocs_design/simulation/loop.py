@@ -16,8 +16,8 @@ from scipy.linalg import expm
 from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation.target import Target
 from ocs_design.simulation.wheel_law import WheelLaw
-from ocs_design.sizing.trajectory.flight import Trajectory
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
+from ocs_design.sizing.trajectory.motion import Trajectory
 from ocs_design.sizing.trajectory.tracking import linearised
 
 _GRID = 4000

@@ -34,8 +34,9 @@ from ocs_design.simulation.verdict import (
     stands,
 )
 from ocs_design.simulation.wheel_law import Allocation, Gains
-from ocs_design.simulation.world import World, WorldBuilder
-from ocs_design.sizing.trajectory.flight import Trajectory
+from ocs_design.simulation.world import World
+from ocs_design.simulation.world_builder import WorldBuilder
+from ocs_design.sizing.trajectory.motion import Trajectory
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ sum. Unlike the wheels' law it needs no feedback from the batch, and changes at 
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import mujoco
@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation import quaternions
-from ocs_design.simulation.reference import track
 from ocs_design.simulation.target import RegulatedPlan, Target
+from ocs_design.simulation.wheel_law import WheelLaw
 from ocs_design.simulation.world import World
 from ocs_design.sizing.trajectory.gyrostat import shared_by_others
+from ocs_design.sizing.trajectory.motion import Trajectory
 
 _EARLIEST = 0.5
 """Share of the push-off before which feet that let go of the ground do not count."""
@@ -130,6 +131,77 @@ def _commands(world: World) -> FloatArray:
     )
     commands[:-1, actuators] = position + (damping * velocity + torque) / stiffness
     return commands
+
+
+_LEVEL = np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """What a trunk with m wheels should do at k control instants; after the end it is held.
+
+    Attributes:
+        vertical: the world's upward direction in B, unit vectors (k, 3).
+        rate: in B [rad/s], (k, 3).
+        torque: what the motors give before any feedback [N m], (k, m); see `Target.torque`.
+        plan: of a trajectory with gains, its instants in place of worlds; None: it has none.
+    """
+
+    vertical: FloatArray
+    rate: FloatArray
+    torque: FloatArray
+    plan: RegulatedPlan | None = None
+
+
+def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: float) -> Track:
+    """The trajectory as the law of one world follows it.
+
+    Args:
+        trajectory: see `Trajectory`.
+        law: of one world.
+        times: of the control instants from lift-off or release [s], shape (k,).
+        period: from one to the next [s].
+    """
+    flying = (times < trajectory.time[-1])[:, None]
+    vertical = _at(times, trajectory.time, trajectory.vertical)
+    vertical = vertical / np.linalg.norm(vertical, axis=1, keepdims=True)
+    rate = flying * _at(times, trajectory.time, trajectory.rate)
+    speed = _at(times, trajectory.time, trajectory.wheel_speed)
+
+    # The mean over each control step of a torque that is linear between samples and zero after the
+    # last: held for a step, it gives the momentum that was planned for that step.
+    samples, values = trajectory.time, trajectory.wheel_torque
+    until = np.clip(np.append(times, times[-1] + period), samples[0], samples[-1])
+    before = np.clip(np.searchsorted(samples, until, side="right") - 1, 0, len(samples) - 2)
+    steps = 0.5 * np.diff(samples)[:, None] * (values[1:] + values[:-1])
+    whole = np.vstack([np.zeros(values.shape[1]), np.cumsum(steps, axis=0)])
+    part = 0.5 * (until - samples[before])[:, None]
+    integral = whole[before] + part * (values[before] + _at(until, samples, values))
+    given = np.diff(integral, axis=0) / period
+
+    held = _LEVEL if trajectory.gains is None else trajectory.vertical[-1]
+    ends = np.where(flying, vertical, held)
+    if trajectory.gains is not None and trajectory.attitude is not None:
+        attitude = _at(times, trajectory.time, trajectory.attitude)
+        gains = _at(times, trajectory.time, trajectory.gains.reshape(len(samples), -1))
+        plan = RegulatedPlan(
+            attitude / np.linalg.norm(attitude, axis=1, keepdims=True),
+            rate,
+            speed,
+            given,
+            gains.reshape(len(times), *trajectory.gains.shape[1:]),
+            flying[:, 0],
+        )
+        return Track(ends, rate, np.zeros_like(given), plan)
+    # The law adds the gyroscopic torque of the motion that it sees; that of the motion that was
+    # planned is in the planned torque already.
+    planned = law.gyroscopic(rate, speed) @ law.torque_map[0, :, 2:].T
+    return Track(ends, rate, given - planned)
+
+
+def _at(times: FloatArray, samples: FloatArray, values: FloatArray) -> FloatArray:
+    """Linear between samples, shape (k, m)."""
+    return np.column_stack([np.interp(times, samples, column) for column in values.T])
 
 
 Steps: TypeAlias = NDArray[np.int64]

@@ -28,7 +28,7 @@ from ocs_design.parts.joints import OVERSPEED
 from ocs_design.parts.moments import Carrier
 from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts, hoop_stress, wheel_body
 from ocs_design.sizing.selection.problem import Candidate
-from ocs_design.sizing.trajectory.flight import Trajectory
+from ocs_design.sizing.trajectory.motion import Trajectory
 
 
 @dataclass(frozen=True, eq=False)

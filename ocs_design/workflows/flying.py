@@ -29,8 +29,8 @@ from ocs_design.robot.robot import Robot
 from ocs_design.simulation.run import Run
 from ocs_design.simulation.scenario import Options, fly_stopped, run_scenarios
 from ocs_design.simulation.wheel_law import Allocation, Gains
-from ocs_design.simulation.world import wheel_gains
-from ocs_design.sizing.trajectory.flight import Trajectory
+from ocs_design.simulation.world_builder import wheel_gains
+from ocs_design.sizing.trajectory.motion import Trajectory
 from ocs_design.workflows.restoring import Whereabouts, device_of, maneuver_of, read_recorded_robot
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.writing import commented_toml, with_files_from
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.world import wheel_gains
+from ocs_design.simulation.world_builder import wheel_gains
 
 SOLO12_MASS = 2.5
 """[kg], as in the paper."""

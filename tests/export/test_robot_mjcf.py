@@ -22,7 +22,7 @@ from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.scenario import MOMENTUM_GATE
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.world import WorldBuilder
+from ocs_design.simulation.world_builder import WorldBuilder
 
 
 def check_same(model, original):

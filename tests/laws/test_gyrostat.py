@@ -15,7 +15,8 @@ from ocs_design.simulation.motor_limits import USED, MotorLimits
 from ocs_design.simulation.reference import Step
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw
-from ocs_design.simulation.world import World, WorldBuilder
+from ocs_design.simulation.world import World
+from ocs_design.simulation.world_builder import WorldBuilder
 
 INERTIA = (0.030, 0.0535, 0.068, 0.001, 0.003, -0.002)
 

@@ -21,8 +21,7 @@ from ocs_design.monte_carlo.certificate import (
     certificate,
     lesson,
 )
-from ocs_design.monte_carlo.outcomes import METRICS
-from ocs_design.monte_carlo.summary import share
+from ocs_design.monte_carlo.outcomes import METRICS, share
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "docs"))
 import certified

@@ -9,8 +9,8 @@ from made_outcomes import NAMES, made_outcomes
 from scipy import stats
 
 from ocs_design.device.layout import module_axes
-from ocs_design.monte_carlo.outcomes import METRICS
-from ocs_design.monte_carlo.summary import advice, attitude_error, causes, order, share
+from ocs_design.monte_carlo.outcomes import METRICS, share
+from ocs_design.monte_carlo.summary import advice, attitude_error, causes, order
 from ocs_design.requirement.maneuver import Drop, Flip
 
 DROP = Drop(name="drop", height=1.0, pitch=0.5)

@@ -9,7 +9,8 @@ from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.world import World, WorldBuilder
+from ocs_design.simulation.world import World
+from ocs_design.simulation.world_builder import WorldBuilder
 
 SOME = [
     SOLO12,

@@ -13,7 +13,7 @@ from ocs_design.simulation.engine import poses_of, simulate
 from ocs_design.simulation.launch import Push
 from ocs_design.simulation.scenario import Options, run_scenarios
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.world import WorldBuilder
+from ocs_design.simulation.world_builder import WorldBuilder
 
 
 @pytest.fixture(scope="module")

@@ -22,7 +22,7 @@ from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.firmware import targets_of, write_controller
 from ocs_design.simulation.reference import Quintic
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.world import WorldBuilder
+from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.trajectory.plans import drive_line_of
 from ocs_design.sizing.trajectory.tracking import tracking_gains
 

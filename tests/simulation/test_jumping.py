@@ -19,7 +19,7 @@ from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import JUMP_STEP, Wheels
 from ocs_design.simulation.schedule import FlightClock, LegReferences
 from ocs_design.simulation.verdict import MOMENTUM_GATE
-from ocs_design.simulation.world import WorldBuilder
+from ocs_design.simulation.world_builder import WorldBuilder
 
 
 @pytest.fixture(scope="module")
@@ -72,11 +72,11 @@ def test_a_flight_whose_momentum_is_off_is_flown_again_in_half_the_step(
     solo12, disturbance, jumps, runs, monkeypatch
 ):
     """Solo12's braking legs at 1 ms; runs that keep their momentum are left as they are."""
-    monkeypatch.setattr("ocs_design.simulation.world.JUMP_STEP", STEP)
+    monkeypatch.setattr("ocs_design.simulation.world_builder.JUMP_STEP", STEP)
     monkeypatch.setattr("ocs_design.simulation.scenario.HALVINGS", 0)
     coarse = run_scenarios(solo12, paper_device(), [disturbance], jumps=jumps)
     monkeypatch.undo()
-    monkeypatch.setattr("ocs_design.simulation.world.JUMP_STEP", STEP)
+    monkeypatch.setattr("ocs_design.simulation.world_builder.JUMP_STEP", STEP)
     refined = run_scenarios(solo12, paper_device(), [disturbance], jumps=jumps)
     is_off = [run.metrics.momentum_error > MOMENTUM_GATE for run in coarse]
     assert any(is_off)

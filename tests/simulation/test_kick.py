@@ -12,7 +12,7 @@ from ocs_design.requirement.maneuver import Disturbance
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.world import WorldBuilder
+from ocs_design.simulation.world_builder import WorldBuilder
 
 KICK = Disturbance(
     name="kick",

@@ -12,7 +12,7 @@ from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.simulation.loop import level_margins, loop_margins, plan_margins
 from ocs_design.simulation.reference import Quintic
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.world import WorldBuilder
+from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.trajectory.plans import drive_line_of
 from ocs_design.sizing.trajectory.tracking import tracking_gains
 

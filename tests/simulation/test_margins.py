@@ -10,7 +10,7 @@ from designed import MOTOR, designed
 from ocs_design.requirement.pivoted import StandUp
 from ocs_design.simulation.margins import record_margins
 from ocs_design.simulation.run import Run, Series
-from ocs_design.sizing.trajectory.flight import Trajectory
+from ocs_design.sizing.trajectory.motion import Trajectory
 from ocs_design.sizing.trajectory.plans import Reference
 
 TIME = np.linspace(0.0, 0.4, 41)

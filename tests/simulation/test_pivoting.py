@@ -12,7 +12,7 @@ from ocs_design.robot.manual import robot_by_hand
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.world import WorldBuilder
+from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.trajectory.plans import gyrostat_of, plan, with_device
 
 ROBOT = robot_by_hand(2.5, (0.02, 0.025, 0.02))

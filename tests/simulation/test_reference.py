@@ -20,14 +20,14 @@ from ocs_design.simulation.reference import (
     Step,
     Turn,
     fit_turn,
-    track,
     utilisation,
 )
 from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.schedule import track
 from ocs_design.simulation.target import Target
 from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw, tilt_error
-from ocs_design.simulation.world import WorldBuilder
+from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
 PITCH = np.array([0.0, 1.0, 0.0])

@@ -13,7 +13,7 @@ from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation import scenario
 from ocs_design.simulation.scenario import run_scenarios
-from ocs_design.simulation.world import WorldBuilder
+from ocs_design.simulation.world_builder import WorldBuilder
 
 GENTLE = Drop(name="gentle", height=0.4, pitch=np.radians(10.0))
 

@@ -12,7 +12,7 @@ from ocs_design.requirement.froude import default_envelope, standing_height
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.world import WorldBuilder
+from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.assembly import assemble_selected
 from ocs_design.sizing.placement import place_on_top
 from ocs_design.sizing.selection.problem import SelectionProblem

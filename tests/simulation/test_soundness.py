@@ -15,7 +15,7 @@ from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import judge
 from ocs_design.simulation.wheel_law import WheelLaw
-from ocs_design.simulation.world import WorldBuilder
+from ocs_design.simulation.world_builder import WorldBuilder
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scenario import STOPS, fly_stopped
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.target import StoppedDrive
-from ocs_design.simulation.world import WorldBuilder
+from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.trajectory.gyrostat import shared_by_others
 
 TRIAD = Layout(LayoutName.TRIAD)

@@ -15,7 +15,7 @@ from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.trotting import STEP_HEIGHT, Trot, require_trot, shoved_at
-from ocs_design.simulation.world import WorldBuilder
+from ocs_design.simulation.world_builder import WorldBuilder
 
 STRIDE = 0.4
 WEIGHT = 27.0

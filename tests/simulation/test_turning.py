@@ -12,7 +12,7 @@ from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import Wheels, locked_inertia
 from ocs_design.simulation.verdict import landing_attitude
-from ocs_design.simulation.world import WorldBuilder
+from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.trajectory.plans import plan
 
 MOON = 1.62

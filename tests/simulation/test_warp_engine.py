@@ -23,7 +23,8 @@ from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import Fault
 from ocs_design.simulation.warp_engine import SINGLE_GATE, WarpPhysics, room, warp_engine
-from ocs_design.simulation.world import WorldBuilder, start_states
+from ocs_design.simulation.world import start_states
+from ocs_design.simulation.world_builder import WorldBuilder
 
 COUNT, STEPS = 6, 10
 SPREAD = UncertaintySection(

@@ -17,7 +17,8 @@ from ocs_design.simulation import quaternions
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.metrics import measure
 from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
-from ocs_design.simulation.world import TrunkChain, WorldBuilder, wheel_gains
+from ocs_design.simulation.world import TrunkChain
+from ocs_design.simulation.world_builder import WorldBuilder, wheel_gains
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""Attitude and wheels over time as polynomials, and first guesses at them."""
+"""Attitude and wheels over time, as polynomials and as samples, and first guesses at them."""
 
 from dataclasses import dataclass
 
@@ -135,6 +135,41 @@ class Motion:
         starts = self.starts
         interval = np.searchsorted(starts, times, side="right") - 1
         return interval, (times - starts[interval]) / self.lengths[interval]
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """Trunk and wheels from the start of a turn to its end; between samples linear.
+
+    Attributes:
+        time: from lift-off or release, or the end of a push [s], shape (m,), increasing, from 0.
+        vertical: the world's upward direction in B, unit vectors, shape (m, 3).
+        rate: of the trunk in B [rad/s], shape (m, 3).
+        acceleration: of the trunk in B [rad/s^2], shape (m, 3).
+        wheel_speed: relative to the trunk [rad/s], shape (m, n).
+        wheel_torque: of the motors at the wheels [N m], shape (m, n); where it jumps, the mean of
+            both sides.
+        turned: angle that the trunk has turned about the maneuver's axis [rad], shape (m,).
+        note: what a reader should know of it; empty if nothing.
+        step_torque: of the motors at start and end of each step, shape (m - 1, 2, n) [N m]; None:
+            `wheel_torque` nowhere jumps.
+        attitude: of the trunk, quaternions (w, x, y, z), shape (m, 4); None: only tilt is known.
+        gains: from the errors of attitude, as the rotation vector from here in B [rad], of rate in
+            B [rad/s] and of wheel speeds [rad/s] to the torque taken off the planned one [N m],
+            shape (m, n, 6 + n); None: the tilt is fed back with gains that are constant.
+    """
+
+    time: FloatArray
+    vertical: FloatArray
+    rate: FloatArray
+    acceleration: FloatArray
+    wheel_speed: FloatArray
+    wheel_torque: FloatArray
+    turned: FloatArray
+    note: str
+    step_torque: FloatArray | None = None
+    attitude: FloatArray | None = None
+    gains: FloatArray | None = None
 
 
 @dataclass(frozen=True, eq=False)

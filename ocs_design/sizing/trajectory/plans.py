@@ -26,9 +26,9 @@ from ocs_design.sizing.trajectory.boundary import (
     product,
     vertical_of,
 )
-from ocs_design.sizing.trajectory.flight import FineGrid, Trajectory, fly
+from ocs_design.sizing.trajectory.flight import FineGrid, fly
 from ocs_design.sizing.trajectory.gyrostat import OUT_OF_REACH, Gyrostat, taken_over
-from ocs_design.sizing.trajectory.motion import HeadingLoop
+from ocs_design.sizing.trajectory.motion import HeadingLoop, Trajectory
 from ocs_design.sizing.trajectory.program import Solution, solve
 from ocs_design.sizing.trajectory.tracking import tracking_gains
 from ocs_design.sizing.trajectory.transcription import Turn

@@ -10,8 +10,8 @@ from scipy.linalg import expm, solve_discrete_are
 
 from ocs_design.actuation.drive import PLANNED, DriveLine
 from ocs_design.common.arrays import FloatArray
-from ocs_design.sizing.trajectory.flight import Trajectory
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
+from ocs_design.sizing.trajectory.motion import Trajectory
 
 ON_THE_WAY = np.radians(2.0)
 """Error of attitude that is worth all torque beyond a plan's share, on the way [rad]."""

@@ -14,7 +14,7 @@ from ocs_design.device.answers import (
     ScenarioSummary,
     Spread,
 )
-from ocs_design.monte_carlo.summary import share
+from ocs_design.monte_carlo.outcomes import share
 from ocs_design.report.charts.chart import Area, Ink, Line, Points, Rule
 from ocs_design.report.charts.drive import drive_charts
 from ocs_design.report.charts.figures import all_charts

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ocs_design.sizing.motion import Motion, integral
-from ocs_design.sizing.trajectory.flight import Trajectory
+from ocs_design.sizing.trajectory.motion import Trajectory
 
 
 def trajectory(n=4):
