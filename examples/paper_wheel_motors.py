@@ -19,7 +19,7 @@ from ocs_design.catalogue.materials import material
 from ocs_design.catalogue.motors import motors
 from ocs_design.device.device import Device
 from ocs_design.parts.module import drive_moments
-from ocs_design.parts.moments import Carrier
+from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.reading import read_specification
 from ocs_design.robot.reader import read_robot

@@ -11,8 +11,8 @@ from ocs_design.device.device import Device, Module, Web
 from ocs_design.device.solids import foot_of
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.module import standing
-from ocs_design.parts.moments import Carrier
 from ocs_design.parts.rim import WEB_THICKNESS, hub_of, web_mass
+from ocs_design.parts.solids import Carrier
 
 CAGED = motor("MN5212 KV340")
 FLAT = Mounting(0.004, stator=BoltCircle(0.02, 4, "M3"), stator_face=Face.OUTPUT)

@@ -17,7 +17,7 @@ from ocs_design.actuation.motor import DIRECT, Gear, Motor
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material
 from ocs_design.parts.rim import NO_CUTS, RimCuts
-from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.manual import robot_by_hand

@@ -4,6 +4,7 @@ import numpy as np
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import BoltCircle
+from ocs_design.common.frames import Placement
 from ocs_design.parts.cage import Cage, cage_part
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import Housing, housing_parts
@@ -11,7 +12,6 @@ from ocs_design.parts.printed import MountHoles
 from ocs_design.parts.shapes import ArcSlot, Disc, Rectangle
 from ocs_design.parts.solids import Part, Prism, hollow_cylinder
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre, wheel_parts
-from ocs_design.robot.tree import Placement
 
 STEEL, ALUMINIUM = 7860.0, 2700.0
 

@@ -4,7 +4,7 @@ from hypothesis import strategies as st
 from numpy import pi
 
 from ocs_design.catalogue.materials import Material
-from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.device_sections import Envelope
 from ocs_design.sizing.bound.rim_problem import RimProblem
 
 PAPER_STEEL = Material("stainless-paper", 7860.0, None, None, None, "Roscia 2023, Table 2")

@@ -15,11 +15,10 @@ import numpy as np
 from ocs_design.actuation.drive import Drive
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import RobotError
+from ocs_design.common.frames import Placement, rotation_from_rpy
 from ocs_design.device.device import Device, Module
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.robot.mass import MassProperties, combine
-from ocs_design.robot.rotations import rotation_from_rpy
-from ocs_design.robot.tree import Placement
 
 PREFIX = "ocs_"
 PLATE = f"{PREFIX}plate"

@@ -10,10 +10,10 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import format_quantity
 from ocs_design.device.layout import PAIR, Layout, sense, standing_frames
 from ocs_design.parts.carrier_plate import CarrierPlate
-from ocs_design.parts.moments import Carrier
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import PLATE_THICKNESS
 from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts, WebHoles
+from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.mass import MassProperties, combine
 

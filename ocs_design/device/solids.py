@@ -6,6 +6,7 @@ from math import acos, atan2, ceil, cos, hypot, sin, sqrt
 import numpy as np
 
 from ocs_design.actuation.motor import DIRECT
+from ocs_design.common.frames import BACKWARDS
 from ocs_design.device.device import Device, Module
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.dog_bone import directions
@@ -20,7 +21,7 @@ from ocs_design.parts.motor_mount import (
 )
 from ocs_design.parts.pedestal import Pedestal, strengthened
 from ocs_design.parts.printed import CLEARANCE, LID_SCREW, PANEL, TRUNK_SCREW, WALL
-from ocs_design.robot.tree import BACKWARDS, Drum
+from ocs_design.robot.tree import Drum
 
 PLATE_DISCS = 0.5
 """Distance of the discs that stand for a plate's neck, over half its width."""

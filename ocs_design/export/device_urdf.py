@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 import numpy as np
 
+from ocs_design.common.frames import rpy_from_rotation
 from ocs_design.device.bodies import DeviceBody, device_bodies, largest_torque
 from ocs_design.device.device import Device, Flywheel
 from ocs_design.export.formats import Seat
@@ -12,7 +13,6 @@ from ocs_design.export.visuals import Visual, plain_visuals, still_visuals
 from ocs_design.robot.leg_geometry import BASE_FRAME
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Mount
-from ocs_design.robot.rotations import rpy_from_rotation
 from ocs_design.robot.tree import ShapeKind
 
 UNLIMITED = 1e6

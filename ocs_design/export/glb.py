@@ -11,14 +11,13 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from ocs_design.common.frames import Placement, rotation_from_quaternion
 from ocs_design.device.bodies import IMU
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Color
 from ocs_design.export.robot_model import model_of
 from ocs_design.export.snapshot import geom_mesh, shown_color
 from ocs_design.robot.mujoco_bodies import quaternion
-from ocs_design.robot.rotations import rotation_from_quaternion
-from ocs_design.robot.tree import Placement
 
 _UPRIGHT = Placement(np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]), np.zeros(3))
 """Base frame B in the frame of glTF, whose y is up and whose front is z."""

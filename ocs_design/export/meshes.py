@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.frames import Placement
 from ocs_design.parts.outline import (
     SECTIONS,
     circle_radius_factor,
@@ -17,7 +18,6 @@ from ocs_design.parts.outline import (
     ring_points,
 )
 from ocs_design.parts.solids import Part, Prism, Revolution, Solid
-from ocs_design.robot.tree import Placement
 
 if TYPE_CHECKING:
     from manifold3d import Manifold

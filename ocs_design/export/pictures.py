@@ -8,6 +8,7 @@ import mujoco
 import numpy as np
 
 from ocs_design.common.errors import MissingToolError
+from ocs_design.common.frames import Placement
 from ocs_design.device.device import Device
 from ocs_design.device.solids import drive_solids, foot_of, motor_mount
 from ocs_design.export.attach import STEEL
@@ -21,7 +22,6 @@ from ocs_design.export.visuals import ALUMINIUM, GEAR, MOTOR, PRINT, SHELL, cage
 from ocs_design.parts.cage import cage_part
 from ocs_design.parts.solids import hollow_cylinder
 from ocs_design.robot.robot import Robot
-from ocs_design.robot.tree import Placement
 
 _MODULE_ON_ROBOT = (np.sqrt(0.5), -np.sqrt(0.5), 0.0, 0.0)
 """Attitude of a module's frame at no incidence, as a quaternion: its z axis to the left, y down."""

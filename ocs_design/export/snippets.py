@@ -6,6 +6,7 @@ from textwrap import indent
 
 import numpy as np
 
+from ocs_design.common.frames import rpy_from_rotation
 from ocs_design.device import bodies
 from ocs_design.device.device import Device
 from ocs_design.device.layout import PAIR
@@ -27,7 +28,6 @@ from ocs_design.export.templates import fill, in_comment, numbers, quoted
 from ocs_design.export.visuals import plain_carrier_visuals, plain_visuals
 from ocs_design.robot.leg_geometry import BASE_FRAME
 from ocs_design.robot.mujoco_bodies import quaternion
-from ocs_design.robot.rotations import rpy_from_rotation
 from ocs_design.robot.tree import ShapeKind
 
 _MACRO_PLACE = {

@@ -40,6 +40,7 @@ from OCP.XCAFApp import XCAFApp_Application
 from OCP.XCAFDoc import XCAFDoc_DocumentTool
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.frames import Placement
 from ocs_design.device.bodies import carrier_placement, wheel_placement
 from ocs_design.device.device import Device
 from ocs_design.export.assembly.placed import placed_parts
@@ -55,7 +56,6 @@ from ocs_design.export.visuals import ALUMINIUM, GEAR, MOTOR, PRINT
 from ocs_design.parts.carrier_plate import mast_part, plate_part
 from ocs_design.parts.outline import Arc
 from ocs_design.parts.solids import Part, Prism, Revolution, Solid
-from ocs_design.robot.tree import Placement
 
 MILLIMETRES = 1000.0
 """Units per metre: Open CASCADE's tolerances are made for millimetres."""

@@ -12,6 +12,7 @@ from xml.parsers import expat
 import numpy as np
 
 from ocs_design.common.errors import RobotError
+from ocs_design.common.frames import Placement, rpy_from_rotation
 from ocs_design.device.bodies import carrier_names, flywheel_names, joint_names, require_free
 from ocs_design.device.device import Device
 from ocs_design.export.device_urdf import UNLIMITED, device_urdf, mount_urdf
@@ -22,8 +23,7 @@ from ocs_design.export.visuals import WHEEL_MESH
 from ocs_design.robot.leg_geometry import BASE_FRAME
 from ocs_design.robot.links import unused_name
 from ocs_design.robot.robot import Format, Robot
-from ocs_design.robot.rotations import rpy_from_rotation
-from ocs_design.robot.tree import Body, Joint, JointKind, Placement, Shape, ShapeKind, Tree
+from ocs_design.robot.tree import Body, Joint, JointKind, Shape, ShapeKind, Tree
 from ocs_design.robot.xml import parse_xml
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ocs_design.common.frames import Placement
 from ocs_design.device.bodies import DeviceBody, carrier_placement
 from ocs_design.device.device import Device, Module
 from ocs_design.device.solids import drive_solids, foot_of, motor_mount
@@ -22,7 +23,7 @@ from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
 from ocs_design.parts.pedestal import Pedestal, drilled
 from ocs_design.parts.solids import Part
-from ocs_design.robot.tree import Placement, ShapeKind
+from ocs_design.robot.tree import ShapeKind
 
 WHEEL_MESH = "meshes/ocs_flywheel.stl"
 """Mesh of the wheel beside every exported robot file."""

@@ -14,7 +14,7 @@ from ocs_design.jumping.floating_base import POSE, FloatingBase, Load
 from ocs_design.jumping.jump import Jump, JumpPlan, JumpPlans, LegTrajectory, jump_of
 from ocs_design.jumping.legged_body import LeggedBody, obstacle_to_jumping
 from ocs_design.jumping.push_off import PushOff, PushOffs
-from ocs_design.parts.moments import Carrier
+from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Robot

@@ -22,12 +22,12 @@ import numpy as np
 
 from ocs_design.actuation.fasteners import Fastening, Screw, screw
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.frames import BACKWARDS, Placement
 from ocs_design.parts.dog_bone import DogBone, directions
 from ocs_design.parts.mast import Mast
 from ocs_design.parts.shapes import Disc, Rectangle
 from ocs_design.parts.solids import Part, Prism, hollow_cylinder
 from ocs_design.robot.mass import MassProperties, combine
-from ocs_design.robot.tree import BACKWARDS, Placement
 
 MATERIAL, DENSITY, YIELD_STRENGTH = "aluminium-6061-t6", 2710.0, 255e6
 """Name in the catalogue of materials, density [kg/m^3], yield strength [Pa]: Hibbeler, Mechanics

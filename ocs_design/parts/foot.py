@@ -16,6 +16,7 @@ from typing import Any, Generic
 import numpy as np
 
 from ocs_design.actuation.fasteners import Fastening
+from ocs_design.common.frames import Placement
 from ocs_design.parts.housing import Housing, housing_outer_radius
 from ocs_design.parts.moments import MassMoments, Real, flat_ring
 from ocs_design.parts.printed import (
@@ -41,7 +42,6 @@ from ocs_design.parts.printed import (
 )
 from ocs_design.parts.shapes import ArcSlot, Disc, Keyhole, Rectangle
 from ocs_design.parts.solids import Part, Prism
-from ocs_design.robot.tree import Placement
 
 PLATE_MARGIN = 3.0e-3
 """Margin of the plate around the mount's holes [m]."""

@@ -19,9 +19,10 @@ from ocs_design.parts.housing import (
     housing_moments,
     lid_screw_moments,
 )
-from ocs_design.parts.moments import Carrier, MassMoments, Real, point, round_body
+from ocs_design.parts.moments import MassMoments, Real, point, round_body
 from ocs_design.parts.motor_mount import MotorMount, mount_of
 from ocs_design.parts.printed import LID_SCREW, PLATE_THICKNESS, MountHoles, half_height
+from ocs_design.parts.solids import Carrier
 
 
 def part_name(part: str, module: str) -> str:

@@ -18,6 +18,7 @@ import numpy as np
 
 from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.frames import Placement
 from ocs_design.parts.joints import pattern_use
 from ocs_design.parts.printed import (
     AROUND_SLOT,
@@ -34,7 +35,6 @@ from ocs_design.parts.printed import (
 from ocs_design.parts.shapes import Disc, Polygon
 from ocs_design.parts.solids import Part, Prism
 from ocs_design.robot.mass import MassProperties, combine
-from ocs_design.robot.tree import Placement
 
 LEAST_SEAT = IN_PLASTIC * TRUNK_SCREW.diameter
 """Least thickness of the seat [m]: that of a thread that holds in plastic."""

@@ -13,10 +13,10 @@ import numpy as np
 
 from ocs_design.actuation.fasteners import Fastening, Screw, screw
 from ocs_design.actuation.motor import BoltCircle
+from ocs_design.common.frames import Placement
 from ocs_design.parts.moments import MassMoments, Real, nothing
 from ocs_design.parts.shapes import EAR_COUNT, Disc, Eared
 from ocs_design.parts.solids import HERE, Prism
-from ocs_design.robot.tree import Placement
 
 WALL = 1.6e-3
 """[m], four lines of a 0.4 mm nozzle: walls that hold screws without infill."""

@@ -40,10 +40,10 @@ import numpy as np
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import Motor, Mounting
-from ocs_design.parts.moments import Carrier, Real, cylinder_mass
+from ocs_design.parts.moments import Real, cylinder_mass
 from ocs_design.parts.printed import CLEARANCE
 from ocs_design.parts.shapes import Disc
-from ocs_design.parts.solids import Part, Prism
+from ocs_design.parts.solids import Carrier, Part, Prism
 
 CHAMFER_SHARE = 0.25
 """Largest share of a chamfer in wall and height: half of each face stays."""

@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.frames import Placement, rotation_from_quaternion
 from ocs_design.export.meshes import Color
 from ocs_design.export.snapshot import picture
-from ocs_design.robot.rotations import rotation_from_quaternion
-from ocs_design.robot.tree import Placement
 
 _HEADER, _CHUNK = 12, 8
 """Sizes of the heads of a GLB and of its chunks [bytes] (glTF 2.0, section 4)."""

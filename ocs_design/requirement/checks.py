@@ -11,8 +11,12 @@ from ocs_design.catalogue.materials import material
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.common.units import format_quantity
 from ocs_design.requirement.choices import highest_rated_voltage, unknown_names
-from ocs_design.requirement.device_sections import FlywheelSection, OcsSection
-from ocs_design.requirement.froude import LIMIT_OF_KEY, Envelope
+from ocs_design.requirement.device_sections import (
+    LIMIT_OF_KEY,
+    Envelope,
+    FlywheelSection,
+    OcsSection,
+)
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Unforeseen
 from ocs_design.requirement.pivoted import Balance, Pivoted, StandUp
 from ocs_design.requirement.requirement import Requirement

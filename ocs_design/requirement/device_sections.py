@@ -3,7 +3,9 @@
 A field is a key, as in `sections`.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 from ocs_design.common.units import Dimension
 from ocs_design.requirement.keys import keyed
@@ -184,6 +186,41 @@ class FlywheelSection:
         "of each, from its face",
         why="A thread of M2 wants 2 mm; both faces have them, so that the rim grows too.",
     )
+
+
+@dataclass(frozen=True)
+class Envelope:
+    """Limits of one flywheel rim, all SI.
+
+    Attributes:
+        outer_radius_max: [m]. inner_radius_min: the bore that the motor needs [m].
+        height_max, height_min: along the spin axis [m].
+        wall_min: of outer minus inner radius [m].
+        mass_max: of one rim [kg].
+        stress_safety: yield strength over the hoop stress allowed at the highest wheel speed.
+    """
+
+    outer_radius_max: float
+    inner_radius_min: float
+    height_max: float
+    height_min: float
+    wall_min: float
+    mass_max: float
+    stress_safety: float
+
+
+LIMIT_OF_KEY: Mapping[str, str] = MappingProxyType(
+    {
+        "r_max": "outer_radius_max",
+        "r_min": "inner_radius_min",
+        "h_max": "height_max",
+        "h_min": "height_min",
+        "wall_min": "wall_min",
+        "wheel_mass_max": "mass_max",
+        "stress_safety": "stress_safety",
+    }
+)
+"""Field of `Envelope` that each key of `[flywheel]` sets."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,52 +5,15 @@ lengths go with the standing height L of the trunk, times with sqrt(L / g), spee
 and a torque that turns both alike with I / T^2.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from math import pi, radians, sqrt
-from types import MappingProxyType
 
 from ocs_design.common.units import STANDARD_GRAVITY
+from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Shove
 from ocs_design.requirement.pivoted import Actuation, Balance, StandUp
 from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.robot.robot import Robot
-
-
-@dataclass(frozen=True)
-class Envelope:
-    """Limits of one flywheel rim, all SI.
-
-    Attributes:
-        outer_radius_max: [m]. inner_radius_min: the bore that the motor needs [m].
-        height_max, height_min: along the spin axis [m].
-        wall_min: of outer minus inner radius [m].
-        mass_max: of one rim [kg].
-        stress_safety: yield strength over the hoop stress allowed at the highest wheel speed.
-    """
-
-    outer_radius_max: float
-    inner_radius_min: float
-    height_max: float
-    height_min: float
-    wall_min: float
-    mass_max: float
-    stress_safety: float
-
-
-LIMIT_OF_KEY: Mapping[str, str] = MappingProxyType(
-    {
-        "r_max": "outer_radius_max",
-        "r_min": "inner_radius_min",
-        "h_max": "height_max",
-        "h_min": "height_min",
-        "wall_min": "wall_min",
-        "wheel_mass_max": "mass_max",
-        "stress_safety": "stress_safety",
-    }
-)
-"""Field of `Envelope` that each key of `[flywheel]` sets."""
-
 
 LUNAR_GRAVITY = 1.62
 """[m/s^2] of the paper's back-flip, which scales with the robot but stays on the Moon."""

@@ -14,17 +14,17 @@ from ocs_design.common.units import STANDARD_GRAVITY, format_quantity, rpm, to_u
 from ocs_design.requirement.checks import contradictions, unfit_for_robot
 from ocs_design.requirement.choices import POWER_PER_MASS, MotorChoice, default_supply, motor_choice
 from ocs_design.requirement.device_sections import (
+    LIMIT_OF_KEY,
+    Envelope,
     FlywheelSection,
     MotorSection,
     OcsSection,
     SupplySection,
 )
 from ocs_design.requirement.froude import (
-    LIMIT_OF_KEY,
     RIM_MASS_SHARE,
     SOLO12,
     WHEEL_SPEED_MAX,
-    Envelope,
     Scale,
     default_envelope,
     default_maneuvers,

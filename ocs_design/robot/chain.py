@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.robot.rotations import cross, rotation_about
-from ocs_design.robot.tree import Body, Joint, JointKind, Placement, Tree
+from ocs_design.common.frames import Placement, cross, rotation_about
+from ocs_design.robot.tree import Body, Joint, JointKind, Tree
 
 BoolArray: TypeAlias = NDArray[np.bool_]
 

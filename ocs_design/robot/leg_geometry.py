@@ -8,10 +8,11 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import RobotError
+from ocs_design.common.frames import Placement
 from ocs_design.robot.chain import Chain, neutral_posture
 from ocs_design.robot.legs import LegPlane, leg_chain, leg_plane
 from ocs_design.robot.robot import Leg, Mount
-from ocs_design.robot.tree import Placement, Tree
+from ocs_design.robot.tree import Tree
 
 SIDEWAYS = 0.9
 """Axes whose unit vectors have at least this product point the same way (26 degrees)."""

@@ -6,11 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray, frozen
+from ocs_design.common.frames import Placement
 from ocs_design.robot.chain import Chain, ChainPose, chain_of, neutral_posture
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.meshes import extent, extent_of, solid_shapes
 from ocs_design.robot.robot import Leg
-from ocs_design.robot.tree import Body, JointKind, Placement, ShapeKind, Tree
+from ocs_design.robot.tree import Body, JointKind, ShapeKind, Tree
 
 ANKLED_JOINTS = 5
 """A leg with at least so many joints, its wheel not counted, can keep its sole flat."""

@@ -8,8 +8,9 @@ from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from ocs_design.common.errors import RobotError
+from ocs_design.common.frames import Placement
 from ocs_design.robot.mass import MassProperties, combine, physical_defect, solid_defect
-from ocs_design.robot.tree import Body, Joint, Placement, Shape, Tree
+from ocs_design.robot.tree import Body, Joint, Shape, Tree
 
 
 class Warnings:

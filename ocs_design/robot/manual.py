@@ -7,10 +7,11 @@ from itertools import permutations
 import numpy as np
 
 from ocs_design.common.errors import RobotError, UsageError
+from ocs_design.common.frames import Placement
 from ocs_design.common.units import UNITS, Dimension
 from ocs_design.robot.mass import MassProperties, ball_density, impossible_size, solid_defect
 from ocs_design.robot.robot import Format, Robot
-from ocs_design.robot.tree import Body, Placement, Shape, ShapeKind, Tree
+from ocs_design.robot.tree import Body, Shape, ShapeKind, Tree
 
 TRUNK = "base"
 """The only link of a robot given by hand."""

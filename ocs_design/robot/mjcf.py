@@ -16,6 +16,7 @@ import mujoco
 import numpy as np
 
 from ocs_design.common.errors import RobotError
+from ocs_design.common.frames import Placement, rotation_from_quaternion
 from ocs_design.robot.links import (
     Connection,
     Link,
@@ -26,12 +27,10 @@ from ocs_design.robot.links import (
 )
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.mjcf_spec import Lost, mujoco_refusal, mujoco_warnings_to, parse_mjcf
-from ocs_design.robot.rotations import rotation_from_quaternion
 from ocs_design.robot.tree import (
     LARGEST_NUMBER,
     Joint,
     JointKind,
-    Placement,
     Shape,
     ShapeKind,
     Tree,

@@ -9,12 +9,12 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import RobotError
+from ocs_design.common.frames import Placement
 from ocs_design.robot.links import Warnings, unused_name
 from ocs_design.robot.mjcf_spec import compiled, delete_geom, parse_mjcf
 from ocs_design.robot.mujoco_bodies import body_names, drop_refused_meshes, spec_from_tree
 from ocs_design.robot.robot import Format, Leg, Robot
 from ocs_design.robot.source import STANDARD_INPUT
-from ocs_design.robot.tree import Placement
 
 _FOOT_SHARE = 0.02
 """Radius of a foot that is a bare point, over its leg's length."""

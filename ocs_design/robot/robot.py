@@ -8,8 +8,9 @@ from functools import cached_property
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.frames import Placement
 from ocs_design.robot.mass import MassProperties
-from ocs_design.robot.tree import Placement, Tree
+from ocs_design.robot.tree import Tree
 
 
 class Format(StrEnum):

@@ -11,6 +11,7 @@ from itertools import combinations
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray, frozen
+from ocs_design.common.frames import BACKWARDS
 from ocs_design.robot.meshes import (
     binary_stl_corners,
     binary_stl_facets,
@@ -18,7 +19,7 @@ from ocs_design.robot.meshes import (
     load_with_trimesh,
 )
 from ocs_design.robot.robot import Format, Robot
-from ocs_design.robot.tree import BACKWARDS, Shape, ShapeKind
+from ocs_design.robot.tree import Shape, ShapeKind
 
 STEP = 1e-3
 """Distance of two places of a map, at the least [m]."""

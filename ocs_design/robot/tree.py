@@ -12,16 +12,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ocs_design.common.arrays import FloatArray, frozen
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.frames import Placement, rotation_about
 from ocs_design.robot.mass import MassProperties, combine
-from ocs_design.robot.rotations import rotation_about
 
 LARGEST_NUMBER = 1e75
 """Largest number in a robot, SI: the square of the square of a larger one overflows."""
-
-
-BACKWARDS = frozen([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])
-"""Rotation of a frame whose z axis points backwards, y to the left and x up."""
 
 
 class JointKind(StrEnum):
@@ -135,37 +131,6 @@ class Joint:
     friction: float = 0.0
     armature: float = 0.0
     mimic: tuple[str, float, float] | None = None
-
-
-@dataclass(frozen=True, eq=False)
-class Placement:
-    """Rotation and position of one frame in another.
-
-    Attributes:
-        rotation: takes coordinates of the frame to the other, shape (3, 3).
-        position: of the frame's origin in the other [m], shape (3,).
-    """
-
-    rotation: FloatArray
-    position: FloatArray
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "rotation", frozen(self.rotation))
-        object.__setattr__(self, "position", frozen(self.position))
-
-    @classmethod
-    def identity(cls) -> "Placement":
-        """The frame in itself."""
-        return cls(np.eye(3), np.zeros(3))
-
-    def __matmul__(self, inner: "Placement") -> "Placement":
-        return Placement(
-            self.rotation @ inner.rotation, self.rotation @ inner.position + self.position
-        )
-
-    def inverse(self) -> "Placement":
-        """The other frame in this one."""
-        return Placement(self.rotation.T, -self.rotation.T @ self.position)
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,6 +14,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from ocs_design.common.errors import RobotError
+from ocs_design.common.frames import Placement, rotation_from_rpy
 from ocs_design.robot.links import (
     Children,
     Connection,
@@ -24,8 +25,7 @@ from ocs_design.robot.links import (
     make_tree,
 )
 from ocs_design.robot.mass import NEGLIGIBLE_MOMENT, MassProperties
-from ocs_design.robot.rotations import rotation_from_rpy
-from ocs_design.robot.tree import Joint, JointKind, Placement, Shape, ShapeKind, Tree
+from ocs_design.robot.tree import Joint, JointKind, Shape, ShapeKind, Tree
 from ocs_design.robot.xml import (
     number,
     numbers,

@@ -7,12 +7,12 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
+from ocs_design.common.frames import rotation_about
 from ocs_design.export.physics import set_trunk
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.robot.robot import Robot
-from ocs_design.robot.rotations import rotation_about
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.reference import LEVEL, Profile, Quintic, Turn
 from ocs_design.sizing.trajectory.boundary import pivot_boundary

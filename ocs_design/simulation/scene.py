@@ -17,7 +17,7 @@ from ocs_design.export.physics import (
     hold_other_joints,
     meet_no_link,
 )
-from ocs_design.parts.moments import Carrier
+from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.mujoco_bodies import quaternion

@@ -9,7 +9,6 @@ from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device, Flywheel, Module, Web
 from ocs_design.device.layout import PAIR, Layout
-from ocs_design.parts.moments import Carrier
 from ocs_design.parts.rim import (
     NO_CUTS,
     Hub,
@@ -18,6 +17,7 @@ from ocs_design.parts.rim import (
     stored_energy,
     wheel_body,
 )
+from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.sizing.bound.device_sizing import DeviceSizing
 from ocs_design.sizing.motion import DrivenWheel

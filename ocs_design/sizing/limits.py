@@ -12,7 +12,7 @@ from math import isfinite, log10, pi, sqrt
 from typing import Any, TypeAlias, TypeVar
 
 from ocs_design.common.units import round_outwards
-from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.requirement import Requirement
 
 Owner = TypeVar("Owner", Envelope, Requirement)

@@ -25,8 +25,8 @@ from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import OcsError
 from ocs_design.parts.joints import OVERSPEED
-from ocs_design.parts.moments import Carrier
 from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts, hoop_stress, wheel_body
+from ocs_design.parts.solids import Carrier
 from ocs_design.sizing.selection.problem import Candidate
 from ocs_design.sizing.trajectory.motion import Trajectory
 

@@ -24,7 +24,7 @@ from ocs_design.device.solids import (
     plate_solids,
 )
 from ocs_design.parts.pedestal import Pedestal, pedestal_use
-from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.clearance import (
     Reach,

@@ -11,9 +11,9 @@ from ocs_design.device.layout import PAIR, Direction, Layout
 from ocs_design.parts.bell import HeldMotor
 from ocs_design.parts.foot import base_radius, larger, wheel_height
 from ocs_design.parts.housing import housing_outer_radius
-from ocs_design.parts.moments import Carrier
 from ocs_design.parts.motor_mount import Behind, mount_of
 from ocs_design.parts.printed import PLATE_THICKNESS, half_height, plate_back
+from ocs_design.parts.solids import Carrier
 from ocs_design.robot.mass import MassProperties, combine
 
 CLEARANCE = 1.1

@@ -9,7 +9,7 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray, vector
 from ocs_design.device.layout import PAIR, Direction, Layout
 from ocs_design.parts.motor_mount import Behind
-from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.device_sections import Envelope
 from ocs_design.robot.clearance import Ranges, descended, landing_poses, landing_ranges
 from ocs_design.robot.collision import CollisionModel, Nearest, Part, collision_model
 from ocs_design.robot.meshes import trunk_extent, trunk_top

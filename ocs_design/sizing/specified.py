@@ -23,8 +23,7 @@ from ocs_design.parts.rim import (
     hub_height,
 )
 from ocs_design.requirement.choices import MotorChoice
-from ocs_design.requirement.device_sections import FlywheelSection
-from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.device_sections import Envelope, FlywheelSection
 from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import Specification

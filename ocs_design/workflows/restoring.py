@@ -11,6 +11,7 @@ import numpy as np
 
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError, RobotError
+from ocs_design.common.frames import Placement
 from ocs_design.device.checks import check_device
 from ocs_design.device.device import Device
 from ocs_design.device.records.device import OcsRecord
@@ -25,7 +26,6 @@ from ocs_design.robot.posture import OUTSIDE
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Format, Mount, Robot
 from ocs_design.robot.source import STANDARD_INPUT, read_source
-from ocs_design.robot.tree import Placement
 
 # Figures of a maneuver that its record has by themselves.
 _APART = {"name", "gravity", "incidence"}

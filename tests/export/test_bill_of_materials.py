@@ -12,8 +12,8 @@ from ocs_design.device.device import Web
 from ocs_design.device.records.device import MarginRecord
 from ocs_design.export.bill_of_materials import COLUMNS, bill_csv, bill_rows, plain
 from ocs_design.parts.module import Printed
-from ocs_design.parts.moments import Carrier
 from ocs_design.parts.rim import Hub, WebHoles
+from ocs_design.parts.solids import Carrier
 
 GEAR_MASS = 0.02
 

@@ -14,9 +14,9 @@ from ocs_design.device.records.design import read_design
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.bill_of_materials import bill_csv, bill_rows
 from ocs_design.export.device_parts import printed_parts
-from ocs_design.parts.moments import Carrier
 from ocs_design.parts.motor_mount import screwed_by_face
 from ocs_design.parts.printed import DENSITY, PANEL, WALL
+from ocs_design.parts.solids import Carrier
 
 OLD = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
 

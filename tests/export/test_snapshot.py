@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 import trimesh
 
+from ocs_design.common.frames import Placement
 from ocs_design.export.snapshot import HEIGHT, WIDTH
 from ocs_design.report.bodies import ShownBody, Surface, still
-from ocs_design.robot.tree import Placement
 
 RED, BLUE = (1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 1.0)
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from robots import ROBOTS
 
+from ocs_design.common.frames import rotation_from_rpy
 from ocs_design.jumping.floating_base import FloatingBase, Load
 from ocs_design.jumping.legged_body import LeggedBody
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.mujoco_model import build_spec
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.rotations import rotation_from_rpy
 
 NAMES = (
     "solo_description/robots/solo12",

@@ -7,13 +7,13 @@ import pytest
 from robots import ROBOTS, SOLO12
 from wheels import braked_inertia, driven_device
 
+from ocs_design.common.frames import rotation_from_rpy
 from ocs_design.jumping.jump import Jump, jump_of
 from ocs_design.jumping.legged_body import LeggedBody, obstacle_to_jumping
 from ocs_design.jumping.node import FRICTION
 from ocs_design.jumping.planning import JumpPlanner, plan_jumps, with_device
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.rotations import rotation_from_rpy
 
 JUMP = Jump(0.4, 2.0, 9.81)
 

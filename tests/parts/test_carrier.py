@@ -14,8 +14,8 @@ from ocs_design.parts.cage import cage_part
 from ocs_design.parts.foot import foot_part
 from ocs_design.parts.housing import housing_parts
 from ocs_design.parts.module import drive_moments, standing
-from ocs_design.parts.moments import Carrier
 from ocs_design.parts.motor_mount import mount_of
+from ocs_design.parts.solids import Carrier
 from ocs_design.robot.mass import MassProperties, combine
 
 MOTOR = Motor(

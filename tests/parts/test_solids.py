@@ -7,8 +7,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_bvp
 
+from ocs_design.common.frames import Placement, rotation_from_rpy
 from ocs_design.export.meshes import solid_mesh
-from ocs_design.parts.moments import cylinder_mass, mass_properties
+from ocs_design.parts.moments import cylinder_mass
 from ocs_design.parts.rim import (
     cylinder_spin_inertia,
     cylinder_transverse_inertia,
@@ -16,10 +17,8 @@ from ocs_design.parts.rim import (
     stored_energy,
 )
 from ocs_design.parts.shapes import Disc, Rectangle
-from ocs_design.parts.solids import Prism, Revolution, hollow_cylinder, revolved
+from ocs_design.parts.solids import Prism, Revolution, hollow_cylinder, mass_properties, revolved
 from ocs_design.robot.mass import MassProperties, combine, physical_defect
-from ocs_design.robot.rotations import rotation_from_rpy
-from ocs_design.robot.tree import Placement
 
 LENGTHS = st.floats(0.01, 1.0)
 

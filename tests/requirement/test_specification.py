@@ -4,8 +4,7 @@ from dataclasses import MISSING, fields
 
 import pytest
 
-from ocs_design.requirement.device_sections import FlywheelSection
-from ocs_design.requirement.froude import LIMIT_OF_KEY, Envelope
+from ocs_design.requirement.device_sections import LIMIT_OF_KEY, Envelope, FlywheelSection
 from ocs_design.requirement.kinds import FIELD_NOTES, MANEUVER_KINDS, field_note
 from ocs_design.requirement.maneuver import Flip
 from ocs_design.requirement.sections import RequirementSection, RobotSection

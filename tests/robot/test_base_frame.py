@@ -11,12 +11,12 @@ from robots import ROBOTS, SOLO12
 from urdf_text import inertial, joint, link
 from urdf_text import robot as urdf_of
 
+from ocs_design.common.frames import Placement, rotation_about
 from ocs_design.robot.leg_geometry import BASE_FRAME, named_front, with_base_frame
 from ocs_design.robot.legs import find_legs
 from ocs_design.robot.posture import resolve_posture
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.rotations import rotation_about
-from ocs_design.robot.tree import Body, Placement, Tree
+from ocs_design.robot.tree import Body, Tree
 
 RIGHT = np.pi / 2.0
 TURNS = {

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ocs_design.common.errors import RobotError, UsageError
+from ocs_design.common.frames import rotation_from_rpy
 from ocs_design.robot.manual import (
     BACK,
     HEIGHT_OF_MASS,
@@ -17,7 +18,6 @@ from ocs_design.robot.manual import (
     person,
     robot_by_hand,
 )
-from ocs_design.robot.rotations import rotation_from_rpy
 from ocs_design.sizing.placement import place_on_top
 
 SOLO12 = (0.0300029, 0.0514912, 0.0680453)

@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from ocs_design.common.frames import rotation_about, rotation_from_quaternion, rotation_from_rpy
 from ocs_design.robot.mass import (
     MassProperties,
     ball_density,
@@ -11,7 +12,6 @@ from ocs_design.robot.mass import (
     impossible_size,
     physical_defect,
 )
-from ocs_design.robot.rotations import rotation_about, rotation_from_quaternion, rotation_from_rpy
 
 seeds = st.integers(min_value=0, max_value=2**32 - 1)
 

@@ -10,10 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from robots import ROBOTS, SOLO12
 
+from ocs_design.common.frames import rotation_from_rpy
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.meshes import extent, size, trunk_top
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.rotations import rotation_from_rpy
 from ocs_design.robot.surface import STEP, surface_of, triangles_of, trunk_surface
 from ocs_design.robot.tree import Shape, ShapeKind
 

@@ -3,8 +3,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from robots import SOLO12
 
-from ocs_design.robot.rotations import rotation_from_quaternion
-from ocs_design.robot.tree import Joint, JointKind, Placement, joint_motion
+from ocs_design.common.frames import Placement, rotation_from_quaternion
+from ocs_design.robot.tree import Joint, JointKind, joint_motion
 from ocs_design.robot.urdf import read_urdf
 
 TREE = read_urdf(SOLO12.read_bytes(), find_mesh=lambda _: None)

@@ -7,7 +7,7 @@ import pytest
 from driven_wheels import EC45, STEEL
 
 from ocs_design.actuation.motor import DIRECT, Gear
-from ocs_design.parts.moments import Carrier
+from ocs_design.parts.solids import Carrier
 from ocs_design.sizing.assembly import assemble_driven
 from ocs_design.sizing.motion import DrivenWheel
 

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ocs_design.common.units import round_outwards
-from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.device_sections import Envelope
 from ocs_design.sizing.limits import (
     PRECISION,
     RIM_LIMITS,

@@ -11,9 +11,9 @@ from ocs_design.common.arrays import Matrix, Vector
 from ocs_design.device.device import NO_CARRIER, Device, Flywheel, Module
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.parts.carrier_plate import CarrierPlate
-from ocs_design.parts.moments import Carrier
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import PLATE_THICKNESS
+from ocs_design.parts.solids import Carrier
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,6 +12,7 @@ import numpy as np
 
 from ocs_design.actuation.fasteners import Fastening
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.frames import Placement
 from ocs_design.device.bodies import carrier_placement, wheel_placement
 from ocs_design.device.device import Device
 from ocs_design.device.solids import drive_solids, foot_of, motor_mount, shaft_cut
@@ -30,7 +31,6 @@ from ocs_design.parts.housing import FIRST_EAR, LID_SCREWS, guard_ring
 from ocs_design.parts.motor_mount import DriveSolid, Screwed
 from ocs_design.parts.printed import LID_SCREW, ear_axis
 from ocs_design.parts.solids import HERE, Part, Revolution, hollow_cylinder, revolved
-from ocs_design.robot.tree import Placement
 
 SECTIONS = 64
 """Chords of a full circle."""

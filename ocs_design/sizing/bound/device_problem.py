@@ -18,10 +18,10 @@ from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import UsageError
 from ocs_design.device.layout import Criterion, incidence_by_criterion
-from ocs_design.parts.moments import Carrier
 from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia
+from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.bound import SpinDemand, spin_demands
-from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.rim_problem import (

@@ -52,7 +52,7 @@ from ocs_design.parts.rim import (
     hoop_weights,
     spread_left,
 )
-from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.device_sections import Envelope
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,7 @@ from ocs_design.device.layout import ISOTROPIC, PAIR, Layout
 from ocs_design.device.solids import foot_of
 from ocs_design.parts.foot import Foot
 from ocs_design.parts.housing import Housing
-from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.device_sections import Envelope
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import trunk_surface
@@ -24,8 +24,7 @@ from ocs_design.sizing.footing.feet import (
     slopes_of,
 )
 from ocs_design.sizing.footing.mast import footing_behind
-from ocs_design.sizing.footing.on_top import footing_on_top
-from ocs_design.sizing.footing.pedestals import footing_on_pedestals
+from ocs_design.sizing.footing.on_top import footing_on_pedestals, footing_on_top
 from ocs_design.sizing.footing.plate import held_at, plate_of
 from ocs_design.sizing.place import place_at
 from ocs_design.sizing.placement import Search, Sizes, place_free

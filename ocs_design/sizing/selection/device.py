@@ -15,7 +15,7 @@ from ocs_design.device.records.selection import TaskDemand
 from ocs_design.parts.module import standing
 from ocs_design.parts.rim import wheel_body
 from ocs_design.requirement.bound import AXES
-from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.sizing.bound.rim_problem import RimLimits

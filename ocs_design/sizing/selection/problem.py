@@ -17,7 +17,6 @@ from ocs_design.common.errors import UsageError
 from ocs_design.device.layout import PAIR, Layout
 from ocs_design.device.records.selection import TaskDemand
 from ocs_design.parts.carrier_plate import CarrierPlate
-from ocs_design.parts.moments import Carrier
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import PLATE_THICKNESS
 from ocs_design.parts.rim import (
@@ -29,7 +28,8 @@ from ocs_design.parts.rim import (
     hub_of,
     wheel_body,
 )
-from ocs_design.requirement.froude import Envelope
+from ocs_design.parts.solids import Carrier
+from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties

@@ -21,7 +21,7 @@ from ocs_design.common.errors import Infeasible
 from ocs_design.common.units import format_quantity
 from ocs_design.parts.housing import PlainDrum
 from ocs_design.parts.rim import web_axial_inertia
-from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.pivoted import Balance, Pivoted
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits

@@ -11,8 +11,8 @@ import numpy as np
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.frames import cross
 from ocs_design.requirement.maneuver import End
-from ocs_design.robot.rotations import cross
 from ocs_design.sizing.trajectory.boundary import (
     Boundary,
     conjugate,

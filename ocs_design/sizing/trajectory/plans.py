@@ -10,7 +10,7 @@ import numpy as np
 from ocs_design.actuation.drive import PLANNED, DriveLine, power_less_friction
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import format_quantity, rpm
-from ocs_design.parts.moments import Carrier
+from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.maneuver import End, Maneuver, Unforeseen
 from ocs_design.requirement.pivoted import Balance, Pivoted
 from ocs_design.requirement.turns import TurnTo

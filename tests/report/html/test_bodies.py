@@ -6,12 +6,12 @@ import trimesh
 from robots import SOLO12
 from wheels import paper_device
 
+from ocs_design.common.frames import Placement
 from ocs_design.export.glb import robot_glb
 from ocs_design.export.robot_model import robot_model
 from ocs_design.report.bodies import ShownBody, Surface, read_bodies
 from ocs_design.report.html.decimation import clustered, decimated
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.tree import Placement
 
 UPRIGHT = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])
 

@@ -10,12 +10,12 @@ import pytest
 from robots import SOLO12
 from wheels import paper_device
 
+from ocs_design.common.frames import Placement
 from ocs_design.report.bodies import ShownBody, Surface
 from ocs_design.report.html.view import Blob, encoded_scene
 from ocs_design.report.story import flights_of
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.tree import Placement
 from ocs_design.simulation.scenario import Options, run_scenarios
 from ocs_design.workflows.recording import record_run
 

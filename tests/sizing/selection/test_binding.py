@@ -8,7 +8,7 @@ from rims import STEEL
 
 from ocs_design.parts.module import Printed
 from ocs_design.parts.rim import LIGAMENT
-from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.device_sections import Envelope
 from ocs_design.sizing.bound.rim_problem import RimProblem, limits_with_web
 from ocs_design.sizing.lightest_module import lightest_module, lightest_module_at
 from ocs_design.sizing.selection.device import HOUSING, binding_limits

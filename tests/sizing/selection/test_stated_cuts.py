@@ -5,7 +5,7 @@ import pytest
 
 from ocs_design.common.errors import SpecificationError
 from ocs_design.parts.rim import NO_CUTS, RimCuts
-from ocs_design.requirement.froude import Envelope
+from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.sizing.specified import specified_cuts, specified_lightenings
 

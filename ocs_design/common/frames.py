@@ -1,13 +1,15 @@
-"""Rotation matrices from axes, angles and quaternions, as robot files write them.
+"""Frames: rotation matrices from axes, angles and quaternions, and placements in one another.
 
-SciPy's `Rotation` would do the same, but importing it takes 0.3 s of processor time, and reading a
-robot in a known posture loads nothing else of SciPy.
+Rotations are as robot files write them. SciPy's `Rotation` would do the same, but importing it
+takes 0.3 s of processor time, and reading a robot in a known posture loads nothing else of SciPy.
 """
+
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ocs_design.common.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray, frozen
 
 
 def cross(one: FloatArray, other: FloatArray) -> FloatArray:
@@ -62,3 +64,38 @@ def rpy_from_rotation(rotation: FloatArray) -> FloatArray:
         return np.array([np.arctan2(-rotation[1, 2], rotation[1, 1]), pitch, 0.0])
     roll = np.arctan2(rotation[2, 1], rotation[2, 2])
     return np.array([roll, pitch, np.arctan2(rotation[1, 0], rotation[0, 0])])
+
+
+BACKWARDS = frozen([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])
+"""Rotation of a frame whose z axis points backwards, y to the left and x up."""
+
+
+@dataclass(frozen=True, eq=False)
+class Placement:
+    """Rotation and position of one frame in another.
+
+    Attributes:
+        rotation: takes coordinates of the frame to the other, shape (3, 3).
+        position: of the frame's origin in the other [m], shape (3,).
+    """
+
+    rotation: FloatArray
+    position: FloatArray
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "rotation", frozen(self.rotation))
+        object.__setattr__(self, "position", frozen(self.position))
+
+    @classmethod
+    def identity(cls) -> "Placement":
+        """The frame in itself."""
+        return cls(np.eye(3), np.zeros(3))
+
+    def __matmul__(self, inner: "Placement") -> "Placement":
+        return Placement(
+            self.rotation @ inner.rotation, self.rotation @ inner.position + self.position
+        )
+
+    def inverse(self) -> "Placement":
+        """The other frame in this one."""
+        return Placement(self.rotation.T, -self.rotation.T @ self.position)
