@@ -11,12 +11,7 @@ from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import Placement
-from ocs_design.parts.outline import (
-    SECTIONS,
-    circle_radius_factor,
-    flat_outline,
-    ring_points,
-)
+from ocs_design.parts.outline import SECTIONS, circle_radius_factor, flat_outline, ring_points
 from ocs_design.parts.solids import Part, Prism, Revolution, Solid
 
 if TYPE_CHECKING:

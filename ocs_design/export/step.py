@@ -44,12 +44,7 @@ from ocs_design.common.frames import Placement
 from ocs_design.device.bodies import carrier_placement, wheel_placement
 from ocs_design.device.device import Device
 from ocs_design.export.assembly.placed import placed_parts
-from ocs_design.export.device_parts import (
-    metal_pieces,
-    pedestal_kinds,
-    printed_parts,
-    wheel_pieces,
-)
+from ocs_design.export.device_parts import metal_pieces, pedestal_kinds, printed_parts, wheel_pieces
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Color
 from ocs_design.export.visuals import ALUMINIUM, GEAR, MOTOR, PRINT

@@ -8,10 +8,15 @@ from numpy.typing import ArrayLike
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import rpm, rpm_number
 from ocs_design.device.records.design import OcsDesign
-from ocs_design.device.records.flights import SurvivalRecord, ValidationRecord
+from ocs_design.device.records.flights import (
+    SurvivalRecord,
+    ValidationRecord,
+    lift_off_and_touchdown,
+    was_in_the_air,
+    was_on_pivot,
+)
 from ocs_design.device.records.requirement import DemandRecord
 from ocs_design.report.quantities import degrees, degrees_number, grams
-from ocs_design.report.story import lift_off_and_touchdown, was_in_the_air, was_on_pivot
 from ocs_design.report.table import Cell, Table, Tone, Toned, columns, listed
 from ocs_design.simulation.run import LANDING_TOLERANCE, UPRIGHT_TILT
 

@@ -4,7 +4,6 @@ import csv
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeAlias
 
 import msgspec
 import numpy as np
@@ -14,14 +13,16 @@ from ocs_design.common.errors import OcsError
 from ocs_design.common.files import safe_name
 from ocs_design.device.answers import RESULT_FILE, MonteCarloRecord, PostureLine
 from ocs_design.device.records.design import OcsDesign
-from ocs_design.device.records.flights import ValidationRecord
+from ocs_design.device.records.flights import (
+    ValidationRecord,
+    lift_off_and_touchdown,
+    was_in_the_air,
+    was_on_pivot,
+)
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.time_series import series_file
 from ocs_design.report.bodies import ShownBody, read_bodies
 from ocs_design.simulation.run import Poses, Run
-
-RunMetrics: TypeAlias = Mapping[str, float | bool | None]
-"""Metrics of a recorded run by their names, SI."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,27 +91,6 @@ class Flight:
     def flies(self) -> bool:
         """Whether it was in the air at all."""
         return was_in_the_air(self.lift_off, self.touchdown)
-
-
-def was_in_the_air(lift_off: float | None, touchdown: float | None) -> bool:
-    """Whether a run left the ground; who is pushed as they stand touch down at once."""
-    return lift_off is not None and (touchdown is None or touchdown > lift_off)
-
-
-def was_on_pivot(run: ValidationRecord) -> bool:
-    """Whether a run stood on a pivot: it is judged by its stand alone, and was not pushed.
-
-    What others have for touchdown is when it is to be upright.
-    """
-    flew = was_in_the_air(*lift_off_and_touchdown(run.metrics))
-    return run.level is None and run.stands is not None and flew
-
-
-def lift_off_and_touchdown(metrics: RunMetrics) -> tuple[float | None, float | None]:
-    """Times of a recorded run [s]; None: it never does so."""
-    # Older versions do not record the lift-off, and all of their flights start in the air.
-    lift_off = metrics.get("lift_off_time", 0.0 if metrics else None)
-    return lift_off, metrics.get("touchdown_time")
 
 
 def flights_of(records: Sequence[ValidationRecord], runs: Sequence[Run]) -> tuple[Flight, ...]:

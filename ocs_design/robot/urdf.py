@@ -26,14 +26,7 @@ from ocs_design.robot.links import (
 )
 from ocs_design.robot.mass import NEGLIGIBLE_MOMENT, MassProperties
 from ocs_design.robot.tree import Joint, JointKind, Shape, ShapeKind, Tree
-from ocs_design.robot.xml import (
-    number,
-    numbers,
-    parse_xml,
-    required,
-    text,
-    unexpanded_xacro,
-)
+from ocs_design.robot.xml import number, numbers, parse_xml, required, text, unexpanded_xacro
 
 Color: TypeAlias = tuple[float, float, float, float]
 """Red, green, blue and opacity, each 0..1."""

@@ -12,13 +12,7 @@ from math import inf
 
 import numpy as np
 
-from ocs_design.actuation.drive import (
-    FIGURES_HINT,
-    DriveLine,
-    armature,
-    drive_line,
-    rotor_share,
-)
+from ocs_design.actuation.drive import FIGURES_HINT, DriveLine, armature, drive_line, rotor_share
 from ocs_design.actuation.motor import Gear, Motor
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material

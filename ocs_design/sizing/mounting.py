@@ -26,13 +26,7 @@ from ocs_design.device.solids import (
 from ocs_design.parts.pedestal import Pedestal, pedestal_use
 from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.robot.clearance import (
-    Reach,
-    descended,
-    landing_poses,
-    landing_ranges,
-    reaches,
-)
+from ocs_design.robot.clearance import Reach, descended, landing_poses, landing_ranges, reaches
 from ocs_design.robot.collision import CollisionModel, Nearest, collision_model
 from ocs_design.robot.links import listed
 from ocs_design.robot.mass import MassProperties

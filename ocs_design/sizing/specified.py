@@ -16,12 +16,7 @@ from ocs_design.device.layout import PAIR, Criterion, Layout, LayoutName
 from ocs_design.parts.bell import bell_of
 from ocs_design.parts.joints import SERVICE, hub_joint
 from ocs_design.parts.motor_mount import is_held
-from ocs_design.parts.rim import (
-    NO_CUTS,
-    WEB_MATERIAL,
-    RimCuts,
-    hub_height,
-)
+from ocs_design.parts.rim import NO_CUTS, WEB_MATERIAL, RimCuts, hub_height
 from ocs_design.requirement.choices import MotorChoice
 from ocs_design.requirement.device_sections import Envelope, FlywheelSection
 from ocs_design.requirement.pivoted import StandUp

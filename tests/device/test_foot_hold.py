@@ -14,9 +14,9 @@ from ocs_design.device.foot_hold import BEARING_MOMENT, foot_hold, unheld_moment
 from ocs_design.device.joints import FOOT_SHOCK, joints_of
 from ocs_design.device.records.device import MarginRecord
 from ocs_design.device.solids import foot_of
+from ocs_design.export.assembly.booklet import chapters, screw_rows
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.assembly.placed import module_pieces
-from ocs_design.export.assembly.steps import chapters
 from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.bill_of_materials import bill_rows
 
@@ -76,7 +76,7 @@ def test_heads_bear_a_landing_or_have_washers_or_it_is_told(mass, plated):
 def test_torque_of_a_foot_s_screws_is_what_beside_a_slot_bears(mass):
     """Half of 47 MPa on 6.33 mm^2 are 149 N, 0.079 N m; on 33.8 mm^2 794 N, 0.42 N m."""
     assembly = Assembly("solo12", weighing(mass))
-    (row,) = (row for row in assembly.screw_rows() if row.purpose.startswith("foot on"))
+    (row,) = (row for row in screw_rows(assembly) if row.purpose.startswith("foot on"))
     assert row.torque == ("0.079 N m" if mass == 0.3 else "0.42 N m")
     assert ("washer ISO 7093-1 - 3" in row.purpose) == (mass == 2.0)
     length = int(re.search(r"x (\d+)$", row.designation)[1])

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, TypeAlias
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,6 +45,31 @@ class ValidationRecord:
     can_stand: bool | None = None
     level: bool | None = None
     stands: bool | None = None
+
+
+RunMetrics: TypeAlias = Mapping[str, float | bool | None]
+"""Metrics of a recorded run by their names, SI."""
+
+
+def lift_off_and_touchdown(metrics: RunMetrics) -> tuple[float | None, float | None]:
+    """Times of a recorded run [s]; None: it never does so."""
+    # Older versions do not record the lift-off, and all of their flights start in the air.
+    lift_off = metrics.get("lift_off_time", 0.0 if metrics else None)
+    return lift_off, metrics.get("touchdown_time")
+
+
+def was_in_the_air(lift_off: float | None, touchdown: float | None) -> bool:
+    """Whether a run left the ground; who is pushed as they stand touch down at once."""
+    return lift_off is not None and (touchdown is None or touchdown > lift_off)
+
+
+def was_on_pivot(run: ValidationRecord) -> bool:
+    """Whether a run stood on a pivot: it is judged by its stand alone, and was not pushed.
+
+    What others have for touchdown is when it is to be upright.
+    """
+    flew = was_in_the_air(*lift_off_and_touchdown(run.metrics))
+    return run.level is None and run.stands is not None and flew
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,14 +1,25 @@
-"""`assembly.pdf`: exploded view, section, steps, screws, tests, wiring and safety on A4 sheets."""
+"""`assembly.pdf`: exploded view, section, steps, screws, tests, wiring and safety on A4 sheets.
+
+The report's section shows the same tables and chapters.
+"""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+from typing import NamedTuple
 
 from ocs_design import __version__
-from ocs_design.export.assembly.content import Assembly, assembly_of
-from ocs_design.export.assembly.steps import Chapter, chapters
+from ocs_design.actuation.fasteners import IN_PLASTIC
+from ocs_design.actuation.motor import DIRECT
+from ocs_design.device.device import Device
+from ocs_design.export.assembly.content import Assembly, assembly_of, short
+from ocs_design.export.assembly.placed import Piece
+from ocs_design.export.assembly.steps import module_steps
+from ocs_design.export.assembly.trials import balance, safety, spin_test
 from ocs_design.export.assembly.views import BALLOON, exploded_view, section_view
+from ocs_design.export.assembly_notes import drive_notes
+from ocs_design.export.bill_of_materials import BillRow, bill_rows
 from ocs_design.export.drawing.sheet import (
     FRAME_BOX,
     THIN,
@@ -26,6 +37,7 @@ from ocs_design.export.drawing.sheet import (
 from ocs_design.export.drawing.title_block import frame
 from ocs_design.export.drawing.wheel_sheet import device_hash
 from ocs_design.export.drawing.writers import pdf_of_pages, svg_text
+from ocs_design.export.electrics import Electrics
 from ocs_design.export.formats import Notes, Subject
 
 LEFT, TOP, RIGHT, BOTTOM = FRAME_BOX
@@ -53,6 +65,61 @@ _BONDING_BOX: Box = (_SECTION_BOX[0], BOTTOM - 74.0, *_SECTION_BOX[2:])
 """Place of the section of ring, motor and fixture below that of the module [mm]."""
 
 
+_LABELS = {
+    "flywheel": "flywheel",
+    "rim": "rim",
+    "hub": "web with hub",
+    "motor": "motor",
+    "gear": "gear",
+    "drum": "housing, drum",
+    "lid": "housing, lid",
+    "foot": "foot",
+    "cage": "cage of the motor",
+    "guard": "guard ring",
+    "plate": "plate under the feet",
+    "mast": "mast behind the trunk",
+    "sleeves": "sleeves around the trunk's screws",
+    "ring_fixture": "fixture to bond a ring in",
+}
+
+
+class PieceRow(NamedTuple):
+    """A piece, or equal screws, as the pictures number them.
+
+    Attributes:
+        number: in the pictures. quantity: in the whole device. name: for people.
+        made: "bought", "turned" or "printed", and of what.
+        file: to make it from; empty: none.
+    """
+
+    number: int
+    quantity: int
+    name: str
+    made: str
+    file: str
+
+
+class ScrewRow(NamedTuple):
+    """Equal screws: number in the pictures, what they are, and how they are tightened."""
+
+    number: int
+    quantity: int
+    designation: str
+    purpose: str
+    engagement: str
+    torque: str
+    rule: str
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """Sentences under a heading; in order where `numbered`."""
+
+    title: str
+    texts: tuple[str, ...]
+    numbered: bool = False
+
+
 def write(subject: Subject, folder: Path) -> Notes:
     """Write `assembly.pdf`."""
     assembly = assembly_of(subject)
@@ -67,7 +134,7 @@ def assembly_pages(assembly: Assembly) -> list[list[Item]]:
     # The exploded view, and below it the pieces by their numbers.
     view, scale = _exploded(assembly)
     first = [*view, *_scale("One module pulled apart", scale, EXPLODED_BOX)]
-    cells = [tuple(map(str, row)) for row in assembly.piece_rows()]
+    cells = [tuple(map(str, row)) for row in piece_rows(assembly)]
     top = EXPLODED_BOX[3] + 3.0
     half = (len(cells) + 1) // 2
     width = (RIGHT - LEFT - 2.0 * _INSET - _GUTTER) / 2.0
@@ -133,7 +200,7 @@ def _text_pages(assembly: Assembly, texts: Sequence[Chapter]) -> list[list[Item]
     items: list[Item] = []
     for drawn, scale, what, box in _sections(assembly):
         items += [*drawn, *_scale(what, scale, box)]
-    rows = [tuple(map(str, row)) for row in assembly.screw_rows()]
+    rows = [tuple(map(str, row)) for row in screw_rows(assembly)]
     header = ("No.", "Qty", "Screw", "What it holds", "Thread that holds", "Torque", "Set by")
     widths = (6.0, 8.0, 28.0, 0.0, 26.0, 18.0, 78.0)
     across = (LEFT + _INSET, TOP + 14.0, RIGHT - _INSET)
@@ -235,3 +302,97 @@ def _table(
         if number == 0:
             items.append(Line((left, y + 0.3), (right, y + 0.3), THIN))
     return items, y
+
+
+def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]:
+    """How a piece is made, and the file to make it from."""
+    motor = device.motor
+    if name == "motor":
+        return f"bought: {motor.full_name}", ""
+    if name == "gear":
+        return f"bought: {motor.gear}" if motor.gear != DIRECT.name else "bought", ""
+    of_housing = name in ("drum", "lid", "foot", "cage")
+    if of_housing or name.startswith(("pedestal", "ring_fixture")):
+        return "printed, PETG", f"{'housing_' if of_housing else ''}{name}.stl"
+    starts = {"rim": "flywheel rim", "hub": "flywheel web", "sleeves": "sleeve"}
+    start = starts.get(name, name)
+    row = next((each for each in bill if each.part.startswith(start)), None)
+    if name == "guard":
+        assert row is not None, "the bill has a row for the ring"
+        return f"{row.material}, {row.stock}", "guard_ring.stl"
+    if name in ("plate", "mast", "sleeves"):
+        cut = "" if row is None else f" from {row.material}, {row.stock}"
+        return f"cut{cut}", "" if name == "sleeves" else "plate.pdf"
+    made = "turned" if row is None else f"turned from {row.stock}, {row.material}"
+    return made, "wheel.pdf"
+
+
+def piece_rows(assembly: Assembly) -> Iterator[PieceRow]:
+    """Pieces and screws in the order of their numbers."""
+    bill = bill_rows(assembly.device)
+    drawn = {piece.name: piece for piece in (*assembly.pieces, *assembly.bonding)}
+    for piece in drawn.values():
+        number, count = assembly.numbers[piece.name], _count(assembly, piece)
+        if piece.fastening is not None:
+            what = piece.fastening.designation
+            yield PieceRow(number, count, f"screw, {short(piece.name)}", f"bought: {what}", "")
+        else:
+            label = _LABELS.get(piece.name, piece.name.replace("_", " "))
+            made, file = _made(assembly.device, piece.name, bill)
+            yield PieceRow(number, count, label, made, file)
+
+
+def screw_rows(assembly: Assembly) -> Iterator[ScrewRow]:
+    """Screws with their torques."""
+    for piece in assembly.pieces:
+        if piece.fastening is None:
+            continue
+        name, found, held = piece.name, assembly.screws[piece.name], piece.fastening
+        depth = f"{1e3 * found.engagement:.1f} mm ({found.engagement / held.screw.diameter:.1f} d)"
+        yield ScrewRow(
+            assembly.numbers[name],
+            _count(assembly, piece),
+            held.designation,
+            f"{held.purpose}{found.with_washers}",
+            depth,
+            f"{found.torque:.2g} N m",
+            found.rule,
+        )
+
+
+def _count(assembly: Assembly, piece: Piece) -> int:
+    """How many of it the device has."""
+    modules = 1 if piece.shared else piece.modules or len(assembly.device.modules)
+    return modules * (piece.count if piece.fastening is None else piece.fastening.count)
+
+
+def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
+    """All text, in the order of the work."""
+    notes = dict.fromkeys((*drive_notes(assembly.device), *assembly.notes))
+    before = [
+        "Read the safety notes at the end before anything turns.",
+        *(f"{note[:1].upper()}{note[1:]}." for note in notes),
+    ]
+    if any(
+        found.fastening.depth < IN_PLASTIC and "motor" in found.fastening.purpose
+        for found in assembly.screws.values()
+    ):
+        before.append(
+            "Measure how deep the motor's threads are before you put screws into them: the "
+            "catalogue does not know. A screw that is too long cuts into the winding; take a "
+            "shorter one, or washers, so that its tip stays 0.5 mm off the bottom."
+        )
+    before.append(
+        "Tools: torque screwdriver from 0.05 N m, hex keys, taps for the threads in the prints "
+        "(drill sizes are those of the holes), dial gauge, hand drill on a stand, scales to "
+        "0.01 g, tachometer."
+    )
+    whole = (
+        Chapter("Before you start", tuple(before)),
+        Chapter("Steps, for each module", tuple(module_steps(assembly)), numbered=True),
+        Chapter("Balance", tuple(balance(assembly))),
+        Chapter("Spin test, before anything goes on the robot", tuple(spin_test(assembly)), True),
+        Chapter("Wiring", tuple(Electrics(assembly.device, assembly.margins).sentences())),
+        Chapter("Safety", tuple(safety(assembly))),
+    )
+    return tuple(chapter for chapter in whole if chapter.texts)

@@ -1,6 +1,6 @@
 """What a builder has to know of a device, as plain values: its pieces and its screws.
 
-Pages and the report's section show the same rows; `steps` has the text.
+`booklet` has the rows and the chapters that pages and the report's section show of it.
 """
 
 import math
@@ -8,45 +8,19 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from math import pi, sqrt
-from typing import NamedTuple
 
 from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening
-from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.device import Device
 from ocs_design.device.foot_hold import FootHold, foot_hold
 from ocs_design.device.joints import burst_of
 from ocs_design.device.records.device import MarginRecord
 from ocs_design.device.solids import motor_mount
-from ocs_design.export.assembly.placed import (
-    Piece,
-    bonding_pieces,
-    holds_wheel,
-    module_pieces,
-)
-from ocs_design.export.bill_of_materials import BillRow, bill_rows
+from ocs_design.export.assembly.placed import Piece, bonding_pieces, holds_wheel, module_pieces
 from ocs_design.export.formats import Subject
 from ocs_design.parts.guard import Containment
 from ocs_design.parts.joints import preload as joint_preload
 from ocs_design.parts.joints import tightening_torque
 from ocs_design.parts.printed import PRESSURE_SHARE, STRENGTH, WASHER, WASHER_HEIGHT
-
-_LABELS = {
-    "flywheel": "flywheel",
-    "rim": "rim",
-    "hub": "web with hub",
-    "motor": "motor",
-    "gear": "gear",
-    "drum": "housing, drum",
-    "lid": "housing, lid",
-    "foot": "foot",
-    "cage": "cage of the motor",
-    "guard": "guard ring",
-    "plate": "plate under the feet",
-    "mast": "mast behind the trunk",
-    "sleeves": "sleeves around the trunk's screws",
-    "ring_fixture": "fixture to bond a ring in",
-}
-
 
 STRIP_SHARE = 1.0 / 3.0
 """Preload of a screw in a print over the one that strips its thread: prints shear along layers, and
@@ -57,34 +31,6 @@ ALUMINIUM_SHEAR = 207e6
 
 THREAD_SHARE = 0.5
 """Preload of a screw in aluminium over the one that strips its thread."""
-
-
-class PieceRow(NamedTuple):
-    """A piece, or equal screws, as the pictures number them.
-
-    Attributes:
-        number: in the pictures. quantity: in the whole device. name: for people.
-        made: "bought", "turned" or "printed", and of what.
-        file: to make it from; empty: none.
-    """
-
-    number: int
-    quantity: int
-    name: str
-    made: str
-    file: str
-
-
-class ScrewRow(NamedTuple):
-    """Equal screws: number in the pictures, what they are, and how they are tightened."""
-
-    number: int
-    quantity: int
-    designation: str
-    purpose: str
-    engagement: str
-    torque: str
-    rule: str
 
 
 @dataclass(frozen=True)
@@ -222,44 +168,6 @@ class Assembly:
         """What would hold a wheel that bursts at its top speed; None where that is not known."""
         return None if self.top_speed is None else burst_of(self.device)
 
-    def piece_rows(self) -> Iterator[PieceRow]:
-        """Pieces and screws in the order of their numbers."""
-        bill = bill_rows(self.device)
-        drawn = {piece.name: piece for piece in (*self.pieces, *self.bonding)}
-        for piece in drawn.values():
-            number, count = self.numbers[piece.name], self._count(piece)
-            if piece.fastening is not None:
-                what = piece.fastening.designation
-                yield PieceRow(number, count, f"screw, {short(piece.name)}", f"bought: {what}", "")
-            else:
-                label = _LABELS.get(piece.name, piece.name.replace("_", " "))
-                made, file = _made(self.device, piece.name, bill)
-                yield PieceRow(number, count, label, made, file)
-
-    def screw_rows(self) -> Iterator[ScrewRow]:
-        """Screws with their torques."""
-        for piece in self.pieces:
-            if piece.fastening is None:
-                continue
-            name, found, held = piece.name, self.screws[piece.name], piece.fastening
-            depth = (
-                f"{1e3 * found.engagement:.1f} mm ({found.engagement / held.screw.diameter:.1f} d)"
-            )
-            yield ScrewRow(
-                self.numbers[name],
-                self._count(piece),
-                held.designation,
-                f"{held.purpose}{found.with_washers}",
-                depth,
-                f"{found.torque:.2g} N m",
-                found.rule,
-            )
-
-    def _count(self, piece: Piece) -> int:
-        """How many of it the device has."""
-        modules = 1 if piece.shared else piece.modules or len(self.device.modules)
-        return modules * (piece.count if piece.fastening is None else piece.fastening.count)
-
     def number(self, name: str) -> str:
         """Number of a piece in the pictures as text refers to it; empty: there is none."""
         number = self.numbers.get(name)
@@ -307,29 +215,6 @@ class Assembly:
 def assembly_of(subject: Subject) -> Assembly:
     """Assembly of the subject's device, for the booklet and for the report."""
     return Assembly(subject.name, subject.device, subject.margins, subject.fitting)
-
-
-def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]:
-    """How a piece is made, and the file to make it from."""
-    motor = device.motor
-    if name == "motor":
-        return f"bought: {motor.full_name}", ""
-    if name == "gear":
-        return f"bought: {motor.gear}" if motor.gear != DIRECT.name else "bought", ""
-    of_housing = name in ("drum", "lid", "foot", "cage")
-    if of_housing or name.startswith(("pedestal", "ring_fixture")):
-        return "printed, PETG", f"{'housing_' if of_housing else ''}{name}.stl"
-    starts = {"rim": "flywheel rim", "hub": "flywheel web", "sleeves": "sleeve"}
-    start = starts.get(name, name)
-    row = next((each for each in bill if each.part.startswith(start)), None)
-    if name == "guard":
-        assert row is not None, "the bill has a row for the ring"
-        return f"{row.material}, {row.stock}", "guard_ring.stl"
-    if name in ("plate", "mast", "sleeves"):
-        cut = "" if row is None else f" from {row.material}, {row.stock}"
-        return f"cut{cut}", "" if name == "sleeves" else "plate.pdf"
-    made = "turned" if row is None else f"turned from {row.stock}, {row.material}"
-    return made, "wheel.pdf"
 
 
 def places(ends: Iterable[tuple[float, float]]) -> Iterator[str]:

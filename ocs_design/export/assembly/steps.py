@@ -1,30 +1,20 @@
-"""The text for a builder in the order of the work; pages and the report's section show the same."""
+"""The steps of a builder, in the order of the work."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
 
-from ocs_design.actuation.fasteners import IN_PLASTIC
 from ocs_design.catalogue.materials import materials
 from ocs_design.common.units import format_quantity
 from ocs_design.device.bodies import joint_name
 from ocs_design.device.foot_hold import foot_hold, unheld_moment
-from ocs_design.device.joints import SHAFT_JOINT, balance_of, joints_of, rim_fit
+from ocs_design.device.joints import RUN_OUT, SHAFT_JOINT, balance_of, joints_of, rim_fit
 from ocs_design.device.layout import PAIR
 from ocs_design.device.solids import drive_solids, foot_of
 from ocs_design.export.assembly.content import Assembly, Tightened, places
-from ocs_design.export.assembly.trials import balance, safety, spin_test
-from ocs_design.export.assembly_notes import drive_notes
-from ocs_design.export.device_parts import (
-    foot_holes,
-    pedestal_kinds,
-    wheel_geometry,
-)
+from ocs_design.export.device_parts import foot_holes, pedestal_kinds, wheel_geometry
 from ocs_design.export.drawing.wheel import Seat, seat
-from ocs_design.export.drawing.wheel_sheet import RUN_OUT
-from ocs_design.export.electrics import Electrics
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.foot import LONG_MARKS
@@ -47,48 +37,7 @@ DROP = 0.03e-3
 """Air on the diameter with which a hot rim drops on its web before it has cooled [m]."""
 
 
-@dataclass(frozen=True)
-class Chapter:
-    """Sentences under a heading; in order where `numbered`."""
-
-    title: str
-    texts: tuple[str, ...]
-    numbered: bool = False
-
-
-def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
-    """All text, in the order of the work."""
-    notes = dict.fromkeys((*drive_notes(assembly.device), *assembly.notes))
-    before = [
-        "Read the safety notes at the end before anything turns.",
-        *(f"{note[:1].upper()}{note[1:]}." for note in notes),
-    ]
-    if any(
-        found.fastening.depth < IN_PLASTIC and "motor" in found.fastening.purpose
-        for found in assembly.screws.values()
-    ):
-        before.append(
-            "Measure how deep the motor's threads are before you put screws into them: the "
-            "catalogue does not know. A screw that is too long cuts into the winding; take a "
-            "shorter one, or washers, so that its tip stays 0.5 mm off the bottom."
-        )
-    before.append(
-        "Tools: torque screwdriver from 0.05 N m, hex keys, taps for the threads in the prints "
-        "(drill sizes are those of the holes), dial gauge, hand drill on a stand, scales to "
-        "0.01 g, tachometer."
-    )
-    whole = (
-        Chapter("Before you start", tuple(before)),
-        Chapter("Steps, for each module", tuple(_module_steps(assembly)), numbered=True),
-        Chapter("Balance", tuple(balance(assembly))),
-        Chapter("Spin test, before anything goes on the robot", tuple(spin_test(assembly)), True),
-        Chapter("Wiring", tuple(Electrics(assembly.device, assembly.margins).sentences())),
-        Chapter("Safety", tuple(safety(assembly))),
-    )
-    return tuple(chapter for chapter in whole if chapter.texts)
-
-
-def _module_steps(assembly: Assembly) -> Iterator[str]:
+def module_steps(assembly: Assembly) -> Iterator[str]:
     """How one module is made, put together, tried, and set on the robot."""
     device = assembly.device
     if "drum" in assembly.numbers:
@@ -116,7 +65,7 @@ def _module_steps(assembly: Assembly) -> Iterator[str]:
         # Its threads are not known.
         yield (
             f"Fix the motor{assembly.number('motor')} to plate and drum, its axis within "
-            f"{RUN_OUT:g} mm of the middle of their hole, as said above."
+            f"{1e3 * RUN_OUT:g} mm of the middle of their hole, as said above."
         )
     yield from (assembly.screwed(name) for name in assembly.screws if name not in assembly.late)
     yield from _joint_steps(assembly)
@@ -125,7 +74,7 @@ def _module_steps(assembly: Assembly) -> Iterator[str]:
         yield (
             "Turn the wheel by hand: it is free all around, and a strip of "
             f"{1e3 * CLEARANCE - 0.5:g} mm passes between rim and housing. Check the rim's "
-            f"run-out on its motor: at most {2 * RUN_OUT:g} mm."
+            f"run-out on its motor: at most {2e3 * RUN_OUT:g} mm."
             f"{loose if balance_of(device).shifted else ''}"
         )
         yield "Balance the wheel on its motor (below): lid off, behind the spin test's wall."
@@ -154,8 +103,8 @@ def _wheel_steps(assembly: Assembly) -> Iterator[str]:
     """How the wheel is turned, shrunk on its web, or bonded around the bell of its motor."""
     device = assembly.device
     yield (
-        f"Turn the wheel to cad/wheel.pdf. Rim to bore: run-out at most {RUN_OUT:g} mm. Weigh "
-        f"it: {1e3 * device.flywheel.mass:.1f} g."
+        f"Turn the wheel to cad/wheel.pdf. Rim to bore: run-out at most {1e3 * RUN_OUT:g} mm. "
+        f"Weigh it: {1e3 * device.flywheel.mass:.1f} g."
     )
     if seat(wheel_geometry(device.flywheel)) is Seat.FITTED:
         hot, fit, material = "", rim_fit(device), materials().get(device.flywheel.material)
@@ -186,7 +135,7 @@ def _wheel_steps(assembly: Assembly) -> Iterator[str]:
     )
     yield (
         "Put the bell back on its stator and turn it: run-out of the ring at most "
-        f"{2 * RUN_OUT:g} mm, to both sides and up and down. If it runs out of true, press the "
+        f"{2e3 * RUN_OUT:g} mm, to both sides and up and down. If it runs out of true, press the "
         "bell out of the ring with a punch on its front, clean both and bond them again in a "
         "new fixture. If it runs true, fill the other edge of the gap with epoxy too."
     )

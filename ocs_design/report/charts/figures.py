@@ -3,33 +3,15 @@
 from collections.abc import Iterator, Mapping
 
 from ocs_design.common.files import safe_name
-from ocs_design.device.layout import PAIR
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.drive import drive_charts
 from ocs_design.report.charts.flights import distribution_charts, time_charts
 from ocs_design.report.charts.front import reserve_charts
-from ocs_design.report.charts.momentum import (
-    bound_charts,
-    criterion_chart,
-    ellipsoid_chart,
-    momentum_chart,
-    posture_chart,
-)
+from ocs_design.report.charts.momentum import bound_charts, incidence_charts
 from ocs_design.report.story import Story
 
 FOLDER = "figures"
 """Subfolder of an output folder."""
-
-
-def incidence_charts(story: Story) -> Iterator[Chart]:
-    """Inertia and momenta in the plane of the wheel axes, and how the axes could stand."""
-    yield ellipsoid_chart(story.design)
-    yield momentum_chart(story)
-    if story.design.ocs.axes != PAIR:
-        return
-    yield criterion_chart(story.design)
-    if story.postures:
-        yield posture_chart(story.design, story.postures)
 
 
 def scenario_charts(story: Story) -> Mapping[str, tuple[Chart, ...]]:

@@ -284,3 +284,14 @@ def _rows(
         rows=rows,
         height=_FRAME + _ROW * len(rows),
     )
+
+
+def incidence_charts(story: Story) -> Iterator[Chart]:
+    """Inertia and momenta in the plane of the wheel axes, and how the axes could stand."""
+    yield ellipsoid_chart(story.design)
+    yield momentum_chart(story)
+    if story.design.ocs.axes != PAIR:
+        return
+    yield criterion_chart(story.design)
+    if story.postures:
+        yield posture_chart(story.design, story.postures)

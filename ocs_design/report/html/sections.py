@@ -9,9 +9,8 @@ from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.gears import known_gears
 from ocs_design.catalogue.materials import materials
 from ocs_design.device.records.design import OcsDesign
-from ocs_design.export.assembly.booklet import pictures
+from ocs_design.export.assembly.booklet import chapters, pictures, piece_rows, screw_rows
 from ocs_design.export.assembly.content import Assembly
-from ocs_design.export.assembly.steps import chapters
 from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.wheel import (
     bore_diameter,
@@ -24,10 +23,9 @@ from ocs_design.parts.joints import Grade
 from ocs_design.report import flights, limits, monte_carlo, selection, warnings
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.drive import drive_charts
-from ocs_design.report.charts.figures import incidence_charts
 from ocs_design.report.charts.flights import distribution_charts
 from ocs_design.report.charts.front import reserve_charts
-from ocs_design.report.charts.momentum import bound_charts
+from ocs_design.report.charts.momentum import bound_charts, incidence_charts
 from ocs_design.report.device import device_facts, drawn_facts, robot_facts
 from ocs_design.report.html.elements import (
     Markup,
@@ -268,7 +266,7 @@ def assembly_section(story: Story) -> Markup:
     )
     pieces, screws = (
         tuple(tuple(map(str, row)) for row in rows)
-        for rows in (assembly.piece_rows(), assembly.screw_rows())
+        for rows in (piece_rows(assembly), screw_rows(assembly))
     )
     exploded, *cut = (
         element("figure", Markup(each), class_="sheet") for each in pictures(assembly)

@@ -19,9 +19,8 @@ from ocs_design.device.joints import balance_of, burst_of, rim_fit
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.device.records.device import MarginRecord
 from ocs_design.device.solids import foot_of
-from ocs_design.export.assembly.booklet import assembly_pages
+from ocs_design.export.assembly.booklet import assembly_pages, chapters, piece_rows, screw_rows
 from ocs_design.export.assembly.content import Assembly
-from ocs_design.export.assembly.steps import chapters
 from ocs_design.export.assembly.views import pulled_apart, spread
 from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.export.device_parts import printed_parts
@@ -95,20 +94,20 @@ def test_every_screw_of_the_bill_is_numbered_and_has_a_torque(assembly):
         for row in bill_rows(assembly.device)
         if row.part.startswith("screw")
     ]
-    rows = list(assembly.screw_rows())
+    rows = list(screw_rows(assembly))
     assert sorted((row.designation, row.quantity) for row in rows) == sorted(bought)
     assert all(re.fullmatch(r"\d.*N m", row.torque) for row in rows)
-    numbers = [row.number for row in assembly.piece_rows()]
+    numbers = [row.number for row in piece_rows(assembly)]
     assert numbers == list(range(1, len(numbers) + 1))
 
 
 def test_the_plate_is_under_the_foot_with_its_screws_and_sleeves():
     """Where it stands, its top is the foot's underside; pulled apart they are one below another."""
     assembly = Assembly("solo12", DEVICES["on a plate"])
-    rows = {row.name: (row.quantity, row.file) for row in assembly.piece_rows()}
+    rows = {row.name: (row.quantity, row.file) for row in piece_rows(assembly)}
     assert rows["plate under the feet"] == (1, "plate.pdf")
     assert rows["sleeves around the trunk's screws"] == (3, "")
-    screws = [row for row in assembly.screw_rows() if row.purpose.startswith("plate")]
+    screws = [row for row in screw_rows(assembly) if row.purpose.startswith("plate")]
     assert [row.quantity for row in screws] == [1, 2, 1]
 
     def low_and_high(pieces, name):
@@ -168,7 +167,7 @@ def test_a_guard_ring_is_built_and_told_with_its_limits():
     assert device.guard_wall >= wall
     assert "The guard ring of 1.5 mm holds that piece" in said
     assert "no ring of this kind has been tested" in said
-    rows = {row.name: row for row in assembly.piece_rows()}
+    rows = {row.name: row for row in piece_rows(assembly)}
     assert rows["guard ring"].file == "guard_ring.stl"
     thin = texts(Assembly("solo12", replace(device, guard_wall=wall / 2.0)), "Safety")
     assert "It does not hold a burst rim" in thin
@@ -299,7 +298,7 @@ def test_pedestals_of_two_shapes_stand_beside_each_other():
         for side in ("left", "right")
     ]
     assert along[1].max() < along[0].min()
-    assert {"pedestal left", "pedestal right"} <= {row.name for row in assembly.piece_rows()}
+    assert {"pedestal left", "pedestal right"} <= {row.name for row in piece_rows(assembly)}
     # In their places they have one seat.
     placed = {piece.name: piece for piece in assembly.pieces}
     assert placed["pedestal_left"].aside == 0.0 > placed["pedestal_right"].aside

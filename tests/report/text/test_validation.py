@@ -5,8 +5,11 @@ import io
 import pytest
 from rich.console import Console
 
-from ocs_design.device.records.flights import ValidationRecord
-from ocs_design.report.story import lift_off_and_touchdown, was_in_the_air
+from ocs_design.device.records.flights import (
+    ValidationRecord,
+    lift_off_and_touchdown,
+    was_in_the_air,
+)
 from ocs_design.report.text.validation import print_runs
 
 METRICS = {
