@@ -46,7 +46,7 @@ def is_package(path):
     return (path / "__init__.py").exists()
 
 
-DEEPEST = 22
+DEEPEST = 18
 """Modules in the longest chain of imports."""
 
 

@@ -9,9 +9,7 @@ from ocs_design.parts.joints import Margin
 from ocs_design.report.quantities import degrees, degrees_number, grams, inertia_number, quantity
 from ocs_design.report.selection import best_drives, drive_name
 from ocs_design.report.table import Cell, Rows, Table, Tone, Toned, columns, listed
-from ocs_design.sizing.limits import LIMITS, TIME
-from ocs_design.sizing.margins import RMS_CURRENT
-from ocs_design.sizing.selection.device import (
+from ocs_design.sizing.lightest_module import (
     BELL,
     BOND,
     HOLED_STRESS,
@@ -21,6 +19,8 @@ from ocs_design.sizing.selection.device import (
     MOUNT,
     WEB,
 )
+from ocs_design.sizing.limits import LIMITS, TIME
+from ocs_design.sizing.margins import RMS_CURRENT
 
 _SHARE = 0.005
 """Least share of the reserve that is shown."""

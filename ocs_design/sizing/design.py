@@ -5,8 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from ocs_design.actuation.tilt_inertia import TiltInertia
-from ocs_design.actuation.wheel_load import held, without_each
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import Infeasible
 from ocs_design.device.layout import PAIR, Criterion
@@ -31,7 +29,7 @@ from ocs_design.sizing.selection.device import with_demands
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.select import device_at
 from ocs_design.sizing.sized import Choice, Designed, sized_by_bound, sized_selection
-from ocs_design.sizing.specified import selection_problem, specified_criterion
+from ocs_design.sizing.specified import require_survival, selection_problem, specified_criterion
 
 BY_HAND = "by hand"
 """Criterion of an incidence, or source of a spin inertia, that the user gave."""
@@ -155,54 +153,6 @@ def _designed(
         hint=f"{DEVICE_MASS.loose_text(device.mass)} would do. Without this limit `size` tells "
         "what makes it lighter: more room, voltage or time.",
     )
-
-
-class CannotSurvive(Infeasible):
-    """The layout cannot do without any one of its wheels, whatever they weigh."""
-
-
-def require_survival(problem: SelectionProblem) -> None:
-    """Refuse a layout that cannot do a maneuver with a wheel left out, if that is asked.
-
-    Raises:
-        CannotSurvive: it cannot.
-    """
-    requirement, layout = problem.requirement, problem.layout
-    lost: dict[str, list[str]] = {}
-    if requirement.detection is None:
-        return
-    inertia = TiltInertia.uncoupled(np.diag(problem.robot.inertia)[:2])
-    asked: dict[str, tuple[float | None, FloatArray]] = {
-        maneuver.name: (maneuver.incidence, np.abs(slew.swept) + np.abs(slew.momentum))
-        for maneuver in requirement.maneuvers
-        for slew in [maneuver.slew(inertia, requirement.standing_height)]
-    }
-    if requirement.rate_change is not None:
-        asked["the rate change"] = None, np.ones(2)
-    for name, (own, momentum) in asked.items():
-        at = problem.incidence if own is None else own
-        axes = layout.axes(_SOME_ANGLE if at is None else at)[:2]
-        # Of either sense: that of roll and pitch together may lie along an axis by chance.
-        both = momentum * np.array([[1.0, 1.0], [1.0, -1.0]])
-        for wheel, left in zip(layout.names, without_each(axes), strict=True):
-            if not np.isfinite(held(left, both).most).all():
-                lost.setdefault(wheel, []).append(name)
-    if lost:
-        wheel, names = next(iter(lost.items()))
-        rest = "the others do" if len(layout.names) > 1 else "it does"
-        raise CannotSurvive(
-            f"{layout.text[0].upper()}{layout.text[1:]} does not survive that any one drive stops: "
-            f"without wheel {wheel!r} {rest} not hold the momentum about roll and pitch that "
-            f"{listed(names)} ask{'s' if len(names) == 1 else ''} for.",
-            binding=["survives"],
-            required_spin_inertia=None,
-            largest_spin_inertia=0.0,
-            relaxations={},
-        )
-
-
-_SOME_ANGLE = np.pi / 4.0
-"""Of a layout whose angle is still to be chosen [rad]: whether axes span is the same at all."""
 
 
 SURVIVORS = ("triad", *MORE_PAIRS[:1], PYRAMID)

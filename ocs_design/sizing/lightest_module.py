@@ -35,12 +35,14 @@ right-hand side of the last line.
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ocs_design.common.arrays import FloatArray, Table
 from ocs_design.parts.module import Shell
+from ocs_design.requirement.device_sections import Envelope
 from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits
 from ocs_design.sizing.module_radii import largest_radius, smallest_radius
 
@@ -250,3 +252,72 @@ def _bore_at_height(
     beyond = full - limits.web * square**2
     bore: FloatArray = np.sqrt(np.maximum(square**2 - beyond / over, 0.0))
     return bore
+
+
+HOUSING = "housing"
+"""Stands for the radius where no limit holds it: a larger rim is lighter, but its housing and its
+foot are heavier."""
+
+
+BELL, BOND = "bell", "bond on the bell"
+"""Stand for the bore, and the height, of a ring around a motor's bell, and for the radius that its
+bond holds."""
+
+
+HUB, WEB = "hub", "web"
+"""Stand for the bore and the height where the hub and the web ask for more than was specified."""
+
+
+LIGHTENING_HOLES, HOLED_STRESS = "lightening holes", "stress at lightening holes"
+"""Stand for the bore where they ask for more, and for the hoop stress where they stand less."""
+
+
+CUT_WALL, CUT_HEIGHT = "wall for edges and holes", "height for edges and holes"
+"""Stand for wall and height where chamfers or balancing holes ask for more than was specified."""
+
+
+MOUNT = "mount"
+"""Stands for the radius where the motor's mount asks for a larger housing."""
+
+
+_TOUCHING = 1e-5
+"""Relative distance from an active limit; a hundredth of what can be turned."""
+
+
+def binding_limits(shape: ModuleShape, limits: RimLimits, room: Envelope) -> tuple[str, ...]:
+    """Names of the limits that one module touches, as in the specification.
+
+    Args:
+        shape: of the module. limits: of its rim; both scalars.
+        room: as specified, without what web and hub take.
+    """
+    at, inner, outer = limits, float(shape.inner_radius), float(shape.outer_radius)
+    height = float(shape.height)
+    weight, bore_weight = at.hoop_weights
+    stretched = weight * outer**2 + bore_weight * inner**2
+    bore = HUB if at.inner_radius_min > room.inner_radius_min else "r_min"
+    if np.isfinite(at.inner_radius_max):
+        bore = BELL
+    if at.lightened_bore >= at.inner_radius_min > 0.0:
+        bore = LIGHTENING_HOLES
+    stress = HOLED_STRESS if at.stretch_left < 1.0 else "hoop_stress"
+    seat = CUT_HEIGHT if at.cuts.height_min >= at.height_min else WEB
+    flat = seat if at.height_min > room.height_min else "h_min"
+    wall = CUT_WALL if at.wall_min > room.wall_min else "wall_min"
+    tall = BELL if bore == BELL and at.height_max < room.height_max else "h_max"
+    largest = BOND if at.outer_radius_max < room.outer_radius_max else "r_max"
+    touched: dict[str, tuple[Any, Any]] = {
+        largest: (outer, at.outer_radius_max),
+        tall: (height, at.height_max),
+        stress: (stretched, at.stretch_max),
+        "wheel_mass_max": (float(shape.rim_mass), at.mass_max),
+        bore: (inner, at.inner_radius_min),
+        flat: (height, at.height_min),
+        wall: (outer - inner, at.wall_min),
+        MOUNT: (outer, at.outer_radius_min),
+    }
+    names = tuple(
+        name for name, (value, limit) in touched.items() if abs(value - limit) <= _TOUCHING * value
+    )
+    radius_is_held = {"r_max", BOND, stress, MOUNT} & set(names) or {flat, wall} <= set(names)
+    return names if radius_is_held else (*names, HOUSING)

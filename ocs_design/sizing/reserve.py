@@ -26,8 +26,7 @@ from ocs_design.requirement.uncertainty import UncertaintySection, complete_unce
 from ocs_design.requirement.vocabulary import RELIABILITY
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.selection.demand import held_in_roll, wheel_task
-from ocs_design.sizing.selection.device import inertia_at
-from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
+from ocs_design.sizing.selection.problem import Candidate, SelectionProblem, inertia_at
 
 LEVEL = np.radians(5.0)
 """Largest roll and pitch at touchdown [rad], by the pass rule of the flights."""

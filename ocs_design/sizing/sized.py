@@ -24,8 +24,7 @@ from ocs_design.sizing.bound.rim_problem import RimProblem
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.limits import RIM_LIMITS, STRESS
 from ocs_design.sizing.reserve import Reserve
-from ocs_design.sizing.selection.device import inertia_at
-from ocs_design.sizing.selection.problem import Candidate, Selection, SelectionProblem
+from ocs_design.sizing.selection.problem import Candidate, Selection, SelectionProblem, inertia_at
 
 if TYPE_CHECKING:
     from ocs_design.sizing.trajectory.co_design import CoDesign

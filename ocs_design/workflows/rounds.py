@@ -17,13 +17,7 @@ from ocs_design.device.checks import device_warnings
 from ocs_design.device.records.flights import SurvivalRecord
 from ocs_design.jumping.jump import JumpPlans
 from ocs_design.monte_carlo.campaign import Campaign, write_results
-from ocs_design.monte_carlo.certificate import (
-    ROUND,
-    ROUNDS,
-    SequentialTest,
-    certificate,
-    lesson,
-)
+from ocs_design.monte_carlo.certificate import ROUND, ROUNDS, SequentialTest, certificate, lesson
 from ocs_design.monte_carlo.outcomes import Outcomes, blocks_of
 from ocs_design.monte_carlo.running import ThisMachine, run_campaign
 from ocs_design.monte_carlo.summary import summarised
@@ -43,7 +37,7 @@ from ocs_design.simulation.engine import POSE_RATE
 from ocs_design.simulation.run import Run
 from ocs_design.simulation.trotting import require_trot
 from ocs_design.sizing.advice import unasked
-from ocs_design.sizing.design import CannotSurvive, design_device, survivors
+from ocs_design.sizing.design import design_device, survivors
 from ocs_design.sizing.fallbacks import (
     Heavier,
     Tried,
@@ -59,6 +53,7 @@ from ocs_design.sizing.on_robot import NeverHeld
 from ocs_design.sizing.reserve import Reserve
 from ocs_design.sizing.selection.rejections import Refused
 from ocs_design.sizing.sized import Designed
+from ocs_design.sizing.specified import CannotSurvive
 from ocs_design.workflows.flying import Flights, control_of, trajectories
 
 if TYPE_CHECKING:

@@ -13,9 +13,9 @@ from ocs_design.requirement.device_sections import OcsSection
 from ocs_design.requirement.reading import parse_specification, specification_of
 from ocs_design.requirement.specification import Specification, merge, specification_from_options
 from ocs_design.requirement.vocabulary import LAYOUTS
-from ocs_design.sizing.design import CannotSurvive, design_device
+from ocs_design.sizing.design import design_device
 from ocs_design.sizing.selection.bounds import RimFloor
-from ocs_design.sizing.specified import selection_problem, specified_layout
+from ocs_design.sizing.specified import CannotSurvive, selection_problem, specified_layout
 from ocs_design.sizing.trajectory.plans import drive_line_of, plan
 from ocs_design.workflows.layouts import compare_layouts
 from ocs_design.workflows.pareto import read_task

@@ -1,7 +1,6 @@
-"""A solved candidate as a whole device, the limits that hold its mass, and its figures."""
+"""A solved candidate as a whole device, and its figures."""
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -15,38 +14,13 @@ from ocs_design.device.records.selection import TaskDemand
 from ocs_design.parts.module import standing
 from ocs_design.parts.rim import wheel_body
 from ocs_design.requirement.bound import AXES
-from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.sizing.bound.rim_problem import RimLimits
-from ocs_design.sizing.lightest_module import ModuleShape
+from ocs_design.sizing.lightest_module import binding_limits
 from ocs_design.sizing.place import braked, motor_size
 from ocs_design.sizing.selection.demand import held_by_rate, held_in_roll, wheel_task
 from ocs_design.sizing.selection.fixed_point import Solved
-from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
-
-HOUSING = "housing"
-"""Stands for the radius where no limit holds it: a larger rim is lighter, but its housing and its
-foot are heavier."""
-
-BELL, BOND = "bell", "bond on the bell"
-"""Stand for the bore, and the height, of a ring around a motor's bell, and for the radius that its
-bond holds."""
-
-HUB, WEB = "hub", "web"
-"""Stand for the bore and the height where the hub and the web ask for more than was specified."""
-
-LIGHTENING_HOLES, HOLED_STRESS = "lightening holes", "stress at lightening holes"
-"""Stand for the bore where they ask for more, and for the hoop stress where they stand less."""
-
-CUT_WALL, CUT_HEIGHT = "wall for edges and holes", "height for edges and holes"
-"""Stand for wall and height where chamfers or balancing holes ask for more than was specified."""
-
-MOUNT = "mount"
-"""Stands for the radius where the motor's mount asks for a larger housing."""
-
-_TOUCHING = 1e-5
-"""Relative distance from an active limit; a hundredth of what can be turned."""
+from ocs_design.sizing.selection.problem import Candidate, SelectionProblem, inertia_at
 
 
 def device_of(solved: Solved) -> Candidate:
@@ -104,13 +78,6 @@ def device_of(solved: Solved) -> Candidate:
         layout=problem.layout,
         on_bell=on_bell,
     )
-
-
-def inertia_at(problem: SelectionProblem, device: Candidate, incidence: float) -> TiltInertia:
-    """Inertia of robot and device, braked, with the modules turned to this incidence."""
-    bodies = (device.wheel, device.carrier)
-    whole = braked(problem.robot, bodies, device.centers, incidence, device.layout)
-    return TiltInertia.of(whole.inertia)
 
 
 def with_demands(problem: SelectionProblem, device: Candidate) -> Candidate:
@@ -193,42 +160,3 @@ def survived(problem: SelectionProblem, device: Candidate, detection: float) -> 
 
 _ROUNDED = 1e-6
 """Share of what is asked that a device which was sized for it may seem to miss."""
-
-
-def binding_limits(shape: ModuleShape, limits: RimLimits, room: Envelope) -> tuple[str, ...]:
-    """Names of the limits that one module touches, as in the specification.
-
-    Args:
-        shape: of the module. limits: of its rim; both scalars.
-        room: as specified, without what web and hub take.
-    """
-    at, inner, outer = limits, float(shape.inner_radius), float(shape.outer_radius)
-    height = float(shape.height)
-    weight, bore_weight = at.hoop_weights
-    stretched = weight * outer**2 + bore_weight * inner**2
-    bore = HUB if at.inner_radius_min > room.inner_radius_min else "r_min"
-    if np.isfinite(at.inner_radius_max):
-        bore = BELL
-    if at.lightened_bore >= at.inner_radius_min > 0.0:
-        bore = LIGHTENING_HOLES
-    stress = HOLED_STRESS if at.stretch_left < 1.0 else "hoop_stress"
-    seat = CUT_HEIGHT if at.cuts.height_min >= at.height_min else WEB
-    flat = seat if at.height_min > room.height_min else "h_min"
-    wall = CUT_WALL if at.wall_min > room.wall_min else "wall_min"
-    tall = BELL if bore == BELL and at.height_max < room.height_max else "h_max"
-    largest = BOND if at.outer_radius_max < room.outer_radius_max else "r_max"
-    touched: dict[str, tuple[Any, Any]] = {
-        largest: (outer, at.outer_radius_max),
-        tall: (height, at.height_max),
-        stress: (stretched, at.stretch_max),
-        "wheel_mass_max": (float(shape.rim_mass), at.mass_max),
-        bore: (inner, at.inner_radius_min),
-        flat: (height, at.height_min),
-        wall: (outer - inner, at.wall_min),
-        MOUNT: (outer, at.outer_radius_min),
-    }
-    names = tuple(
-        name for name, (value, limit) in touched.items() if abs(value - limit) <= _TOUCHING * value
-    )
-    radius_is_held = {"r_max", BOND, stress, MOUNT} & set(names) or {flat, wall} <= set(names)
-    return names if radius_is_held else (*names, HOUSING)

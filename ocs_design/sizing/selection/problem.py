@@ -11,6 +11,7 @@ import numpy as np
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.motor import Gear, Motor
 from ocs_design.actuation.supply import Supply
+from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import UsageError
@@ -35,7 +36,7 @@ from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.rim_problem import RimLimits, check_limits
 from ocs_design.sizing.limits import BUS_POWER, BUS_VOLTAGE, RIM_LIMITS, TIME, WHEEL_SPEED, Limit
-from ocs_design.sizing.place import Place
+from ocs_design.sizing.place import Place, braked
 
 
 @dataclass(frozen=True, eq=False)
@@ -424,3 +425,10 @@ class Selection:
     def best(self) -> Candidate:
         """The lightest."""
         return self.ranking[0]
+
+
+def inertia_at(problem: SelectionProblem, device: Candidate, incidence: float) -> TiltInertia:
+    """Inertia of robot and device, braked, with the modules turned to this incidence."""
+    bodies = (device.wheel, device.carrier)
+    whole = braked(problem.robot, bodies, device.centers, incidence, device.layout)
+    return TiltInertia.of(whole.inertia)

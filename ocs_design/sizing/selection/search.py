@@ -6,13 +6,13 @@ step (`bounds`), and becomes the mass itself where the fixed point is solved (`f
 the most promising candidates first. A candidate is left out once its bound exceeds the tenth
 lightest device that is known, and is none of a motor that may be among the five with the lightest
 devices: so the ten lightest and the lightest of the five best motors are found whatever the order.
-What may be the lightest of all is refined in the end.
+What may be the lightest of all is to be refined in the end (`Found.refine`).
 
 Materials of one density make devices of one mass, but for the last digits. Of such devices the
 safest comes first (`devices_by_mass`).
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -28,9 +28,8 @@ from ocs_design.sizing.selection.bounds import (
 )
 from ocs_design.sizing.selection.candidates import Candidates, Guess, drives_of
 from ocs_design.sizing.selection.drives import Drives
-from ocs_design.sizing.selection.fixed_point import Solved, solve
+from ocs_design.sizing.selection.fixed_point import FixedPoint, Solved, solve
 from ocs_design.sizing.selection.problem import SelectionProblem, lightest_first
-from ocs_design.sizing.selection.refinement import refine
 
 RANKED = 10
 """Devices that a selection lists at least."""
@@ -119,8 +118,12 @@ class Found(PairBounds):
         self.batches.append(solved)
         self._list([*self.places, *_ranks(len(self.batches) - 1, solved)])
 
-    def refine(self) -> None:
-        """Refine what may be the lightest of all, and what may be feasible and lighter."""
+    def refine(self, by: Callable[[Candidates, FixedPoint], FixedPoint]) -> None:
+        """Refine what may be the lightest of all, and what may be feasible and lighter.
+
+        Args:
+            by: the lightest device of one candidate near a point (`refinement.refine`).
+        """
         fall = _FALL if self.problem.incidence is None else _FALL_STATED
         for index, batch in enumerate(self.batches):
             near = batch.mass < (1.0 + fall) * self.lightest
@@ -128,7 +131,7 @@ class Found(PairBounds):
             for row in np.flatnonzero((near | hope) & (batch.guess.mass < self.lightest)):
                 at = np.array([row])
                 one = batch.take(at)
-                point = refine(one.candidates, one.point)
+                point = by(one.candidates, one.point)
                 better = replace(one, point=replace(point, iterations=one.point.iterations))
                 if better.mass[0] < one.mass[0]:
                     self.batches[index] = self.batches[index].put(at, better)
@@ -176,10 +179,12 @@ def _best_of_motors(ordered: Sequence[Rank]) -> list[Rank]:
 
 
 def search(problem: SelectionProblem) -> Found:
-    """The lightest devices, and for every motor and gear how light its lightest is at least."""
+    """The lightest devices, and for every motor and gear how light its lightest is at least.
+
+    None is refined yet (`Found.refine`).
+    """
     found = Found.of(problem)
     _search(found)
-    found.refine()
     return found
 
 

@@ -45,7 +45,7 @@ def select(problem: SelectionProblem) -> Selection:
         Refused: no motor can do it; says what is missing.
         UsageError: there is nothing to choose from or nothing to do, or a limit is no limit.
     """
-    found = _found(problem, search)
+    found = _found(problem, refined_search)
     ranked = {rank.motor for rank in found.places}
     best, *others = map(device_of, found.devices)
     return Selection(
@@ -55,6 +55,13 @@ def select(problem: SelectionProblem) -> Selection:
         * len(problem.materials)
         * len(cells_of(problem.incidence)),
     )
+
+
+def refined_search(problem: SelectionProblem) -> Found:
+    """The lightest devices, refined, and how light that of every motor and gear is at least."""
+    found = search(problem)
+    found.refine(refine)
+    return found
 
 
 def _found(problem: SelectionProblem, look: Callable[[SelectionProblem], Found]) -> Found:

@@ -23,10 +23,9 @@ from ocs_design.parts.motor_mount import mount_of
 from ocs_design.requirement.bound import AXES
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.robot.mass import MassProperties
-from ocs_design.sizing.lightest_module import lightest_module_at
+from ocs_design.sizing.lightest_module import binding_limits, lightest_module_at
 from ocs_design.sizing.place import braked, motor_size
 from ocs_design.sizing.selection.demand import UNDOES, held_by_rate
-from ocs_design.sizing.selection.device import binding_limits
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
 from ocs_design.sizing.trajectory.boundary import boundary
 from ocs_design.sizing.trajectory.flight import Flight, fly

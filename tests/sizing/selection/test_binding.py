@@ -10,8 +10,12 @@ from ocs_design.parts.module import Printed
 from ocs_design.parts.rim import LIGAMENT
 from ocs_design.requirement.device_sections import Envelope
 from ocs_design.sizing.bound.rim_problem import RimProblem, limits_with_web
-from ocs_design.sizing.lightest_module import lightest_module, lightest_module_at
-from ocs_design.sizing.selection.device import HOUSING, binding_limits
+from ocs_design.sizing.lightest_module import (
+    HOUSING,
+    binding_limits,
+    lightest_module,
+    lightest_module_at,
+)
 
 ROOM = Envelope(
     outer_radius_max=0.03, inner_radius_min=0.005, height_max=0.01, height_min=0.002,
