@@ -82,7 +82,7 @@ def drum_and_lid(outer, height, mount, half):
 
 def base_of(thick):
     """Thickness of a base under a plate."""
-    return max(3e-3, 0.52 * thick)
+    return max(3e-3, 0.6 * thick)
 
 
 def foot_of(outer, height, mount, half, thick):

@@ -44,7 +44,7 @@ def shell_screws(foot):
     for k in range(4):
         angle = pi / 4.0 + k * pi / 2.0
         yield point(each.mass(6e-3), radius * cos(angle), along, radius * sin(angle))
-    each, base = screw("M3"), max(3e-3, 0.52 * foot.thickness)
+    each, base = screw("M3"), max(3e-3, 0.6 * foot.thickness)
     long = standard(base + 3e-3)
     up = base - each.centre(long) - foot.wheel_height
     # Two on the left foot, two on the right one that mirror them: on average half of one each.

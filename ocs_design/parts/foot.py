@@ -28,6 +28,7 @@ from ocs_design.parts.printed import (
     MODULUS,
     PLATE_THICKNESS,
     SHOCK,
+    SLOT_EDGE,
     STRENGTH,
     STRENGTH_ACROSS,
     TRUNK_SCREW,
@@ -198,7 +199,8 @@ def plate_thickness(foot: Foot[float], mass: float, floor: float = 0.0) -> float
     """Thickness of a plate with which a foot and a cage bear `SHOCK`, to the next 0.1 mm [m].
 
     Stem, base and the cage's floor are as thick as it or a share of it. It is never less than
-    `PLATE_THICKNESS`, and never more than half the stem's width, a solid block.
+    `PLATE_THICKNESS`, and never more than half the stem's width, a solid block. The foot tilts as
+    on a carrier plate, which may end within its base.
 
     Args:
         foot: whose plate's own thickness is not looked at. mass: of the module above it [kg].
@@ -210,7 +212,9 @@ def plate_thickness(foot: Foot[float], mass: float, floor: float = 0.0) -> float
     tenths = ceil(round(1e4 * asked, 6))
     # A thicker plate moves the screws outwards, where they pull less at a longer arm.
     while tenths < 1e4 * foot.stem:
-        if foot_shock(replace(foot, thickness=tenths / 1e4), mass) >= SHOCK:
+        thicker = replace(foot, thickness=tenths / 1e4)
+        edge = min(thicker.base_radius, thicker.slot_radius + SLOT_EDGE)
+        if foot_shock(thicker, mass, edge) >= SHOCK:
             break
         tenths += 1
     return max(PLATE_THICKNESS, min(tenths / 1e4, foot.stem))

@@ -57,9 +57,9 @@ LID_SCREW = screw("M2")
 BASE_THICKNESS = 3.0e-3
 """Least thickness of the base of a foot [m]: the trunk's screws press on it."""
 
-BASE_SHARE = 0.52
-"""Thickness of a base over that of the foot's plate, where that is more. One moment bends both: a
-base bears `SHOCK` with 0.28 to 0.54 of its plate's thickness, on modules of 0.16 to 3.7 kg."""
+BASE_SHARE = 0.6
+"""Thickness of a base over that of the foot's plate, where that is more. One moment bends both: on
+a carrier plate a base bears `SHOCK` with 0.58 to 0.59 of it, under modules of 1.2 to 3.2 kg."""
 
 FLOOR = 3.0e-3
 """Least thickness of the floor of a cage [m]: the motor's screws press on it, as the trunk's do on
@@ -74,6 +74,10 @@ TRUNK_SCREW, TRUNK_SCREW_COUNT = screw("M3"), 2
 
 AROUND_SLOT = max(TRUNK_SCREW.head_diameter / 2.0, TRUNK_SCREW.clearance_hole / 2.0 + WALL)
 """Room of heads, or of a wall, around the middle of a slot [m]."""
+
+SLOT_EDGE = max(AROUND_SLOT, 1.5 * TRUNK_SCREW.diameter)
+"""Width of a carrier plate around the middle of a slot [m]: 1.5 diameters of the screw's hole in
+it, where EN 1993-1-8, table 3.3, asks for 1.2."""
 
 WASHER, WASHER_ACROSS, WASHER_HEIGHT = "ISO 7093-1 - 3", 9.0e-3, 0.8e-3
 """Large washer for such a screw, its largest diameter and height [m]: ISO 7093-1:2000, table 1."""

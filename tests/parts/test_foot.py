@@ -120,36 +120,41 @@ def test_a_stem_yields_where_a_cantilever_does():
 
 
 @pytest.mark.parametrize(
-    ("stands", "pull", "thick"), [(None, 279.0, 4.65), (38.72e-3, 321.0, 4.99)]
+    ("stands", "pull", "thick"), [(None, 129.9, 5.47), (63.26e-3, 135.1, 5.58)]
 )
 def test_a_base_yields_where_a_screw_bends_it(stands, pull, thick):
-    """1.38 kg and 20 g at 86.8 mm tilt the foot by 23.5 N m, about the edge of its base.
+    """1.38 kg and 20 g at 61 mm tilt the foot by 16.5 N m, about the edge of its base.
 
-    Its screws are at 34.2 mm on either side of the middle, 13.5 and 82.0 mm from there, and pull
-    as they are far away: 279 N, 45.1 mm from a stem 74.2 mm wide, and 4.65 mm of 47 MPa bear it.
-    About the edge of a plate of 38.7 mm, 4.5 and 72.9 mm from there: 321 N and 4.99 mm.
+    Its screws are at 58.8 mm on either side of the middle, 8.9 and 126.4 mm from there, and pull as
+    they are far away: 130 N, 87.0 mm from a stem 48.2 mm wide, and 5.47 mm of 47 MPa bear it. About
+    the edge of a plate of 63.3 mm, 4.5 and 122.0 mm from there: 135 N and 5.58 mm.
     """
-    foot = Foot(Housing(0.0765, 0.0153, MountHoles(0.0495)), 0.009)
+    foot = Foot(Housing(0.05, 0.05, MountHoles(0.0195)), 0.009)
     edge, out = foot.base_radius, foot.slot_radius
-    assert (1e3 * edge, 1e3 * out) == pytest.approx((47.75, 34.22), abs=0.01)
+    assert (1e3 * edge, 1e3 * out) == pytest.approx((67.67, 58.76), abs=0.01)
     moment = 1.38 * 20.0 * 9.80665 * foot.wheel_height
     near, far = (stands or edge) - out, (stands or edge) + out
     pulled = moment * far / (near**2 + far**2)
-    assert (moment, pulled) == pytest.approx((23.5, pull), rel=2e-3)
+    assert (moment, pulled) == pytest.approx((16.51, pull), rel=2e-3)
     arm, width = out + foot.housing.half_height, 2.0 * foot.stem
     needed = np.sqrt(6.0 * pulled * arm / (width * 47e6))
     assert 1e3 * needed == pytest.approx(thick, abs=0.01)
     assert foot_shock(foot, 1.38, stands) == pytest.approx(SHOCK * (foot.base / needed) ** 2)
 
 
+def on_a_plate(foot: Foot, mass: float) -> float:
+    """What a foot bears that tilts about the edge of a carrier plate, 4.5 mm outside its slots."""
+    return foot_shock(foot, mass, min(foot.base_radius, foot.slot_radius + 4.5e-3))
+
+
 def test_a_foot_is_as_thick_as_its_load_asks_for():
     """Go2's, of 1.35 kg: stem and base bear 20 g, and with 0.1 mm less one of them does not."""
     housing = Housing(0.0765, 0.0153, MountHoles(0.0495))
     thickness = plate_thickness(Foot(housing), 1.35)
-    assert thickness == 0.0089
-    assert foot_shock(Foot(housing, thickness), 1.35) >= SHOCK
-    assert foot_shock(Foot(housing, thickness - 1e-4), 1.35) < SHOCK
-    assert 1e3 * Foot(housing, thickness).base == pytest.approx(0.52 * 8.9)
+    assert thickness == 0.0084
+    assert on_a_plate(Foot(housing, thickness), 1.35) >= SHOCK
+    assert on_a_plate(Foot(housing, thickness - 1e-4), 1.35) < SHOCK
+    assert 1e3 * Foot(housing, thickness).base == pytest.approx(0.6 * 8.4)
     assert Foot(housing).base == BASE_THICKNESS
     assert type(Foot(housing, thickness).wheel_height) is float
 
@@ -161,9 +166,9 @@ def test_a_foot_bears_the_shock_or_is_a_solid_block(radius, share, mass):
     foot = Foot(housing, thickness)
     block = max(PLATE_THICKNESS, foot.stem)
     assert PLATE_THICKNESS <= thickness <= block
-    assert foot_shock(foot, mass) >= SHOCK or thickness == block
+    assert on_a_plate(foot, mass) >= SHOCK or thickness == block
     if thickness > PLATE_THICKNESS:
-        assert foot_shock(Foot(housing, thickness - 1e-4), mass) < SHOCK
+        assert on_a_plate(Foot(housing, thickness - 1e-4), mass) < SHOCK
     assert plate_thickness(foot, mass) == thickness <= plate_thickness(foot, 1.1 * mass)
 
 

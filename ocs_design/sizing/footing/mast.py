@@ -17,13 +17,13 @@ from ocs_design.parts.carrier_plate import EDGE, SLEEVE_MAX, CarrierPlate, Point
 from ocs_design.parts.joints import pattern_use
 from ocs_design.parts.mast import MAST_YIELD, TUBES, Mast
 from ocs_design.parts.plate_strength import arm_stress, mast_screws_use, mast_stress
-from ocs_design.parts.printed import SHOCK
+from ocs_design.parts.printed import SHOCK, SLOT_EDGE
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_back
 from ocs_design.sizing.footing.feet import SENSES, Feet, Footing, rough
 from ocs_design.sizing.footing.lands import FLATNESS, PROUD, disc_points
-from ocs_design.sizing.footing.plate import SLOT_EDGE, WIDER, blank_plate, thick_enough
+from ocs_design.sizing.footing.plate import WIDER, blank_plate, thick_enough
 from ocs_design.sizing.footing.screws import HEAD_ROOM, PATTERN_STEP, SPREAD
 from ocs_design.sizing.place import CLEARANCE, Place, Size
 from ocs_design.sizing.placement import Search, Sizes

@@ -17,7 +17,7 @@ from ocs_design.parts.carrier_plate import (
     CarrierPlate,
 )
 from ocs_design.parts.plate_strength import plate_screws_use, plate_stresses
-from ocs_design.parts.printed import AROUND_SLOT, TRUNK_SCREW
+from ocs_design.parts.printed import SLOT_EDGE
 from ocs_design.robot.surface import Surface
 from ocs_design.sizing.footing.contact import contact_of
 from ocs_design.sizing.footing.feet import SENSES, Feet
@@ -42,9 +42,6 @@ from ocs_design.sizing.footing.screws import (
     room_to_foot,
     screwed,
 )
-
-SLOT_EDGE = max(AROUND_SLOT, EDGE * TRUNK_SCREW.diameter)
-"""Least width of a plate on either side of the circle of a foot's slots [m]."""
 
 WIDER = (0.0, 5e-3, 10e-3, 15e-3, 20e-3)
 """Steps by which half a neck's width may grow, to find where the trunk takes its screws or to bear
