@@ -1,7 +1,6 @@
 """Gears of the catalogue and the stages they offer."""
 
 import math
-from dataclasses import fields
 
 import pytest
 
@@ -15,7 +14,6 @@ from ocs_design.catalogue.gears import (
     gears_to_json,
     stages,
 )
-from ocs_design.catalogue.rows import columns_of, fraction, numbers, switch, tooth_counts
 
 
 def test_stages_reduce_and_speed_up():
@@ -48,14 +46,6 @@ def test_a_planetary_gear_as_its_maker_prints_it():
     assert not stage.reverses
 
 
-def test_large_planetary_gears_of_low_ratio():
-    """PLE060 of 3:1 by its data sheet: 45 N m for a short time, 0.9 kg, 13,000 rpm."""
-    (stage,) = gear("PLE060 3").stages()
-    assert (stage.ratio, stage.torque_max, stage.mass) == (3.0, 45.0, 0.9)
-    assert stage.inertia == pytest.approx(9.0 * 0.128e-4)
-    assert stage.motor_speed_max == pytest.approx(13000.0 * math.pi / 30.0)
-
-
 def test_a_gear_that_lacks_figures_offers_no_stage():
     sheet = gear("GP 42 C 203115")
     assert sheet.stages() == ()
@@ -80,13 +70,6 @@ def test_inertia_at_the_wheel_is_taken_as_it_is():
     assert [stage.inertia for stage in sheet.stages()] == [1e-6, 1e-6]
     assert [stage.name for stage in sheet.stages()] == ["pair 0.5:1", "pair 3:1"]
     assert all(stage.reverses for stage in sheet.stages())
-
-
-def test_a_column_is_a_field_of_a_row_and_is_read_as_its_type_asks():
-    columns = columns_of(GearSheet)
-    assert list(columns) == [field.name for field in fields(GearSheet)]
-    asked = {"efficiency": fraction, "ratios": numbers, "teeth": tooth_counts, "reverses": switch}
-    assert {name: columns[name] for name in asked} == asked
 
 
 def test_json_has_no_infinity():

@@ -302,13 +302,6 @@ def test_the_edges_of_what_can_be_made_pass(load):
     assert 1e-3 < edge.rotor.spacing < 1.4e-3
 
 
-def test_how_many_rows_know_what():
-    known = [found.mounting for found in motors().values() if found.mounting is not None]
-    assert sum(found.shaft_diameter is not None for found in known) >= 82
-    assert sum(found.rotor is not None for found in known) >= 29
-    assert sum(found.stator is not None for found in known) >= 72
-
-
 def test_convention_is_said_where_threads_are_not_of_the_motors_own_drawing():
     for found in motors().values():
         words = "convention of makers" in found.source or "of the same series" in found.source

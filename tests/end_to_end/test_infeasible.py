@@ -80,28 +80,6 @@ def test_no_motor_reaches_an_axis_that_the_incidence_leaves_out(folder):
     assert "limit" not in error["hint"]
 
 
-@pytest.mark.exhaustive
-def test_a_motor_that_is_too_weak_is_told_how_much_time_it_needs(folder):
-    """No limit of the room mends a torque: Solo12's own motor needs longer for the drop."""
-    error = refused(SOLO12, "--motor", "Antigravity 4004 KV300")
-    for words in ("Antigravity 4004 KV300", "24 V", "drop", "0.385 s given"):
-        assert words in error["message"]
-    assert set(error["relaxations"]) == {"time"}
-    assert 1.0 < error["relaxations"]["time"] < 2.0
-
-
-@pytest.mark.exhaustive
-def test_a_robot_that_no_motor_can_turn(folder):
-    """What is missing, and what would do."""
-    error = refused("--mass", "200", "--inertia", "300,450,450")
-    assert error["binding"] == ["torque"]
-    assert re.search(r"None of \d+ motors can do it at \d+ V.*; .* comes closest", error["message"])
-    assert NEEDED_MOTOR.search(error["hint"]), error["hint"]
-    # Far too slow, with six wheels too: no limit is loosened that far.
-    assert error["relaxations"] == {}
-    assert "not even changed 10-fold" in error["hint"]
-
-
 def test_two_motors_that_are_both_too_weak(folder):
     """Four times Solo12, with motors of its size: more time would do, and so would a third one."""
     weak = ("--mass", "10", "--inertia", "0.3,0.45,0.5", "--motor", f"{TOO_WEAK}, MN4014 KV400")
@@ -115,61 +93,7 @@ def test_two_motors_that_are_both_too_weak(folder):
         assert key in error["hint"]
 
 
-@pytest.mark.exhaustive
-def test_the_figures_of_a_refusal_are_those_of_its_words(folder):
-    error = refused(SOLO12, "--motor", "R80 KV110", "--r-max", "12mm")
-    words = re.search(r"needs a wheel of (\S+) kg m\^2, (\S+) fits", error["message"])
-    assert f"{error['required_spin_inertia']:.3g}" == words[1]
-    assert f"{error['largest_spin_inertia']:.3g}" == words[2]
-
-
 ONE_KIND = ("--gear", "direct", "--material", "stainless-304")
-ONE_DRIVE = (
-    *("--motor", "EC 90 flat 90 W 323772", *ONE_KIND),
-    *("--alpha", "35deg", "--no-validate"),
-)
-TOO_TIGHT_FOR_MOTORS = {
-    "voltage": ("--bus-voltage", "5V"),
-}
-MORE = {
-    "room": ("--r-max", "40mm", "--h-max", "2.1mm"),
-    "mass": ("--wheel-mass-max", "1g"),
-    "speed": ("--wheel-speed-max", "400rpm"),
-    "bore": ("--r-max", "40mm", "--r-min", "39mm"),
-}
-
-
-@pytest.mark.parametrize(
-    "limits",
-    [
-        *(pytest.param(limits, id=name) for name, limits in TOO_TIGHT_FOR_MOTORS.items()),
-        *(
-            pytest.param(limits, id=name, marks=pytest.mark.exhaustive)
-            for name, limits in MORE.items()
-        ),
-    ],
-)
-@pytest.mark.exhaustive
-@pytest.mark.usefixtures("no_alternatives", "no_files")
-def test_what_the_hint_proposes_for_a_motor_works_as_it_is_printed(folder, limits):
-    told = run("size", *BY_HAND, *ONE_DRIVE, *limits)
-    assert told.code == 4
-    proposed = list(re.finditer(r"\b(\w+) ([\d.]+) (mm|V|g|rpm)(?=[;.] )", told.said + " "))
-    assert proposed, told.said
-    assert limits[-2].strip("-").replace("-", "_") in {match[1] for match in proposed}
-    for key, figure, unit in (match.groups() for match in proposed):
-        option = f"--{key.replace('_', '-')}"
-        mended = run("size", *BY_HAND, *ONE_DRIVE, *limits, option, figure + unit, "-o", key)
-        assert mended.code == 0, (option, figure, unit, mended.said)
-
-
-@pytest.mark.exhaustive
-def test_a_voltage_without_a_unit_is_in_volt(folder):
-    for voltage in ("24", "24V"):
-        result = run(
-            "size", *BY_HAND, *ONE_DRIVE, "--bus-voltage", voltage, "-o", voltage, "--json"
-        )
-        assert result.document["selection"]["bus_voltage"] == 24.0
 
 
 def test_a_refusal_tells_what_is_doubted_what_was_assumed_and_what_nobody_asked_for(folder):

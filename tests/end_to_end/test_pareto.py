@@ -2,11 +2,9 @@
 
 import csv
 import json
-import re
-from pathlib import Path
 
 import pytest
-from commands import SOLO12, environment, everything_in, run, run_process
+from commands import SOLO12, everything_in, run
 
 from ocs_design.requirement.reading import read_specification
 from ocs_design.workflows.pareto import lightest_device, read_task
@@ -89,27 +87,6 @@ def test_options_hold_in_every_point(written):
     assert {device["gear"] for device in devices} == {"direct"}
 
 
-@pytest.mark.exhaustive
-def test_words_for_people(tmp_path):
-    result = run(
-        "pareto", SOLO12, *ONE_MOTOR, "--against", "radius", "--from", "40mm", "--to", "60mm",
-        "--points", "3", "-o", tmp_path / "front", "--no-color",
-    )  # fmt: skip
-    assert result.code == 0
-    assert "room for the rim, r_max" in result.said
-    assert "as specified 50 mm" in result.said
-    assert f"ocs-design size --spec {tmp_path / 'front' / 'points' / '02.toml'}" in re.sub(
-        r"\s*\n\s*", "", result.stdout
-    ).replace("--spec/", "--spec /")
-    assert "\x1b" not in result.stdout
-
-
-@pytest.mark.exhaustive
-def test_quiet_is_quiet():
-    result = run("pareto", SOLO12, *ONE_MOTOR, "--points", "2", "-q")
-    assert (result.code, result.stdout, result.stderr) == (0, "", "")
-
-
 def test_values_out_of_reach_are_told_and_exit_with_4():
     result = run("pareto", SOLO12, *ONE_MOTOR, "--from", "20ms", "--to", "30ms", "--points", "2")
     assert result.code == 4
@@ -151,26 +128,3 @@ def test_a_foreign_folder_is_refused_before_any_work(tmp_path):
     assert result.code == 3
     assert "no output of ocs-design" in result.said
     assert "choose a device" not in result.stderr
-
-
-@pytest.mark.exhaustive
-def test_a_robot_by_hand_and_a_specification_file(tmp_path):
-    spec = tmp_path / "spec.toml"
-    spec.write_text('[motor]\nname = "Antigravity MN5008 KV400"\ngear = "direct"\n')
-    result = run(
-        "pareto", "--mass", "2.5", "--inertia", "0.032,0.055,0.07", "--spec", spec,
-        "--points", "2", "--json",
-    )  # fmt: skip
-    assert result.code == 0
-    assert result.document["points"][1]["device"]["motor"] == "Antigravity MN5008 KV400"
-
-
-@pytest.mark.exhaustive
-def test_drawing_needs_no_display_and_helping_no_numbers(tmp_path):
-    result = run_process(
-        "pareto", SOLO12, *ONE_MOTOR, "--points", "2", "-o", tmp_path / "front",
-        env=environment(COLUMNS="80"),
-    )  # fmt: skip
-    assert result.code == 0
-    assert (Path(tmp_path) / "front" / "front.svg").is_file()
-    assert max(map(len, result.stdout.splitlines())) <= 80 + len(str(tmp_path))

@@ -13,8 +13,12 @@ from commands import SOLO12, everything_in
 from exported import check_moments, check_wheels_in_pinocchio
 from products import FILES, composite, with_modules
 
+from ocs_design.actuation.motor import build_gaps
+from ocs_design.catalogue.motors import motors
 from ocs_design.common.files import to_json
 from ocs_design.device.records.design import read_design
+from ocs_design.parts.joints import hub_joint
+from ocs_design.parts.rim import hub_height
 
 # INTERFACE: the fields that scripts and other programs rely on.
 SCHEMA = {
@@ -221,3 +225,30 @@ def test_margins_are_capacity_over_demand(document, product):
             kept = margin["margin"] >= 1.0 - product.case.slack
             # A rating for hours may be exceeded for a second, and then asks for a pause.
             assert kept or (margin["name"] == "rms current" and PAUSE.search(margin["note"]))
+
+
+@pytest.mark.parametrize("product", ["motor"], indirect=True)
+def test_the_choice_says_what_it_looked_at(document):
+    selection = document["selection"]
+    masses = [entry["mass"] for entry in selection["ranking"]]
+    # What differs by less is as heavy, and the stronger goes first.
+    assert (np.diff(masses) > -1e-5 * np.array(masses[1:])).all()
+    assert len(masses) >= 10
+    assert len({entry["motor"] for entry in selection["ranking"]}) >= 5
+    # Each motor with a gear in a rim of each of the five steels, at one incidence.
+    assert selection["candidates"] % 5 == 0
+    assert selection["candidates"] >= 5 * len({entry["motor"] for entry in selection["ranking"]})
+    for task in selection["tasks"]:
+        assert task["time_needed"] <= task["time_given"] * (1.0 + 1e-9)
+        assert task["spin_inertia"] <= document["ocs"]["spin_inertia"] * (1.0 + 1e-9)
+    listed = {entry["motor"] for entry in selection["ranking"]}
+    fallen = {entry["motor"] for entry in selection["rejections"]}
+    complete = {name: row for name, row in motors().items() if not build_gaps(row)}
+    carried = {
+        name
+        for name, row in complete.items()
+        if hub_joint(row.mounting, hub_height(row.mounting) - 1e-3) >= 1.5 * row.peak_torque
+        and (row.voltage_max or row.rated_voltage) >= 24.0
+    }
+    assert listed | fallen == carried < set(complete) < set(motors())
+    assert listed.isdisjoint(fallen)

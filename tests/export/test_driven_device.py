@@ -22,10 +22,10 @@ from wheels import EC45, EC45_BODY, driven_device, geared, layout_device
 
 from ocs_design.device.bodies import carrier_inertial, flywheel_inertial
 from ocs_design.device.layout import Layout, LayoutName
-from ocs_design.export.snippets import snippet_mjcf, snippet_urdf, snippet_xacro
+from ocs_design.export.snippets import snippet_mjcf, snippet_xacro
 from ocs_design.export.urdf import robot_urdf
 from ocs_design.robot.manual import robot_by_hand
-from ocs_design.robot.mass import MassProperties, physical_defect
+from ocs_design.robot.mass import physical_defect
 
 DEVICES = {
     "direct": driven_device(),
@@ -55,11 +55,6 @@ def test_mujoco_and_pinocchio_see_the_whole_robot(case, tmp_path):
     text = robot_urdf(robot, device).decode()
     check_whole(seen_by_pinocchio(text, robot), robot, device)
     check_whole(seen_by_mujoco(mujoco_model(robot, device, tmp_path), robot), robot, device)
-
-
-def test_a_robot_by_hand_carries_them_in_full(device):
-    text = robot_urdf(BLOCK, device).decode()
-    check_whole(seen_by_pinocchio(text, BLOCK), BLOCK, device)
 
 
 def test_the_wheel_has_its_momentum_and_the_joint_its_armature(device, tmp_path):
@@ -92,13 +87,6 @@ def test_a_rotor_heavier_than_its_carrier_leaves_a_little_of_it():
     device = driven_device(drive=replace(EC45, rotor_inertia=rotor))
     left = carrier_inertial(device, device.modules[0]).inertia[2, 2]
     assert left == pytest.approx(0.01 * EC45_BODY.axial_inertia)
-
-
-def test_the_urdf_snippet_has_them(device):
-    """The device's own links on a trunk without mass."""
-    nothing = MassProperties(0.0, np.zeros(3), np.zeros((3, 3)))
-    seat = replace(BLOCK, mass_properties=nothing, trunk=TRUNK)
-    check_whole(seen_by_pinocchio(snippet_urdf(device, seat), seat), seat, device)
 
 
 TURNED = ' prefix="front_" incidence="0.25"'

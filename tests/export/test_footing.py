@@ -12,12 +12,9 @@ from robots import SOLO12
 from wheels import driven_device
 
 from ocs_design.export.assembly_notes import trunk_notes
-from ocs_design.export.bill_of_materials import bill_rows
-from ocs_design.export.device_parts import foot_holes
 from ocs_design.export.formats import Subject
 from ocs_design.export.robot_model import robot_model
 from ocs_design.export.snippets import snippets
-from ocs_design.export.stl import write as write_stl
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.footing.standing import stand_on_trunk
 
@@ -40,12 +37,6 @@ def test_the_holes_of_the_plate_are_told(robot, plated):
     x += plated.plate.position[0]
     assert f"({1e3 * x:.1f}, {1e3 * y:.1f})" in said
     assert "M3" in said
-
-
-def test_the_feet_are_screwed_where_the_plate_has_their_holes(plated):
-    found = [place for places in foot_holes(plated).values() for place in places]
-    holes = np.array(plated.plate.feet) + plated.plate.position[:2]
-    np.testing.assert_allclose(sorted(found), sorted(holes.tolist()), atol=1e-12)
 
 
 def test_feet_on_the_trunk_need_threads_in_it(robot, plated):
@@ -78,13 +69,6 @@ def test_the_frame_is_found_by_the_trunk_s_ends(plated):
     np.testing.assert_allclose(np.array(found, dtype=float), expected, atol=1.0)
 
 
-def test_the_bill_weighs_what_the_plate_does(plated):
-    rows = {id(row): row for row in bill_rows(plated)}.values()
-    without = sum(row.quantity * row.mass for row in bill_rows(replace(plated, plate=None)))
-    whole = sum(row.quantity * row.mass for row in rows)
-    assert whole - without == pytest.approx(plated.plate.mass)
-
-
 def test_mujoco_weighs_it_where_it_is(robot, plated):
     model = robot_model(robot, plated).compiled
     bare = robot_model(robot, replace(plated, plate=None)).compiled
@@ -106,11 +90,6 @@ def test_snippets_weigh_it_too(robot, plated, name):
         spec.compiler.fusestatic = False
         masses.append(sum(spec.compile().body_mass))
     assert masses[0] - masses[1] == pytest.approx(plated.plate.mass)
-
-
-def test_it_has_a_mesh_of_its_own(robot, plated, tmp_path):
-    write_stl(Subject.of(robot, plated, "solo12"), tmp_path)
-    assert (tmp_path / "plate.stl").stat().st_size > 84
 
 
 def test_its_outline_is_a_drawing(robot, plated, tmp_path):

@@ -75,47 +75,6 @@ def test_every_number_of_a_robot_is_written_exactly(form, tmp_path):
     check_wheels_in_mujoco(model, device, robot.trunk)
 
 
-def test_an_mjcf_robot_has_the_inertia_that_was_read(tmp_path):
-    (tmp_path / "in.xml").write_text(MJCF)
-    robot = read_robot(tmp_path / "in.xml", joints={"swing": 0.3, "slide": 0.05})
-    export_robot_mjcf(robot_model(robot, paper_device()), tmp_path / "out.xml")
-    again = read_robot(
-        tmp_path / "out.xml", trunk=robot.trunk, posture="zero", joints=robot.posture
-    )
-    wheels = [
-        body.mass_properties
-        for body in again.tree.bodies
-        if body.name.startswith("ocs_") and body.name.endswith("_flywheel")
-    ]
-    assert len(wheels) == 2
-    for ours, theirs in zip(robot.tree.bodies, again.tree.bodies, strict=False):
-        assert ours.name == theirs.name
-        np.testing.assert_allclose(
-            theirs.mass_properties.inertia, ours.mass_properties.inertia, rtol=1e-12, atol=1e-18
-        )
-
-
-def test_a_robot_by_hand_has_its_inertia_to_the_last_digits(tmp_path):
-    robot = robot_by_hand(2.5, (0.03, 0.05, 0.07, 0.001, 0.002, -0.003))
-    model = mujoco_model(robot, paper_device(), tmp_path)
-    axes = np.empty(9)
-    mujoco.mju_quat2Mat(axes, model.body_iquat[1])
-    axes = axes.reshape(3, 3)
-    inertia = axes @ np.diag(model.body_inertia[1]) @ axes.T
-    np.testing.assert_allclose(inertia, robot.inertia, rtol=0.0, atol=1e-12 * 0.07)
-
-
-def test_the_folder_can_be_moved(tmp_path):
-    (tmp_path / "here").mkdir()
-    mujoco_model(robot_at(SOLO12), paper_device(), tmp_path / "here")
-    shutil.move(tmp_path / "here", tmp_path / "there")
-    model = mujoco.MjModel.from_xml_path(str(tmp_path / "there" / "robot.xml"))
-    assert model.nmesh == len(list((tmp_path / "there" / "meshes").iterdir()))
-    text = (tmp_path / "there" / "robot.xml").read_text()
-    assert str(tmp_path) not in text
-    assert str(SOLO12.parent) not in text
-
-
 def test_meshes_of_an_mjcf_robot_go_along(tmp_path):
     (tmp_path / "in" / "a").mkdir(parents=True)
     (tmp_path / "in" / "b").mkdir()

@@ -3,7 +3,6 @@
 import numpy as np
 import pinocchio as pin
 import pytest
-import trimesh
 from exported import (
     LEGGED,
     LEGGED_PATHS,
@@ -16,8 +15,7 @@ from robots import SOLO12
 from wheels import driven_device, paper_device
 
 from ocs_design.common.errors import RobotError
-from ocs_design.export.urdf import robot_urdf, write_meshes
-from ocs_design.export.visuals import WHEEL_MESH
+from ocs_design.export.urdf import robot_urdf
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Robot
@@ -102,15 +100,6 @@ def test_a_clash_of_names_is_an_error_that_says_so(tmp_path, element, name):
         robot_urdf(robot, driven_device())
     if name.endswith("motor"):
         robot_urdf(robot, paper_device())
-
-
-def test_the_wheels_mesh_lies_beside_the_file_in_metres(tmp_path):
-    text = exported_text(robot_at(SOLO12))
-    write_meshes(paper_device(), tmp_path)
-    assert text.count(f'filename="{WHEEL_MESH}"') == 2
-    np.testing.assert_allclose(
-        trimesh.load_mesh(tmp_path / WHEEL_MESH).extents, [0.06, 0.06, 0.01], rtol=1e-4
-    )
 
 
 def test_names_that_need_escaping_are_escaped(tmp_path):

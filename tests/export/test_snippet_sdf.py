@@ -92,9 +92,3 @@ def test_a_robot_with_y_up_gets_a_frame_with_z_up():
         Rotation.from_euler("xyz", pose[3:]).as_matrix(), robot.mount.placement.rotation, atol=1e-15
     )
     assert link_of(model, "ocs_left_flywheel").find("pose").get("relative_to") == frame.get("name")
-
-
-def test_any_name_of_a_trunk_leaves_well_formed_xml():
-    name = 'a&"<b>--c--'
-    model = model_of(paper_device(), TrunkOnly(name))
-    assert model.findtext("joint/parent") == name

@@ -31,6 +31,7 @@ from ocs_design.export.mjcf import precise_xml
 from ocs_design.export.snippets import (
     snippet_mjcf,
     snippet_ros2_control,
+    snippet_sdf,
     snippet_urdf,
     snippet_xacro,
     snippets,
@@ -148,11 +149,13 @@ def carrier(trunk):
     return replace(robot_by_hand(2.5, (0.03, 0.05, 0.07)), trunk=trunk)
 
 
-@pytest.mark.parametrize("snippet", [snippet_urdf, snippet_xacro, snippet_mjcf])
+@pytest.mark.parametrize("snippet", [snippet_urdf, snippet_xacro, snippet_mjcf, snippet_sdf])
 def test_any_name_of_a_trunk_leaves_well_formed_xml(tmp_path, snippet):
     text, path = snippet(paper_device(), carrier('a&"<b>--c--')), tmp_path / "ocs"
     if snippet is snippet_mjcf:
         assert mujoco.MjModel.from_xml_string(text).nu == 2
+    elif snippet is snippet_sdf:
+        assert ET.fromstring(text.encode()).findtext("model/joint/parent") == 'a&"<b>--c--'
     else:
         path.write_text(text)
         assert xacro.process_file(str(path)).documentElement.tagName == "robot"
@@ -245,11 +248,6 @@ def bounds(system):
         (param.get("name"), float(param.text))
         for param in system.findall("joint/command_interface/param")
     ]
-
-
-def test_the_macro_declares_nothing_unless_asked(tmp_path):
-    (tmp_path / "ocs.urdf.xacro").write_text(snippet_xacro(driven_device(), TrunkOnly()))
-    assert not systems(expanded(tmp_path, f'<xacro:ocs parent="{TRUNK}"/>'))
 
 
 def test_the_macro_declares_both_motors_when_asked(tmp_path):

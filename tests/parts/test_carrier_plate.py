@@ -16,7 +16,6 @@ from ocs_design.export.assembly.content import tightened
 from ocs_design.export.meshes import part_manifold, part_mesh
 from ocs_design.export.stl import MILLIMETRES, stl_bytes
 from ocs_design.parts.carrier_plate import (
-    DENSITY,
     MODULUS,
     STOCK,
     CarrierPlate,
@@ -135,14 +134,6 @@ def test_plates_of_two_pairs_are_two_plates():
     assert plate_frequency(both, 0.5) == pytest.approx(plate_frequency(back, 0.5), rel=1e-12)
     assert plate_stress(back, 0.5, 0.06) > plate_stress(front, 0.5, 0.06)
     assert len(part_manifold(plate_part(both), 48).decompose()) == 2
-
-
-def test_a_plain_plate_in_closed_form():
-    """A stadium 60 mm wide and 200 mm long, 3 mm thick: pi r^2 + 2 r l, 2710 kg/m^3."""
-    stadium = DogBone(0.03, 0.1, 0.03)
-    area = pi * 0.03**2 + 0.06 * 0.14
-    assert stadium.area == pytest.approx(area)
-    assert 3e-3 * DENSITY * area == pytest.approx(0.0913, rel=1e-3)
 
 
 bones = st.builds(

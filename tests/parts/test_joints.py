@@ -1,7 +1,6 @@
 """Joints by themselves: worked figures, laws, and rings against a boundary value solver."""
 
 from dataclasses import replace
-from itertools import pairwise
 from math import pi
 
 import numpy as np
@@ -29,7 +28,6 @@ from ocs_design.parts.joints import (
     tolerance_width,
 )
 from ocs_design.parts.motor_mount import mount_of
-from ocs_design.parts.rim import hoop_stress
 from ocs_design.parts.turning_rings import Ring, TurningRings, holed_peaks, ligament_efficiencies
 
 TUNGSTEN = Ring(0.031, 0.0338, 0.0042, 18500.0, 345e9, 0.28)
@@ -55,31 +53,6 @@ def test_a_tungsten_ring_opens_off_aluminium(factor, gap):
     by_hand = rho * w**2 * b / (4.0 * modulus) * ((3.0 + nu) * r**2 + (1.0 - nu) * b**2)
     assert ring == pytest.approx(by_hand, rel=1e-12)
     assert disc == pytest.approx(0.67 * 2700.0 * w**2 * b**3 / (4.0 * 68.9e9), rel=1e-12)
-
-
-@pytest.mark.parametrize(("factor", "tension"), [(1.0, 10.8), (1.2, 15.5)])
-def test_a_bond_between_them_would_be_pulled(factor, tension):
-    pulled = TurningRings.of([ALUMINIUM, TUNGSTEN], factor * FAST)
-    assert -1e-6 * pulled.pressure(0) == pytest.approx(tension, abs=0.05)
-
-
-def test_alone_its_hoop_stress_is_the_one_that_rims_are_limited_by():
-    turning = TurningRings.of([TUNGSTEN], FAST)
-    stress = hoop_stress(0.031, 0.0338, density=18500.0, poisson_ratio=0.28, wheel_speed=FAST)
-    assert turning.peak(0) == pytest.approx(stress, rel=1e-12)
-    assert float(turning.stresses(0, 0.0338)[0]) == pytest.approx(0.0, abs=1e-6 * stress)
-
-
-def test_an_interference_presses_as_lame_has_it():
-    """Shigley, 3-16: of one material p = E d (R^2 - b^2) (b^2 - a^2) / (2 b^3 (R^2 - a^2))."""
-    hub, rim = Ring(0.01, 0.02, 0.01, *STEEL), Ring(0.02, 0.03, 0.01, *STEEL)
-    a, b, r, gap = 0.01, 0.02, 0.03, 20e-6
-    expected = 207e9 * gap * (r**2 - b**2) * (b**2 - a**2) / (2.0 * b**3 * (r**2 - a**2))
-    fit = TurningRings.of([hub, rim], 0.0, [gap])
-    assert fit.pressure(0) == pytest.approx(expected, rel=1e-9)
-    # Inside and outside face each other over the interference.
-    apart = fit.displacement(1, b) - fit.displacement(0, b)
-    assert apart == pytest.approx(gap, rel=1e-12)
 
 
 def by_boundary_values(rings, speed, gaps):
@@ -173,17 +146,6 @@ def test_stresses_grow_with_the_square_of_the_speed(speed, factor):
     slow, fast = (TurningRings.of(WHEEL, at) for at in (speed, factor * speed))
     for ring in range(3):
         assert fast.peak(ring) == pytest.approx(factor**2 * slow.peak(ring), rel=1e-9)
-
-
-def test_a_disc_that_is_cut_in_rings_of_one_thickness_is_the_disc():
-    whole = TurningRings.of([Ring(0.005, 0.04, 0.003, *STEEL)], 1000.0)
-    edges = (0.005, 0.01, 0.03, 0.04)
-    cut = [Ring(a, b, 0.003, *STEEL) for a, b in pairwise(edges)]
-    parts = TurningRings.of(cut, 1000.0)
-    for ring, radius in ((0, 0.005), (1, 0.02), (2, 0.04)):
-        np.testing.assert_allclose(
-            parts.stresses(ring, radius), whole.stresses(0, radius), rtol=1e-9, atol=1.0
-        )
 
 
 def test_a_hole_in_an_evenly_stretched_plate_doubles_its_stress():

@@ -1,20 +1,15 @@
 """A front as people see it: table, plot, reasons; and as files."""
 
-import csv
 import io
-import sys
-import xml.etree.ElementTree as ET
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from itertools import pairwise
 
 import pytest
 from fronts import by_hand, infeasible, make_front
 from rich.console import Console
 
-from ocs_design.common.files import to_json
 from ocs_design.report.charts.chart import Points
-from ocs_design.report.charts.front import COLUMNS, front_chart, front_csv, write_front
-from ocs_design.report.charts.svg import png_file, svg_file
+from ocs_design.report.charts.front import COLUMNS, front_chart
 from ocs_design.report.text.front import NONE, OWN, print_front
 
 BRAILLE = {chr(code) for code in range(0x2800, 0x2900)}
@@ -87,44 +82,5 @@ def test_the_figure_has_a_point_for_each_device_in_the_colour_of_its_drive(front
     assert len({mark.ink for mark in points.values()}) == len(points)
 
 
-def test_any_name_can_be_drawn(front):
-    chart = front_chart(replace(front, robot=r"$\nonsense$ & <b>"))
-    assert ET.fromstring(svg_file(chart)).tag.endswith("svg")
-    assert png_file(chart).startswith(b"\x89PNG")
-
-
-def test_the_table_of_numbers_has_all_digits(front):
-    rows = list(csv.DictReader(io.StringIO(front_csv(front))))
-    assert len(rows) == len(front.points)
-    for row, point in zip(rows, front.points, strict=True):
-        assert float(row["time_s"]) == point.value
-        assert row["specification"] == point.file
-        assert row["reason"] == point.reason
-        if point.device:
-            assert float(row["mass_kg"]) == point.device.mass
-            assert row["motor"] == point.device.motor
-        else:
-            assert row["mass_kg"] == ""
-
-
 def test_every_field_of_a_device_has_its_column(front):
     assert list(COLUMNS) == list(asdict(front.points[-1].device))
-
-
-def test_the_folder_is_complete(front, tmp_path):
-    folder = tmp_path / "front"
-    assert write_front(front, folder) == ()
-    names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.*"))
-    points = [f"points/{index:02d}.toml" for index in range(1, 10)]
-    assert names == ["front.csv", "front.json", "front.png", "front.svg", *points]
-    assert (folder / "front.json").read_bytes() == to_json(front)
-    assert (folder / "points" / "03.toml").read_text() == front.points[2].specification
-    assert [path.name for path in tmp_path.iterdir()] == ["front"]
-
-
-def test_without_resvg_all_else_is_written(front, tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "resvg_py", None)
-    (remark,) = write_front(front, tmp_path / "front")
-    assert "pip install 'ocs-design[plot]'" in remark
-    assert not (tmp_path / "front" / "front.png").exists()
-    assert (tmp_path / "front" / "front.svg").exists()

@@ -19,7 +19,6 @@ from ocs_design.requirement.device_sections import (
     SupplySection,
 )
 from ocs_design.requirement.resolving import resolve
-from ocs_design.requirement.sections import RequirementSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.values import Names, names_in
 from ocs_design.robot.manual import robot_by_hand
@@ -101,10 +100,6 @@ def test_steel_is_every_steel_and_the_default(word):
         "steel-a36",
     }
     assert all(7800.0 <= material.density <= 8000.0 for material in chosen)
-
-
-def test_none_is_no_choice_at_all():
-    assert choice_of(name="none") is None
 
 
 def test_any_motor_is_every_motor():
@@ -226,11 +221,6 @@ def test_what_cannot_be_meant_is_said(specification, words):
         resolve(specification, LIGHT, 1.0)
     told = str(caught.value)
     assert all(word in told for word in words)
-
-
-def test_a_stated_wheel_speed_is_handed_on():
-    stated = Specification(requirement=RequirementSection(wheel_speed_max=500.0))
-    assert motor_choice(stated, LIGHT).wheel_speed_max == 500.0
 
 
 def test_controllers_weigh_what_the_rule_or_the_specification_says():

@@ -273,12 +273,6 @@ def test_example_of_solo12_states_the_paper_and_turns_its_modules_by_hand(solo12
         assert {**vars(one), "incidence": None} == vars(other)
 
 
-def test_example_by_hand_reads():
-    specification = read_specification(EXAMPLES / "by_hand.toml")
-    assert specification.robot.mass == 12.0
-    assert specification.takes_default_maneuvers
-
-
 def test_the_voltage_of_older_files_is_that_of_the_supply():
     old = parse_specification('motor.bus_voltage = "22.2 V"', "old.toml")
     assert old.supply.voltage == 22.2

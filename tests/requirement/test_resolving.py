@@ -110,13 +110,6 @@ def test_a_robot_without_legs_is_told_its_height(make_robot):
     assert len(resolved.requirement.maneuvers) == 3
 
 
-def test_gravity_goes_to_the_default_maneuvers(solo12):
-    push, drop, flip = resolve(
-        stated("[requirement]\ngravity = 3.71"), solo12, SIZE
-    ).requirement.maneuvers
-    assert (push.gravity, drop.gravity, flip.gravity) == (3.71, 3.71, 1.62)
-
-
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
@@ -138,12 +131,6 @@ def test_what_cannot_be_meant_is_asked_about(solo12, text, problem):
     with pytest.raises(SpecificationError) as caught:
         resolve(stated(text), solo12, SIZE)
     assert any(problem in line for line in caught.value.problems)
-
-
-def test_faults_come_together(solo12):
-    with pytest.raises(SpecificationError) as caught:
-        resolve(stated("[flywheel]\nr_max = 30\nh_max = 10\nmaterial = 'x'"), solo12, SIZE)
-    assert len(caught.value.problems) == 3
 
 
 @pytest.mark.parametrize("key", ["rate_change = 2", "spin_inertia = 1e-4"])

@@ -8,14 +8,12 @@ import mujoco
 import numpy as np
 import pytest
 import trimesh
-from robots import SOLO12
 
 from ocs_design.common.errors import RobotError
 from ocs_design.robot import mjcf_spec
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.mjcf import read_mjcf
 from ocs_design.robot.tree import JointKind, ShapeKind, Tree
-from ocs_design.robot.urdf import read_urdf
 
 # Everything that makes a joint's frame differ from its body's: anchors, references, several joints
 # on one body, welded bodies, degrees, default classes.
@@ -95,7 +93,7 @@ def assert_same(ours: MassProperties, theirs: MassProperties, relative: float = 
     )
 
 
-@pytest.mark.parametrize("seed", range(10))
+@pytest.mark.parametrize("seed", range(3))
 def test_mass_com_and_inertia_are_those_of_mujoco(seed):
     rng = np.random.default_rng(seed)
     tree = read(ZOO)
@@ -177,49 +175,6 @@ def test_a_curved_joint_equality_and_a_loop_are_told():
     assert any("rod" in warning for warning in tree.warnings)
 
 
-def mjcf_of(tree: Tree) -> str:
-    """The same numbers as MJCF, written by hand to the last digit."""
-
-    def digits(values) -> str:
-        return " ".join(repr(float(value)) for value in np.ravel(values))
-
-    def element(index: int) -> str:
-        body, mass = tree.bodies[index], tree.bodies[index].mass_properties
-        quaternion = np.empty(4)
-        mujoco.mju_mat2Quat(quaternion, body.placement.rotation.ravel())
-        inertia = mass.inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
-        joint = (
-            f'<joint name="{body.joint.name}" axis="{digits(body.joint.axis)}"/>'
-            if body.joint
-            else ""
-        )
-        place = f'pos="{digits(body.placement.position)}" quat="{digits(quaternion)}"'
-        below = [i for i, each in enumerate(tree.bodies) if each.parent == index]
-        return (
-            f'<body name="{body.name}" {place}>'
-            f'{joint}<inertial mass="{mass.mass!r}" pos="{digits(mass.com)}" '
-            f'fullinertia="{digits(inertia)}"/>{"".join(map(element, below))}</body>'
-        )
-
-    return (
-        f'<mujoco model="{tree.name}"><compiler angle="radian"/><worldbody>{element(0)}</worldbody>'
-        "</mujoco>"
-    )
-
-
-def test_the_same_robot_as_urdf_and_as_mjcf_is_the_same():
-    urdf = read_urdf(SOLO12.read_bytes(), find_mesh=lambda _: None)
-    mjcf = read(mjcf_of(urdf))
-    assert list(mjcf.joints) == list(urdf.joints)
-    rng = np.random.default_rng(0)
-    for _ in range(5):
-        posture = {name: rng.uniform(-1, 1) for name in urdf.joints}
-        assert_same(
-            mjcf.locked_mass_properties(posture, "base_link"),
-            urdf.locked_mass_properties(posture, "base_link"),
-        )
-
-
 FIXED = """<mujoco><worldbody>
   <body name="bench"><geom type="box" size="9 9 9"/></body>
   <body name="arm"><geom type="box" size=".1 .1 .1"/>
@@ -269,17 +224,6 @@ def test_a_mesh_weighs_and_its_box_is_the_shape(tmp_path: Path):
     extents = np.abs(shape.rotation) @ np.array(shape.size)
     np.testing.assert_allclose(extents, [0.5, 1, 1.5], atol=1e-6)
     np.testing.assert_allclose(shape.position, [4, 0, 0], atol=1e-6)
-
-
-def test_included_files_are_read_from_the_folder(tmp_path: Path):
-    (tmp_path / "part.xml").write_text(FIXED.replace("mujoco>", "mujocoinclude>"))
-    tree = read('<mujoco><include file="part.xml"/></mujoco>', tmp_path)
-    assert tree.bodies[0].name == "arm"
-
-
-def test_a_missing_include_is_named(tmp_path: Path):
-    with pytest.raises(RobotError, match=r"part\.xml"):
-        read('<mujoco><include file="part.xml"/></mujoco>', tmp_path)
 
 
 def test_utf_16_is_read():

@@ -6,11 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
-import pinocchio as pin
 import pytest
 from anatomy import ANATOMY, tree_of
-from pinocchio_robots import configuration, free_model
 from robots import ROBOTS, SOLO12, one_of_each
 from urdf_text import TWO_LINKS
 
@@ -36,15 +33,6 @@ def test_solo12_with_no_option():
     # 1000 N m: a placeholder, of a robot of 2.5 kg.
     (warning,) = found.warnings
     assert "efforts over 10 times" in warning
-
-
-def test_solo12_at_its_nominal_posture_weighs_what_pinocchio_says():
-    found = read_robot(SOLO12)
-    model = free_model(SOLO12)
-    data, q = model.createData(), configuration(model, found.posture)
-    pin.ccrba(model, data, q, np.zeros(model.nv))
-    assert found.inertia == pytest.approx(data.Ig.inertia, rel=1e-12, abs=1e-15)
-    assert found.com == pytest.approx(pin.centerOfMass(model, data, q), rel=1e-9, abs=1e-12)
 
 
 def test_another_trunk_is_another_frame_of_the_same_robot():
@@ -175,21 +163,6 @@ def test_a_broken_srdf_is_only_warned_of(tmp_path: Path):
     assert tree.named_postures == {}
     (warning,) = tree.warnings
     assert "some.srdf" in warning
-
-
-def test_solo12_stands_as_pinocchio_has_it():
-    model = free_model(SOLO12)
-    pin.loadReferenceConfigurations(
-        model, str(ROBOTS / "solo_description" / "srdf" / "solo.srdf"), False
-    )
-    postures = load(SOLO12).tree.named_postures
-    assert set(postures) == {"standing", "straight_standing"}
-    for name, posture in postures.items():
-        q = model.referenceConfigurations[name]
-        assert len(posture) == 12
-        assert posture == {
-            joint: q[model.joints[model.getJointId(joint)].idx_q] for joint in posture
-        }
 
 
 def test_a_pipe_named_like_an_srdf_is_left_alone(tmp_path):

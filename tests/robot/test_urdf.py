@@ -36,15 +36,6 @@ def test_a_joint_is_read_with_all_its_numbers():
     assert tree.warnings == ()
 
 
-def test_the_axis_is_x_unless_stated():
-    np.testing.assert_array_equal(joint_with(LIMIT)[0].axis, [1, 0, 0])
-
-
-def test_a_continuous_joint_has_no_limits():
-    hip, _ = joint_with(LIMIT, kind="continuous")
-    assert (hip.kind, hip.lower, hip.upper) == (JointKind.REVOLUTE, -np.inf, np.inf)
-
-
 def test_limits_the_wrong_way_round_are_ignored_with_a_warning():
     hip, tree = joint_with('<limit lower="1" upper="-1"/>')
     assert (hip.lower, hip.upper) == (-np.inf, np.inf)
@@ -88,22 +79,6 @@ def test_a_follower_without_leader_is_free_with_a_warning(leader):
     assert tree.joints["j0"].mimic is None
     (warning,) = tree.warnings
     assert "j0" in warning
-
-
-def test_fixed_links_are_lumped_with_their_frames_and_masses():
-    tree = read(
-        robot(
-            link("trunk", inertial(1.0)),
-            link("head", inertial(3.0)),
-            joint("neck", "trunk", "head", '<origin xyz="0 0 2" rpy="0 0 1.5"/>', kind="fixed"),
-        )
-    )
-    (body,) = tree.bodies
-    assert body.link_masses == {"trunk": 1.0, "head": 3.0}
-    np.testing.assert_allclose(body.mass_properties.com, [0, 0, 1.5])
-    np.testing.assert_allclose(body.links["head"].position, [0, 0, 2])
-    # Two points 2 m apart of reduced mass 3/4 kg, and 0.1 kg m^2 each of their own.
-    np.testing.assert_allclose(np.diag(body.mass_properties.inertia), [3.2, 3.2, 0.2])
 
 
 WORLD = (link("world"), link("trunk", inertial(2.0)), link("leg", inertial()))

@@ -1,7 +1,6 @@
 """The wheels' law against the gyrostat's equation and brute force."""
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
@@ -165,12 +164,6 @@ def test_braking_at_full_speed_is_not_cut():
 def test_a_law_that_is_off_gives_no_torque_whatever_happens():
     torque = torque_of(WheelLaw.off(2), (1.0, 1.0, 1.0), (1.0, 1.0, 1.0), (1.0, 1.0))
     np.testing.assert_array_equal(torque, 0.0)
-
-
-def test_unlimited_motors_have_no_line():
-    assert MotorLimits.of(motor()) == MotorLimits(np.inf, 0.0, np.inf)
-    assert MotorLimits.of(motor(stall_torque=2.0, torque_limit=3.0)).torque_limit == 2.0
-    assert MotorLimits.of(motor(700.0, 2.0)).line_slope == pytest.approx(350.0)
 
 
 def test_on_the_ground_the_wheels_damp_and_leave_the_attitude_to_the_legs():

@@ -1,9 +1,5 @@
 """Limits of a motor against brute force over torque."""
 
-import csv
-import json
-import subprocess
-import sys
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +7,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-from robots import SOLO12
 from wheels import EC45, motor
 
 from ocs_design.actuation.supply import Supply
@@ -159,29 +154,3 @@ def test_a_supply_by_its_current():
     limits = MotorLimits.of(WOUND, Supply(24.0, current_max=2.0, power_max=100.0), 2)
     assert limits.power_max == 48.0
     assert MotorLimits.of(WOUND).power_max == MotorLimits.of(EC45, Supply(24.0)).power_max == np.inf
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("power", [1000.0, 300.0])
-def test_no_recorded_flight_passes_what_supply_and_motor_give(tmp_path, power):
-    """Solo12 with push-offs, touchdowns and wheels that are braked down, from the files alone."""
-    out, spec = tmp_path / "out", tmp_path / "s.toml"
-    spec.write_text(f'validation.desaturate = true\nsupply.power_max = "{power} W"\n')
-    command = [sys.executable, "-m", "ocs_design", "size", SOLO12, "--spec", spec, "-o", out, "-q"]
-    subprocess.run(list(map(str, command)), check=False, capture_output=True)
-    motor = json.loads((out / "design.json").read_text())["ocs"]["motor"]
-    flown = sorted((out / "validation").glob("*_with_ocs.csv"))
-    assert len(flown) == 3
-    for file in flown:
-        with file.open(newline="") as text:
-            rows = list(csv.DictReader(text))
-
-        def largest(name, rows=rows):
-            return max(abs(float(row[name])) for row in rows)
-
-        assert largest("bus_power_w") <= power
-        assert largest("bus_current_a") <= power / 24.0
-        for side in ("left", "right"):
-            torque = largest(f"wheel_torque_{side}_nm")
-            assert torque <= motor["torque_limit"] * (1.0 + 1e-6)  # six digits are written
-            assert largest(f"wheel_speed_{side}_rad_s") <= motor["no_load_speed"] * 1.005

@@ -2,8 +2,6 @@
 
 import math
 import re
-import shutil
-import subprocess
 from dataclasses import replace
 from itertools import combinations
 from xml.etree import ElementTree as ET
@@ -229,16 +227,6 @@ def test_lines_and_circles_of_the_pdf_are_those_of_the_sheet():
     content = pdf_of_pages([[Circle((100.0, 60.0), 40.0, OUTLINE)]], "")
     begun = re.search(rb"n\s(%b) (%b) m\s" % (NUMBER, NUMBER), content).groups()
     assert [float(each) for each in begun] == pytest.approx([140.0, 150.0])
-
-
-@pytest.mark.skipif(shutil.which("pdftotext") is None, reason="poppler is not installed")
-def test_a_reader_of_pdf_finds_the_texts(tmp_path):
-    path = tmp_path / "wheel.pdf"
-    path.write_bytes(draw_wheel(FLAT)["pdf"])
-    done = subprocess.run(["pdftotext", "-layout", path, "-"], capture_output=True, check=True)
-    for label in ("Ø8 H7", "4 × Ø3.4 through", "ISO 2768-mK", "35.95 kg mm²", "OCS flywheel"):
-        assert label in done.stdout.decode()
-    assert done.stderr == b""
 
 
 DEVICE = paper_device()
