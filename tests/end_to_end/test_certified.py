@@ -42,9 +42,12 @@ def test_a_certificate_is_in_the_design_in_its_report_and_can_be_flown_again(fol
 
 @pytest.mark.usefixtures("no_alternatives")
 @pytest.mark.parametrize(
-    ("factor", "rounds"), [(1.0, 1), pytest.param(1.05, 3, marks=pytest.mark.slow)]
+    ("factor", "rounds", "robot"),
+    [(1.0, 1, BY_HAND), pytest.param(1.05, 3, (SOLO12,), marks=pytest.mark.slow)],
 )
-def test_what_falls_short_is_sized_anew_and_sees_other_samples(folder, monkeypatch, factor, rounds):
+def test_what_falls_short_is_sized_anew_and_sees_other_samples(
+    folder, monkeypatch, factor, rounds, robot
+):
     """At most twice more, and not at all where no reserve helps."""
     rounds_of = ocs_design.workflows.rounds
     monkeypatch.setattr(
@@ -54,7 +57,7 @@ def test_what_falls_short_is_sized_anew_and_sees_other_samples(folder, monkeypat
     )
     monkeypatch.setattr(rounds_of, "lesson", lambda *_: Lesson(factor, "off level in roll"))
     motor = ("--motor", "AT2814 KV1200")
-    result = certified(DROP, SOLO12, "--ballistic", *motor, "--reliability", "0.5")
+    result = certified(DROP, *robot, "--ballistic", *motor, "--reliability", "0.5")
     assert result.code == 1
     found = result.document["reliability"]
     assert found["round"] == rounds

@@ -28,7 +28,8 @@ def test_a_motor_fed_beyond_its_rating_is_remarked(folder, voltage, remarked):
     name = "AT2814 KV1050"
     assert motors()[name].rated_voltage == 16.8
     given = ("--motor", name, "--bus-voltage", voltage, *ONE_KIND, "--no-validate")
-    result = run("size", "--mass", "1.2", "--inertia", "0.02,0.03,0.035", *given, "-o", "out")
+    asked = ("--layout", "pair", "--fall", "1m", "-o", "out")
+    result = run("size", "--mass", "1.2", "--inertia", "0.02,0.03,0.035", *given, *asked)
     assert result.code == 0, result.said
     words = f"{name} is rated for 16.8 V and fed with 24 V: ask the makers"
     assert (words in result.said) is remarked

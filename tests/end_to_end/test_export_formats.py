@@ -22,6 +22,7 @@ def test_one_format_alone(solo12, each):
     assert again.items() <= made_in(solo12).items()
 
 
+@pytest.mark.parametrize("product", ["motor"], indirect=True)
 def test_what_is_written_on_request_alone(product, folder):
     """For the printer and for CAD."""
     asked = ("--formats", "3mf,step,printed")
@@ -41,9 +42,6 @@ def test_what_is_written_on_request_alone(product, folder):
         *steps,
     }
     assert set(again) == {"design.json", *made}
-    if not case.standing:
-        run("export", product.folder, "-o", "more", "-q", *asked)
-        assert files_in("more") == again
 
 
 @pytest.mark.parametrize("name", ["step", "dxf"])

@@ -93,7 +93,6 @@ TWICE = (signal.SIGINT, signal.SIGINT)
         (started, (signal.SIGTERM,)),
         (loaded, (signal.SIGHUP,)),
         (sized, TWICE),
-        (written, TWICE),
     ],
     ids=lambda each: getattr(each, "__name__", None) or "-".join(number.name for number in each),
 )
@@ -108,7 +107,7 @@ def test_an_interrupt_leaves_nothing(folder, interrupted, moment, signals):
 def test_an_interrupt_keeps_what_was_to_be_replaced(folder, interrupted):
     (folder / "solo12-ocs").mkdir()
     (folder / "solo12-ocs" / "design.json").write_bytes(b"{}")
-    code, said = interrupted(written, signal.SIGINT, options=("--force",))
+    code, said = interrupted(written, *TWICE, options=("--force",))
     assert "Traceback" not in said
     assert code == 130, said
     assert said.endswith("interrupted; nothing half done is left\n")

@@ -6,7 +6,7 @@ import re
 from io import StringIO
 
 import pytest
-from commands import BOUND, PROGRAM, SOLO12, Result, environment, run
+from commands import PROGRAM, SOLO12, environment, run
 from products import FILES, Product
 from rich.console import Console
 
@@ -103,13 +103,6 @@ def test_jumps_start_on_the_ground(tmp_path, no_alternatives, no_files):
     for record in result.document["validation"]:
         assert record["passed"] is record["ocs"], record["reason"]
         assert (record["metrics"]["lift_off_time"] > 0.0) == (record["scenario"] != "drop")
-
-
-def test_quiet_prints_nothing(tmp_path):
-    result = run("size", SOLO12, *BOUND, "-q", "--no-validate", "-o", tmp_path / "out")
-    assert result == Result(0, "", "")
-    assert (tmp_path / "out" / "design.json").is_file()
-    assert not (tmp_path / "out" / "validation").exists()
 
 
 def in_a_terminal(*arguments, **variables):

@@ -148,15 +148,13 @@ def test_a_design_without_maneuvers_has_nothing_to_fly(folder):
     assert "nothing to fly" in result.said
 
 
-def test_it_is_certified_with_as_few_flights_as_it_takes(by_hand):
-    """152 of 152: see `test_certificate`."""
-    result = run("validate", by_hand, "--certify", "--json")
+def test_what_too_few_flights_say_is_undecided(by_hand):
+    """152 of 152 are enough for 99 %: see `test_certified`, and `test_certificate`."""
+    result = run("validate", by_hand, "--certify", "--samples", "40", "--json")
     assert result.code == 0
     record = result.document["monte_carlo"]
     found = record["certificate"]
-    assert (found["verdict"], found["whole"], found["samples"]) == ("certified", 152, 152)
-    assert found["passed"] == {"drop": 152}
-    assert found["interval"]["drop"] == pytest.approx([0.025 ** (1 / 152), 1.0])
-    assert (record["samples"], record["asked"]) == (152, 1000)
-    few = run("validate", by_hand, "--certify", "--samples", "40", "--json").document
-    assert few["monte_carlo"]["certificate"]["verdict"] == "undecided"
+    assert (found["verdict"], found["whole"], found["samples"]) == ("undecided", 40, 40)
+    assert found["passed"] == {"drop": 40}
+    assert found["interval"]["drop"] == pytest.approx([0.025 ** (1 / 40), 1.0])
+    assert (record["samples"], record["asked"]) == (40, 40)

@@ -99,7 +99,7 @@ def test_meshes_of_an_mjcf_robot_go_along(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("path", LEGGED_PATHS, ids=LEGGED)
+@pytest.mark.parametrize("path", LEGGED_PATHS[::3], ids=LEGGED[::3])
 def test_a_free_flight_keeps_its_angular_momentum_as_the_file_stands(path, tmp_path):
     """The gate of the flights, `MOMENTUM_GATE`, for 2 s with fast wheels and a turning trunk."""
     robot = robot_at(path)

@@ -56,6 +56,7 @@ def test_wheels_that_a_brake_stops_turn_no_faster_than_their_joint_takes():
     asked = specification_from_options(
         {
             "robot.file": str(SOLO12),
+            "motor.name": "XING2 2207 KV1855",
             "requirement.pivot": "0,0,-0.272 along left",
             "requirement.stand_up": "pitch 20deg by brake",
         }

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import assume, example, given
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from rims import random_problem, rim_problems, scaled_problem
 
@@ -62,7 +62,7 @@ LIGHTENED_WEIGHT = 0.9
 def test_never_heavier_than_on_a_grid(web, weight):
     rng = np.random.default_rng(3)
     gaps = []
-    for _ in range(60):
+    for _ in range(30):
         problem = random_problem(rng)
         limits = with_web(problem.limits, web, weight)
         shape = lightest_module(problem.spin_inertia, limits, SHELL)
@@ -70,7 +70,7 @@ def test_never_heavier_than_on_a_grid(web, weight):
         if not np.isfinite(grid):
             continue
         gaps.append(float(grid / shape.mass) - 1.0)
-    assert len(gaps) > 20
+    assert len(gaps) > 10
     assert min(gaps) > -1e-12
     assert np.median(gaps) < 2e-3
 
@@ -106,6 +106,7 @@ def test_there_is_one_where_there_is_a_rim(problem):
         assert float(shape.rim_mass) >= float(rim.mass) * (1.0 - 1e-9)
 
 
+@settings(max_examples=50)
 @given(rim_problems(), st.floats(0.01, 0.95), st.sampled_from([1.0, LIGHTENED_WEIGHT]))
 def test_a_web_leaves_the_limits_met(problem, share, weight):
     """Wherever a grid finds a wheel there is one, and it is no heavier."""

@@ -25,9 +25,9 @@ ROUNDING = 1e-9
 SEED, MOTORS = 1, 1
 
 
-@pytest.fixture(params=(-ROUNDING, 0.0, ROUNDING), ids=("lighter", "equal", "heavier"))
+@pytest.fixture(params=(-ROUNDING, ROUNDING), ids=("lighter", "heavier"))
 def steels(request):
-    """The weaker steel first, and lighter than the other one, as heavy or heavier."""
+    """The weaker steel first, and lighter than the other one or heavier."""
     return replace(WEAK, density=WEAK.density * (1.0 + request.param)), ALUMINIUM, STRONG
 
 
@@ -58,8 +58,7 @@ def test_it_is_found_where_only_the_lightest_is_looked_for(steels):
     assert steels[found.places[0].parts[2]].name == "strong"
 
 
-@pytest.mark.parametrize("heavier", [-ROUNDING, ROUNDING])
-def test_at_its_own_incidence_the_winner_is_as_light_as_its_twins(heavier):
+def test_at_its_own_incidence_the_winner_is_as_light_as_its_twins():
     """Solo12's device can only just carry itself: a step too far takes a smaller radius."""
     specification = Specification(
         robot=RobotSection(file=str(SOLO12)), motor=MotorSection(name="Antigravity MN5006 KV450")
@@ -67,11 +66,12 @@ def test_at_its_own_incidence_the_winner_is_as_light_as_its_twins(heavier):
     task = read_task(specification)
     solo = design_device(specification, task.robot, task.resolved, ranked=False)
     strong, weak = material("steel-4140-normalized"), material("steel-1045-cold-worked")
-    steels = replace(weak, density=weak.density * (1.0 + heavier)), strong
-    problem = replace(solo.choice.problem, materials=steels, incidence=None)
-    best, second, *_ = select_by(problem, Criterion.EQUAL_RATE).ranking
-    assert (best.material.name, second.material.name) == (strong.name, weak.name)
-    assert second.mass == pytest.approx(best.mass, rel=10.0 * ROUNDING)
+    for heavier in (-ROUNDING, ROUNDING):
+        steels = replace(weak, density=weak.density * (1.0 + heavier)), strong
+        problem = replace(solo.choice.problem, materials=steels, incidence=None)
+        best, second, *_ = select_by(problem, Criterion.EQUAL_RATE).ranking
+        assert (best.material.name, second.material.name) == (strong.name, weak.name)
+        assert second.mass == pytest.approx(best.mass, rel=10.0 * ROUNDING)
 
 
 def test_a_device_that_is_lighter_leads_whatever_its_strength(steels):
