@@ -1,9 +1,9 @@
 """What would make a device lighter: single changes of the specification, and what they save.
 
-Each change is a selection with the rest as it was, good to about 1.5 %. The reserve for what is
-uncertain stays what it is but for another incidence, though a device of its own would keep a little
-more or less. The incidence stays, though a lighter device would move it by a fraction of a degree,
-and so does the material, where it is not what changes.
+A selection at the place, the incidence and with the material and the reserve of the device as it
+stands tells quickly which drive is lightest after a change. The changed question is then sized as a
+whole with that drive, on a footing of its own with its own reserve, so that the mass is that of a
+device that `size` would find with it. Another drive may be lighter still there.
 
 Where the mass to be saved is stated, each answer is the smallest change of one figure, in whole
 percent, or one or two other choices; where none of these does, one figure with one choice. It is
@@ -20,17 +20,17 @@ from math import inf, isfinite
 from ocs_design.actuation.motor import build_gaps
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import strong_materials
-from ocs_design.common.errors import Infeasible, OcsError
+from ocs_design.common.errors import Infeasible, OcsError, SpecificationError
 from ocs_design.common.units import format_quantity, round_outwards
 from ocs_design.device.records.selection import SAVES_NOTHING, Alternative, Owed
-from ocs_design.requirement.choices import BUS_VOLTAGES, any_motors
+from ocs_design.requirement.choices import BUS_VOLTAGES, any_motors, motor_choice
 from ocs_design.requirement.kinds import change_text, milder, slower
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove
 from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
-from ocs_design.requirement.vocabulary import AUTO, LIGHTEST, STEEL
+from ocs_design.requirement.vocabulary import AUTO, DISC, LIGHTEST, RING, STEEL
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.limits import BUS_VOLTAGE, LIMITS, TIME, Progress, unseen
@@ -126,60 +126,29 @@ def alternatives(
 ) -> tuple[Alternative, ...]:
     """What each relaxation of the defaults and of the limits would save; empty without a motor.
 
+    The other construction, a ring around the motor's bell or a disc, is told in any case.
+
     Args:
         specification: what was stated: what it relaxes already is not offered again.
         resolved: the same with nothing left open.
         choice: the device, and what it was chosen from; None: it has no motor.
         robot: that carries it.
     """
-    offered = resolved.choice
-    if choice is None or offered is None:
+    if choice is None:
         return ()
     chosen = choice.chosen
-    below = (1.0 - _WORTH) * chosen.modules_mass
-
-    def lightest(problem: SelectionProblem) -> Candidate | None:
-        """The lightest device with its plate, at another incidence with another reserve."""
-        found = lightest_below(problem, below)
-        if found is None or problem.incidence is not None:
-            return None if found is None else with_plate(found, problem, robot)
-        # A design of its own, of those parts.
-        free = replace(specification, ocs=replace(specification.ocs, alpha_criterion=LIGHTEST))
-        # Steels make much the same device; of all materials another may be the lightest there.
-        any_material = specification.flywheel.material == AUTO
-        parts = replace(
-            offered,
-            motors=(found.motor,),
-            gears=(found.gear,),
-            materials=offered.materials if any_material else (found.material,),
-        )
-        try:
-            own = design_device(free, robot, replace(resolved, choice=parts), ranked=False)
-        except Infeasible:
-            return None
-        return None if own.choice is None else own.choice.chosen
-
+    worth = (1.0 - _WORTH) * chosen.mass
     answers = []
-    for text, problem in _changes(specification, choice):
-        found, note = lightest(problem), SAVES_NOTHING
+    for change in _changes(specification, resolved, choice, robot):
+        found, note = _lighter(change, choice, robot), SAVES_NOTHING
         # What is lighter may be wider, and so may its plate.
-        if found is None or found.mass > (1.0 - _WORTH) * chosen.mass:
+        if found is None or found.mass > worth:
             found = chosen
         else:
-            note = "; ".join(_notes(problem, found, choice.problem))
-        answers.append(_answer(text, found, note))
-    asked = replace(choice.problem, incidence=chosen.incidence)
-    other = other_construction(specification, resolved, asked)
-    found = None if other is None else lightest_below(other, inf)
-    if other is not None and found is not None:
-        text, note = "a disc on each motor in place of the ring around its bell", "--wheel disc"
-        if other.on_bell:
-            text, note = (
-                "a ring bonded around each motor's bell in place of the disc",
-                "--wheel ring",
-            )
-        answers.append(_answer(text, with_plate(found, other, robot), note))
-    return tuple(answers)
+            note = "; ".join(_notes(change.problem, found, choice.problem))
+        answers.append(_answer(change.text, found, note))
+    other = _other_construction(specification, resolved, choice, robot)
+    return tuple(answers) if other is None else (*answers, other)
 
 
 def _answer(text: str, device: Candidate, note: str) -> Alternative:
@@ -187,14 +156,105 @@ def _answer(text: str, device: Candidate, note: str) -> Alternative:
     return Alternative(change=text, mass_total=device.mass, motor=device.motor.name, note=note)
 
 
+@dataclass(frozen=True, eq=False)
+class _Change:
+    """One change of the question.
+
+    Attributes:
+        text: in words.
+        specification, resolved: the question with it.
+        problem: the same on the footing and with the reserve of the device as it stands.
+    """
+
+    text: str
+    specification: Specification
+    resolved: Resolved
+    problem: SelectionProblem
+
+
+def _lighter(change: _Change, choice: Choice, robot: Robot) -> Candidate | None:
+    """The device of a changed question, where a quick look finds drives that save anything.
+
+    It is sized as a whole with the lightest of those drives.
+    """
+    found = lightest_below(change.problem, (1.0 - _WORTH) * choice.chosen.modules_mass)
+    offered = change.resolved.choice
+    if found is None or offered is None:
+        return None
+    parts = replace(offered, motors=(found.motor,), gears=(found.gear,))
+    many, stated = len(change.problem.materials) > 1, change.specification.flywheel.material
+    if many or (change.problem.incidence is None and stated != AUTO):
+        # Steels make much the same device, and to weigh them all at every incidence takes long.
+        parts = replace(parts, materials=(found.material,))
+    return _whole(change.specification, replace(change.resolved, choice=parts), robot)
+
+
+def _whole(specification: Specification, resolved: Resolved, robot: Robot) -> Candidate | None:
+    """The lightest device, on its own footing with its own reserve; None: there is none."""
+    try:
+        own = design_device(specification, robot, resolved, ranked=False)
+    except Infeasible:
+        return None
+    return None if own.choice is None else own.choice.chosen
+
+
+def _other_construction(
+    specification: Specification, resolved: Resolved, choice: Choice, robot: Robot
+) -> Alternative | None:
+    """The device with rings in place of discs, or discs in place of rings; None: there is none.
+
+    All of its drives are weighed: each stands higher or lower than with the construction that there
+    is, on other feet and another plate, so that a look at the place of those tells little.
+    """
+    other = other_construction(specification, resolved, choice.problem)
+    if other is None:
+        return None
+    text = "a disc on each motor in place of the ring around its bell"
+    if other.on_bell:
+        text = "a ring bonded around each motor's bell in place of the disc"
+    wheel = RING if other.on_bell else DISC
+    # The bell sets the bore, which a co-design would change.
+    built = replace(specification, ocs=replace(specification.ocs, wheel=wheel, co_design=None))
+    found = _whole(built, resolved, robot)
+    return None if found is None else _answer(text, found, f"--wheel {wheel}")
+
+
 def _changes(
-    specification: Specification, choice: Choice
-) -> Iterator[tuple[str, SelectionProblem]]:
-    """Each relaxation, and more power, room and time, as the problem with that change alone."""
-    chosen = choice.chosen
+    specification: Specification, resolved: Resolved, choice: Choice, robot: Robot
+) -> Iterator[_Change]:
+    """Each relaxation, and more power, room and time, as the question with that change alone."""
+    offered, chosen = resolved.choice, choice.chosen
+    assert offered is not None, "there are motors to choose from"
     problem = replace(choice.problem, incidence=chosen.incidence, materials=(chosen.material,))
+
+    def changed(text: str, to: SelectionProblem) -> _Change:
+        """What does not change is as it was resolved: factors on turns that were found too small,
+        and kicks about the centre of mass with a device."""
+        maneuvers = to.requirement.maneuvers
+        return _Change(
+            text,
+            specification,
+            replace(
+                resolved,
+                requirement=replace(resolved.requirement, maneuvers=maneuvers),
+                envelope=to.envelope,
+                choice=replace(offered, supply=to.supply),
+            ),
+            to,
+        )
+
     for each in relaxations(specification, problem):
-        yield each.text, each.problem(problem)
+        stated = each.stated(specification)
+        try:
+            own = motor_choice(stated, robot)
+        except SpecificationError:  # No motor is rated for so much.
+            continue
+        assert own is not None, "there are motors to choose from"
+        names, relaxed = {motor.name for motor in own.motors}, each.problem(problem)
+        motors = tuple(motor for motor in relaxed.motors if motor.name in names)
+        if motors:
+            relaxed = replace(relaxed, motors=motors)
+            yield _Change(each.text, stated, replace(resolved, choice=own), relaxed)
     asked = problem.requirement
     turned = tuple(
         replace(maneuver, incidence=0.0)
@@ -207,23 +267,23 @@ def _changes(
         for flip in turned:
             if isinstance(flip, Flip) and flip.incidence == 0.0 and flip.name in kept:
                 # At 0 deg no wheel takes up a rate of roll.
-                own = kept[flip.name]
-                kept[flip.name] = replace(own, rate=(0.0, own.rate[1]), roll=0.0)
+                own_reserve = kept[flip.name]
+                kept[flip.name] = replace(own_reserve, rate=(0.0, own_reserve.rate[1]), roll=0.0)
         by_hand = replace(asked, maneuvers=turned, reserves=kept)
         text = "modules turned to 0 deg by hand for each flip"
-        yield text, replace(problem, requirement=by_hand)
+        yield changed(text, replace(problem, requirement=by_hand))
     power = problem.supply.power
     if isfinite(power):
         least = format_quantity(power, "kW" if power >= 1e3 else "W", 3)
         endless = Supply(problem.supply.voltage, inf, inf)
-        yield f"a supply of more than {least}", replace(problem, supply=endless)
+        yield changed(f"a supply of more than {least}", replace(problem, supply=endless))
     room = LIMITS["r_max"]
     radius = MORE_ROOM * room.value(problem.envelope)
     text = f"r_max {format_quantity(radius, 'mm', 3)}, {MORE_ROOM - 1.0:.0%} more"
-    yield text, with_limit(problem, room, radius)
+    yield changed(text, with_limit(problem, room, radius))
     if asked.maneuvers:
         text = f"{MORE_TIME - 1.0:.0%} more time for every maneuver"
-        yield text, with_limit(problem, TIME, MORE_TIME)
+        yield changed(text, with_limit(problem, TIME, MORE_TIME))
 
 
 def _notes(changed: SelectionProblem, found: Candidate, asked: SelectionProblem) -> Iterator[str]:
