@@ -4,6 +4,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import inf, pi, sqrt
 
+import numpy as np
+
 from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.materials import Material, materials
@@ -13,6 +15,8 @@ from ocs_design.device.foot_hold import foot_hold
 from ocs_design.device.solids import foot_of, housing_of, motor_mount
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.cage import floor_at_shock, heads_at_shock
+from ocs_design.parts.carrier_plate import CarrierPlate
+from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.foot import stem_frequency
 from ocs_design.parts.guard import Containment, containment, fragment_of
 from ocs_design.parts.joints import (
@@ -40,8 +44,13 @@ from ocs_design.parts.joints import (
     tightening_torque,
 )
 from ocs_design.parts.pedestal import seat_compliance
-from ocs_design.parts.plate_strength import plate_frequency, plate_screws_use, plate_sway
-from ocs_design.parts.printed import SHOCK
+from ocs_design.parts.plate_strength import (
+    plate_frequency,
+    plate_screws_use,
+    plate_sway,
+    plate_tilt,
+)
+from ocs_design.parts.printed import MODULUS, SHOCK
 from ocs_design.parts.rim import LIGAMENT
 from ocs_design.parts.turning_rings import (
     Ring,
@@ -352,30 +361,25 @@ class Resonance:
 
 
 def resonances_of(device: Device) -> tuple[Resonance, ...]:
-    """First bending modes of what carries a module that a wheel passes on its way to top speed.
+    """First modes of what carries a module that a wheel passes on its way to top speed.
 
     A force U w^2 shakes a mass m on a spring by U / (2 zeta m) at resonance, however stiff it is.
-    The plate is shaken by all of the unbalance, the stem only by its moment about it: at the end of
-    a cantilever of length L a moment M works as the force 3 M / 2 L. Gyroscopic moments of the
-    turning wheel are left out. A pedestal's seat gives way under all of the unbalance, and turns
-    under the stem: one over the square of their common frequency is the sum of both (Dunkerley).
+    The plate is shaken by all of the unbalance, up and down as it bends and across the wheel's axis
+    as it is twisted; the stem only by its moment about it: at the end of a cantilever of length L a
+    moment M works as the force 3 M / 2 L. Gyroscopic moments of the turning wheel are left out. A
+    pedestal's seat gives way under all of the unbalance.
     """
     if device.carrier.mass == 0.0:
         return ()
-    wheel, foot = device.flywheel, foot_of(device)
-    mass = wheel.mass + device.carrier.mass
-    inertia = wheel.transverse_inertia + float(device.carrier.inertia[0, 0])
+    foot, mass = foot_of(device), device.flywheel.mass + device.carrier.mass
     lever = 1.5 * (foot.back - device.foot_plate / 2.0) / (foot.wheel_height - foot.base)
-    modes = [("foot", stem_frequency(foot, mass, inertia), lever)]
+    modes = [("foot", foot_frequency(device), lever)]
     if device.pedestals:
-        square, along = map(max, zip(*map(seat_compliance, device.pedestals), strict=True))
-        softer = 1.0 / modes[0][1] ** 2 + (2.0 * pi) ** 2 * along * mass
-        modes = [
-            ("pedestal", 1.0 / (2.0 * pi * sqrt(square * mass)), 1.0),
-            ("foot", 1.0 / sqrt(softer), lever),
-        ]
+        square = max(seat_compliance(each)[0] for each in device.pedestals)
+        modes.insert(0, ("pedestal", 1.0 / (2.0 * pi * sqrt(square * mass)), 1.0))
     if device.plate is not None:
         modes.insert(0, ("plate", plate_frequency(device.plate, mass), 1.0))
+        modes.append(("twisted plate", _twisted_frequency(device, device.plate), 1.0))
         if device.plate.mast is None and device.plate.arms == 2:
             sleeved = plate_sway(device.plate, mass, foot.wheel_height)
             modes.insert(1, ("sleeve", sleeved, 1.0))
@@ -389,6 +393,59 @@ def resonances_of(device: Device) -> tuple[Resonance, ...]:
         )
         for name, frequency, share in modes
         if 2.0 * pi * frequency < device.motor.top_speed
+    )
+
+
+def foot_frequency(device: Device, modulus: float = MODULUS) -> float:
+    """First mode of a module along its wheel's axis, on its foot and what that stands on [Hz].
+
+    The plate, or a pedestal's seat, turns under the stem: one over the square of their common
+    frequency is the sum of those of each alone (Dunkerley, a lower bound).
+
+    Args:
+        device: with modules. modulus: of what the feet are made of [Pa].
+    """
+    foot, carrier = foot_of(device), device.carrier
+    mass = device.flywheel.mass + carrier.mass
+    inertia = device.flywheel.transverse_inertia + float(carrier.inertia[0, 0])
+    softness = stem_frequency(foot, mass, inertia, modulus) ** -2
+    if device.pedestals:
+        along = max(seat_compliance(each)[1] for each in device.pedestals)
+        softness += (2.0 * pi) ** 2 * along * mass
+    if device.plate is not None:
+        tilt, _ = _tilts(device, device.plate)
+        arm = foot.wheel_height + device.plate.thickness / 2.0
+        softness += (2.0 * pi) ** 2 * tilt * (mass * arm**2 + inertia)
+    return 1.0 / sqrt(softness)
+
+
+def _twisted_frequency(device: Device, plate: CarrierPlate) -> float:
+    """First mode of a module across its wheel's axis, on a plate that turns under its foot [Hz].
+
+    The wheel does not turn with it about its own axis.
+    """
+    foot, carrier = foot_of(device), device.carrier
+    mass, inertia = device.flywheel.mass + carrier.mass, float(carrier.inertia[1, 1])
+    _, tilt = _tilts(device, plate)
+    arm = foot.wheel_height + plate.thickness / 2.0
+    stem = stem_frequency(foot, mass, inertia, in_plane=True)
+    return 1.0 / sqrt(stem**-2 + (2.0 * pi) ** 2 * tilt * (mass * arm**2 + inertia))
+
+
+def _tilts(device: Device, plate: CarrierPlate) -> tuple[float, float]:
+    """Largest turn of a foot on its plate by a moment on it [rad/(N m)].
+
+    About the horizontal across its wheel's axis, as a push along the axis turns it, and about the
+    axis itself: its own bends an arm in part, and twists it in part.
+    """
+    bends, twists = plate_tilt(plate)
+    arms = np.resize(directions(plate.arms), (len(device.modules), 2))
+    axes = np.array([module.axis[:2] for module in device.modules])
+    along = (axes * arms).sum(axis=1) ** 2 / (axes**2).sum(axis=1)
+    pushed, turned = bends * along, twists * along
+    return (
+        float((pushed + twists * (1.0 - along)).max()),
+        float((turned + bends * (1.0 - along)).max()),
     )
 
 

@@ -8,7 +8,7 @@ from ocs_design.catalogue.motors import known_motors
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
 from ocs_design.device.device import Device
 from ocs_design.device.foot_hold import foot_hold
-from ocs_design.device.joints import DAMPING, FLOOR_SHOCK, joints_of, resonances_of
+from ocs_design.device.joints import DAMPING, FLOOR_SHOCK, foot_frequency, joints_of, resonances_of
 from ocs_design.device.solids import drive_solids, foot_of, motor_mount, shaft_cut
 from ocs_design.export.device_parts import foot_holes, wheel_geometry
 from ocs_design.export.drawing.wheel import BROKEN_EDGE, lost_by_breaking
@@ -19,7 +19,7 @@ from ocs_design.parts.carrier_plate import YIELD_STRENGTH
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.joints import GRADE
 from ocs_design.parts.motor_mount import motor_front
-from ocs_design.parts.printed import DENSITY, MODULUS, SHOCK, STRENGTH, TRUNK_SCREW
+from ocs_design.parts.printed import DENSITY, SHOCK, STRENGTH, TRUNK_SCREW
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import trunk_surface
 
@@ -172,6 +172,7 @@ def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
     bears = hold.prints_bear
     if bears < SHOCK:
         stronger, heavier = YIELD_STRENGTH / STRENGTH, own * (PLATE_DENSITY / DENSITY - 1.0)
+        stiffer = foot_frequency(device, PLATE_MODULUS) / foot_frequency(device)
         sway = "".join(
             f", and let it sway at {mode.frequency:.0f} Hz" for mode in modes if mode.name == "foot"
         )
@@ -180,7 +181,7 @@ def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
             f"along the wheel's axis, and not {SHOCK / STANDARD_GRAVITY:.0f}"
             f"{sway}: where landings are harder, mill them of 6061-T6 to the same file, "
             f"at least {stronger:.0f} times as strong, "
-            f"{sqrt(PLATE_MODULUS / MODULUS):.0f} times as high a frequency and "
+            f"{stiffer:.2g} times as high a frequency and "
             f"{1e3 * heavier:.0f} g heavier each"
         )
     if hold.heads_bear < SHOCK:

@@ -36,6 +36,9 @@ of Materials, Appendix C."""
 MODULUS = 69e9
 """Modulus of 6061 [Pa], as in the catalogue of materials."""
 
+SHEAR_MODULUS = 26e9
+"""Shear modulus of 6061 [Pa]: Hibbeler, Mechanics of Materials, Appendix C."""
+
 STOCK = (3.0e-3, 4.0e-3, 5.0e-3, 6.0e-3, 8.0e-3, 10.0e-3, 12.0e-3, 15.0e-3, 20.0e-3)
 """Thicknesses of rolled plate, EN 485-4 sizes that are kept in stock [m]."""
 

@@ -242,19 +242,31 @@ def screw_pull(foot: Foot[float], mass: float, edge: float | None = None) -> flo
     return mass * SHOCK * foot.wheel_height / screw_lever(edge, foot.slot_radius)
 
 
-def stem_frequency(foot: Foot[float], mass: float, inertia: float) -> float:
+def stem_frequency(
+    foot: Foot[float],
+    mass: float,
+    inertia: float,
+    modulus: float = MODULUS,
+    *,
+    in_plane: bool = False,
+) -> float:
     """First bending mode of the stem along the wheel's axis, its base held [Hz].
 
     Rayleigh's quotient with the shape of a cantilever under a force at its end, v = y^2 (3 L - y) /
     2 L^3: 3 E I / L^3 over m + 33/140 m_stem + J (3 / 2 L)^2.
 
     Args:
-        foot: of PETG.
-        mass: at the wheel's middle [kg]. inertia: of it about the forward axis there [kg m^2].
+        foot: that it is the stem of.
+        mass: at the wheel's middle [kg]. inertia: of it about the axis that it turns about there,
+            the forward one [kg m^2].
+        modulus: of what the foot is made of, PETG [Pa]; it is as heavy as of PETG.
+        in_plane: across the wheel's axis instead, forward, where the stem is as thick as it is
+            wide; the inertia is that about the wheel's axis.
     """
     arm, width = foot.wheel_height - foot.base, 2.0 * foot.stem
     thickness = float(foot.thickness)
-    stiffness = MODULUS * width * thickness**3 / (4.0 * arm**3)
+    deep, wide = (width, thickness) if in_plane else (thickness, width)
+    stiffness = modulus * wide * deep**3 / (4.0 * arm**3)
     stem = DENSITY * width * thickness * arm
     return sqrt(stiffness / (mass + 33.0 / 140.0 * stem + 2.25 * inertia / arm**2)) / (2.0 * pi)
 

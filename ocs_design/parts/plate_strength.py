@@ -12,6 +12,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.parts.carrier_plate import (
     MODULUS,
     SAFETY,
+    SHEAR_MODULUS,
     SLEEVE_WALL,
     YIELD_STRENGTH,
     CarrierPlate,
@@ -247,3 +248,31 @@ def plate_frequency(plate: CarrierPlate, mass: float) -> float:
         bends = arm**3 / 3.0 + (arm + plate.mast.side / 2.0) ** 2 * above
         compliance += 2.0 * bends / (MODULUS * plate.mast.second_moment)
     return float(1.0 / np.sqrt(compliance * mass) / (2.0 * pi))
+
+
+def plate_tilt(plate: CarrierPlate) -> tuple[float, float]:
+    """By how much a moment turns the middle of a foot, the trunk's screws held [rad/(N m)].
+
+    First about the horizontal across its arm, which bends the arm: the integral of 1 / (E I), as
+    under a moment at the end of a cantilever (Roark's Formulas for Stress and Strain, 7th edition,
+    table 8.1, case 3a). Then about the arm, which twists it: that of 1 / (G K), K = w t^3 (1/3 -
+    0.21 t/w (1 - t^4 / 12 w^4)) of a rectangle (table 10.1, case 4). Both over the sections of
+    `net_width` from the outermost screws, or the arm of a mast, to the middle of the foot; what a
+    mast gives is left out.
+
+    Args:
+        plate: with its screws, or on a mast.
+    """
+    if len(plate.rows) > 1:
+        bent, twisted = map(max, zip(*map(plate_tilt, plate.each), strict=True))
+        return bent, twisted
+    across = np.linspace(plate.support, plate.across, _SECTIONS)
+    widths = plate.net_width(across)
+    least, most = np.minimum(widths, plate.thickness), np.maximum(widths, plate.thickness)
+    q = least / most
+    torsion = most * least**3 * (1.0 / 3.0 - 0.21 * q * (1.0 - q**4 / 12.0))
+    bending = widths * plate.thickness**3 / 12.0
+    return (
+        float(np.trapezoid(1.0 / (MODULUS * bending), across)),
+        float(np.trapezoid(1.0 / (SHEAR_MODULUS * torsion), across)),
+    )

@@ -169,12 +169,13 @@ def test_resonances_are_those_below_top_speed_and_follow_the_unbalance():
     """U w^2 at the mode, and Q = 1 / (2 x 1 %) times U / m, whatever the stiffness."""
     device = DEVICES["on a plate"]
     device = replace(device, motor=replace(device.motor, no_load_speed=3e3, speed_max=None))
-    plate, foot = resonances_of(device)
+    plate, foot, twisted = resonances_of(device)
     mass, unbalance = device.flywheel.mass + device.carrier.mass, balance_of(device).unbalance
     assert plate.frequency == plate_frequency(device.plate, mass)
     assert plate.force == pytest.approx(unbalance * (2.0 * pi * plate.frequency) ** 2)
     assert plate.amplitude == pytest.approx(50.0 * unbalance / mass)
-    assert foot.frequency < plate.frequency
+    assert foot.frequency < twisted.frequency < plate.frequency
+    assert twisted.amplitude == plate.amplitude
     assert foot.amplitude < plate.amplitude
     slow = replace(device, motor=replace(device.motor, no_load_speed=6.0 * foot.frequency))
     assert resonances_of(slow) == ()
