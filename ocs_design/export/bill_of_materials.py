@@ -37,6 +37,7 @@ from ocs_design.parts.printed import (
     TRUNK_SCREW_COUNT,
     WALL,
     WASHER,
+    WASHER_MASS,
 )
 
 COLUMNS = (
@@ -223,7 +224,11 @@ def _unweighed_rows(device: Device, margins: Sequence[MarginRecord]) -> Iterator
         yield BillRow("retaining compound", 1, "", "", 0.0, where)
     if foot_hold(device).washers:
         count, where = len(device.modules) * TRUNK_SCREW_COUNT, "under heads of the feet's screws"
-        yield BillRow(f"washer {WASHER}", count, "steel", "", 0.0, f"{where}; not in the mass")
+        mass = count * WASHER_MASS
+        share = f"{1e3 * mass:.1f} g in all, {mass / device.mass:.2%} of the device"
+        yield BillRow(
+            f"washer {WASHER}", count, "steel", "", 0.0, f"{where}; not in the mass: {share}"
+        )
     if unheld_moment(device, margins):
         where = "through a foot's base into what it stands on; not in the mass"
         yield BillRow("pin of 3 mm", len(device.modules), "steel", "", 0.0, where)

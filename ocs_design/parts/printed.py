@@ -6,12 +6,13 @@ Sizes may be arrays or CasADi's symbols: outlines of them can be weighed, not dr
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import reduce
+from math import pi
 from operator import add
 from typing import Any
 
 import numpy as np
 
-from ocs_design.actuation.fasteners import Fastening, Screw, screw
+from ocs_design.actuation.fasteners import STEEL, Fastening, Screw, screw
 from ocs_design.actuation.motor import BoltCircle
 from ocs_design.common.frames import Placement
 from ocs_design.parts.moments import MassMoments, Real, nothing
@@ -81,6 +82,9 @@ it, where EN 1993-1-8, table 3.3, asks for 1.2."""
 
 WASHER, WASHER_ACROSS, WASHER_HEIGHT = "ISO 7093-1 - 3", 9.0e-3, 0.8e-3
 """Large washer for such a screw, its largest diameter and height [m]: ISO 7093-1:2000, table 1."""
+
+WASHER_MASS = pi / 4.0 * (WASHER_ACROSS**2 - 3.2e-3**2) * WASHER_HEIGHT * STEEL
+"""Mass of one [kg]; its hole is 3.2 mm wide."""
 
 PRESSURE_SHARE = 0.5
 """Pressure under a head on a print over its yield strength: it creeps little then."""

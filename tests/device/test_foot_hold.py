@@ -129,3 +129,13 @@ def test_a_screw_under_the_cage_has_a_key_that_goes_there():
 
     assert not hits(room - 0.5)
     assert hits(room + 6.0)
+
+
+def test_what_washers_weigh_beside_the_device_is_in_the_bill():
+    """9.0 mm across, 3.2 mm inside and 0.8 mm high, of steel: 0.35 g each."""
+    device = weighing(2.0, plated=False)
+    (row,) = (each for each in bill_rows(device) if each.part == "washer ISO 7093-1 - 3")
+    grams = 4 * 0.25 * np.pi * (9.0**2 - 3.2**2) * 0.8 * 7.85e-3
+    told = f"not in the mass: {grams:.1f} g in all, {1e-3 * grams / device.mass:.2%} of the device"
+    assert row.mass == 0.0
+    assert row.remark.endswith(told)
