@@ -44,13 +44,6 @@ def _open_closed_streams() -> None:
             setattr(sys, name, open(number, mode, encoding="utf-8"))  # noqa: SIM115, PTH123  kept
 
 
-def _remove_unfinished() -> None:
-    _on_signals(signal.SIG_IGN)
-    # Whoever has not come to load it has nothing to remove.
-    if staging := sys.modules.get("ocs_design.export.staging"):
-        staging.remove_unfinished()
-
-
 def main() -> None:
     """Run the command line and end with its exit code."""
     try:
@@ -65,7 +58,10 @@ def main() -> None:
     except KeyboardInterrupt:
         code = INTERRUPTED
     if code == INTERRUPTED:
-        _remove_unfinished()
+        _on_signals(signal.SIG_IGN)
+        # Whoever has not come to load it has nothing to remove.
+        if staging := sys.modules.get("ocs_design.export.staging"):
+            staging.remove_unfinished()
         # The terminal may be what has ended.
         with suppress(OSError):
             print("interrupted; nothing half done is left", file=sys.stderr, flush=True)

@@ -163,7 +163,12 @@ class MotorSheet:
 
     def motor(self) -> Motor:
         """The motor in SI and in the one convention of `Motor`."""
-        torque, basis = self._peak_torque()
+        # Highest short-term torque: a motor gives the stall torque of its data sheet as it starts.
+        torque, basis = self.stall_torque_nm, "stall torque" if self.stall_torque_nm else ""
+        if self.peak_torque_nm is not None:
+            torque, basis = self.peak_torque_nm, "peak torque"
+        elif self.peak_current is not None and self.torque_constant is not None:
+            torque, basis = self.peak_current * self.torque_constant, "peak current"
         inertia, inertia_source = self.rotor_inertia_kg_m2, ""
         if inertia is None:
             inertia, inertia_source = estimated_rotor_inertia(
@@ -197,19 +202,6 @@ class MotorSheet:
             rotor_inertia_source=inertia_source,
             continuous_torque_source=continuous_source,
         )
-
-    def _peak_torque(self) -> tuple[float | None, str]:
-        """Highest short-term torque [N m] and what it rests on.
-
-        The maker's peak torque; else k_t times its peak current; else the stall torque of its data
-        sheet, which the motor gives while it starts.
-        """
-        if self.peak_torque_nm is not None:
-            return self.peak_torque_nm, "peak torque"
-        current = self.peak_current
-        if current is not None and self.torque_constant is not None:
-            return current * self.torque_constant, "peak current"
-        return self.stall_torque_nm, "stall torque" if self.stall_torque_nm else ""
 
     @property
     def peak_current(self) -> float | None:

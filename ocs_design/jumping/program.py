@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.jumping.node import NODES, STEPS, WEIGHTS, Layout, Limit, Node
+from ocs_design.jumping.node import NODES, STEPS, WEIGHTS, Limit, Node
 from ocs_design.sizing.trajectory.program import IPOPT_OPTIONS
 
 _TOLERANCE = 1e-6
@@ -190,7 +190,22 @@ class _Rows:
             np.tile(np.repeat([getattr(b, name) for b in node.blocks], counts), NODES)[kept]
             for name in ("lower", "upper", "limit")
         )
-        charged, defects = np.flatnonzero(limit >= 0), _defects(node.layout)
+        # Cubic splines: y'' is linear on each interval, y' and y its integrals.
+        layout = node.layout
+        step = ca.repmat(ca.DM(np.array(STEPS)).T, layout.coordinates, 1)
+        flat = ca.MX.sym("x", layout.size * NODES + _EXCESS)
+        z = ca.reshape(flat[:-_EXCESS], layout.size, NODES)
+        y, v, a, duration = (z[part, :] for part in (layout.y, layout.v, layout.a, layout.duration))
+        ahead, here = slice(1, None), slice(None, -1)
+        joined = ca.veccat(
+            v[:, ahead] - v[:, here] - step / 2.0 * (a[:, here] + a[:, ahead]),
+            y[:, ahead]
+            - y[:, here]
+            - step * v[:, here]
+            - step**2 / 6.0 * (2.0 * a[:, here] + a[:, ahead]),
+            duration[:, ahead] - duration[:, here],
+        )
+        defects, charged = ca.evalf(ca.jacobian(joined, flat)), np.flatnonzero(limit >= 0)
         tight = np.zeros(defects.size1())
         return cls(
             defects,
@@ -257,24 +272,6 @@ class _Pieces:
             "end_curvature": ([*given, on_end], ca.triu(end_bent)),
         }
         return cls(**{name: ca.Function(name, i, [o]) for name, (i, o) in functions.items()})
-
-
-def _defects(layout: Layout) -> ca.DM:
-    """Cubic splines: y'' is linear on each interval, y' and y its integrals."""
-    step = ca.repmat(ca.DM(np.array(STEPS)).T, layout.coordinates, 1)
-    flat = ca.MX.sym("x", layout.size * NODES + _EXCESS)
-    z = ca.reshape(flat[:-_EXCESS], layout.size, NODES)
-    y, v, a, duration = (z[part, :] for part in (layout.y, layout.v, layout.a, layout.duration))
-    ahead, here = slice(1, None), slice(None, -1)
-    joined = ca.veccat(
-        v[:, ahead] - v[:, here] - step / 2.0 * (a[:, here] + a[:, ahead]),
-        y[:, ahead]
-        - y[:, here]
-        - step * v[:, here]
-        - step**2 / 6.0 * (2.0 * a[:, here] + a[:, ahead]),
-        duration[:, ahead] - duration[:, here],
-    )
-    return ca.evalf(ca.jacobian(joined, flat))
 
 
 def _ones(rows: NDArray[Any], columns: NDArray[Any], shape: tuple[int, int]) -> ca.DM:

@@ -7,7 +7,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.common.frames import Placement
-from ocs_design.robot.chain import Chain, ChainPose, chain_of, neutral_posture
+from ocs_design.robot.chain import Chain, chain_of, neutral_posture
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.meshes import extent, extent_of, solid_shapes
 from ocs_design.robot.robot import Leg
@@ -166,7 +166,17 @@ def leg_plane(chain: Chain, foot: FloatArray, up: FloatArray) -> LegPlane:
     count = len(chain.driven)
     columns = tuple(range(count - 1 if is_wheel(chain.bodies[-1]) else count))
     zero = chain.pose(np.zeros(count))
-    pitch = _pitch_joints(chain, zero, columns, up)
+    # The largest set of parallel hinges; of equal sets, the one spread widest.
+    sets = []
+    rows = {column: chain.driven[column] for column in columns}
+    hinges = [c for c in columns if chain.joints[rows[c]].kind is JointKind.REVOLUTE]
+    for column in columns:
+        axis = zero.axes[rows[column]]
+        alike = tuple(c for c in hinges if abs(zero.axes[rows[c]] @ axis) > _PARALLEL)
+        if alike and abs(axis @ up) < _PARALLEL:
+            spread = np.ptp([up @ zero.origins[rows[c]] for c in alike])
+            sets.append((len(alike), float(spread), alike))
+    pitch = max(sets)[2] if sets else (columns[0],)
     flat = len(columns) >= ANKLED_JOINTS
     row = chain.driven[pitch[0]]
     axis, origin = zero.axes[row], zero.origins[row]
@@ -182,22 +192,6 @@ def leg_plane(chain: Chain, foot: FloatArray, up: FloatArray) -> LegPlane:
     else:
         forward = np.sign(forward[np.argmax(np.abs(forward))]) * forward / level
     return LegPlane(pitch, axis, hip, forward, columns, flat, length)
-
-
-def _pitch_joints(
-    chain: Chain, zero: ChainPose, columns: Sequence[int], up: FloatArray
-) -> tuple[int, ...]:
-    """Columns of the largest set of parallel hinges; of equal sets, the one spread widest."""
-    sets = []
-    rows = {column: chain.driven[column] for column in columns}
-    hinges = [c for c in columns if chain.joints[rows[c]].kind is JointKind.REVOLUTE]
-    for column in columns:
-        axis = zero.axes[rows[column]]
-        alike = tuple(c for c in hinges if abs(zero.axes[rows[c]] @ axis) > _PARALLEL)
-        if alike and abs(axis @ up) < _PARALLEL:
-            spread = np.ptp([up @ zero.origins[rows[c]] for c in alike])
-            sets.append((len(alike), float(spread), alike))
-    return max(sets)[2] if sets else (columns[0],)
 
 
 _SHARE_BELOW_TRUNK = 0.6

@@ -143,37 +143,31 @@ def merge_fixed_links(
         members[index].append((links[connection.child], place))
         home[connection.child] = (index, place)
         stack.extend(reversed(children.get(connection.child, ())))
-    return tuple(_body(*head, of) for head, of in zip(heads, members, strict=True))
-
-
-def _body(
-    name: str,
-    parent: int,
-    placement: Placement,
-    joint: Joint | None,
-    members: Sequence[tuple[Link, Placement]],
-) -> Body:
-    """Body of links that are rigidly joined, each with its frame in the body's."""
-    weighed = [(link.mass_properties or MassProperties.zero(), place) for link, place in members]
-    shapes = (
-        replace(
-            shape,
-            position=place.rotation @ shape.position + place.position,
-            rotation=place.rotation @ shape.rotation,
+    bodies = []
+    for head, joined in zip(heads, members, strict=True):
+        weighed = [(link.mass_properties or MassProperties.zero(), frame) for link, frame in joined]
+        shapes = (
+            replace(
+                shape,
+                position=frame.rotation @ shape.position + frame.position,
+                rotation=frame.rotation @ shape.rotation,
+            )
+            for link, frame in joined
+            for shape in link.shapes
         )
-        for link, place in members
-        for shape in link.shapes
-    )
-    return Body(
-        name,
-        parent,
-        placement,
-        joint,
-        combine(each.moved(place.rotation, place.position) for each, place in weighed),
-        {link.name: place for link, place in members},
-        {link.name: each.mass for (link, _), (each, _) in zip(members, weighed, strict=True)},
-        tuple(shapes),
-    )
+        bodies.append(
+            Body(
+                *head,
+                combine(each.moved(frame.rotation, frame.position) for each, frame in weighed),
+                {link.name: frame for link, frame in joined},
+                {
+                    link.name: each.mass
+                    for (link, _), (each, _) in zip(joined, weighed, strict=True)
+                },
+                tuple(shapes),
+            )
+        )
+    return tuple(bodies)
 
 
 def resolve_mimics(bodies: Sequence[Body], warnings: Warnings) -> tuple[Body, ...]:

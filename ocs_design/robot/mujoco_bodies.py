@@ -7,7 +7,7 @@ MuJoCo's own URDF reader loses the root link's mass and refuses links without in
 joins them; the tree has them joined already.
 """
 
-from collections.abc import Sequence, Set
+from collections.abc import Set
 from dataclasses import dataclass
 from itertools import accumulate, product
 from pathlib import Path
@@ -235,7 +235,27 @@ def spec_from_tree(tree: Tree, warnings: Warnings, *, visuals: bool) -> mujoco.M
         parent = spec.worldbody if body.parent < 0 else made[body.parent]
         made.append(_add_body(parent, name, body, warnings))
         shapes = [shape for shape in body.shapes if visuals or shape.collides]
-        _add_geoms(made[-1], shapes, meshes)
+        drawn = [
+            shape for shape in shapes if shape.kind is not ShapeKind.MESH or meshes.name_of(shape)
+        ]
+        wanted, shown = (sum(not shape.collides for shape in each) for each in (shapes, drawn))
+        # Where something to look at is missing, what touches stands in for it.
+        group_of_touching = HIDDEN_GROUP if wanted and shown == wanted else 0
+        for shape in drawn:
+            geom = made[-1].add_geom(
+                type=GEOM_TYPES[shape.kind],
+                pos=shape.position,
+                quat=quaternion(shape.rotation),
+            )
+            if shape.color is not None:
+                geom.rgba = shape.color
+            if shape.kind is ShapeKind.MESH:
+                geom.meshname = meshes.name_of(shape)
+            else:
+                geom.size = [*shape.size, 0.0, 0.0][:3]
+            if not shape.collides:
+                geom.contype = geom.conaffinity = 0
+            geom.group = group_of_touching if shape.collides else VISUAL_GROUP
     for name, joint in tree.joints.items():
         leader, multiplier, offset = joint.mimic or ("", 1.0, 0.0)
         if leader in tree.joints:
@@ -285,25 +305,3 @@ def _add_body(parent: mujoco.MjsBody, name: str, body: Body, warnings: Warnings)
         armature=joint.armature,
     )
     return made
-
-
-def _add_geoms(body: mujoco.MjsBody, shapes: Sequence[Shape], meshes: MeshLibrary) -> None:
-    drawn = [shape for shape in shapes if shape.kind is not ShapeKind.MESH or meshes.name_of(shape)]
-    wanted, shown = (sum(not shape.collides for shape in each) for each in (shapes, drawn))
-    # Where something to look at is missing, what touches stands in for it.
-    group_of_touching = HIDDEN_GROUP if wanted and shown == wanted else 0
-    for shape in drawn:
-        geom = body.add_geom(
-            type=GEOM_TYPES[shape.kind],
-            pos=shape.position,
-            quat=quaternion(shape.rotation),
-        )
-        if shape.color is not None:
-            geom.rgba = shape.color
-        if shape.kind is ShapeKind.MESH:
-            geom.meshname = meshes.name_of(shape)
-        else:
-            geom.size = [*shape.size, 0.0, 0.0][:3]
-        if not shape.collides:
-            geom.contype = geom.conaffinity = 0
-        geom.group = group_of_touching if shape.collides else VISUAL_GROUP

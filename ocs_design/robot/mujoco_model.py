@@ -90,9 +90,18 @@ def reduce_to_hulls(spec: mujoco.MjSpec, model: mujoco.MjModel) -> None:
         # A box or capsule fitted to a mesh would come out otherwise around its hull.
         if mesh.name not in fitted and model.mesh_graphadr[index] >= 0:
             name = unused_name(mesh.name, "", {each.name for each in spec.meshes})
+            # The hull's graph begins with the numbers of its vertices and faces, then for each
+            # vertex where its edges begin, then the index of each vertex among the mesh's.
+            graph = model.mesh_graph[model.mesh_graphadr[index] :]
+            indices = graph[2 + graph[0] : 2 + 2 * graph[0]]
+            corners = model.mesh_vert[model.mesh_vertadr[index] + indices].astype(np.float64)
+            # MuJoCo turns meshes into their principal axes.
+            rotation = np.empty(9)
+            mujoco.mju_quat2Mat(rotation, model.mesh_quat[index])
+            placed: FloatArray = corners @ rotation.reshape(3, 3).T + model.mesh_pos[index]
             spec.add_mesh(
                 name=name,
-                uservert=_hull_corners(model, index).ravel(),
+                uservert=placed.ravel(),
                 inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,
             )
             for geom in spec.geoms:
@@ -101,22 +110,6 @@ def reduce_to_hulls(spec: mujoco.MjSpec, model: mujoco.MjModel) -> None:
             if [each.file for each in spec.meshes].count(mesh.file) == 1:
                 spec.assets.pop(mesh.file, None)
             spec.delete(mesh)
-
-
-def _hull_corners(model: mujoco.MjModel, mesh: int) -> FloatArray:
-    """Corners of a mesh's hull in the frame that its geoms are placed by [m], shape (n, 3).
-
-    The hull's graph begins with the numbers of its vertices and faces, then for each vertex where
-    its edges begin, then the index of each vertex among the mesh's.
-    """
-    graph = model.mesh_graph[model.mesh_graphadr[mesh] :]
-    indices = graph[2 + graph[0] : 2 + 2 * graph[0]]
-    corners = model.mesh_vert[model.mesh_vertadr[mesh] + indices].astype(np.float64)
-    # MuJoCo turns meshes into their principal axes.
-    rotation = np.empty(9)
-    mujoco.mju_quat2Mat(rotation, model.mesh_quat[mesh])
-    placed: FloatArray = corners @ rotation.reshape(3, 3).T + model.mesh_pos[mesh]
-    return placed
 
 
 @dataclass(frozen=True, eq=False)

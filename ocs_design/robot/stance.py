@@ -85,9 +85,18 @@ class StanceProblem:
         lower, upper, columns = self.chain.lower, self.chain.upper, list(self.plane.columns)
         found: list[Stance] = []
         stretched = self.chain.stretched(self.foot, -self.up, self.plane.pitch)
+        # What shortens a straight leg to the target's distance.
+        reach = float(np.linalg.norm(self.target - self.plane.hip))
+        angle = np.arccos(np.clip(reach / self.plane.length, 0.0, 1.0))
+        bend = np.zeros(len(self.chain.driven))
+        # Turning the hip by a positive angle about `pitch` swings a hanging leg to -pitch x up.
+        towards = -np.sign(np.cross(self.plane.axis, self.up) @ self.knee_side)
+        for column, turns in zip(self.plane.pitch, (1.0, -2.0, 1.0), strict=False):
+            axis = self._zero.axes[self.chain.driven[column]]
+            bend[column] = towards * turns * angle * np.sign(axis @ self.plane.axis)
         # The straight and the stretched leg, each bent to the wanted side, then to the other.
         for side, values in product((1.0, -1.0), (self.chain.neutral(), stretched)):
-            start = np.clip(values + side * self._bend(), lower, upper)[columns]
+            start = np.clip(values + side * bend, lower, upper)[columns]
             solution = least_squares(
                 self._residual,
                 start,
@@ -108,18 +117,6 @@ class StanceProblem:
         return min(
             found, key=lambda s: (not s.good, s.good and s.knee_ahead < 0.0, s.miss + s.tilt)
         )
-
-    def _bend(self) -> FloatArray:
-        """Change of the joints' values that shortens a straight leg to the target's distance."""
-        reach = float(np.linalg.norm(self.target - self.plane.hip))
-        angle = np.arccos(np.clip(reach / self.plane.length, 0.0, 1.0))
-        bend = np.zeros(len(self.chain.driven))
-        # Turning the hip by a positive angle about `pitch` swings a hanging leg to -pitch x up.
-        towards = -np.sign(np.cross(self.plane.axis, self.up) @ self.knee_side)
-        for column, turns in zip(self.plane.pitch, (1.0, -2.0, 1.0), strict=False):
-            axis = self._zero.axes[self.chain.driven[column]]
-            bend[column] = towards * turns * angle * np.sign(axis @ self.plane.axis)
-        return bend
 
     @cached_property
     def _zero(self) -> ChainPose:

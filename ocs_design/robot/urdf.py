@@ -311,7 +311,21 @@ def read_urdf(content: bytes, *, find_mesh: FindMesh) -> Tree:
     """
     warnings = Warnings()
     root = parse_xml(content, warnings)
-    _check_is_urdf(root)
+    # Other XML is refused, each kind with its own cure.
+    if root.tag == "sdf":
+        raise RobotError(
+            "the file is SDF (Gazebo), which is not read",
+            hint="give the URDF that it was made from, or convert it to URDF",
+        )
+    if root.tag in {"mujoco", "mujocoinclude"}:
+        raise RobotError("the file is MJCF, not URDF", hint="give the model's main MJCF file")
+    if root.tag != "robot":
+        raise RobotError(
+            f"the file is XML but no robot: its root element is <{root.tag}>",
+            hint="give a URDF (<robot>) or MJCF (<mujoco>) file",
+        )
+    if is_xacro(root):
+        raise unexpanded_xacro()
     palette, elements = read_palette(root), root.findall("link")
     check_number_of_links(len(elements))
     if not elements:
@@ -337,24 +351,6 @@ def read_urdf(content: bytes, *, find_mesh: FindMesh) -> Tree:
             warnings.add("frames turned by more than two turns: angles in degrees?", name)
     tree = make_tree(root.get("name") or base, base, links, children, warnings)
     return replace(tree, warnings=warnings.sentences())
-
-
-def _check_is_urdf(root: ET.Element) -> None:
-    """Refuse other XML, each kind with its own cure."""
-    if root.tag == "sdf":
-        raise RobotError(
-            "the file is SDF (Gazebo), which is not read",
-            hint="give the URDF that it was made from, or convert it to URDF",
-        )
-    if root.tag in {"mujoco", "mujocoinclude"}:
-        raise RobotError("the file is MJCF, not URDF", hint="give the model's main MJCF file")
-    if root.tag != "robot":
-        raise RobotError(
-            f"the file is XML but no robot: its root element is <{root.tag}>",
-            hint="give a URDF (<robot>) or MJCF (<mujoco>) file",
-        )
-    if is_xacro(root):
-        raise unexpanded_xacro()
 
 
 def is_xacro(root: ET.Element) -> bool:

@@ -234,26 +234,22 @@ class Batch:
             progress: told the part of the work that is done, 0..1.
         """
         data = [mujoco.MjData(self._models[0]) for _ in range(threads)]
-        with self._made_physics(threads) as pool:
+        # Without a pool the calling thread does the work.
+        physics: AbstractContextManager[Physics] = Rollout(nthread=threads if threads > 1 else 0)
+        if self._engine is not None:
+            physics = self._engine.physics()
+        with physics as pool:
             for k, running, law in self._control_steps():
                 if stop.is_set():
                     break
                 if k % _TELLING == 0:
                     progress(float(np.minimum(self._lengths, k).sum() / self._lengths.sum()))
-                asked = self._observe_and_decide(k, running, law)
-                self._advance(pool, data, k, self._driven(k, asked))
-                self._record_sensors(k, running)
-        return self._ended(data[0])
+                asked = self.observe_and_decide(k, running, law)
+                self.advance(pool, data, k, self.driven(k, asked))
+                self.record_sensors(k, running)
+        return self.recorded(data[0])
 
-    def _made_physics(self, threads: int) -> AbstractContextManager[Physics]:
-        """What takes the worlds through a control step."""
-        if self._engine is not None:
-            return self._engine.physics()
-        # Without a pool the calling thread does the work.
-        processors: AbstractContextManager[Physics] = Rollout(nthread=threads if threads > 1 else 0)
-        return processors
-
-    def _ended(self, last: mujoco.MjData) -> Recording:
+    def recorded(self, last: mujoco.MjData) -> Recording:
         """What happened, with what is known at the end; `last` is to work with."""
         missing = np.abs(self._state[:, 0] - self._lengths * self._period)
         finite = np.isfinite(self._state).all(axis=1)
@@ -280,7 +276,7 @@ class Batch:
                 yield k, running, None if law.is_off else law
             begin = end
 
-    def _observe_and_decide(self, k: int, running: int, law: WheelLaw | None) -> FloatArray:
+    def observe_and_decide(self, k: int, running: int, law: WheelLaw | None) -> FloatArray:
         """Record trunk and wheels at instant `k`; torques asked of the motors, (n, wheels)."""
         record, qpos, qvel = self._record, self._qpos[:running], self._qvel[:running]
         attitude, rate = self._chain.attitude(qpos), self._chain.rate(qpos, qvel)
@@ -304,14 +300,14 @@ class Batch:
                 attitude = self._sensing.attitude(k, attitude)
             if self._stopped is not None:
                 target = replace(target, shared=self._stopped.shared(steps))
-            asked = self._decide(law, vertical, rate, speed, target, attitude=attitude)
+            asked = self.decide(law, vertical, rate, speed, target, attitude=attitude)
             # The wheels wait for lift-off.
             asked[steps < 0] = 0.0
             if self._stopped is not None:
                 asked = self._stopped.left(steps, asked)
         return asked
 
-    def _driven(self, k: int, torque: FloatArray) -> FloatArray:
+    def driven(self, k: int, torque: FloatArray) -> FloatArray:
         """Torques on the wheels from instant `k` on, which motors make of those asked for.
 
         Shape (n, 1, wheels) where they are held for the control step, else (n, hold, wheels).
@@ -322,7 +318,7 @@ class Batch:
         self._record.wheel_torque[k, :n] = torque
         return acting
 
-    def _decide(
+    def decide(
         self,
         law: WheelLaw,
         vertical: FloatArray,
@@ -335,9 +331,7 @@ class Batch:
         """Torques that the law asks for; see `WheelLaw.torque`."""
         return law.torque(vertical, rate, speed, target, self._period, attitude=attitude)
 
-    def _advance(
-        self, pool: Physics, data: list[mujoco.MjData], k: int, torque: FloatArray
-    ) -> None:
+    def advance(self, pool: Physics, data: list[mujoco.MjData], k: int, torque: FloatArray) -> None:
         """Control step `k` of physics, with the outer torque of that step and its impulse."""
         n, record = len(torque), self._record
         control, specification = self._control, _CONTROL
@@ -388,7 +382,7 @@ class Batch:
         means = 0.5 * (torque[:, 1:] + torque[:, :-1])
         return np.asarray(step * means.sum(axis=1) + step**2 / 12.0 * ends)
 
-    def _record_sensors(self, k: int, running: int) -> None:
+    def record_sensors(self, k: int, running: int) -> None:
         """Record what the sensors saw at the start of the control step; contact throughout it."""
         where, record = self._addresses, self._record
         now = self._sensors[:running, 0]

@@ -6,7 +6,6 @@ What shows in the figures of a run, momentum and wheels that are too fast, is fo
 import mujoco
 import numpy as np
 
-from ocs_design.common.arrays import FloatArray
 from ocs_design.export.physics import lowest_point
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.batch import Recording
@@ -90,6 +89,12 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
     _, x, y, _ = attitude[end]
     rises = 1.0 - 2.0 * (x * x + y * y) > np.cos(UPRIGHT_TILT)
     above = recording.height[end, index] > UPRIGHT_HEIGHT * world.standing_height
+    # Of `J w_dot = -w x h A W`, across the two smallest inertias.
+    body = world.body
+    momentum = (
+        body.spin_inertia * np.linalg.norm(series.wheel_speed[driven] @ body.axes.T, axis=1).max()
+    )
+    smallest = np.linalg.eigvalsh(body.actuated_inertia)[:2]
     return Metrics(
         lift_off_time=float(series.time[first]) if lift_off >= 0 else None,
         rise=float(series.com[flight, 2].max() - series.com[first, 2]),
@@ -109,7 +114,7 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
         roll_swing=float(np.ptp(roll[after])),
         pitch_swing=float(np.ptp(pitch[after])),
         settling_time=float(series.time[settled] - series.time[last]),
-        nutation=_nutation(series.wheel_speed[driven], world),
+        nutation=float(momentum / np.sqrt(smallest.prod()) * world.model.opt.timestep),
     )
 
 
@@ -136,14 +141,6 @@ def _momentum_error(recording: Recording, index: int, flown: slice, world: World
     moved = wheels + np.linalg.norm(turning, axis=1).max()
     still = _SLOW * np.trace(world.body.inertia) / 3.0
     return float(np.linalg.norm(unexplained, axis=1).max() / max(moved, still))
-
-
-def _nutation(wheel_speed: FloatArray, world: World) -> float:
-    """`|h A W| dt / sqrt(J_1 J_2)`: of `J w_dot = -w x h A W` across the two smallest inertias."""
-    body = world.body
-    momentum = body.spin_inertia * np.linalg.norm(wheel_speed @ body.axes.T, axis=1).max()
-    smallest = np.linalg.eigvalsh(body.actuated_inertia)[:2]
-    return float(momentum / np.sqrt(smallest.prod()) * world.model.opt.timestep)
 
 
 def _within_half_turn(angle: float) -> float:

@@ -84,21 +84,21 @@ class PilotedFlight(Batch):
         asked = self._law.within_supply(possible, speed, self._period)
         if self.flown < 0:
             asked[:] = 0.0
-        self._advance(self._pool, self._physics, k, self._driven(k, asked))
-        self._record_sensors(k, 1)
+        self.advance(self._pool, self._physics, k, self.driven(k, asked))
+        self.record_sensors(k, 1)
         self._instant += 1
         if not self.ended:
             self.seen = self._look()
 
     def recording(self) -> Recording:
         """What happened, once it has ended."""
-        return self._ended(self._physics[0])
+        return self.recorded(self._physics[0])
 
     def _look(self) -> Seen:
-        self._observe_and_decide(self._instant, 1, self._law)
+        self.observe_and_decide(self._instant, 1, self._law)
         return self._found
 
-    def _decide(
+    def decide(
         self,
         law: WheelLaw,
         vertical: FloatArray,
@@ -109,7 +109,7 @@ class PilotedFlight(Batch):
         attitude: FloatArray,
     ) -> FloatArray:
         """What the law would ask for, noted with what it saw."""
-        torque = super()._decide(law, vertical, rate, speed, target, attitude=attitude)
+        torque = super().decide(law, vertical, rate, speed, target, attitude=attitude)
         most = np.full_like(speed, np.inf)
         low, high = (law.within_motors(all_of, speed, self._period) for all_of in (-most, most))
         speed = speed[0].copy()

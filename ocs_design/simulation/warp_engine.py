@@ -105,8 +105,17 @@ class WarpPhysics:
             if self._model is None:
                 self._put(model)
             if self._data is None or self._data.nworld != len(model):
-                self._make_room(len(model))
-            self._start(initial_state)
+                contacts, rows = room(self._first)
+                self._data = self._simulator.make_data(
+                    self._first, nworld=len(model), nconmax=contacts, njmax=rows
+                )
+            # Where the worlds are, with nothing left of what was before.
+            first = self._first
+            qpos, qvel = np.split(initial_state[:, 1 : 1 + first.nq + first.nv], [first.nq], axis=1)
+            self._data.qpos.assign(_single(qpos))
+            self._data.qvel.assign(_single(qvel))
+            self._data.qacc_warmstart.zero_()
+            self._data.xfrc_applied.zero_()
             self._step(control, bool(control_spec & _PUSHED), nstep, state, sensordata)
         # Time is exact: in single precision the sum of the steps is not.
         steps = np.arange(1, nstep + 1) * model[0].opt.timestep
@@ -160,22 +169,6 @@ class WarpPhysics:
             one = shared.numpy()[0]
             rows = np.stack(values).astype(one.dtype).reshape(len(sources), *one.shape)
             setattr(put, field.name, self._warp.array(rows, dtype=shared.dtype))
-
-    def _make_room(self, count: int) -> None:
-        """Place for so many worlds, with all the contacts that can be."""
-        contacts, rows = room(self._first)
-        self._data = self._simulator.make_data(
-            self._first, nworld=count, nconmax=contacts, njmax=rows
-        )
-
-    def _start(self, states: FloatArray) -> None:
-        """Put the worlds where they are, with nothing left of what was before."""
-        first = self._first
-        qpos, qvel = np.split(states[:, 1 : 1 + first.nq + first.nv], [first.nq], axis=1)
-        self._data.qpos.assign(_single(qpos))
-        self._data.qvel.assign(_single(qvel))
-        self._data.qacc_warmstart.zero_()
-        self._data.xfrc_applied.zero_()
 
     def _step(
         self, control: FloatArray, pushed: bool, nstep: int, state: FloatArray, sensed: FloatArray

@@ -81,36 +81,30 @@ def mounting_open_points(mounting: Mounting) -> tuple[OpenPoint, ...]:
 
     Feet on a trunk whose shapes are not known are no open point: `Mounting.known` tells of them.
     """
-    found = [*_unsteady(mounting), *_hanging(mounting)]
+    found: list[OpenPoint] = []
+    cure = "take a layout whose axes are horizontal: --layout pair, triad or single"
+    leaning = [contact.name for contact in mounting.feet if contact.leans]
+    use = max((pedestal_use(each, mounting.module_mass) for each in mounting.pedestals), default=0)
+    if leaning:
+        largest = max(mounting.pedestals, key=lambda each: each.mass)
+        mass = format_quantity(sum(each.mass for each in mounting.pedestals), "g", digits=3)
+        length, width, height = (format_quantity(size, "mm", digits=2) for size in largest.sizes)
+        what = (
+            f"{listed(leaning, len(leaning))} cannot stand on the trunk: under a wheel whose axis "
+            "is not horizontal goes a pedestal, and it is nowhere flat enough for all pedestals "
+            f"and other feet. Pedestals would weigh {mass} together, the largest {length} long, "
+            f"{width} wide and {height} high, and use {use:.0%} of their strength at 20 g; neither "
+            "mass nor places nor files count them"
+        )
+        found.append(OpenPoint(what=what, cure=cure))
+    elif use > 1.0:
+        what = f"the pedestals' screws or threads would use {use:.0%} of their strength at 20 g"
+        found.append(OpenPoint(what=what, cure=cure))
+    found += _hanging(mounting)
     hit = _hit(mounting)
     if hit:
         found.append(OpenPoint(what=hit, cure="give another place with --position X,Y,Z"))
     return tuple(found)
-
-
-def _unsteady(mounting: Mounting) -> Iterator[OpenPoint]:
-    """Feet that lean and have no pedestals, or pedestals that do not bear their modules."""
-    leaning = [contact.name for contact in mounting.feet if contact.leans]
-    use = max((pedestal_use(each, mounting.module_mass) for each in mounting.pedestals), default=0)
-    if not leaning:
-        if use > 1.0:
-            yield OpenPoint(
-                what="the pedestals' screws or threads would use "
-                f"{use:.0%} of their strength at 20 g",
-                cure="take a layout whose axes are horizontal: --layout pair, triad or single",
-            )
-        return
-    largest = max(mounting.pedestals, key=lambda each: each.mass)
-    mass = format_quantity(sum(each.mass for each in mounting.pedestals), "g", digits=3)
-    length, width, height = (format_quantity(size, "mm", digits=2) for size in largest.sizes)
-    yield OpenPoint(
-        what=f"{listed(leaning, len(leaning))} cannot stand on the trunk: under a wheel whose axis "
-        "is not horizontal goes a pedestal, and it is nowhere flat enough for all pedestals and "
-        f"other feet. Pedestals would weigh {mass} together, the largest {length} long, "
-        f"{width} wide and {height} high, and use {use:.0%} of their strength at 20 g; neither "
-        "mass nor places nor files count them",
-        cure="take a layout whose axes are horizontal: --layout pair, triad or single",
-    )
 
 
 def _hanging(mounting: Mounting) -> Iterator[OpenPoint]:

@@ -95,29 +95,26 @@ class Request:
             raise UsageError(
                 "--until-width and --scheduler are about samples", hint="add --samples N"
             )
-        self._check_engine()
+        if self.engine not in tuple(EngineName):
+            words = " or ".join(EngineName)
+            raise UsageError(f"--engine {self.engine}: must be {words}")
+        if self.engine != EngineName.MUJOCO:
+            if not self.many:
+                raise UsageError(f"--engine {self.engine} is about samples", hint="add --samples N")
+            if self.scheduler is not None:
+                raise UsageError(f"--engine {self.engine} and --scheduler exclude each other")
+            if certifies:
+                raise UsageError(
+                    f"--engine {self.engine} and --certify exclude each other: its precision is "
+                    "single",
+                    hint="leave --engine out to certify",
+                )
         if self.samples is not None and not 1 <= self.samples <= ROUND:
             raise UsageError(f"--samples {self.samples}: must be from 1 to {ROUND:,}")
         if self.until_width is not None and not 0.0 < self.until_width < 1.0:
             raise UsageError(f"--until-width {self.until_width:.4g}: must be between 0 and 100 %")
         if self.view:
             check_display()
-
-    def _check_engine(self) -> None:
-        if self.engine not in tuple(EngineName):
-            words = " or ".join(EngineName)
-            raise UsageError(f"--engine {self.engine}: must be {words}")
-        if self.engine == EngineName.MUJOCO:
-            return
-        if not self.many:
-            raise UsageError(f"--engine {self.engine} is about samples", hint="add --samples N")
-        if self.scheduler is not None:
-            raise UsageError(f"--engine {self.engine} and --scheduler exclude each other")
-        if self.stated.validation.certify is True:
-            raise UsageError(
-                f"--engine {self.engine} and --certify exclude each other: its precision is single",
-                hint="leave --engine out to certify",
-            )
 
     @property
     def many(self) -> bool:

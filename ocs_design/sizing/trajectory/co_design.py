@@ -112,7 +112,13 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
     turns = list(device.turns())
     solution = solve(turns, _usable(problem, selected), PASSES, device.dimensions())
     found = device.at(*solution.dimensions.tolist())
-    flights = tuple(_flights(problem, found, turns, solution))
+    flights: list[Flight] = []
+    maneuvers = problem.requirement.maneuvers
+    for maneuver, turn, motion in zip(maneuvers, turns, solution.motions, strict=True):
+        own = found.incidence if maneuver.incidence is None else maneuver.incidence
+        gyrostat = _gyrostat(problem, found, own)
+        outline = replace(turn, gyrostat=gyrostat).outline
+        flights.append(fly(gyrostat, _usable(problem, found), turn.asked, outline, motion))
     wrong = _rejection_reason(
         solution, flights, found.mass / mass, [turn.asked.name for turn in turns]
     )
@@ -123,7 +129,7 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
         status=solution.status,
         iterations=solution.iterations,
         seconds=perf_counter() - began,
-        flights=flights,
+        flights=tuple(flights),
     )
     if wrong:
         return outcome
@@ -323,18 +329,6 @@ def _top_speed(device: Candidate) -> float:
     """Highest speed of a wheel that a design may use [rad/s]."""
     line = device.line.reserved()
     return min(float(line.no_load_speed), float(line.speed_max))
-
-
-def _flights(
-    problem: SelectionProblem, device: Candidate, turns: Sequence[Turn], solution: Solution
-) -> Iterator[Flight]:
-    """Each maneuver flown on the device that was found, with the planned torques."""
-    maneuvers = problem.requirement.maneuvers
-    for maneuver, turn, motion in zip(maneuvers, turns, solution.motions, strict=True):
-        own = maneuver.incidence
-        gyrostat = _gyrostat(problem, device, device.incidence if own is None else own)
-        outline = replace(turn, gyrostat=gyrostat).outline
-        yield fly(gyrostat, _usable(problem, device), turn.asked, outline, motion)
 
 
 def _rejection_reason(

@@ -1,6 +1,6 @@
 """The turns that flights track: of least peak power, planned for the device at hand."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from math import inf, remainder
 from typing import TYPE_CHECKING
@@ -344,9 +344,26 @@ def gentlest(
     Where the wheels do not reach an axis, nothing is asked about it at the end. `one_stops`: see
     `Turn`.
     """
+    # Wheels of one axis command no heading, and wheels of two turn it by a loop of the tilt.
+    spanned = int(np.linalg.matrix_rank(gyrostat.axes, OUT_OF_REACH))
+    if asked.end == End.ATTITUDE and spanned == 1:
+        asked = replace(asked, end=End.LEVEL)
+    about_axis = Turn(asked, gyrostat, one_stops=one_stops)
+    start = about_axis.outline.attitude
+    w, x, y, z = product(conjugate(start), asked.final_attitude)
+    heading = remainder(2.0 * np.arctan2(z, w), 2.0 * np.pi)
+    guesses = [about_axis]
+    if asked.end == End.ATTITUDE and spanned < len(gyrostat.inertia) and abs(heading) >= _SAME:
+        # Either way round; the turn is a swing without heading, and then a twist about z.
+        w, x, y, z = product(np.array([w, x, y, z]), about(np.array([0.0, 0.0, 1.0]), -heading))
+        sine = np.hypot(x, y)
+        swing = np.array([x, y, 0.0]) * (2.0 * np.arctan2(sine, w) / sine if sine > 0.0 else 0.0)
+        loops = (
+            HeadingLoop(start, swing, heading, begins, asked.duration) for begins in (0.0, np.pi)
+        )
+        guesses = [replace(about_axis, guess=loop.motion(gyrostat, intervals)) for loop in loops]
     found = []
-    for guessed in _guessed(asked, gyrostat, intervals):
-        turn = replace(guessed, one_stops=one_stops)
+    for turn in guesses:
         solution = solve([turn], line, (intervals,))
         flight = fly(gyrostat, line, turn.asked, turn.outline, solution.motions[0])
         found.append(Planned(solution, flight.fine, flight.trajectory))
@@ -374,30 +391,6 @@ def quickest(asked: Boundary, gyrostat: Gyrostat, line: DriveLine) -> float | No
 
 def _lasting(asked: Boundary, factor: float) -> Boundary:
     return replace(asked, duration=factor * asked.duration)
-
-
-def _guessed(asked: Boundary, gyrostat: Gyrostat, intervals: int) -> Iterator[Turn]:
-    """The program's turn with each first guess: about a fixed axis, or by a loop either way round.
-
-    Wheels of one axis command no heading, and wheels of two turn it by a loop of the tilt.
-    """
-    spanned = int(np.linalg.matrix_rank(gyrostat.axes, OUT_OF_REACH))
-    if asked.end == End.ATTITUDE and spanned == 1:
-        asked = replace(asked, end=End.LEVEL)
-    turn = Turn(asked, gyrostat)
-    start = turn.outline.attitude
-    w, x, y, z = product(conjugate(start), asked.final_attitude)
-    heading = remainder(2.0 * np.arctan2(z, w), 2.0 * np.pi)
-    if asked.end != End.ATTITUDE or spanned == len(gyrostat.inertia) or abs(heading) < _SAME:
-        yield turn
-        return
-    # The turn is a swing without heading, and then a twist about z.
-    w, x, y, z = product(np.array([w, x, y, z]), about(np.array([0.0, 0.0, 1.0]), -heading))
-    sine = np.hypot(x, y)
-    swing = np.array([x, y, 0.0]) * (2.0 * np.arctan2(sine, w) / sine if sine > 0.0 else 0.0)
-    for begins in (0.0, np.pi):
-        loop = HeadingLoop(start, swing, heading, begins, asked.duration)
-        yield replace(turn, guess=loop.motion(gyrostat, intervals))
 
 
 def gyrostat_of(
