@@ -51,7 +51,18 @@ def worded_maneuvers(asked: RequirementSection, robot: Robot) -> Worded:
 
     highest = disturbance.takeoff_velocity[1] ** 2 / (2.0 * disturbance.gravity)
     for height in asked.jump_height or (highest,):
-        jump = _jump(disturbance, height)
+        # A vertical jump with the torque of the paper's first test, at the same share of it.
+        upward = sqrt(2.0 * disturbance.gravity * height)
+        longer = upward / disturbance.takeoff_velocity[1]
+        roll, pitch, yaw = disturbance.torque
+        jump = replace(
+            disturbance,
+            name="jump",
+            takeoff_velocity=(0.0, upward),
+            torque=(roll / longer, pitch / longer, yaw / longer),
+            onset=longer * disturbance.onset,
+            duration=longer * disturbance.duration,
+        )
         assumed = " (the paper's, scaled)" if asked.jump_height is None else ""
         of_jump = f", in a vertical jump of {height:.3g} m{assumed}"
         for kick in asked.kick or ():
@@ -181,21 +192,6 @@ def _along(kick: Kick, point: Vector3) -> FloatArray:
     sideways = (0.0, -1.0 if point[1] > _MIDDLE else 1.0, 0.0)
     along = np.array(sideways if kick.along is None else kick.along)
     return np.asarray(along / np.linalg.norm(along))
-
-
-def _jump(like: Disturbance, height: float) -> Disturbance:
-    """A vertical jump of this height [m] with the torque of another, at the same share of it."""
-    upward = sqrt(2.0 * like.gravity * height)
-    share = upward / like.takeoff_velocity[1]
-    roll, pitch, yaw = like.torque
-    return replace(
-        like,
-        name="jump",
-        takeoff_velocity=(0.0, upward),
-        torque=(roll / share, pitch / share, yaw / share),
-        onset=share * like.onset,
-        duration=share * like.duration,
-    )
 
 
 def _kicked(kick: Kick, jump: Disturbance, robot: Robot) -> tuple[Disturbance, str]:

@@ -299,7 +299,22 @@ class Reality:
             for key, values in self.drawn(problem, device).items()
             for mean in [values.mean(axis=0)]
         }
-        line, sure = _line(device.line, drawn), NormalDist().inv_cdf(reserve.reliability)
+        # Lines of all wheels as built: the law commands what the nominal motor can do, and the real
+        # one gives k_t / k_t0 times that within its own line. Friction is in the torque limit
+        # already, at its mean.
+        constant = 1.0 + drawn["torque_constant_error"]
+        voltage, resistance = 1.0 + drawn["bus_voltage_error"], 1.0 + drawn["resistance_error"]
+        nominal, left = device.line, np.minimum(voltage / resistance, 1.0)
+        drag = drawn["coulomb_friction"] + 0.5 * nominal.no_load_speed * drawn["viscous_friction"]
+        more = drag - drag.mean(axis=0)
+        line = DriveLine(
+            stall_torque=nominal.stall_torque * constant * left - more,
+            no_load_speed=nominal.no_load_speed * np.minimum(voltage / constant, 1.0),
+            torque_limit=nominal.torque_limit * constant - more,
+            speed_max=nominal.speed_max,
+            power_max=nominal.power_max * np.minimum(constant, 1.0),
+        )
+        sure = NormalDist().inv_cdf(reserve.reliability)
         maneuvers = problem.requirement.maneuvers
         flown = [self._flown(problem, device, maneuver, drawn) for maneuver in maneuvers]
         rates = [one.rate_kept(sure) for one in flown]
@@ -402,25 +417,6 @@ _FELT = (
     "takeoff_rate",
 )
 """Keys that the closed forms feel."""
-
-
-def _line(line: DriveLine, drawn: Mapping[str, FloatArray]) -> DriveLine:
-    """Lines of all wheels as built, shape (robots, n).
-
-    The law commands what the nominal motor can do, and the real one gives k_t / k_t0 times that
-    within its own line. Friction is in the torque limit already, at its mean.
-    """
-    constant = 1.0 + drawn["torque_constant_error"]
-    voltage, resistance = 1.0 + drawn["bus_voltage_error"], 1.0 + drawn["resistance_error"]
-    drag = drawn["coulomb_friction"] + 0.5 * line.no_load_speed * drawn["viscous_friction"]
-    more = drag - drag.mean(axis=0)
-    return DriveLine(
-        stall_torque=line.stall_torque * constant * np.minimum(voltage / resistance, 1.0) - more,
-        no_load_speed=line.no_load_speed * np.minimum(voltage / constant, 1.0),
-        torque_limit=line.torque_limit * constant - more,
-        speed_max=line.speed_max,
-        power_max=line.power_max * np.minimum(constant, 1.0),
-    )
 
 
 @dataclass(frozen=True, eq=False)

@@ -260,7 +260,22 @@ def _refused(
         note = f"the wheels do not make this turn in {asked.duration:.3g} s: {told}"
         return Reference(None, note, planned, needed)
     if isinstance(maneuver, Pivoted):
-        part, tilt = _part_climbed(asked, gyrostat, line), abs(float(asked.angle))
+        # Largest part of the tilt from which it stands up in the time, by bisection to 1/16.
+        low, high = 0.0, 1.0
+        for _ in range(4):
+            part = 0.5 * (low + high)
+            smaller = np.sin(0.5 * part * asked.angle) / np.sin(0.5 * asked.angle)
+            tried = replace(
+                asked,
+                attitude=product(about(asked.axis, -part * asked.angle), asked.final_attitude),
+                angle=part * asked.angle,
+                rate=smaller * asked.rate,
+            )
+            if gentlest(tried, gyrostat, line).failure:
+                high = part
+            else:
+                low = part
+        part, tilt = low, abs(float(asked.angle))
         all_of_it, less = (format_quantity(each, "deg") for each in (tilt, part * tilt))
         told = f"from {less} they would" if part > 0.0 else "nor from a sixteenth of that"
         note = (
@@ -309,25 +324,6 @@ def _braked_from(gyrostat: Gyrostat, rate: FloatArray) -> float:
     axes, momentum = gyrostat.turns_about @ gyrostat.axes, gyrostat.inertia @ rate
     taken = np.linalg.pinv(axes) @ (gyrostat.turns_about @ momentum) / gyrostat.spin_inertia
     return float(np.abs(taken).max())
-
-
-def _part_climbed(asked: Boundary, gyrostat: Gyrostat, line: DriveLine) -> float:
-    """Largest part of the tilt from which it stands up in the time, by bisection to 1/16."""
-    low, high = 0.0, 1.0
-    for _ in range(4):
-        part = 0.5 * (low + high)
-        smaller = np.sin(0.5 * part * asked.angle) / np.sin(0.5 * asked.angle)
-        tried = replace(
-            asked,
-            attitude=product(about(asked.axis, -part * asked.angle), asked.final_attitude),
-            angle=part * asked.angle,
-            rate=smaller * asked.rate,
-        )
-        if gentlest(tried, gyrostat, line).failure:
-            high = part
-        else:
-            low = part
-    return low
 
 
 def gentlest(
