@@ -31,14 +31,7 @@ from ocs_design.export.drawing.sheet import (
     largest_scale,
     outline,
 )
-from ocs_design.export.drawing.wheel import (
-    diameters,
-    fitted_bore,
-    holes,
-    plain,
-    toleranced,
-    widest,
-)
+from ocs_design.export.drawing.wheel import diameters, fitted_bore, holes, plain, toleranced, widest
 from ocs_design.parts.joints import Grade
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre
 
@@ -216,13 +209,7 @@ def _diameters(wheel: Wheel, layout: Layout) -> Iterator[Item]:
 
 
 def _width(
-    label: str,
-    width: float,
-    wheel: Wheel,
-    layout: Layout,
-    *,
-    y: float,
-    start: float | None = None,
+    label: str, width: float, wheel: Wheel, layout: Layout, *, y: float, start: float | None = None
 ) -> Iterator[Item]:
     """One width, with extension lines from `start` where the outline does not reach it."""
     x, half = layout.section[0], layout.scale(width) / 2.0

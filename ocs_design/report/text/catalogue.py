@@ -117,13 +117,7 @@ def print_motors(console: Console, found: Sequence[Motor]) -> None:
     """Every motor with the figures to choose by, the lightest first; then what some lack."""
     heading(console, "Motors")
     heads = columns(
-        "<name",
-        "mass [g]",
-        "rated [V]",
-        "max [rpm]",
-        "peak  [N m ]",
-        "k_t [mN m/A]",
-        "<lacks",
+        "<name", "mass [g]", "rated [V]", "max [rpm]", "peak  [N m ]", "k_t [mN m/A]", "<lacks"
     )
     rows = tuple(
         (

@@ -17,13 +17,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TypeAlias
 
-from rich.console import (
-    Console,
-    ConsoleOptions,
-    ConsoleRenderable,
-    RenderHook,
-    RenderResult,
-)
+from rich.console import Console, ConsoleOptions, ConsoleRenderable, RenderHook, RenderResult
 from rich.measure import Measurement
 from rich.panel import Panel
 from rich.progress import (

@@ -112,12 +112,7 @@ def _print_plot(console: Console, front: Front) -> None:
     if front.spans_own_value:
         marks[canvas.column(across.part(front.own_value))] = OWN
     ends = (_value(front, across.low), _value(front, across.high))
-    rows = frame(
-        canvas,
-        x_ends=ends,
-        y_ends=(grams(up.low), grams(up.high)),
-        marks=marks,
-    )
+    rows = frame(canvas, x_ends=ends, y_ends=(grams(up.low), grams(up.high)), marks=marks)
     console.print(Padding(Text("\n".join(rows), no_wrap=True), INDENT))
     note(console, f"{OWN} as specified, {NONE} no device")
 
@@ -131,13 +126,7 @@ def print_written(console: Console, front: Front, folder: Path | None) -> None:
     names = ", ".join(sorted(path.name for path in folder.glob("front.*")))
     chosen = min(front.feasible or front.points, key=lambda p: abs(p.value - front.own_value))
     command = shlex.join(["ocs-design", "size", "--spec", str(folder / chosen.file)])
-    facts(
-        console,
-        [
-            ("front", f"{folder}/: {names}"),
-            (_value(front, chosen.value), command),
-        ],
-    )
+    facts(console, [("front", f"{folder}/: {names}"), (_value(front, chosen.value), command)])
 
 
 def _value(front: Front, value: float) -> str:

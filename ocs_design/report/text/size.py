@@ -24,15 +24,7 @@ from ocs_design.report.device import (
 from ocs_design.report.quantities import degrees_number, grams
 from ocs_design.report.table import Table, columns, listed
 from ocs_design.report.text.console import breaks_lines
-from ocs_design.report.text.layout import (
-    facts,
-    files_written,
-    heading,
-    items,
-    note,
-    show,
-    warn,
-)
+from ocs_design.report.text.layout import facts, files_written, heading, items, note, show, warn
 from ocs_design.report.text.robot import print_joints, print_robot
 from ocs_design.report.text.validation import print_headline, print_runs
 from ocs_design.report.verdict import headline
@@ -134,9 +126,7 @@ def print_solution(console: Console, design: OcsDesign) -> None:
 
 
 def print_selection(
-    console: Console,
-    chosen: SelectionRecord,
-    maneuvers: Sequence[ManeuverRecord] = (),
+    console: Console, chosen: SelectionRecord, maneuvers: Sequence[ManeuverRecord] = ()
 ) -> None:
     """What the drive is asked for, the lightest ones, and how many were ruled out."""
     heading(console, f"Choice: {selection.choice_title(chosen)}")

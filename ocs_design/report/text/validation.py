@@ -12,15 +12,7 @@ from ocs_design.device.records.flights import SurvivalRecord, ValidationRecord
 from ocs_design.monte_carlo.uncertainty import STOPS, key_of
 from ocs_design.report import flights, monte_carlo
 from ocs_design.report.table import Tone
-from ocs_design.report.text.layout import (
-    STYLES,
-    facts,
-    files_written,
-    heading,
-    items,
-    note,
-    show,
-)
+from ocs_design.report.text.layout import STYLES, facts, files_written, heading, items, note, show
 from ocs_design.report.verdict import SEPARATOR, Headline, flights_headline
 from ocs_design.requirement.uncertainty import spreads
 

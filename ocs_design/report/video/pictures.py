@@ -97,10 +97,6 @@ def _gif(pictures: Sequence[Picture], seconds: float, path: Path) -> Path:
     plain = Image.Dither.NONE
     frames = [Image.fromarray(each).quantize(palette=palette, dither=plain) for each in pictures]
     frames[0].save(
-        path,
-        save_all=True,
-        append_images=frames[1:],
-        duration=round(1e3 * seconds),
-        loop=0,
+        path, save_all=True, append_images=frames[1:], duration=round(1e3 * seconds), loop=0
     )
     return path
