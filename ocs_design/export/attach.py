@@ -76,14 +76,9 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
 
 
 def add_sensors(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
-    """Add sensors of the wheels and of the trunk's attitude, behind the robot's own.
+    """Add sensors of the wheels and of the trunk's attitude to a spec that has the device.
 
-    The robot's keep their places in `sensordata`.
-
-    Args:
-        spec: after `attach_device`; changed in place.
-        robot: that the spec was built from.
-        device: that was attached.
+    They stand behind the robot's own, which keep their places in `sensordata`.
     """
     attitude, rate = bodies.imu_sensors()
     wanted = {

@@ -91,11 +91,8 @@ def write(subject: Subject, folder: Path) -> Notes:
 def bill_rows(device: Device, margins: Sequence[MarginRecord] = ()) -> Sequence[BillRow]:
     """All parts that the device holds; together they weigh what it weighs.
 
-    Controllers, battery and what is used up are listed without a mass: they are not chosen.
-
-    Args:
-        device: to build.
-        margins: of its flights, which say what the battery gives and takes; empty: not known.
+    Controllers, battery and what is used up are listed without a mass: they are not chosen. Margins
+    of its flights, where there are any, say what the battery gives and takes.
     """
     motor, count = device.motor, len(device.modules)
     rows = list(_wheel_rows(device.flywheel, count))

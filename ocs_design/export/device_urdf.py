@@ -41,13 +41,10 @@ def mount_urdf(mount: Mount) -> str:
 
 
 def device_urdf(device: Device, parent: str, *, mesh: str | None = None) -> str:
-    """Flywheels and their carriers as URDF elements, indented by two spaces.
+    """Flywheels and their carriers on `parent` as URDF elements, indented by two spaces.
 
-    Args:
-        device: to write.
-        parent: link that carries it; its frame is the base frame B.
-        mesh: reference to the wheel's mesh in metres, with those of `still_meshes` beside it;
-            without one all looks like cylinders and boxes.
+    `mesh` is the wheel's in metres, with those of `still_meshes` beside it; without one all looks
+    like cylinders and boxes.
     """
     looks = plain_visuals if mesh is None else still_visuals
     solid, elements = cylinder_urdf(device.flywheel), []
@@ -141,12 +138,8 @@ def ros2_control_urdf(
 ) -> str:
     """Motors for ros2_control, indented by two spaces: torque in; angle, speed and torque out.
 
-    See control.ros.org, "ros2_control hardware interface types".
-
-    Args:
-        device: whose motors limit the command.
-        joints: names of the wheels' joints, ready to stand in XML.
-        name: of the system, ready to stand in XML. plugin: its hardware, likewise.
+    See control.ros.org, "ros2_control hardware interface types". All texts are ready to stand in
+    XML: `joints` of the wheels, `name` of the system, and `plugin`, its hardware.
     """
     elements = "".join(control_wheels(device, joints))
     return fill("ros2_control.urdf", {"name": name, "plugin": plugin, "joints": elements})
@@ -163,10 +156,10 @@ def control_wheels(device: Device, joints: Iterable[str]) -> Iterator[str]:
 def control_joint(
     joint: str, command: str, bounds: Mapping[str, float], position: float | None = None
 ) -> str:
-    """Element of ros2_control of one joint.
+    """Element of ros2_control of one joint, whose name is ready to stand in XML.
 
     Args:
-        joint: name, ready to stand in XML.
+        joint: its name.
         command: its command interface; empty: none.
         bounds: of the command, `min` and `max`.
         position: at the start [rad or m]; None: not stated.

@@ -274,11 +274,7 @@ def bounds(items: Iterable[Item]) -> tuple[float, float, float, float]:
 
 
 def _on_paper(item: Item, offset: Point) -> Item:
-    """The item with forward up; texts stay level.
-
-    Args:
-        offset: of the frame's origin from the sheet's corner [mm].
-    """
+    """The item with forward up, the frame's origin there on the sheet; texts stay level."""
 
     def place(point: Point) -> Point:
         """Point of the trunk on the sheet [mm]."""

@@ -53,8 +53,7 @@ def write(subject: Subject, folder: Path) -> Notes:
 def dxf_text(piece: Part) -> str:
     """DXF of a piece of the wheel, the axis of its front view at the origin, or of the plate.
 
-    Args:
-        piece: a body of revolution about z, or plates in the xy plane, with holes along z.
+    It is a body of revolution about z, or plates in the xy plane, with holes along z.
     """
     document = _new_document()
     space = document.modelspace()

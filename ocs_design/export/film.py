@@ -82,13 +82,7 @@ def add_floor(spec: mujoco.MjSpec, extent: float) -> None:
 
 
 def film_model(robot: Robot, device: Device, *, ocs: bool) -> mujoco.MjModel:
-    """Model of robot and device on a floor.
-
-    Args:
-        robot: that carries the device.
-        device: as it is flown.
-        ocs: whether to show the device; its joints are in `qpos` in any case.
-    """
+    """Model of robot and device, shown or not, on a floor; its joints are in `qpos` in any case."""
     model = robot_model(robot, device)
     add_white_sky(model.spec)
     add_floor(model.spec, model.compiled.stat.extent)
@@ -110,7 +104,7 @@ def render_takes(takes: Sequence[Take]) -> list[Frames]:
 
 
 def drawn(takes: Iterable[Take], kind: str, read: Callable[[Path], T], what: str) -> list[T]:
-    """Results of the program that draws, one for each take.
+    """Results of the program that draws `what`, one for each take.
 
     Args:
         takes: to draw.

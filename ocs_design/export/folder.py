@@ -166,12 +166,7 @@ def exchange(one: Path, other: Path) -> bool:
 
 
 def keep_others(source: Path, target: Path, *, without: Collection[str]) -> None:
-    """Copy files of a design's folder that `target` lacks, but for the design itself.
-
-    Args:
-        source, target: folders.
-        without: relative paths of files that stay behind.
-    """
+    """Copy files of a design's folder that `target` lacks, but design.json and those `without`."""
     for path in sorted(source.rglob("*")):
         place = path.relative_to(source)
         copied = target / place

@@ -169,9 +169,7 @@ ALL = "all"
 def formats_named(names: Collection[str], others: Collection[str] = ()) -> tuple[Format, ...]:
     """Formats of these names; the usual ones if there are none.
 
-    Args:
-        names: that users typed.
-        others: names of what is written too, but is no format of a device; they are passed over.
+    Names of `others`, which are written too but are no formats of a device, are passed over.
 
     Raises:
         UsageError: there is no format of that name.

@@ -37,11 +37,9 @@ def write(subject: Subject, folder: Path) -> Notes:
 
 
 def robot_glb(model: mujoco.MjModel, posture: Mapping[str, float]) -> bytes:
-    """The robot's visible shapes, a node for each body, its base frame at the origin.
+    """The visible shapes of a `robot_model`, a node for each body, its base frame at the origin.
 
-    Args:
-        model: of `robot_model`. Textures are left out.
-        posture: value of each joint [rad or m]; those not named stay as the model has them.
+    Textures are left out. Joints not in `posture` [rad or m] stay as the model has them.
     """
     data = mujoco.MjData(model)
     for name, value in posture.items():

@@ -57,12 +57,9 @@ class Mesh:
 
 
 def part_mesh(part: Part, sections: int = SECTIONS) -> Mesh:
-    """Part as one closed mesh.
+    """Part as one closed mesh, with so many chords of a full circle.
 
-    Args:
-        part: to mesh.
-        sections: chords of a full circle. Polygons inscribed in circles would weigh less than they
-            do: see `circle_radius_factor`.
+    Polygons inscribed in circles would weigh less than they do: see `circle_radius_factor`.
     """
     if len(part.joined) == 1 and not part.cut:
         return solid_mesh(part.joined[0], sections)
@@ -145,9 +142,7 @@ PRIMITIVE_SECTIONS, RINGS = 32, 8
 def primitive_mesh(kind: int, size: FloatArray) -> Mesh | None:
     """Surface of a primitive shape of MuJoCo about its own centre; None for other kinds.
 
-    Args:
-        kind: value of `mujoco.mjtGeom`.
-        size: as MuJoCo has it: half extents, radii, or radius and half length along z [m].
+    Its `size` is MuJoCo's: half extents, radii, or radius and half length along z [m].
     """
     # MuJoCo takes a third of a second to import, and parts need no primitives.
     from mujoco import mjtGeom  # noqa: PLC0415

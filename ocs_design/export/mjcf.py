@@ -63,10 +63,6 @@ def export_robot_mjcf(model: RobotModel, path: Path) -> Path:
     """Write the robot with the flywheels on its trunk, its meshes and textures beside it.
 
     The model refers to nothing outside its folder, which can be moved. It has no floor.
-
-    Args:
-        model: to write.
-        path: of the MJCF.
     """
     text = precise_xml(model.spec, model.compiled, assets=str(_MESHES))
     path.write_bytes((fill("robot_comment.xml", _CONTACT) + text).encode("utf-8"))
@@ -111,10 +107,7 @@ def scene_xml(model: RobotModel, data: mujoco.MjData, file: str, name: str) -> s
 def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> str:
     """Page that says what is in the folder, with the design's figures.
 
-    Args:
-        subject: that was written.
-        data: of its keyframe, kinematics computed.
-        file, picture: their names.
+    `data` is that of the keyframe, kinematics computed.
     """
     robot, device, model = subject.carrier, subject.device, model_of(subject)
     motor, wheel, torque = device.motor, device.flywheel, largest_torque(device.motor)
@@ -179,10 +172,7 @@ def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> st
 def precise_xml(spec: mujoco.MjSpec, model: mujoco.MjModel, *, assets: str) -> str:
     """XML of the model in which each printed number that is a rounded one of the model is exact.
 
-    Args:
-        spec: just compiled.
-        model: that it was compiled to.
-        assets: folder of meshes and textures, relative to the XML file.
+    `spec` is just compiled, to `model`; `assets` is the folder of meshes beside the file.
     """
     root = ET.fromstring(spec.to_xml())
     for compiler in root.iter("compiler"):

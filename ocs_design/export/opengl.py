@@ -55,11 +55,7 @@ def failure_of(arguments: Sequence[str], backend: str) -> str | None:
 
 
 def draw(arguments: Sequence[str], what: str) -> None:
-    """Run the program that draws, with the first backend of OpenGL that works.
-
-    Args:
-        arguments: of the program.
-        what: it draws, for the message.
+    """Run the program that draws `what`, with the first backend of OpenGL that works.
 
     Raises:
         MissingToolError: OpenGL does not work here; the message says why.

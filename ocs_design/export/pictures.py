@@ -43,12 +43,7 @@ def write(subject: Subject, folder: Path) -> Notes:
 
 
 def draw_pictures(device: Device, robot: Robot, model: RobotModel) -> dict[str, bytes]:
-    """PNG by name: `wheel`, `module` where there is more than the wheel, and `robot`.
-
-    Args:
-        device: to draw.
-        robot: that carries it, for its posture.
-        model: of both.
+    """PNG by name: `wheel`, `module` where there is more than the wheel, and the posed `robot`.
 
     Raises:
         MissingToolError: OpenGL does not work here.

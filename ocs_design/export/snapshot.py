@@ -51,12 +51,7 @@ _PLAIN: Color = (0.5, 0.5, 0.5, 1.0)
 
 
 def snapshot(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.uint8]:
-    """Picture of a robot in MuJoCo; see `picture`.
-
-    Args:
-        model: of `robot_model`.
-        data: with kinematics computed.
-    """
+    """Picture of a `robot_model`, whose kinematics are computed; see `picture`."""
     shapes = []
     for geom in range(model.ngeom):
         color, mesh = shown_color(model, geom), geom_mesh(model, geom)
@@ -94,8 +89,7 @@ def geom_mesh(model: mujoco.MjModel, geom: int) -> Mesh | None:
 def picture(shapes: Sequence[tuple[FloatArray, Color]]) -> NDArray[np.uint8]:
     """Red, green and blue, shape (HEIGHT, WIDTH, 3), on white; parallel rays.
 
-    Args:
-        shapes: corners of their triangles, x forward and z up [m], shape (n, 3, 3), in one colour.
+    Shapes are corners of triangles, x forward and z up [m], shape (n, 3, 3), with their colour.
     """
     opaque = [(corners, color[:3]) for corners, color in shapes if color[3] >= _GLASS]
     corners = np.concatenate([np.empty((0, 3, 3)), *(each for each, _ in opaque)])

@@ -47,12 +47,7 @@ def write(subject: Subject, folder: Path) -> Notes:
 
 
 def snippets(device: Device, seat: Seat) -> Mapping[str, str]:
-    """All snippets by the names of their files.
-
-    Args:
-        device: to write.
-        seat: that carries it.
-    """
+    """All snippets by the names of their files."""
     return {
         "ocs.urdf": snippet_urdf(device, seat),
         "ocs.urdf.xacro": snippet_xacro(device, seat),

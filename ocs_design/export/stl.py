@@ -54,13 +54,7 @@ def device_meshes(device: Device) -> Mapping[Path, bytes]:
 
 
 def stl_bytes(mesh: Mesh, name: str, *, units_per_metre: float) -> bytes:
-    """STL of a closed mesh; the same bytes every time.
-
-    Args:
-        mesh: to write.
-        name: in the header, cut to 69 bytes.
-        units_per_metre: `MILLIMETRES` or `METRES`.
-    """
+    """STL of a closed mesh, its name in the header cut to 69 bytes; the same bytes every time."""
     corners = units_per_metre * mesh.corners
     edges = corners[:, 1:] - corners[:, :1]
     normals = np.cross(edges[:, 0], edges[:, 1])

@@ -20,9 +20,7 @@ class _AtTemplate(Template):
 def fill(template: str, values: dict[str, str]) -> str:
     """Text of `templates/<template>` with each `@name` replaced.
 
-    Args:
-        template: file name.
-        values: ready to stand in XML; see `quoted` and `numbers`.
+    Values are ready to stand in XML; see `quoted` and `numbers`.
     """
     return _AtTemplate(template_text(template)).substitute(values)
 

@@ -10,12 +10,7 @@ from ocs_design.common.files import safe_name
 
 
 def export_time_series(columns: Mapping[str, FloatArray], path: Path) -> Path:
-    """Write named columns of equal length, six significant digits.
-
-    Args:
-        columns: values by heading, shape (k,) each.
-        path: of the CSV.
-    """
+    """Write named columns of equal length, shape (k,) each, with six significant digits."""
     table = np.column_stack(list(columns.values()))
     rows = [",".join([f"{value:.6g}" for value in row]) for row in table.tolist()]
     path.write_text("\n".join([",".join(columns), *rows, ""]), encoding="utf-8")

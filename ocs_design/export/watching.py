@@ -31,11 +31,7 @@ DISPLAY_HINT = (
 
 
 def watch_takes(takes: Sequence[Take], seconds: float) -> None:
-    """Show each take in a window, one after the other as they are closed.
-
-    Args:
-        takes: to be shown.
-        seconds: from one pose to the next [s].
+    """Show each take in a window, a pose every so many seconds, the next one when it is closed.
 
     Raises:
         MissingToolError: there is no display, or no window can be opened on it.
@@ -68,15 +64,9 @@ def check_display() -> None:
 
 
 def watch(model: mujoco.MjModel, qpos: FloatArray, seconds: float, parent: int) -> None:
-    """Play a run in real time, again and again, until the window is closed.
+    """Play poses, shape (n, nq), one every so many seconds, again until the window is closed.
 
-    It closes, too, when the command that asked for it ends, which no user would do by hand.
-
-    Args:
-        model: see `film_model`.
-        qpos: of each pose, shape (n, nq).
-        seconds: from one pose to the next [s].
-        parent: process that asked for it.
+    It closes, too, when the process that asked for it ends, which no user would do by hand.
     """
     # It loads a window system.
     import mujoco.viewer  # noqa: PLC0415

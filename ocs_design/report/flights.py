@@ -52,9 +52,7 @@ def off_level(roll: ArrayLike, pitch: ArrayLike) -> FloatArray:
 def flight_table(runs: Sequence[ValidationRecord], *, of_one: bool = False) -> Table:
     """Verdict, attitude at touchdown and at the end, and what the wheels did, of each run.
 
-    Args:
-        runs: to show.
-        of_one: whether all are of one scenario; rows are then named by the device alone.
+    Rows `of_one` scenario are named by the device alone.
     """
     first, bare = ("<device", "without") if of_one else ("<scenario", "  without")
     names = ((("with" if of_one else run.scenario) if run.ocs else bare) for run in runs)
@@ -97,12 +95,7 @@ def flights_title(runs: Iterable[ValidationRecord]) -> str:
 
 
 def short_verdict(run: ValidationRecord, *, kind: str) -> Toned:
-    """Verdict with the angle that it rests on.
-
-    Args:
-        run: to judge.
-        kind: of the maneuver: a flip is judged by the angle that it turned by, a turn by heading.
-    """
+    """Verdict with the angle it rests on: of a flip what it turned by, of a turn the heading."""
     word = (_WITH if run.ocs else _WITHOUT)[run.passed]
     found = run.metrics
     if run.passed is None or not found:

@@ -53,12 +53,10 @@ class _View:
 
 
 def stick_figure(robot: Robot, legs: Sequence[Leg], words: Sequence[str]) -> str:
-    """An SVG of a robot in its posture, from the right, the front and above.
+    """An SVG of a robot in its posture, from the right, the front and above, with words below.
 
-    Args:
-        robot: to draw; its trunk as a box, every other body as a line to what it hangs on.
-        legs: in colour, their feet named; those recognised, or the likeliest.
-        words: lines below.
+    The trunk is a box, every other body a line to what it hangs on; the legs, those recognised or
+    the likeliest, are in colour and their feet named.
     """
     places = robot.tree.placements_from(robot.trunk, robot.posture)
     feet = {

@@ -138,11 +138,8 @@ def story_in(
 ) -> Story:
     """Story of a design from its output folders: flights from their CSV files, bodies from the GLB.
 
-    Args:
-        folders: that were written or are being written; the first that has a file is asked for it.
-        design: that they are of.
-        runs: as its flights were simulated; empty: they are read.
-        postures, command, assembly: see `Story`.
+    The first folder that has a file is asked for it. Flights that were just simulated are `runs`,
+    and are not read; for the others see `Story`.
     """
     flights: list[Flight] = []
     for record in design.validation if not runs else ():

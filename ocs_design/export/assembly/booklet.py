@@ -281,10 +281,7 @@ def _table(
 ) -> tuple[list[Item], float]:
     """Rows of wrapped cells between thin lines, and the height where they end.
 
-    Args:
-        header, rows: texts.
-        widths: of the columns [mm]; 0: what is left.
-        box: left, top and right [mm].
+    `widths` of the columns [mm], 0: what is left; `box`: left, top and right [mm].
     """
     left, y, right = box
     rest = right - left - sum(widths)

@@ -66,19 +66,12 @@ def tightened(
     head_on_print: bool = True,
     on_slot: FootHold | None = None,
 ) -> Tightened:
-    """Torque of screws.
+    """Torque of screws, those of the wheel, metal on metal, as their joint is computed.
 
-    Those of the wheel as their joint is computed (`parts.joints`). Others, of class 8.8, with the
-    least of: 90 % of the screw's yield strength (VDI 2230); half of the force that shears off a
-    thread in aluminium, or a third of it in a print, on half of the thread's cylinder; under a head
-    on a print, half the print's yield strength as pressure. A print's shear strength is its tensile
-    one over sqrt(3).
-
-    Args:
-        fastening: what they are.
-        on_metal: whether they hold the wheel, metal on metal.
-        head_on_print: whether their heads press on a print, not on metal.
-        on_slot: how they hold a foot, on whose slots they press; None: they do not.
+    Others, of class 8.8, with the least of: 90 % of the screw's yield strength (VDI 2230); half of
+    the force that shears off a thread in aluminium, or a third of it in a print, on half of the
+    thread's cylinder; under a head on a print, half the print's yield strength as pressure, and on
+    a foot's slots what `on_slot` says. A print's shear strength is its tensile one over sqrt(3).
     """
     screw, engagement = fastening.screw, fastening.length - fastening.thickness
     washers = on_slot is not None and on_slot.washers

@@ -22,11 +22,7 @@ _CREASE = np.cos(np.radians(25.0))
 
 
 def view_of(camera: Sequence[float], up: Sequence[float]) -> FloatArray:
-    """Rotation into the picture's axes: right, up, and towards the eye, shape (3, 3).
-
-    Args:
-        camera: direction from the scene to the eye. up: what stands upright in the picture.
-    """
+    """Rotation into the picture's axes: right, up, and towards the eye, shape (3, 3)."""
     eye = np.asarray(camera, dtype=np.float64) / np.linalg.norm(camera)
     right = np.cross(up, eye)
     right /= np.linalg.norm(right)

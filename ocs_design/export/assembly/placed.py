@@ -216,11 +216,8 @@ def _ring(
 ) -> Piece:
     """Screws on a circle, with the undersides of their heads at `along` [m].
 
-    Args:
-        fastening: what they are.
-        radius: of the circle [m]. first: angle of the first of them from the x axis [rad].
-        along: along the wheel's axis [m].
-        towards: 1: their tips point outward, -1: to the motor.
+    The first stands at the angle `first` from the x axis [rad]; `towards` 1: their tips point
+    outward, -1: to the motor.
     """
     one, flip = _screw(fastening), np.diag([1.0, -towards, -towards])
     meshes = []

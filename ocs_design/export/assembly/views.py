@@ -71,12 +71,7 @@ def pulled_apart(pieces: Sequence[Piece], between: float) -> tuple[Piece, ...]:
 def exploded_view(
     pieces: Sequence[Piece], numbers: Mapping[str, int], box: Box
 ) -> tuple[list[Item], Scale]:
-    """Exploded view in a box of the sheet [mm], with its scale.
-
-    Args:
-        pieces: of one module. numbers: of the pieces by their names.
-        box: that it is centred in.
-    """
+    """Exploded view in the middle of a box of the sheet [mm], with its scale."""
     view = view_of(_CAMERA, _UP)
     left, top, right, bottom = box
     room = np.array([right - left - 4.0, bottom - top - 4.0 * (BALLOON + 2.0)])
@@ -120,11 +115,9 @@ def exploded_view(
 def section_view(
     pieces: Sequence[Piece], numbers: Mapping[str, int], box: Box, *, standing: bool = False
 ) -> tuple[list[Item], Scale]:
-    """Section along the axis, upright, in a box of the sheet [mm], with its scale.
+    """Section along the axis, upright, in the middle of a box of the sheet [mm], with its scale.
 
-    Args:
-        pieces: in their places. numbers: of the pieces by their names. box: that it is centred in.
-        standing: whether their axis is y, and points up; else it is z, and points to the right.
+    The axis of the pieces is z and points to the right; where they stand, y, and points up.
     """
     # Up at the top.
     cut = [
@@ -194,12 +187,9 @@ def _balloons(
     level: float,
     room: tuple[float, float],
 ) -> list[Item]:
-    """Numbers in a row or a column, in the order of what they point to.
+    """Numbers and what they point to, in a row (`axis` 0) or a column (1), in the points' order.
 
-    Args:
-        marks: numbers, and the points that they name.
-        axis: along which they stand: 0, a row, or 1, a column.
-        level: of all of them across it [mm]. room: between which they stand along it [mm].
+    All are at `level` across it, between the ends of `room` along it [mm].
     """
     ordered = sorted(marks, key=lambda mark: mark[1][axis])
     places = spread([at[axis] for _, at in ordered], 2.0 * BALLOON + 1.5, room)

@@ -37,10 +37,10 @@ def fits_inside(label: str, span: float) -> bool:
 def upright_dimension(
     label: str, *, x: float, middle: float, half: float, outline_x: float
 ) -> list[Item]:
-    """Dimension beside an outline, its text between the arrows, turned.
+    """Dimension beside an outline, its text, which `fits_inside`, turned between the arrows.
 
     Args:
-        label: which must fit, see `fits_inside`.
+        label: the text.
         x: of the dimension line, left of the outline.
         middle, half: the y of its middle, and half its length.
         outline_x: where the extension lines leave the outline.
@@ -110,13 +110,9 @@ def leader(callout: Callout, shelf: Point) -> list[Item]:
 
 
 def viewing_arrow(letter: str, *, x: float, edge: float, down: bool) -> list[Item]:
-    """One end of a vertical cutting plane, seen from the right (ISO 128-3).
+    """One end of the vertical cutting plane of a section, seen from the right (ISO 128-3).
 
-    Args:
-        letter: of the section.
-        x: of the plane.
-        edge: y of the outline that the plane leaves there.
-        down: whether it leaves downward.
+    It leaves the outline at the y `edge`, upward or `down`.
     """
     way = 1.0 if down else -1.0
     y, thick = edge + 7.0 * way, Pen(OUTLINE.width)

@@ -61,11 +61,7 @@ _BETWEEN = 40.0
 
 
 def plate_sheets(device: Device, robot: str, identity: str, tool: str) -> list[list[Item]]:
-    """Sheets of the plate and of its mast; none where the feet need no plate.
-
-    Args:
-        device: that stands on it. robot: its name. identity, tool: see `WheelDrawing`.
-    """
+    """Sheets of the plate and of its mast, as `WheelDrawing`; none where the feet need no plate."""
     plate = device.plate
     if plate is None:
         return []

@@ -178,12 +178,7 @@ _STANDARD, _FINE = (1, 2, 5), (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
 
 
 def largest_scale(fits: Callable[[Scale], bool], *, standard: bool = True) -> Scale:
-    """Largest scale for which `fits` holds; the smallest if it holds for none.
-
-    Args:
-        fits: whether a scale does.
-        standard: whether it is to be one of ISO 5455; else there are steps between.
-    """
+    """Largest scale, of ISO 5455 or of finer steps, for which `fits` holds; else the smallest."""
     steps = _STANDARD if standard else _FINE
     enlarged = [Scale(step * 10**power, 1) for power in (2, 1, 0) for step in reversed(steps)]
     reduced = [Scale(1, step * 10**power) for power in range(7) for step in steps][1:]
@@ -211,13 +206,10 @@ def cross(at: Point, half: float) -> list[Item]:
 def hatching(
     corners: Sequence[Point], *others: Sequence[Point], mirrored: bool = False
 ) -> list[Item]:
-    """Thin lines at 45 degrees inside a polygon (ISO 128-3).
+    """Thin lines at 45 degrees inside a simple polygon [mm] (ISO 128-3); `others` are holes in it.
 
-    All polygons of a sheet share one grid, so that faces of one part are hatched as one.
-
-    Args:
-        corners: of a simple polygon [mm]. others: further ones of the part, or holes in it.
-        mirrored: leaning to the left, for the part beside the first.
+    All polygons of a sheet share one grid, so that faces of one part are hatched as one; `mirrored`
+    lines, of the part beside it, lean to the left.
     """
     side = -_DIAGONAL if mirrored else _DIAGONAL
     rings = [

@@ -225,9 +225,7 @@ def _width(
 def cut_faces(wheel: Wheel, *, above: bool) -> Iterator[tuple[Profile, bool]]:
     """Faces of one half of the section, each with whether it is hatched the other way.
 
-    Args:
-        wheel: to cut.
-        above: the half that points straight up; else the one straight down.
+    The half points straight up, or, if not `above`, straight down.
     """
     rim, hub = rim_profile(wheel.rim, above=above), wheel.hub
     if hub is None:

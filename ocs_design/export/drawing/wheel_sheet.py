@@ -81,12 +81,7 @@ def write(subject: "Subject", folder: Path) -> "Notes":
 
 
 def wheel_drawing(device: Device, robot: str) -> WheelDrawing:
-    """Content of the sheet of a device's wheel; all its wheels are equal.
-
-    Args:
-        device: that the wheel belongs to.
-        robot: its name.
-    """
+    """Content of the sheet of a device's wheel for a robot of that name; all wheels are equal."""
     material = materials().get(device.flywheel.material)
     speed, fit, mounting = device.motor.top_speed, rim_fit(device), device.motor.mounting
     return WheelDrawing(

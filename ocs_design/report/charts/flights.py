@@ -21,12 +21,9 @@ _AXES = (("pitch", "y", Ink.BLUE), ("roll", "x", Ink.VERMILION))
 
 
 def time_charts(scenario: str, name: str, flights: Sequence[Flight]) -> tuple[Chart, ...]:
-    """Attitude, rates, and speed and torque of the wheels over time.
+    """Attitude, rates, and speed and torque of the wheels over time, of flights of one maneuver.
 
-    Args:
-        scenario: name of the maneuver.
-        name: the same, fit for file names and elements.
-        flights: of this maneuver, with the device first where there is one.
+    `name` is that of the scenario, fit for files and elements. With the device comes first.
     """
     tolerance = to_unit(LANDING_TOLERANCE, "deg")
     on_pivot = any(flight.on_pivot for flight in flights)

@@ -103,12 +103,7 @@ def details(summary: str, *content: str) -> Markup:
 
 
 def figures(charts: Iterable[Chart], *, flight: str = "") -> Markup:
-    """Charts, beside each other where there is room.
-
-    Args:
-        charts: to show.
-        flight: number of the maneuver that they are of; empty: of none.
-    """
+    """Charts, of the maneuver of that number or of none, beside each other where there is room."""
     shown = (element("figure", Markup(inline_svg(chart))) for chart in charts)
     return element("div", *shown, class_="charts", data_flight=flight)
 

@@ -27,9 +27,7 @@ _WIDTH = "420"
 def as_html(found: OcsDesign | Front | Validated, folder: Path | None = None) -> str:
     """A result as HTML without style sheets, scripts or anything from elsewhere.
 
-    Args:
-        found: what came of a command.
-        folder: of a design, whose picture of the robot is shown; None: wheel axes and inertia are.
+    A design in its folder shows the picture of the robot, else wheel axes and inertia.
     """
     if isinstance(found, OcsDesign):
         return element("div", *_design(found, folder))

@@ -192,12 +192,9 @@ def drive_section(story: Story) -> Markup:
 def maneuvers_section(
     story: Story, charts: dict[str, Sequence[Chart]], scenarios: Sequence[str]
 ) -> Markup:
-    """A part for each maneuver, flown with the device and without.
+    """A part for each maneuver, flown with the device and without, with its charts.
 
-    Args:
-        story: of the report.
-        charts: of each maneuver by its name.
-        scenarios: maneuvers that can be shown again, in the order of the viewer.
+    `scenarios` can be shown again, in the order of the viewer.
     """
     names = dict.fromkeys(run.scenario for run in story.design.validation)
     if not names:

@@ -158,13 +158,9 @@ class Blob:
 def encoded_scene(
     bodies: Sequence[ShownBody], flights: Sequence[Flight], scenarios: Sequence[str], blob: Blob
 ) -> Record:
-    """Everything that the viewer shows; its arrays go into the blob.
+    """Everything that the viewer shows, at least one body; its arrays go into the blob.
 
-    Args:
-        bodies: at least one.
-        flights: of which those with poses can be replayed.
-        scenarios: in the order of the page.
-        blob: that grows.
+    Flights with poses can be replayed, in the order of `scenarios`.
     """
     low, high = _box(bodies)
     radius = _radius(low, high)

@@ -99,11 +99,8 @@ class _Clean:
 def make_console(*, color: bool = True, stderr: bool = False) -> Console:
     """A console on standard output; without colour there is no bold or dim text either.
 
-    In a pipe its lines are not broken, unless the variable COLUMNS says where.
-
-    Args:
-        color: whether there may be any.
-        stderr: on standard error instead, for what nobody asked for: progress, warnings, errors.
+    In a pipe its lines are not broken, unless the variable COLUMNS says where. What nobody asked
+    for, progress, warnings and errors, goes to standard error instead.
     """
     plain = not color or bool(os.environ.get("NO_COLOR"))
     console = Console(stderr=stderr, color_system=None if plain else "auto", highlight=False)

@@ -201,13 +201,7 @@ class Canvas:
 def frame(
     canvas: Canvas, *, x_ends: tuple[str, str], y_ends: tuple[str, str], marks: dict[int, str]
 ) -> list[str]:
-    """The canvas with its axes.
-
-    Args:
-        canvas: of one curve.
-        x_ends: below the left and the right end. y_ends: beside the bottom and the top.
-        marks: one character on the x axis by its column.
-    """
+    """The canvas of a curve with its axes: words at their ends, and marks on x by their columns."""
     bottom, top = y_ends
     margin = max(len(bottom), len(top))
     names = [top, *[""] * (canvas.height - 2), bottom]

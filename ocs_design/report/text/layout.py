@@ -83,13 +83,8 @@ def show(console: Console, table: Table, *, fewest: int = 0) -> None:
     """Print a table, indented like everything under a heading; closer where it would break a line.
 
     Where the terminal is too narrow, words are broken into lines, and where that does not do, the
-    last columns are left out, and named: a number is never broken.
-
-    Args:
-        console: to print on.
-        table: to show.
-        fewest: columns down to which they are left out, without a word, before words are broken. 0:
-            none is.
+    last columns are left out, and named: a number is never broken. Down to the `fewest` columns, if
+    any, they are left out without a word, before words are broken.
     """
     room = console.width - INDENT[-1]
     for count in range(len(table.columns), 0, -1):
@@ -162,13 +157,9 @@ def _width(console: Console, drawn: rich_table.Table) -> int:
 
 
 def files_written(console: Console, folder: str, files: Iterable[str], held: str = "") -> None:
-    """Print the files that a folder got, by the folders in it.
+    """Print the files that a folder got but design.json, by the folders in it.
 
-    Args:
-        console: to print on.
-        folder: that it was written to.
-        files: paths in that folder, without a design.json.
-        held: what its design.json holds; empty: it has none.
+    `held` says what its design.json holds; empty: it has none.
     """
     heading(console, f"Written to {folder}/")
     rows = [(DESIGN_FILE, f"{held}, and the hashes of the other files")] if held else []

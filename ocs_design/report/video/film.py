@@ -27,14 +27,7 @@ STRIDE = 2
 def film_or_tell(
     robot: Robot, device: Device, maneuvers: Sequence[Maneuver], runs: Sequence[Run], folder: Path
 ) -> tuple[str, ...]:
-    """Write the films of `film_flights` where they can be made: never a reason to fail.
-
-    Args:
-        robot, device, maneuvers, runs, folder: see there.
-
-    Returns:
-        Remarks on them, one sentence each.
-    """
+    """Write the films of `film_flights` where they can be made, never failing; gives remarks."""
     if find_spec("PIL") is None:
         return (f"no video, because Pillow is not installed; {EXTRA}",)
     try:
@@ -49,13 +42,7 @@ def film_or_tell(
 def film_flights(
     robot: Robot, device: Device, maneuvers: Sequence[Maneuver], runs: Sequence[Run], folder: Path
 ) -> tuple[Path, ...]:
-    """A film of each maneuver, `<name>.mp4` or `.gif`.
-
-    Args:
-        robot, device: that flew.
-        maneuvers: that were flown.
-        runs: with their poses.
-        folder: that takes the films.
+    """A film of each maneuver, `<name>.mp4` or `.gif`, of runs with their poses.
 
     Raises:
         MissingToolError: OpenGL does not work here.

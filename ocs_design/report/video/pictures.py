@@ -36,13 +36,7 @@ _TIME_LIMIT = 300.0
 
 
 def captioned(picture: Picture, title: str, good: bool | None, lines: Sequence[str]) -> Picture:
-    """The picture with words on it.
-
-    Args:
-        picture: to write on.
-        title: at the top. good: whether all went well, for its colour; None: not known.
-        lines: at the bottom.
-    """
+    """The picture with a title, in a colour for how it went if that is known, and lines below."""
     image = Image.fromarray(picture)
     draw = ImageDraw.Draw(image)
     font = ImageFont.load_default(SIZE)
@@ -56,12 +50,9 @@ def captioned(picture: Picture, title: str, good: bool | None, lines: Sequence[s
 
 
 def encode(pictures: Sequence[Picture], seconds: float, stem: Path) -> Path:
-    """Write a film beside `stem`, with the suffix of what could be made.
+    """Write a film of pictures of one even size, one every so many seconds.
 
-    Args:
-        pictures: all of one size, shape (height, width, 3), both even.
-        seconds: from one to the next [s].
-        stem: path without a suffix.
+    Its path is `stem` with the suffix of what could be made.
     """
     program = ffmpeg_program()
     if program is not None and _mp4(program, pictures, seconds, stem.with_suffix(".mp4")):
