@@ -2,8 +2,6 @@
 
 import shlex
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +9,10 @@ from rich.console import Console
 from rich.padding import Padding
 from rich.text import Text
 
+from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import format_quantity, to_unit
 from ocs_design.device.answers import Front
+from ocs_design.report.charts.chart import Axis
 from ocs_design.report.quantities import grams, tenths
 from ocs_design.report.table import Cell, Table, Tone, Toned, columns
 from ocs_design.report.text.console import breaks_lines
@@ -92,27 +92,20 @@ def _print_plot(console: Console, front: Front) -> None:
     if not console.encoding.startswith("utf") or not breaks_lines(console):
         return
     heading(console, f"Mass of the device against {front.label}")
-    canvas = Canvas(max(console.width - MARGIN, 20), PLOT_HEIGHT)
-    across = Scale.of([point.value for point in front.points])
-    up = Scale.of([point.device.mass for point in front.points if point.device], room=0.05)
-    places = [
-        (across.part(point.value), up.part(point.device.mass)) if point.device else None
-        for point in front.points
-    ]
-    for one, other in pairwise(places):
-        if one and other:
-            canvas.line(one, other)
-    for place in filter(None, places):
-        canvas.dot(*place)
-    marks = {
-        canvas.column(across.part(point.value)): NONE
-        for point in front.points
-        if point.device is None
-    }
+    width = max(console.width - MARGIN, 20)
+    values = np.array([point.value for point in front.points])
+    masses = np.array([point.device.mass if point.device else np.nan for point in front.points])
+    across, up = Axis.around("", "", values, room=0.0), Axis.around("", "", masses, room=0.05)
+    plot = braille(across.parts(values), up.parts(masses), width, PLOT_HEIGHT)
+    marked = [(point.value, NONE) for point in front.points if point.device is None]
     if front.spans_own_value:
-        marks[canvas.column(across.part(front.own_value))] = OWN
+        marked.append((front.own_value, OWN))
+    # The characters that hold the dots there.
+    places = across.parts(np.array([value for value, _ in marked])) * (2 * width - 1)
+    columns_of = (np.rint(places).astype(np.int64) // 2).tolist()
+    marks = {column: mark for column, (_, mark) in zip(columns_of, marked, strict=True)}
     ends = (_value(front, across.low), _value(front, across.high))
-    rows = frame(canvas, x_ends=ends, y_ends=(grams(up.low), grams(up.high)), marks=marks)
+    rows = frame(plot, x_ends=ends, y_ends=(grams(up.low), grams(up.high)), marks=marks)
     console.print(Padding(Text("\n".join(rows), no_wrap=True), INDENT))
     note(console, f"{OWN} as specified, {NONE} no device")
 
@@ -133,80 +126,38 @@ def _value(front: Front, value: float) -> str:
     return format_quantity(value, front.unit)
 
 
-_FLAT = 1e-6
-"""Spread of values, relative to them, below which they are equal: rounding is not drawn."""
-
 _BLANK = 0x2800
 _DOTS = np.array([[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]])
 """Bit of each dot of a cell by its row and column (Unicode, Braille Patterns)."""
 
 
-@dataclass(frozen=True)
-class Scale:
-    """Values along one axis.
+def braille(x: FloatArray, y: FloatArray, width: int, height: int) -> list[str]:
+    """Lines of characters, from the top, with points and the straight lines between neighbours.
 
-    Attributes:
-        low, high: ends, low < high.
+    Coordinates are parts of width and height, 0..1 from the lower left; NaN breaks the curve.
     """
-
-    low: float
-    high: float
-
-    @classmethod
-    def of(cls, values: Sequence[float], room: float = 0.0) -> "Scale":
-        """Scale of values, with `room` times their spread at either end; never empty."""
-        low, high = min(values), max(values)
-        if high - low <= _FLAT * max(abs(low), abs(high)):
-            half = 0.1 * abs(high) or 1.0
-            return cls(low - half, high + half)
-        return cls(low - room * (high - low), high + room * (high - low))
-
-    def part(self, value: float) -> float:
-        """0 at the low end, 1 at the high one."""
-        return (value - self.low) / (self.high - self.low)
-
-
-class Canvas:
-    """A grid of dots, its origin at the lower left.
-
-    Attributes:
-        width, height: in characters.
-    """
-
-    def __init__(self, width: int, height: int) -> None:
-        self.width, self.height = width, height
-        self._cells = np.zeros((height, width), dtype=np.int64)
-
-    def column(self, x: float) -> int:
-        """The character that holds the dots at a part of the width."""
-        return round(x * (2 * self.width - 1)) // 2
-
-    def dot(self, x: float, y: float) -> None:
-        """Set the dot at a part of the width and of the height, 0..1."""
-        column = round(x * (2 * self.width - 1))
-        row = round((1.0 - y) * (4 * self.height - 1))
-        self._cells[row // 4, column // 2] |= _DOTS[row % 4, column % 2]
-
-    def line(self, start: tuple[float, float], end: tuple[float, float]) -> None:
-        """Draw a straight line without gaps."""
-        for part in np.linspace(0.0, 1.0, 4 * (self.width + self.height)):
-            x, y = ((1.0 - part) * a + part * b for a, b in zip(start, end, strict=True))
-            self.dot(x, y)
-
-    def rows(self) -> list[str]:
-        """Lines of characters from the top."""
-        return ["".join(chr(_BLANK + cell) for cell in row) for row in self._cells.tolist()]
+    steps = np.linspace(0.0, 1.0, 4 * (width + height))[:, None]
+    right, up = (
+        np.concatenate([each, ((1.0 - steps) * each[:-1] + steps * each[1:]).ravel()])
+        for each in (x, y)
+    )
+    columns, rows = (
+        np.rint(part[np.isfinite(up)] * (dots - 1)).astype(np.int64)
+        for part, dots in ((right, 2 * width), (1.0 - up, 4 * height))
+    )
+    cells = np.full((height, width), _BLANK)
+    np.bitwise_or.at(cells, (rows // 4, columns // 2), _DOTS[rows % 4, columns % 2])
+    return ["".join(map(chr, row)) for row in cells.tolist()]
 
 
 def frame(
-    canvas: Canvas, *, x_ends: tuple[str, str], y_ends: tuple[str, str], marks: dict[int, str]
+    plot: Sequence[str], *, x_ends: tuple[str, str], y_ends: tuple[str, str], marks: dict[int, str]
 ) -> list[str]:
-    """The canvas of a curve with its axes: words at their ends, and marks on x by their columns."""
-    bottom, top = y_ends
+    """Lines of a plot with its axes: words at their ends, and marks on x by their columns."""
+    (bottom, top), (left, right), width = y_ends, x_ends, len(plot[0])
     margin = max(len(bottom), len(top))
-    names = [top, *[""] * (canvas.height - 2), bottom]
-    rows = [f"{name:>{margin}} ┤{row}" for name, row in zip(names, canvas.rows(), strict=True)]
-    axis = "".join(marks.get(column, "─") for column in range(canvas.width))
-    left, right = x_ends
-    below = left + right.rjust(canvas.width - len(left))
+    names = [top, *[""] * (len(plot) - 2), bottom]
+    rows = [f"{name:>{margin}} ┤{row}" for name, row in zip(names, plot, strict=True)]
+    axis = "".join(marks.get(column, "─") for column in range(width))
+    below = left + right.rjust(width - len(left))
     return [*rows, f"{'':{margin}} └{axis}", f"{'':{margin}}  {below}"]

@@ -41,13 +41,7 @@ def print_headline(console: Console, line: Headline, *more: Text) -> None:
 def print_validated(
     console: Console, found: Validated, folder: Path | None, files: Sequence[str]
 ) -> None:
-    """Flights as `size` prints them, what many samples show, and the verdict.
-
-    Args:
-        console: to print on.
-        found: what came of it.
-        folder: that was written to, if any. files: in it.
-    """
+    """Flights as `size` prints them, what many samples show, files written, and the verdict."""
     if found.sample is not None:
         heading(console, f"Sample {found.sample.index} of seed {found.sample.seed}")
         units = {key: spread.unit for key, spread in spreads().items()} | dict.fromkeys(STOPS, "")

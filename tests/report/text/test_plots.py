@@ -10,62 +10,47 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from ocs_design.report.flights import off_level
-from ocs_design.report.text.front import Canvas, Scale, frame
+from ocs_design.report.text.front import braille, frame
 from ocs_design.report.text.size import LEAST_SPAN, tilt_plots
 
 ANGLES = st.floats(-np.pi, np.pi)
 
 
-def dots(canvas):
+def dots(lines):
     """Every dot as (column, row) of the fine grid, row 0 at the top."""
     offsets = [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (0, 3), (1, 3)]
     return {
         (2 * x + dx, 4 * y + dy)
-        for y, row in enumerate(canvas.rows())
+        for y, row in enumerate(lines)
         for x, character in enumerate(row)
         for bit, (dx, dy) in enumerate(offsets)
         if (ord(character) - 0x2800) >> bit & 1
     }
 
 
-def test_every_dot_of_a_cell_and_the_corners_of_a_canvas():
-    cell, canvas = Canvas(1, 1), Canvas(3, 2)
-    for x, y in product((0.0, 1.0), (0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0)):
-        cell.dot(x, y)
-    assert cell.rows() == ["⣿"]
-    for x, y in product((0.0, 1.0), (0.0, 1.0)):
-        canvas.dot(x, y)
-    assert dots(canvas) == {(0, 7), (5, 7), (0, 0), (5, 0)}
-    assert canvas.rows() == ["⠁⠀⠈", "⡀⠀⢀"]
+def points(*places):
+    """Coordinates of points with no line between them."""
+    return np.array([each for place in places for each in (place, (np.nan, np.nan))]).T
+
+
+def test_every_dot_of_a_cell_and_the_corners_of_a_plot():
+    cell = points(*product((0.0, 1.0), (0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0)))
+    assert braille(*cell, 1, 1) == ["⣿"]
+    corners = braille(*points(*product((0.0, 1.0), (0.0, 1.0))), 3, 2)
+    assert dots(corners) == {(0, 7), (5, 7), (0, 0), (5, 0)}
+    assert corners == ["⠁⠀⠈", "⡀⠀⢀"]
 
 
 def test_a_line_has_no_gaps_and_keeps_its_ends():
-    canvas = Canvas(20, 6)
-    canvas.line((0.0, 0.1), (1.0, 0.9))
-    found = dots(canvas)
+    found = dots(braille(np.array([0.0, 1.0]), np.array([0.1, 0.9]), 20, 6))
     assert {column for column, _ in found} == set(range(40))
-    upright = Canvas(20, 6)
-    upright.line((0.5, 0.0), (0.5, 1.0))
-    assert {row for _, row in dots(upright)} == set(range(24))
-
-
-@pytest.mark.parametrize("values", [[3.0], [0.0, 0.0], [-2.0, -2.0], [3.0, 3.0 + 1e-12]])
-def test_a_scale_is_never_empty(values):
-    scale = Scale.of(values)
-    assert scale.low <= values[0]
-    assert scale.high > scale.low
-
-
-def test_a_scale_leaves_room():
-    scale = Scale.of([1.0, 3.0], room=0.5)
-    assert (scale.low, scale.high) == (0.0, 4.0)
-    assert scale.part(1.0) == 0.25
+    upright = dots(braille(np.array([0.5, 0.5]), np.array([0.0, 1.0]), 20, 6))
+    assert {row for _, row in upright} == set(range(24))
 
 
 def test_the_frame_is_as_wide_as_it_says():
-    rows = frame(
-        Canvas(30, 4), x_ends=("300 ms", "600 ms"), y_ends=("8 g", "120 g"), marks={0: "x", 29: "o"}
-    )
+    ends = {"x_ends": ("300 ms", "600 ms"), "y_ends": ("8 g", "120 g")}
+    rows = frame(4 * [30 * " "], **ends, marks={0: "x", 29: "o"})
     assert len(rows) == 6
     assert rows[0].startswith("120 g ┤")
     assert rows[3].startswith("  8 g ┤")
