@@ -7,11 +7,11 @@ import mujoco
 
 from ocs_design.device import bodies
 from ocs_design.device.device import Device
+from ocs_design.export.visuals import STEEL
 from ocs_design.robot.mujoco_bodies import inertial, quaternion
 from ocs_design.robot.mujoco_model import trunk_body
 from ocs_design.robot.robot import Robot
 
-STEEL = (0.55, 0.57, 0.6, 1.0)
 _JOINT, _SITE = mujoco.mjtObj.mjOBJ_JOINT, mujoco.mjtObj.mjOBJ_SITE
 _TO_JOINT = mujoco.mjtTrn.mjTRN_JOINT
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TypeAlias
 
 import mujoco
 import numpy as np
@@ -10,25 +9,17 @@ import numpy as np
 from ocs_design.common.errors import MissingToolError
 from ocs_design.common.frames import Placement
 from ocs_design.device.device import Device
-from ocs_design.device.solids import drive_solids, foot_of, motor_mount
-from ocs_design.export.attach import STEEL
-from ocs_design.export.device_parts import printed_parts
+from ocs_design.export.assembly.placed import placed_parts
+from ocs_design.export.device_parts import wheel_pieces
 from ocs_design.export.film import Take, add_white_sky, drawn
 from ocs_design.export.formats import Notes, Subject
-from ocs_design.export.meshes import Color, Mesh, part_mesh, solid_mesh
+from ocs_design.export.meshes import Color, Mesh, part_mesh
 from ocs_design.export.robot_model import RobotModel, model_of
-from ocs_design.export.stl import wheel_meshes
-from ocs_design.export.visuals import ALUMINIUM, GEAR, MOTOR, PRINT, SHELL, cage_placement
-from ocs_design.parts.cage import cage_part
-from ocs_design.parts.solids import hollow_cylinder
+from ocs_design.export.visuals import SHELL, piece_color
 from ocs_design.robot.robot import Robot
 
 _MODULE_ON_ROBOT = (np.sqrt(0.5), -np.sqrt(0.5), 0.0, 0.0)
 """Attitude of a module's frame at no incidence, as a quaternion: its z axis to the left, y down."""
-
-
-Shown: TypeAlias = tuple[Mesh, Color]
-"""Mesh in its colour, in the module's frame."""
 
 
 def write(subject: Subject, folder: Path) -> Notes:
@@ -48,24 +39,17 @@ def draw_pictures(device: Device, robot: Robot, model: RobotModel) -> dict[str, 
     Raises:
         MissingToolError: OpenGL does not work here.
     """
-    # The rim, and in a colour of its own what carries it.
-    pieces = wheel_meshes(device.flywheel).values()
-    turning = list(zip(pieces, (STEEL, ALUMINIUM), strict=False))
-    takes = {"wheel": parts_take(turning)}
+    shown = [
+        # One sees through the housing.
+        (
+            part_mesh(part).placed(place),
+            SHELL if name in {"drum", "lid"} else piece_color(device, name),
+        )
+        for name, (part, place) in placed_parts(device).items()
+    ]
+    # The wheel's pieces come first.
+    takes = {"wheel": parts_take(shown[: len(wheel_pieces(device.flywheel))])}
     if device.carrier.mass > 0.0:
-        # Motor and gear, where their sizes are known, and what is printed around them.
-        foot, (drum, lid, base, *_) = foot_of(device), printed_parts(device)
-        colors, shown = {"motor": MOTOR, "gear": GEAR}, turning.copy()
-        for solid in drive_solids(device):
-            if solid.name in colors:
-                mesh = solid_mesh(hollow_cylinder(0.0, solid.radius, solid.low, solid.high))
-                above = Placement(np.eye(3), np.array([0.0, -solid.up, 0.0]))
-                shown.append((mesh.placed(above), colors[solid.name]))
-        shown.append((part_mesh(base).placed(foot.placement), PRINT))
-        cage = motor_mount(device).cage
-        if cage is not None:
-            shown.append((part_mesh(cage_part(cage)).placed(cage_placement(foot, cage)), PRINT))
-        shown += [(part_mesh(part), SHELL) for part in (drum, lid)]
         takes["module"] = parts_take(shown)
     qpos = np.array(model.compiled.qpos0)
     for joint, value in robot.posture.items():
@@ -84,8 +68,8 @@ def render_views(takes: Mapping[str, Take]) -> dict[str, bytes]:
     return dict(zip(takes, pages, strict=True))
 
 
-def parts_take(shown: Sequence[Shown]) -> Take:
-    """Parts alone, as they stand on the robot at no incidence."""
+def parts_take(shown: Sequence[tuple[Mesh, Color]]) -> Take:
+    """Parts in their colours and the module's frame, as they stand at no incidence."""
     spec = mujoco.MjSpec()
     add_white_sky(spec)
     body = spec.worldbody.add_body(quat=_MODULE_ON_ROBOT)

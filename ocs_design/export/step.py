@@ -47,7 +47,7 @@ from ocs_design.export.assembly.placed import placed_parts
 from ocs_design.export.device_parts import metal_pieces, pedestal_kinds, printed_parts, wheel_pieces
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Color
-from ocs_design.export.visuals import ALUMINIUM, GEAR, MOTOR, PRINT
+from ocs_design.export.visuals import ALUMINIUM, PRINT, piece_color
 from ocs_design.parts.carrier_plate import mast_part, plate_part
 from ocs_design.parts.outline import Arc
 from ocs_design.parts.solids import Part, Prism, Revolution, Solid
@@ -62,11 +62,6 @@ _SETTINGS = {"write.step.schema": "AP214IS", "write.step.unit": "MM"}
 
 _CURVES_ON_SURFACES = "write.surfacecurve.mode"
 """Off: readers make them from the curves in space, and the file is half as large."""
-
-STEEL: Color = (0.55, 0.56, 0.58, 1.0)
-
-_COLORS = dict.fromkeys(("drum", "lid", "foot", "cage"), PRINT) | {"motor": MOTOR, "gear": GEAR}
-"""Colours of pieces by their names; what is not there is of steel."""
 
 _TIMESTAMP = "2000-01-01T00:00:00"
 """Time in every file, so that the same part has the same bytes."""
@@ -107,7 +102,8 @@ def device_bytes(device: Device) -> bytes:
     if device.plate is not None:
         plate, mast = device.plate, device.plate.mast
         bodies = [(plate_part(each), each.position) for each in plate.each]
-        bodies += [] if mast is None else [(mast_part(plate, mast), plate.position)]
+        if mast is not None:
+            bodies.append((mast_part(plate, mast), plate.position))
         for part, position in bodies:
             label = assembly.add_part(part.name, part, ALUMINIUM)
             assembly.put(label, whole, Placement(np.eye(3), np.array(position)), part.name)
@@ -142,12 +138,10 @@ class _Assembly:
 
     def add_module(self, device: Device) -> TDF_Label:
         """Add all pieces of a module, in a group."""
-        group, web = self.add_group("module"), device.flywheel.web
-        light = web is not None and web.material.startswith("aluminium")
-        colors = _COLORS | ({"hub": ALUMINIUM} if light else {})
+        group = self.add_group("module")
         for name, (part, place) in placed_parts(device).items():
-            color = colors.get(name.removesuffix("_2"), STEEL)
-            self.put(self.add_part(name, part, color), group, place, name)
+            label = self.add_part(name, part, piece_color(device, name))
+            self.put(label, group, place, name)
         return group
 
     def put(self, what: TDF_Label, group: TDF_Label, place: Placement, name: str) -> None:
