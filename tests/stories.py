@@ -7,7 +7,7 @@ import numpy as np
 from designed import MOTOR, designed
 
 from ocs_design.device.records.flights import ValidationRecord
-from ocs_design.report.story import Flight, Story
+from ocs_design.report.story import RecordedFlight, Story
 from ocs_design.workflows.recording import record_design
 
 TOUCHDOWN = 0.4
@@ -46,7 +46,7 @@ def flight(scenario="drop", *, ocs=True, limits=True):
     if limits:
         columns["wheel_torque_lowest_left_nm"] = np.full_like(time, -1.0)
         columns["wheel_torque_highest_left_nm"] = np.full_like(time, 1.0)
-    return Flight(scenario, ocs, columns, 0.0, float(time[time < TOUCHDOWN][-1]), None)
+    return RecordedFlight(scenario, ocs, columns, 0.0, float(time[time < TOUCHDOWN][-1]), None)
 
 
 def story(scenario="drop", motor=MOTOR):

@@ -46,12 +46,7 @@ def check_target(target: Path, *, force: bool) -> None:
         OutputError: it exists and `force` is not set, it is no output folder of ours, or its parent
             cannot be written to.
     """
-    parent = target.absolute().parent
-    if not parent.is_dir():
-        fault = errno.ENOTDIR if any(map(Path.is_file, target.absolute().parents)) else errno.ENOENT
-        raise OutputError(f"{parent}: no such folder", hint=CURES[fault])
-    _check_writable(target)
-    if not os.path.lexists(target):
+    if not _is_there(target):
         return
     if target.is_symlink() or not target.is_dir():
         raise OutputError(f"{target}: is not a folder", hint="choose another name with -o")
@@ -70,12 +65,34 @@ def check_target(target: Path, *, force: bool) -> None:
         )
 
 
-def _check_writable(target: Path) -> None:
-    """Fail if nothing can be made beside `target`; leftovers of killed runs there are removed.
+def check_file_target(target: Path, *, force: bool) -> None:
+    """The same of a file.
 
     Raises:
-        OutputError: nothing can.
+        OutputError: it exists and `force` is not set, or is no file; or its folder does not exist
+            or cannot be written to.
     """
+    if not _is_there(target):
+        return
+    if not target.is_file():
+        raise OutputError(f"{target}: is not a file", hint="choose another name with -o")
+    if not force:
+        raise OutputError(
+            f"{target}: exists already",
+            hint="choose another name with -o, or replace it with --force",
+        )
+
+
+def _is_there(target: Path) -> bool:
+    """Whether something has that name already; leftovers of killed runs beside it are removed.
+
+    Raises:
+        OutputError: nothing can be made beside it.
+    """
+    parent = target.absolute().parent
+    if not parent.is_dir():
+        fault = errno.ENOTDIR if any(map(Path.is_file, target.absolute().parents)) else errno.ENOENT
+        raise OutputError(f"{parent}: no such folder", hint=CURES[fault])
     clear_leftovers(target)
     # Tried, as rights do not tell: root may write to all of /proc, and /proc takes nothing.
     try:
@@ -84,9 +101,9 @@ def _check_writable(target: Path) -> None:
     except OSError as error:
         fault = errno.EACCES if error.errno in {None, errno.ENOENT} else error.errno
         raise OutputError(
-            f"{target.absolute().parent}: cannot be written to: {os.strerror(fault)}",
-            hint=CURES.get(fault, ""),
+            f"{parent}: cannot be written to: {os.strerror(fault)}", hint=CURES.get(fault, "")
         ) from error
+    return os.path.lexists(target)
 
 
 @contextmanager
@@ -175,27 +192,6 @@ def keep_others(source: Path, target: Path, *, without: Collection[str]) -> None
             copied.parent.mkdir(parents=True, exist_ok=True)
             if not copied.exists():
                 shutil.copy2(path, copied, follow_symlinks=False)
-
-
-def check_file_target(target: Path, *, force: bool) -> None:
-    """Fail before any work is done if `target` could not be written in the end.
-
-    Raises:
-        OutputError: it exists and `force` is not set, or is no file; or its folder does not exist
-            or cannot be written to.
-    """
-    if not target.absolute().parent.is_dir():
-        raise OutputError(f"{target.absolute().parent}: no such folder", hint=CURES[errno.ENOENT])
-    _check_writable(target)
-    if not os.path.lexists(target):
-        return
-    if not target.is_file():
-        raise OutputError(f"{target}: is not a file", hint="choose another name with -o")
-    if not force:
-        raise OutputError(
-            f"{target}: exists already",
-            hint="choose another name with -o, or replace it with --force",
-        )
 
 
 def write_whole(target: Path, text: str, *, force: bool) -> None:

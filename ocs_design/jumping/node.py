@@ -49,7 +49,7 @@ class Limit(IntEnum):
 
 
 @dataclass(frozen=True)
-class Layout:
+class NodeLayout:
     """Places of the unknowns in a node's column.
 
     Attributes:
@@ -96,7 +96,7 @@ class Layout:
 
 
 @dataclass(frozen=True, eq=False)
-class Block:
+class Constraints:
     """Constraints of one kind: lower <= fold @ values <= upper.
 
     Attributes:
@@ -121,7 +121,7 @@ class Node:
     """One node in symbols.
 
     Attributes:
-        unknowns: one column, see `Layout`. load: parameters, see `floating_base.Load`.
+        unknowns: one column, see `NodeLayout`. load: parameters, see `floating_base.Load`.
         residuals: the cost per share of the time is the sum of the squares of both columns.
         blocks: all constraints but those of `end`.
         end: velocity of the centre of mass and angular momentum, as numbers without unit: what the
@@ -133,15 +133,15 @@ class Node:
     unknowns: ca.SX
     load: ca.SX
     residuals: tuple[ca.SX, ca.SX]
-    blocks: tuple[Block, ...]
+    blocks: tuple[Constraints, ...]
     end: ca.SX
     torque: ca.SX
-    layout: Layout
+    layout: NodeLayout
 
     @classmethod
     def of(cls, body: LeggedBody, base: FloatingBase) -> "Node":
         """The node of a robot; what differs between its jumps stays a symbol."""
-        layout = Layout(len(body.joints), len(body.legs))
+        layout = NodeLayout(len(body.joints), len(body.legs))
         z, units = ca.SX.sym("z", layout.size), _Units.of(body, base)
         duration = z[layout.duration]
         # A node's unknowns in place of coordinates, rates and forces.
@@ -185,14 +185,16 @@ class Node:
             load=base.load.packed(),
             residuals=(root * torque / units.torque, root * minor),
             blocks=(
-                Block(balance, ca.DM.eye(POSE), 0.0, 0.0),
+                Constraints(balance, ca.DM.eye(POSE), 0.0, 0.0),
                 # At the start all coordinates are given.
-                Block(slips, ca.DM.eye(slips.numel()), 0.0, 0.0, first=1),
-                Block(torque, efforts, -np.inf, 1.0, Limit.TORQUE),
-                Block(speed, velocities, -np.inf, 1.0, Limit.SPEED),
+                Constraints(slips, ca.DM.eye(slips.numel()), 0.0, 0.0, first=1),
+                Constraints(torque, efforts, -np.inf, 1.0, Limit.TORQUE),
+                Constraints(speed, velocities, -np.inf, 1.0, Limit.SPEED),
                 # At the end the feet let go.
-                Block(force, _pyramids(layout.legs), -np.inf, 0.0, Limit.FRICTION, stop=NODES - 1),
-                Block(reach, ca.DM.eye(layout.legs), REACH[0] ** 2, REACH[1] ** 2),
+                Constraints(
+                    force, _pyramids(layout.legs), -np.inf, 0.0, Limit.FRICTION, stop=NODES - 1
+                ),
+                Constraints(reach, ca.DM.eye(layout.legs), REACH[0] ** 2, REACH[1] ** 2),
             ),
             end=end,
             torque=torque,

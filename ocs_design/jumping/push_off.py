@@ -13,9 +13,9 @@ from ocs_design.jumping.node import (
     NODES,
     REACH,
     SHARES,
-    Layout,
     Limit,
     Node,
+    NodeLayout,
     limit_or_inf,
     spline_slopes,
 )
@@ -182,7 +182,7 @@ class _Crouch:
 
 def _initial_guess(body: LeggedBody, jump: Jump, crouch: _Crouch) -> FloatArray:
     """Unknowns where the search begins: level, over still feet, shape (size, nodes)."""
-    layout = Layout(len(body.joints), len(body.legs))
+    layout = NodeLayout(len(body.joints), len(body.legs))
     found = np.zeros((layout.size, NODES))
     found[2] = body.height + crouch.height(SHARES)
     for leg, where in body.joint_slices:
@@ -197,7 +197,7 @@ def _initial_guess(body: LeggedBody, jump: Jump, crouch: _Crouch) -> FloatArray:
 
 
 def _bounds_of_unknowns(
-    body: LeggedBody, layout: Layout, duration: float
+    body: LeggedBody, layout: NodeLayout, duration: float
 ) -> tuple[FloatArray, FloatArray]:
     """Bounds of all nodes' unknowns, shape (size, nodes) each."""
     lower = np.full((layout.size, NODES), -np.inf)
@@ -219,7 +219,7 @@ def _bounds_of_unknowns(
     return lower, upper
 
 
-def _exceeded_limits(body: LeggedBody, layout: Layout, found: Found) -> str:
+def _exceeded_limits(body: LeggedBody, layout: NodeLayout, found: Found) -> str:
     """Limits that the push-off exceeds, and by how much, as text; empty if none."""
     duration = found.nodes[layout.duration, -1]
     speed = found.nodes[layout.v][-layout.joints :] / duration

@@ -37,7 +37,7 @@ from ocs_design.sizing.trajectory.motion import Trajectory
 
 
 @dataclass(frozen=True, eq=False)
-class Flight:
+class DesignedFlight:
     """One scenario as designed.
 
     Attributes:
@@ -64,7 +64,7 @@ class Campaign:
         engine: of the physics; None: MuJoCo on the processors.
     """
 
-    flights: tuple[Flight, ...]
+    flights: tuple[DesignedFlight, ...]
     uncertainty: Uncertainty
     air: AirDrag
     limits: MotorLimits
@@ -134,7 +134,7 @@ def make_campaign(
         for maneuver in maneuvers
     ]
     flights = tuple(
-        Flight(maneuver, world, stands, objection(world))
+        DesignedFlight(maneuver, world, stands, objection(world))
         for maneuver, world, stands in zip(maneuvers, worlds, can_stand, strict=True)
     )
     wheels = len(device.modules)

@@ -24,7 +24,7 @@ WORSE = 3.0
 """Odds of failure of a device that must not be certified, over those that were asked for."""
 
 
-class Finding(StrEnum):
+class Conclusion(StrEnum):
     """What a certificate says."""
 
     CERTIFIED = "certified"
@@ -57,7 +57,7 @@ class SequentialTest:
         """Number of flights after which the test gives up."""
         return ceil(10.0 / (1.0 - self.asked) - 1e-9)
 
-    def found(self, passed: NDArray[np.bool_]) -> tuple[Finding | None, int]:
+    def found(self, passed: NDArray[np.bool_]) -> tuple[Conclusion | None, int]:
         """Verdict on flights in their order, and how many of them it took; None: not decided yet.
 
         Args:
@@ -69,8 +69,8 @@ class SequentialTest:
         decided = np.flatnonzero(np.abs(evidence) >= log(1.0 / ERROR))
         if decided.size:
             first = int(decided[0])
-            return Finding.CERTIFIED if evidence[first] > 0.0 else Finding.SHORT, first + 1
-        return Finding.UNDECIDED if len(passed) == self.most else None, len(passed)
+            return Conclusion.CERTIFIED if evidence[first] > 0.0 else Conclusion.SHORT, first + 1
+        return Conclusion.UNDECIDED if len(passed) == self.most else None, len(passed)
 
     def decided(self, outcomes: Outcomes) -> bool:
         """Whether these outcomes decide it."""
@@ -105,7 +105,7 @@ def certificate(
     return ReliabilityRecord(
         asked=test.asked,
         worse=test.worse,
-        verdict=(finding or Finding.UNDECIDED).value,
+        verdict=(finding or Conclusion.UNDECIDED).value,
         samples=count,
         whole=whole.passed,
         whole_interval=(whole.low, whole.high),

@@ -26,7 +26,7 @@ from ocs_design.simulation.run import Poses, Run
 
 
 @dataclass(frozen=True, eq=False)
-class Flight:
+class RecordedFlight:
     """One simulated run, to be drawn.
 
     Attributes:
@@ -49,7 +49,7 @@ class Flight:
     @classmethod
     def of(
         cls, record: ValidationRecord, columns: Mapping[str, FloatArray], poses: Poses | None = None
-    ) -> "Flight":
+    ) -> "RecordedFlight":
         """Flight of a record with its time series."""
         times = lift_off_and_touchdown(record.metrics)
         return cls(record.scenario, record.ocs, columns, *times, poses, was_on_pivot(record))
@@ -93,10 +93,14 @@ class Flight:
         return was_in_the_air(self.lift_off, self.touchdown)
 
 
-def flights_of(records: Sequence[ValidationRecord], runs: Sequence[Run]) -> tuple[Flight, ...]:
+def flights_of(
+    records: Sequence[ValidationRecord], runs: Sequence[Run]
+) -> tuple[RecordedFlight, ...]:
     """Runs of a simulation, with their records, as flights to be drawn."""
     pairs = zip(records, runs, strict=True)
-    return tuple(Flight.of(record, run.series.columns(), run.poses) for record, run in pairs)
+    return tuple(
+        RecordedFlight.of(record, run.series.columns(), run.poses) for record, run in pairs
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,7 +118,7 @@ class Story:
     """
 
     design: OcsDesign
-    flights: tuple[Flight, ...]
+    flights: tuple[RecordedFlight, ...]
     bodies: tuple[ShownBody, ...]
     postures: tuple[PostureLine, ...] = ()
     monte_carlo: MonteCarloRecord | None = None
@@ -141,7 +145,7 @@ def story_in(
     The first folder that has a file is asked for it. Flights that were just simulated are `runs`,
     and are not read; for the others see `Story`.
     """
-    flights: list[Flight] = []
+    flights: list[RecordedFlight] = []
     for record in design.validation if not runs else ():
         # The file of its time series may not be there any more.
         path = _first_file(folders, f"validation/{series_file(record.scenario, ocs=record.ocs)}")
@@ -149,7 +153,7 @@ def story_in(
             with path.open(encoding="utf-8", newline="") as file:
                 heading, *rows = csv.reader(file)
             values = np.array(rows, dtype=np.float64)
-            flights.append(Flight.of(record, dict(zip(heading, values.T, strict=True))))
+            flights.append(RecordedFlight.of(record, dict(zip(heading, values.T, strict=True))))
     shown = flights_of(design.validation, runs) if runs else tuple(flights)
     picture = _first_file(folders, f"robot/{safe_name(design.robot.name)}_ocs.glb")
     bodies = () if picture is None else read_bodies(picture.read_bytes())

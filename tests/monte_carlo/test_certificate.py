@@ -16,7 +16,7 @@ from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.monte_carlo.certificate import (
     ERROR,
     LARGEST,
-    Finding,
+    Conclusion,
     SequentialTest,
     certificate,
     lesson,
@@ -44,9 +44,9 @@ def test_neither_wrong_verdict_is_likelier_than_it_says(asked):
     test = SequentialTest(asked)
     ends = endings(test)
     for better in (asked, 0.5 * (1 + asked)):
-        assert operating(ends, better)[0][Finding.SHORT] <= ERROR
+        assert operating(ends, better)[0][Conclusion.SHORT] <= ERROR
     for worse in (test.worse, 0.9 * test.worse):
-        assert operating(ends, worse)[0][Finding.CERTIFIED] <= ERROR
+        assert operating(ends, worse)[0][Conclusion.CERTIFIED] <= ERROR
 
 
 @pytest.mark.parametrize("asked", ASKED)
@@ -54,10 +54,10 @@ def test_a_good_device_is_certified_and_a_bad_one_is_not(asked):
     test = SequentialTest(asked)
     ends = endings(test)
     findings, flown = operating(ends, 1 - 0.1 * (1 - asked))
-    assert findings[Finding.CERTIFIED] >= 0.999
+    assert findings[Conclusion.CERTIFIED] >= 0.999
     first = test.found(np.ones(test.most, dtype=bool))[1]
     assert flown <= 1.15 * first
-    assert operating(ends, 0.5 * test.worse)[0][Finding.SHORT] >= 0.9
+    assert operating(ends, 0.5 * test.worse)[0][Conclusion.SHORT] >= 0.9
 
 
 def test_99_of_100_take_152_flights_and_settle_most_questions():
@@ -66,15 +66,15 @@ def test_99_of_100_take_152_flights_and_settle_most_questions():
     assert test.worse == pytest.approx(0.970588, abs=1e-6)
     assert test.most == 1000
     assert test.found(np.ones(151, dtype=bool)) == (None, 151)
-    assert test.found(np.ones(400, dtype=bool)) == (Finding.CERTIFIED, 152)
-    assert test.found(np.zeros(400, dtype=bool)) == (Finding.SHORT, 3)
+    assert test.found(np.ones(400, dtype=bool)) == (Conclusion.CERTIFIED, 152)
+    assert test.found(np.zeros(400, dtype=bool)) == (Conclusion.SHORT, 3)
     halfway = operating(endings(test), 0.5 * (test.asked + test.worse))[0]
-    assert halfway[Finding.UNDECIDED] < 0.1
+    assert halfway[Conclusion.UNDECIDED] < 0.1
 
 
 @pytest.mark.parametrize(("asked", "flights"), [(0.95, 32), (0.8, 9)])
 def test_a_device_that_never_fails_needs_few(asked, flights):
-    assert SequentialTest(asked).found(np.ones(64, dtype=bool)) == (Finding.CERTIFIED, flights)
+    assert SequentialTest(asked).found(np.ones(64, dtype=bool)) == (Conclusion.CERTIFIED, flights)
 
 
 @pytest.mark.parametrize("asked", [0.8, 0.95, 0.99])
@@ -94,7 +94,7 @@ def test_the_interval_holds_the_truth_nearly_as_often_as_of_a_fixed_number(asked
 def test_it_gives_up_in_the_end():
     test = SequentialTest(0.9)
     passed = np.arange(2 * test.most) % 6 != 5
-    assert test.found(passed) == (Finding.UNDECIDED, test.most)
+    assert test.found(passed) == (Conclusion.UNDECIDED, test.most)
 
 
 @pytest.fixture(scope="module")

@@ -14,7 +14,7 @@ from ocs_design.device.layout import PAIR
 from ocs_design.device.solids import drive_solids, foot_of
 from ocs_design.export.assembly.content import Assembly, Tightened, places
 from ocs_design.export.device_parts import foot_holes, pedestal_kinds, wheel_geometry
-from ocs_design.export.drawing.wheel import Seat, seat
+from ocs_design.export.drawing.wheel import shrunk_on
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.foot import LONG_MARKS
@@ -106,7 +106,7 @@ def _wheel_steps(assembly: Assembly) -> Iterator[str]:
         f"Turn the wheel to cad/wheel.pdf. Rim to bore: run-out at most {1e3 * RUN_OUT:g} mm. "
         f"Weigh it: {1e3 * device.flywheel.mass:.1f} g."
     )
-    if seat(wheel_geometry(device.flywheel)) is Seat.FITTED:
+    if shrunk_on(wheel_geometry(device.flywheel)):
         hot, fit, material = "", rim_fit(device), materials().get(device.flywheel.material)
         if fit is not None and material is not None and material.thermal_expansion is not None:
             grown = 2.0 * fit.most + DROP

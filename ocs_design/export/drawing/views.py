@@ -86,7 +86,7 @@ Profile: TypeAlias = list[Point]
 
 
 @dataclass(frozen=True)
-class Layout:
+class SheetLayout:
     """Scale and centres of both views [mm].
 
     Attributes:
@@ -100,7 +100,7 @@ class Layout:
     front: Point
 
 
-def lay_out(wheel: Wheel) -> Layout:
+def lay_out(wheel: Wheel) -> SheetLayout:
     """Place both views side by side, in the middle of the room that they have."""
 
     def fits(scale: Scale) -> bool:
@@ -113,10 +113,10 @@ def lay_out(wheel: Wheel) -> Layout:
     start = MARGIN_LEFT + LEFT + max(0.0, _ROOM - across - wide) / 2.0
     section = start + wide / 2.0
     front = start + wide + BETWEEN + across / 2.0
-    return Layout(scale, (section, AXIS_Y), (front, AXIS_Y))
+    return SheetLayout(scale, (section, AXIS_Y), (front, AXIS_Y))
 
 
-def section_view(wheel: Wheel, layout: Layout) -> list[Item]:
+def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
     """Wheel cut along its axis: cut faces, edges behind them, axes, diameters and widths."""
     (x, y), scale, rim = layout.section, layout.scale, wheel.rim
     half, edge = scale(widest(wheel)) / 2.0, scale(rim.outer_radius)
@@ -154,12 +154,12 @@ def section_view(wheel: Wheel, layout: Layout) -> list[Item]:
     return [*items, Text((x, y - edge - ABOVE - 7.0), "A–A", 5.0, Anchor.MIDDLE)]
 
 
-def _placed(profile: Profile, layout: Layout, side: float) -> list[Point]:
+def _placed(profile: Profile, layout: SheetLayout, side: float) -> list[Point]:
     (x, y), scale = layout.section, layout.scale
     return [(x + scale(z), y + side * scale(radius)) for z, radius in profile]
 
 
-def _edges_behind(wheel: Wheel, layout: Layout) -> Iterator[Item]:
+def _edges_behind(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
     """Circles behind the plane, edge on: bores, holes and the rim's inside."""
     rim, hub = wheel.rim, wheel.hub
     r, half = rim.inner_radius + rim.made_chamfer, rim.height / 2.0
@@ -191,7 +191,7 @@ def _cut_rings(wheel: Wheel) -> Iterator[tuple[HoleRing, float, float]]:
                 yield ring, width, side
 
 
-def _diameters(wheel: Wheel, layout: Layout) -> Iterator[Item]:
+def _diameters(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
     """Diameters with room for their text, side by side, the smallest next to the outline."""
     (x, y), column = layout.section, 0
     left = x - layout.scale(widest(wheel)) / 2.0 - FIRST_COLUMN
@@ -209,7 +209,13 @@ def _diameters(wheel: Wheel, layout: Layout) -> Iterator[Item]:
 
 
 def _width(
-    label: str, width: float, wheel: Wheel, layout: Layout, *, y: float, start: float | None = None
+    label: str,
+    width: float,
+    wheel: Wheel,
+    layout: SheetLayout,
+    *,
+    y: float,
+    start: float | None = None,
 ) -> Iterator[Item]:
     """One width, with extension lines from `start` where the outline does not reach it."""
     x, half = layout.section[0], layout.scale(width) / 2.0
@@ -284,7 +290,7 @@ def _distinct(profile: Profile) -> Profile:
     return [b for a, b in zip([profile[-1], *profile], profile, strict=False) if a != b]
 
 
-def front_view(wheel: Wheel, layout: Layout) -> list[Item]:
+def front_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
     """Wheel along its axis: circles, centre lines, the plane of the section, and leaders."""
     (x, y), scale, rim, hub = layout.front, layout.scale, wheel.rim, wheel.hub
     edge, chamfer = scale(rim.outer_radius), rim.made_chamfer
@@ -325,12 +331,12 @@ def hole_angles(ring: HoleRing) -> list[float]:
     return [math.pi / 2.0 + 2.0 * math.pi * i / ring.count for i in range(ring.count)]
 
 
-def _hole(ring: HoleRing, angle: float, layout: Layout) -> Point:
+def _hole(ring: HoleRing, angle: float, layout: SheetLayout) -> Point:
     (x, y), radius = layout.front, layout.scale(ring.radius)
     return x + radius * math.cos(angle), y - radius * math.sin(angle)
 
 
-def _leaders(wheel: Wheel, layout: Layout) -> Iterator[Item]:
+def _leaders(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
     """Leaders to circles that the section has no room for, and to the holes."""
     (x, y), edge, hub = layout.front, layout.scale(wheel.rim.outer_radius), wheel.hub
     shelf = x + edge + SHELF

@@ -5,7 +5,6 @@ Tolerances of sizes are those of ISO 286-1, table 1; balance is that of rigid ro
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from enum import Enum
 from functools import cached_property
 from math import isinf, pi
 
@@ -20,14 +19,6 @@ BROKEN_EDGE = 0.2e-3
 INSIDE_CORNER = 0.4e-3
 """Radius of a wheel's inside corners, at most [m]: the nose of the usual turning insert (ISO 1832,
 04)."""
-
-
-class Seat(Enum):
-    """Support of the rim; the value stands behind its bore's dimension."""
-
-    FREE = ""
-    ONE_PIECE = "one piece"
-    FITTED = "shrink fit"
 
 
 @dataclass(frozen=True)
@@ -68,11 +59,9 @@ class WheelDrawing:
         return total(wheel_parts(self.wheel))
 
 
-def seat(wheel: Wheel) -> Seat:
-    """Support of a wheel's rim."""
-    if wheel.hub is None:
-        return Seat.FREE
-    return Seat.ONE_PIECE if wheel.one_piece else Seat.FITTED
+def shrunk_on(wheel: Wheel) -> bool:
+    """Whether the rim is shrunk on a web of its own; else both are one piece, or there is none."""
+    return wheel.hub is not None and not wheel.one_piece
 
 
 def widest(wheel: Wheel) -> float:
@@ -124,7 +113,7 @@ def rim_inertia_error(wheel: Wheel) -> float:
     """
     r, R, h = wheel.rim.inner_radius, wheel.rim.outer_radius, wheel.rim.height
     outer = plus_minus(2.0 * R, Grade.IT9) / 2.0
-    if seat(wheel) is Seat.FITTED:
+    if shrunk_on(wheel):
         inner = tolerance_width(2.0 * r, Grade.IT7) / 2.0
     else:
         inner = plus_minus(2.0 * r, Grade.IT9) / 2.0
@@ -158,8 +147,8 @@ def rim_diameter(wheel: Wheel) -> str:
 
 def bore_diameter(wheel: Wheel) -> str:
     """Label of the rim's inner diameter; where it sits on a web, with the fit of both."""
-    if seat(wheel) is Seat.FITTED:
-        return f"Ø{2e3 * wheel.rim.inner_radius:.2f} {Seat.FITTED.value}"
+    if shrunk_on(wheel):
+        return f"Ø{2e3 * wheel.rim.inner_radius:.2f} shrink fit"
     return f"Ø{toleranced(2.0 * wheel.rim.inner_radius, Grade.IT9)}"
 
 

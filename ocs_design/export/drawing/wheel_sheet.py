@@ -38,13 +38,12 @@ from ocs_design.export.drawing.title_block import (
 from ocs_design.export.drawing.views import front_view, lay_out, section_view
 from ocs_design.export.drawing.wheel import (
     BROKEN_EDGE,
-    Seat,
     WheelDrawing,
     inside_corners,
     lost_by_breaking,
     plain,
     rim_inertia_error,
-    seat,
+    shrunk_on,
 )
 from ocs_design.export.drawing.writers import pdf_of_pages, svg_text
 from ocs_design.export.drilling import drilling_of, drilling_pdf
@@ -111,7 +110,7 @@ def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
         "OCS flywheel",
         drawing.robot,
         layout.scale,
-        "see list of parts" if seat(wheel) is Seat.FITTED else wheel.rim.material,
+        "see list of parts" if shrunk_on(wheel) else wheel.rim.material,
         sum(drawing.masses),
         ("Spin inertia about the axis", inertia),
         "Ra 3.2, bore Ra 1.6 (ISO 21920)",
@@ -134,7 +133,7 @@ def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
 def parts_list(drawing: WheelDrawing) -> list[Item]:
     """List of rim and web where they are two parts; empty otherwise."""
     wheel = drawing.wheel
-    if wheel.hub is None or seat(wheel) is not Seat.FITTED:
+    if wheel.hub is None or wheel.one_piece:
         return []
     rim_mass, hub_mass = drawing.masses
     rows = (
@@ -200,16 +199,8 @@ def notes(drawing: WheelDrawing) -> Iterator[str]:
         )
         yield run_out
         return
-    fit = "which is not computed"
-    if drawing.interference is not None:
-        least, most = (f"{1e3 * each:.3f}" for each in drawing.interference)
-        fit = f"its bore {least} to {most} narrower than the web"
-    yield {
-        Seat.FREE: "Rim only: mass and inertia without the spokes and hub that it needs.",
-        Seat.ONE_PIECE: "Rim, web and hub turned from one bar, web and hub in the rim's middle.",
-        Seat.FITTED: f"Rim shrunk on the web, {fit}.",
-    }[seat(wheel)]
     hub = wheel.hub
+    yield _rim_note(drawing)
     if hub is not None:
         radius, share = inside_corners(wheel)
         if radius > 0.0:
@@ -219,6 +210,18 @@ def notes(drawing: WheelDrawing) -> Iterator[str]:
             yield "No bolt circle: bonded on the motor's shaft."
         elif not drawing.on_shaft:
             yield "Bore: a pilot hole and the datum; open it where the rotor has a boss."
+
+
+def _rim_note(drawing: WheelDrawing) -> str:
+    """How the rim is carried."""
+    if drawing.wheel.hub is None:
+        return "Rim only: mass and inertia without the spokes and hub that it needs."
+    if drawing.wheel.one_piece:
+        return "Rim, web and hub turned from one bar, web and hub in the rim's middle."
+    if drawing.interference is None:
+        return "Rim shrunk on the web, which is not computed."
+    least, most = (f"{1e3 * each:.3f}" for each in drawing.interference)
+    return f"Rim shrunk on the web, its bore {least} to {most} narrower than the web."
 
 
 def _percent(part: float) -> str:

@@ -9,7 +9,7 @@ from ocs_design.actuation.drive import RESERVE, Drive
 from ocs_design.common.arrays import FloatArray
 from ocs_design.report.charts.chart import SERIES, Area, Axis, Chart, Ink, Line, Mark, Rule
 from ocs_design.report.quantities import in_unit
-from ocs_design.report.story import Flight
+from ocs_design.report.story import RecordedFlight
 
 _SAMPLES = 121
 
@@ -38,7 +38,7 @@ class _Plane:
         return np.asarray(np.minimum(share * self.limit, np.maximum(line, 0.0)))
 
 
-def drive_charts(motor: Drive, flights: Sequence[Flight]) -> Iterator[Chart]:
+def drive_charts(motor: Drive, flights: Sequence[RecordedFlight]) -> Iterator[Chart]:
     """Torque and speed in all four quadrants; none where nothing was flown with the device."""
     driven = [flight for flight in flights if flight.ocs]
     if not driven:

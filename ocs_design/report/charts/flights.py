@@ -11,7 +11,7 @@ from ocs_design.device.answers import MonteCarloRecord, Spread
 from ocs_design.parts.module import part_name
 from ocs_design.report.charts.chart import SERIES, Area, Axis, Chart, Ink, Line, Mark, Rule
 from ocs_design.report.quantities import in_unit
-from ocs_design.report.story import Flight
+from ocs_design.report.story import RecordedFlight
 from ocs_design.simulation.run import LANDING_TOLERANCE
 
 _HEIGHT, _HISTOGRAM = 236.0, 200.0
@@ -20,7 +20,7 @@ _HEIGHT, _HISTOGRAM = 236.0, 200.0
 _AXES = (("pitch", "y", Ink.BLUE), ("roll", "x", Ink.VERMILION))
 
 
-def time_charts(scenario: str, name: str, flights: Sequence[Flight]) -> tuple[Chart, ...]:
+def time_charts(scenario: str, name: str, flights: Sequence[RecordedFlight]) -> tuple[Chart, ...]:
     """Attitude, rates, and speed and torque of the wheels over time, of flights of one maneuver.
 
     `name` is that of the scenario, fit for files and elements. With the device comes first.
@@ -92,7 +92,9 @@ def time_charts(scenario: str, name: str, flights: Sequence[Flight]) -> tuple[Ch
     return (tilt, rates, *speeds, *torques)
 
 
-def _about_axes(flights: Sequence[Flight], column: str, unit: str, *, thin: bool) -> list[Line]:
+def _about_axes(
+    flights: Sequence[RecordedFlight], column: str, unit: str, *, thin: bool
+) -> list[Line]:
     """Curves of pitch and roll of each flight, dashed where it has no device."""
     return [
         Line(
@@ -109,7 +111,7 @@ def _about_axes(flights: Sequence[Flight], column: str, unit: str, *, thin: bool
 
 
 def _of_wheels(
-    flight: Flight, series: Callable[[str], FloatArray], unit: str, part: str, *, thin: bool
+    flight: RecordedFlight, series: Callable[[str], FloatArray], unit: str, part: str, *, thin: bool
 ) -> list[Line]:
     """Curve of each wheel or motor, every other one dashed."""
     return [
@@ -125,7 +127,7 @@ def _of_wheels(
     ]
 
 
-def _events(flights: Sequence[Flight]) -> list[Rule]:
+def _events(flights: Sequence[RecordedFlight]) -> list[Rule]:
     """Rules where the last flight leaves the ground, or is pushed, and the first comes down."""
     left = max((flight.lift_off or 0.0 for flight in flights), default=0.0)
     down = [each.touchdown for each in flights if each.flies and each.touchdown is not None]
@@ -136,7 +138,7 @@ def _events(flights: Sequence[Flight]) -> list[Rule]:
     return [Rule(time, upright=True, label=label, ink=Ink.FAINT) for time, label in times]
 
 
-def _time(flights: Sequence[Flight]) -> Axis:
+def _time(flights: Sequence[RecordedFlight]) -> Axis:
     return Axis("time", "s", 0.0, max(float(flight.time[-1]) for flight in flights) or 1.0)
 
 

@@ -15,7 +15,7 @@ from ocs_design.export.png import png_bytes
 from ocs_design.export.snapshot import HEIGHT, WIDTH
 from ocs_design.report.bodies import ShownBody, still
 from ocs_design.report.html.elements import Markup, data, element, joined, void
-from ocs_design.report.story import Flight, Story
+from ocs_design.report.story import RecordedFlight, Story
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.simulation.quaternions import from_axis_angle
 from ocs_design.simulation.quaternions import product as hamilton
@@ -156,7 +156,10 @@ class Blob:
 
 
 def encoded_scene(
-    bodies: Sequence[ShownBody], flights: Sequence[Flight], scenarios: Sequence[str], blob: Blob
+    bodies: Sequence[ShownBody],
+    flights: Sequence[RecordedFlight],
+    scenarios: Sequence[str],
+    blob: Blob,
 ) -> Record:
     """Everything that the viewer shows, at least one body; its arrays go into the blob.
 
@@ -212,7 +215,7 @@ def encoded_scene(
     }
 
 
-def _flight(flight: Flight, poses: Poses, names: Sequence[str], blob: Blob) -> Record:
+def _flight(flight: RecordedFlight, poses: Poses, names: Sequence[str], blob: Blob) -> Record:
     places = [poses.bodies.index(name) for name in names]
     tilt = [flight.columns[f"{axis}_rad"] for axis in ("pitch", "roll")]
     at_frames = [np.interp(poses.time, flight.time, np.degrees(angle)) for angle in tilt]
