@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.bodies import carrier_names, flywheel_names
 from ocs_design.device.device import Device
-from ocs_design.export.opengl import draw
+from ocs_design.export.programs import draw
 from ocs_design.export.robot_model import robot_model
 from ocs_design.robot.mjcf_spec import compiled
 from ocs_design.robot.mujoco_bodies import HIDDEN_GROUP

@@ -96,8 +96,8 @@ class Format:
         needs_robot: whether the robot's own file has to be there.
         on_request: whether it is written only if it is named.
         needs_margins: whether it tells what the flights asked for, and so waits for them.
-        library: module of an optional dependency that it needs; empty: none.
-        extra: of ours that installs the library.
+        library: module of an optional dependency that it needs, which our extra of the format's
+            name installs; empty: none.
     """
 
     name: str
@@ -108,7 +108,6 @@ class Format:
     on_request: bool = False
     needs_margins: bool = False
     library: str = ""
-    extra: str = ""
 
     def write(self, subject: Subject, folder: Path) -> Notes:
         """Write the subject's files into `folder`.
@@ -129,7 +128,7 @@ class Format:
     def _missing(self, why: str) -> MissingToolError:
         return MissingToolError(
             f"no {self.name.upper()} file can be written: {self.library} {why}",
-            hint=extra_command(self.extra),
+            hint=extra_command(self.name),
         )
 
 
@@ -142,10 +141,8 @@ FORMATS = (
         "drawing", "technical drawing of the wheel, drilling template", "cad", "drawing.wheel_sheet"
     ),
     Format("3mf", "wheel for slicers", "cad", "threemf", on_request=True),
-    Format("step", "exact parts", "cad", "step", on_request=True, library="OCP", extra="step"),
-    Format(
-        "dxf", "wheel in the plane", "cad", "dxf", on_request=True, library="ezdxf", extra="dxf"
-    ),
+    Format("step", "exact parts", "cad", "step", on_request=True, library="OCP"),
+    Format("dxf", "wheel in the plane", "cad", "dxf", on_request=True, library="ezdxf"),
     Format("printed", "housing, foot and cage for printing", "cad", "printed"),
     Format(
         "assembly", "how to build it, step by step", "cad", "assembly.booklet", needs_margins=True

@@ -18,7 +18,7 @@ from ocs_design.device.bodies import IMU, WHEEL_CONTACT_BIT, joint_names, larges
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.offscreen import shown_box
 from ocs_design.export.physics import STEADY_LEGS, leg_joints
-from ocs_design.export.png import png_bytes
+from ocs_design.export.raster import png_bytes
 from ocs_design.export.robot_model import HOLD, HOME, RobotModel, model_of
 from ocs_design.export.snapshot import snapshot
 from ocs_design.export.templates import fill, in_comment, numbers, quoted, template_text

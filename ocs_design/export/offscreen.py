@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.bodies import IMU
-from ocs_design.export.png import png_bytes
+from ocs_design.export.raster import png_bytes
 
 FIELD_OF_VIEW = 30.0
 """Angle of views in perspective from the top to the bottom [deg]."""

@@ -1,18 +1,24 @@
-"""Rows of pixels that triangles cover, for pictures and for lines that are hidden.
+"""Pixels: those that triangles cover, for pictures and for lines that are hidden; images as PNG."""
 
-As in Foley, van Dam, Feiner, Hughes, "Computer Graphics", section 3.6.
-"""
+import struct
+import zlib
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
 
+_PNG = b"\x89PNG\r\n\x1a\n"
+_SUB = b"\1"
+"""Filter of PNG: rows are differences to the pixel on the left, zeros on even faces."""
+
 
 def covered_rows(
     corners: FloatArray, offset: float
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], FloatArray, FloatArray]:
     """Each row that each triangle meets: triangle, row, and the two places where it is crossed.
+
+    As in Foley, van Dam, Feiner, Hughes, "Computer Graphics", section 3.6.
 
     Args:
         corners: of triangles, in pixels, shape (n, 3, 2).
@@ -39,3 +45,24 @@ def ranges(first: NDArray[np.int64], counts: NDArray[np.int64]) -> NDArray[np.in
     total = np.cumsum(counts)
     within = np.arange(total[-1] if len(total) else 0) - np.repeat(total - counts, counts)
     return np.asarray(np.repeat(first, counts) + within)
+
+
+def png_bytes(image: NDArray[np.uint8]) -> bytes:
+    """PNG (ISO/IEC 15948) of an image, shape (height, width, 3): red, green and blue, 8 bits."""
+    height, width, _ = image.shape
+    left = np.zeros_like(image)
+    left[:, 1:] = image[:, :-1]
+    rows = (image - left).reshape(height, -1)
+    lines = b"".join(_SUB + row.tobytes() for row in rows)
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    return (
+        _PNG
+        + _chunk(b"IHDR", header)
+        + _chunk(b"IDAT", zlib.compress(lines, 6))
+        + _chunk(b"IEND", b"")
+    )
+
+
+def _chunk(kind: bytes, content: bytes) -> bytes:
+    checksum = zlib.crc32(kind + content)
+    return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", checksum)

@@ -16,39 +16,12 @@ from ocs_design.export.device_parts import wheel_pieces
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Mesh
 from ocs_design.export.stl import wheel_meshes
+from ocs_design.export.templates import fill, template_text
 
 GAP = 0.01
 """Distance of parts on the printer's bed [m]."""
 
 _MILLIMETRES = 1000.0
-
-_CONTENT_TYPES = """<?xml version="1.0" encoding="UTF-8"?>
-<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
-<Default Extension="rels" \
-ContentType="application/vnd.openxmlformats-package.relationships+xml"/>
-<Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>
-</Types>
-"""
-
-_RELATIONSHIPS = """<?xml version="1.0" encoding="UTF-8"?>
-<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
-<Relationship Id="model" Target="/3D/3dmodel.model" \
-Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
-</Relationships>
-"""
-
-_MODEL = """<?xml version="1.0" encoding="UTF-8"?>
-<model unit="millimeter" xml:lang="en-US" \
-xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
-<metadata name="Application">ocs-design</metadata>
-<resources>
-{objects}
-</resources>
-<build>
-{items}
-</build>
-</model>
-"""
 
 
 def write(subject: Subject, folder: Path) -> Notes:
@@ -85,11 +58,11 @@ def threemf_bytes(meshes: Mapping[str, Mesh]) -> bytes:
             f'<item objectid="{number}" transform="1 0 0 0 1 0 0 0 1 {x:.6f} {y:.6f} {z:.6f}"/>'
         )
         left += float(high[0] - low[0]) + GAP
-    model = _MODEL.format(objects="\n".join(objects), items="\n".join(items))
+    model = fill("3mf/model.xml", {"objects": "\n".join(objects), "items": "\n".join(items)})
     buffer = BytesIO()
     with ZipFile(buffer, "w") as archive:
-        _add(archive, "[Content_Types].xml", _CONTENT_TYPES)
-        _add(archive, "_rels/.rels", _RELATIONSHIPS)
+        _add(archive, "[Content_Types].xml", template_text("3mf/content_types.xml"))
+        _add(archive, "_rels/.rels", template_text("3mf/relationships.xml"))
         _add(archive, "3D/3dmodel.model", model)
     return buffer.getvalue()
 

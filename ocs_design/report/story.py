@@ -20,7 +20,6 @@ from ocs_design.device.records.flights import (
     was_on_pivot,
 )
 from ocs_design.export.assembly.content import Assembly
-from ocs_design.export.time_series import series_file
 from ocs_design.report.bodies import ShownBody, read_bodies
 from ocs_design.simulation.run import Poses, Run
 
@@ -180,3 +179,16 @@ def read_campaign(folders: Sequence[Path]) -> MonteCarloRecord | None:
         return msgspec.json.decode(path.read_bytes(), type=MonteCarloRecord)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise OcsError(f"{path}: {error}", hint="fly the samples again") from error
+
+
+def export_time_series(columns: Mapping[str, FloatArray], path: Path) -> Path:
+    """Write named columns of equal length, shape (k,) each, with six significant digits."""
+    table = np.column_stack(list(columns.values()))
+    rows = [",".join([f"{value:.6g}" for value in row]) for row in table.tolist()]
+    path.write_text("\n".join([",".join(columns), *rows, ""]), encoding="utf-8")
+    return path
+
+
+def series_file(scenario: str, *, ocs: bool) -> str:
+    """Name of the CSV file of a run, with the device or without."""
+    return f"{safe_name(scenario)}_{'with' if ocs else 'without'}_ocs.csv"

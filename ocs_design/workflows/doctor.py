@@ -25,8 +25,13 @@ from packaging.utils import canonicalize_name
 from ocs_design.common.errors import DISTRIBUTION, MissingToolError, install_command
 from ocs_design.common.files import processors as usable
 from ocs_design.device.findings import Examination, Finding, State
-from ocs_design.export.ffmpeg import FFMPEG_HINT, ffmpeg_program
-from ocs_design.export.opengl import OPENGL_HINT, backends, failure_of
+from ocs_design.export.programs import (
+    FFMPEG_HINT,
+    OPENGL_HINT,
+    backends,
+    failure_of,
+    ffmpeg_program,
+)
 
 PURPOSES: Mapping[str, str] = MappingProxyType(
     {

@@ -37,8 +37,8 @@ from ocs_design.device.records.selection import (
     SelectionRecord,
 )
 from ocs_design.export.assembly_notes import device_notes, trunk_notes
-from ocs_design.export.time_series import export_time_series, series_file
 from ocs_design.parts.printed import CLEARANCE, PANEL, WALL
+from ocs_design.report.story import export_time_series, series_file
 from ocs_design.requirement.kinds import kind_of
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.resolving import Resolved

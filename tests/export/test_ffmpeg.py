@@ -6,7 +6,7 @@ import imageio_ffmpeg
 import pytest
 
 from ocs_design.export import ffmpeg
-from ocs_design.export.ffmpeg import ffmpeg_program
+from ocs_design.export.programs import ffmpeg_program
 
 
 @pytest.fixture

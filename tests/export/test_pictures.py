@@ -10,11 +10,11 @@ from robots import SOLO12
 from wheels import paper_device
 
 from ocs_design.common.errors import MissingToolError
-from ocs_design.export import opengl
+from ocs_design.export import programs
 from ocs_design.export.film import Take
 from ocs_design.export.offscreen import HEIGHT, WIDTH, shown_box
 from ocs_design.export.pictures import draw_pictures, render_views
-from ocs_design.export.png import png_bytes
+from ocs_design.export.raster import png_bytes
 from ocs_design.export.robot_model import robot_model
 from ocs_design.robot.reader import read_robot
 
@@ -106,14 +106,14 @@ def test_a_driver_that_kills_or_hangs_the_process_is_only_told(monkeypatch):
     def killed(command, **options):
         return subprocess.CompletedProcess(command, -11, b"", b"")
 
-    monkeypatch.setattr(opengl.subprocess, "run", killed)
+    monkeypatch.setattr(programs.subprocess, "run", killed)
     with pytest.raises(MissingToolError, match="exit code -11"):
         render_views({"box": box_scene()})
 
     def hanging(command, **options):
         raise subprocess.TimeoutExpired(command, 1.0)
 
-    monkeypatch.setattr(opengl.subprocess, "run", hanging)
+    monkeypatch.setattr(programs.subprocess, "run", hanging)
     with pytest.raises(MissingToolError, match="timed out"):
         render_views({"box": box_scene()})
 

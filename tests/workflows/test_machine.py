@@ -50,7 +50,7 @@ def test_the_film_maker(script, state, found, tmp_path, monkeypatch):
         program.write_text(f"#!/bin/sh\n{script}\n")
         program.chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path))
-    monkeypatch.setattr("ocs_design.export.ffmpeg.find_spec", lambda name: None)
+    monkeypatch.setattr("ocs_design.export.programs.find_spec", lambda name: None)
     assert (film_maker().state, film_maker().found) == (state, found)
     assert bool(film_maker().cure) == (state is State.MISSING)
 

@@ -7,7 +7,7 @@ from ocs_design.common.files import safe_name
 from ocs_design.common.units import format_quantity
 from ocs_design.device.answers import Front, Validated
 from ocs_design.device.records.design import OcsDesign
-from ocs_design.export.png import png_bytes
+from ocs_design.export.raster import png_bytes
 from ocs_design.report.bodies import read_bodies, still
 from ocs_design.report.charts.front import front_chart
 from ocs_design.report.charts.momentum import ellipsoid_chart

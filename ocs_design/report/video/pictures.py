@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
-from ocs_design.export.ffmpeg import ffmpeg_program
+from ocs_design.export.programs import ffmpeg_program
 
 Picture: TypeAlias = NDArray[np.uint8]
 """Red, green and blue, shape (height, width, 3)."""

@@ -1,14 +1,17 @@
-"""OpenGL without a screen, in a process of its own, which it may end where it does not work.
+"""Programs that make pictures and films: OpenGL without a screen, and ffmpeg.
 
-Nothing here needs MuJoCo.
+OpenGL runs in a process of its own, which it may end where it does not work. Nothing here needs
+MuJoCo.
 """
 
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Sequence
+from importlib.util import find_spec
 
-from ocs_design.common.errors import MissingToolError
+from ocs_design.common.errors import MissingToolError, extra_command
 
 PROGRAM = "ocs_design.export.offscreen"
 """Module that draws in a process of its own."""
@@ -19,6 +22,8 @@ TIME_LIMIT = 120.0
 OPENGL_HINT = (
     "install OpenGL without a screen, on Debian: apt install libegl1 libgl1-mesa-dri libosmesa6"
 )
+
+FFMPEG_HINT = f"{extra_command('video')}, or on Debian: apt install ffmpeg"
 
 
 def backends() -> tuple[str, ...]:
@@ -67,3 +72,17 @@ def draw(arguments: Sequence[str], what: str) -> None:
             return
         failures.append(failure)
     raise MissingToolError(f"no {what}, because {'; '.join(failures)}", hint=OPENGL_HINT)
+
+
+def ffmpeg_program() -> str | None:
+    """Path of the system's ffmpeg, else of that of imageio-ffmpeg; None if there is neither."""
+    found = shutil.which("ffmpeg")
+    if found is not None or find_spec("imageio_ffmpeg") is None:
+        return found
+    # An extra.
+    import imageio_ffmpeg  # noqa: PLC0415
+
+    try:
+        return str(imageio_ffmpeg.get_ffmpeg_exe())
+    except RuntimeError:
+        return None
