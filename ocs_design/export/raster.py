@@ -13,22 +13,25 @@ _SUB = b"\1"
 """Filter of PNG: rows are differences to the pixel on the left, zeros on even faces."""
 
 
-def covered_rows(
+def covered_pixels(
     corners: FloatArray, offset: float
-) -> tuple[NDArray[np.int64], NDArray[np.int64], FloatArray, FloatArray]:
-    """Each row that each triangle meets: triangle, row, and the two places where it is crossed.
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], FloatArray]:
+    """Each pixel that each triangle covers: triangle, row, column, and depth there.
 
     As in Foley, van Dam, Feiner, Hughes, "Computer Graphics", section 3.6.
 
     Args:
-        corners: of triangles, in pixels, shape (n, 3, 2).
+        corners: of triangles, x and y in pixels and a depth, shape (n, 3, 3).
         offset: of a pixel's own point from its lower corner, along both axes [pixels].
     """
-    low = np.ceil(corners[:, :, 1].min(axis=1) - offset).astype(np.int64)
-    high = np.floor(corners[:, :, 1].max(axis=1) - offset).astype(np.int64)
+    flat = corners[:, :, :2]
+    low, high = (
+        rounded(end - offset).astype(np.int64)
+        for rounded, end in ((np.ceil, flat[:, :, 1].min(1)), (np.floor, flat[:, :, 1].max(1)))
+    )
     counts = np.maximum(high - low + 1, 0)
     triangle, row = np.repeat(np.arange(len(corners)), counts), ranges(low, counts)
-    begin, end = corners[triangle], np.roll(corners[triangle], -1, axis=1)
+    begin, end = flat[triangle], np.roll(flat[triangle], -1, axis=1)
     # A side that is level is crossed nowhere, its neighbours are.
     with np.errstate(divide="ignore", invalid="ignore"):
         part = ((row + offset)[:, None] - begin[:, :, 1]) / (end[:, :, 1] - begin[:, :, 1])
@@ -37,7 +40,21 @@ def covered_rows(
     first = np.where(outside, np.inf, crossing).min(axis=1)
     last = np.where(outside, -np.inf, crossing).max(axis=1)
     met = first <= last
-    return triangle[met], row[met], first[met], last[met]
+    triangle, row, first, last = triangle[met], row[met], first[met], last[met]
+    left = np.ceil(first - offset).astype(np.int64)
+    counts = np.maximum(np.floor(last - offset).astype(np.int64) - left + 1, 0)
+    # Depth in the plane of each triangle, and its changes along and across the rows.
+    b, c = (corners[:, index] - corners[:, 0] for index in (1, 2))
+    area = b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]
+    scale = np.divide(1.0, area, out=np.zeros_like(area), where=area != 0.0)
+    along = scale * (b[:, 2] * c[:, 1] - c[:, 2] * b[:, 1])
+    across = scale * (c[:, 2] * b[:, 0] - b[:, 2] * c[:, 0])
+    corner = corners[:, 0, 2] + along * (offset - corners[:, 0, 0])
+    corner += across * (offset - corners[:, 0, 1])
+    column = ranges(left, counts)
+    depth = np.repeat(corner[triangle] + across[triangle] * row, counts)
+    depth += np.repeat(along[triangle], counts) * column
+    return np.repeat(triangle, counts), np.repeat(row, counts), column, depth
 
 
 def ranges(first: NDArray[np.int64], counts: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.export.meshes import Color, Mesh, primitive_mesh
-from ocs_design.export.raster import covered_rows, ranges
+from ocs_design.export.raster import covered_pixels
 from ocs_design.robot.mujoco_bodies import HIDDEN_GROUP
 
 WIDTH, HEIGHT = 800, 500
@@ -112,7 +112,7 @@ def picture(shapes: Sequence[tuple[FloatArray, Color]]) -> NDArray[np.uint8]:
         low, high = plane.min(axis=(0, 1)), plane.max(axis=(0, 1))
         size = _ROOM * np.max((high - low) / (width, height))
         plane = (plane - (low + high) / 2.0) / size + np.array([width, height]) / 2.0
-    shown = _nearest(plane, corners[seen] @ towards)
+    shown = _nearest(np.concatenate([plane, (corners[seen] @ towards)[..., None]], axis=-1))
     lit = colors[seen] * (_AMBIENT + (1.0 - _AMBIENT) * shade)[:, None]
     drawn = np.concatenate([lit, np.ones((1, 3))]).astype(np.float32)
     # Each pixel is the mean of those that it was drawn with.
@@ -121,30 +121,21 @@ def picture(shapes: Sequence[tuple[FloatArray, Color]]) -> NDArray[np.uint8]:
     return np.asarray(np.round(_BACKGROUND / k**2 * np.minimum(total, k**2)), dtype=np.uint8)
 
 
-def _nearest(plane: FloatArray, depth: FloatArray) -> NDArray[np.int64]:
-    """Number of the triangle that each pixel shows; -1: none. Shape (height, width)."""
+def _nearest(corners: FloatArray) -> NDArray[np.int64]:
+    """Number of the triangle that each pixel shows; -1: none. Shape (height, width).
+
+    Corners are in pixels, with how near they are, shape (n, 3, 3).
+    """
     width, height = _OVERSAMPLING * WIDTH, _OVERSAMPLING * HEIGHT
     shown = np.full(width * height, -1, dtype=np.int64)
-    step = _DEPTHS / max(float(np.ptp(depth)) if depth.size else 0.0, 1e-12)
-    for begin in range(0, len(plane), _CHUNK):
-        some, deep = plane[begin : begin + _CHUNK], depth[begin : begin + _CHUNK]
-        triangle, y, first, last = covered_rows(some, 0.5)
-        left, right = (np.ceil(end - 0.5).astype(np.int64) for end in (first, last))
-        count = np.maximum(right - left, 0)
-        # Nearness of each row at the centre of its pixel 0, and its change per pixel.
-        b, c = some[:, 1] - some[:, 0], some[:, 2] - some[:, 0]
-        db, dc = deep[:, 1] - deep[:, 0], deep[:, 2] - deep[:, 0]
-        area = b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]
-        scale = np.divide(1.0, area, out=np.zeros_like(area), where=area != 0.0)
-        slope = scale * (db * c[:, 1] - dc * b[:, 1])
-        across = scale * (dc * b[:, 0] - db * c[:, 0])
-        corner = deep[:, 0] + slope * (0.5 - some[:, 0, 0]) - across * some[:, 0, 1]
-        start, along = corner[triangle] + across[triangle] * (y + 0.5), slope[triangle]
+    depth = corners[:, :, 2]
+    least, spread = (depth.min(), np.ptp(depth)) if depth.size else (0.0, 0.0)
+    step = _DEPTHS / max(float(spread), 1e-12)
+    for begin in range(0, len(corners), _CHUNK):
+        triangle, row, column, near = covered_pixels(corners[begin : begin + _CHUNK], 0.5)
         # The upper part of a number is how near, the lower which triangle: the largest one wins.
-        near = np.repeat(step * (start + along * left - depth.min()), count)
-        near += np.repeat(step * along, count) * ranges(np.zeros_like(count), count)
+        near = step * (near - least)
         number = np.clip(near, 0.0, _DEPTHS, out=near).astype(np.int64) << _BITS
-        number |= np.repeat(begin + triangle, count)
-        np.maximum.at(shown, ranges(y * width + left, count), number)
+        np.maximum.at(shown, row * width + column, number | (begin + triangle))
     np.bitwise_and(shown, (1 << _BITS) - 1, out=shown, where=shown >= 0)
     return shown.reshape(height, width)

@@ -6,7 +6,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.export.meshes import Mesh
-from ocs_design.export.raster import covered_rows, ranges
+from ocs_design.export.raster import covered_pixels, ranges
 
 PIXEL = 0.2e-3
 """Size of the depth map's pixels [m], at least."""
@@ -76,19 +76,9 @@ class _DepthMap:
             points = corners[begin : begin + _CHUNK].copy()
             points[:, :, :2] = (points[:, :, :2] - self._low) / self.pixel
             edge_1, edge_2 = points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]
-            area = edge_1[:, 0] * edge_2[:, 1] - edge_1[:, 1] * edge_2[:, 0]
-            front = area > 1e-9
-            points, area, edge_1, edge_2 = points[front], area[front], edge_1[front], edge_2[front]
-            slope_x = (edge_1[:, 2] * edge_2[:, 1] - edge_2[:, 2] * edge_1[:, 1]) / area
-            slope_y = (edge_2[:, 2] * edge_1[:, 0] - edge_1[:, 2] * edge_2[:, 0]) / area
-            at_zero = points[:, 0, 2] - slope_x * points[:, 0, 0] - slope_y * points[:, 0, 1]
-            owner, rows, left, right = covered_rows(points[:, :, :2], 0.0)
-            first = np.ceil(left).astype(int)
-            counts = np.maximum(np.floor(right).astype(int) - first + 1, 0)
-            columns = ranges(first, counts)
-            start = at_zero[owner] + slope_y[owner] * rows
-            depth = np.repeat(start, counts) + np.repeat(slope_x[owner], counts) * columns
-            np.maximum.at(self._depth, (np.repeat(rows, counts), columns), depth)
+            front = edge_1[:, 0] * edge_2[:, 1] - edge_1[:, 1] * edge_2[:, 0] > 1e-9
+            _, rows, columns, depth = covered_pixels(points[front], 0.0)
+            np.maximum.at(self._depth, (rows, columns), depth)
         # The farthest around each pixel: what lies at an edge of a face is not hidden by it.
         farthest = self._depth
         for axis in (0, 1):
