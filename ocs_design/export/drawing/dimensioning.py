@@ -58,18 +58,22 @@ def upright_dimension(
 
 
 def level_dimension(
-    label: str, *, left: float, right: float, y: float, text_x: float
+    label: str, *, left: float, right: float, y: float, text_x: float | None = None
 ) -> list[Item]:
-    """Dimension line with its text to the right of it, from `text_x` on.
+    """Dimension line with its text above its middle, or to the right of it, from `text_x` on.
 
-    The arrows come from outside where there is no room between them.
+    In the latter case the arrows come from outside where there is no room between them.
     """
-    outside = right - left < 3.0 * ARROW
-    text = Text((text_x, y - RAISE), label)
+    if text_x is None:
+        outside, end = False, right
+        text = Text(((left + right) / 2.0, y - RAISE), label, anchor=Anchor.MIDDLE)
+    else:
+        outside, text = right - left < 3.0 * ARROW, Text((text_x, y - RAISE), label)
+        end = text_x + text.width
     side = -1.0 if outside else 1.0
     start = left - 2.0 * ARROW if outside else left
     return [
-        Line((start, y), (text_x + text.width, y)),
+        Line((start, y), (end, y)),
         arrow((left, y), (-side, 0.0)),
         arrow((right, y), (side, 0.0)),
         text,

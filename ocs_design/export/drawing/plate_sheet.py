@@ -162,7 +162,7 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
     items += _tall(plain(thick), edge_right, (above, below))
     y = below + 7.0
     items += [extension(x, below, y) for x in (edge_left, edge_right)]
-    items += _wide(plain(float(high[1] - low[1])), edge_left, edge_right, y)
+    items += level_dimension(plain(float(high[1] - low[1])), left=edge_left, right=edge_right, y=y)
     return scale, [*items, *_hole_table(plate)]
 
 
@@ -264,7 +264,7 @@ def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[Scale, list[Item]]:
     front, rear = side(mast.face, mast.low)[0], side(end, 0.0)[0]
     items += [extension(front, back(0.0, mast.low)[1], y)]
     items += [extension(rear, side(0.0, min(plate.heights) - mast.side)[1], y)]
-    items += _wide(plain(mast.face - end), front, rear, y)
+    items += level_dimension(plain(mast.face - end), left=front, right=rear, y=y)
     across = sorted({round(y, 9) for y, _ in plate.trunk})
     items += [extension(back(each, 0.0)[0], back(0.0, mast.low)[1], y) for each in across]
     ends = back(across[-1], 0.0)[0], back(across[0], 0.0)[0]
@@ -324,11 +324,3 @@ def _tall(label: str, edge: float, ends: tuple[float, float]) -> Iterator[Item]:
         arrow((x, lower), (0.0, -1.0)),
         Text((x + 1.5, upper - ARROW), label),
     )
-
-
-def _wide(label: str, left: float, right: float, y: float) -> Iterator[Item]:
-    """A width below an outline, its text above the middle of the line."""
-    yield Line((left, y), (right, y))
-    yield arrow((left, y), (-1.0, 0.0))
-    yield arrow((right, y), (1.0, 0.0))
-    yield Text(((left + right) / 2.0, y - 0.9), label, anchor=Anchor.MIDDLE)

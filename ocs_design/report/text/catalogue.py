@@ -11,7 +11,7 @@ from typing import TypeAlias
 from rich.console import Console
 
 from ocs_design.actuation.drive import speed_limit
-from ocs_design.actuation.motor import Motor, Mounting, build_gaps
+from ocs_design.actuation.motor import Gear, Motor, Mounting, build_gaps
 from ocs_design.catalogue.gears import GearSheet, gears_to_json, known_gears
 from ocs_design.catalogue.materials import Material, materials, materials_to_json
 from ocs_design.catalogue.motors import known_motors, motors_to_json
@@ -175,23 +175,15 @@ def _names_of(names: Sequence[str]) -> str:
 def print_gears(console: Console, found: Sequence[GearSheet]) -> None:
     """Every stage that the gears offer; then the gears that offer none, with what they lack."""
     heading(console, "Gears")
-    heads = columns(
-        "<name", "ratio", "mass [g]", "at wheel [g cm2]", "peak [N m]", "motor [rpm]", "wheel [rpm]"
+    figures = (
+        ("ratio", "ratio", "", ".3f"),
+        ("mass [g]", "mass", "g", ".0f"),
+        ("at wheel [g cm2]", "inertia", "g cm2", ".4g"),
+        ("peak [N m]", "torque_max", "N m", ".3g"),
+        ("motor [rpm]", "motor_speed_max", "rpm", ",.0f"),
+        ("wheel [rpm]", "wheel_speed_max", "rpm", ",.0f"),
     )
-    rows = tuple(
-        (
-            gear.name,
-            f"{gear.ratio:.3f}",
-            _figure(gear.mass, "g", ".0f"),
-            _figure(gear.inertia, "g cm2", ".4g"),
-            _figure(gear.torque_max, "N m", ".3g"),
-            _figure(gear.motor_speed_max, "rpm", ",.0f"),
-            _figure(gear.wheel_speed_max, "rpm", ",.0f"),
-        )
-        for sheet in found
-        for gear in sheet.stages()
-    )
-    show(console, Table(heads, rows))
+    show(console, _figures([gear for sheet in found for gear in sheet.stages()], figures))
     note(console, "ratio: motor speed over wheel speed. Without a gear it is 1: direct.")
     lacking = [f"{sheet.name}: no {', '.join(sheet.missing)}" for sheet in found if sheet.missing]
     if lacking:
@@ -202,20 +194,28 @@ def print_gears(console: Console, found: Sequence[GearSheet]) -> None:
 def print_materials(console: Console, found: Sequence[Material]) -> None:
     """Every material with its figures."""
     heading(console, "Materials")
-    heads = columns("<name", "density [kg/m3]", "yield [MPa]", "ultimate [MPa]", "Poisson")
-    rows = tuple(
-        (
-            material.name,
-            f"{material.density:.0f}",
-            _figure(material.yield_strength, "MPa", ".0f"),
-            _figure(material.ultimate_strength, "MPa", ".0f"),
-            "-" if material.poisson_ratio is None else f"{material.poisson_ratio:.2f}",
-        )
-        for material in found
+    figures = (
+        ("density [kg/m3]", "density", "", ".0f"),
+        ("yield [MPa]", "yield_strength", "MPa", ".0f"),
+        ("ultimate [MPa]", "ultimate_strength", "MPa", ".0f"),
+        ("Poisson", "poisson_ratio", "", ".2f"),
     )
-    show(console, Table(heads, rows))
+    show(console, _figures(found, figures))
+
+
+def _figures(
+    found: Sequence[Gear | Material], figures: Sequence[tuple[str, str, str, str]]
+) -> Table:
+    """Names and figures; of each the heading, the attribute, and its unit and form."""
+    rows = (
+        (row.name, *(_figure(getattr(row, name), unit, form) for _, name, unit, form in figures))
+        for row in found
+    )
+    return Table(columns("<name", *(head for head, *_ in figures)), tuple(rows))
 
 
 def _figure(value: float | None, unit: str, form: str) -> str:
-    """SI value in `unit`; a dash for what is not known or not limited."""
-    return "-" if value is None or math.isinf(value) else f"{to_unit(value, unit):{form}}"
+    """SI value in `unit`, if any; a dash for what is not known or not limited."""
+    if value is None or math.isinf(value):
+        return "-"
+    return f"{to_unit(value, unit) if unit else value:{form}}"
