@@ -7,7 +7,6 @@ import mujoco
 import numpy as np
 
 from ocs_design.common.errors import MissingToolError
-from ocs_design.common.frames import Placement
 from ocs_design.device.device import Device
 from ocs_design.export.assembly.placed import placed_parts
 from ocs_design.export.device_parts import wheel_pieces
