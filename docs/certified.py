@@ -22,7 +22,7 @@ import numpy as np
 from blocks import table
 
 from ocs_design.common.units import floored
-from ocs_design.monte_carlo.certificate import ERROR, Finding, SequentialTest
+from ocs_design.monte_carlo.certificate import ERROR, Conclusion, SequentialTest
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "ocs_design"
@@ -130,7 +130,7 @@ def certificates(_: str) -> str:
     return table(heads, rows)
 
 
-def endings(test: SequentialTest) -> list[tuple[int, int, Finding, float]]:
+def endings(test: SequentialTest) -> list[tuple[int, int, Conclusion, float]]:
     """All ends of a test: passed, flown, finding, and the logarithm of the ways that lead there.
 
     Dynamic programming over the number of failures: exact, nothing is drawn.
@@ -147,20 +147,20 @@ def endings(test: SequentialTest) -> list[tuple[int, int, Finding, float]]:
         for failed, paths in grown.items():
             evidence = (count - failed) * gain + failed * loss
             if abs(evidence) >= log(1.0 / ERROR):
-                finding = Finding.CERTIFIED if evidence > 0.0 else Finding.SHORT
+                finding = Conclusion.CERTIFIED if evidence > 0.0 else Conclusion.SHORT
                 ends.append((count - failed, count, finding, paths))
             elif count == test.most:
-                ends.append((count - failed, count, Finding.UNDECIDED, paths))
+                ends.append((count - failed, count, Conclusion.UNDECIDED, paths))
             else:
                 ways[failed] = paths
     return ends
 
 
 def operating(
-    ends: list[tuple[int, int, Finding, float]], reliability: float
-) -> tuple[dict[Finding, float], float]:
+    ends: list[tuple[int, int, Conclusion, float]], reliability: float
+) -> tuple[dict[Conclusion, float], float]:
     """Probability of each finding for a device of this reliability, and the mean of flights."""
-    chances, mean = dict.fromkeys(Finding, 0.0), 0.0
+    chances, mean = dict.fromkeys(Conclusion, 0.0), 0.0
     for passed, count, finding, paths in ends:
         odds = passed * log(reliability) + (count - passed) * log(1.0 - reliability)
         chance = exp(paths + odds)
@@ -180,11 +180,11 @@ def characteristic(asked: str) -> str:
         rows.append(
             (
                 f"{100.0 * reliability:.4g} %",
-                *(f"{100.0 * chances[each]:.1f} %" for each in Finding),
+                *(f"{100.0 * chances[each]:.1f} %" for each in Conclusion),
                 f"{mean:.0f}",
             )
         )
-    return table(("works in truth", *map(str, Finding), "flights on average"), rows)
+    return table(("works in truth", *map(str, Conclusion), "flights on average"), rows)
 
 
 if __name__ == "__main__":

@@ -29,6 +29,9 @@ IMU = f"{PREFIX}imu"
 
 _FLYWHEEL = "_flywheel"
 
+STEEL = (0.55, 0.57, 0.6, 1.0)
+"""Colour of wheels: red, green, blue and opacity, 0..1."""
+
 WHEEL_CONTACT_BIT = 1 << 16
 """`conaffinity` of the wheels in MJCF: a floor with this bit in its `contype` meets them."""
 

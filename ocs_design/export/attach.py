@@ -7,7 +7,6 @@ import mujoco
 
 from ocs_design.device import bodies
 from ocs_design.device.device import Device
-from ocs_design.export.visuals import STEEL
 from ocs_design.robot.mujoco_bodies import inertial, quaternion
 from ocs_design.robot.mujoco_model import trunk_body
 from ocs_design.robot.robot import Robot
@@ -64,7 +63,7 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
             size=(device.flywheel.outer_radius, device.flywheel.height / 2.0, 0.0),
             contype=0,
             conaffinity=bodies.WHEEL_CONTACT_BIT,
-            rgba=STEEL,
+            rgba=bodies.STEEL,
         )
         actuator = attached.add_actuator(name=joint, target=joint, trntype=_TO_JOINT)
         actuator.set_to_motor()

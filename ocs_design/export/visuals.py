@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ocs_design.common.frames import Placement
-from ocs_design.device.bodies import DeviceBody, carrier_placement
+from ocs_design.device.bodies import STEEL, DeviceBody, carrier_placement
 from ocs_design.device.device import Device, Module
 from ocs_design.device.solids import drive_solids, foot_of, motor_mount
 from ocs_design.export.meshes import Color, Mesh, merged, part_mesh
@@ -43,7 +43,6 @@ PRINT: Color = (0.25, 0.45, 0.75, 1.0)
 MOTOR: Color = (0.15, 0.15, 0.17, 1.0)
 GEAR: Color = (0.75, 0.6, 0.3, 1.0)
 ALUMINIUM: Color = (0.78, 0.79, 0.8, 1.0)
-STEEL: Color = (0.55, 0.57, 0.6, 1.0)
 _DRIVE = {"motor": MOTOR, "gear": GEAR}
 _COLORS = _DRIVE | {"housing": SHELL, "foot": PRINT, "cage": SHELL, "pedestal": PRINT}
 _COLORS["plate"] = ALUMINIUM

@@ -5,7 +5,7 @@ import subprocess
 import imageio_ffmpeg
 import pytest
 
-from ocs_design.export import ffmpeg
+from ocs_design.export import programs
 from ocs_design.export.programs import ffmpeg_program
 
 
@@ -33,6 +33,6 @@ def test_else_none(no_system, monkeypatch, why):
         raise RuntimeError("No ffmpeg exe could be found")
 
     if why == "not installed":
-        monkeypatch.setattr(ffmpeg, "find_spec", lambda name: None)
+        monkeypatch.setattr(programs, "find_spec", lambda name: None)
     monkeypatch.setattr(imageio_ffmpeg, "get_ffmpeg_exe", refuse)
     assert ffmpeg_program() is None

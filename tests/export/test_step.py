@@ -28,10 +28,10 @@ from OCP.XCAFApp import XCAFApp_Application
 from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 
 from ocs_design.common.frames import Placement
-from ocs_design.device.bodies import carrier_placement, wheel_placement
+from ocs_design.device.bodies import STEEL, carrier_placement, wheel_placement
 from ocs_design.export.assembly.placed import placed_parts
 from ocs_design.export.step import device_bytes, module_bytes, step_bytes
-from ocs_design.export.visuals import ALUMINIUM, MOTOR, PRINT, STEEL
+from ocs_design.export.visuals import ALUMINIUM, MOTOR, PRINT
 from ocs_design.parts.carrier_plate import mast_part, plate_part
 from ocs_design.parts.mast import Mast
 
