@@ -5,11 +5,12 @@ Files are made from it without a second look, so what is no length, mass or dire
 
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
-from math import isfinite, pi
+from math import inf, isfinite, pi
 
 import numpy as np
 
 from ocs_design.actuation.fasteners import SCREW_NAMES
+from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.device.device import Device
 from ocs_design.parts.carrier_plate import CarrierPlate
@@ -64,6 +65,8 @@ def check_device(device: Device) -> None:
         faults.append(f"ocs.guard_wall is {device.guard_wall}")
     if not 0.0 < device.foot_plate <= LARGEST_LENGTH:
         faults.append(f"ocs.foot_plate is {device.foot_plate}")
+    if device.supply is not None:
+        faults += _supply_faults(device.supply)
     if not isfinite(device.incidence):
         faults.append(f"ocs.incidence is {device.incidence}")
     if tuple(module.name for module in device.modules) != device.layout.names:
@@ -84,6 +87,14 @@ def check_device(device: Device) -> None:
             f"the design's device cannot be: {'; '.join(faults)}",
             hint="run `ocs-design size` again to write the design anew",
         )
+
+
+def _supply_faults(supply: Supply) -> Iterator[str]:
+    """Figures of a supply that gives nothing; a limit that it does not have is infinite."""
+    for name, highest in (("voltage", LARGEST), ("current_max", inf), ("power_max", inf)):
+        value = getattr(supply, name)
+        if not 0.0 < value <= highest:
+            yield f"supply.{name} is {value:g}, not positive"
 
 
 def _plate_faults(plate: CarrierPlate) -> Iterator[str]:

@@ -129,9 +129,9 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         names = [flight.maneuver.name for flight in self._campaign.flights]
         if name not in names:
             raise UsageError(f"the design has no maneuver {name!r}", hint=f"it has {names}")
-        if not isinstance(sample, int) or sample < 0:
+        if not isinstance(sample, int | np.integer) or sample < 0:
             raise UsageError(f"the sample is {sample!r}, not a whole number from 0")
-        self._number, hold = names.index(name), self._campaign.hold
+        sample, self._number, hold = int(sample), names.index(name), self._campaign.hold
         flight = self._campaign.flights[self._number]
         self._world = flight.world
         if self._randomise:

@@ -23,7 +23,7 @@ from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.sections import ValidationSection
 from ocs_design.requirement.specification import Specification, merge_section
-from ocs_design.requirement.uncertainty import UncertaintySection, uncertainty_of_texts
+from ocs_design.requirement.uncertainty import UncertaintySection, entries, uncertainty_of_texts
 from ocs_design.requirement.vocabulary import CONTROL_PERIOD
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.run import Run
@@ -216,6 +216,9 @@ def read_task(
     """
     path = design_file(path)
     design = read_design(path)
+    if stated.reality.file is not None:
+        # Whoever names a file is told that it cannot be read, whether or not anything is drawn.
+        entries(Path(stated.reality.file))
     maneuvers = tuple(map(maneuver_of, design.requirement.maneuvers))
     if not maneuvers:
         raise OcsError(

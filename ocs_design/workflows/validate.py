@@ -80,8 +80,8 @@ class Request:
         """Refuse what contradicts itself or makes no sense.
 
         Raises:
-            UsageError: options that exclude or need each other, no samples, no width between 0 and
-                1, or no engine.
+            UsageError: options that exclude or need each other, no samples, no such sample, no
+                width between 0 and 1, or no engine.
             MissingToolError: there is no display to look at the runs.
         """
         wanted = {"--samples": self.samples, "--sample": self.sample, "--replay": self.replay}
@@ -89,6 +89,8 @@ class Request:
         if len(given) > 1:
             raise UsageError(f"{' and '.join(given)} exclude each other", hint="give one")
         certifies = self.stated.validation.certify is True
+        if self.sample is not None and self.sample < 0:
+            raise UsageError(f"--sample {self.sample}: must be a whole number from 0")
         if certifies and self.until_width is not None:
             raise UsageError("--certify and --until-width exclude each other", hint="give one")
         if not self.many and (self.until_width is not None or self.scheduler is not None):

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError
 from ocs_design.device.checks import check_device, device_warnings
 from ocs_design.device.records.design import read_design
@@ -36,6 +37,15 @@ def test_figures_of_no_device_are_refused(part, figure, value):
     changed = replace(getattr(DEVICE, part), **{figure: value})
     with pytest.raises(OcsError, match=f"{part}.{figure} is"):
         check_device(replace(DEVICE, **{part: changed}))
+
+
+@pytest.mark.parametrize("value", [0.0, -5.0, np.nan])
+@pytest.mark.parametrize("figure", ["voltage", "current_max", "power_max"])
+def test_a_supply_that_gives_nothing_is_refused(figure, value):
+    supply = Supply(24.0)
+    check_device(replace(DEVICE, supply=supply))
+    with pytest.raises(OcsError, match=f"supply.{figure} is"):
+        check_device(replace(DEVICE, supply=replace(supply, **{figure: value})))
 
 
 def test_a_bore_may_be_none_but_not_wider_than_the_wheel():

@@ -110,6 +110,8 @@ CERTAIN = (
     [
         (("--samples", "0"), "must be from 1 to"),
         (("--samples", "2", "--sample", "1"), "exclude each other"),
+        (("--sample", "-2"), "must be a whole number from 0"),
+        (("--reality", "nothing.toml"), "nothing.toml"),
         (("--until-width", "5%"), "add --samples"),
         (("--certify", "--until-width", "5%"), "exclude each other"),
         (("--samples", "2", "--until-width", "2"), "between 0 and 100 %"),

@@ -133,6 +133,10 @@ def test_an_action_that_is_none_is_told(flight, action):
         flight.step(action)
 
 
+def test_a_sample_may_be_a_number_of_numpy(flight):
+    assert flight.reset(options={"sample": np.int64(3)})[1]["sample"] == 3
+
+
 @pytest.mark.parametrize("sample", [-1, 0.5, "1"])
 def test_a_sample_that_is_none_is_told(flight, sample):
     with pytest.raises(UsageError, match="whole number"):
