@@ -137,14 +137,6 @@ def test_want_of_torque_is_told_with_momentum_too():
     assert 1_000 < weak.sum() < 4_000
 
 
-def test_momentum_alone_couples_the_wheels_as_the_same_turn():
-    rates = np.array([[0.3, 0.1], [0.1, 0.3], [0.2, 0.0]])
-    held = WheelTask(0.0 * rates, rates, 1.0, axes(ROLL, BODY), pair(0.6)).load()
-    turned = WheelTask(rates, 0.0 * rates, 1.0, axes(ROLL, BODY), pair(0.6)).load()
-    np.testing.assert_allclose(held.coupling, turned.coupling, rtol=1e-15)
-    assert np.ptp(held.coupling) > 1.0
-
-
 def random_tasks(rng, count):
     """Turns of small to large robots about both axes, half of them with momentum to keep."""
     inertia = 10 ** rng.uniform(-2.0, 0.0, (count, 2))
@@ -289,14 +281,6 @@ def test_an_axis_out_of_reach():
         assert (slew_reason(task, EC45) == SlewReason.AXIS) != reachable
 
 
-def test_roll_is_pitch_at_the_complement():
-    angle = np.radians(25.0)
-    pitch = WheelTask([0.0, 0.02], [0.0, 0.01], 0.7, axes(ROLL, BODY), pair(angle))
-    roll = WheelTask([0.02, 0.0], [0.01, 0.0], 0.7, axes(BODY, ROLL), pair(np.pi / 2.0 - angle))
-    h = smallest_spin_inertia(pitch, EC45)
-    assert smallest_spin_inertia(roll, EC45) == pytest.approx(float(h), rel=1e-12)
-
-
 def test_nothing_asked_and_no_time():
     nothing = WheelTask([0.0, 0.0], [0.0, 0.0], 0.5, axes(ROLL, BODY), pair(0.6))
     assert smallest_spin_inertia(nothing, EC45) == 0.0
@@ -307,22 +291,6 @@ def test_nothing_asked_and_no_time():
     late = WheelTask([0.0, 0.01], [0.0, 0.01], [0.0, -0.1], axes(ROLL, BODY), pair(0.6))
     assert np.isinf(smallest_spin_inertia(late, EC45)).all()
     assert (slew_reason(late, EC45) == SlewReason.TORQUE).all()
-
-
-def test_momentum_alone_is_held_at_the_end():
-    """No angle to turn: the wheel must still go beyond its final speed to make up for its rise."""
-    task = WheelTask([0.0, 0.0], [0.0, 0.04], 0.4, axes(ROLL, BODY), pair(0.6))
-    h = smallest_spin_inertia(task, EC45)
-    assert wheel_slew_time(task, h, EC45) == pytest.approx(0.4, rel=1e-12)
-    assert task.load().final_speed(h) < EC45.no_load_speed
-
-
-def test_many_at_once_equal_one_by_one():
-    rng = np.random.default_rng(8)
-    task, line = random_tasks(rng, 200), random_lines(rng, 200)
-    together = smallest_spin_inertia(task, line, 1e-6)
-    alone = [float(smallest_spin_inertia(row(task, k), row(line, k), 1e-6)) for k in range(200)]
-    np.testing.assert_allclose(together, alone, rtol=1e-13)
 
 
 def test_motors_by_angles_by_turns():

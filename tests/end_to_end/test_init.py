@@ -3,18 +3,15 @@
 import os
 import pty
 import re
-import shutil
 import sys
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 
 from commands import BY_HAND, PROGRAM, SOLO12, environment, run
 
 from ocs_design.requirement.reading import read_specification
-from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
-from ocs_design.workflows.init import read_start
 
 SOLO12_SPECIFICATION = Specification(robot=RobotSection(file=SOLO12))
 
@@ -54,15 +51,6 @@ def test_options_are_stated(folder):
     assert found.flywheel.h_max is None
 
 
-def test_files_are_found_from_where_the_file_lies(folder):
-    (folder / "specs").mkdir()
-    shutil.copy(SOLO12, "here.urdf")
-    run("init", "here.urdf", "-o", "specs/solo12.toml")
-    assert 'file = "../here.urdf"' in (folder / "specs" / "solo12.toml").read_text()
-    found = read_specification(folder / "specs/solo12.toml").robot.file
-    assert Path(found).samefile("here.urdf")
-
-
 def test_size_reads_it(folder):
     run("init", *BY_HAND, "--motor", "none")
     done = run("size", "--spec", "robot.toml", "--no-validate")
@@ -87,19 +75,6 @@ def test_a_file_stays_without_force(folder):
     assert (folder / "ocs.toml").read_text() == "mine"
     assert run("init", "--force").code == 0
     assert read_specification(folder / "ocs.toml") == Specification()
-
-
-def test_defaults_are_the_robots_own():
-    start = read_start(SOLO12_SPECIFICATION)
-    stated = replace(
-        start.default,
-        requirement=replace(start.default.requirement, maneuvers=None),
-    )
-    assumed, told = (resolve(each, start.robot, 0.5) for each in (SOLO12_SPECIFICATION, stated))
-    assert told.envelope == assumed.envelope
-    assert list(map(asdict, told.requirement.maneuvers)) == list(
-        map(asdict, assumed.requirement.maneuvers)
-    )
 
 
 def test_on_a_terminal_it_asks(folder):

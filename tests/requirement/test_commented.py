@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from specifications import FULL
 
-from ocs_design.requirement.device_sections import FlywheelSection
 from ocs_design.requirement.froude import example_pivots, example_shove, example_turns
 from ocs_design.requirement.keys import keys_of
 from ocs_design.requirement.kinds import MANEUVER_KINDS
@@ -138,18 +137,6 @@ def test_everything_that_is_stated_is_read_back(default):
         is_number = isinstance(value, float)
         assert leaves(found)[path] == (pytest.approx(value, rel=1e-12) if is_number else value)
     assert len(leaves(found)) > len(all_keys())
-
-
-@pytest.mark.parametrize("radius", [0.04, 0.1 / 3, 1.5, 1e-5])
-def test_a_length_is_read_back_whatever_its_unit(radius, default):
-    stated = Specification(flywheel=FlywheelSection(r_max=radius))
-    found = read(commented_toml(stated, default, title="x")).flywheel.r_max
-    assert found == pytest.approx(radius, rel=1e-12)
-
-
-def test_chosen_maneuvers_are_stated(default):
-    text = commented_toml(Specification(), default, title="x", chosen=("drop", "back-flip"))
-    assert [maneuver.name for maneuver in read(text).maneuvers] == ["drop", "back-flip"]
 
 
 def test_the_units_of_each_key_are_told(empty):

@@ -7,10 +7,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from robots import SOLO12 as ROBOTS_SOLO12
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
-from ocs_design.requirement.bound import spin_inertia_for
 from ocs_design.requirement.froude import (
     SOLO12,
     WHEEL_SPEED_MAX,
@@ -57,24 +55,6 @@ def test_the_room_of_a_larger_robot_has_the_same_proportions(make_robot, solo12)
     assert ratio > 1.5
     for name in lengths:
         assert getattr(room, name) == pytest.approx(ratio * getattr(own, name), rel=1e-12), name
-
-
-def test_the_back_flip_asks_most_of_solo12_and_fits_its_room(solo12):
-    maneuvers = default_maneuvers(solo12)
-    demands = {
-        item.name: spin_inertia_for(
-            item.momentum(TiltInertia.of(solo12.inertia), SOLO12.standing_height),
-            np.radians(30.0) if item.incidence is None else item.incidence,
-            WHEEL_SPEED_MAX,
-        )
-        for item in maneuvers
-    }
-    assert max(demands, key=demands.get) == "back-flip"
-    # I_yy * 2 * 2 pi / T over both wheels, cos(30 deg) and 754 rad/s: 2.65e-4 kg m^2.
-    assert 2.6e-4 < demands["back-flip"] < 2.7e-4
-    room = default_envelope(solo12)
-    solid = np.pi * 8000.0 * room.height_max * room.outer_radius_max**4 / 2
-    assert demands["back-flip"] < solid
 
 
 @given(length=RATIOS, mass=RATIOS)
@@ -134,11 +114,3 @@ def test_the_reference_is_solo12_as_the_tool_reads_it(make_robot):
     robot = make_robot(properties.mass, tuple(np.diag(properties.inertia)), height)
     assert robot.gyration_radius == pytest.approx(SOLO12.gyration_radius, rel=1e-8)
     assert Scale.of(robot) == Scale(1.0, 1.0, 1.0)
-
-
-def test_the_public_solo12_is_the_same_but_for_its_soles():
-    """Its feet are meshes whose soles lie 0.4 mm lower than our spheres'."""
-    height, properties = standing(ROBOTS_SOLO12)
-    assert height - SOLO12.standing_height == pytest.approx(0.0, abs=5e-4)
-    assert properties.inertia[0, 0] == pytest.approx(SOLO12.roll_inertia, rel=1e-8)
-    assert properties.inertia[1, 1] == pytest.approx(SOLO12.pitch_inertia, rel=1e-8)

@@ -2,14 +2,9 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from drawn_selections import draw
-from naive_device import Drive, chord_of
-from naive_inertia import coupling_on, inertia_on
-from naive_wheel import Rims
 
-from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.errors import Infeasible
 from ocs_design.device.layout import Criterion
 from ocs_design.sizing.selection import select as selecting
@@ -33,37 +28,6 @@ def problem(request):
 def found(problem):
     criteria = (None, EQUAL_RATE, SIMULTANEOUS)
     return {criterion: select_by(problem, criterion).best for criterion in criteria}
-
-
-def worked_out(problem, device):
-    """Inertia about roll and pitch with the device on, and what couples them, by hand."""
-    drive = Drive(problem, device.motor, device.gear)
-    sizes = (device.outer_radius, device.inner_radius, device.height)
-    rims = Rims(*(np.array([size]) for size in sizes), device.material.density, device.cuts.chamfer)
-    on = problem, drive, rims, np.array([device.incidence])
-    return inertia_on(*on)[:, 0], coupling_on(*on)[0]
-
-
-def largest_momenta(problem, inertia, coupling):
-    """On roll and on pitch, by the formulas of each kind of maneuver.
-
-    A turn after which the trunk would be off level by more than a degree counts the coupling.
-    """
-    found = [np.zeros(2)]
-    for maneuver in problem.requirement.maneuvers:
-        strays = np.abs(coupling) / inertia * chord_of(maneuver) > np.radians(1.0)
-        tilt = TiltInertia(inertia, np.asarray(coupling if strays.any() else 0.0))
-        if maneuver.incidence is None:
-            found.append(maneuver.momentum(tilt, problem.requirement.standing_height))
-    found.append(inertia * (problem.requirement.rate_change or 0.0))
-    return np.max(found, axis=0)
-
-
-def test_simultaneous_is_that_of_robot_and_device(problem, found):
-    """tan(alpha) = (h_roll / h_pitch)^(1/3)."""
-    device = found[SIMULTANEOUS]
-    roll, pitch = largest_momenta(problem, *worked_out(problem, device))
-    assert device.incidence == pytest.approx(np.arctan(np.cbrt(roll / pitch)), abs=1e-8)
 
 
 def test_of_all_devices_at_that_incidence_it_is_the_lightest(problem, found):

@@ -115,26 +115,6 @@ def test_the_motors_pay_for_the_kinetic_energy(solved):
     assert abs(error[-1]) < 2e-5 * energy.max()
 
 
-def test_a_high_order_integrator_follows_the_plan():
-    """Least effort has no jumps: DOP853 with the torque between its samples ends level at rest."""
-    gyrostat, maneuver = CASES["pitch and roll"]
-    path = _planned(gyrostat, maneuver).trajectory
-    matrix = gyrostat.mass_matrix
-
-    def slope(time, state):
-        vertical, rate = state[:3], state[3:6]
-        torque = [np.interp(time, path.time, column) for column in path.wheel_torque.T]
-        turning = np.cross(matrix[:3] @ state[3:], rate)
-        change = np.linalg.solve(matrix, np.concatenate([turning, torque]))
-        return np.concatenate([np.cross(vertical, rate), change])
-
-    start = np.concatenate([path.vertical[0], path.rate[0], path.wheel_speed[0]])
-    answer = solve_ivp(slope, (0.0, path.time[-1]), start, "DOP853", rtol=1e-9, atol=1e-9)
-    end = answer.y[:, -1]
-    np.testing.assert_allclose(end[:3], [0.0, 0.0, 1.0], rtol=0, atol=1e-5)
-    np.testing.assert_allclose(end[3:6], 0.0, rtol=0, atol=1e-4)
-
-
 @pytest.mark.parametrize("name", ["pitch and roll", "back-flip at an angle", "push"])
 def test_mujoco_ends_where_the_plan_ends(name):
     gyrostat, maneuver = CASES[name]
