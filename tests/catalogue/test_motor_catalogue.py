@@ -9,7 +9,7 @@ from statistics import median
 import pytest
 from motor_rows import csv, toml
 
-from ocs_design.actuation.drive import Drive, drive_line, missing_figures
+from ocs_design.actuation.drive import Drive, missing_figures
 from ocs_design.actuation.motor import (
     BY_CONVENTION,
     DIRECT,
@@ -52,13 +52,6 @@ def test_gradient_and_time_constant_are_those_that_the_maker_prints(name):
     printed_gradient, printed_time = PRINTED[name]
     assert gradient / RPM == pytest.approx(printed_gradient, rel=0.015)
     assert gradient * found.rotor_inertia == pytest.approx(printed_time, rel=0.015)
-
-
-def test_the_worked_example_of_the_theory_is_in_the_catalogue():
-    found = motor("EC 45 flat 70 W 411812")
-    line = drive_line(found, DIRECT, 24.0)
-    assert line.stall_torque == pytest.approx(1.4566, rel=1e-4)
-    assert line.no_load_speed == pytest.approx(650.4, rel=1e-4)
 
 
 def test_there_is_something_to_choose_from_for_small_and_for_large_robots():

@@ -10,7 +10,7 @@ from wheels import driven_device, paper_device
 from ocs_design.device.layout import PAIR
 from ocs_design.monte_carlo.uncertainty import KEYS, Sample, Uncertainty, quantities
 from ocs_design.report.device import drawn_facts
-from ocs_design.requirement.uncertainty import Constant, Normal, UncertaintySection
+from ocs_design.requirement.uncertainty import Normal, UncertaintySection
 
 NAMES = quantities(PAIR)
 
@@ -67,11 +67,6 @@ def test_a_motor_of_which_nothing_is_known_has_no_friction(solo12):
     spread = Uncertainty.of(UncertaintySection(), solo12, paper_device())
     assert spread.spreads["coulomb_friction"].at(1.0) == 0.0
     assert spread.spreads["viscous_friction"].at(1.0) == 0.0
-
-
-def test_what_is_stated_holds(solo12):
-    spread = uncertainty(solo12, torque_delay=Constant(0.0))
-    assert Sample.draw(spread, 0, 1).only("torque_delay") == 0.0
 
 
 def test_a_pairs_samples_stay_what_they_were(solo12):

@@ -68,13 +68,6 @@ def check_like_its_solids(sizes, hub, web, cuts=NO_CUTS):
 
 
 @WEBS
-@pytest.mark.parametrize("hub", [BARE, BOLTED], ids=["pilot bore", "bolted"])
-@given(bore=st.floats(0.0101, 0.1), wall=st.floats(0.5e-3, 0.05), height=st.floats(2.0e-3, 0.05))
-def test_a_wheel_weighs_and_turns_like_its_solids(web, hub, bore, wall, height):
-    check_like_its_solids((bore, bore + wall, height), hub, web)
-
-
-@WEBS
 @given(
     bore=st.floats(0.0101, 0.1),
     wall=st.floats(4.01e-3, 0.05),
@@ -191,11 +184,6 @@ def test_slopes_of_what_is_cut_off_are_those_of_its_figures():
         assert cuts.area_slope() == pytest.approx(cuts.area(beside, outer).imag / 1e-30)
         slope = cuts.spread(beside, outer).imag / 1e-30
         assert cuts.spread_slope(inner, outer) == pytest.approx(slope, rel=1e-12)
-
-
-def test_without_a_hub_there_is_the_rim_alone():
-    rim = wheel_body(0.02, 0.03, 0.01, STEEL.density, None)
-    assert rim.mass == pytest.approx(np.pi * STEEL.density * 0.01 * (0.03**2 - 0.02**2))
 
 
 @pytest.mark.parametrize("density", [1200.0, 2710.0, 7850.0, 17000.0])

@@ -9,7 +9,6 @@ from specifications import MANEUVERS
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.errors import SpecificationError
-from ocs_design.requirement.bound import per_wheel
 from ocs_design.requirement.kinds import change_text, slower
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.requirement.pivoted import Pivoted
@@ -74,17 +73,6 @@ def test_summaries_carry_units():
     assert FLIP.summary == ("turns -360 deg of pitch in 2 s, in a jump of 1 m at 1.62 m/s2")
     assert DROP.summary == "falls from 1 m at roll -10 deg and pitch 30 deg"
     assert "(-0.2, 0.8, 9) N m on the trunk for 0.05 s, 0.1 s after" in PUSH.summary
-
-
-def test_least_torque_of_the_worked_example():
-    """30 deg at 0.30 N m a wheel and 40 deg of incidence take 0.494 s at best (bang-bang)."""
-    inertia, at_best, torque, incidence = 0.0535, 0.494, 0.30, np.radians(40.0)
-    height = 0.272 + 9.81 * at_best**2 / 2.0
-    drop = replace(DROP, height=height, roll=0.0)
-    needed = per_wheel(
-        drop.least_torque(TiltInertia.uncoupled([inertia, inertia]), 0.272), incidence
-    )
-    assert needed == pytest.approx(torque, rel=2e-3)
 
 
 def test_least_torque_reaches_the_momentum_in_half_the_time():

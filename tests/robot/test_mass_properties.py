@@ -35,20 +35,6 @@ def assert_same(a: MassProperties, b: MassProperties) -> None:
 
 
 @given(seeds)
-def test_parallel_axes_are_the_sum_over_points(seed):
-    rng = np.random.default_rng(seed)
-    masses, points, about = rng.uniform(0.1, 2, 6), rng.uniform(-1, 1, (6, 3)), rng.normal(size=3)
-    whole = combine(
-        MassProperties(m, p, np.zeros((3, 3))) for m, p in zip(masses, points, strict=True)
-    )
-    arms = points - about
-    by_definition = sum(
-        m * (r @ r * np.eye(3) - np.outer(r, r)) for m, r in zip(masses, arms, strict=True)
-    )
-    np.testing.assert_allclose(whole.inertia_about(about), by_definition, atol=1e-12)
-
-
-@given(seeds)
 def test_transport_and_sum_agree_with_pinocchio(seed):
     rng = np.random.default_rng(seed)
     first, second = random_cloud(rng), random_cloud(rng)

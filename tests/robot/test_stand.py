@@ -116,14 +116,6 @@ def test_solo12_bends_its_legs_as_two_equal_bars_do():
     assert found.standing_height == pytest.approx(0.8 * 0.32 + 0.0164, abs=1e-4)
 
 
-def test_solo12_at_the_usual_stance_is_near_the_figures_of_the_theory():
-    """docs/theory.md, The robot's inertia, at HFE 0.8: the share of the leg there is cos(0.8)."""
-    tree, _, found = standing(SOLO12, share=float(np.cos(0.8)))
-    weighed = tree.locked_mass_properties(found.posture, "base_link")
-    assert np.diag(weighed.inertia) == pytest.approx([0.0300029, 0.0514912, 0.0680453], abs=1e-7)
-    assert weighed.com[2] == pytest.approx(-0.0240347, abs=1e-6)
-
-
 @pytest.mark.parametrize(
     ("name", "knees"),
     [

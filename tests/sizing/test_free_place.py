@@ -105,13 +105,6 @@ def test_a_stated_position_is_kept(masted):
     assert specified_place(None, robot, envelope) == place_free(robot, envelope).place
 
 
-def test_twice_the_same():
-    robot = read_robot(ROBOTS / "b1_description/urdf/b1-z1.urdf")
-    again = read_robot(ROBOTS / "b1_description/urdf/b1-z1.urdf")
-    envelope = default_envelope(robot)
-    assert place_free(robot, envelope) == place_free(again, envelope)
-
-
 @pytest.mark.parametrize("name", every(20, LEGGED))
 def test_every_legged_robot_has_a_free_place(name):
     robot = robot_of(name)
