@@ -66,7 +66,7 @@ def check_target(target: Path, *, force: bool) -> None:
 
 
 def check_file_target(target: Path, *, force: bool) -> None:
-    """The same of a file.
+    """Refuse a file that cannot be written, or would be overwritten unasked.
 
     Raises:
         OutputError: it exists and `force` is not set, or is no file; or its folder does not exist

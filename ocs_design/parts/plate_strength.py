@@ -251,7 +251,7 @@ def plate_frequency(plate: CarrierPlate, mass: float) -> float:
 
 
 def plate_tilt(plate: CarrierPlate) -> tuple[float, float]:
-    """By how much a moment turns the middle of a foot, the trunk's screws held [rad/(N m)].
+    """Turn of the middle of a foot under a moment, the trunk's screws held [rad/(N m)].
 
     First about the horizontal across its arm, which bends the arm: the integral of 1 / (E I), as
     under a moment at the end of a cantilever (Roark's Formulas for Stress and Strain, 7th edition,
