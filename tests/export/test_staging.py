@@ -195,15 +195,6 @@ def names(folder):
     return sorted(path.name for path in folder.iterdir())
 
 
-def test_a_finished_block_puts_the_folder_in_place_and_leaves_nothing_else(tmp_path):
-    target = tmp_path / "robot-ocs"
-    with staged_folder(target, force=False) as folder:
-        (folder / DESIGN_FILE).write_text("new")
-        assert not target.exists()
-    assert (target / DESIGN_FILE).read_text() == "new"
-    assert names(tmp_path) == ["robot-ocs"]
-
-
 def test_a_failed_block_leaves_nothing(tmp_path):
     with pytest.raises(RuntimeError), staged_folder(tmp_path / "x", force=False) as folder:
         (folder / DESIGN_FILE).write_text("half")
@@ -221,17 +212,6 @@ def test_an_existing_folder_is_kept_without_force(tmp_path):
         pass
     assert "--force" in caught.value.hint
     assert (target / DESIGN_FILE).read_text() == "old"
-
-
-def test_force_replaces_all_of_an_old_output(tmp_path):
-    target = tmp_path / "robot-ocs"
-    make_output(target)
-    (target / "stale.stl").write_text("stale")
-    with staged_folder(target, force=True) as folder:
-        (folder / DESIGN_FILE).write_text("new")
-    assert names(target) == [DESIGN_FILE]
-    assert (target / DESIGN_FILE).read_text() == "new"
-    assert names(tmp_path) == ["robot-ocs"]
 
 
 def test_force_keeps_the_old_output_if_the_block_fails(tmp_path):

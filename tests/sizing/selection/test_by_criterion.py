@@ -1,4 +1,4 @@
-"""The incidence by a criterion is that of the robot with the very device that came of it."""
+"""The incidence by a criterion: who leads where none wins at its own, and where nobody can."""
 
 from dataclasses import replace
 
@@ -11,36 +11,6 @@ from ocs_design.sizing.selection import select as selecting
 from ocs_design.sizing.selection.problem import Reason
 from ocs_design.sizing.selection.select import select, select_by
 
-pytestmark = pytest.mark.exhaustive
-
-DRAWN = (4,)
-EXACT = 1e-6
-"""To which a mass is settled, relative."""
-EQUAL_RATE, SIMULTANEOUS = Criterion.EQUAL_RATE, Criterion.SIMULTANEOUS
-
-
-@pytest.fixture(scope="module", params=DRAWN)
-def problem(request):
-    return replace(draw(request.param).problem, incidence=None)
-
-
-@pytest.fixture(scope="module")
-def found(problem):
-    criteria = (None, EQUAL_RATE, SIMULTANEOUS)
-    return {criterion: select_by(problem, criterion).best for criterion in criteria}
-
-
-def test_of_all_devices_at_that_incidence_it_is_the_lightest(problem, found):
-    for criterion in (EQUAL_RATE, SIMULTANEOUS):
-        device = found[criterion]
-        there = select(replace(problem, incidence=device.incidence)).best
-        assert (there.motor, there.gear, there.material) == (
-            device.motor,
-            device.gear,
-            device.material,
-        )
-        assert there.mass == pytest.approx(device.mass, rel=EXACT)
-
 
 def test_what_no_motor_can_do_there_is_said_of_all_of_them():
     """At the incidence that its lightest device leads to, not even that one can do it."""
@@ -49,8 +19,9 @@ def test_what_no_motor_can_do_there_is_said_of_all_of_them():
         select_by(problem, Criterion.WEIGHTED)
 
 
-def test_where_none_wins_at_its_own_incidence_the_lightest_at_its_own_leads(problem, monkeypatch):
+def test_where_none_wins_at_its_own_incidence_the_lightest_at_its_own_leads(monkeypatch):
     """Two devices, each of which wins at the other's incidence only: heavy at its own."""
+    problem = replace(draw(4).problem, incidence=None)
     base = select(replace(problem, incidence=0.5)).best
     angles, masses = {"a": 0.4, "b": 0.6}, {"a": 0.10, "b": 0.12}
 
@@ -77,7 +48,7 @@ def test_where_none_wins_at_its_own_incidence_the_lightest_at_its_own_leads(prob
     lightest = select(replace(problem, incidence=0.5))
     monkeypatch.setattr(selecting, "select", choose)
     monkeypatch.setattr(selecting, "at_own_incidence", settled)
-    found = select_by(problem, EQUAL_RATE)
+    found = select_by(problem, Criterion.EQUAL_RATE)
     assert (found.best.motor.name, found.best.incidence) == ("a", 0.4)
     assert found.best.mass == pytest.approx(0.10)
     (other,) = found.rejections

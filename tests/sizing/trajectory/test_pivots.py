@@ -52,7 +52,7 @@ def test_a_plan_stands_the_scalar_pendulum_up():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("time", "rpm"), [(0.3, 0.0), (0.4, 0.0), (0.3, -2000.0)])
+@pytest.mark.parametrize(("time", "rpm"), [(0.3, 0.0), (0.3, -2000.0)])
 def test_the_closed_form_is_near_the_smallest_wheel(time, rpm):
     """What the selection sizes for is within a tenth of what planned climbs from 36 deg need."""
     up = replace(UP, duration=time, wheel_speed=rpm * np.pi / 30.0)
