@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from anatomy import stand_of, tree_of
+from anatomy import tree_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from robots import ROBOTS, SOLO12
@@ -147,15 +147,3 @@ def test_a_box_by_hand_is_as_large_as_its_longest_side():
     robot = robot_by_hand(12.0, (0.05, 0.17, 0.20))
     assert size(robot.tree, {}, "base") == pytest.approx(0.4)
     assert trunk_top(robot.tree, "base") == pytest.approx(0.05)
-
-
-def test_solo12_is_less_than_half_a_metre_long():
-    assert (
-        0.40
-        < size(
-            tree_of("solo_description/robots/solo12"),
-            stand_of("solo_description/robots/solo12").posture,
-            "base_link",
-        )
-        < 0.50
-    )
