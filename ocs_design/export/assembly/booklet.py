@@ -210,39 +210,44 @@ def _text_pages(assembly: Assembly, texts: Sequence[Chapter]) -> list[list[Item]
     columns += [(1, each) for each in _halves(bottom + 6.0)]
     here = columns.pop(0)
     y = here[1][1]
-    blocks: list[_Block] = []
+    # Headings, and paragraphs with a number or dash before them.
+    blocks: list[tuple[str, str]] = []
     for chapter in texts:
-        blocks.append(_Block(chapter.title, heading=True))
+        blocks.append(("", chapter.title))
         blocks += [
-            _Block(text, str(number) if chapter.numbered else "–")
+            (str(number) if chapter.numbered else "–", text)
             for number, text in enumerate(chapter.texts, start=1)
         ]
-    for block, following in zip(blocks, [*blocks[1:], None], strict=True):
-        width = here[1][2] - here[1][0]
-        lines = block.lines(width)
+    for (number, text), (_, following) in zip(blocks, [*blocks[1:], ("", "")], strict=True):
+        lines = _lines(number, text, here)
         need = _LEADING * len(lines)
-        if block.heading and following is not None:
+        if not number:
             # No heading stands alone at the end of a column.
-            need += _LEADING * len(following.lines(width)) + 2.0 * _AFTER
+            need += _LEADING * len(_lines("–", following, here)) + 2.0 * _AFTER
         if y + need - _LEADING > here[1][3]:
             if not columns:
                 columns = [(len(pages), each) for each in _halves(TOP + 15.0)]
                 pages.append([])
             here = columns.pop(0)
             y = here[1][1]
-            lines = block.lines(here[1][2] - here[1][0])
-        if block.heading and y > here[1][1]:
+            lines = _lines(number, text, here)
+        page, (left, top, *_) = here
+        if number:
+            pages[page].append(Text((left, y), number, _TEXT))
+            left += _NUMBER
+        elif y > top:
             y += _AFTER
-        left = here[1][0]
-        height = _HEADING if block.heading else _TEXT
-        if block.number:
-            pages[here[0]].append(Text((left, y), block.number, _TEXT))
-        indent = _NUMBER if block.number else 0.0
         for line in lines:
-            pages[here[0]].append(Text((left + indent, y), line, height))
+            pages[page].append(Text((left, y), line, _TEXT if number else _HEADING))
             y += _LEADING
         y += _AFTER
     return pages
+
+
+def _lines(number: str, text: str, column: tuple[int, Box]) -> list[str]:
+    """Lines of a paragraph in a column; of a heading, which has no number, the one that it is."""
+    left, _, right, _ = column[1]
+    return wrapped(text, right - left - _NUMBER, _TEXT) if number else [text]
 
 
 def _halves(top: float) -> list[Box]:
@@ -252,21 +257,6 @@ def _halves(top: float) -> list[Box]:
         (LEFT + _INSET, top, middle - _GUTTER / 2.0, BOTTOM - 3.0),
         (middle + _GUTTER / 2.0, top, RIGHT - _INSET, BOTTOM - 3.0),
     ]
-
-
-@dataclass(frozen=True)
-class _Block:
-    """A heading or a paragraph, with the number or dash before it."""
-
-    text: str
-    number: str = ""
-    heading: bool = False
-
-    def lines(self, width: float) -> list[str]:
-        """Lines in a column of that width [mm]."""
-        if self.heading:
-            return [self.text]
-        return wrapped(self.text, width - (_NUMBER if self.number else 0.0), _TEXT)
 
 
 def _scale(what: str, scale: Scale, box: Box) -> Iterator[Item]:

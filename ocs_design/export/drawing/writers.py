@@ -1,10 +1,11 @@
 """Writers of a sheet: SVG and PDF, which show the same, each with the same bytes every time."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from io import BytesIO
 from xml.sax.saxutils import escape
 
 from reportlab.pdfgen.canvas import Canvas
+from reportlab.pdfgen.pathobject import PDFPathObject
 
 from ocs_design.export.drawing.sheet import (
     FONT,
@@ -16,6 +17,7 @@ from ocs_design.export.drawing.sheet import (
     Item,
     Line,
     Pen,
+    Point,
     Polyline,
     Text,
     printable,
@@ -52,22 +54,15 @@ def _draw(canvas: Canvas, item: Item) -> None:
         case Line((x1, y1), (x2, y2), pen):
             _take(canvas, pen)
             canvas.line(x1, HEIGHT - y1, x2, HEIGHT - y2)
-        case Polyline(((x, y), *others), pen):
+        case Polyline(points, pen):
             _take(canvas, pen)
-            path = canvas.beginPath()
-            path.moveTo(x, HEIGHT - y)
-            for x, y in others:
-                path.lineTo(x, HEIGHT - y)
-            canvas.drawPath(path)
+            canvas.drawPath(_path(canvas, points))
         case Circle((x, y), radius, pen):
             _take(canvas, pen)
             canvas.circle(x, HEIGHT - y, radius)
-        case Area(((x, y), *others), white):
+        case Area(corners, white):
             canvas.setFillGray(1.0 if white else 0.0)
-            path = canvas.beginPath()
-            path.moveTo(x, HEIGHT - y)
-            for x, y in others:
-                path.lineTo(x, HEIGHT - y)
+            path = _path(canvas, corners)
             path.close()
             canvas.drawPath(path, stroke=0, fill=1)
             canvas.setFillGray(0.0)
@@ -79,6 +74,15 @@ def _draw(canvas: Canvas, item: Item) -> None:
             text.setTextTransform(*turn, x, HEIGHT - y)
             text.textOut(item.text)
             canvas.drawText(text)
+
+
+def _path(canvas: Canvas, points: Sequence[Point]) -> PDFPathObject:
+    (x, y), *others = points
+    path = canvas.beginPath()
+    path.moveTo(x, HEIGHT - y)
+    for x, y in others:
+        path.lineTo(x, HEIGHT - y)
+    return path
 
 
 def _take(canvas: Canvas, pen: Pen) -> None:

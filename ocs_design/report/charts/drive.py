@@ -1,7 +1,6 @@
 """The torque-speed plane of the drive, with the maneuvers drawn into it."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,28 +13,14 @@ from ocs_design.report.story import RecordedFlight
 _SAMPLES = 121
 
 
-@dataclass(frozen=True)
-class _Plane:
-    """Limits of a drive at its wheel; infinite where it has none [N m, rad/s]."""
-
-    stall: float
-    no_load: float
-    limit: float
-
-    @classmethod
-    def of(cls, motor: Drive) -> "_Plane":
-        """Plane of a recorded motor, which has None for what is not limited."""
-        stall = np.inf if motor.stall_torque is None else motor.stall_torque
-        limit = np.inf if motor.torque_limit is None else motor.torque_limit
-        return cls(stall, motor.no_load_speed, limit)
-
-    def highest(self, speed: FloatArray, share: float) -> FloatArray:
-        """Largest torque forwards at a speed, on a share of voltage and current."""
-        if np.isinf(self.stall):
-            line = np.where(np.abs(speed) <= share * self.no_load, np.inf, 0.0)
-        else:
-            line = self.stall * (share - speed / self.no_load)
-        return np.asarray(np.minimum(share * self.limit, np.maximum(line, 0.0)))
+def _highest(motor: Drive, speed: FloatArray, share: float) -> FloatArray:
+    """Largest torque at the wheel forwards at a speed, on a share of voltage and current [N m]."""
+    if motor.stall_torque is None:
+        line = np.where(np.abs(speed) <= share * motor.no_load_speed, np.inf, 0.0)
+    else:
+        line = motor.stall_torque * (share - speed / motor.no_load_speed)
+    limit = np.inf if motor.torque_limit is None else share * motor.torque_limit
+    return np.asarray(np.minimum(limit, np.maximum(line, 0.0)))
 
 
 def drive_charts(motor: Drive, flights: Sequence[RecordedFlight]) -> Iterator[Chart]:
@@ -43,7 +28,6 @@ def drive_charts(motor: Drive, flights: Sequence[RecordedFlight]) -> Iterator[Ch
     driven = [flight for flight in flights if flight.ocs]
     if not driven:
         return
-    plane = _Plane.of(motor)
     # The path of each wheel up to where it is judged; what follows is no part of the maneuver.
     paths = [
         Line(
@@ -58,17 +42,18 @@ def drive_charts(motor: Drive, flights: Sequence[RecordedFlight]) -> Iterator[Ch
     ]
     reach = max(float(np.nanmax(np.abs(path.x))) for path in paths)
     torque = max(float(np.nanmax(np.abs(path.y))) for path in paths)
-    widest = max(reach, in_unit(min(plane.no_load, 3.0 * np.pi / 30.0 * reach), "rpm"))
-    tallest = 1.15 * max(torque, plane.limit if np.isfinite(plane.limit) else 0.0) or 1.0
+    widest = max(reach, in_unit(min(motor.no_load_speed, 3.0 * np.pi / 30.0 * reach), "rpm"))
+    tallest = 1.15 * max(torque, motor.torque_limit or 0.0) or 1.0
     fastest = np.inf if motor.speed_max is None else in_unit(motor.speed_max, "rpm")
     top = min(widest, fastest)
     marks: list[Mark] = []
     # Whole range of the drive, and the edge of what the design may use.
     speed_rpm = np.linspace(-top, top, _SAMPLES)
     speed = speed_rpm * np.pi / 30.0
-    for share in (1.0, RESERVE) if np.isfinite(min(plane.stall, plane.limit)) else ():
-        high = np.minimum(plane.highest(speed, share), 2.0 * tallest)
-        low = -np.minimum(plane.highest(-speed, share), 2.0 * tallest)
+    limited = motor.stall_torque is not None or motor.torque_limit is not None
+    for share in (1.0, RESERVE) if limited else ():
+        high = np.minimum(_highest(motor, speed, share), 2.0 * tallest)
+        low = -np.minimum(_highest(motor, -speed, share), 2.0 * tallest)
         x = np.concatenate([speed_rpm, speed_rpm[::-1], speed_rpm[:1]])
         y = np.concatenate([high, low[::-1], high[:1]])
         if share == 1.0:
