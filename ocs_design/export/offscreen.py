@@ -8,10 +8,9 @@ It runs in a process of its own: where OpenGL does not work, it may end the proc
 """
 
 import sys
-from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import mujoco
 import numpy as np
@@ -58,15 +57,8 @@ Box: TypeAlias = tuple[FloatArray, FloatArray]
 """Lower and upper corner [m]."""
 
 
-@dataclass(frozen=True)
-class View:
-    """Direction of a camera, as MuJoCo counts [deg].
-
-    Attributes:
-        azimuth: of the direction, from x towards y.
-        elevation: of the direction over the horizon.
-        perspective: or parallel rays.
-    """
+class View(NamedTuple):
+    """Direction of a camera, as MuJoCo counts [deg]: from x towards y, and over the horizon."""
 
     azimuth: float
     elevation: float

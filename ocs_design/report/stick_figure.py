@@ -1,7 +1,6 @@
 """What was recognised of a robot, drawn from three sides: an SVG of lines, boxes and words."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from html import escape
 
 import numpy as np
@@ -24,32 +23,6 @@ _VIEWS = (
     ("from above", (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
 )
 """Name, direction to the right and direction up the page of each view, in B."""
-
-
-@dataclass(frozen=True, eq=False)
-class _View:
-    """A projection onto the page.
-
-    Attributes:
-        name: of the side. right, up: directions on the page, in B.
-        left: of the view's square on the page [px].
-        middle: of the robot, in B [m]. scale: [px/m].
-    """
-
-    name: str
-    right: FloatArray
-    up: FloatArray
-    left: float
-    middle: FloatArray
-    scale: float
-
-    def place(self, point: FloatArray) -> tuple[float, float]:
-        """A point of B on the page [px]."""
-        away = point - self.middle
-        return (
-            self.left + 0.5 * _SIDE + self.scale * float(self.right @ away),
-            _EDGE + 0.5 * _SIDE - self.scale * float(self.up @ away),
-        )
 
 
 def stick_figure(robot: Robot, legs: Sequence[Leg], words: Sequence[str]) -> str:
@@ -77,20 +50,14 @@ def stick_figure(robot: Robot, legs: Sequence[Leg], words: Sequence[str]) -> str
     points = np.array([*(place.position for place in places), *feet.values(), *corners])
     low, high = points.min(axis=0), points.max(axis=0)
     scale = (_SIDE - 2.0 * _EDGE) / max(float((high - low).max()), 1e-9)
-    views = [
-        _View(
-            name,
-            np.array(right),
-            np.array(up),
-            _EDGE + i * (_SIDE + _EDGE),
-            0.5 * (low + high),
-            scale,
-        )
-        for i, (name, right, up) in enumerate(_VIEWS)
-    ]
-    width = _EDGE + len(views) * (_SIDE + _EDGE)
+    width = _EDGE + len(_VIEWS) * (_SIDE + _EDGE)
     height = 2.0 * _EDGE + _SIDE + 18.0 * len(words)
-    marks = [mark for view in views for mark in _drawn(view, robot, legs, feet, corners)]
+    marks: list[str] = []
+    for index, (name, right, up) in enumerate(_VIEWS):
+        left, axes = _EDGE + index * (_SIDE + _EDGE), scale * np.array([right, -np.array(up)])
+        marks.append(_text(left, _EDGE - 10.0, name, size=14))
+        origin = np.array([left, _EDGE]) + 0.5 * _SIDE - axes @ (0.5 * (low + high))
+        marks += _drawn(origin, axes, robot, legs, feet=feet, corners=corners)
     for row, line in enumerate(words):
         marks.append(_text(_EDGE, 2.0 * _EDGE + _SIDE + 18.0 * row, line, size=13))
     return (
@@ -102,17 +69,26 @@ def stick_figure(robot: Robot, legs: Sequence[Leg], words: Sequence[str]) -> str
 
 
 def _drawn(
-    view: _View,
+    origin: FloatArray,
+    axes: FloatArray,
     robot: Robot,
     legs: Sequence[Leg],
+    *,
     feet: Mapping[str, FloatArray],
     corners: Sequence[FloatArray],
 ) -> Iterator[str]:
-    """One view; `feet` by the names of their legs, `corners` of the box around the trunk."""
+    """One view: the robot in B on the page.
+
+    Args:
+        origin: of B on the page [px].
+        axes: of B there, to the right and down, shape (2, 3) [px/m].
+        robot, legs: see `stick_figure`.
+        feet: by the names of their legs [m]. corners: of the box around the trunk [m].
+    """
     places = robot.tree.placements_from(robot.trunk, robot.posture)
-    yield _text(view.left, _EDGE - 10.0, view.name, size=14)
+    joints = [origin + axes @ place.position for place in places]
     if corners:
-        spots = np.array([view.place(corner) for corner in corners])
+        spots = origin + np.array(corners) @ axes.T
         (x, y), (far, low) = spots.min(axis=0), spots.max(axis=0)
         yield (
             f'<rect x="{x:.1f}" y="{y:.1f}" width="{far - x:.1f}" height="{low - y:.1f}" '
@@ -126,13 +102,12 @@ def _drawn(
             place = robot.tree.bodies[place].parent
     for index, body in enumerate(robot.tree.bodies):
         if body.parent >= 0:
-            ends = view.place(places[body.parent].position), view.place(places[index].position)
-            yield _line(*ends, color.get(index, "#999999"), 3.0 if index in color else 1.5)
+            width = 3.0 if index in color else 1.5
+            yield _line(joints[body.parent], joints[index], color.get(index, "#999999"), width)
     for number, leg in enumerate(legs):
-        ankle, foot = view.place(places[leg.body].position), view.place(feet[leg.name])
-        paint = _COLORS[number % len(_COLORS)]
-        radius = max(3.5, view.scale * leg.foot_radius)
-        yield _line(ankle, foot, paint, 3.0)
+        foot, paint = origin + axes @ feet[leg.name], _COLORS[number % len(_COLORS)]
+        radius = max(3.5, float(np.abs(axes).max()) * leg.foot_radius)
+        yield _line(joints[leg.body], foot, paint, 3.0)
         yield (
             f'<circle cx="{foot[0]:.1f}" cy="{foot[1]:.1f}" r="{radius:.1f}" fill="{paint}" '
             f'fill-opacity="0.5" stroke="{paint}"/>'
@@ -141,21 +116,18 @@ def _drawn(
         yield _text(foot[0] + 5.0, foot[1] + 12.0 * (1 + number % 2), leg.name, size=10, fill=paint)
     # Arrows from the trunk's origin: forward, left and up.
     up = up_axis(robot.tree, robot.trunk, legs) if legs else np.array([0.0, 0.0, 1.0])
-    directions = {"forward": np.eye(3)[0], "left": np.eye(3)[1], "up": up}
-    start = view.place(np.zeros(3))
-    for name, axis in directions.items():
-        along = np.array([view.right @ axis, -(view.up @ axis)])
+    for name, axis in {"forward": np.eye(3)[0], "left": np.eye(3)[1], "up": up}.items():
+        along = axes @ axis / np.abs(axes).max()
         if np.linalg.norm(along) < 0.5:
             continue
-        end = np.array(start) + 46.0 * along
-        yield _line(start, (end[0], end[1]), "black", 1.5)
-        side = np.array([-along[1], along[0]])
+        end, side = origin + 46.0 * along, np.array([-along[1], along[0]])
+        yield _line(origin, end, "black", 1.5)
         tip = [end, end - 8.0 * along + 4.0 * side, end - 8.0 * along - 4.0 * side]
         yield f'<polygon points="{" ".join(f"{x:.1f},{y:.1f}" for x, y in tip)}"/>'
         yield _text(end[0] + 4.0, end[1] - 4.0, name, size=11)
 
 
-def _line(start: tuple[float, float], end: tuple[float, float], color: str, width: float) -> str:
+def _line(start: FloatArray, end: FloatArray, color: str, width: float) -> str:
     return (
         f'<line x1="{start[0]:.1f}" y1="{start[1]:.1f}" x2="{end[0]:.1f}" y2="{end[1]:.1f}" '
         f'stroke="{color}" stroke-width="{width}" stroke-linecap="round"/>'

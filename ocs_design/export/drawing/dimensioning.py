@@ -1,7 +1,7 @@
 """Dimensions and leaders of a drawing (ISO 129-1); none covers another."""
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 from ocs_design.export.drawing.sheet import OUTLINE, Anchor, Area, Item, Line, Pen, Point, Text
 
@@ -86,29 +86,13 @@ def extension(x: float, start: float, end: float) -> Line:
     return Line((x, start + way * OVERHANG / 2.0), (x, end + way * OVERHANG))
 
 
-@dataclass(frozen=True)
-class Callout:
-    """Text of a leader that points to a circle.
-
-    Attributes:
-        lines: of text, the first above the leader's shelf, the others below.
-        center, radius: of the circle on paper [mm].
-    """
-
-    lines: tuple[str, ...]
-    center: Point
-    radius: float
-
-
-def leader(callout: Callout, shelf: Point) -> list[Item]:
-    """Arrow toward the circle's centre, from a shelf under its first line of text."""
-    (x, y), (cx, cy) = shelf, callout.center
+def leader(lines: Sequence[str], center: Point, radius: float, shelf: Point) -> list[Item]:
+    """Arrow toward the centre of a circle [mm], from a shelf under the first line of its text."""
+    (x, y), (cx, cy) = shelf, center
     distance = math.hypot(x - cx, y - cy)
     u, v = (cx - x) / distance, (cy - y) / distance
-    tip = (cx - callout.radius * u, cy - callout.radius * v)
-    texts = [
-        Text((x + 1.0, y - RAISE + row * LEADING), line) for row, line in enumerate(callout.lines)
-    ]
+    tip = (cx - radius * u, cy - radius * v)
+    texts = [Text((x + 1.0, y - RAISE + row * LEADING), line) for row, line in enumerate(lines)]
     end = x + 2.0 + max(text.width for text in texts)
     return [Line(tip, shelf), Line(shelf, (end, y)), arrow(tip, (u, v)), *texts]
 

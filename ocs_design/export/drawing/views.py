@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from ocs_design.export.drawing.dimensioning import (
-    Callout,
     extension,
     fits_inside,
     leader,
@@ -150,7 +149,7 @@ def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
         middle = (rim.height / 2.0 - aside, rim.outer_radius - aside)
         (corner,) = _placed([middle], layout, _BELOW)
         shelf = (corner[0] + CHAMFER_ASIDE, y + edge + BELOW)
-        items += leader(Callout((f"{chamfer} × 45°",), corner, 0.0), shelf)
+        items += leader([f"{chamfer} × 45°"], corner, 0.0, shelf)
     return [*items, Text((x, y - edge - ABOVE - 7.0), "A–A", 5.0, Anchor.MIDDLE)]
 
 
@@ -343,23 +342,23 @@ def _leaders(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
     callouts = []
     if hub is not None and hub.bore_radius > 0.0:
         bore = fitted_bore(hub.bore_radius)
-        callouts.append(Callout((bore,), layout.front, layout.scale(hub.bore_radius)))
+        callouts.append((bore, layout.scale(hub.bore_radius)))
     for label, radius, _ in diameters(wheel):
         on_paper = layout.scale(radius)
         if not fits_inside(label, 2.0 * on_paper):
-            callouts.append(Callout((label,), layout.front, on_paper))
+            callouts.append((label, on_paper))
     direction = BORE_LEADERS[0]
     if hub is not None and hub.bolts is not None:
         # Farthest from all holes, so that the leader crosses none.
         bolts = hole_angles(hub.bolts)
         direction = min(BORE_LEADERS, key=lambda each: max(math.cos(each - hole) for hole in bolts))
     first = (edge + SHELF) * math.tan(direction)
-    for row, callout in enumerate(callouts):
-        yield from leader(callout, (shelf, y - first - ROW * row))
+    for row, (label, radius) in enumerate(callouts):
+        yield from leader([label], layout.front, radius, (shelf, y - first - ROW * row))
     for ring, below, aim in zip(_rings(wheel), HOLE_ROWS, HOLE_LEADERS, strict=True):
         if ring is not None:
             angles = hole_angles(ring)
             nearness = [math.cos(each - aim) for each in angles]
             angle = angles[nearness.index(max(nearness))]
-            at = Callout(holes(ring), _hole(ring, angle, layout), layout.scale(ring.hole_radius))
-            yield from leader(at, (shelf, y + below))
+            center, radius = _hole(ring, angle, layout), layout.scale(ring.hole_radius)
+            yield from leader(holes(ring), center, radius, (shelf, y + below))
