@@ -6,8 +6,7 @@ SIGGRAPH 2000).
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from itertools import chain
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,8 +37,18 @@ def decimated(bodies: Sequence[ShownBody], most_triangles: int) -> tuple[ShownBo
     extent = max((float(np.ptp(each, axis=0).max()) for each in points), default=0.0)
     if extent == 0.0:
         return tuple(bodies)
-    cell, boxed = FINEST * extent, [_Boxed.of(body) for body in bodies]
-    while (count := sum(each.count(cell) for each in chain(*boxed))) > most_triangles:
+    boxed = [
+        (_grain(body), _offsets(surface), np.ascontiguousarray(surface.faces.T))
+        for body in bodies
+        for surface in body.surfaces
+    ]
+    cell = FINEST * extent
+
+    def left() -> int:
+        """Number of triangles that are left."""
+        return sum(_count(faces, _cells(places, grain * cell)) for grain, places, faces in boxed)
+
+    while (count := left()) > most_triangles:
         # A surface takes as many cells as it has area.
         cell *= max(_LEAST_GROWTH, float(np.sqrt(count / most_triangles)))
     made = []
@@ -54,47 +63,28 @@ def _grain(body: ShownBody) -> float:
     return DEVICE_GRAIN if body.name.startswith(PREFIX) else 1.0
 
 
-@dataclass(frozen=True, eq=False)
-class _Boxed:
-    """A surface in its box, to be merged again and again.
+def _offsets(surface: Surface) -> list[FloatArray]:
+    """Vertices from the lowest corner of the surface's box [m], columns of shape (n,)."""
+    return [column - column.min() for column in surface.vertices.T]
 
-    Attributes:
-        offsets: of the vertices from the box's lowest corner [m], columns of shape (n,).
-        faces: columns of shape (m,). grain: see `_grain`.
-    """
 
-    offsets: tuple[FloatArray, ...]
-    faces: tuple[NDArray[np.int64], ...]
-    grain: float
+def _cells(offsets: Sequence[FloatArray], cell: float) -> NDArray[np.int64]:
+    """A number below 2^21 for each vertex, the same for those in one cell."""
+    x, y, z = (np.floor(column / cell).astype(np.int64) for column in offsets)
+    number = (x * (int(y.max()) + 1) + y) * (int(z.max()) + 1) + z
+    return number if number.max() < 1 << _BITS else _numbered(number)
 
-    @classmethod
-    def of(cls, body: ShownBody) -> "tuple[_Boxed, ...]":
-        """All surfaces of a body, in its box."""
-        return tuple(cls.around(surface, _grain(body)) for surface in body.surfaces)
 
-    @classmethod
-    def around(cls, surface: Surface, grain: float = 1.0) -> "_Boxed":
-        """One surface in its box."""
-        offsets = tuple(column - column.min() for column in surface.vertices.T)
-        return cls(offsets, tuple(np.ascontiguousarray(surface.faces.T)), grain)
-
-    def cells(self, cell: float) -> NDArray[np.int64]:
-        """A number below 2^21 for each vertex, the same for those in one cell."""
-        x, y, z = (np.floor(column / cell).astype(np.int64) for column in self.offsets)
-        number = (x * (int(y.max()) + 1) + y) * (int(z.max()) + 1) + z
-        return number if number.max() < 1 << _BITS else _numbered(number)
-
-    def count(self, cell: float) -> int:
-        """Number of triangles that are left."""
-        cells = self.cells(self.grain * cell)
-        _, key = _keyed(*(cells[column] for column in self.faces))
-        key.sort()
-        return int(np.count_nonzero(np.diff(key)) + bool(key.size))
+def _count(faces: NDArray[np.int64], cells: NDArray[np.int64]) -> int:
+    """Number of triangles that are left, whose corners are in three cells."""
+    _, key = _keyed(*(cells[column] for column in faces))
+    key.sort()
+    return int(np.count_nonzero(np.diff(key)) + bool(key.size))
 
 
 def clustered(surface: Surface, cell: float) -> Surface:
     """A surface whose vertices in one cell [m] are one; triangles that shrink to nothing go."""
-    cluster = _numbered(_Boxed.around(surface).cells(cell))
+    cluster = _numbered(_cells(_offsets(surface), cell))
     # Faces of three corners, each once.
     moved = cluster[surface.faces]
     kept, key = _keyed(*moved.T)
