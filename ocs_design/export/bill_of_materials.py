@@ -21,7 +21,7 @@ from ocs_design.export.device_parts import (
     printed_parts,
     ring_fixture,
 )
-from ocs_design.export.electrics import Electrics
+from ocs_design.export.electrics import battery, controllers
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.carrier_plate import (
     mast_part,
@@ -193,15 +193,14 @@ def _screw_row(held: Fastening, modules: int) -> BillRow:
 
 def _unweighed_rows(device: Device, margins: Sequence[MarginRecord]) -> Iterator[BillRow]:
     """Controllers and battery, which are not chosen, and what is used up in the assembly."""
-    ratings, left_out = Electrics(device, margins), "of your choice; not in the device's mass"
-    controller, battery = ratings.controller(), ratings.battery()
+    controller, left_out = controllers(device.motor), "of your choice; not in the device's mass"
     if controller:
         mass = device.motor.controller_mass
         counted = "of your choice; mass by a rule over its current" if mass else left_out
         remark = f"{controller}; {counted}"
         yield BillRow("motor controller", len(device.modules), "", "", mass, remark)
-    if battery:
-        yield BillRow("battery", 1, "", "", 0.0, f"{battery}; {left_out}")
+    if gives := battery(device.motor, margins):
+        yield BillRow("battery", 1, "", "", 0.0, f"{gives}; {left_out}")
         braking = "switches on above the full battery, below the controllers' limit"
         yield BillRow("brake resistor with switch", 1, "", "", 0.0, f"{braking}; {left_out}")
     # Wheels alone are not put together.

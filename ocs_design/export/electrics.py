@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import TorqueConstantConvention, six_step_current
@@ -15,102 +14,91 @@ VOLTAGE_RESERVE = 1.2
 voltage, and braking wheels lift it by the current through its resistance."""
 
 
-@dataclass(frozen=True, eq=False)
-class Electrics:
-    """Ratings from the motor's limits and, where flights were recorded, from what they asked.
+def controllers(motor: Drive) -> str:
+    """Rating of each controller; empty where it is not known."""
+    current, voltage = motor_current(motor), motor.bus_voltage
+    if current is None or voltage is None:
+        return ""
+    # A motor takes more where its k_t falls off.
+    more = "more than " if _saturates(motor) else ""
+    amplitude, effective = (
+        current / six_step_current(1.0, kind)
+        for kind in (TorqueConstantConvention.FOC, TorqueConstantConvention.FOC_RMS)
+    )
+    return (
+        f"at least {more}{_up(current)} A through two lines (six-step), which field-oriented "
+        f"control counts as {_up(amplitude)} A of amplitude or {_up(effective)} A rms of a "
+        f"phase; rated for {_up(VOLTAGE_RESERVE * voltage)} V or more"
+    )
 
-    Attributes:
-        device: whose motors are driven.
-        margins: of the design; empty: not known.
-    """
 
-    device: Device
-    margins: Sequence[MarginRecord]
-
-    def controller(self) -> str:
-        """Rating of each controller; empty where it is not known."""
-        motor = self.device.motor
-        current, voltage = motor_current(motor), motor.bus_voltage
-        if current is None or voltage is None:
-            return ""
-        # A motor takes more where its k_t falls off.
-        more = "more than " if _saturates(motor) else ""
-        amplitude, effective = (
-            current / six_step_current(1.0, kind)
-            for kind in (TorqueConstantConvention.FOC, TorqueConstantConvention.FOC_RMS)
+def battery(motor: Drive, margins: Sequence[MarginRecord]) -> str:
+    """What the battery gives and takes back; empty where nothing of it is known."""
+    voltage, parts = motor.bus_voltage, []
+    for does, way in (("gives", "drawn"), ("takes back", "fed back")):
+        # What is drawn may be recorded as all that there is.
+        whole = ("",) if way == "drawn" else ()
+        current, power = (
+            demand_of(margins, *(f"bus {what}{end}" for end in (*whole, f", {way}")))
+            for what in ("current", "power")
         )
-        return (
-            f"at least {more}{_up(current)} A through two lines (six-step), which field-oriented "
-            f"control counts as {_up(amplitude)} A of amplitude or {_up(effective)} A rms of a "
-            f"phase; rated for {_up(VOLTAGE_RESERVE * voltage)} V or more"
-        )
+        if current is not None:
+            power = power or (None if voltage is None else current * voltage)
+            watts = "" if power is None else f" ({_up(power)} W)"
+            parts.append(f"{does} at least {_up(current)} A{watts}")
+    at = "" if voltage is None else f" at {voltage:g} V"
+    energies = [
+        f"{significant(energy, 3)} J {way}"
+        for way, name in (("out", "energy from the bus"), ("back", "energy fed back"))
+        if (energy := demand_of(margins, name)) is not None
+    ]
+    most = f"; a maneuver takes at most {' and '.join(energies)}" if energies else ""
+    return f"{' and '.join(parts)}{at}{most}" if parts else ""
 
-    def battery(self) -> str:
-        """What the battery gives and takes back; empty where nothing of it is known."""
-        voltage, parts = self.device.motor.bus_voltage, []
-        for does, way in (("gives", "drawn"), ("takes back", "fed back")):
-            # What is drawn may be recorded as all that there is.
-            whole = ("",) if way == "drawn" else ()
-            current, power = (
-                demand_of(self.margins, *(f"bus {what}{end}" for end in (*whole, f", {way}")))
-                for what in ("current", "power")
-            )
-            if current is not None:
-                power = power or (None if voltage is None else current * voltage)
-                watts = "" if power is None else f" ({_up(power)} W)"
-                parts.append(f"{does} at least {_up(current)} A{watts}")
-        at = "" if voltage is None else f" at {voltage:g} V"
-        energies = [
-            f"{significant(energy, 3)} J {way}"
-            for way, name in (("out", "energy from the bus"), ("back", "energy fed back"))
-            if (energy := demand_of(self.margins, name)) is not None
-        ]
-        most = f"; a maneuver takes at most {' and '.join(energies)}" if energies else ""
-        return f"{' and '.join(parts)}{at}{most}" if parts else ""
 
-    def sentences(self) -> Iterator[str]:
-        """What to tell a builder."""
-        rating, battery = self.controller(), self.battery()
-        motor, supply, count = self.device.motor, self.device.supply, len(self.device.modules)
-        counted = "are" if motor.controller_mass > 0.0 else "are not either"
-        if motor.bus_voltage is None:
-            return
+def wiring(device: Device, margins: Sequence[MarginRecord]) -> Iterator[str]:
+    """What to tell a builder."""
+    motor, supply, count = device.motor, device.supply, len(device.modules)
+    rating, gives = controllers(motor), battery(motor, margins)
+    counted = "are" if motor.controller_mass > 0.0 else "are not either"
+    if motor.bus_voltage is None:
+        return
+    yield (
+        f"Battery ({motor.bus_voltage:g} V) - fuse and switch - one bus for all - "
+        f"{count} controllers, each next to its motor - three wires to "
+        "each motor. Keep the bus short: its inductance adds to every spike."
+    )
+    if rating:
+        yield f"Controllers, {count}: {rating}. They take torque (current) commands."
+    yield (
+        "design.json has the wheel law's gains and period (`control`); validation/*.csv has "
+        "torque and speed of each wheel over time, to hold the first flights against."
+    )
+    yield (
+        "Torque is asked for from standstill and through zero speed: each motor needs a sensor "
+        "of its rotor's angle (an encoder at its back, or Hall sensors), or a controller that "
+        "holds torque at low speed without one. No part here holds a sensor: see that the "
+        "motor has one, or fit it before the motor is screwed in. Sensors and cables are not "
+        f"in the device's mass, controllers {counted}."
+    )
+    if gives:
+        yield f"The battery, for all motors together, {gives}. Cables and fuse stand as much."
+    limits = []
+    if supply is not None and math.isfinite(supply.current_max):
+        limits.append(f"{significant(supply.current_max, 3)} A")
+    if supply is not None and math.isfinite(supply.power_max):
+        limits.append(f"{significant(supply.power_max, 4)} W")
+    if limits:
         yield (
-            f"Battery ({motor.bus_voltage:g} V) - fuse and switch - one bus for all - "
-            f"{count} controllers, each next to its motor - three wires to "
-            "each motor. Keep the bus short: its inductance adds to every spike."
+            f"The design keeps to a supply of {' and '.join(limits)}, drawn or fed back: set "
+            "the controllers' limits to no less, or the wheels brake too late."
         )
-        if rating:
-            yield f"Controllers, {count}: {rating}. They take torque (current) commands."
-        yield (
-            "design.json has the wheel law's gains and period (`control`); validation/*.csv has "
-            "torque and speed of each wheel over time, to hold the first flights against."
-        )
-        yield (
-            "Torque is asked for from standstill and through zero speed: each motor needs a sensor "
-            "of its rotor's angle (an encoder at its back, or Hall sensors), or a controller that "
-            "holds torque at low speed without one. No part here holds a sensor: see that the "
-            "motor has one, or fit it before the motor is screwed in. Sensors and cables are not "
-            f"in the device's mass, controllers {counted}."
-        )
-        if battery:
-            yield f"The battery, for all motors together, {battery}. Cables and fuse stand as much."
-        limits = []
-        if supply is not None and math.isfinite(supply.current_max):
-            limits.append(f"{significant(supply.current_max, 3)} A")
-        if supply is not None and math.isfinite(supply.power_max):
-            limits.append(f"{significant(supply.power_max, 4)} W")
-        if limits:
-            yield (
-                f"The design keeps to a supply of {' and '.join(limits)}, drawn or fed back: set "
-                "the controllers' limits to no less, or the wheels brake too late."
-            )
-        yield (
-            "Braking wheels feed current back. A battery takes it unless it is full or its "
-            "protection opens; a bench supply does not, and the voltage then rises until something "
-            "breaks. Put a brake resistor with its switch on the bus, set below the controllers' "
-            "voltage limit, and never let the battery's protection cut the bus while wheels turn."
-        )
+    yield (
+        "Braking wheels feed current back. A battery takes it unless it is full or its "
+        "protection opens; a bench supply does not, and the voltage then rises until something "
+        "breaks. Put a brake resistor with its switch on the bus, set below the controllers' "
+        "voltage limit, and never let the battery's protection cut the bus while wheels turn."
+    )
 
 
 def demand_of(margins: Sequence[MarginRecord], *names: str) -> float | None:

@@ -37,7 +37,7 @@ from ocs_design.export.drawing.sheet import (
 from ocs_design.export.drawing.title_block import frame
 from ocs_design.export.drawing.wheel_sheet import device_hash
 from ocs_design.export.drawing.writers import pdf_of_pages, svg_text
-from ocs_design.export.electrics import Electrics
+from ocs_design.export.electrics import wiring
 from ocs_design.export.formats import Notes, Subject
 
 LEFT, TOP, RIGHT, BOTTOM = FRAME_BOX
@@ -379,7 +379,7 @@ def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
         Chapter("Steps, for each module", tuple(module_steps(assembly)), numbered=True),
         Chapter("Balance", tuple(balance(assembly))),
         Chapter("Spin test, before anything goes on the robot", tuple(spin_test(assembly)), True),
-        Chapter("Wiring", tuple(Electrics(assembly.device, assembly.margins).sentences())),
+        Chapter("Wiring", tuple(wiring(assembly.device, assembly.margins))),
         Chapter("Safety", tuple(safety(assembly))),
     )
     return tuple(chapter for chapter in whole if chapter.texts)
