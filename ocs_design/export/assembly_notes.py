@@ -178,11 +178,10 @@ def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
         )
         yield (
             f"printed of PETG the feet bear {bears / STANDARD_GRAVITY:.2g} g of {module:.2g} kg "
-            f"along the wheel's axis, and not {SHOCK / STANDARD_GRAVITY:.0f}"
-            f"{sway}: where landings are harder, mill them of 6061-T6 to the same file, "
-            f"at least {stronger:.0f} times as strong, "
-            f"{stiffer:.2g} times as high a frequency and "
-            f"{1e3 * heavier:.0f} g heavier each"
+            f"along the wheel's axis, and not {SHOCK / STANDARD_GRAVITY:.0f}{sway}: where landings "
+            f"are harder, mill them of 6061-T6 to the same file, at least {stronger:.0f} times as "
+            f"strong, {stiffer:.2g} times as high a frequency and {1e3 * heavier:.0f} g heavier "
+            "each"
         )
     if hold.heads_bear < SHOCK:
         yield (

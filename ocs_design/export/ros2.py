@@ -139,9 +139,8 @@ def _controllers(robot: Robot, wheels: Iterable[str]) -> dict[str, str]:
         kind = "joint_trajectory_controller/JointTrajectoryController"
         manager = f"    joint_controller:\n      type: {kind}\n"
         joints = (
-            "\njoint_controller:\n  ros__parameters:\n    joints:\n"
-            f"{_listed(moved)}    command_interfaces: [position]\n"
-            "    state_interfaces: [position, velocity]"
+            f"\njoint_controller:\n  ros__parameters:\n    joints:\n{_listed(moved)}    "
+            "command_interfaces: [position]\n    state_interfaces: [position, velocity]"
         )
     return {"manager": manager, "wheels": _listed(wheels), "joints": joints}
 

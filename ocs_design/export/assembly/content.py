@@ -198,9 +198,8 @@ class Assembly:
             ends = ((x + at[0], y + at[1]) for at, length in own if length == held.length)
             where = f"; those at {', '.join(places(ends))}"
         return (
-            f"{joint}: {held.count} x {held.designation}"
-            f"{self.number(name)}{found.with_washers}, {found.torque:.2g} N m, crosswise in two "
-            f"rounds; {lock}{where}."
+            f"{joint}: {held.count} x {held.designation}{self.number(name)}{found.with_washers}, "
+            f"{found.torque:.2g} N m, crosswise in two rounds; {lock}{where}."
         )
 
 

@@ -55,9 +55,8 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
     yield from _wheel_steps(assembly)
     if "guard" in assembly.numbers:
         yield (
-            f"Bond the guard ring{assembly.number('guard')} into the drum"
-            f"{assembly.number('drum')} with epoxy, down to its floor; its seam, if it has one, "
-            "is welded through."
+            f"Bond the guard ring{assembly.number('guard')} into the drum{assembly.number('drum')} "
+            "with epoxy, down to its floor; its seam, if it has one, is welded through."
         )
     if "motor" in assembly.numbers and not any(
         name.startswith("motor") for name in assembly.screws
@@ -114,8 +113,7 @@ def _wheel_steps(assembly: Assembly) -> Iterator[str]:
             hot = f", at least {hotter:.0f} K hotter than the web,"
         yield (
             f"Shrink the rim{assembly.number('rim')} on the web{assembly.number('hub')}: heat it "
-            f"in an oven{hot} until it drops on the web on a flat plate, and let both "
-            "cool."
+            f"in an oven{hot} until it drops on the web on a flat plate, and let both cool."
         )
     if not device.on_bell:
         return
@@ -210,11 +208,10 @@ def _trunk_steps(assembly: Assembly) -> Iterator[str]:
 def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterator[str]:
     """How plate, mast and sleeves are made and come on the trunk; `holes`: those for the feet."""
     cut = (
-        f"Make the plate{assembly.number('plate')} to cad/plate.pdf (`export --formats dxf` "
-        f"writes its outline for a cutter), with holes of "
-        f"{1e3 * plate.screw.clearance_hole:g} mm for the trunk's screws, and threads "
-        f"{plate.foot_thread} for the feet, which are, "
-        f"{holes}. Drill and tap the trunk"
+        f"Make the plate{assembly.number('plate')} to cad/plate.pdf (`export --formats dxf` writes "
+        f"its outline for a cutter), with holes of {1e3 * plate.screw.clearance_hole:g} mm for the "
+        f"trunk's screws, and threads {plate.foot_thread} for the feet, which are, {holes}. Drill "
+        "and tap the trunk"
     )
     if plate.mast is None:
         yield (
@@ -281,13 +278,12 @@ def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
     held, plate = found.fastening, assembly.device.plate
     into = "the threads of the plate" if plate else "threads, inserts or nuts of the trunk"
     return (
-        f"The scale's 0 is the long mark square to the wheel's axis; marks are {long / 3.0:g} "
-        f"deg apart, long ones {long:g}, and a degree is {degree:.2g} mm at their ends. Scribe "
-        "a line forward through the middle of each foot, turn the foot until it meets "
-        f"the scale at {scale}, its lid looking {looks}, and tighten {held.count} x "
-        f"{held.designation}{assembly.number(screws)}{found.with_washers}, with "
-        f"{found.torque:.2g} N m each, into {into}."
-        f"{_under_motor(assembly, found)}{_pinned(assembly)}"
+        f"The scale's 0 is the long mark square to the wheel's axis; marks are {long / 3.0:g} deg "
+        f"apart, long ones {long:g}, and a degree is {degree:.2g} mm at their ends. Scribe a line "
+        "forward through the middle of each foot, turn the foot until it meets the scale at "
+        f"{scale}, its lid looking {looks}, and tighten {held.count} x "
+        f"{held.designation}{assembly.number(screws)}{found.with_washers}, with {found.torque:.2g} "
+        f"N m each, into {into}.{_under_motor(assembly, found)}{_pinned(assembly)}"
     )
 
 

@@ -49,15 +49,14 @@ def balance(assembly: Assembly) -> Iterator[str]:
         )
     elif holes.hole_radius >= LEAST_DRILL / 2.0:
         yield (
-            "Remove mass on the heavy side with a drill of "
-            f"{2e3 * holes.hole_radius:.2g} mm, at most {1e3 * holes.depth:.2g} mm deep, in "
-            "both faces of the rim, one hole opposite the other, "
-            f"{1e3 * holes.radius:.1f} mm from the axis and {1e3 * holes.apart:.2g} mm from "
-            f"the next: so deep a pair takes {_two(1e3 * holes.mass)} g, which are "
-            f"{_two(1e6 * holes.mass * holes.radius)} g mm; half as deep, half of it. One "
-            f"half of the rim has room for {holes.count} pairs, {_two(1e6 * holes.most)} g mm: "
-            "a wheel that is off by more is made anew."
-            f"{'' if wheel.web is None else ' Nothing is taken off web and hub.'}"
+            f"Remove mass on the heavy side with a drill of {2e3 * holes.hole_radius:.2g} mm, at "
+            f"most {1e3 * holes.depth:.2g} mm deep, in both faces of the rim, one hole opposite "
+            f"the other, {1e3 * holes.radius:.1f} mm from the axis and {1e3 * holes.apart:.2g} mm "
+            f"from the next: so deep a pair takes {_two(1e3 * holes.mass)} g, which are "
+            f"{_two(1e6 * holes.mass * holes.radius)} g mm; half as deep, half of it. One half of "
+            f"the rim has room for {holes.count} pairs, {_two(1e6 * holes.most)} g mm: a wheel "
+            "that is off by more is made "
+            f"anew.{'' if wheel.web is None else ' Nothing is taken off web and hub.'}"
         )
     else:
         yield (
@@ -66,11 +65,10 @@ def balance(assembly: Assembly) -> Iterator[str]:
         )
     for mode in resonances_of(assembly.device):
         yield (
-            f"The {mode.name}'s first mode: {mode.frequency:.0f} Hz, "
-            f"{60.0 * mode.frequency:,.0f} rpm. What is left pushes with {_two(mode.force)} N; "
-            "a wheel that stays there shakes the module by "
-            f"{_two(1e6 * mode.amplitude)} µm, with {_two(mode.acceleration / 9.81)} times its "
-            f"weight ({DAMPING:.0%} damping, assumed)."
+            f"The {mode.name}'s first mode: {mode.frequency:.0f} Hz, {60.0 * mode.frequency:,.0f} "
+            f"rpm. What is left pushes with {_two(mode.force)} N; a wheel that stays there shakes "
+            f"the module by {_two(1e6 * mode.amplitude)} µm, with {_two(mode.acceleration / 9.81)} "
+            f"times its weight ({DAMPING:.0%} damping, assumed)."
         )
     yield (
         "By hand: shaft level on two blades, heavy side down; or with an accelerometer on the "
@@ -162,13 +160,12 @@ def safety(assembly: Assembly) -> Iterator[str]:
     elif "drum" in assembly.numbers:
         short = f" and its ring of {1e3 * built:.1f} mm" if built else ""
         yield (
-            f"The printed guard{short} keeps fingers out. It does not hold a burst rim: that "
-            f"would need a ring of {1e3 * steel.wall:.2g} mm of mild steel in the drum, "
+            f"The printed guard{short} keeps fingers out. It does not hold a burst rim: that would "
+            f"need a ring of {1e3 * steel.wall:.2g} mm of mild steel in the drum, "
             f"{1e3 * steel.mass:.0f} g each ({2e3 * steel.inner_radius:.1f} mm inside, "
-            f"{1e3 * steel.height:.1f} mm wide; {rule}), or by an estimate without tests "
-            f"behind it {1e3 * aluminium.wall:.2g} mm of 6061-T6, "
-            f"{1e3 * aluminium.mass:.0f} g each. `size --guard containing` builds the one of "
-            "steel in."
+            f"{1e3 * steel.height:.1f} mm wide; {rule}), or by an estimate without tests behind it "
+            f"{1e3 * aluminium.wall:.2g} mm of 6061-T6, {1e3 * aluminium.mass:.0f} g each. `size "
+            "--guard containing` builds the one of steel in."
         )
     if "cage" in assembly.numbers:
         yield (
