@@ -10,7 +10,7 @@ from ocs_design.device.device import Device
 from ocs_design.device.foot_hold import foot_hold
 from ocs_design.device.joints import DAMPING, FLOOR_SHOCK, foot_frequency, joints_of, resonances_of
 from ocs_design.device.solids import drive_solids, foot_of, motor_mount, shaft_cut
-from ocs_design.export.device_parts import foot_holes, wheel_geometry
+from ocs_design.export.device_parts import foot_holes, places, trunk_holes, wheel_geometry
 from ocs_design.export.drawing.wheel import BROKEN_EDGE, lost_by_breaking
 from ocs_design.parts.bell import BELL_SHARE
 from ocs_design.parts.carrier_plate import DENSITY as PLATE_DENSITY
@@ -251,13 +251,7 @@ def _trunk_holes(device: Device) -> str:
             f"{format_quantity(2.0 * foot_of(device).slot_radius, 'mm', digits=3)}; their "
             "places in the base frame are on cad/drilling.pdf"
         )
-    x, y, z = plate.position
-    if plate.mast is not None:
-        # Of its back: to the left and up.
-        x, y = y, z
-    places = ", ".join(
-        f"({1e3 * (x + along):.1f}, {1e3 * (y + across):.1f})" for along, across in plate.trunk
-    )
+    at = ", ".join(places(trunk_holes(plate)))
     longest = max(plate.sleeves)
     sleeved = (
         f"; sleeves of up to {format_quantity(longest, 'mm', digits=3)} go under it"
@@ -267,10 +261,10 @@ def _trunk_holes(device: Device) -> str:
     if plate.mast is not None:
         return (
             f"a mast behind the trunk carries the feet; the trunk's back needs threads "
-            f"{plate.thread} for its {len(plate.trunk)} screws at y, z = {places} mm of the base "
+            f"{plate.thread} for its {len(plate.trunk)} screws at y, z = {at} mm of the base "
             f"frame{sleeved}; whether its wall bears them is not looked at"
         )
     return (
         f"a plate carries the feet; the trunk needs threads {plate.thread} for its "
-        f"{len(plate.trunk)} screws at x, y = {places} mm of the base frame{sleeved}"
+        f"{len(plate.trunk)} screws at x, y = {at} mm of the base frame{sleeved}"
     )

@@ -63,9 +63,7 @@ class BillRow:
     """One kind of part.
 
     Attributes:
-        part: name of the part.
         quantity: in the whole device.
-        material: name.
         stock: to cut it from, with its sizes [mm].
         mass: of one [kg]; 0: not known.
         remark: how it is made, what it is for, what to observe.

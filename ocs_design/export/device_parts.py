@@ -1,6 +1,6 @@
 """Parts of a device as they are manufactured: the wheel's pieces, and what is printed around it."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import compress
 from math import copysign, sqrt
@@ -12,7 +12,7 @@ from ocs_design.device.device import Device, Flywheel, Module
 from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.parts.bell import fixture_part
 from ocs_design.parts.cage import cage_part
-from ocs_design.parts.carrier_plate import mast_part, plate_part
+from ocs_design.parts.carrier_plate import CarrierPlate, mast_part, plate_part
 from ocs_design.parts.foot import foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
 from ocs_design.parts.pedestal import Pedestal, drilled
@@ -105,6 +105,17 @@ def foot_holes(device: Device) -> Mapping[str, tuple[tuple[float, float], ...]]:
         x, y, _ = (float(value) for value in module.position)
         found[module.name] = tuple((x + side * slope * off, y + side * off) for side in (1.0, -1.0))
     return found
+
+
+def trunk_holes(plate: CarrierPlate) -> list[tuple[float, float]]:
+    """Places of the plate's screws in B [m]: x and y on top of the trunk, y and z on its back."""
+    x, y = plate.position[:2] if plate.mast is None else plate.position[1:]
+    return [(x + along, y + across) for along, across in plate.trunk]
+
+
+def places(holes: Iterable[tuple[float, float]]) -> list[str]:
+    """Places of holes [mm]."""
+    return [f"({1e3 * x:.1f}, {1e3 * y:.1f})" for x, y in holes]
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from ocs_design.actuation.fasteners import Screw
 from ocs_design.common.units import format_quantity, round_outwards
 from ocs_design.device.solids import foot_of
-from ocs_design.export.device_parts import foot_holes
+from ocs_design.export.device_parts import foot_holes, trunk_holes
 from ocs_design.export.drawing.dimensioning import LEADING, arrow, level_dimension
 from ocs_design.export.drawing.sheet import (
     HEIGHT,
@@ -132,10 +132,9 @@ def drilling_of(subject: Subject) -> Drilling | None:
         screws += [trunk_screws(device.foot_plate)] if standing else []
         reach = [each.length - each.thickness for each in screws]
     else:
-        x, y, z = plate.position
-        own = [(x + along, y + across) for along, across in plate.trunk]
-        on_back = [(z + up, y + across) for across, up in plate.trunk]
-        holes, thread = _millimetres(own if mast is None else on_back), plate.screw
+        own = trunk_holes(plate)
+        holes = _millimetres(own if mast is None else [(z, y) for y, z in own])
+        thread = plate.screw
         held = zip(plate.screw_lengths, plate.sleeves, strict=True)
         reach = [length - plate.clamped - sleeve for length, sleeve in held]
     radius = MILLIMETRES * thread.tapping_drill / 2.0

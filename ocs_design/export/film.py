@@ -32,12 +32,7 @@ CHEQUERS = 4.0
 
 @dataclass(frozen=True, eq=False)
 class Take:
-    """A model and the poses in which it is drawn.
-
-    Attributes:
-        model: compiled.
-        qpos: joint positions of each pose, shape (n, nq).
-    """
+    """A compiled model and the poses in which it is drawn, joint positions of shape (n, nq)."""
 
     model: mujoco.MjModel
     qpos: FloatArray

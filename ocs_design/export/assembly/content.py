@@ -4,7 +4,7 @@
 """
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from math import pi, sqrt
@@ -16,6 +16,7 @@ from ocs_design.device.joints import burst_of
 from ocs_design.device.records.device import MarginRecord
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.placed import Piece, bonding_pieces, holds_wheel, module_pieces
+from ocs_design.export.device_parts import places, trunk_holes
 from ocs_design.export.formats import Subject
 from ocs_design.parts.guard import Containment
 from ocs_design.parts.joints import preload as joint_preload
@@ -193,10 +194,8 @@ class Assembly:
             and len(fastenings) > 1
             and name in {each.purpose for each in fastenings}
         ):
-            x, y = plate.position[:2] if plate.mast is None else plate.position[1:]
-            own = zip(plate.trunk, plate.screw_lengths, strict=True)
-            ends = ((x + at[0], y + at[1]) for at, length in own if length == held.length)
-            where = f"; those at {', '.join(places(ends))}"
+            own = zip(places(trunk_holes(plate)), plate.screw_lengths, strict=True)
+            where = f"; those at {', '.join(at for at, length in own if length == held.length)}"
         return (
             f"{joint}: {held.count} x {held.designation}{self.number(name)}{found.with_washers}, "
             f"{found.torque:.2g} N m, crosswise in two rounds; {lock}{where}."
@@ -207,11 +206,6 @@ class Assembly:
 def assembly_of(subject: Subject) -> Assembly:
     """Assembly of the subject's device, for the booklet and for the report."""
     return Assembly(subject.name, subject.device, subject.margins, subject.fitting)
-
-
-def places(ends: Iterable[tuple[float, float]]) -> Iterator[str]:
-    """Places of screws [mm]."""
-    return (f"({1e3 * x:.1f}, {1e3 * y:.1f})" for x, y in ends)
 
 
 def short(purpose: str) -> str:

@@ -56,11 +56,7 @@ def section_lines(mesh: Mesh) -> tuple[FloatArray, ...]:
 
 
 class _DepthMap:
-    """Largest depth towards the eye on a grid of pixels.
-
-    Attributes:
-        pixel: their size [m].
-    """
+    """Largest depth towards the eye on a grid of pixels, whose size is `pixel` [m]."""
 
     def __init__(self, corners: FloatArray) -> None:
         flat = corners.reshape(-1, 3)

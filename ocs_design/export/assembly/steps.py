@@ -12,8 +12,14 @@ from ocs_design.device.foot_hold import foot_hold, unheld_moment
 from ocs_design.device.joints import RUN_OUT, SHAFT_JOINT, balance_of, joints_of, rim_fit
 from ocs_design.device.layout import PAIR
 from ocs_design.device.solids import drive_solids, foot_of
-from ocs_design.export.assembly.content import Assembly, Tightened, places
-from ocs_design.export.device_parts import foot_holes, pedestal_kinds, wheel_geometry
+from ocs_design.export.assembly.content import Assembly, Tightened
+from ocs_design.export.device_parts import (
+    foot_holes,
+    pedestal_kinds,
+    places,
+    trunk_holes,
+    wheel_geometry,
+)
 from ocs_design.export.drawing.wheel import shrunk_on
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.carrier_plate import CarrierPlate
@@ -233,12 +239,8 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
             f"Drill it {1e3 * plate.screw.clearance_hole:.1f} mm through both walls, with "
             f"a sleeve of {1e3 * mast.bore:.1f} mm between them around each screw."
         )
-    origin = plate.position[:2] if plate.mast is None else plate.position[1:]
-    sleeves = [
-        f"{1e3 * length:.2f} mm at ({1e3 * (origin[0] + x):.1f}, {1e3 * (origin[1] + y):.1f})"
-        for (x, y), length in zip(plate.trunk, plate.sleeves, strict=True)
-        if length > 0.0
-    ]
+    own = zip(places(trunk_holes(plate)), plate.sleeves, strict=True)
+    sleeves = [f"{1e3 * length:.2f} mm at {at}" for at, length in own if length > 0.0]
     if sleeves:
         yield f"Under its holes stand sleeves{assembly.number('sleeves')}: " + (
             ", ".join(sleeves) + ". File them to the trunk where it slopes under them."

@@ -153,10 +153,9 @@ Item: TypeAlias = Line | Polyline | Circle | Area | Text
 
 @dataclass(frozen=True)
 class Scale:
-    """Scale of a drawing (ISO 5455), or of a picture, which needs no standard one.
+    """Scale `paper:part` of a drawing (ISO 5455), or of a picture, which needs no standard one.
 
-    Attributes:
-        paper, part: as in `paper:part`; one of them is 1.
+    One of them is 1.
     """
 
     paper: float

@@ -86,13 +86,7 @@ Profile: TypeAlias = list[Point]
 
 @dataclass(frozen=True)
 class SheetLayout:
-    """Scale and centres of both views [mm].
-
-    Attributes:
-        scale: of both.
-        section: of the cut, seen from the right of the front view, as in first-angle projection.
-        front: of the view along the axis.
-    """
+    """Scale of both views, and their centres [mm]: `section` is seen from the right of `front`."""
 
     scale: Scale
     section: Point

@@ -40,13 +40,7 @@ Row: TypeAlias = Motor | GearSheet | Material
 
 @dataclass(frozen=True)
 class Listing:
-    """One catalogue, ready to be printed.
-
-    Attributes:
-        rows: every entry.
-        to_json: as one document.
-        print_table: for people.
-    """
+    """One catalogue, ready to be printed: every entry, all as one document, and for people."""
 
     rows: Sequence[Row]
     to_json: Callable[[], bytes]
