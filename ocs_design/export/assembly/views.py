@@ -174,7 +174,7 @@ def _placing(
 
 def _fitting(size: FloatArray, room: FloatArray) -> Scale:
     """Largest scale at which a size [m] fits a room of the sheet [mm]."""
-    return largest_scale(lambda each: bool(np.all(_on_paper(each, size) <= room)), standard=False)
+    return largest_scale(*zip(size.tolist(), room.tolist(), strict=True), standard=False)
 
 
 def _on_paper(scale: Scale, lengths: FloatArray) -> FloatArray:

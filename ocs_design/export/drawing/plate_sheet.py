@@ -120,14 +120,8 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
     corners = flat_outline(plate.shape.outline())
     low, high = corners.min(axis=0), corners.max(axis=0)
     left, top, right, bottom = _VIEW
-    thick = plate.thickness
-
-    def fits(scale: Scale) -> bool:
-        """Whether both views have room at that scale."""
-        wide, tall = scale(float(high[1] - low[1])), scale(float(high[0] - low[0]))
-        return wide <= right - left and tall + scale(thick) + 20.0 <= bottom - top
-
-    scale = largest_scale(fits)
+    (tall, wide), thick = (high - low).tolist(), plate.thickness
+    scale = largest_scale((wide, right - left), (tall + thick, bottom - top - 20.0))
     offset = scale(float(low[1] + high[1])) / 2.0
     middle = (left + right) / 2.0 + offset, top + 8.0 + scale(float(high[0]))
 
@@ -153,7 +147,7 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
         Text((middle[0] + 2.0, upper - 2.0), "x, forward", 1.8),
         arrow((edge_left - 3.0, middle[1]), (-1.0, 0.0)),
         Text((edge_left - 4.0, middle[1] - 2.0), "y, left", 1.8, Anchor.END),
-        *_tall(plain(float(high[0] - low[0])), edge_right, (upper, lower)),
+        *_tall(plain(tall), edge_right, (upper, lower)),
     ]
     # Its edge from the front, below it in first-angle projection.
     above = lower + 14.0
@@ -162,7 +156,7 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
     items += _tall(plain(thick), edge_right, (above, below))
     y = below + 7.0
     items += [extension(x, below, y) for x in (edge_left, edge_right)]
-    items += level_dimension(plain(float(high[1] - low[1])), left=edge_left, right=edge_right, y=y)
+    items += level_dimension(plain(wide), left=edge_left, right=edge_right, y=y)
     return scale, [*items, *_hole_table(plate)]
 
 
@@ -213,13 +207,7 @@ def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[Scale, list[Item]]:
     half, end = mast.side / 2.0, -plate.neck
     long, high = mast.face + mast.spacer - end, mast.high - mast.low
     left, top, right, bottom = _MAST_VIEW
-
-    def fits(scale: Scale) -> bool:
-        """Whether both views have room at that scale."""
-        wide = scale(long) + _BETWEEN + scale(mast.side)
-        return wide <= right - left and scale(high) + 12.0 <= bottom - top
-
-    scale = largest_scale(fits)
+    scale = largest_scale((long + mast.side, right - left - _BETWEEN), (high, bottom - top - 12.0))
     start = left + scale(mast.face + mast.spacer)
     upper = top + 4.0
 

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import TypeAlias
@@ -176,13 +176,17 @@ class Scale:
 _STANDARD, _FINE = (1, 2, 5), (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
 
 
-def largest_scale(fits: Callable[[Scale], bool], *, standard: bool = True) -> Scale:
-    """Largest scale, of ISO 5455 or of finer steps, for which `fits` holds; else the smallest."""
+def largest_scale(*lengths: tuple[float, float], standard: bool = True) -> Scale:
+    """Largest scale, of ISO 5455 or of finer steps, at which all lengths fit; else the smallest.
+
+    Each is that of the part [m], and the room for it on paper [mm].
+    """
     steps = _STANDARD if standard else _FINE
     enlarged = [Scale(step * 10**power, 1) for power in (2, 1, 0) for step in reversed(steps)]
     reduced = [Scale(1, step * 10**power) for power in range(7) for step in steps][1:]
     scales = [*enlarged, *reduced]
-    return next((scale for scale in scales if fits(scale)), scales[-1])
+    fitting = (each for each in scales if all(each(length) <= room for length, room in lengths))
+    return next(fitting, scales[-1])
 
 
 def outline(corners: Sequence[Point], pen: Pen = OUTLINE) -> list[Item]:

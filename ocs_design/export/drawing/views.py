@@ -95,14 +95,9 @@ class SheetLayout:
 
 def lay_out(wheel: Wheel) -> SheetLayout:
     """Place both views side by side, in the middle of the room that they have."""
-
-    def fits(scale: Scale) -> bool:
-        """Whether both views have room at that scale."""
-        across, wide = scale(2.0 * wheel.rim.outer_radius), scale(widest(wheel))
-        return across <= TALLEST and across + wide <= _ROOM
-
-    scale = largest_scale(fits)
-    across, wide = scale(2.0 * wheel.rim.outer_radius), scale(widest(wheel))
+    diameter, width = 2.0 * wheel.rim.outer_radius, widest(wheel)
+    scale = largest_scale((diameter, TALLEST), (diameter + width, _ROOM))
+    across, wide = scale(diameter), scale(width)
     start = MARGIN_LEFT + LEFT + max(0.0, _ROOM - across - wide) / 2.0
     section = start + wide / 2.0
     front = start + wide + BETWEEN + across / 2.0

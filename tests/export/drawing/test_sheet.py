@@ -58,16 +58,12 @@ def test_a_length_on_paper_and_back():
     assert Scale(1, 5).length(20.0) == 0.1
 
 
-def test_all_that_fit_are_smaller():
-    tried = []
-
-    def fits(scale):
-        tried.append(str(scale))
-        return scale(0.3) <= 61.0
-
-    assert str(largest_scale(fits)) == "1:5"
-    assert (tried[0], tried[-2:]) == ("500:1", ["1:2", "1:5"])
+def test_the_largest_scale_of_the_standard_at_which_all_fit():
+    assert str(largest_scale((0.3, 61.0))) == "1:5"
+    assert str(largest_scale((0.3, 61.0), (0.001, 0.05))) == "1:20"
+    assert str(largest_scale((0.001, 600.0))) == "500:1"
+    assert str(largest_scale((0.3, 76.0), standard=False)) == "1:4"
 
 
 def test_the_smallest_if_nothing_fits():
-    assert largest_scale(lambda _: False).paper == 1
+    assert largest_scale((1.0, 0.0)).paper == 1
