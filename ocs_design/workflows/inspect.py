@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from ocs_design.common.arrays import vector
-from ocs_design.common.errors import OutputError, UsageError
+from ocs_design.common.errors import UsageError
 from ocs_design.device.answers import (
     Inspection,
     LegLine,
@@ -17,6 +17,7 @@ from ocs_design.device.answers import (
 from ocs_design.device.layout import Criterion, heading_drift, incidence_by_criterion
 from ocs_design.device.records.design import SCHEMA_VERSION
 from ocs_design.device.records.requirement import RobotRecord
+from ocs_design.export.folder import write_whole
 from ocs_design.report.stick_figure import stick_figure
 from ocs_design.requirement.resolving import read_specified_robot
 from ocs_design.requirement.specification import Specification
@@ -62,13 +63,7 @@ def inspect_robot(
             f"confidence {shown.confidence:.0%}, posture {robot.posture_name}",
             *(f"or {each.options} ({each.confidence:.0%})" for each in asked[1:]),
         ]
-        try:
-            picture.write_text(stick_figure(robot, shown.legs, words), encoding="utf-8")
-        except OSError as error:
-            raise OutputError(
-                f"cannot write {picture}: {error.strerror or error}",
-                hint="name a folder that exists",
-            ) from error
+        write_whole(picture, stick_figure(robot, shown.legs, words), force=True)
     roll, pitch = heading_drift(robot.inertia)
     return Inspection(
         schema_version=SCHEMA_VERSION,

@@ -1,6 +1,8 @@
 """The command line asks which links are trunk and legs, takes the answer, and draws what it saw."""
 
 import xml.etree.ElementTree as ET
+from errno import ENOSPC
+from pathlib import Path
 
 import pytest
 from commands import BY_HAND, SOLO12, run
@@ -114,11 +116,25 @@ def test_the_picture_names_feet_and_directions(tmp_path):
     assert front > hind
 
 
+def test_a_picture_that_cannot_be_written_whole_leaves_the_one_before(tmp_path, monkeypatch):
+    path = tmp_path / "solo12.svg"
+    path.write_text("before")
+
+    def full(*_, **__):
+        raise OSError(ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(Path, "replace", full)
+    result = run("inspect", SOLO12, "--picture", path)
+    assert (result.code, path.read_text()) == (3, "before")
+    assert "free some space" in result.said
+    assert [each.name for each in tmp_path.iterdir()] == [path.name]
+
+
 @pytest.mark.parametrize(
     ("arguments", "code", "said"),
     [
         ((SOLO12, "--picture", "solo12.png"), 2, "only .svg"),
-        ((SOLO12, "--picture", "nowhere/at/all.svg"), None, "cannot write"),
+        ((SOLO12, "--picture", "nowhere/at/all.svg"), None, "no such folder"),
         ((*BY_HAND, "--picture", "box.svg"), 2, "nothing to draw"),
     ],
 )
