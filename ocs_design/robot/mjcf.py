@@ -299,11 +299,12 @@ def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) ->
         if model.eq_objtype[index] == mujoco.mjtObj.mjOBJ_SITE:
             ends = model.site_bodyid[ends]
         roots = set(model.body_rootid[ends].tolist())
+        one, other = (model.body(int(end)).name for end in ends)
         if base in roots:
-            name = model.eq(index).name or str(index)
+            name = model.eq(index).name or f"{one} to {other}"
             warnings.add(_LOOP if roots == {base} else _TIE, name)
         if roots == {base}:
-            loops.append((model.body(int(ends[0])).name, model.body(int(ends[1])).name))
+            loops.append((one, other))
     tree = make_tree(spec.modelname, model.body(base).name, links, children, warnings)
     # Each keyframe has values of the tree's joints among others.
     addresses = {name: int(model.jnt_qposadr[model.joint(name).id]) for name in tree.joints}

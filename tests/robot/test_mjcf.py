@@ -175,6 +175,17 @@ def test_a_curved_joint_equality_and_a_loop_are_told():
     assert any("rod" in warning for warning in tree.warnings)
 
 
+def test_a_loop_without_a_name_is_told_by_the_bodies_that_it_connects():
+    equality = (
+        '<equality><connect body1="toe" body2="trunk" anchor="0 0 0"/>'
+        '<weld body1="trunk"/></equality>'
+    )
+    tree = read(ZOO.replace("<actuator>", equality + "<actuator>"))
+    assert tree.loops == (("toe", "trunk"),)
+    assert any(each.startswith("closed") and "toe to trunk" in each for each in tree.warnings)
+    assert any(each.endswith("left out: trunk to world") for each in tree.warnings)
+
+
 FIXED = """<mujoco><worldbody>
   <body name="bench"><geom type="box" size="9 9 9"/></body>
   <body name="arm"><geom type="box" size=".1 .1 .1"/>
