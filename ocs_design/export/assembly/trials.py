@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ocs_design.common.units import rpm, significant
+from ocs_design.common.units import round_outwards, rpm, significant
 from ocs_design.device.joints import DAMPING, balance_of, resonances_of
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.electrics import demand_of
@@ -154,18 +154,19 @@ def safety(assembly: Assembly) -> Iterator[str]:
     if built >= steel.wall:
         yield (
             f"The guard ring of {1e3 * built:.1f} mm holds that piece by the {rule}, which "
-            f"asks for {1e3 * steel.wall:.2g} mm. That formula rests on tests of large plates; "
+            f"asks for {_at_least(steel.wall)} mm. That formula rests on tests of large plates; "
             "no ring of this kind has been tested: stay out of the wheel's plane all the same."
         )
     elif "drum" in assembly.numbers:
         short = f" and its ring of {1e3 * built:.1f} mm" if built else ""
         yield (
-            f"The printed guard{short} keeps fingers out. It does not hold a burst rim: that would "
-            f"need a ring of {1e3 * steel.wall:.2g} mm of mild steel in the drum, "
+            f"The printed guard{short} keeps fingers out. It does not hold a burst rim: that "
+            f"would need a ring of {_at_least(steel.wall)} mm of mild steel in the drum, "
             f"{1e3 * steel.mass:.0f} g each ({2e3 * steel.inner_radius:.1f} mm inside, "
-            f"{1e3 * steel.height:.1f} mm wide; {rule}), or by an estimate without tests behind it "
-            f"{1e3 * aluminium.wall:.2g} mm of 6061-T6, {1e3 * aluminium.mass:.0f} g each. `size "
-            "--guard containing` builds the one of steel in."
+            f"{1e3 * steel.height:.1f} mm wide; {rule}), or by an estimate without tests "
+            f"behind it {_at_least(aluminium.wall)} mm of 6061-T6, "
+            f"{1e3 * aluminium.mass:.0f} g each. `size --guard containing` builds the one of "
+            "steel in."
         )
     if "cage" in assembly.numbers:
         yield (
@@ -186,3 +187,8 @@ def safety(assembly: Assembly) -> Iterator[str]:
 def _two(value: float) -> str:
     """Two digits: most of these figures are estimates."""
     return significant(value, 2)
+
+
+def _at_least(wall: float) -> str:
+    """A wall that must hold in millimetres, rounded up to two digits."""
+    return f"{1e3 * round_outwards(wall, upwards=True, digits=2):.2g}"
