@@ -9,7 +9,6 @@ from stories import design
 from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.report.flights import flight_remarks, flight_table, flights_title, short_verdict
 
-TOP = design().ocs.motor.no_load_speed
 LEVEL = {"roll_swing": 0.0, "final_roll": 0.0, "final_wheel_speed": 0.0}
 
 
@@ -18,7 +17,7 @@ def run(scenario="kerb", *, ocs=True, swing=5.0, final=0.0, speed=0.0, **told):
     figures = {
         "pitch_swing": np.radians(swing),
         "final_pitch": np.radians(final),
-        "final_wheel_speed": speed * TOP,
+        "final_wheel_speed": speed * design().ocs.motor.no_load_speed,
     }
     given = {"passed": True, "reason": "as told", "note": "", "can_stand": True, **told}
     return ValidationRecord(scenario=scenario, ocs=ocs, metrics={**LEVEL, **figures}, **given)
