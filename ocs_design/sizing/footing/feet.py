@@ -1,6 +1,6 @@
 """Feet of a device before what holds them is known, and the footing that is found for them."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import ceil, copysign, log, sqrt
 
@@ -183,3 +183,33 @@ def rough(feet: Feet, size: Size[float]) -> tuple[Feet, Size[float]]:
 def _rounded_up(value: float) -> float:
     """A size or mass rounded up by 2 % at most, so that nearly equal modules share one search."""
     return _ALIKE ** ceil(log(value, _ALIKE))
+
+
+@dataclass(frozen=True, eq=False)
+class InVain:
+    """Modules that nothing held, on one robot in one layout, of a search that takes long to fail.
+
+    Where some were not held, no larger and heavier ones are: they are not looked for again.
+
+    Attributes:
+        tried: their feet and sizes.
+    """
+
+    tried: list[tuple[Feet, Size[float]]] = field(default_factory=list)
+
+    def covers(self, feet: Feet, size: Size[float]) -> bool:
+        """Whether modules no larger and no heavier than these were not held."""
+        asked = _figures(feet, size)
+        return any(
+            feet.slopes == other.slopes
+            and all(
+                least <= value for least, value in zip(_figures(other, one), asked, strict=True)
+            )
+            for other, one in self.tried
+        )
+
+
+def _figures(feet: Feet, size: Size[float]) -> tuple[float, ...]:
+    """What makes modules harder to hold the more of it there is."""
+    own = feet.radius, feet.slot_radius, feet.reach, feet.height, feet.mass
+    return *own, size.reach, size.standing

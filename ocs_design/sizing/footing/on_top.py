@@ -19,7 +19,7 @@ from ocs_design.robot.collision import collision_model
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_surface
 from ocs_design.sizing.footing.contact import contact_of, under_pedestal
-from ocs_design.sizing.footing.feet import Feet, Footing, device_size, leans, ring_of, rough
+from ocs_design.sizing.footing.feet import Feet, Footing, InVain, device_size, leans, ring_of, rough
 from ocs_design.sizing.footing.lands import base_points, disc_points, highest_of
 from ocs_design.sizing.footing.plate import held_at, plate_of
 from ocs_design.sizing.footing.screws import PLATE_SCREW, POST_SCREW, STRONG_SCREW
@@ -36,10 +36,24 @@ STEP = 4e-3
 def footing_on_top(surface: Surface, feet: Feet, search: Search) -> Footing | None:
     """The nearest place of the feet, as close together as they fit; pairs also farther apart."""
     found = _nearest_footing(surface, feet, search, 0.0, PLATE_SCREW)
-    if found is None:
-        way = _way(search.collision.robot, *rough(feet, search.sizes.largest), search.layout)
-        return None if way is None else _nearest_footing(surface, feet, search, *way)
-    return found
+    if found is not None:
+        return found
+    robot, layout, asked = search.collision.robot, search.layout, rough(feet, search.sizes.largest)
+    vain = _in_vain(robot, layout)
+    if vain.covers(*asked):
+        return None
+    way = _way(robot, *asked, layout)
+    if way is None:
+        vain.tried.append(asked)
+        return None
+    return _nearest_footing(surface, feet, search, *way)
+
+
+@lru_cache(maxsize=64)
+def _in_vain(robot: Robot, layout: Layout) -> InVain:
+    """Modules that no other way on top of the trunk was found for."""
+    del robot, layout
+    return InVain()
 
 
 @lru_cache(maxsize=64)
