@@ -97,8 +97,8 @@ def leader(lines: Sequence[str], center: Point, radius: float, shelf: Point) -> 
     return [Line(tip, shelf), Line(shelf, (end, y)), arrow(tip, (u, v)), *texts]
 
 
-def viewing_arrow(letter: str, *, x: float, edge: float, down: bool) -> list[Item]:
-    """One end of the vertical cutting plane of a section, seen from the right (ISO 128-3).
+def viewing_arrow(*, x: float, edge: float, down: bool) -> list[Item]:
+    """One end of the vertical cutting plane A of a section, seen from the right (ISO 128-3).
 
     It leaves the outline at the y `edge`, upward or `down`.
     """
@@ -109,5 +109,5 @@ def viewing_arrow(letter: str, *, x: float, edge: float, down: bool) -> list[Ite
         Line((x, y), (x + 10.0, y), thick),
         arrow((x, y), (-1.0, 0.0)),
         # Leaders come in from the right.
-        Text((x - 2.5, y + 1.75), letter, 3.5, Anchor.END),
+        Text((x - 2.5, y + 1.75), "A", 3.5, Anchor.END),
     ]

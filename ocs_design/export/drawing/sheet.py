@@ -29,8 +29,8 @@ _DIAGONAL = math.sqrt(0.5)
 ENCODING = "cp1252"
 """WinAnsiEncoding of PDF, which has what drawings need, as in `Ø8 H7 ±0.05`."""
 
-CAP_HEIGHT, ASCENT, DESCENT = 0.718, 0.740, 0.212
-"""Height of Helvetica's capitals and brackets, and its depth below the line, per font size."""
+CAP_HEIGHT = 0.718
+"""Height of Helvetica's capitals per font size."""
 
 Point: TypeAlias = tuple[float, float]
 Box: TypeAlias = tuple[float, float, float, float]
@@ -138,14 +138,6 @@ class Text:
         x, y = self.place
         back = _ANCHOR_PART[self.anchor] * self.width
         return (x, y + back) if self.upright else (x - back, y)
-
-    @property
-    def box(self) -> Box:
-        """Rectangle that it covers."""
-        (x, y), above, below = self.start, ASCENT * self.size, DESCENT * self.size
-        if self.upright:
-            return (x - above, y - self.width, x + below, y)
-        return (x, y - above, x + self.width, y + below)
 
 
 Item: TypeAlias = Line | Polyline | Circle | Area | Text

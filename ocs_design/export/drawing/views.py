@@ -301,8 +301,8 @@ def front_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
         *items,
         Line((x - edge - _BEYOND, y), (x + edge + _BEYOND, y), CENTRE),
         Line((x, y - edge - _BEYOND), (x, y + edge + _BEYOND), CENTRE),
-        *viewing_arrow("A", x=x, edge=y - edge, down=False),
-        *viewing_arrow("A", x=x, edge=y + edge, down=True),
+        *viewing_arrow(x=x, edge=y - edge, down=False),
+        *viewing_arrow(x=x, edge=y + edge, down=True),
         *_leaders(wheel, layout),
     ]
 

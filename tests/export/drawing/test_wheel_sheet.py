@@ -8,7 +8,7 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
-from drawn_wheels import FLAT, HOLED, HUB, covers, drawings, overlap, texts
+from drawn_wheels import FLAT, HOLED, HUB, box_of, covers, drawings, overlap, texts
 from hypothesis import HealthCheck, given, settings
 from scipy.integrate import quad
 from wheels import paper_device
@@ -41,7 +41,7 @@ LOOKED_AT = settings(max_examples=25, suppress_health_check=[HealthCheck.filter_
 @given(drawings())
 def test_texts_stand_clear_of_each_other_and_of_all_lines(drawing):
     items = wheel_sheet(drawing)
-    boxes = [(text, text.box) for text in texts(items)]
+    boxes = [(text, box_of(text)) for text in texts(items)]
     for (one, first), (other, second) in combinations(boxes, 2):
         assert not overlap(first, second), (one, other)
     lines = [item for item in items if isinstance(item, Line | Circle)]
@@ -54,7 +54,7 @@ def test_texts_stand_clear_of_each_other_and_of_all_lines(drawing):
 def test_all_is_within_the_frame(drawing):
     left, top, right, bottom = FRAME_BOX
     for text in texts(wheel_sheet(drawing)):
-        x0, y0, x1, y1 = text.box
+        x0, y0, x1, y1 = box_of(text)
         assert left < x0 < x1 < right, text
         assert top < y0 < y1 < bottom, text
 
