@@ -3,8 +3,9 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import product
-from math import sqrt
+from itertools import chain, product
+from math import inf, sqrt
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +37,10 @@ SPACERS = (0.0, 0.02, 0.04, 0.06, 0.08)
 SPREAD_MAX = 0.15
 """Largest distance of a mast's screws, up and down [m]."""
 
+_STEPS = 1.0 / 4.0, 1.0 / 12.0
+"""Steps between heights of a mast's lowest plate over a module's reach: the second where the first
+finds none that hold."""
+
 _PATTERNS = 8
 """Patterns of a mast's screws that are tried."""
 
@@ -54,9 +59,9 @@ def footing_behind(robot: Robot, feet: Feet, size: Size[float], layout: Layout) 
         return None
     feet = _stacked(feet, size, layout)
     search = Search(collision_model(robot), Sizes(size, size), layout)
-    far, height, spacer = at
+    far, spot = at
     arms = _all_arms(feet, size, far=far)
-    masted = (_masted(back, feet, plate, search, (height, spacer)) for plate in arms)
+    masted = (_masted(back, feet, plate, search, spot) for plate in arms)
     return next((footing for footing in masted if footing is not None), None)
 
 
@@ -106,6 +111,18 @@ def _stacked(feet: Feet, size: Size[float], layout: Layout) -> Feet:
     return replace(feet, bases=((0.0, out), (0.0, -out)) * layout.pairs)
 
 
+Spot: TypeAlias = tuple[float, float, float]
+"""Height of a mast's lowest plate in B, thickness of the block before its upright, and the lowest
+that the upright may reach, which no limb comes near while the legs give way [m]."""
+
+
+def _bottom(footing: Footing) -> float:
+    """Height of the lower end of a mast's upright in B [m]."""
+    plate = footing.plate
+    assert plate is not None and plate.mast is not None, "a mast"
+    return plate.position[2] - plate.mast.below
+
+
 @lru_cache(maxsize=64)
 def _in_vain(robot: Robot, layout: Layout) -> InVain:
     """Modules that no mast was found for."""
@@ -116,30 +133,30 @@ def _in_vain(robot: Robot, layout: Layout) -> InVain:
 @lru_cache(maxsize=64)
 def _mast_spot(
     robot: Robot, feet: Feet, size: Size[float], layout: Layout
-) -> tuple[bool, float, float] | None:
-    """Whether a mast's arms are long, height of its lowest plate and thickness of its block [m].
-
-    None: no mast holds them.
-    """
+) -> tuple[bool, Spot] | None:
+    """Whether a mast's arms are long, and where it stands; None: no mast holds them."""
     back = trunk_back(robot)
     if back is None or not layout.pairs:
         return None
     search = Search(collision_model(robot), Sizes(size, size), layout)
     feet = _stacked(feet, size, layout)
     down, up = back.x_range
-    step = size.reach / 4.0
-    heights = np.arange(down - 2.0 * size.standing, up + size.standing, step).tolist()
     arms = {far: list(_all_arms(feet, size, far=far)) for far in (False, True)}
     if not all(arms.values()):
         return None
     face = back.farthest(down, up, arms[False][0].support)
-    spots = [
-        (_placed(back, plates[0], size, height, face + spacer), far, height, spacer)
-        for (far, plates), height, spacer in product(arms.items(), heights, SPACERS)
-    ]
-    # A block is heavier than a longer way up.
-    spots.sort(key=lambda each: (each[3], search.cost(each[0])))
-    for place, far, height, spacer in spots:
+
+    def spots(step: float) -> list[tuple[Place, bool, float, float]]:
+        heights = np.arange(down - 2.0 * size.standing, up + size.standing, step).tolist()
+        found = [
+            (_placed(back, plates[0], size, height, face + spacer), far, height, spacer)
+            for (far, plates), height, spacer in product(arms.items(), heights, SPACERS)
+        ]
+        # A block is heavier than a longer way up.
+        return sorted(found, key=lambda each: (each[3], search.cost(each[0])))
+
+    each_step = (spots(share * size.reach) for share in _STEPS)
+    for place, far, height, spacer in chain.from_iterable(each_step):
         # Upright and arms of the plates of modules at this place.
         plate, centers = arms[far][0], place.centers(size)
         assert plate.mast is not None, "a plate on arms"
@@ -152,13 +169,14 @@ def _mast_spot(
         )
         if not (search.is_off(tubes) and search.is_free(place)) or any(map(search.touches, tubes)):
             continue
-        masted = (_masted(back, feet, plate, search, (height, spacer)) for plate in arms[far])
+        at = height, spacer, -inf
+        masted = (_masted(back, feet, plate, search, at) for plate in arms[far])
         for footing in (each for each in masted if each is not None):
             # A wider tube moves modules by less than what is kept free around them.
             if not search.is_free(footing.place):
                 break
             if not any(map(search.touches, plate_solids(footing.plate))):
-                return far, height, spacer
+                return far, (height, spacer, _bottom(footing))
     return None
 
 
@@ -228,15 +246,15 @@ def _masted(
     feet: Feet,
     plate: CarrierPlate,
     search: Search,
-    at: tuple[float, float],
+    at: Spot,
 ) -> Footing | None:
     """Pairs on a mast behind the trunk; None: it does not hold them there.
 
     Args:
         back, plate: see `_placed`. feet: of all modules. search: of the largest, and of limbs.
-        at: height of the lowest plate in B, and thickness of the block before the upright [m].
+        at: where it stands.
     """
-    mast, (height, spacer) = plate.mast, at
+    mast, (height, spacer, lowest) = plate.mast, at
     assert mast is not None, "a plate on arms"
     half, best, size = mast.side / 2.0, None, search.sizes.largest
     centers = _placed(back, plate, size, height, 0.0).centers(size)[:: len(SENSES)]
@@ -246,6 +264,8 @@ def _masted(
         edge, blank, before = EDGE * held.clearance_hole, replace(plate, thread=held.name), best
         for low, high, aside, pads in _patterns(back, feet, blank, (height, spacer, centers)):
             bottom, top = min(low - edge, height - mast.side), max(high + edge, height + levels[-1])
+            if bottom < lowest:
+                continue
             # The block lies on what is farthest back beneath it.
             plane = round(back.farthest(low - edge, high + edge, half), 6)
             face = plane + spacer
