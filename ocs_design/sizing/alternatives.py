@@ -4,7 +4,7 @@ A selection at the place, the incidence and with the material and the reserve of
 stands tells quickly which drive is lightest after a change. The changed question is then sized as a
 whole with that drive, on a footing of its own with its own reserve, so that the mass is that of a
 device that `size` would find with it. Another drive may be lighter still there. Of a device that
-nothing holds on its robot the quick look is told, good to about 2 %.
+nothing holds on its robot the quick look is told, good to about 2 % of the modules, and says so.
 
 Where the mass to be saved is stated, each answer is the smallest change of one figure, in whole
 percent, or one or two other choices; where none of these does, one figure with one choice. It is
@@ -145,12 +145,13 @@ def alternatives(
     worth = (1.0 - _WORTH) * chosen.mass
     answers, hangs = [], _hangs(choice, robot)
     for change in _changes(specification, resolved, choice, robot):
-        found, note = _lighter(change, choice, None if hangs else robot), SAVES_NOTHING
+        found, note = _lighter(change, choice, robot, quick=hangs), SAVES_NOTHING
         # What is lighter may be wider, and so may its plate.
         if found is None or found.mass > worth:
             found = chosen
         else:
-            note = "; ".join(_notes(change.problem, found, choice.problem))
+            quick = [_QUICK] if hangs and change.problem.incidence is not None else []
+            note = "; ".join([*quick, *_notes(change.problem, found, choice.problem)])
         answers.append(_answer(change.text, found, note))
     other = None if hangs else _other_construction(specification, resolved, choice, robot)
     return tuple(answers) if other is None else (*answers, other)
@@ -177,10 +178,15 @@ class _Change:
     problem: SelectionProblem
 
 
-def _hangs(choice: Choice, robot: Robot) -> bool:
-    """Whether nothing of the trunk's shapes holds the device: what would is not known for others.
+_QUICK = "by a quick look"
+"""Note on what is not sized as a whole."""
 
-    To look for it takes longest where there is none, and each device would be looked at anew.
+
+def _hangs(choice: Choice, robot: Robot) -> bool:
+    """Whether nothing of the trunk's shapes holds the device.
+
+    To look for what does takes longest where nothing is found, and a device that is sized as a
+    whole looks for it several times.
     """
     if trunk_surface(robot) is None:
         return False
@@ -188,15 +194,22 @@ def _hangs(choice: Choice, robot: Robot) -> bool:
     return footing_under(device, robot, stated=choice.problem.place.stated) is None
 
 
-def _lighter(change: _Change, choice: Choice, robot: Robot | None) -> Candidate | None:
+def _lighter(change: _Change, choice: Choice, robot: Robot, *, quick: bool) -> Candidate | None:
     """The device of a changed question, where a quick look finds drives that save anything.
 
-    It is sized as a whole with the lightest of those drives; as it is found, on no robot.
+    It is sized as a whole with the lightest of those drives.
+
+    Args:
+        change: of the question. choice: the device as it stands. robot: that carries it.
+        quick: whether a device at the same incidence is told as the look finds it, with the plate
+            or the mast that it would stand on.
     """
     found = lightest_below(change.problem, (1.0 - _WORTH) * choice.chosen.modules_mass)
     offered = change.resolved.choice
-    if found is None or offered is None or robot is None:
-        return found
+    if found is None or offered is None:
+        return None
+    if quick and change.problem.incidence is not None:
+        return with_plate(found, change.problem, robot)
     parts = replace(offered, motors=(found.motor,), gears=(found.gear,))
     many, stated = len(change.problem.materials) > 1, change.specification.flywheel.material
     if many or (change.problem.incidence is None and stated != AUTO):
@@ -329,7 +342,7 @@ def owed_to(choice: Choice | None, robot: Robot) -> Owed | None:
         return None
     chosen, asked = choice.chosen, choice.problem.requirement
     problem = replace(choice.problem, incidence=chosen.incidence, materials=(chosen.material,))
-    best, hangs = (1.0 - _WORTH) * chosen.mass, _hangs(choice, robot)
+    best = (1.0 - _WORTH) * chosen.mass
     owed = Owed(maneuver="", mass_without=chosen.mass) if asked.maneuvers else None
     for maneuver in asked.maneuvers:
         rest = tuple(each for each in asked.maneuvers if each is not maneuver)
@@ -339,7 +352,7 @@ def owed_to(choice: Choice | None, robot: Robot) -> Owed | None:
         lighter = lightest_below(without, best)
         if lighter is None:
             continue
-        mass = (lighter if hangs else with_plate(lighter, problem, robot)).mass
+        mass = with_plate(lighter, problem, robot).mass
         if mass < best:
             best, owed = mass, Owed(maneuver=maneuver.name, mass_without=mass)
     return owed

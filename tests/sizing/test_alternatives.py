@@ -148,3 +148,16 @@ def test_any_motor_says_what_nobody_knows_of_it():
     one = found["any motor of the catalogue"]
     assert one.mass_total <= designed.device.mass
     assert one.note == "saves nothing" or "not buildable: " in one.note
+
+
+def test_where_nothing_holds_a_device_a_quick_look_is_told_and_says_so(monkeypatch):
+    """The look leaves out only the reserve of its own and what a mast asks of the wheels."""
+    task, designed, whole = compared(STATED)
+    monkeypatch.setattr("ocs_design.sizing.alternatives._hangs", lambda *_: True)
+    quick = alternatives(task.specification, task.resolved, designed.choice, task.robot)
+    assert not any(each.note.startswith("--wheel") for each in quick)
+    told = {each.change: each for each in quick}
+    change = "modules turned to 0 deg by hand for each flip"
+    assert "by a quick look" in told[change].note
+    assert "by a quick look" not in whole[change].note
+    assert told[change].mass_total == pytest.approx(whole[change].mass_total, rel=0.02)
