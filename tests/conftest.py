@@ -7,6 +7,9 @@ from hypothesis import settings
 LONGEST = "test_the_commands_that_the_docs_show_still_print_that"
 OPENED_BY_MANY = "test_product.py"
 
+# Workers whose small matrices have threads of their own wait for each other. NumPy reads it once.
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+
 settings.register_profile("reproducible", derandomize=True, deadline=None)
 settings.register_profile("explore", deadline=None, max_examples=500, print_blob=True)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "reproducible"))

@@ -9,6 +9,7 @@ import pytest
 from commands import PROGRAM, SOLO12, environment, run
 from products import FILES, Product
 from rich.console import Console
+from threadpoolctl import threadpool_limits
 
 from ocs_design.device.records.design import read_design
 from ocs_design.report.text.size import print_design, print_outcome, print_solution
@@ -18,10 +19,10 @@ SGR = re.compile(r"\x1b\[[0-9;]*m")
 
 @pytest.fixture(scope="session")
 def wide(product, tmp_path_factory):
-    """Once more, on a single processor, for a terminal of 120 columns."""
+    """Once more, on a single processor, with two threads in linear algebra, for 120 columns."""
     parent = tmp_path_factory.mktemp("wide")
     allowed = os.sched_getaffinity(0)
-    with pytest.MonkeyPatch.context() as patch:
+    with pytest.MonkeyPatch.context() as patch, threadpool_limits(limits=2, user_api="blas"):
         patch.chdir(parent)
         patch.setenv("COLUMNS", "120")
         patch.delenv("FORCE_COLOR", raising=False)
