@@ -346,7 +346,15 @@ def catalogue(
             help="What to list.",
         ),
     ],
-    motors: opt.MotorsFile = None,
+    motors: Annotated[
+        str | None,
+        opt.option(
+            "--motors",
+            "FILE",
+            "Motors of your own, listed too, CSV or TOML.",
+            completion.files(".csv", ".toml"),
+        ),
+    ] = None,
     gears: opt.GearsFile = None,
     as_json: opt.AsJson = False,
     verbose: Annotated[
