@@ -88,6 +88,14 @@ def _csv_rows(text: str, name: str, faults: list[str]) -> Iterator[Row]:
             raise SpecificationError(
                 f"{name}, line 1: has no column names", hint="Begin with a line of column names."
             )
+        if len(columns) == 1 and (
+            other := next((mark for mark in ";\t" if mark in columns[0]), "")
+        ):
+            between = "semicolons" if other == ";" else "tabs"
+            raise SpecificationError(
+                f"{name}, line 1: {between} separate the columns",
+                hint="Save it with commas between the columns, and points in numbers.",
+            )
         faults.extend(
             f"line 1: the column {column!r} stands there twice"
             for column in dict.fromkeys(columns)

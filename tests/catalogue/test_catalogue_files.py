@@ -117,6 +117,8 @@ UNREADABLE = {
     "UTF-16": ("name,maker\n".encode("utf-16"), ".csv", "line 1: not UTF-8"),
     "no TOML": (b"[[motor]\n", ".toml", "is not TOML"),
     "no column names": (b"\n", ".csv", "has no column names"),
+    "semicolons": (b"name;maker\nM;me\n", ".csv", "line 1: semicolons separate the columns"),
+    "tabs": (b"name\tmaker\nM\tme\n", ".csv", "line 1: tabs separate the columns"),
     "an open quote": (b'name,maker\n"M,me\n', ".csv", "is not CSV"),
     "a long line": (b"a" * 6000, ".toml", "line 1: over 5000 characters"),
     "large": (b"#\n" * 600_000, ".toml", "larger than 1 MiB"),
