@@ -121,8 +121,7 @@ def lighter_otherwise(
 
     Args: see `alternatives` and `owed_to`.
     """
-    found = alternatives(specification, resolved, choice, robot)
-    return found, owed_to(choice, robot)
+    return _relaxed(specification, resolved, choice, robot), owed_to(choice, robot)
 
 
 def alternatives(
@@ -130,8 +129,7 @@ def alternatives(
 ) -> tuple[Alternative, ...]:
     """What each relaxation of the defaults and of the limits would save; empty without a motor.
 
-    The other construction, a ring around the motor's bell or a disc, is told in any case but where
-    nothing holds the device.
+    Last comes the other construction, see `built_otherwise`.
 
     Args:
         specification: what was stated: what it relaxes already is not offered again.
@@ -139,6 +137,14 @@ def alternatives(
         choice: the device, and what it was chosen from; None: it has no motor.
         robot: that carries it.
     """
+    relaxed = _relaxed(specification, resolved, choice, robot)
+    return (*relaxed, *built_otherwise(specification, resolved, choice, robot))
+
+
+def _relaxed(
+    specification: Specification, resolved: Resolved, choice: Choice | None, robot: Robot
+) -> tuple[Alternative, ...]:
+    """What each relaxation would save."""
     if choice is None:
         return ()
     chosen = choice.chosen
@@ -153,8 +159,7 @@ def alternatives(
             quick = [_QUICK] if hangs and change.problem.incidence is not None else []
             note = "; ".join([*quick, *_notes(change.problem, found, choice.problem)])
         answers.append(_answer(change.text, found, note))
-    other = None if hangs else _other_construction(specification, resolved, choice, robot)
-    return tuple(answers) if other is None else (*answers, other)
+    return tuple(answers)
 
 
 def _answer(text: str, device: Candidate, note: str) -> Alternative:
@@ -227,17 +232,20 @@ def _whole(specification: Specification, resolved: Resolved, robot: Robot) -> Ca
     return None if own.choice is None else own.choice.chosen
 
 
-def _other_construction(
-    specification: Specification, resolved: Resolved, choice: Choice, robot: Robot
-) -> Alternative | None:
-    """The device with rings in place of discs, or discs in place of rings; None: there is none.
+def built_otherwise(
+    specification: Specification, resolved: Resolved, choice: Choice | None, robot: Robot
+) -> tuple[Alternative, ...]:
+    """The device with rings in place of discs, or discs in place of rings; none where none does it.
 
-    All of its drives are weighed: each stands higher or lower than with the construction that there
-    is, on other feet and another plate, so that a look at the place of those tells little.
+    It is told whether it is lighter or not, but where nothing holds the device. All of its drives
+    are weighed: each stands higher or lower than with the construction that there is, on other feet
+    and another plate, so that a look at the place of those tells little.
     """
+    if choice is None or _hangs(choice, robot):
+        return ()
     other = other_construction(specification, resolved, choice.problem)
     if other is None:
-        return None
+        return ()
     text = "a disc on each motor in place of the ring around its bell"
     if other.on_bell:
         text = "a ring bonded around each motor's bell in place of the disc"
@@ -245,7 +253,7 @@ def _other_construction(
     # The bell sets the bore, which a co-design would change.
     built = replace(specification, ocs=replace(specification.ocs, wheel=wheel, co_design=None))
     found = _whole(built, resolved, robot)
-    return None if found is None else _answer(text, found, f"--wheel {wheel}")
+    return () if found is None else (_answer(text, found, f"--wheel {wheel}"),)
 
 
 def _changes(

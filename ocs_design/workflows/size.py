@@ -34,7 +34,7 @@ from ocs_design.robot.collision import forget_collision_model
 from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.run import Run
-from ocs_design.sizing.alternatives import lighter_by, lighter_otherwise
+from ocs_design.sizing.alternatives import built_otherwise, lighter_by, lighter_otherwise
 from ocs_design.sizing.bound.rim_program import load_solver
 from ocs_design.sizing.design import mass_without_survival
 from ocs_design.workflows.flying import control_of, flown_hash
@@ -204,13 +204,16 @@ def _otherwise(
     placed: Placed, beside: Beside
 ) -> Callable[[], tuple[tuple[Alternative, ...], Owed | None]]:
     """Begin to look for what would be lighter otherwise than this device."""
-    return beside.call(
-        lighter_otherwise,
-        placed.specification,
-        placed.resolved,
-        placed.designed.choice,
-        placed.robot,
-    )
+    asked = placed.specification, placed.resolved, placed.designed.choice, placed.robot
+    relaxed = beside.call(lighter_otherwise, *asked)
+
+    def told() -> tuple[tuple[Alternative, ...], Owed | None]:
+        # In this process, while the other one looks for the rest.
+        built = built_otherwise(*asked)
+        found, owed = relaxed()
+        return (*found, *built), owed
+
+    return told
 
 
 def _write_flights(placed: Placed, proof: Proof, folder: Path, steps: Steps) -> tuple[str, ...]:
