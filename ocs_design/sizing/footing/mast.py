@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import chain, product
 from math import inf, sqrt
-from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +44,22 @@ _PATTERNS = 8
 """Patterns of a mast's screws that are tried."""
 
 
+@dataclass(frozen=True)
+class _Spot:
+    """Where a mast stands.
+
+    Attributes:
+        far: whether its arms are long. height: of its lowest plate in B [m].
+        spacer: thickness of the block before its upright [m].
+        lowest: that the upright may reach, as seen to be free of limbs [m].
+    """
+
+    far: bool
+    height: float
+    spacer: float
+    lowest: float = -inf
+
+
 def footing_behind(robot: Robot, feet: Feet, size: Size[float], layout: Layout) -> Footing | None:
     """The place behind the trunk nearest to the robot's middle where a mast carries pairs.
 
@@ -53,14 +68,13 @@ def footing_behind(robot: Robot, feet: Feet, size: Size[float], layout: Layout) 
     back, asked, vain = trunk_back(robot), rough(feet, size), _in_vain(robot, layout)
     if back is None or vain.covers(*asked):
         return None
-    at = _mast_spot(robot, *asked, layout)
-    if at is None:
+    spot = _mast_spot(robot, *asked, layout)
+    if spot is None:
         vain.tried.append(asked)
         return None
     feet = _stacked(feet, size, layout)
     search = Search(collision_model(robot), Sizes(size, size), layout)
-    far, spot = at
-    arms = _all_arms(feet, size, far=far)
+    arms = _all_arms(feet, size, far=spot.far)
     masted = (_masted(back, feet, plate, search, spot) for plate in arms)
     return next((footing for footing in masted if footing is not None), None)
 
@@ -111,18 +125,6 @@ def _stacked(feet: Feet, size: Size[float], layout: Layout) -> Feet:
     return replace(feet, bases=((0.0, out), (0.0, -out)) * layout.pairs)
 
 
-Spot: TypeAlias = tuple[float, float, float]
-"""Height of a mast's lowest plate in B, thickness of the block before its upright, and the lowest
-that the upright may reach, which no limb comes near while the legs give way [m]."""
-
-
-def _bottom(footing: Footing) -> float:
-    """Height of the lower end of a mast's upright in B [m]."""
-    plate = footing.plate
-    assert plate is not None and plate.mast is not None, "a mast"
-    return plate.position[2] - plate.mast.below
-
-
 @lru_cache(maxsize=64)
 def _in_vain(robot: Robot, layout: Layout) -> InVain:
     """Modules that no mast was found for."""
@@ -131,10 +133,8 @@ def _in_vain(robot: Robot, layout: Layout) -> InVain:
 
 
 @lru_cache(maxsize=64)
-def _mast_spot(
-    robot: Robot, feet: Feet, size: Size[float], layout: Layout
-) -> tuple[bool, Spot] | None:
-    """Whether a mast's arms are long, and where it stands; None: no mast holds them."""
+def _mast_spot(robot: Robot, feet: Feet, size: Size[float], layout: Layout) -> _Spot | None:
+    """Where a mast holds them that no limb comes near while the legs give way; None: nowhere."""
     back = trunk_back(robot)
     if back is None or not layout.pairs:
         return None
@@ -169,14 +169,16 @@ def _mast_spot(
         )
         if not (search.is_off(tubes) and search.is_free(place)) or any(map(search.touches, tubes)):
             continue
-        at = height, spacer, -inf
-        masted = (_masted(back, feet, plate, search, at) for plate in arms[far])
+        spot = _Spot(far, height, spacer)
+        masted = (_masted(back, feet, plate, search, spot) for plate in arms[far])
         for footing in (each for each in masted if each is not None):
             # A wider tube moves modules by less than what is kept free around them.
             if not search.is_free(footing.place):
                 break
             if not any(map(search.touches, plate_solids(footing.plate))):
-                return far, (height, spacer, _bottom(footing))
+                held = footing.plate
+                assert held is not None and held.mast is not None, "plates on a mast"
+                return replace(spot, lowest=height - held.mast.below)
     return None
 
 
@@ -246,15 +248,15 @@ def _masted(
     feet: Feet,
     plate: CarrierPlate,
     search: Search,
-    at: Spot,
+    spot: _Spot,
 ) -> Footing | None:
     """Pairs on a mast behind the trunk; None: it does not hold them there.
 
     Args:
         back, plate: see `_placed`. feet: of all modules. search: of the largest, and of limbs.
-        at: where it stands.
+        spot: where it stands.
     """
-    mast, (height, spacer, lowest) = plate.mast, at
+    mast, height, spacer = plate.mast, spot.height, spot.spacer
     assert mast is not None, "a plate on arms"
     half, best, size = mast.side / 2.0, None, search.sizes.largest
     centers = _placed(back, plate, size, height, 0.0).centers(size)[:: len(SENSES)]
@@ -264,7 +266,7 @@ def _masted(
         edge, blank, before = EDGE * held.clearance_hole, replace(plate, thread=held.name), best
         for low, high, aside, pads in _patterns(back, feet, blank, (height, spacer, centers)):
             bottom, top = min(low - edge, height - mast.side), max(high + edge, height + levels[-1])
-            if bottom < lowest:
+            if bottom < spot.lowest:
                 continue
             # The block lies on what is farthest back beneath it.
             plane = round(back.farthest(low - edge, high + edge, half), 6)

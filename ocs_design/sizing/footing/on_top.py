@@ -32,6 +32,12 @@ ASIDE = (0.04, 0.08)
 STEP = 4e-3
 """Step between places along the trunk [m], or a sixteenth of a module's reach."""
 
+SPARE = 1e-3
+"""Height by which a pedestal may be higher than it must be [m], so that places settle."""
+
+_ENDLESS = 1e3
+"""Step of a surface of one place [m]."""
+
 
 def footing_on_top(surface: Surface, feet: Feet, search: Search) -> Footing | None:
     """The nearest place of the feet, as close together as they fit; pairs also farther apart."""
@@ -121,13 +127,6 @@ def _nearest_footing(
             waiting.append((abs(shift) + lift, Footing(place, plate)))
             waiting.sort(key=lambda each: each[0])
     return None
-
-
-SPARE = 1e-3
-"""Height by which a pedestal may be higher than it must be [m], so that places settle."""
-
-_ENDLESS = 1e3
-"""Step of a surface of one place [m]."""
 
 
 def footing_on_pedestals(
