@@ -19,6 +19,7 @@ from ocs_design.robot.robot import Robot
 from ocs_design.sizing.assembly import assemble, assemble_selected
 from ocs_design.sizing.bound.device_problem import DeviceProblem
 from ocs_design.sizing.bound.device_sizing import size_device
+from ocs_design.sizing.footing.feet import in_vain
 from ocs_design.sizing.footing.standing import stand_on_trunk
 from ocs_design.sizing.limits import DEVICE_MASS, Progress
 from ocs_design.sizing.on_robot import in_rings, on_its_footing, with_plate
@@ -63,6 +64,8 @@ def design_device(
         Infeasible: there is none.
         UsageError: nothing is asked for, or a limit is no positive number.
     """
+    # The device depends on what is asked here, and not on what was looked for before.
+    in_vain.cache_clear()
     tried: list[tuple[float, float, Designed]] = []
     before: tuple[FloatArray, FloatArray] | None = None
     com = robot.com

@@ -7,8 +7,9 @@ from commands import SOLO12
 
 from ocs_design.device.layout import PAIR, Layout, LayoutName
 from ocs_design.robot.reader import read_robot
+from ocs_design.sizing import design
 from ocs_design.sizing.footing import mast
-from ocs_design.sizing.footing.feet import SENSES, Feet, InVain
+from ocs_design.sizing.footing.feet import SENSES, Feet, InVain, in_vain
 from ocs_design.sizing.place import Size
 
 FEET, SIZE = Feet(0.0, (), SENSES, 0.07, 0.04, 0.11, 0.12, 3.0), Size(0.11, 0.12)
@@ -39,3 +40,19 @@ def test_a_mast_that_a_smaller_module_had_not_is_not_looked_for(monkeypatch):
         assert mast.footing_behind(robot, replace(FEET, mass=mass), SIZE, layout) is None
     # Rounded up by 2 % at most.
     assert [feet.mass for _, feet, _, _ in looked] == pytest.approx([3.0, 2.0, 4.0], rel=0.03)
+
+
+def test_what_was_not_found_for_one_device_is_looked_for_again_for_the_next(monkeypatch):
+    class BegunError(Exception):
+        pass
+
+    def begins(*_asked, **_options):
+        raise BegunError
+
+    robot = read_robot(SOLO12)
+    in_vain(robot, PAIR, "behind").tried.append((FEET, SIZE))
+    assert in_vain(robot, PAIR, "behind").covers(FEET, SIZE)
+    monkeypatch.setattr(design, "_designed", begins)
+    with pytest.raises(BegunError):
+        design.design_device(None, robot, None)
+    assert not in_vain(robot, PAIR, "behind").covers(FEET, SIZE)

@@ -1,7 +1,7 @@
 """Feet of a device before what holds them is known, and the footing that is found for them."""
 
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import ceil, copysign, log, sqrt
 
 import numpy as np
@@ -16,6 +16,7 @@ from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import AROUND_SLOT
 from ocs_design.robot.mass import MassProperties, combine
+from ocs_design.robot.robot import Robot
 from ocs_design.sizing.place import CLEARANCE, Place, Size, module_size, wheel_size
 
 SENSES = (1.0, -1.0)
@@ -207,6 +208,13 @@ class InVain:
             )
             for other, one in self.tried
         )
+
+
+@lru_cache(maxsize=64)
+def in_vain(robot: Robot, layout: Layout, search: str) -> InVain:
+    """What a search, by its name, did not find on a robot since `in_vain.cache_clear()`."""
+    del robot, layout, search
+    return InVain()
 
 
 def _figures(feet: Feet, size: Size[float]) -> tuple[float, ...]:

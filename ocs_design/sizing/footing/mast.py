@@ -21,7 +21,7 @@ from ocs_design.parts.printed import SHOCK, SLOT_EDGE
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_back
-from ocs_design.sizing.footing.feet import SENSES, Feet, Footing, InVain, rough
+from ocs_design.sizing.footing.feet import SENSES, Feet, Footing, in_vain, rough
 from ocs_design.sizing.footing.lands import FLATNESS, PROUD, disc_points
 from ocs_design.sizing.footing.plate import WIDER, blank_plate, thick_enough
 from ocs_design.sizing.footing.screws import HEAD_ROOM, PATTERN_STEP, SPREAD
@@ -65,7 +65,8 @@ def footing_behind(robot: Robot, feet: Feet, size: Size[float], layout: Layout) 
 
     They stand one above the other, on plates of one kind, by the lightest tube that bears them.
     """
-    back, asked, vain = trunk_back(robot), rough(feet, size), _in_vain(robot, layout)
+    back, asked = trunk_back(robot), rough(feet, size)
+    vain = in_vain(robot, layout, footing_behind.__name__)
     if back is None or vain.covers(*asked):
         return None
     spot = _mast_spot(robot, *asked, layout)
@@ -123,13 +124,6 @@ def _stacked(feet: Feet, size: Size[float], layout: Layout) -> Feet:
     """Feet of pairs one above the other."""
     out = CLEARANCE * size.reach
     return replace(feet, bases=((0.0, out), (0.0, -out)) * layout.pairs)
-
-
-@lru_cache(maxsize=64)
-def _in_vain(robot: Robot, layout: Layout) -> InVain:
-    """Modules that no mast was found for."""
-    del robot, layout
-    return InVain()
 
 
 @lru_cache(maxsize=64)

@@ -19,7 +19,15 @@ from ocs_design.robot.collision import collision_model
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_surface
 from ocs_design.sizing.footing.contact import contact_of, under_pedestal
-from ocs_design.sizing.footing.feet import Feet, Footing, InVain, device_size, leans, ring_of, rough
+from ocs_design.sizing.footing.feet import (
+    Feet,
+    Footing,
+    device_size,
+    in_vain,
+    leans,
+    ring_of,
+    rough,
+)
 from ocs_design.sizing.footing.lands import base_points, disc_points, highest_of
 from ocs_design.sizing.footing.plate import held_at, plate_of
 from ocs_design.sizing.footing.screws import PLATE_SCREW, POST_SCREW, STRONG_SCREW
@@ -45,7 +53,7 @@ def footing_on_top(surface: Surface, feet: Feet, search: Search) -> Footing | No
     if found is not None:
         return found
     robot, layout, asked = search.collision.robot, search.layout, rough(feet, search.sizes.largest)
-    vain = _in_vain(robot, layout)
+    vain = in_vain(robot, layout, footing_on_top.__name__)
     if vain.covers(*asked):
         return None
     way = _way(robot, *asked, layout)
@@ -53,13 +61,6 @@ def footing_on_top(surface: Surface, feet: Feet, search: Search) -> Footing | No
         vain.tried.append(asked)
         return None
     return _nearest_footing(surface, feet, search, *way)
-
-
-@lru_cache(maxsize=64)
-def _in_vain(robot: Robot, layout: Layout) -> InVain:
-    """Modules that no other way on top of the trunk was found for."""
-    del robot, layout
-    return InVain()
 
 
 @lru_cache(maxsize=64)
