@@ -25,6 +25,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import BACKWARDS, Placement
 from ocs_design.parts.dog_bone import DogBone, directions
 from ocs_design.parts.mast import Mast
+from ocs_design.parts.printed import AROUND_SLOT, TRUNK_SCREW
 from ocs_design.parts.shapes import Disc, Rectangle
 from ocs_design.parts.solids import Part, Prism, hollow_cylinder
 from ocs_design.robot.mass import MassProperties, combine
@@ -58,6 +59,9 @@ preload with half of what strips it."""
 EDGE = 1.5
 """Least distance of a hole's middle from an edge, over its diameter: EN 1993-1-8, table 3.3, asks
 for 1.2."""
+
+SLOT_EDGE = max(AROUND_SLOT, EDGE * TRUNK_SCREW.diameter)
+"""Least width of a plate on either side of the circle of a foot's slots [m]."""
 
 Point: TypeAlias = tuple[float, float]
 

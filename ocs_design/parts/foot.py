@@ -17,6 +17,7 @@ import numpy as np
 
 from ocs_design.actuation.fasteners import Fastening
 from ocs_design.common.frames import Placement
+from ocs_design.parts.carrier_plate import SLOT_EDGE
 from ocs_design.parts.housing import Housing, housing_outer_radius
 from ocs_design.parts.moments import MassMoments, Real, flat_ring
 from ocs_design.parts.printed import (
@@ -28,7 +29,6 @@ from ocs_design.parts.printed import (
     MODULUS,
     PLATE_THICKNESS,
     SHOCK,
-    SLOT_EDGE,
     STRENGTH,
     STRENGTH_ACROSS,
     TRUNK_SCREW,

@@ -76,10 +76,6 @@ TRUNK_SCREW, TRUNK_SCREW_COUNT = screw("M3"), 2
 AROUND_SLOT = max(TRUNK_SCREW.head_diameter / 2.0, TRUNK_SCREW.clearance_hole / 2.0 + WALL)
 """Room of heads, or of a wall, around the middle of a slot [m]."""
 
-SLOT_EDGE = max(AROUND_SLOT, 1.5 * TRUNK_SCREW.diameter)
-"""Width of a carrier plate around the middle of a slot [m]: 1.5 diameters of the screw's hole in
-it, where EN 1993-1-8, table 3.3, asks for 1.2."""
-
 WASHER, WASHER_ACROSS, WASHER_HEIGHT = "ISO 7093-1 - 3", 9.0e-3, 0.8e-3
 """Large washer for such a screw, its largest diameter and height [m]: ISO 7093-1:2000, table 1."""
 

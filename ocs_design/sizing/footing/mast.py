@@ -13,11 +13,18 @@ from ocs_design.actuation.fasteners import screw
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.device.layout import Layout
 from ocs_design.device.solids import mast_solids, plate_solids
-from ocs_design.parts.carrier_plate import EDGE, SLEEVE_MAX, CarrierPlate, Point, plate_part
+from ocs_design.parts.carrier_plate import (
+    EDGE,
+    SLEEVE_MAX,
+    SLOT_EDGE,
+    CarrierPlate,
+    Point,
+    plate_part,
+)
 from ocs_design.parts.joints import pattern_use
 from ocs_design.parts.mast import MAST_YIELD, TUBES, Mast
 from ocs_design.parts.plate_strength import arm_stress, mast_screws_use, mast_stress
-from ocs_design.parts.printed import SHOCK, SLOT_EDGE
+from ocs_design.parts.printed import SHOCK
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_back

@@ -12,12 +12,12 @@ from ocs_design.parts.carrier_plate import (
     EDGE,
     SAFETY,
     SLEEVE_WALL,
+    SLOT_EDGE,
     STOCK,
     YIELD_STRENGTH,
     CarrierPlate,
 )
 from ocs_design.parts.plate_strength import plate_screws_use, plate_stresses
-from ocs_design.parts.printed import SLOT_EDGE
 from ocs_design.robot.surface import Surface
 from ocs_design.sizing.footing.contact import contact_of
 from ocs_design.sizing.footing.feet import SENSES, Feet
