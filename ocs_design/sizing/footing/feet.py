@@ -188,9 +188,10 @@ def _rounded_up(value: float) -> float:
 
 @dataclass(frozen=True, eq=False)
 class InVain:
-    """Modules that nothing held, on one robot in one layout, of a search that takes long to fail.
+    """Modules that a search found nothing to hold, on one robot in one layout.
 
-    Where some were not held, no larger and heavier ones are: they are not looked for again.
+    A search takes longest where it fails. What is larger and heavier in all is taken to fail too,
+    and is not looked for again.
 
     Attributes:
         tried: their feet and sizes.
@@ -212,7 +213,7 @@ class InVain:
 
 @lru_cache(maxsize=64)
 def in_vain(robot: Robot, layout: Layout, search: str) -> InVain:
-    """What a search, by its name, did not find on a robot since `in_vain.cache_clear()`."""
+    """The modules that a search, by its name, failed for since `in_vain.cache_clear()`."""
     del robot, layout, search
     return InVain()
 
