@@ -266,7 +266,7 @@ def _design(
         from ocs_design.export.folder import REPORT_FILE
 
         open_page(output.aside, outcome.folder / REPORT_FILE)
-    raise typer.Exit(outcome.exit_code)
+    output.end(outcome.exit_code, outcome.design)
 
 
 @app.command(epilog=_examples("inspect"))

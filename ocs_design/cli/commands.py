@@ -22,9 +22,6 @@ from ocs_design.common.errors import OcsError, UsageError
 from ocs_design.export.formats import FORMATS, USUAL_FORMATS
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
-    from ocs_design.device.answers import Front
     from ocs_design.requirement.specification import Specification
     from ocs_design.workflows.init import Start
 
@@ -206,26 +203,21 @@ def export(
     Files of the whole robot need the robot's own file as it was, and its meshes. In the design's
     own folder, with --force, only what is made anew is replaced.
     """
-    from ocs_design.export.formats import formats_named
     from ocs_design.report.text.answers import print_export
     from ocs_design.requirement.values import names_in
-    from ocs_design.workflows.export import ON_DESIGN, export_order, finishing, read_order
+    from ocs_design.workflows.export import export_design
 
-    names = [name for text in formats or () for name in names_in(text)]
-    chosen, finish = formats_named(names, ON_DESIGN), finishing(names, typed_command())
-    with output.steps.step("read the design and its robot") as step:
-        order = read_order(
-            design,
-            chosen,
-            robot_file=robot,
-            package_paths=package_paths_of_command(context),
-            strict=output.strict,
-        )
-        step.note = order.subject.name
-    with output.steps.step("write " + ", ".join(names or (each.name for each in chosen))):
-        exported = export_order(
-            order, out or order.default_folder, force=output.force, finish=finish
-        )
+    exported = export_design(
+        design,
+        [name for text in formats or () for name in names_in(text)],
+        out=out,
+        robot_file=robot,
+        package_paths=package_paths_of_command(context),
+        force=output.force,
+        strict=output.strict,
+        progress=output.steps,
+        command=typed_command(),
+    )
     output.give(exported, print_export, exported.warnings)
 
 
@@ -275,10 +267,10 @@ def pareto(
     Every value is a design of its own, not flown yet. To make, export and fly one:
     `ocs-design size --spec DIR/points/NN.toml`. Exit code 4: no value has a device.
     """
-    from ocs_design.report.text.front import print_front, print_written
-    from ocs_design.workflows.pareto import make_front
+    from ocs_design.report.text.front import print_front
+    from ocs_design.workflows.pareto import pareto_front
 
-    front, remarks = make_front(
+    front = pareto_front(
         specified_by_command(context),
         against,
         low=low,
@@ -289,15 +281,9 @@ def pareto(
         out=out,
         force=output.force,
         strict=output.strict,
-        steps=output.steps,
+        progress=output.steps,
     )
-
-    def show(console: "Console", front: "Front") -> None:
-        """The front, and where its files are."""
-        print_front(console, front)
-        print_written(console, front, out)
-
-    output.give(front, show, remarks)
+    output.give(front, partial(print_front, folder=out))
     raise typer.Exit(front.exit_code)
 
 
@@ -382,29 +368,29 @@ def validate(
     with output.steps.step("load the simulator"):
         from ocs_design.common.units import Dimension, parse_quantity
         from ocs_design.report.text.validation import print_validated
-        from ocs_design.workflows.validate import Request, validated, watch
+        from ocs_design.workflows.validate import validate_design, watch
     width = None
     if until_width is not None:
         width = parse_quantity(until_width, Dimension.RATIO, "--until-width")
-    request = Request(
-        design=design,
-        stated=specified_by_command(context),
-        robot_file=robot_file,
-        package_paths=package_paths_of_command(context),
+    answer = validate_design(
+        design,
         samples=samples,
         until_width=width,
-        scheduler=scheduler,
-        engine=engine,
         sample=sample,
         replay=replay,
+        specification=specified_by_command(context),
+        robot_file=robot_file,
+        package_paths=package_paths_of_command(context),
+        scheduler=scheduler,
+        engine=engine,
         out=out,
         force=output.force,
         strict=output.strict,
         view=view,
+        progress=output.steps,
     )
-    answer = validated(request, output.steps)
     show = partial(print_validated, folder=answer.folder, files=answer.files)
     output.give(answer.found, show, answer.found.warnings)
     if view:
         watch(answer)
-    raise typer.Exit(answer.exit_code)
+    output.end(answer.exit_code, answer.found)

@@ -176,7 +176,8 @@ AsJson: TypeAlias = Annotated[
 ]
 Strict: TypeAlias = Annotated[bool, typer.Option("--strict", help="Warnings are errors.")]
 Picture: TypeAlias = Annotated[
-    Path | None, option("--picture", "FILE", "Draw trunk, legs and feet from three sides (.svg).")
+    Path | None,
+    option("--picture", "FILE", "Draw trunk, legs and feet from three sides (.svg or .png)."),
 ]
 Quiet: TypeAlias = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
 Verbose: TypeAlias = Annotated[

@@ -6,13 +6,17 @@ import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, NoReturn, TypeVar
+
+import typer
 
 from ocs_design.cli import options as opt
 
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from ocs_design.device.answers import Validated
+    from ocs_design.device.records.design import OcsDesign
     from ocs_design.report.text.console import Steps
 
 Answer = TypeVar("Answer")
@@ -70,6 +74,14 @@ class Output:
 
             warn(self.aside, warnings)
             show(self.console, answer)
+
+    def end(self, exit_code: int, judged: "OcsDesign | Validated") -> NoReturn:
+        """End with an exit code; one line has the verdict where it is no success and not told."""
+        if exit_code and self.quiet and not self.as_json:
+            from ocs_design.report.verdict import headline
+
+            self.aside.print(headline(judged).whole, markup=False, soft_wrap=True)
+        raise typer.Exit(exit_code)
 
     def _console(self, *, stderr: bool) -> "Console":
         from ocs_design.report.text.console import make_console

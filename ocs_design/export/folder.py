@@ -194,8 +194,8 @@ def keep_others(source: Path, target: Path, *, without: Collection[str]) -> None
                 shutil.copy2(path, copied, follow_symlinks=False)
 
 
-def write_whole(target: Path, text: str, *, force: bool) -> None:
-    """Write all of `text` as UTF-8 or leave everything as it was.
+def write_whole(target: Path, content: str | bytes, *, force: bool) -> None:
+    """Write all of `content`, a text as UTF-8, or leave everything as it was.
 
     Raises:
         OutputError: see `check_file_target`; or writing failed.
@@ -203,7 +203,7 @@ def write_whole(target: Path, text: str, *, force: bool) -> None:
     check_file_target(target, force=force)
     try:
         with whole_file(target) as complete:
-            complete.write_text(text, encoding="utf-8", newline="\n")
+            complete.write_bytes(content if isinstance(content, bytes) else content.encode())
     except OSError as error:
         raise output_error(error, target) from error
 

@@ -5,7 +5,6 @@ under the torques of the wheel law an episode is that very flight.
 """
 
 from math import remainder, tau
-from pathlib import Path
 from typing import Any, TypeAlias
 
 import gymnasium
@@ -27,7 +26,7 @@ from ocs_design.simulation.piloted import PilotedFlight
 from ocs_design.simulation.run import Metrics
 from ocs_design.simulation.verdict import landing_attitude
 from ocs_design.workflows.flying import read_task
-from ocs_design.workflows.validate import Request, campaign_of
+from ocs_design.workflows.validate import campaign_of
 
 Observation: TypeAlias = NDArray[np.float32]
 
@@ -83,12 +82,10 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
                 has no motor.
             UsageError: it has no such maneuver.
         """
-        task = read_task(
-            design, Specification(), robot_file=None if robot_file is None else Path(robot_file)
-        )
+        task = read_task(design, Specification(), robot_file=robot_file)
         # What its legs bear is in the record, unless it was not flown.
         flown = task.design.validation or task.fly(Steps.silent())
-        self._campaign = campaign_of(Request(design=task.path), task, flown)
+        self._campaign = campaign_of(task, flown)
         names = [flight.maneuver.name for flight in self._campaign.flights]
         if maneuver is not None and maneuver not in names:
             raise UsageError(f"the design has no maneuver {maneuver!r}", hint=f"it has {names}")

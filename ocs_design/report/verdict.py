@@ -3,8 +3,9 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from ocs_design.device.answers import Validated
 from ocs_design.device.records.design import OcsDesign
-from ocs_design.device.records.flights import ReliabilityRecord, SurvivalRecord, ValidationRecord
+from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.report.flights import falls, survival_sentence, turned_by_hand
 from ocs_design.report.monte_carlo import certificate_line
 from ocs_design.report.table import Tone, Toned
@@ -31,62 +32,56 @@ class Headline:
         return SEPARATOR.join(part.text for part in self.parts)
 
     @property
+    def whole(self) -> str:
+        """The line, with what matters most at its end."""
+        return SEPARATOR.join(filter(None, [self.text, self.matter]))
+
+    @property
     def tone(self) -> Tone:
         """The worst of all parts."""
         tones = {part.tone for part in self.parts}
         return next(tone for tone in (Tone.FAIL, Tone.OPEN, Tone.PASS) if tone in tones)
 
 
-def headline(design: OcsDesign) -> Headline:
-    """Verdict on a design and its flights."""
-    runs = [run for run in design.validation if run.ocs]
-    yes, without_shapes = design.buildable.yes, "buildable: not known, for the robot has no shapes"
-    if yes is not None:
-        first = Toned("buildable" if yes else "NOT buildable", Tone.PASS if yes else Tone.FAIL)
-    elif design.ocs.motor.bus_voltage is None:
-        first = Toned("no motor chosen yet", Tone.OPEN)
+def headline(found: OcsDesign | Validated) -> Headline:
+    """Verdict on a design and its flights, or on flights alone; those with the device count."""
+    runs, survival = [run for run in found.validation if run.ocs], found.survival
+    parts, by_hand, shortage = [], "", ""
+    if isinstance(found, OcsDesign):
+        certified = found.reliability
+        parts.append(_buildable(found))
+        by_hand = next(iter(turned_by_hand(found)), "")
+        if found.buildable.yes is False and found.buildable.open:
+            shortage = f"{found.buildable.open[0].what}; {found.buildable.open[0].cure}"
     else:
-        first = Toned("buildable: not known" if design.robot.sha256 else without_shapes, Tone.OPEN)
-    flights = (*_flights(runs), *_survives(design.survival), *_certified(design.reliability))
-    if design.buildable.yes is False and design.buildable.open:
-        point = design.buildable.open[0]
-        return Headline((first, *flights), f"{point.what}; {point.cure}")
-    by_hand = next(iter(turned_by_hand(design)), "")
-    matter = _of_flights(runs) or _lost(design.survival) or by_hand or _sure(design.reliability)
-    return Headline((first, *flights), matter)
-
-
-def flights_headline(
-    runs: Sequence[ValidationRecord],
-    reliability: ReliabilityRecord | None = None,
-    survival: SurvivalRecord | None = None,
-) -> Headline:
-    """Verdict on flights alone, of which those with the device count, and their certificate."""
-    carrying = [run for run in runs if run.ocs]
-    parts = (*_flights(carrying), *_survives(survival), *_certified(reliability))
-    return Headline(parts, _of_flights(carrying) or _lost(survival) or _sure(reliability))
-
-
-def _survives(found: SurvivalRecord | None) -> Iterator[Toned]:
-    """How many landings with a stopped drive are within the allowance; nothing without such."""
-    if found is not None:
-        count = len(found.flights)
-        yield _share("with a drive stopped", count - len(found.lost), count, Tone.FAIL)
-
-
-def _lost(found: SurvivalRecord | None) -> str:
-    return survival_sentence(found) if found is not None and found.lost else ""
-
-
-def _sure(found: ReliabilityRecord | None) -> str:
-    return "" if found is None else certificate_line(found)
-
-
-def _certified(found: ReliabilityRecord | None) -> Iterator[Toned]:
-    """Certificate; nothing where none was flown."""
-    if found is not None:
+        certified = None if found.monte_carlo is None else found.monte_carlo.certificate
+    parts += _flights(runs)
+    if survival is not None:
+        count = len(survival.flights)
+        parts.append(_share("with a drive stopped", count - len(survival.lost), count, Tone.FAIL))
+    if certified is not None:
         tones = {"certified": Tone.PASS, "falls short": Tone.FAIL, "undecided": Tone.OPEN}
-        yield Toned(f"{100.0 * found.asked:.4g} % {found.verdict}", tones[found.verdict])
+        verdict = f"{100.0 * certified.asked:.4g} % {certified.verdict}"
+        parts.append(Toned(verdict, tones[certified.verdict]))
+    matters = (
+        shortage,
+        _of_flights(runs),
+        survival_sentence(survival) if survival is not None and survival.lost else "",
+        by_hand,
+        "" if certified is None else certificate_line(certified),
+    )
+    return Headline(tuple(parts), next(filter(None, matters), ""))
+
+
+def _buildable(design: OcsDesign) -> Toned:
+    """Whether it can be built."""
+    yes = design.buildable.yes
+    if yes is not None:
+        return Toned("buildable" if yes else "NOT buildable", Tone.PASS if yes else Tone.FAIL)
+    if design.ocs.motor.bus_voltage is None:
+        return Toned("no motor chosen yet", Tone.OPEN)
+    why = "" if design.robot.sha256 else ", for the robot has no shapes"
+    return Toned(f"buildable: not known{why}", Tone.OPEN)
 
 
 def _flights(runs: Sequence[ValidationRecord]) -> Iterator[Toned]:

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 from ocs_design.actuation.controllers import BASE_MASS, MASS_PER_CURRENT
 from ocs_design.actuation.drive import RESERVE
@@ -10,6 +9,7 @@ from ocs_design.actuation.motor import DIRECT
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import DEFAULT_MATERIAL, Material, material
 from ocs_design.common.errors import RobotError, SpecificationError, UsageError
+from ocs_design.common.files import AnyPath
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity, rpm, to_unit
 from ocs_design.requirement.checks import contradictions, unfit_for_robot
 from ocs_design.requirement.choices import POWER_PER_MASS, MotorChoice, default_supply, motor_choice
@@ -125,7 +125,7 @@ SCALES = 0.02
 def read_specified_robot(
     specification: Specification,
     *,
-    package_paths: Mapping[str, Path] | None = None,
+    package_paths: Mapping[str, AnyPath] | None = None,
     strict: bool = False,
     sure: bool = True,
 ) -> Robot:

@@ -1,7 +1,7 @@
 """`ocs-design export`: every file again from `design.json`."""
 
-from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from ocs_design.common.errors import OcsError
@@ -25,11 +25,11 @@ from ocs_design.export.formats import (
     ALL,
     FORMATS,
     USUAL_FORMATS,
-    Format,
     Subject,
     export_formats,
     formats_named,
 )
+from ocs_design.report.text.console import Steps, Tell
 from ocs_design.workflows.inspect import posture_lines
 from ocs_design.workflows.restoring import (
     Whereabouts,
@@ -43,112 +43,10 @@ _WHERE = (
     f"--formats {','.join(each.name for each in USUAL_FORMATS if not each.needs_robot)}"
 )
 
+FIGURES, REPORT, CONTROLLER = "figures", "report", "controller"
 
-@dataclass(frozen=True, eq=False)
-class Order:
-    """Design to write again.
-
-    Attributes:
-        path: of the `design.json`.
-        design: that was read from it.
-        subject: device and robot.
-        formats: to write.
-        warnings: about the robot, which were not there when the device was sized.
-        where: to look for the robot.
-    """
-
-    path: Path
-    design: OcsDesign
-    subject: Subject
-    formats: tuple[Format, ...]
-    warnings: tuple[str, ...]
-    where: Whereabouts
-
-    @property
-    def default_folder(self) -> Path:
-        """Folder in the working directory, where no other is named."""
-        return Path(f"{self.subject.name}-ocs-export")
-
-
-Finish = Callable[[Order, Path], tuple[str, ...]]
-"""Function that writes into a folder; gives notes for the user, one sentence each."""
-
-
-def read_order(
-    path: AnyPath,
-    formats: tuple[Format, ...],
-    *,
-    robot_file: Path | None = None,
-    package_paths: Mapping[str, Path] | None = None,
-    strict: bool = False,
-) -> Order:
-    """Read a design, and its robot where a format needs it.
-
-    Args:
-        path: of a `design.json`, or of the folder that it lies in.
-        formats: that are wanted.
-        robot_file: of the robot, in place of the one that the design names. It may be another
-            file than the device was sized for, which is told.
-        package_paths: folders of packages, over those that the design names.
-        strict: warnings about the robot are errors.
-
-    Raises:
-        OcsError: the design or the robot cannot be read, or the robot has changed.
-    """
-    path = design_file(path)
-    design = read_design(path)
-    device, name = device_of(design.ocs, design.supply), safe_name(design.robot.name)
-    where = Whereabouts(path, robot_file, package_paths or {}, _WHERE)
-    if not any(each.needs_robot for each in formats):
-        subject = Subject(name, device, seat_of(design.robot), None)
-        return Order(path, design, subject.recorded(design), formats, (), where)
-    robot, warnings = read_recorded_robot(design.robot, where, strict=strict)
-    subject = Subject.of(robot, device, name).recorded(design)
-    return Order(path, design, subject, formats, warnings, where)
-
-
-def export_order(
-    order: Order, folder: Path, *, force: bool = False, finish: Finish | None = None
-) -> Exported:
-    """Write the files of a design.
-
-    The folder gets a `design.json` too, with the hashes of its files. In the design's own folder
-    everything else stays as it is.
-
-    Args:
-        order: see `read_order`.
-        folder: to write.
-        force: replace an existing folder, once the new one is complete.
-        finish: writes what rests on the design and its other files, when those are there.
-
-    Raises:
-        OutputError: it cannot be written, or exists already.
-    """
-    with staged_folder(folder, force=force) as staging:
-        alone = [each for each in order.formats if not each.needs_robot]
-        notes = export_formats(order.subject, alone, staging)
-        whole = [each for each in order.formats if each.needs_robot]
-        remarks = export_formats(order.subject, whole, staging)
-        if finish is not None:
-            remarks += finish(order, staging)
-        made = file_hashes(staging)
-        source = order.path.parent
-        if folder.exists() and folder.samefile(source):
-            # If all usual files are made anew, those of before may have had other names.
-            usual = set(USUAL_FORMATS) <= set(order.formats)
-            folders = {each.folder for each in FORMATS} if usual else set()
-            old = {name for name in order.design.files if name.partition("/")[0] in folders}
-            keep_others(source, staging, without=old)
-        design = replace(order.design, files=recorded_hashes(staging))
-        (staging / DESIGN_FILE).write_bytes(to_json(design))
-    known = order.design.robot.warnings
-    return Exported(
-        schema_version=SCHEMA_VERSION,
-        folder=str(folder),
-        files=made,
-        warnings=(*order.warnings, *(remark for remark in remarks if remark not in known)),
-        notes=notes,
-    )
+ON_DESIGN = (FIGURES, REPORT, CONTROLLER)
+"""Names that users say of what rests on the design's other files too."""
 
 
 def export_design(
@@ -160,90 +58,109 @@ def export_design(
     package_paths: Mapping[str, AnyPath] | None = None,
     force: bool = False,
     strict: bool = False,
+    progress: Steps | Tell | None = None,
+    command: str = "",
 ) -> Exported:
     """Write the files of a design again, or in other formats.
+
+    The folder gets a `design.json` too, with the hashes of its files. In the design's own folder
+    everything else stays as it is.
 
     Args:
         design: its folder, its `design.json`, or the `Outcome` that made it.
         formats: names as of `ocs-design export --formats`, one or several; empty: the usual ones.
         out: folder to write; None: `<name>-ocs-export` in the working directory.
-        robot_file: of the robot, where it has moved.
-        package_paths: folder of each package that `package://` addresses name.
+        robot_file: of the robot, in place of the one that the design names. It may be another
+            file than the device was sized for, which is told.
+        package_paths: folders of packages, over those that the design names.
         force: replace an existing folder, once the new one is complete.
         strict: warnings about the robot are errors.
+        progress: see `design_ocs`. command: that was typed, for the report.
 
     Raises:
-        OcsError: see `read_order` and `export_order`; nothing is written then.
+        OcsError: the design or the robot cannot be read, the robot has changed, or the folder
+            cannot be written; nothing is written then.
     """
-    names = (formats,) if isinstance(formats, str) else tuple(formats)
-    order = read_order(
-        design,
-        formats_named(names, ON_DESIGN),
-        robot_file=None if robot_file is None else Path(robot_file),
-        package_paths={name: Path(path) for name, path in (package_paths or {}).items()},
-        strict=strict,
-    )
-    folder = order.default_folder if out is None else Path(out)
-    return export_order(order, folder, force=force, finish=finishing(names, ""))
-
-
-FIGURES, REPORT, CONTROLLER = "figures", "report", "controller"
-
-ON_DESIGN = (FIGURES, REPORT, CONTROLLER)
-"""Names that users say."""
-
-
-def finishing(names: Collection[str], command: str) -> Finish | None:
-    """Function that writes charts, report and controller where they are asked for; None: none is.
-
-    Args:
-        names: as users say them.
-        command: that was typed.
-    """
-    wanted = [name for name in ON_DESIGN if name in names or ALL in names]
-
-    def finish(order: Order, folder: Path) -> tuple[str, ...]:
-        """Write into the folder; a file that it lacks is taken from the design's own folder."""
-        remarks: tuple[str, ...] = ()
-        if CONTROLLER in wanted:
+    steps, names = Steps.of(progress), (formats,) if isinstance(formats, str) else tuple(formats)
+    chosen = formats_named(names, ON_DESIGN)
+    rest = [name for name in ON_DESIGN if name in names or ALL in names]
+    with steps.step("read the design and its robot") as step:
+        path = design_file(design)
+        known = read_design(path)
+        device, name = device_of(known.ocs, known.supply), safe_name(known.robot.name)
+        where = Whereabouts(path, robot_file, package_paths or {}, _WHERE)
+        subject = Subject(name, device, seat_of(known.robot), None)
+        warnings: tuple[str, ...] = ()
+        if any(each.needs_robot for each in chosen):
+            robot, warnings = read_recorded_robot(known.robot, where, strict=strict)
+            subject = Subject.of(robot, device, name)
+        subject = subject.recorded(known)
+        step.note = name
+    folder = Path(out or f"{name}-ocs-export")
+    with (
+        steps.step(f"write {', '.join(names or (each.name for each in chosen))}"),
+        staged_folder(folder, force=force) as staging,
+    ):
+        alone = [each for each in chosen if not each.needs_robot]
+        notes = export_formats(subject, alone, staging)
+        whole = [each for each in chosen if each.needs_robot]
+        remarks = export_formats(subject, whole, staging)
+        if CONTROLLER in rest:
             try:
-                _controller(order, folder / CONTROLLER)
+                _write_controller(name, where, staging / CONTROLLER)
             except OcsError as error:
                 if CONTROLLER in names:
                     raise
-                remarks = (f"without the controller: {error.message}",)
-        return remarks if wanted == [CONTROLLER] else remarks + pages(order, folder)
-
-    def pages(order: Order, folder: Path) -> tuple[str, ...]:
-        """Write charts and report."""
-        # They need the simulator's values, which parts and snippets do without.
-        from ocs_design.report.charts.figures import FOLDER, all_charts  # noqa: PLC0415
-        from ocs_design.report.charts.svg import write_charts  # noqa: PLC0415
-        from ocs_design.report.html.page import write_report  # noqa: PLC0415
-        from ocs_design.report.story import story_in  # noqa: PLC0415
-
-        postures: tuple[PostureLine, ...] = ()
-        remarks: tuple[str, ...] = ()
-        try:
-            robot, _ = read_recorded_robot(order.design.robot, order.where, strict=False)
-            postures = posture_lines(robot)
-        except OcsError as error:
-            remarks = (f"without the chart of incidence over postures: {error.message}",)
-        story = story_in(
-            [folder, order.path.parent], order.design, postures=postures, command=command
-        )
-        if FIGURES in wanted:
-            remarks += write_charts(tuple(all_charts(story)), folder / FOLDER)
-        if REPORT in wanted:
-            whole = replace(order.design, files=recorded_hashes(folder))
-            write_report(replace(story, design=whole), folder)
-        return remarks
-
-    return finish if wanted else None
+                remarks = (*remarks, f"without the controller: {error.message}")
+        if set(rest) - {CONTROLLER}:
+            remarks += _write_pages(known, where, staging, rest, command)
+        made = file_hashes(staging)
+        if folder.exists() and folder.samefile(path.parent):
+            # If all usual files are made anew, those of before may have had other names.
+            usual = set(USUAL_FORMATS) <= set(chosen)
+            folders = {each.folder for each in FORMATS} if usual else set()
+            old = {file for file in known.files if file.partition("/")[0] in folders}
+            keep_others(path.parent, staging, without=old)
+        again = replace(known, files=recorded_hashes(staging))
+        (staging / DESIGN_FILE).write_bytes(to_json(again))
+    told = known.robot.warnings
+    return Exported(
+        schema_version=SCHEMA_VERSION,
+        folder=str(folder),
+        files=made,
+        warnings=(*warnings, *(remark for remark in remarks if remark not in told)),
+        notes=notes,
+    )
 
 
-def _controller(order: Order, folder: Path) -> None:
-    """Law and plans of the design's flights in C.
+def _write_pages(
+    design: OcsDesign, where: Whereabouts, folder: Path, names: Collection[str], command: str
+) -> tuple[str, ...]:
+    """Write charts and report; a file that the folder lacks is taken from the design's own."""
+    # They need the simulator's values, which parts and snippets do without.
+    from ocs_design.report.charts.figures import FOLDER, all_charts  # noqa: PLC0415
+    from ocs_design.report.charts.svg import write_charts  # noqa: PLC0415
+    from ocs_design.report.html.page import write_report  # noqa: PLC0415
+    from ocs_design.report.story import story_in  # noqa: PLC0415
+
+    postures: tuple[PostureLine, ...] = ()
+    remarks: tuple[str, ...] = ()
+    try:
+        robot, _ = read_recorded_robot(design.robot, where, strict=False)
+        postures = posture_lines(robot)
+    except OcsError as error:
+        remarks = (f"without the chart of incidence over postures: {error.message}",)
+    story = story_in([folder, where.design.parent], design, postures=postures, command=command)
+    if FIGURES in names:
+        remarks += write_charts(tuple(all_charts(story)), folder / FOLDER)
+    if REPORT in names:
+        whole = replace(design, files=recorded_hashes(folder))
+        write_report(replace(story, design=whole), folder)
+    return remarks
+
+
+def _write_controller(name: str, where: Whereabouts, folder: Path) -> None:
+    """Write law and plans of the design's flights in C, its files named after the robot.
 
     Raises:
         OcsError: the robot cannot be had, or there is nothing to fly.
@@ -258,16 +175,16 @@ def _controller(order: Order, folder: Path) -> None:
 
     # How the legs make the flight is not the wheels' business.
     task = read_task(
-        order.path,
+        where.design,
         Specification(validation=ValidationSection(ballistic=True)),
-        robot_file=order.where.robot_file,
-        package_paths=order.where.package_paths,
+        robot_file=where.robot_file,
+        package_paths=where.package_paths,
     )
     builder = world_builder(task.robot, task.device, flight_options(task.control))
     delay = task.uncertainty.torque_delay
     folder.mkdir()
     write_controller(
-        order.subject.name,
+        name,
         {
             each.name: builder.flight(each, Wheels.ACTIVE, task.references.get(each.name))
             for each in task.maneuvers

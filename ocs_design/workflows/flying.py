@@ -196,8 +196,8 @@ def read_task(
     path: AnyPath,
     stated: Specification,
     *,
-    robot_file: Path | None = None,
-    package_paths: Mapping[str, Path] | None = None,
+    robot_file: AnyPath | None = None,
+    package_paths: Mapping[str, AnyPath] | None = None,
     strict: bool = False,
 ) -> Task:
     """Read a design and its robot, and plan what device and legs track, as when it was sized.

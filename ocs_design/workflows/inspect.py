@@ -18,6 +18,7 @@ from ocs_design.device.layout import Criterion, heading_drift, incidence_by_crit
 from ocs_design.device.records.design import SCHEMA_VERSION
 from ocs_design.device.records.requirement import RobotRecord
 from ocs_design.export.folder import write_whole
+from ocs_design.report.charts.svg import png_of
 from ocs_design.report.stick_figure import stick_figure
 from ocs_design.requirement.resolving import read_specified_robot
 from ocs_design.requirement.specification import Specification
@@ -42,13 +43,15 @@ def inspect_robot(
         specification: that names the robot.
         package_paths: folder of each package that `package://` addresses name.
         strict: whether warnings are errors.
-        picture: file to draw what was recognised in, `.svg`; None: none.
+        picture: file to draw what was recognised in, `.svg` or `.png`; None: none.
 
     Raises:
         OcsError: see `read_specified_robot`; the picture cannot be drawn or written.
     """
-    if picture is not None and picture.suffix.lower() != ".svg":
-        raise UsageError(f"--picture {picture}: only .svg is drawn", hint="name a file *.svg")
+    if picture is not None and picture.suffix.lower() not in {".svg", ".png"}:
+        raise UsageError(
+            f"--picture {picture}: .svg and .png are drawn", hint="name a file *.svg or *.png"
+        )
     robot = read_specified_robot(
         specification, package_paths=package_paths, strict=strict, sure=False
     )
@@ -63,7 +66,9 @@ def inspect_robot(
             f"confidence {shown.confidence:.0%}, posture {robot.posture_name}",
             *(f"or {each.options} ({each.confidence:.0%})" for each in asked[1:]),
         ]
-        write_whole(picture, stick_figure(robot, shown.legs, words), force=True)
+        drawn = stick_figure(robot, shown.legs, words)
+        content = drawn if picture.suffix.lower() == ".svg" else png_of(drawn)
+        write_whole(picture, content, force=True)
     roll, pitch = heading_drift(robot.inertia)
     return Inspection(
         schema_version=SCHEMA_VERSION,

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
-from pathlib import Path
 
 from ocs_design.actuation.wheel_load import reach, reach_without_one
 from ocs_design.common.arrays import vector
@@ -42,12 +41,11 @@ def compare_layouts(
         OcsError: the robot cannot be read, or the specification does not fit it.
     """
     steps, stated = Steps.of(progress), specification_of(design_for)
-    paths = {name: Path(path) for name, path in (package_paths or {}).items()}
     answers = []
     for layout in LAYOUTS:
         asked = replace(stated, ocs=replace(stated.ocs, layout=layout))
         with steps.step(f"size {layout}") as step:
-            task = read_task(asked, package_paths=paths, strict=strict)
+            task = read_task(asked, package_paths=package_paths, strict=strict)
             try:
                 designed = design_device(asked, task.robot, task.resolved, ranked=False)
             except Infeasible as error:

@@ -66,57 +66,25 @@ def pareto_front(
     Raises:
         OcsError: the robot cannot be read, or the values make no range.
     """
-    front, _ = make_front(
-        specification_of(design_for),
-        against,
-        low=low,
-        high=high,
-        points=points,
-        maneuver=maneuver,
-        package_paths={name: Path(path) for name, path in (package_paths or {}).items()},
-        out=None if out is None else Path(out),
-        force=force,
-        strict=strict,
-        steps=Steps.of(progress),
-    )
-    return front
-
-
-def make_front(
-    specification: Specification,
-    against: str,
-    *,
-    low: str | None,
-    high: str | None,
-    points: int,
-    maneuver: str,
-    package_paths: Mapping[str, Path],
-    out: Path | None,
-    force: bool,
-    strict: bool,
-    steps: Steps,
-) -> tuple[Front, tuple[str, ...]]:
-    """Front of a specification, written if that is asked for, and remarks on its files.
-
-    See `pareto_front`.
-    """
-    sweep = sweep_of(against, maneuver)
+    steps, sweep = Steps.of(progress), sweep_of(against, maneuver)
     if out is not None:
-        check_target(out, force=force)
+        check_target(Path(out), force=force)
     with steps.step("read the robot") as step:
-        task = read_task(specification, package_paths=package_paths, strict=strict)
+        task = read_task(specification_of(design_for), package_paths=package_paths, strict=strict)
         step.note = task.robot.name
     steps.doubt(task.robot.warnings)
     values = front_values(sweep, task, low=low, high=high, points=points)
     with steps.step(f"choose a device for each of {points} values") as step:
         front = draw_front(task, sweep, values, lightest_device, step.update)
-    return front, () if out is None else write_front(front, out, force=force)
+    if out is not None:
+        steps.doubt(write_front(front, Path(out), force=force))
+    return front
 
 
 def read_task(
     specification: Specification,
     *,
-    package_paths: Mapping[str, Path] | None = None,
+    package_paths: Mapping[str, AnyPath] | None = None,
     strict: bool = False,
 ) -> Task:
     """Robot and specification as they stand.

@@ -11,6 +11,7 @@ import numpy as np
 
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError, RobotError
+from ocs_design.common.files import AnyPath
 from ocs_design.common.frames import Placement
 from ocs_design.device.checks import check_device
 from ocs_design.device.device import Device
@@ -76,7 +77,7 @@ def maneuver_of(record: ManeuverRecord) -> Maneuver:
     )
 
 
-def robot_of(record: RobotRecord, path: Path | str, package_paths: Mapping[str, Path]) -> Robot:
+def robot_of(record: RobotRecord, path: AnyPath, package_paths: Mapping[str, AnyPath]) -> Robot:
     """The robot read again, in the posture that it was sized in.
 
     Args:
@@ -133,8 +134,8 @@ class Whereabouts:
     """
 
     design: Path
-    robot_file: Path | None
-    package_paths: Mapping[str, Path]
+    robot_file: AnyPath | None
+    package_paths: Mapping[str, AnyPath]
     hint: str
 
 

@@ -2,20 +2,20 @@
 
 from collections.abc import Mapping, Sequence
 from contextlib import closing, nullcontext
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
 
 from ocs_design import __version__
 from ocs_design.common.errors import OcsError, UsageError
 from ocs_design.common.files import AnyPath, to_json
-from ocs_design.device.answers import SampleRecord, Validated
-from ocs_design.device.records.design import DESIGN_FILE, SCHEMA_VERSION, OcsDesign
+from ocs_design.device.answers import MonteCarloRecord, SampleRecord, Validated
+from ocs_design.device.records.design import DESIGN_FILE, SCHEMA_VERSION
 from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.export.film import Take, film_model
 from ocs_design.export.folder import check_target, file_hashes, staged_folder
 from ocs_design.export.watching import check_display, watch_takes
-from ocs_design.monte_carlo.campaign import Campaign, Case, read_case, replayed, write_results
+from ocs_design.monte_carlo.campaign import Campaign, read_case, replayed, write_results
 from ocs_design.monte_carlo.certificate import ROUND, SequentialTest, certificate
 from ocs_design.monte_carlo.outcomes import Identity, Storage, blocks_of
 from ocs_design.monte_carlo.running import (
@@ -45,36 +45,19 @@ SAMPLES_VERSION = 2
 
 
 @dataclass(frozen=True, kw_only=True)
-class Request:
-    """What a validation is to fly, and where it is kept.
+class _Request:
+    """What a validation is to fly, and where it is kept, as `validate_design` is asked for it."""
 
-    Attributes:
-        design: `design.json` or its folder. stated: `[validation]` and `[reality]`.
-        robot_file, package_paths, strict: see `read_task`.
-        samples: to fly at most; None: the flights as designed alone, or until it is certified.
-        until_width: of the intervals, that fewer samples will do for; None: all are flown.
-        scheduler: address of a Dask cluster; None: this machine.
-        engine: of the physics of samples, a word of `EngineName`.
-        sample: to fly alone. replay: file of a case to fly alone.
-        out: folder to write to; None: nothing is kept.
-        force: replace what is there, also the samples of another campaign.
-        view: whether the runs are to be looked at.
-    """
-
-    design: Path
-    stated: Specification = field(default_factory=Specification)
-    robot_file: Path | None = None
-    package_paths: Mapping[str, Path] = field(default_factory=dict)
-    strict: bool = False
-    samples: int | None = None
-    until_width: float | None = None
-    scheduler: str | None = None
-    engine: str = EngineName.MUJOCO
-    sample: int | None = None
-    replay: Path | None = None
-    out: Path | None = None
-    force: bool = False
-    view: bool = False
+    stated: Specification
+    samples: int | None
+    until_width: float | None
+    scheduler: str | None
+    engine: str
+    sample: int | None
+    replay: Path | None
+    out: Path | None
+    force: bool
+    view: bool
 
     def check(self) -> None:
         """Refuse what contradicts itself or makes no sense.
@@ -86,49 +69,60 @@ class Request:
         """
         wanted = {"--samples": self.samples, "--sample": self.sample, "--replay": self.replay}
         given = [name for name, value in wanted.items() if value is not None]
-        if len(given) > 1:
-            raise UsageError(f"{' and '.join(given)} exclude each other", hint="give one")
-        certifies = self.stated.validation.certify is True
-        if self.sample is not None and self.sample < 0:
-            raise UsageError(f"--sample {self.sample}: must be a whole number from 0")
-        if certifies and self.until_width is not None:
-            raise UsageError("--certify and --until-width exclude each other", hint="give one")
-        if not self.many and (self.until_width is not None or self.scheduler is not None):
-            raise UsageError(
-                "--until-width and --scheduler are about samples", hint="add --samples N"
-            )
-        if self.engine not in tuple(EngineName):
-            words = " or ".join(EngineName)
-            raise UsageError(f"--engine {self.engine}: must be {words}")
-        if self.engine != EngineName.MUJOCO:
-            if not self.many:
-                raise UsageError(f"--engine {self.engine} is about samples", hint="add --samples N")
-            if self.scheduler is not None:
-                raise UsageError(f"--engine {self.engine} and --scheduler exclude each other")
-            if certifies:
-                raise UsageError(
-                    f"--engine {self.engine} and --certify exclude each other: its precision is "
-                    "single",
-                    hint="leave --engine out to certify",
-                )
-        if self.samples is not None and not 1 <= self.samples <= ROUND:
-            raise UsageError(f"--samples {self.samples}: must be from 1 to {ROUND:,}")
-        if self.until_width is not None and not 0.0 < self.until_width < 1.0:
-            raise UsageError(f"--until-width {self.until_width:.4g}: must be between 0 and 100 %")
+        certifies, engine = self.stated.validation.certify is True, f"--engine {self.engine}"
+        elsewhere, width = self.engine != EngineName.MUJOCO, self.until_width
+        refused = {
+            f"{' and '.join(given)} exclude each other": (len(given) > 1, "give one"),
+            f"--sample {self.sample}: must be a whole number from 0": ((self.sample or 0) < 0, ""),
+            f"{'; '.join(given)} and --certify exclude each other: one robot certifies nothing": (
+                certifies and self.alone,
+                "leave --certify out, or `certify` of the specification",
+            ),
+            "--certify and --until-width exclude each other": (
+                certifies and width is not None,
+                "give one",
+            ),
+            "--until-width and --scheduler are about samples": (
+                not self.many and (width is not None or self.scheduler is not None),
+                "add --samples N",
+            ),
+            f"{engine}: must be {' or '.join(EngineName)}": (
+                self.engine not in tuple(EngineName),
+                "",
+            ),
+            f"{engine} is about samples": (elsewhere and not self.many, "add --samples N"),
+            f"{engine} and --scheduler exclude each other": (
+                elsewhere and self.scheduler is not None,
+                "",
+            ),
+            f"{engine} and --certify exclude each other: its precision is single": (
+                elsewhere and certifies,
+                "leave --engine out to certify",
+            ),
+            f"--samples {self.samples}: must be from 1 to {ROUND:,}": (
+                self.samples is not None and not 1 <= self.samples <= ROUND,
+                "",
+            ),
+            f"--until-width {width or 0.0:.4g}: must be between 0 and 100 %": (
+                width is not None and not 0.0 < width < 1.0,
+                "",
+            ),
+        }
+        for what, (wrong, cure) in refused.items():
+            if wrong:
+                raise UsageError(what, hint=cure)
         if self.view:
             check_display()
 
     @property
-    def many(self) -> bool:
-        """Whether samples are flown, not the flights as designed alone."""
-        alone = self.sample is not None or self.replay is not None
-        certifies = self.stated.validation.certify is True and not alone
-        return self.samples is not None or certifies
+    def alone(self) -> bool:
+        """Whether one robot is flown as it might be built."""
+        return self.sample is not None or self.replay is not None
 
     @property
-    def pose_rate(self) -> float | None:
-        """Rate of the poses that are kept for the video [1/s]."""
-        return POSE_RATE if self.view else None
+    def many(self) -> bool:
+        """Whether samples are flown, not the flights as designed alone."""
+        return self.samples is not None or self.stated.validation.certify is True
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,6 +159,8 @@ def validate_design(
     certify: bool = False,
     until_width: float | None = None,
     seed: int | None = None,
+    sample: int | None = None,
+    replay: AnyPath | None = None,
     specification: Specification | None = None,
     robot_file: AnyPath | None = None,
     package_paths: Mapping[str, AnyPath] | None = None,
@@ -173,6 +169,7 @@ def validate_design(
     out: AnyPath | None = None,
     force: bool = False,
     strict: bool = False,
+    view: bool = False,
     progress: Steps | Tell | None = None,
 ) -> Validation:
     """Fly a design with the device and without, and many times over as it might be built.
@@ -183,77 +180,85 @@ def validate_design(
         certify: no more of them than it takes to be sure of the reliability that was asked for.
         until_width: width of the intervals, 0..1, that fewer samples will do for.
         seed: of all samples; None: the design's.
+        sample: number of the one to fly alone. replay: file of a case to fly alone.
         specification: `[validation]` and `[reality]` in place of those that it was sized with.
         robot_file: of the robot, where it has moved.
         package_paths: folder of each package that `package://` addresses name.
         scheduler: address of a Dask cluster; None: this machine.
         engine: "mujoco" on the processors, or "warp": samples on a GPU, in single precision.
         out: folder for the time series and the samples; None: nothing is kept.
-        force: replace an existing folder.
+        force: replace an existing folder, also the samples of another campaign.
         strict: warnings about the robot are errors.
+        view: keep poses for `watch`.
         progress: see `design_ocs`.
 
     Raises:
-        OcsError: the design or its robot cannot be read, the folder cannot be written, or what is
-            to compute the samples is not there.
+        OcsError: options exclude each other, the design or its robot cannot be read, the folder
+            cannot be written, or what is to compute the samples or to show the runs is not there.
     """
-    stated = specification or Specification()
+    steps, stated = Steps.of(progress), specification or Specification()
     asked = ValidationSection(certify=certify or None, seed=seed)
-    request = Request(
-        design=Path(design),
+    request = _Request(
         stated=replace(stated, validation=merge_section(stated.validation, asked)),
-        robot_file=None if robot_file is None else Path(robot_file),
-        package_paths={name: Path(path) for name, path in (package_paths or {}).items()},
-        strict=strict,
         samples=samples,
         until_width=until_width,
         scheduler=scheduler,
         engine=engine,
+        sample=sample,
+        replay=None if replay is None else Path(replay),
         out=None if out is None else Path(out),
         force=force,
+        view=view,
     )
-    return validated(request, Steps.of(progress))
-
-
-def validated(request: Request, steps: Steps) -> Validation:
-    """Flights that were asked for, flown and kept.
-
-    Raises:
-        OcsError: see `exceptions`.
-    """
     request.check()
-    # Before minutes of flights: whether it is there at all.
-    engine = warp_engine() if request.engine == EngineName.WARP else None
+    # Before minutes of flights: whether what they need is there at all.
+    physics = warp_engine() if engine == EngineName.WARP else None
+    case = None if request.replay is None else read_case(request.replay)
     if request.out is not None and not request.many:
-        check_target(request.out, force=request.force)
+        check_target(request.out, force=force)
     with steps.step("read the design, plan its flights") as step:
         task = read_task(
-            request.design,
+            design,
             request.stated,
-            robot_file=request.robot_file,
-            package_paths=request.package_paths,
-            strict=request.strict,
+            robot_file=robot_file,
+            package_paths=package_paths,
+            strict=strict,
         )
         step.note = task.robot.name
-    steps.doubt(task.warnings)
-    runs = task.fly(steps, pose_rate=request.pose_rate)
-    if request.many:
-        return _fly_samples(request, task, runs, steps, engine)
-    if request.sample is not None or request.replay is not None:
-        campaign = campaign_of(request, task, runs)
-        if request.replay is not None:
-            sample = case_for(task, request.replay).drawn(task.device.layout, task.detection)
-        else:
-            sample = campaign.sample(request.sample or 0)
-        with steps.step(f"fly sample {sample.index} of seed {sample.seed}"):
-            flown = replayed(campaign, sample, pose_rate=request.pose_rate)
-        found = replace(
-            _validated(task, flown),
-            sample=SampleRecord(seed=sample.seed, index=sample.index, values=sample.by_name),
+    if case is not None and case.design != flown_hash(task.design, task.control):
+        raise OcsError(
+            f"{replay}: is a case of another design than {task.path}",
+            hint="give the design that it was kept for, flown under the same law",
         )
-        return _kept(request, task, flown, found)
-    found = replace(_validated(task, runs), survival=task.fly_stopped(steps))
-    return _kept(request, task, runs, found)
+    steps.doubt(task.warnings)
+    pose_rate = POSE_RATE if view else None
+    runs = task.fly(steps, pose_rate=pose_rate)
+    found = Validated(
+        schema_version=SCHEMA_VERSION,
+        design=str(task.path),
+        robot=task.robot.name,
+        warnings=task.warnings,
+        validation=tuple(map(record_run, runs)),
+    )
+    if request.many:
+        record, files = _fly_samples(request, task, runs, steps, physics)
+        return Validation(replace(found, monte_carlo=record), request.out, files, task, runs)
+    if request.alone:
+        campaign = campaign_of(task, runs, request.stated.validation.seed)
+        drawn = campaign.sample(sample or 0)
+        if case is not None:
+            drawn = case.drawn(task.device.layout, task.detection)
+        with steps.step(f"fly sample {drawn.index} of seed {drawn.seed}"):
+            runs = replayed(campaign, drawn, pose_rate=pose_rate)
+        found = replace(
+            found,
+            validation=tuple(map(record_run, runs)),
+            sample=SampleRecord(seed=drawn.seed, index=drawn.index, values=drawn.by_name),
+        )
+    else:
+        found = replace(found, survival=task.fly_stopped(steps))
+    files = () if request.out is None else _write_flights(task, runs, found, request.out, force)
+    return Validation(found, request.out, files, task, runs)
 
 
 def watch(answer: Validation) -> None:
@@ -273,24 +278,24 @@ def watch(answer: Validation) -> None:
 
 
 def _fly_samples(
-    request: Request, task: Task, runs: tuple[Run, ...], steps: Steps, engine: Engine | None
-) -> Validation:
-    """Fly samples of the design as it might be built, keep them, and say what they show."""
+    request: _Request, task: Task, runs: tuple[Run, ...], steps: Steps, engine: Engine | None
+) -> tuple[MonteCarloRecord, tuple[str, ...]]:
+    """Fly samples of the design as it might be built; the record and the files."""
     test = None
     if request.stated.validation.certify:
         test = SequentialTest(task.design.requirement.reliability or RELIABILITY)
     asked, folder = request.samples or (0 if test is None else test.most), request.out
-    campaign = replace(campaign_of(request, task, runs), engine=engine)
+    campaign = replace(campaign_of(task, runs, request.stated.validation.seed), engine=engine)
     enough = None if request.until_width is None else narrow(request.until_width)
     enough = enough if test is None else test.decided
-    storage = None
+    flown, storage = flown_hash(task.design, task.control), None
     if folder is not None:
         # What the numbers of a campaign follow from.
         identity = Identity(
             schema_version=SAMPLES_VERSION,
             tool=__version__,
             simulator=version("mujoco") if engine is None else engine.name,
-            design=flown_hash(task.design, task.control),
+            design=flown,
             robot=task.robot.sha256,
             reality=campaign.uncertainty.written(),
             seed=campaign.seed,
@@ -318,66 +323,33 @@ def _fly_samples(
         record = replace(summarised(campaign, outcomes, asked), certificate=certified)
         by = "" if engine is None else f" by {engine.name}, in single precision"
         step.note = f"{record.samples:,} flown{by}"
-    found = replace(_validated(task, runs), monte_carlo=record)
     if folder is None:
-        return Validation(found, None, (), task, runs)
-    files = write_results(
-        campaign, outcomes, record, folder, design=flown_hash(task.design, task.control)
-    )
-    names = tuple(str(file.relative_to(folder)) for file in files)
-    return Validation(found, folder, names, task, runs)
+        return record, ()
+    files = write_results(campaign, outcomes, record, folder, design=flown)
+    return record, tuple(str(file.relative_to(folder)) for file in files)
 
 
-def campaign_of(request: Request, task: Task, runs: Sequence[Run | ValidationRecord]) -> Campaign:
-    """Everything that samples of this design follow from; `runs` show what its legs bear.
+def campaign_of(
+    task: Task, runs: Sequence[Run | ValidationRecord], seed: int | None = None
+) -> Campaign:
+    """Everything that samples of this design follow from.
+
+    Args:
+        task: that is flown. runs: as designed, which show what the legs bear.
+        seed: of all samples; None: the design's.
 
     Raises:
         OcsError: no flight of this robot says anything.
     """
     if unclear := refusal(task.robot):
         raise OcsError(unclear, hint="name a link of the trunk whose z axis points up by --trunk")
-    seed = request.stated.validation.seed
     return task.campaign(runs, task.uncertainty, task.design.seed if seed is None else seed)
 
 
-def case_for(task: Task, path: Path) -> Case:
-    """Case that was kept of this very design.
-
-    Raises:
-        OcsError: it cannot be read, or is of another design.
-    """
-    case = read_case(path)
-    if case.design != flown_hash(task.design, task.control):
-        raise OcsError(
-            f"{path}: is a case of another design than {task.path}",
-            hint="give the design that it was kept for, flown under the same law",
-        )
-    return case
-
-
-def _validated(task: Task, runs: tuple[Run, ...]) -> Validated:
-    """Record of these flights."""
-    return Validated(
-        schema_version=SCHEMA_VERSION,
-        design=str(task.path),
-        robot=task.robot.name,
-        warnings=task.warnings,
-        validation=tuple(map(record_run, runs)),
-    )
-
-
-def _kept(request: Request, task: Task, runs: tuple[Run, ...], found: Validated) -> Validation:
-    """Validation with its time series, and a design with these flights, written if asked for."""
-    if request.out is None:
-        return Validation(found, None, (), task, runs)
-    design = write_flights(task, runs, found, request.out, force=request.force)
-    return Validation(found, request.out, tuple(design.files), task, runs)
-
-
-def write_flights(
-    task: Task, runs: tuple[Run, ...], found: Validated, folder: Path, *, force: bool
-) -> OcsDesign:
-    """Write the time series, and the design with these flights in place of its own.
+def _write_flights(
+    task: Task, runs: tuple[Run, ...], found: Validated, folder: Path, force: bool
+) -> tuple[str, ...]:
+    """Write the time series, and the design with these flights in place of its own; the files.
 
     Raises:
         OutputError: the folder cannot be written, or exists already.
@@ -390,4 +362,4 @@ def write_flights(
             alone = None if before is None else before.mass_without
             design = replace(design, survival=replace(found.survival, mass_without=alone))
         (staging / DESIGN_FILE).write_bytes(to_json(design))
-    return design
+    return tuple(design.files)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from commands import BY_HAND, SOLO12, run
+from PIL import Image
 from urdf_text import inertial, joint, link, robot
 
 LIMIT = '<limit lower="-3" upper="3" effort="3" velocity="4"/>'
@@ -116,6 +117,15 @@ def test_the_picture_names_feet_and_directions(tmp_path):
     assert front > hind
 
 
+def test_the_picture_as_png_is_the_svg_at_twice_the_size(tmp_path):
+    pictures = [tmp_path / "solo12.svg", tmp_path / "solo12.png"]
+    assert [run("inspect", SOLO12, "--picture", path).code for path in pictures] == [0, 0]
+    width, height = (float(ET.parse(pictures[0]).getroot().get(n)) for n in ("width", "height"))
+    with Image.open(pictures[1]) as image:
+        assert image.size == pytest.approx((2 * width, 2 * height), abs=2)
+        assert len(image.convert("RGB").getcolors(1 << 20)) > 20
+
+
 def test_a_picture_that_cannot_be_written_whole_leaves_the_one_before(tmp_path, monkeypatch):
     path = tmp_path / "solo12.svg"
     path.write_text("before")
@@ -133,7 +143,7 @@ def test_a_picture_that_cannot_be_written_whole_leaves_the_one_before(tmp_path, 
 @pytest.mark.parametrize(
     ("arguments", "code", "said"),
     [
-        ((SOLO12, "--picture", "solo12.png"), 2, "only .svg"),
+        ((SOLO12, "--picture", "solo12.gif"), 2, "name a file *.svg or *.png"),
         ((SOLO12, "--picture", "nowhere/at/all.svg"), None, "no such folder"),
         ((*BY_HAND, "--picture", "box.svg"), 2, "nothing to draw"),
     ],

@@ -114,6 +114,8 @@ CERTAIN = (
         (("--reality", "nothing.toml"), "nothing.toml"),
         (("--until-width", "5%"), "add --samples"),
         (("--certify", "--until-width", "5%"), "exclude each other"),
+        (("--certify", "--sample", "2"), "leave --certify out"),
+        (("--certify", "--replay", "case.json"), "leave --certify out"),
         (("--samples", "2", "--until-width", "2"), "between 0 and 100 %"),
         (("--samples", "2", "--until-width", "5deg"), "unit of angle"),
         (("--samples", "2", "--engine", "cuda"), "must be mujoco or warp"),
@@ -127,6 +129,23 @@ def test_what_makes_no_sense_is_refused(by_hand, folder, options, words):
     result = run("validate", by_hand, *options)
     assert result.code in {2, 3}
     assert words in result.said
+
+
+def test_a_case_that_is_not_there_is_told_before_anything_is_flown(by_hand, folder):
+    result = run("validate", by_hand, "--replay", "nothing.json")
+    assert "cannot read the case" in result.said
+    assert "plan its flights" not in result.said
+
+
+def test_a_failure_in_quiet_is_one_line_with_the_verdict(by_hand, folder):
+    design = json.loads((by_hand / "design.json").read_text())
+    for maneuver in design["requirement"]["maneuvers"]:
+        maneuver["parameters"]["pitch"] = 1.4
+    Path("design.json").write_text(json.dumps(design))
+    loud, quiet = (run("validate", "design.json", *flags) for flags in ((), ("-q",)))
+    assert (loud.code, quiet.code, quiet.stdout) == (1, 1, "")
+    first, second = loud.stdout.splitlines()[-2:]
+    assert quiet.stderr == f"{first}  ·  {second}\n"
 
 
 def test_a_case_of_another_design_is_refused(by_hand, folder):

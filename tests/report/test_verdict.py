@@ -9,11 +9,12 @@ from designed import MOTOR
 from rich.console import Console
 from stories import design
 
+from ocs_design.device.answers import Validated
 from ocs_design.device.records.device import Buildable, OpenPoint
 from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.report.table import Tone
 from ocs_design.report.text.layout import items, note, wrapped
-from ocs_design.report.verdict import flights_headline, headline
+from ocs_design.report.verdict import headline
 
 
 def run(scenario="drop", *, passed=True, level=True, stands=True, ocs=True, reason="why"):
@@ -86,7 +87,10 @@ def test_a_biped_that_lands_level_and_falls_is_told():
 
 
 def test_a_robot_without_legs_does_not_stand():
-    assert flights_headline([run(stands=None)]).text == "level 1 of 1"
+    flown = Validated(
+        schema_version=2, design="", robot="", warnings=(), validation=(run(stands=None),)
+    )
+    assert headline(flown).text == "level 1 of 1"
 
 
 @pytest.mark.parametrize(

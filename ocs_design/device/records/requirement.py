@@ -2,9 +2,9 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from ocs_design.common.arrays import Matrix, Vector, matrix, vector
+from ocs_design.common.files import AnyPath
 from ocs_design.common.records import recorded
 from ocs_design.robot.robot import Mount, Robot
 
@@ -51,7 +51,7 @@ class RobotRecord:
     package_paths: Mapping[str, str] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, robot: Robot, package_paths: Mapping[str, Path] | None = None) -> "RobotRecord":
+    def of(cls, robot: Robot, package_paths: Mapping[str, AnyPath] | None = None) -> "RobotRecord":
         """The record of a robot that was read."""
         return recorded(
             cls,

@@ -353,14 +353,15 @@ def write_charts(charts: Sequence[Chart], folder: Path) -> tuple[str, ...]:
     write_svgs(charts, folder)
     try:
         for chart in charts:
-            (folder / f"{chart.name}.png").write_bytes(png_file(chart))
+            picture = png_of(svg_file(chart).decode())
+            (folder / f"{chart.name}.png").write_bytes(picture)
     except MissingToolError as error:
         return (f"{error.message}: {error.hint}",)
     return ()
 
 
-def png_file(chart: Chart) -> bytes:
-    """The SVG file as a picture, twice as many pixels wide and high.
+def png_of(svg: str) -> bytes:
+    """An SVG as a picture, twice as many pixels wide and high.
 
     Raises:
         MissingToolError: resvg is not installed.
@@ -375,7 +376,7 @@ def png_file(chart: Chart) -> bytes:
         ) from error
     return bytes(
         svg_to_bytes(
-            svg_string=svg_file(chart).decode(),
+            svg_string=svg,
             zoom=_ZOOM,
             font_files=[str(template_file(font)) for font in _FONTS],
             font_family=_FAMILY,

@@ -18,7 +18,7 @@ from ocs_design.report.html.elements import Markup, element, items, table, void
 from ocs_design.report.monte_carlo import campaign_title, certificate_line, success_table
 from ocs_design.report.quantities import grams
 from ocs_design.report.table import Table, columns
-from ocs_design.report.verdict import Headline, flights_headline, headline
+from ocs_design.report.verdict import Headline, headline
 
 _WIDTH = "420"
 """Width of a picture [px]."""
@@ -48,13 +48,11 @@ def as_html(found: OcsDesign | Front | Validated, folder: Path | None = None) ->
             _image("svg+xml", svg_file(chart), chart.title),
             table("Lightest devices", Table(columns(found.label, "mass", "<drive"), rows)),
         )
-    flown = found.monte_carlo
-    certified = None if flown is None else flown.certificate
-    parts = [_head(found.robot, flights_headline(found.validation, certified, found.survival))]
+    parts, flown = [_head(found.robot, headline(found))], found.monte_carlo
     if flown is not None:
         parts.append(table(campaign_title(flown), success_table(flown)))
-    if certified is not None:
-        parts.append(element("p", certificate_line(certified)))
+        if flown.certificate is not None:
+            parts.append(element("p", certificate_line(flown.certificate)))
     reasons = (f"{run.scenario}: {run.reason}" for run in found.validation if run.ocs)
     return element("div", *parts, items(reasons))
 

@@ -28,8 +28,8 @@ OWN, NONE = "┴", "×"
 """Marks on the plot's axis: the specification's own value, and a value without a device."""
 
 
-def print_front(console: Console, front: Front) -> None:
-    """Everything that the terminal shows of a front."""
+def print_front(console: Console, front: Front, folder: Path | None = None) -> None:
+    """Everything that the terminal shows of a front, and where its files are, if anywhere."""
     heading(console, f"Lightest device against {front.label}: {front.robot}")
     same = [f"{name} {value}" for name, value in _same(front).items()]
     facts(
@@ -48,6 +48,7 @@ def print_front(console: Console, front: Front) -> None:
         heading(console, "No device")
         reasons = (f"{_value(front, point.value)}: {point.reason}" for point in without)
         items(console, reasons, style="yellow")
+    _print_written(console, front, folder)
 
 
 def _same(front: Front) -> Mapping[str, str]:
@@ -110,7 +111,7 @@ def _print_plot(console: Console, front: Front) -> None:
     note(console, f"{OWN} as specified, {NONE} no device")
 
 
-def print_written(console: Console, front: Front, folder: Path | None) -> None:
+def _print_written(console: Console, front: Front, folder: Path | None) -> None:
     """Files of the front, and the command that makes a whole device of a point."""
     heading(console, "Any point as a whole design")
     if folder is None:

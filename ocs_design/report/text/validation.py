@@ -13,7 +13,7 @@ from ocs_design.monte_carlo.uncertainty import STOPS, key_of
 from ocs_design.report import flights, monte_carlo
 from ocs_design.report.table import Tone
 from ocs_design.report.text.layout import STYLES, facts, files_written, heading, items, note, show
-from ocs_design.report.verdict import SEPARATOR, Headline, flights_headline
+from ocs_design.report.verdict import SEPARATOR, Headline, headline
 from ocs_design.requirement.uncertainty import spreads
 
 
@@ -66,5 +66,4 @@ def print_validated(
     if folder is not None:
         files_written(console, str(folder), files)
     console.print()
-    certified = None if record is None else record.certificate
-    print_headline(console, flights_headline(found.validation, certified, found.survival))
+    print_headline(console, headline(found))

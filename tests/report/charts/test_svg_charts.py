@@ -25,7 +25,7 @@ from ocs_design.report.charts.chart import (
     tick_text,
 )
 from ocs_design.report.charts.figures import all_charts
-from ocs_design.report.charts.svg import inline_svg, png_file, svg_file, write_charts
+from ocs_design.report.charts.svg import inline_svg, png_of, svg_file, write_charts
 
 SVG = "{http://www.w3.org/2000/svg}"
 HOSTILE = "<script>alert('&')</script>\""
@@ -217,8 +217,12 @@ def test_what_is_beyond_measure_stretches_no_axis(odd):
     assert parts[1] == pytest.approx(0.5)
 
 
+def png(chart):
+    return png_of(svg_file(chart).decode())
+
+
 def picture(chart):
-    return np.asarray(Image.open(BytesIO(png_file(chart))).convert("RGB")).astype(int)
+    return np.asarray(Image.open(BytesIO(png(chart))).convert("RGB")).astype(int)
 
 
 def chart_titled(title):
@@ -235,7 +239,7 @@ def test_a_chart_is_drawn_twice_as_large_as_in_svg():
 
 def test_twice_the_same_chart_gives_the_same_bytes():
     for chart in all_charts(story()):
-        assert png_file(chart) == png_file(replace(chart))
+        assert png(chart) == png(replace(chart))
 
 
 @pytest.mark.parametrize("letters", ["Maß α*", "10⁻⁴ m²", "−1 …", "Ж", "A"])
@@ -260,7 +264,7 @@ def test_words_that_would_run_into_their_neighbours_are_narrower_than_the_layout
 def test_without_resvg_the_svg_is_written_and_it_is_told_how_to_get_the_rest(monkeypatch, tmp_path):
     monkeypatch.setitem(sys.modules, "resvg_py", None)
     with pytest.raises(MissingToolError) as caught:
-        png_file(next(all_charts(story())))
+        picture(next(all_charts(story())))
     assert "ocs-design[plot]" in caught.value.hint
     (told,) = write_charts([chart_titled("one")], tmp_path)
     assert "resvg-py is not installed: pip install 'ocs-design[plot]'" in told
