@@ -13,8 +13,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ocs_design.actuation.drive import missing_figures
+from ocs_design.actuation.drive import drive_line, missing_figures
 from ocs_design.actuation.motor import DIRECT, Motor
+from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import material
 from ocs_design.catalogue.motors import motors
 from ocs_design.device.device import Device
@@ -30,7 +31,7 @@ from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import Verdict, judge
 from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.assembly import assemble_driven
-from ocs_design.sizing.motion import DrivenWheel
+from ocs_design.sizing.driven_wheel import DrivenWheel
 from ocs_design.sizing.placement import place_on_top
 
 ROBOT = Path(__file__).with_name("solo12.urdf")
@@ -67,7 +68,8 @@ def on_paper_wheel(robot: Robot, motor: Motor, voltage: float) -> Device:
         material=material("steel-4140-normalized"),
         motor=motor,
         gear=DIRECT,
-        bus_voltage=voltage,
+        line=drive_line(motor, DIRECT, voltage),
+        supply=Supply(voltage),
     )
     centers = place_on_top(robot)(OUTER_RADIUS, HEIGHT)
     return assemble_driven(wheel, Carrier.of(drive_moments(motor)), INCIDENCE, centers)

@@ -1,8 +1,10 @@
 """Motors, gears and wheels for tests; figures of no real product but where said."""
 
+from ocs_design.actuation.drive import drive_line
 from ocs_design.actuation.motor import DIRECT, Gear, Motor
+from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material
-from ocs_design.sizing.motion import DrivenWheel
+from ocs_design.sizing.driven_wheel import DrivenWheel
 
 STEEL = Material("steel", 8000.0, 215e6, 505e6, 0.29, "test")
 
@@ -41,4 +43,13 @@ BELT = Gear(
 
 def driven_wheel(motor=EC45, gear=DIRECT, *, bus_voltage=24.0, material=STEEL):
     """The rim of the paper, driven."""
-    return DrivenWheel(0.022, 0.030, 0.010, material, motor, gear, bus_voltage)
+    return DrivenWheel(
+        inner_radius=0.022,
+        outer_radius=0.030,
+        height=0.010,
+        material=material,
+        motor=motor,
+        gear=gear,
+        line=drive_line(motor, gear, bus_voltage),
+        supply=Supply(bus_voltage),
+    )

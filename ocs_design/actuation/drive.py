@@ -57,6 +57,11 @@ class DriveLine(Table):
     speed_max: float | FloatArray
     power_max: float | FloatArray = inf
 
+    @property
+    def top_speed(self) -> float | FloatArray:
+        """Highest speed without a load, by voltage or mechanics [rad/s]."""
+        return np.minimum(self.no_load_speed, self.speed_max)
+
     def reserved(self, share: float | FloatArray = RESERVE) -> "DriveLine":
         """Line with a part of voltage, current, power and mechanical speed."""
         return replace(

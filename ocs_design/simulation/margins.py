@@ -19,10 +19,10 @@ from ocs_design.sizing.margins import (
     HOOP_STRESS,
     MOTOR_TORQUE,
     WHEEL_SPEED,
+    Motion,
     margins,
     worst,
 )
-from ocs_design.sizing.motion import DrivenWheel, Motion
 from ocs_design.sizing.sized import Designed
 
 if TYPE_CHECKING:
@@ -45,20 +45,19 @@ def record_margins(
     if designed.choice is None:
         found = tuple(_margins_without_motor(resolved, designed, runs))
     else:
-        problem = designed.choice.problem
-        drive = DrivenWheel.of(designed.choice.chosen, problem.supply.told, problem.wheel_speed_max)
+        wheel = designed.choice.chosen
         maneuvers = {maneuver.name: maneuver for maneuver in resolved.requirement.maneuvers}
         driven = (
-            (name, margins(motion, designed.device.as_flown(maneuvers[name]).axes, drive))
+            (name, margins(motion, designed.device.as_flown(maneuvers[name]).axes, wheel))
             for name, motion in _motions(plans, runs)
         )
         braked = _brake_margins(resolved, designed, plans)
         found = (*worst((*driven, *braked)), *joints_of(designed.device))
-    wheel, envelope = designed.device.flywheel, resolved.envelope
+    made, envelope = designed.device.flywheel, resolved.envelope
     room = (
-        Margin("outer radius", wheel.outer_radius, envelope.outer_radius_max, "m"),
-        Margin("height", wheel.height, envelope.height_max, "m"),
-        Margin("rim mass", wheel.rim_mass, envelope.mass_max, "kg"),
+        Margin("outer radius", made.outer_radius, envelope.outer_radius_max, "m"),
+        Margin("height", made.height, envelope.height_max, "m"),
+        Margin("rim mass", made.rim_mass, envelope.mass_max, "kg"),
     )
     return tuple(recorded(MarginRecord, each, margin=each.factor) for each in (*found, *room))
 

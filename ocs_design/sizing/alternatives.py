@@ -195,7 +195,7 @@ def _hangs(choice: Choice, robot: Robot) -> bool:
     """
     if trunk_surface(robot) is None:
         return False
-    device = assemble_selected(choice.chosen, choice.problem.supply)
+    device = assemble_selected(choice.chosen)
     return footing_under(device, robot, stated=choice.problem.place.stated) is None
 
 

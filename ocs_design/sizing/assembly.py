@@ -1,10 +1,8 @@
 """The device that a sizing or a selection comes to, as it is exported and simulated."""
 
-import math
 from dataclasses import replace
 
-from ocs_design.actuation.drive import Drive, DriveLine
-from ocs_design.actuation.supply import Supply
+from ocs_design.actuation.drive import Drive
 from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device, Flywheel, Module, Web
@@ -13,7 +11,7 @@ from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts, hoop_stress, stored_ener
 from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.sizing.bound.device_sizing import DeviceSizing
-from ocs_design.sizing.motion import DrivenWheel
+from ocs_design.sizing.driven_wheel import DrivenWheel
 from ocs_design.sizing.selection.problem import Candidate
 
 
@@ -39,19 +37,13 @@ def assemble(sizing: DeviceSizing, resolved: Resolved) -> Device:
     )
 
 
-def assemble_selected(candidate: Candidate, supply: Supply) -> Device:
-    """Modules as they were selected, fed by `supply`."""
-    device = assemble_driven(
-        DrivenWheel.of(candidate, supply),
-        candidate.carrier,
-        candidate.incidence,
-        candidate.centers,
-        candidate.line,
-        layout=candidate.layout,
-    )
+def assemble_selected(candidate: Candidate) -> Device:
+    """Modules as they were selected."""
+    size = candidate.incidence, candidate.centers
+    device = assemble_driven(candidate, candidate.carrier, *size, layout=candidate.layout)
     return replace(
         device,
-        supply=supply.told,
+        supply=candidate.supply.told,
         guard_wall=candidate.guard_wall,
         foot_plate=candidate.foot_plate,
         on_bell=candidate.on_bell,
@@ -63,7 +55,6 @@ def assemble_driven(
     carrier: Carrier,
     incidence: float,
     centers: FloatArray,
-    line: DriveLine | None = None,
     *,
     layout: Layout = PAIR,
 ) -> Device:
@@ -74,32 +65,20 @@ def assemble_driven(
         carrier: what of each stands still.
         incidence: of the wheel axes, or the layout's angle [rad].
         centers: of the wheels in B [m], shape (n, 3).
-        line: what the drive may do at the wheel; None: all that motor and gear can.
         layout: of the wheels.
-
-    Raises:
-        OcsError: the motor lacks a figure that every drive needs.
     """
-    cylinder = (wheel.inner_radius, wheel.outer_radius, wheel.height)
-    line = wheel.line if line is None else line
-    motor = Drive.of(wheel.motor, wheel.gear, wheel.bus_voltage, line)
-    speed = min(motor.no_load_speed, motor.speed_max or math.inf)
-    return Device(
-        incidence,
-        _modules(layout, incidence, centers),
-        _flywheel(
-            cylinder,
-            wheel.material,
-            speed,
-            motor.rotor_inertia,
-            wheel.hub,
-            cuts=wheel.cuts,
-            web_material=wheel.web_material,
-        ),
-        motor,
-        carrier,
-        layout=layout,
+    motor = Drive.of(wheel.motor, wheel.gear, wheel.supply.voltage, wheel.line)
+    flywheel = _flywheel(
+        (wheel.inner_radius, wheel.outer_radius, wheel.height),
+        wheel.material,
+        motor.top_speed,
+        motor.rotor_inertia,
+        wheel.hub,
+        cuts=wheel.cuts,
+        web_material=wheel.web_material,
     )
+    modules = _modules(layout, incidence, centers)
+    return Device(incidence, modules, flywheel, motor, carrier, layout=layout)
 
 
 def _modules(layout: Layout, incidence: float, centers: FloatArray) -> tuple[Module, ...]:

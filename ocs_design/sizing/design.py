@@ -262,10 +262,9 @@ def _by_selection(
     spends = any(each.demand > 1.0 for each in reserve.maneuvers.values())
     least = with_plate(nominal, problem, robot) if spends else chosen
     # A co-design makes the selected device smaller, and its plate with it.
-    device = assemble_selected(chosen, problem.supply)
+    device = assemble_selected(chosen)
     device = stand_on_trunk(device, robot, stated=problem.place.stated)
-    carried = device.plated(robot.mass_properties)
-    bodies = chosen.wheel, chosen.carrier
+    carried, bodies = device.plated(robot.mass_properties), (chosen.wheel, chosen.carrier)
     centers = np.stack([module.position for module in device.modules])
     total = braked(carried, bodies, centers, device.incidence, device.layout)
     return Designed(

@@ -1,7 +1,13 @@
-"""Margins of a motion: demand against capacity, and the worst of several motions."""
+"""Margins of a motion: what it takes of winding, supply, rim and bearings, against what they stand.
+
+The motor is one equivalent DC motor behind an ideal inverter, V = R i + k_t w; the voltage of the
+bus is constant, and it takes back whatever the motors give (docs/theory.md, Margins). Friction is
+the motor's no-load current, on the safe side: it adds to whatever is drawn, and takes nothing off
+what is fed back.
+"""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -9,13 +15,184 @@ from ocs_design.actuation.drive import speed_limit
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.foot_hold import BEARING_MOMENT
 from ocs_design.parts.joints import OVERSPEED, Margin
-from ocs_design.sizing.motion import (
-    Consumption,
-    DrivenWheel,
-    Motion,
-    consumption,
-    torque_constant,
-)
+from ocs_design.sizing.driven_wheel import DrivenWheel
+from ocs_design.sizing.trajectory.motion import Trajectory
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """Motion of trunk and wheels, linear between samples; two samples at one time are a jump.
+
+    Attributes:
+        time: [s], not falling, shape (n,).
+        wheel_speed: relative to the trunk [rad/s], shape (n, 2).
+        wheel_torque: of the motors at the wheels [N m], shape (n, 2).
+        rate: of the trunk in B [rad/s], shape (n, 3).
+        acceleration: of the trunk in B [rad/s^2], shape (n, 3).
+    """
+
+    time: FloatArray
+    wheel_speed: FloatArray
+    wheel_torque: FloatArray
+    rate: FloatArray
+    acceleration: FloatArray
+
+    @classmethod
+    def along(cls, trajectory: Trajectory) -> "Motion":
+        """Motion along a reference, which is linear between its samples and may jump at them."""
+        samples = [
+            trajectory.time,
+            trajectory.wheel_speed,
+            trajectory.wheel_torque,
+            trajectory.rate,
+            trajectory.acceleration,
+        ]
+        if trajectory.step_torque is None:
+            return cls(*samples)
+        time, speed, torque, *rest = map(_both_ends, samples)
+        return cls(time, speed, trajectory.step_torque.reshape(torque.shape), *rest)
+
+    @classmethod
+    def flown(
+        cls,
+        time: FloatArray,
+        wheel_speed: FloatArray,
+        wheel_torque: FloatArray,
+        rate: FloatArray,
+    ) -> "Motion":
+        """Motion of a recorded flight, whose torque is held from each sample to the next.
+
+        The trunk's acceleration is the mean one between two samples; a landing's is larger for
+        shorter.
+
+        Args:
+            time: [s], increasing, shape (n,), n >= 2.
+            wheel_speed, wheel_torque, rate: see `Motion`; the last torque is not used.
+        """
+        acceleration = np.diff(rate, axis=0) / np.diff(time)[:, None]
+        return cls(
+            _both_ends(time),
+            _both_ends(wheel_speed),
+            np.repeat(wheel_torque[:-1], 2, axis=0),
+            _both_ends(rate),
+            np.repeat(acceleration, 2, axis=0),
+        )
+
+    def between(self) -> "Motion":
+        """Samples with the middle of each interval between them, shape (2 n - 1, ...)."""
+        return Motion(*map(_with_middles, vars(self).values()))
+
+
+def integral(values: FloatArray, time: FloatArray) -> float:
+    """Simpson's rule over intervals with their middles: exact for what is quadratic in each.
+
+    Args:
+        values: shape (2 n - 1,).
+        time: as `Motion.between` gives it, shape (2 n - 1,).
+    """
+    step = time[2::2] - time[:-2:2]
+    return float(step @ (values[:-2:2] + 4.0 * values[1::2] + values[2::2]) / 6.0)
+
+
+def _both_ends(values: FloatArray) -> FloatArray:
+    """Start and end of each interval, one after the other."""
+    return np.repeat(values, 2, axis=0)[1:-1]
+
+
+def _with_middles(values: FloatArray) -> FloatArray:
+    """Values with the mean of each two between them."""
+    found = np.repeat(values, 2, axis=0)[:-1]
+    found[1::2] = 0.5 * (values[:-1] + values[1:])
+    return found
+
+
+@dataclass(frozen=True)
+class Consumption:
+    """Consumption over one motion; of one motor where nothing else is said.
+
+    Attributes:
+        duration: of the motion [s].
+        peak_current: of a winding [A].
+        current_squared_time: integral of i^2 of the busier motor [A^2 s].
+        heat: in the busier winding [J]. heat_both: in both windings [J].
+        gear_loss: of both gears [J].
+        drawn, fed_back: energy from the bus and to it, both motors together [J].
+        power_drawn, power_fed_back: largest from the bus and to it, both motors together [W].
+    """
+
+    duration: float
+    peak_current: float
+    current_squared_time: float
+    heat: float
+    heat_both: float
+    gear_loss: float
+    drawn: float
+    fed_back: float
+    power_drawn: float
+    power_fed_back: float
+
+
+def consumption(motion: Motion, wheel: DrivenWheel) -> Consumption:
+    """Currents, heat, powers and energies of a motion with two equal wheels."""
+    fine = motion.between()
+    current = winding_current(fine, wheel)
+    squared_time = [integral(values**2, fine.time) for values in current.T]
+    drawn, fed_back = bus_power(fine, wheel), -bus_power(fine, wheel, friction=False)
+    # In the middle of a jump there is nothing.
+    lasts = np.ones(len(fine.time), dtype=bool)
+    lasts[1::2] = np.diff(motion.time) > 0.0
+    loss = shaft_power(fine, wheel) - fine.wheel_torque * fine.wheel_speed
+    return Consumption(
+        duration=float(motion.time[-1] - motion.time[0]),
+        peak_current=float(np.abs(current).max()),
+        current_squared_time=max(squared_time),
+        heat=wheel.resistance * max(squared_time),
+        heat_both=wheel.resistance * sum(squared_time),
+        gear_loss=integral(loss.sum(axis=1), fine.time),
+        drawn=integral(np.maximum(drawn, 0.0), fine.time),
+        fed_back=integral(np.maximum(fed_back, 0.0), fine.time),
+        power_drawn=float(max(drawn[lasts].max(), 0.0)),
+        power_fed_back=float(max(fed_back[lasts].max(), 0.0)),
+    )
+
+
+def winding_current(motion: Motion, wheel: DrivenWheel, *, friction: bool = True) -> FloatArray:
+    """i = tau / (N eta k_t) [A], as the drive's line has it, and I_0 on top; shape (n, 2).
+
+    The losses of gear and bearings are taken to work against the motor also where it brakes, when
+    in truth they help: currents and heat are on the safe side.
+    """
+    gear, torque = wheel.gear, motion.wheel_torque
+    current = torque / (gear.ratio * gear.efficiency * wheel.torque_constant)
+    if friction and wheel.friction_current:
+        direction = np.where(torque == 0.0, np.sign(motion.wheel_speed), np.sign(torque))
+        current = current + wheel.friction_current * direction
+    return current
+
+
+def shaft_power(motion: Motion, wheel: DrivenWheel) -> FloatArray:
+    """Power at the motors' shafts [W], shape (n, 2): tau W / eta driving, eta tau W braking.
+
+    Unlike the current, the energy that comes back is not rounded to the safe side: a gear that
+    loses in the one direction would make energy in the other.
+    """
+    power = motion.wheel_torque * motion.wheel_speed
+    efficiency = wheel.gear.efficiency
+    return np.where(power > 0.0, power / efficiency, power * efficiency)
+
+
+def bus_power(motion: Motion, wheel: DrivenWheel, *, friction: bool = True) -> FloatArray:
+    """Power of all motors together [W], shape (n,): R i^2, what the shafts take, and friction.
+
+    For direct drive that is V i with V = R i + k_t w. Friction is k_t I_0 at the motor's speed.
+    """
+    copper = wheel.resistance * winding_current(motion, wheel, friction=friction) ** 2
+    each = copper + shaft_power(motion, wheel)
+    if friction:
+        turning = wheel.gear.ratio * np.abs(motion.wheel_speed)
+        each = each + wheel.torque_constant * wheel.friction_current * turning
+    power: FloatArray = np.sum(each, axis=1)
+    return power
 
 
 def worst(by_scenario: Iterable[tuple[str, Iterable[Margin]]]) -> tuple[Margin, ...]:
@@ -54,9 +231,9 @@ def bearing_moment(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> Floa
     for wheel_speed, axis in zip(motion.wheel_speed.T, axes.T, strict=True):
         along = motion.rate @ axis
         across = motion.acceleration - np.outer(motion.acceleration @ axis, axis)
-        own = wheel.body.transverse_inertia
-        excess = (wheel.axial_inertia - own) * along
-        momentum = excess + wheel.spin_inertia * wheel_speed
+        own = wheel.wheel.transverse_inertia
+        excess = (wheel.wheel.axial_inertia + wheel.rotor_inertia - own) * along
+        momentum = excess + wheel.turned_inertia * wheel_speed
         moment = own * across + momentum[:, None] * np.cross(motion.rate, axis)
         moments.append(np.linalg.norm(moment, axis=1))
     return np.column_stack(moments)
@@ -79,9 +256,6 @@ def margins(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> tuple[Margi
         motion: of trunk and wheels, flown or a reference.
         axes: unit spin axes in B as columns, as they are in this motion, shape (3, 2).
         wheel: each of the two.
-
-    Raises:
-        OcsError: the motor lacks a figure that every drive needs.
     """
     found = [*_drive_margins(motion, wheel), *_electric_margins(consumption(motion, wheel), wheel)]
     stress = wheel.overspeed_stress
@@ -89,7 +263,8 @@ def margins(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> tuple[Margi
         strength = wheel.material.yield_strength
         note = f"at {OVERSPEED:g} x the highest speed that the drive reaches"
         found.append(Margin(HOOP_STRESS, stress, strength, "Pa", note, of_motion=False))
-    energy = float((0.5 * wheel.moved_inertia * np.sum(motion.wheel_speed**2, axis=1)).max())
+    moved = wheel.turned_inertia + wheel.armature
+    energy = float((0.5 * moved * np.sum(motion.wheel_speed**2, axis=1)).max())
     # No motor of the catalogue states what its bearings stand, or how far apart they are.
     moment = float(bearing_moment(motion, axes, wheel).max())
     return (
@@ -124,7 +299,7 @@ def _drive_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
         _peak(motion.wheel_speed / line.no_load_speed + driven),
         1.0,
         "",
-        f"of {wheel.bus_voltage:g} V: speed over no-load speed plus torque over stall torque",
+        f"of {wheel.supply.voltage:g} V: speed over no-load speed plus torque over stall torque",
     )
 
 
@@ -134,12 +309,11 @@ def _electric_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin
     Continuous ratings are for hours and a maneuver lasts a second: a current that exceeds one is no
     fault, but asks for a pause until the mean of i^2 is back at the rating's.
     """
-    supply = wheel.supply
-    limits = (None, None) if supply is None else (supply.power / supply.voltage, supply.power)
-    current_max, power_max = (None if each is None else _finite(each) for each in limits)
+    supply = wheel.supply.told
+    current_max, power_max = _finite(supply.power / supply.voltage), _finite(supply.power)
     for name, power in (("", taken.power_drawn), (FED_BACK, taken.power_fed_back)):
         note = "" if name else ALL_MOTORS
-        yield Margin(BUS_CURRENT + name, power / wheel.bus_voltage, current_max, "A", note)
+        yield Margin(BUS_CURRENT + name, power / supply.voltage, current_max, "A", note)
         yield Margin(BUS_POWER + name, power, power_max, "W")
     yield Margin(
         "energy from the bus",
@@ -158,7 +332,7 @@ def _electric_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin
     if rating is None:
         yield Margin(RMS_CURRENT, mean, None, "A", "no continuous rating is stated")
         return
-    continuous = rating / torque_constant(wheel)
+    continuous = rating / wheel.torque_constant
     pause = taken.current_squared_time / continuous**2 - taken.duration
     note = f"a pause of {pause:.2g} s after each maneuver cools it"
     note = f"for {taken.duration:.2g} s; {note}" if pause > 0.0 else ""

@@ -71,7 +71,7 @@ def with_plate(candidate: Candidate, problem: SelectionProblem, robot: Robot) ->
         candidate: as selected; its plate is not looked at. problem: that it was selected for.
         robot: that carries it.
     """
-    device = assemble_selected(candidate, problem.supply)
+    device = assemble_selected(candidate)
     device = stand_on_trunk(device, robot, stated=problem.place.stated)
     return replace(candidate, plate=device.plate, pedestals=device.pedestals)
 
@@ -222,7 +222,7 @@ def _surer(
 
 def _own_footing(problem: SelectionProblem, best: Candidate, robot: Robot) -> SelectionProblem:
     """The problem for the plate, the place and the feet of this device."""
-    device, stated = assemble_selected(best, problem.supply), problem.place.stated
+    device, stated = assemble_selected(best), problem.place.stated
     module = best.modules_mass / len(best.layout)
     cage, feet = motor_mount(device).cage, best.foot_plate
     floor = 0.0 if cage is None else floor_at_shock(cage, best.motor.mass or 0.0, best.wheel.mass)
@@ -256,7 +256,7 @@ def in_rings(
     """
 
     def ringed(best: Candidate, least: float) -> SelectionProblem:
-        burst = burst_of(assemble_selected(best, problem.supply))
+        burst = burst_of(assemble_selected(best))
         own = _own_footing(problem, best, robot)
         return replace(own, guard_wall=max(least, burst.built_wall))
 

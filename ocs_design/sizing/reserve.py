@@ -367,8 +367,7 @@ class Reality:
         if isinstance(maneuver, Flip):
             # Who is behind the plan may take the whole flight, but brakes late, and ends in time
             # only where the supply takes the wheels' energy in what the flight lasts beyond it.
-            top = min(device.line.no_load_speed, device.line.speed_max)
-            energy = 0.5 * device.spin_inertia * top**2
+            energy = 0.5 * device.spin_inertia * device.line.top_speed**2
             whole = self.flight * maneuver.flight_time
             late = energy <= device.line.power_max * (whole - time)
             arrives = bool(late) and self.flight > 1.0
@@ -550,8 +549,7 @@ class _Flown:
     def room(self, device: Candidate) -> float:
         """The largest rate of roll at lift-off that the device undoes in a flip [rad/s]."""
         per_rate = held_in_roll(1.0, self.nominal, self.upright, self.designed, self.requirement)
-        line = device.line.reserved()
-        most = device.spin_inertia * min(float(line.no_load_speed), float(line.speed_max))
+        most = device.spin_inertia * float(device.line.reserved().top_speed)
         return most / float(per_rate) if self._undoes_roll and per_rate > 0.0 else np.inf
 
     @property

@@ -13,8 +13,6 @@ from ocs_design.common.records import recorded
 from ocs_design.device.device import Device
 from ocs_design.device.layout import Criterion, incidence_by_criterion
 from ocs_design.device.records.selection import ReserveRecord, SizingRecord
-from ocs_design.parts.module import Printed
-from ocs_design.parts.motor_mount import mount_of
 from ocs_design.requirement.bound import AXES, SpinDemand, rate_momenta
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
@@ -88,7 +86,7 @@ def sized_selection(problem: SelectionProblem, chosen: Candidate, robot: MassPro
         chosen: the device. robot: the robot alone, in B.
     """
     inertia = chosen.total.inertia
-    requirement, line = problem.requirement, chosen.line.reserved()
+    requirement = problem.requirement
 
     def by_criterion(of: FloatArray) -> Mapping[Criterion, float]:
         """Best incidence of pairs; nothing of other layouts."""
@@ -96,7 +94,7 @@ def sized_selection(problem: SelectionProblem, chosen: Candidate, robot: MassPro
         return incidence_by_criterion(of, design_momenta(requirement, of)) if pairs else {}
 
     return Sized(
-        wheel_speed_max=min(float(line.no_load_speed), float(line.speed_max)),
+        wheel_speed_max=float(chosen.line.reserved().top_speed),
         incidence_by_criterion=by_criterion(inertia),
         incidence_by_criterion_robot=by_criterion(robot.inertia),
         demands=tuple(_spin_demands(problem, chosen)),
@@ -141,10 +139,7 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
     rim_inertia = chosen.spin_inertia - chosen.rotor_share - chosen.hub_share
     rim = RimProblem(rim_inertia, problem.envelope, chosen.material, chosen.overspeed)
     limits = chosen.limits
-    motor, plate = chosen.motor, chosen.foot_plate
-    mount = mount_of(motor, chosen.gear.room, plate, on_bell=chosen.on_bell)
-    shell = Printed(mount.holes.reach, mount.posts, chosen.guard_wall, plate, mount.room)
-    prices = {}
+    shell, prices = chosen.shell, {}
     for name in chosen.binding:
         limit = next((each for each in RIM_LIMITS if each.name == name), None)
         if limit is None:

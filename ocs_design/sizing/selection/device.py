@@ -9,15 +9,11 @@ from ocs_design.actuation.slew import slew_profile
 from ocs_design.actuation.spin_root import capability
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_load import WheelTask, smallest_spin_inertia, spin_demand
-from ocs_design.common.arrays import frozen
 from ocs_design.device.records.selection import TaskDemand
-from ocs_design.parts.module import standing
-from ocs_design.parts.rim import wheel_body
 from ocs_design.requirement.bound import AXES
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.sizing.lightest_module import binding_limits
-from ocs_design.sizing.place import braked, motor_size
 from ocs_design.sizing.selection.demand import held_by_rate, held_in_roll, wheel_task
 from ocs_design.sizing.selection.fixed_point import Solved
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem, inertia_at
@@ -29,54 +25,33 @@ def device_of(solved: Solved) -> Candidate:
     problem, drives = candidates.problem, candidates.drives
     motor, gear = problem.motors[drives.motor[0]], problem.gears[drives.gear[0]]
     material = problem.materials[candidates.material[0]]
-    inner, outer, height, rim_mass, *_ = (float(each[0]) for each in vars(shapes).values())
-    hub = problem.hub(motor, gear, problem.lightenings[drives.web[0]])
-    guard, plate, on_bell = problem.guard_wall, problem.foot_plate, problem.on_bell
-    limits, row = candidates.limits.take(0), shapes.take(0)
-    carrier = standing(motor, gear, outer, height, guard, foot_plate=plate, on_bell=on_bell)
-    web = problem.web_material
-    wheel = wheel_body(
-        inner,
-        outer,
-        height,
-        material.density,
-        hub,
-        cuts=limits.cuts,
-        web_density=None if web is None else web.density,
-    )
-    size = motor_size(motor, gear.room, outer, height, guard, foot_plate=plate, on_bell=on_bell)
-    centers = frozen(problem.place.centers(size))
-    incidence = float(solved.point.angle[0])
+    limits, shape = candidates.limits.take(0), shapes.take(0)
     return Candidate(
+        inner_radius=float(shape.inner_radius),
+        outer_radius=float(shape.outer_radius),
+        height=float(shape.height),
+        material=material,
         motor=motor,
         gear=gear,
-        material=material,
-        incidence=incidence,
-        spin_inertia=float(solved.point.spin_inertia[0]),
-        rotor_share=float(drives.rotor_share[0]),
-        armature=float(drives.armature[0]),
-        inner_radius=inner,
-        outer_radius=outer,
-        height=height,
-        hub=hub,
-        cuts=limits.cuts,
-        rim_mass=rim_mass,
-        web_mass=wheel.mass - rim_mass,
-        carrier=carrier,
         line=DriveLine(*(float(values[0]) for values in vars(drives.whole).values())),
+        supply=problem.supply,
+        hub=problem.hub(motor, gear, problem.lightenings[drives.web[0]]),
+        cuts=limits.cuts,
+        web_material=problem.web_material,
+        incidence=float(solved.point.angle[0]),
+        spin_inertia=float(solved.point.spin_inertia[0]),
+        rim_mass=float(shape.rim_mass),
         overspeed=float(drives.overspeed[0]),
         limits=limits,
-        total=braked(problem.robot, (wheel, carrier), centers, incidence, problem.layout),
-        centers=centers,
-        demands=(),
-        binding=binding_limits(row, limits, problem.envelope),
+        robot=problem.robot,
+        place=problem.place,
+        binding=binding_limits(shape, limits, problem.envelope),
         residual=float(solved.point.residual[0]),
         iterations=int(solved.point.iterations[0]),
-        web_material=web,
-        guard_wall=guard,
-        foot_plate=plate,
+        guard_wall=problem.guard_wall,
+        foot_plate=problem.foot_plate,
         layout=problem.layout,
-        on_bell=on_bell,
+        on_bell=problem.on_bell,
     )
 
 
@@ -87,7 +62,7 @@ def with_demands(problem: SelectionProblem, device: Candidate) -> Candidate:
     """
     demands: list[TaskDemand] = []
     requirement, line, spin = problem.requirement, device.line.reserved(), device.spin_inertia
-    top_speed = min(float(line.no_load_speed), float(line.speed_max))
+    top_speed = float(line.top_speed)
     one_stops = requirement.detection is not None
     for maneuver in requirement.maneuvers:
         at = device.incidence if maneuver.incidence is None else maneuver.incidence

@@ -133,12 +133,12 @@ class Drives(Table):
     @property
     def top_speed(self) -> FloatArray:
         """Speed of the wheel that a design may use [rad/s]."""
-        return np.minimum(self.line.no_load_speed, self.line.speed_max)
+        return np.asarray(self.line.top_speed)
 
     @property
     def overspeed(self) -> FloatArray:
         """Speed at which the hoop stress of a rim is limited [rad/s]."""
-        return OVERSPEED * np.minimum(self.whole.no_load_speed, self.whole.speed_max)
+        return OVERSPEED * np.asarray(self.whole.top_speed)
 
 
 class _Extremes(NamedTuple):

@@ -3,21 +3,23 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import cached_property
 from math import isfinite
 from typing import Any, TypeVar
 
 import numpy as np
 
-from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.motor import Gear, Motor
 from ocs_design.actuation.supply import Supply
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.catalogue.materials import Material
-from ocs_design.common.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.common.errors import UsageError
 from ocs_design.device.layout import PAIR, Layout
 from ocs_design.device.records.selection import TaskDemand
 from ocs_design.parts.carrier_plate import CarrierPlate
+from ocs_design.parts.module import Printed, standing
+from ocs_design.parts.motor_mount import mount_of
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import PLATE_THICKNESS
 from ocs_design.parts.rim import (
@@ -27,7 +29,6 @@ from ocs_design.parts.rim import (
     Hub,
     RimCuts,
     hub_of,
-    wheel_body,
 )
 from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.device_sections import Envelope
@@ -35,8 +36,9 @@ from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.rim_problem import RimLimits, check_limits
+from ocs_design.sizing.driven_wheel import DrivenWheel
 from ocs_design.sizing.limits import BUS_POWER, BUS_VOLTAGE, RIM_LIMITS, TIME, WHEEL_SPEED, Limit
-from ocs_design.sizing.place import Place, braked
+from ocs_design.sizing.place import Place, braked, motor_size
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,63 +184,42 @@ def with_time(problem: SelectionProblem, factor: float, names: set[str]) -> Sele
     return replace(problem, requirement=replace(requirement, maneuvers=maneuvers))
 
 
-@dataclass(frozen=True, eq=False)
-class Candidate:
-    """A whole device: equal modules on the robot.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Candidate(DrivenWheel):
+    """A whole device: equal modules on the robot, each with a driven wheel.
 
     Attributes:
-        motor, gear, material: chosen.
         incidence: of the wheel axes [rad].
         spin_inertia: of each wheel, the rotor's share included [kg m^2].
-        rotor_share: s N J_r of it. armature: what the motor accelerates beyond it [kg m^2].
-        inner_radius, outer_radius, height: of the rim [m].
-        hub: in the middle of a wheel's web; None: massless spokes.
-        cuts: off its rim.
-        rim_mass: of one module [kg]. web_mass: with the hub.
-        carrier: what stands still of one module: motor, gear, housing and foot.
-        line: of the drive at the wheel, nothing held back.
+        rim_mass: of one module [kg].
         overspeed: at which the hoop stress is limited [rad/s].
         limits: of its rim.
-        total: robot and all modules, braked, in B.
-        centers: of the wheels in B [m], shape (n, 3).
+        robot: without the modules, with the plate that they stand on, in B.
+        place: of the modules.
         demands: of all parts of the requirement; empty where nobody looked at them.
         binding: limits that hold the mass up, as named in the specification; "housing" where a
             larger rim would be lighter, but its housing heavier.
         residual: relative change of the spin inertia in one more iteration of the fixed point.
         iterations: taken.
-        web_material: of web and hub; None: of one piece with the rim.
         plate: that it stands on; None: the trunk itself, or not looked for yet.
         guard_wall: of the steel rings in the housings [m]; 0: none.
         foot_plate: thickness of the feet's plates [m].
         layout: of the modules.
         pedestals: under feet that lean; empty: none, or not looked for yet.
+        on_bell: whether each wheel is a ring around the bell of its motor.
     """
 
-    motor: Motor
-    gear: Gear
-    material: Material
     incidence: float
     spin_inertia: float
-    rotor_share: float
-    armature: float
-    inner_radius: float
-    outer_radius: float
-    height: float
-    hub: Hub | None
-    cuts: RimCuts
     rim_mass: float
-    web_mass: float
-    carrier: Carrier
-    line: DriveLine
     overspeed: float
     limits: RimLimits
-    total: MassProperties
-    centers: FloatArray
-    demands: tuple[TaskDemand, ...]
+    robot: MassProperties
+    place: Place
+    demands: tuple[TaskDemand, ...] = ()
     binding: tuple[str, ...]
     residual: float
     iterations: int
-    web_material: Material | None = None
     plate: CarrierPlate | None = None
     guard_wall: float = 0.0
     foot_plate: float = PLATE_THICKNESS
@@ -247,16 +228,55 @@ class Candidate:
     on_bell: bool = False
 
     @property
-    def web_density(self) -> float | None:
-        """Density of web and hub [kg/m^3]; None: of one piece with the rim."""
-        return None if self.web_material is None else self.web_material.density
-
-    @property
     def hub_share(self) -> float:
         """Part of the spin inertia that is the hub's [kg m^2]."""
         if self.hub is None:
             return 0.0
-        return self.hub.beyond_web(self.web_density or self.material.density).axial_inertia
+        material = self.web_material or self.material
+        return self.hub.beyond_web(material.density).axial_inertia
+
+    @cached_property
+    def carrier(self) -> Carrier:
+        """What stands still of one module: motor, gear, housing and foot."""
+        return standing(
+            self.motor,
+            self.gear,
+            self.outer_radius,
+            self.height,
+            self.guard_wall,
+            foot_plate=self.foot_plate,
+            on_bell=self.on_bell,
+        )
+
+    @cached_property
+    def centers(self) -> FloatArray:
+        """Centres of the wheels in B [m], shape (n, 3)."""
+        size = motor_size(
+            self.motor,
+            self.gear.room,
+            self.outer_radius,
+            self.height,
+            self.guard_wall,
+            foot_plate=self.foot_plate,
+            on_bell=self.on_bell,
+        )
+        return frozen(self.place.centers(size))
+
+    def total_at(self, robot: MassProperties, incidence: float) -> MassProperties:
+        """A robot and all modules at an incidence [rad], braked, in B."""
+        return braked(robot, (self.wheel, self.carrier), self.centers, incidence, self.layout)
+
+    @cached_property
+    def total(self) -> MassProperties:
+        """The robot and all modules, braked, in B."""
+        return self.total_at(self.robot, self.incidence)
+
+    @property
+    def shell(self) -> Printed:
+        """Housing and foot around a wheel of any size."""
+        mount = mount_of(self.motor, self.gear.room, self.foot_plate, on_bell=self.on_bell)
+        reach = mount.holes.reach
+        return Printed(reach, mount.posts, self.guard_wall, self.foot_plate, mount.room)
 
     @property
     def mass(self) -> float:
@@ -283,15 +303,7 @@ class Candidate:
     @property
     def wheel_mass(self) -> float:
         """Mass of one wheel: rim, web and hub [kg]."""
-        return self.rim_mass + self.web_mass
-
-    @property
-    def wheel(self) -> Carrier:
-        """One wheel, without what turns in the motor."""
-        size = (self.inner_radius, self.outer_radius, self.height)
-        return wheel_body(
-            *size, self.material.density, self.hub, cuts=self.cuts, web_density=self.web_density
-        )
+        return self.rim_mass + (self.wheel.mass - self.rim_mass)
 
     @property
     def binding_maneuver(self) -> str:
@@ -429,6 +441,4 @@ class Selection:
 
 def inertia_at(problem: SelectionProblem, device: Candidate, incidence: float) -> TiltInertia:
     """Inertia of robot and device, braked, with the modules turned to this incidence."""
-    bodies = (device.wheel, device.carrier)
-    whole = braked(problem.robot, bodies, device.centers, incidence, device.layout)
-    return TiltInertia.of(whole.inertia)
+    return TiltInertia.of(device.total_at(problem.robot, incidence).inertia)

@@ -18,13 +18,9 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import module_axes
 from ocs_design.device.records.selection import TaskDemand
-from ocs_design.parts.module import Printed, standing
-from ocs_design.parts.motor_mount import mount_of
 from ocs_design.requirement.bound import AXES
 from ocs_design.requirement.pivoted import Pivoted
-from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.lightest_module import binding_limits, lightest_module_at
-from ocs_design.sizing.place import braked, motor_size
 from ocs_design.sizing.selection.demand import UNDOES, held_by_rate
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
 from ocs_design.sizing.trajectory.boundary import boundary
@@ -185,7 +181,7 @@ class FreeDevice:
             np.append(
                 each.mass / selected.mass,
                 np.linalg.solve(
-                    terms, [_total(problem, each, angle).inertia.ravel() for angle in angles]
+                    terms, [each.total_at(problem.robot, angle).inertia.ravel() for angle in angles]
                 ),
             )
             for each in with_wheels(problem, selected, spin, outer)
@@ -199,7 +195,7 @@ class FreeDevice:
         found = next(
             with_wheels(self.problem, self.selected, np.array([factor]), np.array([radius]))
         )
-        return replace(found, incidence=incidence, total=_total(self.problem, found, incidence))
+        return replace(found, incidence=incidence, robot=self.problem.robot)
 
     def plant(self, dimensions: ca.MX, own: float | None = None) -> Plant:
         """Robot and device of symbols, at the incidence among them or at one of its own [rad]."""
@@ -283,36 +279,24 @@ def with_wheels(
         factors: spin inertias over the selected one, shape (n,).
         radii: outer radii likewise; the nearest possible one is taken.
     """
-    motor, gear, turning = selected.motor, selected.gear, selected.rotor_share + selected.hub_share
-    limits = selected.limits
-    guard, plate = selected.guard_wall, selected.foot_plate
-    mount = mount_of(motor, gear.room, plate)
-    shell = Printed(mount.holes.reach, mount.posts, guard, plate)
+    limits, turning = selected.limits, selected.rotor_share + selected.hub_share
     spin_inertias, outer_radii = factors * selected.spin_inertia, radii * selected.outer_radius
-    shapes = lightest_module_at(spin_inertias - turning, outer_radii, limits, shell)
-    for row in np.flatnonzero(np.isfinite(shapes.mass)):
-        inner, outer = float(shapes.inner_radius[row]), float(shapes.outer_radius[row])
-        height, rim_mass = float(shapes.height[row]), float(shapes.rim_mass[row])
-        sized = replace(selected, inner_radius=inner, outer_radius=outer, height=height)
-        size = motor_size(motor, gear.room, outer, height, guard, foot_plate=plate)
+    shapes = lightest_module_at(spin_inertias - turning, outer_radii, limits, selected.shell)
+    for row in np.flatnonzero(np.isfinite(shapes.mass)).tolist():
+        shape = shapes.take(row)
         yield replace(
-            sized,
+            selected,
+            inner_radius=float(shape.inner_radius),
+            outer_radius=float(shape.outer_radius),
+            height=float(shape.height),
             spin_inertia=float(spin_inertias[row]),
-            rim_mass=rim_mass,
-            web_mass=sized.wheel.mass - rim_mass,
-            carrier=standing(motor, gear, outer, height, guard, foot_plate=plate),
-            centers=problem.place.centers(size),
-            binding=binding_limits(shapes.take(int(row)), limits, problem.envelope),
+            rim_mass=float(shape.rim_mass),
+            binding=binding_limits(shape, limits, problem.envelope),
         )
 
 
-def _total(problem: SelectionProblem, device: Candidate, incidence: float) -> MassProperties:
-    """Robot and both modules as one rigid body in B, the modules at an incidence [rad]."""
-    return braked(problem.robot, (device.wheel, device.carrier), device.centers, incidence)
-
-
 def _gyrostat(problem: SelectionProblem, device: Candidate, incidence: float) -> Gyrostat:
-    inertia = _total(problem, device, incidence).inertia
+    inertia = device.total_at(problem.robot, incidence).inertia
     return Gyrostat(inertia, module_axes(incidence), device.spin_inertia, device.armature)
 
 
@@ -327,8 +311,7 @@ def _usable(problem: SelectionProblem, device: Candidate) -> DriveLine:
 
 def _top_speed(device: Candidate) -> float:
     """Highest speed of a wheel that a design may use [rad/s]."""
-    line = device.line.reserved()
-    return min(float(line.no_load_speed), float(line.speed_max))
+    return float(device.line.reserved().top_speed)
 
 
 def _rejection_reason(

@@ -203,7 +203,7 @@ def reference(
     spun = 0.0
     if isinstance(maneuver, Pivoted) and asked.rate.any():
         spun = _braked_from(gyrostat, asked.rate)
-        most = min(float(line.no_load_speed), float(line.speed_max))
+        most = float(line.top_speed)
         if spun > most:
             told = " and ".join(map(rpm, (spun, most)))
             note = f"speed of the wheels that the brake takes, and that the motors reach: {told}"

@@ -6,8 +6,7 @@ from driven_wheels import EC45, driven_wheel
 from scipy.spatial.transform import Rotation
 
 from ocs_design.device.layout import module_axes
-from ocs_design.sizing.margins import bearing_moment
-from ocs_design.sizing.motion import Motion
+from ocs_design.sizing.margins import Motion, bearing_moment
 
 AXES = module_axes(np.radians(35.0))
 
@@ -66,7 +65,8 @@ def test_against_the_momentum_of_a_solid_wheel_in_the_world(side):
     wheel = driven_wheel(motor=EC45)
     t, step = 0.4, 1e-4
     axis = AXES[:, side]
-    inertia = np.diag([wheel.body.transverse_inertia] * 2 + [wheel.axial_inertia])
+    across, about = wheel.wheel.transverse_inertia, wheel.wheel.axial_inertia
+    inertia = np.diag([across] * 2 + [about + wheel.rotor_inertia])
     torque = (momentum(t + step, axis, inertia, step) - momentum(t - step, axis, inertia, step)) / (
         2.0 * step
     )

@@ -8,8 +8,7 @@ from driven_wheels import BELT, EC45, STEEL, driven_wheel
 
 from ocs_design.device.layout import module_axes
 from ocs_design.parts.joints import Margin
-from ocs_design.sizing.margins import margins, worst
-from ocs_design.sizing.motion import Motion
+from ocs_design.sizing.margins import Motion, margins, worst
 
 AXES = module_axes(np.radians(30.0))
 
@@ -69,7 +68,8 @@ def test_a_gear_turns_the_motor_faster():
 
 
 def test_a_stated_wheel_speed_limits_like_a_mechanical_one():
-    found = by_name(turn(), replace(driven_wheel(), wheel_speed_max=400.0))
+    wheel = driven_wheel()
+    found = by_name(turn(), replace(wheel, line=replace(wheel.line, speed_max=400.0)))
     assert found["wheel speed"].capacity == 400.0
     full = by_name(turn(), driven_wheel())["hoop stress"]
     slow = found["hoop stress"]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ocs_design.sizing.motion import Motion, integral
+from ocs_design.sizing.margins import Motion, integral
 from ocs_design.sizing.trajectory.motion import Trajectory
 
 

@@ -26,11 +26,11 @@ def test_where_none_wins_at_its_own_incidence_the_lightest_at_its_own_leads(monk
     angles, masses = {"a": 0.4, "b": 0.6}, {"a": 0.10, "b": 0.12}
 
     def device(name, incidence):
-        """Lighter by 0.05 kg away from its own incidence."""
+        """Heavier than the base, by 0.05 kg less away from its own incidence."""
         off = abs(incidence - angles[name]) > 1e-6
-        rim = (masses[name] - 0.05 * off) / 2.0 - base.carrier.mass
-        motor = replace(base.motor, name=name)
-        return replace(base, motor=motor, incidence=incidence, rim_mass=rim, web_mass=0.0)
+        more = (masses[name] - 0.05 * off) / 2.0
+        motor = replace(base.motor, name=name, mass=base.motor.mass + more)
+        return replace(base, motor=motor, incidence=incidence)
 
     def choose(asked):
         """All that are asked for, lightest first."""
@@ -50,6 +50,6 @@ def test_where_none_wins_at_its_own_incidence_the_lightest_at_its_own_leads(monk
     monkeypatch.setattr(selecting, "at_own_incidence", settled)
     found = select_by(problem, Criterion.EQUAL_RATE)
     assert (found.best.motor.name, found.best.incidence) == ("a", 0.4)
-    assert found.best.mass == pytest.approx(0.10)
+    assert found.best.mass == pytest.approx(base.mass + 0.10)
     (other,) = found.rejections
     assert (other.motor, other.reason) == ("b", Reason.INCIDENCE)

@@ -18,7 +18,7 @@ def test_a_chosen_device_passes_with_its_motors_limits(seed):
     drawn = draw(seed)
     problem, requirement = drawn.problem, drawn.problem.requirement
     chosen = select(problem).best
-    device = assemble_selected(chosen, problem.supply)
+    device = assemble_selected(chosen)
     plans = plan(
         drawn.robot.mass_properties, device, requirement.maneuvers, requirement.standing_height
     )

@@ -77,7 +77,7 @@ def test_at_its_own_incidence_the_winner_is_as_light_as_its_twins():
 def test_a_device_that_is_lighter_leads_whatever_its_strength(steels):
     problem = problem_of(steels, incidence=0.6)
     twin = select(problem).best
-    lighter = replace(twin, material=WEAK, rim_mass=twin.rim_mass * (1.0 - 1e-3))
+    lighter = replace(twin, material=WEAK, height=twin.height * (1.0 - 1e-3))
     assert devices_by_mass([twin, lighter]) == [lighter, twin]
 
 

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from drawn_selections import draw
 
-from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import Infeasible
 from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.parts.solids import total
@@ -27,7 +26,7 @@ def problem_of(seed: int) -> SelectionProblem:
 def test_the_selected_wheel_is_the_made_one(seed):
     problem = problem_of(seed)
     best = select(problem).best
-    wheel = assemble_selected(best, Supply(problem.bus_voltage)).flywheel
+    wheel = assemble_selected(best).flywheel
     assert best.hub is not None
     assert (wheel.web.holes is not None) == (best.hub.lightening == 6)
     made = total(wheel_parts(wheel_geometry(wheel)))

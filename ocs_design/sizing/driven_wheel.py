@@ -1,0 +1,103 @@
+"""A wheel of real material with the motor, the gear and the supply that drive it."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from ocs_design.actuation.drive import DriveLine, armature, rotor_share
+from ocs_design.actuation.motor import Gear, Motor
+from ocs_design.actuation.supply import Supply
+from ocs_design.catalogue.materials import Material
+from ocs_design.parts.joints import OVERSPEED
+from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts, hoop_stress, wheel_body
+from ocs_design.parts.solids import Carrier
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class DrivenWheel:
+    """Wheel, motor, gear and supply of one module.
+
+    Attributes:
+        inner_radius, outer_radius, height: of the rim [m].
+        material: of the rim.
+        motor, gear: that drive it.
+        line: of the drive at the wheel, nothing held back, up to a stated highest speed.
+        supply: of all motors.
+        hub: in the middle of the wheel's web; None: massless spokes.
+        cuts: off the rim.
+        web_material: of web and hub; None: of one piece with the rim.
+    """
+
+    inner_radius: float
+    outer_radius: float
+    height: float
+    material: Material
+    motor: Motor
+    gear: Gear
+    line: DriveLine
+    supply: Supply
+    hub: Hub | None = None
+    cuts: RimCuts = NO_CUTS
+    web_material: Material | None = None
+
+    @cached_property
+    def wheel(self) -> Carrier:
+        """Rim, web and hub, without what turns in the motor; no source states that across."""
+        size = (self.inner_radius, self.outer_radius, self.height)
+        web = None if self.web_material is None else self.web_material.density
+        return wheel_body(*size, self.material.density, self.hub, cuts=self.cuts, web_density=web)
+
+    @property
+    def rotor_inertia(self) -> float:
+        """Inertia of the motor's rotor [kg m^2]; 0 where it is not stated."""
+        return self.motor.rotor_inertia or 0.0
+
+    @property
+    def rotor_share(self) -> float:
+        """Part of the spin inertia that is the rotor's, s N J_r [kg m^2]."""
+        return rotor_share(self.rotor_inertia, self.gear)
+
+    @property
+    def armature(self) -> float:
+        """What the motor accelerates beyond the spin inertia [kg m^2]."""
+        return armature(self.rotor_inertia, self.gear)
+
+    @property
+    def turned_inertia(self) -> float:
+        """Momentum per wheel speed, of the wheel as it is made and the rotor [kg m^2]."""
+        return self.wheel.axial_inertia + self.rotor_share
+
+    @property
+    def torque_constant(self) -> float:
+        """k_t [N m/A], without which there is no line."""
+        assert self.motor.torque_constant is not None, "the line has it"
+        return self.motor.torque_constant
+
+    @property
+    def resistance(self) -> float:
+        """Resistance between two lines [ohm], without which there is no line."""
+        assert self.motor.resistance is not None, "the line has it"
+        return self.motor.resistance
+
+    @property
+    def friction_current(self) -> float:
+        """I_0, that the motor itself draws turning freely [A]; 0 where it is not stated."""
+        return self.motor.no_load_current or 0.0
+
+    @property
+    def friction(self) -> float:
+        """N eta k_t I_0, what the motor's own friction takes of the torque at the wheel [N m]."""
+        gain = self.gear.ratio * self.gear.efficiency
+        return gain * self.torque_constant * self.friction_current
+
+    @property
+    def overspeed_stress(self) -> float | None:
+        """Hoop stress at `OVERSPEED` times the speed reached [Pa]; None: no Poisson's ratio."""
+        if self.material.poisson_ratio is None:
+            return None
+        return hoop_stress(
+            self.inner_radius,
+            self.outer_radius,
+            density=self.material.density,
+            poisson_ratio=self.material.poisson_ratio,
+            wheel_speed=OVERSPEED * float(self.line.top_speed),
+        )
