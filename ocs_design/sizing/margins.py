@@ -80,7 +80,11 @@ class Motion:
 
     def between(self) -> "Motion":
         """Samples with the middle of each interval between them, shape (2 n - 1, ...)."""
-        return Motion(*map(_with_middles, vars(self).values()))
+        found = {}
+        for name, values in vars(self).items():
+            found[name] = np.repeat(values, 2, axis=0)[:-1]
+            found[name][1::2] = 0.5 * (values[:-1] + values[1:])
+        return Motion(**found)
 
 
 def integral(values: FloatArray, time: FloatArray) -> float:
@@ -97,13 +101,6 @@ def integral(values: FloatArray, time: FloatArray) -> float:
 def _both_ends(values: FloatArray) -> FloatArray:
     """Start and end of each interval, one after the other."""
     return np.repeat(values, 2, axis=0)[1:-1]
-
-
-def _with_middles(values: FloatArray) -> FloatArray:
-    """Values with the mean of each two between them."""
-    found = np.repeat(values, 2, axis=0)[:-1]
-    found[1::2] = 0.5 * (values[:-1] + values[1:])
-    return found
 
 
 @dataclass(frozen=True)
