@@ -33,11 +33,10 @@ from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_surface
 from ocs_design.robot.tree import Drum
-from ocs_design.sizing.footing.contact import FootContact, contacts_of
+from ocs_design.sizing.footing.contact import PROUD, FootContact, contacts_of
 from ocs_design.sizing.footing.feet import device_size, feet_of
-from ocs_design.sizing.footing.lands import PROUD
 from ocs_design.sizing.footing.mast import Pads, pads_needed
-from ocs_design.sizing.footing.screws import SPREAD
+from ocs_design.sizing.footing.plate import SPREAD
 from ocs_design.sizing.placement import place_free
 
 
@@ -204,7 +203,7 @@ def mounting_of(
             if contact.leans
         ),
         module_mass=device.flywheel.mass + device.carrier.mass,
-        pads=pads_needed(robot, feet_of(device), device_size(device), device.layout)
+        pads=pads_needed(robot, feet_of(device), device.layout)
         if any(contact.held is False for contact in feet)
         else None,
     )

@@ -239,6 +239,11 @@ class Search:
     sizes: Sizes
     layout: Layout = PAIR
 
+    @classmethod
+    def of(cls, robot: Robot, size: Size[float], layout: Layout) -> "Search":
+        """Search for modules of this size alone."""
+        return cls(collision_model(robot), Sizes(size, size), layout)
+
     def spots(self) -> list[tuple[Face, Spot]]:
         """Spots of all faces, the nearest first."""
         found = [

@@ -1,38 +1,95 @@
-"""Contact of feet, plates, masts and pedestals with what is below them.
+"""Contact of feet, plates, masts and pedestals with what is below them, looked at by points.
 
 A foot is held where the ring that its screws' lands sweep, whatever the incidence, lies on the
 trunk whole: within `FLATNESS` below the plane that it stands on, and nothing above that plane under
 its base. A plate is held by four screws, where the trunk is as flat under each head or sleeve.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from math import inf, pi
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.common.arrays import FloatArray, vector
+from ocs_design.common.arrays import FloatArray, frozen, vector
 from ocs_design.device.device import Device, Module
 from ocs_design.device.solids import foot_of, pedestal_of
 from ocs_design.parts.carrier_plate import CarrierPlate, Point
-from ocs_design.parts.dog_bone import directions
+from ocs_design.parts.dog_bone import DogBone, directions
 from ocs_design.parts.module import part_name
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import AROUND_SLOT
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_back, trunk_surface
 from ocs_design.sizing.footing.feet import feet_of, leans
-from ocs_design.sizing.footing.lands import (
-    FLATNESS,
-    PROUD,
-    base_points,
-    disc_points,
-    heights_at,
-    highest_of,
-    plate_points,
-    ring_points,
-)
+
+FLATNESS = 1e-3
+"""Largest depth of a trunk's surface below what stands on it [m]: a washer's thickness."""
+
+PROUD = 1e-4
+"""Largest height of a trunk's surface above what stands on it [m]: rounding of meshes."""
+
+
+def heights_at(surface: Surface, points: FloatArray) -> FloatArray:
+    """Heights of a surface at points in B [m], shape (n,)."""
+    return surface.height(points[:, 0], points[:, 1])
+
+
+def highest_of(surface: Surface, points: FloatArray) -> float:
+    """Largest of those heights [m]; -inf: none of the points is over the surface."""
+    return float(heights_at(surface, points).max())
+
+
+def disc_points(middle: Sequence[float], radius: float) -> FloatArray:
+    """Points that stand for equal shares of a disc [m], shape (n, 2)."""
+    return ring_points(middle, 0.0, radius)
+
+
+def ring_points(middle: Sequence[float], inner: float, outer: float) -> FloatArray:
+    """Points that stand for equal shares of a ring [m], shape (n, 2)."""
+    return frozen(_around_middle(max(inner, 0.0), outer) + np.asarray(middle))
+
+
+@lru_cache(maxsize=64)
+def _around_middle(inner: float, outer: float) -> FloatArray:
+    """Points of a ring around the origin [m], shape (n, 2)."""
+    count = max(4, min(48, round((outer - inner) / 1e-3)))
+    around = max(16, min(180, round(2.0 * pi * outer / 1e-3)))
+    share = (np.arange(count) + 0.5) / count
+    radii = np.sqrt(inner**2 + share * (outer**2 - inner**2))
+    # The rim itself, where lands end first.
+    angles = (np.arange(around) + 0.5) * 2.0 * pi / around
+    rings = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    return frozen((radii[:, None, None] * rings).reshape(-1, 2))
+
+
+def plate_points(plate: CarrierPlate) -> FloatArray:
+    """Points all over a plate in B [m], shape (n, 2)."""
+    places = _within(plate.shape) + np.array(plate.position[:2])
+    return np.concatenate([places + np.array([row, 0.0]) for row in plate.rows])
+
+
+@lru_cache(maxsize=64)
+def _within(shape: DogBone) -> FloatArray:
+    """Points all over an outline [m], shape (n, 2)."""
+    wide = shape.half_length if shape.arms > 2 else shape.radius
+    xs, ys = (
+        np.linspace(-half, half, 1 + int(np.ceil(2.0 * half / max(1e-3, shape.radius / 40.0))))
+        for half in (wide, shape.half_length)
+    )
+    places = np.stack(np.meshgrid(xs, ys), axis=-1).reshape(-1, 2)
+    return frozen(places[shape.holds(places)])
+
+
+def base_points(pedestal: Pedestal) -> FloatArray:
+    """Points all over a pedestal's underside in B [m], shape (n, 2)."""
+    half, place = pedestal.width / 2.0, pedestal.placement
+    ends = (-half, half), (-pedestal.flange, pedestal.length + pedestal.flange)
+    grid = [np.linspace(low, high, 2 + int((high - low) / 1e-3)) for low, high in ends]
+    points = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
+    return points @ place.rotation[:2, :2].T + place.position[:2]
 
 
 @dataclass(frozen=True)
@@ -42,8 +99,7 @@ class FootContact:
     Attributes:
         name: what stands, as in "left foot" or "foot 1".
         on: what it stands on, as in "trunk".
-        area: of contact [m^2]; None: not known.
-        share: of its underside that is in contact; None likewise.
+        share: of its underside that is in contact; None: not known.
         gap: largest under its screws' lands [m]; inf: nothing is there; None: not known.
         proud: height of what is below over its underside [m]; 0: nothing is in its way.
         held: whether all its screws' lands are in contact and nothing is in its way; None: not
@@ -53,7 +109,6 @@ class FootContact:
 
     name: str
     on: str
-    area: float | None
     share: float | None
     gap: float | None
     proud: float
@@ -74,26 +129,17 @@ def contacts_of(robot: Robot, device: Device) -> tuple[FootContact, ...]:
     for module, middle in zip(device.modules, feet.middles, strict=True):
         name, underside = part_name("foot", module.name), float(module.position[2]) - height
         under = [each for each in device.pedestals if each.module == module.name]
-        if under and surface is None:
-            found.append(
-                FootContact(
-                    part_name("pedestal", module.name), "trunk", None, None, None, 0.0, held=None
-                )
-            )
-        elif under and surface is not None:
+        if under:
             found += [under_pedestal(surface, device, module, each) for each in under]
         elif leans(module):
-            found.append(FootContact(name, "trunk", 0.0, 0.0, inf, 0.0, held=False, leans=True))
+            found.append(FootContact(name, "trunk", 0.0, inf, 0.0, held=False, leans=True))
         elif plate is not None:
             # It carries a foot around the circle of its screws.
             gap = min(abs(underside - plate.top - level) for level in plate.heights)
             share = float(_over_plate(plate, disc_points(middle, feet.radius)).mean())
             lands = ring_points(middle, *feet.lands)
             held = bool(_over_plate(plate, lands).all()) and gap <= PROUD
-            area = share * pi * feet.radius**2
-            found.append(FootContact(name, "plate", area, share, gap, 0.0, held))
-        elif surface is None:
-            found.append(FootContact(name, "trunk", None, None, None, 0.0, held=None))
+            found.append(FootContact(name, "plate", share, gap, 0.0, held))
         else:
             found.append(
                 contact_of(name, surface, middle, feet.radius, plane=underside, lands=feet.lands)
@@ -104,26 +150,23 @@ def contacts_of(robot: Robot, device: Device) -> tuple[FootContact, ...]:
 
 
 def under_pedestal(
-    surface: Surface, device: Device, module: Module, pedestal: Pedestal
+    surface: Surface | None, device: Device, module: Module, pedestal: Pedestal
 ) -> FootContact:
     """Contact of a pedestal with the trunk, which also has to bear the foot where it is."""
-    plane, base, place = pedestal.position[2], base_points(pedestal), pedestal.placement
-    depth = plane - heights_at(surface, base)
-    share = float(((depth <= FLATNESS) & (depth >= -PROUD)).mean())
+    place = pedestal.placement
     lands = [
         disc_points(vector(place.rotation @ [*hole, 0.0] + place.position)[:2], AROUND_SLOT)
         for hole in pedestal.holes
     ]
-    gap = max(0.0, float((plane - heights_at(surface, np.concatenate(lands))).max()))
-    proud = max(0.0, -float(depth.min()))
+    points = base_points(pedestal), np.concatenate(lands)
+    name = part_name("pedestal", module.name)
+    found = _contact(name, surface, points, pedestal.position[2])
     wheel = place.rotation @ pedestal.wheel + place.position
     seated = (
         bool(np.allclose(wheel, module.position, rtol=0.0, atol=1e-6))
         and pedestal.middle >= pedestal_of(device, module).middle - 1e-6
     )
-    held = gap <= FLATNESS and proud <= PROUD and seated
-    area = share * pedestal.width * (pedestal.length + 2.0 * pedestal.flange)
-    return FootContact(part_name("pedestal", module.name), "trunk", area, share, gap, proud, held)
+    return replace(found, held=found.held and seated)
 
 
 def _over_plate(plate: CarrierPlate, points: FloatArray) -> NDArray[np.bool_]:
@@ -157,18 +200,15 @@ def _plate_contacts(robot: Robot, plate: CarrierPlate) -> Iterator[FootContact]:
     for number, (hole, sleeve) in enumerate(zip(plate.trunk, plate.sleeves, strict=True), start=1):
         along, across = hole if mast is None else hole[::-1]
         name, middle = f"{what}'s screw {number}", (x + along, y + across)
-        if surface is None:
-            yield FootContact(name, "trunk", None, None, None, 0.0, held=None)
-            continue
         radius = plate.sleeve_radius
         found = contact_of(name, surface, middle, radius, plane=plane - sleeve, lands=(0.0, radius))
         proud = max(found.proud, outline - plane)
-        yield replace(found, proud=proud, held=bool(found.held) and proud <= PROUD)
+        yield replace(found, proud=proud, held=found.held and proud <= PROUD)
 
 
 def contact_of(
     name: str,
-    surface: Surface,
+    surface: Surface | None,
     middle: Point,
     radius: float,
     *,
@@ -176,9 +216,27 @@ def contact_of(
     lands: tuple[float, float],
 ) -> FootContact:
     """Contact of a disc with the trunk, whose screws' lands are between two radii [m]."""
-    depth = plane - heights_at(surface, disc_points(middle, radius))
+    points = disc_points(middle, radius), ring_points(middle, *lands)
+    return _contact(name, surface, points, plane)
+
+
+def _contact(
+    name: str,
+    surface: Surface | None,
+    points: tuple[FloatArray, FloatArray],
+    plane: float,
+) -> FootContact:
+    """Contact with the trunk of what stands in a plane.
+
+    Args:
+        name: of it. surface: of the trunk; None: not known.
+        points: of its underside and of its screws' lands, shape (n, 2) each.
+        plane: its height in B [m].
+    """
+    if surface is None:
+        return FootContact(name, "trunk", None, None, 0.0, held=None)
+    depth, under = (plane - heights_at(surface, each) for each in points)
     share = float(((depth <= FLATNESS) & (depth >= -PROUD)).mean())
-    gap = max(0.0, float((plane - heights_at(surface, ring_points(middle, *lands))).max()))
-    proud = max(0.0, -float(depth.min()))
+    gap, proud = max(0.0, float(under.max())), max(0.0, -float(depth.min()))
     held = gap <= FLATNESS and proud <= PROUD
-    return FootContact(name, "trunk", share * pi * radius**2, share, gap, proud, held)
+    return FootContact(name, "trunk", share, gap, proud, held)

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from math import ceil, copysign, log, sqrt
+from typing import Any
 
 import numpy as np
 
@@ -26,6 +27,9 @@ SAME = 1e-9
 
 _ALIKE = 1.02
 """Ratio of sizes, or of masses, of modules that are nearly equal."""
+
+_FIGURES = "radius", "slot_radius", "reach", "height", "mass"
+"""Fields of feet that make modules harder to hold the more of it there is."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +56,11 @@ class Feet:
     reach: float
     height: float
     mass: float
+
+    @property
+    def size(self) -> Size[float]:
+        """The room that each module takes."""
+        return Size(self.reach, self.height)
 
     @property
     def middles(self) -> list[Point]:
@@ -166,24 +175,15 @@ def leans(module: Module) -> bool:
     return float(module.frame[2, 2]) < 1.0 - OUT_OF_REACH
 
 
-def rough(feet: Feet, size: Size[float]) -> tuple[Feet, Size[float]]:
-    """Feet of modules that are nearly equal, wherever they stood, and their size."""
-    rough = replace(
-        feet,
-        x=0.0,
-        bases=(),
-        radius=_rounded_up(feet.radius),
-        slot_radius=_rounded_up(feet.slot_radius),
-        reach=_rounded_up(feet.reach),
-        height=_rounded_up(feet.height),
-        mass=_rounded_up(feet.mass),
-    )
-    return rough, Size(_rounded_up(size.reach), _rounded_up(size.standing))
+def rough(feet: Feet) -> Feet:
+    """Feet of modules that are nearly equal, wherever they stood.
 
-
-def _rounded_up(value: float) -> float:
-    """A size or mass rounded up by 2 % at most, so that nearly equal modules share one search."""
-    return _ALIKE ** ceil(log(value, _ALIKE))
+    Sizes and mass are rounded up by 2 % at most, so that nearly equal modules share one search.
+    """
+    figures: dict[str, Any] = {
+        name: _ALIKE ** ceil(log(getattr(feet, name), _ALIKE)) for name in _FIGURES
+    }
+    return replace(feet, x=0.0, bases=(), **figures)
 
 
 @dataclass(frozen=True, eq=False)
@@ -194,20 +194,17 @@ class InVain:
     and is not looked for again.
 
     Attributes:
-        tried: their feet and sizes.
+        tried: their feet.
     """
 
-    tried: list[tuple[Feet, Size[float]]] = field(default_factory=list)
+    tried: list[Feet] = field(default_factory=list)
 
-    def covers(self, feet: Feet, size: Size[float]) -> bool:
+    def covers(self, feet: Feet) -> bool:
         """Whether modules no larger and no heavier than these were not held."""
-        asked = _figures(feet, size)
         return any(
             feet.slopes == other.slopes
-            and all(
-                least <= value for least, value in zip(_figures(other, one), asked, strict=True)
-            )
-            for other, one in self.tried
+            and all(getattr(other, name) <= getattr(feet, name) for name in _FIGURES)
+            for other in self.tried
         )
 
 
@@ -216,9 +213,3 @@ def in_vain(robot: Robot, layout: Layout, search: str) -> InVain:
     """The modules that a search, by its name, failed for since `in_vain.cache_clear()`."""
     del robot, layout, search
     return InVain()
-
-
-def _figures(feet: Feet, size: Size[float]) -> tuple[float, ...]:
-    """What makes modules harder to hold the more of it there is."""
-    own = feet.radius, feet.slot_radius, feet.reach, feet.height, feet.mass
-    return *own, size.reach, size.standing

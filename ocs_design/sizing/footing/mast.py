@@ -25,15 +25,20 @@ from ocs_design.parts.joints import pattern_use
 from ocs_design.parts.mast import MAST_YIELD, TUBES, Mast
 from ocs_design.parts.plate_strength import arm_stress, mast_screws_use, mast_stress
 from ocs_design.parts.printed import SHOCK
-from ocs_design.robot.collision import collision_model
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_back
+from ocs_design.sizing.footing.contact import FLATNESS, PROUD, disc_points
 from ocs_design.sizing.footing.feet import SENSES, Feet, Footing, in_vain, rough
-from ocs_design.sizing.footing.lands import FLATNESS, PROUD, disc_points
-from ocs_design.sizing.footing.plate import WIDER, blank_plate, thick_enough
-from ocs_design.sizing.footing.screws import HEAD_ROOM, PATTERN_STEP, SPREAD
+from ocs_design.sizing.footing.plate import (
+    HEAD_ROOM,
+    PATTERN_STEP,
+    SPREAD,
+    WIDER,
+    blank_plate,
+    thick_enough,
+)
 from ocs_design.sizing.place import CLEARANCE, Place, Size
-from ocs_design.sizing.placement import Search, Sizes
+from ocs_design.sizing.placement import Search
 
 MAST_SCREWS = tuple(map(screw, ("M4", "M5", "M6", "M8")))
 
@@ -67,22 +72,21 @@ class _Spot:
     lowest: float = -inf
 
 
-def footing_behind(robot: Robot, feet: Feet, size: Size[float], layout: Layout) -> Footing | None:
+def footing_behind(robot: Robot, feet: Feet, layout: Layout) -> Footing | None:
     """The place behind the trunk nearest to the robot's middle where a mast carries pairs.
 
     They stand one above the other, on plates of one kind, by the lightest tube that bears them.
     """
-    back, asked = trunk_back(robot), rough(feet, size)
+    back, asked = trunk_back(robot), rough(feet)
     vain = in_vain(robot, layout, footing_behind.__name__)
-    if back is None or vain.covers(*asked):
+    if back is None or vain.covers(asked):
         return None
-    spot = _mast_spot(robot, *asked, layout)
+    spot = _mast_spot(robot, asked, layout)
     if spot is None:
         vain.tried.append(asked)
         return None
-    feet = _stacked(feet, size, layout)
-    search = Search(collision_model(robot), Sizes(size, size), layout)
-    arms = _all_arms(feet, size, far=spot.far)
+    feet = _stacked(feet, layout)
+    search, arms = Search.of(robot, feet.size, layout), _all_arms(feet, far=spot.far)
     masted = (_masted(back, feet, plate, search, spot) for plate in arms)
     return next((footing for footing in masted if footing is not None), None)
 
@@ -104,14 +108,14 @@ class Pads:
     there: bool
 
 
-def pads_needed(robot: Robot, feet: Feet, size: Size[float], layout: Layout) -> Pads | None:
+def pads_needed(robot: Robot, feet: Feet, layout: Layout) -> Pads | None:
     """Spots for a mast level with its modules and right on the trunk; None: no mast bears them."""
     back = trunk_back(robot)
     if back is None or not layout.pairs:
         return None
-    feet, force = _stacked(feet, size, layout), 2.0 * feet.mass * SHOCK * layout.pairs
+    feet, force = _stacked(feet, layout), 2.0 * feet.mass * SHOCK * layout.pairs
     half = np.arange(SPREAD, SPREAD_MAX, PATTERN_STEP) / 2.0
-    for plate, held in product(_all_arms(feet, size, far=False), MAST_SCREWS):
+    for plate, held in product(_all_arms(feet, far=False), MAST_SCREWS):
         own = replace(plate, thread=held.name)
         assert own.mast is not None, "a plate on arms"
         aside = own.mast.bore / 2.0 - own.sleeve_radius
@@ -127,22 +131,22 @@ def pads_needed(robot: Robot, feet: Feet, size: Size[float], layout: Layout) -> 
     return None
 
 
-def _stacked(feet: Feet, size: Size[float], layout: Layout) -> Feet:
+def _stacked(feet: Feet, layout: Layout) -> Feet:
     """Feet of pairs one above the other."""
-    out = CLEARANCE * size.reach
+    out = CLEARANCE * feet.reach
     return replace(feet, bases=((0.0, out), (0.0, -out)) * layout.pairs)
 
 
 @lru_cache(maxsize=64)
-def _mast_spot(robot: Robot, feet: Feet, size: Size[float], layout: Layout) -> _Spot | None:
+def _mast_spot(robot: Robot, feet: Feet, layout: Layout) -> _Spot | None:
     """Where a mast holds them that no limb comes near while the legs give way; None: nowhere."""
     back = trunk_back(robot)
     if back is None or not layout.pairs:
         return None
-    search = Search(collision_model(robot), Sizes(size, size), layout)
-    feet = _stacked(feet, size, layout)
+    size = feet.size
+    search, feet = Search.of(robot, size, layout), _stacked(feet, layout)
     down, up = back.x_range
-    arms = {far: list(_all_arms(feet, size, far=far)) for far in (False, True)}
+    arms = {far: list(_all_arms(feet, far=far)) for far in (False, True)}
     if not all(arms.values()):
         return None
     face = back.farthest(down, up, arms[False][0].support)
@@ -183,14 +187,14 @@ def _mast_spot(robot: Robot, feet: Feet, size: Size[float], layout: Layout) -> _
     return None
 
 
-def _all_arms(feet: Feet, size: Size[float], *, far: bool) -> Iterator[CarrierPlate]:
+def _all_arms(feet: Feet, *, far: bool) -> Iterator[CarrierPlate]:
     """Plates on the arms of each tube in stock that bears them, as short as may be or longer.
 
     On the shortest, pairs stand to both sides of the upright; on the longer ones behind it.
     """
     ring = feet.slot_radius + SLOT_EDGE
     for side, wall in TUBES:
-        back = side + max(_between(side, size), side, feet.y * far)
+        back = side + max(_between(side, feet.reach), side, feet.y * far)
         mast = Mast(side, wall, back, 0.0, 0.0, 0.0)
         blanks = (
             replace(blank_plate(feet, ring, side / 2.0 + wider), mast=mast) for wider in WIDER
@@ -220,7 +224,7 @@ def _placed(
     mast, out = plate.mast, CLEARANCE * size.reach
     assert mast is not None, "a plate on arms"
     # Arms reach down between the modules below, and these to both sides of the upright.
-    room = max(0.0, sqrt(2.0) * mast.side - out + _between(mast.side, size)) + plate.thickness
+    room = max(0.0, sqrt(2.0) * mast.side - out + _between(mast.side, size.reach)) + plate.thickness
     apart = size.standing / size.reach + CLEARANCE
     rows = range(len(plate.rows))
     top = height + rows[-1] * (room + apart * size.reach) + plate.thickness + size.standing + out
@@ -235,13 +239,13 @@ def _placed(
     )
 
 
-def _between(side: float, size: Size[float]) -> float:
+def _between(side: float, reach: float) -> float:
     """How far off a tube modules to both its sides must be to be clear of it [m].
 
     It is as wide as across its corners.
     """
-    aside = CLEARANCE * size.reach - side / sqrt(2.0)
-    return sqrt(max(0.0, size.reach**2 - aside**2))
+    aside = CLEARANCE * reach - side / sqrt(2.0)
+    return sqrt(max(0.0, reach**2 - aside**2))
 
 
 def _masted(

@@ -15,10 +15,15 @@ from ocs_design.device.solids import foot_of, pedestal_of, pedestal_solids, plat
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import AROUND_SLOT
-from ocs_design.robot.collision import collision_model
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_surface
-from ocs_design.sizing.footing.contact import contact_of, under_pedestal
+from ocs_design.sizing.footing.contact import (
+    base_points,
+    contact_of,
+    disc_points,
+    highest_of,
+    under_pedestal,
+)
 from ocs_design.sizing.footing.feet import (
     Feet,
     Footing,
@@ -28,11 +33,9 @@ from ocs_design.sizing.footing.feet import (
     ring_of,
     rough,
 )
-from ocs_design.sizing.footing.lands import base_points, disc_points, highest_of
-from ocs_design.sizing.footing.plate import held_at, plate_of
-from ocs_design.sizing.footing.screws import PLATE_SCREW, POST_SCREW, STRONG_SCREW
-from ocs_design.sizing.place import Size, around, place_at
-from ocs_design.sizing.placement import Search, Sizes, place_on_top
+from ocs_design.sizing.footing.plate import PLATE_SCREW, POST_SCREW, STRONG_SCREW, held_at, plate_of
+from ocs_design.sizing.place import around, place_at
+from ocs_design.sizing.placement import Search, place_on_top
 
 ASIDE = (0.04, 0.08)
 """How much farther to both sides pairs are tried, where a limb lies over the trunk's middle [m]."""
@@ -52,11 +55,11 @@ def footing_on_top(surface: Surface, feet: Feet, search: Search) -> Footing | No
     found = _nearest_footing(surface, feet, search, 0.0, PLATE_SCREW)
     if found is not None:
         return found
-    robot, layout, asked = search.collision.robot, search.layout, rough(feet, search.sizes.largest)
+    robot, layout, asked = search.collision.robot, search.layout, rough(feet)
     vain = in_vain(robot, layout, footing_on_top.__name__)
-    if vain.covers(*asked):
+    if vain.covers(asked):
         return None
-    way = _way(robot, *asked, layout)
+    way = _way(robot, asked, layout)
     if way is None:
         vain.tried.append(asked)
         return None
@@ -64,15 +67,15 @@ def footing_on_top(surface: Surface, feet: Feet, search: Search) -> Footing | No
 
 
 @lru_cache(maxsize=64)
-def _way(robot: Robot, feet: Feet, size: Size[float], layout: Layout) -> tuple[float, Screw] | None:
+def _way(robot: Robot, feet: Feet, layout: Layout) -> tuple[float, Screw] | None:
     """How much farther apart pairs stand than they must, and what screws hold their plate.
 
     With stronger screws first, then farther apart, then on posts, over what stands up from the
     trunk; None: none does.
     """
     surface, x = trunk_surface(robot), round(float(robot.com[0]), 6) + 0.0
-    search = Search(collision_model(robot), Sizes(size, size), layout)
-    feet = replace(feet, x=x, bases=ring_of(layout, size.reach))
+    search = Search.of(robot, feet.size, layout)
+    feet = replace(feet, x=x, bases=ring_of(layout, feet.reach))
     ways = [(0.0, STRONG_SCREW)]
     if layout.pairs:
         both = PLATE_SCREW, STRONG_SCREW
@@ -149,7 +152,7 @@ def footing_on_pedestals(
         held = _all_held(surface, device, fixed=True)
         place = place_at(tuple(np.ravel([each.position for each in device.modules])), layout)
         return None if held is None else Footing(place, None, held[1])
-    search = Search(collision_model(robot), Sizes(size, size), layout)
+    search = Search.of(robot, size, layout)
     ring, start = np.array(ring_of(layout, size.reach)), round(float(robot.com[0]), 6) + 0.0
     low, high = surface.x_range
     steps = np.arange(np.ceil((low - start) / STEP), (high - start) / STEP) * STEP

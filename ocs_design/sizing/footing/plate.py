@@ -1,47 +1,248 @@
-"""The trunk itself, or the lightest carrier plate on it, under feet at one place."""
+"""The trunk itself, or the lightest carrier plate screwed on it, under feet at one place.
+
+Two screws are in each arm of a plate, as far from its middle line on either side. Of three arms and
+more each may share its screws with the next ones. Heads stay clear of the feet and of the next
+arm's.
+"""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import inf, isnan, nan, sqrt
+from math import cos, inf, isnan, nan, pi, sin, sqrt
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ocs_design.actuation.fasteners import Screw
+from ocs_design.actuation.fasteners import Screw, screw
+from ocs_design.common.arrays import FloatArray, Table
 from ocs_design.parts.carrier_plate import (
     EDGE,
     SAFETY,
+    SLEEVE_MAX,
     SLEEVE_WALL,
     SLOT_EDGE,
     STOCK,
     YIELD_STRENGTH,
     CarrierPlate,
+    Point,
 )
+from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.plate_strength import plate_screws_use, plate_stresses
 from ocs_design.robot.surface import Surface
-from ocs_design.sizing.footing.contact import contact_of
-from ocs_design.sizing.footing.feet import SENSES, Feet
-from ocs_design.sizing.footing.lands import (
+from ocs_design.sizing.footing.contact import (
     FLATNESS,
     PROUD,
+    contact_of,
     disc_points,
     heights_at,
     highest_of,
     plate_points,
     ring_points,
 )
-from ocs_design.sizing.footing.screws import (
-    PATTERN_STEP,
-    PLATE_SCREW,
-    POST_SCREW,
-    POST_WALL,
-    SPREAD,
-    STRONG_SCREW,
-    Patterns,
-    flat_patterns,
-    room_to_foot,
-    screwed,
-)
+from ocs_design.sizing.footing.feet import SAME, SENSES, Feet
+
+HEAD_ROOM = 0.5e-3
+"""Room between a screw's head and a foot's base [m]."""
+
+PLATE_SCREW, STRONG_SCREW, POST_SCREW = screw("M3"), screw("M5"), screw("M8")
+"""Screws that hold a plate on the trunk: through sleeves at the most, where those do not bear 20 g,
+and through posts."""
+
+SPREAD = 0.02
+"""Least distance of a plate's screws, forward and sideways [m]: four heads of M5 and a key."""
+
+POST_WALL, POST_MAX = 4e-3, 0.17
+"""Wall of a post, and longest one [m]: with M8 x 200."""
+
+PATTERN_STEP = 2e-3
+"""Step between patterns of screws [m], or a fortieth of a module's reach."""
+
+
+_SOME = 8
+"""Points of each screw's land that are looked at first."""
+
+_AT_ONCE = 16
+"""Patterns whose lands are looked at whole at once."""
+
+
+@dataclass(frozen=True, eq=False)
+class Patterns(Table):
+    """Patterns of screws that may be flat on the trunk under every screw, by a few points of each.
+
+    Attributes:
+        along, across: of a screw from the middle line of its arm and from the plate's middle [m],
+            shape (n,).
+        shared: whether neighbouring arms share it, shape (n,).
+        widest: number of the plate at whose neck's edge it is; -1: of the grid that all have.
+        most: largest of `along` of each plate [m].
+        places: of the screws over the plate's middle [m], shape (n, m, 2).
+        top, low: of the trunk at those points of each screw in B [m], shape (n, m).
+    """
+
+    along: FloatArray
+    across: FloatArray
+    shared: NDArray[np.bool_]
+    widest: NDArray[np.int64]
+    most: tuple[float, ...]
+    places: FloatArray
+    top: FloatArray
+    low: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.along)
+
+    def of(self, index: int) -> "Patterns":
+        """The patterns of the plate with this index."""
+        inside = (self.widest < 0) & (self.along < self.most[index])
+        return self.take(inside | (self.widest == index))
+
+
+def flat_patterns(
+    surface: Surface, feet: Feet, row: float, plates: Sequence[CarrierPlate]
+) -> Patterns:
+    """Patterns of screws at which the trunk may be flat, whatever its height.
+
+    Args:
+        surface: of the trunk. feet: on it. row: of the plates' middle before that of the feet [m].
+        plates: that differ in their necks alone, the narrowest first.
+    """
+    grid = _pattern_grid(
+        feet.y,
+        max(PATTERN_STEP, feet.reach / 40.0),
+        room_to_foot(feet, plates[0].screw),
+        tuple(plate.neck - EDGE * plate.screw.clearance_hole for plate in plates),
+        feet.arms,
+    )
+    lands, middle = disc_points((0.0, 0.0), plates[0].sleeve_radius), np.array([feet.x + row, 0.0])
+    some, kept = lands[:: max(1, len(lands) // _SOME)], np.arange(len(grid))
+    # Most patterns fail at a few points of their first screw already.
+    for screw_places in grid.places.swapaxes(0, 1):
+        top, low = _top_and_low(surface, screw_places[kept, None] + some + middle)
+        with np.errstate(invalid="ignore"):
+            kept = kept[top - low <= FLATNESS]
+        if not len(kept):
+            break
+    top, low = _top_and_low(surface, grid.places[kept, :, None] + some + middle)
+    return replace(grid.take(kept), top=top, low=low)
+
+
+def _top_and_low(surface: Surface, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Largest and least height of a trunk at the points of each disc [m], shape (..., m, 2)."""
+    heights = surface.height(points[..., 0], points[..., 1])
+    return heights.max(axis=-1), heights.min(axis=-1)
+
+
+@lru_cache(maxsize=8)
+def _pattern_grid(
+    aside: float, step: float, apart: float, most: tuple[float, ...], arms: int
+) -> Patterns:
+    """Patterns of screws that stand clear of the feet, whatever is below them.
+
+    Args:
+        aside: of a foot's middle from that of its plate [m]. step: between patterns [m].
+        apart: least distance of a screw from the middle of a foot [m].
+        most: farthest of a screw from the middle line of its arm, for each plate [m].
+        arms: of each plate.
+    """
+    steps = np.concatenate([np.arange(SPREAD / 2.0, max(most), step), most])
+    widest = np.concatenate([np.full(len(steps) - len(most), -1), np.arange(len(most))])
+    order = np.argsort(steps, kind="stable")
+    steps, widest = steps[order], widest[order]
+    out = np.append(np.arange(SPREAD / 2.0, aside, step), aside)
+    along, across = (each.ravel() for each in np.meshgrid(steps, out, indexing="ij"))
+    half, edges = pi / arms, np.repeat(widest, len(out))
+    shared = np.zeros(len(along), dtype=bool)
+    clear = across * sin(half) - along * cos(half) >= SPREAD / 2.0 - SAME
+    if arms > len(SENSES):
+        between = steps / np.tan(half)
+        along, across = np.append(along, steps), np.append(across, between)
+        shared = np.append(shared, np.ones(len(between), dtype=bool))
+        clear, edges = np.append(clear, shared[shared]), np.append(edges, widest)
+    clear &= np.hypot(along, aside - across) >= apart
+    places = np.stack(
+        [
+            np.stack([y * side * along + x * across, y * across - x * side * along], axis=1)
+            for sense in SENSES
+            for x, y in directions(arms)
+            # Of both arms of a pair the same side: forward.
+            for side in (sense * y if arms == len(SENSES) else sense,)
+        ],
+        axis=1,
+    )
+    none = np.empty(places.shape[:2])
+    found = Patterns(along, across, shared, edges, most, places, none, none)
+    return found.take(clear)
+
+
+def screwed(
+    surface: Surface, plate: CarrierPlate, patterns: Sequence[Patterns]
+) -> CarrierPlate | None:
+    """The plate with the widest pattern of screws that the trunk holds; None: there is none.
+
+    Patterns without sleeves come first.
+
+    Args:
+        surface: of the trunk. plate: in its place. patterns: that may be flat, of each row.
+    """
+    trunk: list[Point] = []
+    sleeves: list[float] = []
+    for ahead, each in zip(plate.rows, patterns, strict=True):
+        best = _widest(surface, plate, plate.position[0] + ahead, each)
+        if best is None:
+            return None
+        index, gaps = best
+        count = plate.arms if each.shared[index] else len(gaps)
+        trunk += [
+            (ahead + round(float(x), 6), round(float(y), 6)) for x, y in each.places[index][:count]
+        ]
+        sleeves += gaps[:count].tolist()
+    return replace(plate, trunk=tuple(trunk), sleeves=tuple(sleeves))
+
+
+def _widest(
+    surface: Surface, plate: CarrierPlate, x: float, patterns: Patterns
+) -> tuple[int, FloatArray] | None:
+    """Number of the widest pattern that holds one row of a plate, and its sleeves [m].
+
+    Args:
+        surface, plate, patterns: see `screwed`, of one row. x: of its middle in B [m].
+    """
+    z, longest = plate.position[2], POST_MAX if on_posts(plate) else SLEEVE_MAX
+    spread = np.minimum(patterns.along, patterns.across) + 0.1 * (patterns.along + patterns.across)
+    may_reach = patterns.top <= z + PROUD
+    # What is flat is nowhere higher than a few of its points by more than that.
+    may_reach &= z - patterns.top <= longest + FLATNESS
+    at_most = spread + (z - patterns.low <= FLATNESS).all(axis=1)
+    order = np.flatnonzero(may_reach.all(axis=1))
+    order = order[np.argsort(-at_most[order], kind="stable")]
+    lands, middle = disc_points((0.0, 0.0), plate.sleeve_radius), np.array([x, 0.0])
+    best, score, found = -1, 0.0, np.empty(0)
+    for start in range(0, len(order), _AT_ONCE):
+        some = order[start : start + _AT_ONCE]
+        if at_most[some[0]] < score:
+            break
+        top, low = _top_and_low(surface, patterns.places[some, :, None] + lands + middle)
+        with np.errstate(invalid="ignore"):
+            held = (top - low <= FLATNESS) & (top <= z + PROUD) & (z - top <= longest)
+        direct = (z - low <= FLATNESS).all(axis=1)
+        scores = np.where(held.all(axis=1), spread[some] + direct, -1.0)
+        # Of equals the first one.
+        for one, index in enumerate(some.tolist()):
+            if scores[one] > score or (scores[one] == score and index < best):
+                best, score = index, float(scores[one])
+                found = np.where(z - low[one] <= FLATNESS, 0.0, np.round(z - top[one], 5))
+    return None if best < 0 else (best, found)
+
+
+def on_posts(plate: CarrierPlate) -> bool:
+    """Whether a plate stands on posts, not on sleeves."""
+    return plate.thread == POST_SCREW.name
+
+
+def room_to_foot(feet: Feet, held_by: Screw) -> float:
+    """Least distance of a plate's screws from the middle of a foot [m]."""
+    return feet.radius + held_by.head_diameter / 2.0 + HEAD_ROOM
+
 
 WIDER = (0.0, 5e-3, 10e-3, 15e-3, 20e-3)
 """Steps by which half a neck's width may grow, to find where the trunk takes its screws or to bear
