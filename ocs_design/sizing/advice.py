@@ -35,7 +35,12 @@ from ocs_design.sizing.limits import (
     unseen,
 )
 from ocs_design.sizing.selection.bounds import cells_of, initial_guess, least_spin_inertias
-from ocs_design.sizing.selection.candidates import Candidates, Guess, drives_of, known_pairs
+from ocs_design.sizing.selection.candidates import (
+    Candidates,
+    Guess,
+    drives_of,
+    known_pairs,
+)
 from ocs_design.sizing.selection.drives import Drives
 from ocs_design.sizing.selection.fixed_point import solve_stepwise
 from ocs_design.sizing.selection.problem import (
@@ -133,6 +138,23 @@ class Field:
         """Whether the bounds leave any candidate; if not, nothing is possible."""
         return any(len(candidates) for candidates, _ in self._bounded())
 
+    def change_text(self, limit: Limit, value: float) -> str:
+        """A change as the user states it: time is a matter of each maneuver's own keys.
+
+        More of it is told for those maneuvers that need it; all with so much more can be done.
+        """
+        if limit is not TIME:
+            return limit.loose_text(value)
+        before = self.problem.requirement.maneuvers
+        slow = {maneuver.name for maneuver in before}
+        for maneuver in before:
+            fewer = slow - {maneuver.name}
+            if fewer and self.changed(with_time(self.problem, value, fewer)).possible:
+                slow = fewer
+        after = with_time(self.problem, value, slow).requirement.maneuvers
+        both = zip(before, after, strict=True)
+        return " together with ".join(change_text(old, new) for old, new in both if old is not new)
+
     def _bounded(self) -> Iterator[tuple[Candidates, Guess]]:
         """Candidates that no bound rules out, the most promising first, few at first."""
         every = Candidates.of_each_material(self.problem, self.drives)
@@ -223,7 +245,6 @@ def _caught(field: Field) -> Iterator[str]:
     asked = [each for each in requirement.maneuvers if isinstance(each, Balance)]
 
     def does(part: float) -> bool:
-        """Whether there is a device for this part of it."""
         maneuvers = tuple(
             each.times(part) if isinstance(each, Balance) else each
             for each in requirement.maneuvers
@@ -246,7 +267,6 @@ def single_changes(field: Field, progress: Progress = unseen) -> dict[Limit, flo
     """
 
     def changed(limit: Limit, value: float) -> Field:
-        """The drives with one limit at another value."""
         return field.changed(with_limit(field.problem, limit, value))
 
     return smallest_changes(
@@ -264,7 +284,7 @@ def _hints(
 ) -> Iterator[str]:
     """Sentences on what would do."""
     if changes:
-        texts = [_change_text(field, limit, value) for limit, value in changes.items()]
+        texts = [field.change_text(limit, value) for limit, value in changes.items()]
         yield advice(texts, MOST_CHANGE, "")
     layout = field.problem.layout
     if not layout.pairs and reason is Reason.INCIDENCE:
@@ -296,24 +316,6 @@ def unasked(maneuvers: Sequence[Maneuver]) -> str:
         f"Nobody asked for {names}: they are the default. State what you need with --jump-height, "
         "--tilt, --fall or --kick, and only that is asked."
     )
-
-
-def _change_text(field: Field, limit: Limit, value: float) -> str:
-    """A change as the user states it: time is a matter of each maneuver's own keys.
-
-    More of it is told for those maneuvers that need it; all of them with so much more can be done.
-    """
-    if limit is not TIME:
-        return limit.loose_text(value)
-    problem, before = field.problem, field.problem.requirement.maneuvers
-    slow = {maneuver.name for maneuver in before}
-    for maneuver in before:
-        fewer = slow - {maneuver.name}
-        if fewer and field.changed(with_time(problem, value, fewer)).possible:
-            slow = fewer
-    after = with_time(problem, value, slow).requirement.maneuvers
-    both = zip(before, after, strict=True)
-    return " together with ".join(change_text(old, new) for old, new in both if old is not new)
 
 
 _STRONGER = 1.2 ** np.arange(1, 10)
@@ -387,11 +389,9 @@ def needed_motor(problem: SelectionProblem, model: Motor) -> NeededMotor | None:
     def asked(incidence: float) -> tuple[float, float]:
         """Torque [N m] and momentum [N m s] of a wheel at the most."""
         demands = spin_demands(problem.requirement, problem.robot.inertia, incidence)
-        return (
-            max(demand.torque for demand in demands) / problem.layout.pairs,
-            max(per_wheel(demand.momentum, demand.incidence) for demand in demands)
-            / problem.layout.pairs,
-        )
+        torque = max(demand.torque for demand in demands)
+        momentum = max(per_wheel(demand.momentum, demand.incidence) for demand in demands)
+        return torque / problem.layout.pairs, momentum / problem.layout.pairs
 
     if problem.incidence is None:
         problem = replace(problem, incidence=float(min(_ANGLES, key=asked)))
@@ -401,7 +401,6 @@ def needed_motor(problem: SelectionProblem, model: Motor) -> NeededMotor | None:
         return None
 
     def does(built: Motor, speed: float, peak: float) -> bool:
-        """Whether a motor of this no-load speed [rad/s] and peak torque [N m] would do."""
         motor = _scaled(built, peak, speed, problem.bus_voltage)
         return Field.of(replace(problem, motors=(motor,), gears=(DIRECT,))).possible
 

@@ -254,31 +254,20 @@ def _bore_at_height(
     return bore
 
 
-HOUSING = "housing"
-"""Stands for the radius where no limit holds it: a larger rim is lighter, but its housing and its
-foot are heavier."""
+HOUSING, MOUNT, BOND = "housing", "mount", "bond on the bell"
+"""Stand for the radius: where no limit holds it, for a larger rim is lighter, but its housing and
+its foot are heavier; where the motor's mount asks for a larger housing; where a ring's bond holds
+no larger one."""
 
+BELL, HUB, LIGHTENING_HOLES = "bell", "hub", "lightening holes"
+"""Stand for the bore: of a ring around a motor's bell, which is its height too, and where hub or
+holes ask for more than was specified."""
 
-BELL, BOND = "bell", "bond on the bell"
-"""Stand for the bore, and the height, of a ring around a motor's bell, and for the radius that its
-bond holds."""
+WEB, CUT_HEIGHT, CUT_WALL = "web", "height for edges and holes", "wall for edges and holes"
+"""Stand for height and wall where web, chamfers or balancing holes ask for more than specified."""
 
-
-HUB, WEB = "hub", "web"
-"""Stand for the bore and the height where the hub and the web ask for more than was specified."""
-
-
-LIGHTENING_HOLES, HOLED_STRESS = "lightening holes", "stress at lightening holes"
-"""Stand for the bore where they ask for more, and for the hoop stress where they stand less."""
-
-
-CUT_WALL, CUT_HEIGHT = "wall for edges and holes", "height for edges and holes"
-"""Stand for wall and height where chamfers or balancing holes ask for more than was specified."""
-
-
-MOUNT = "mount"
-"""Stands for the radius where the motor's mount asks for a larger housing."""
-
+HOLED_STRESS = "stress at lightening holes"
+"""Stands for the hoop stress where the holes stand less."""
 
 _TOUCHING = 1e-5
 """Relative distance from an active limit; a hundredth of what can be turned."""

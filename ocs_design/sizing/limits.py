@@ -187,8 +187,8 @@ def smallest_change(
     if not (isfinite(now) and now > 0.0):
         return None
 
+    # Tests as functions of the factor by which the limit is loosened.
     def at(test: Callable[[float], bool]) -> Callable[[float], bool]:
-        """The test as a function of the factor by which the limit is loosened."""
         return lambda factor: test(limit.loosened(now, factor))
 
     low, step = 1.0, 1.0 + precision

@@ -92,7 +92,6 @@ class _Asked(NamedTuple):
         start = (wall + np.sqrt(np.maximum(2.0 * light - wall**2, 0.0))) / 2.0
 
         def excess(radius: FloatArray) -> tuple[FloatArray, FloatArray]:
-            """Excess of what the largest mass has with the least wall, and its slope."""
             inner = radius - wall
             value = self.mass * (radius**2 + inner**2) + web * inner**4 - self.full
             return value, 2.0 * self.mass * (radius + inner) + 4.0 * web * inner**3
@@ -106,7 +105,6 @@ class _Asked(NamedTuple):
         flat = np.asarray(self.limits.height_min)
 
         def excess(radius: FloatArray) -> tuple[FloatArray, FloatArray]:
-            """Excess of what the flattest rim with the least wall has, and its slope."""
             inner = radius - wall
             value = flat * radius**4 - (flat - web) * inner**4 - self.full
             return value, 4.0 * (flat * radius**3 - (flat - web) * inner**3)
@@ -124,10 +122,8 @@ class _Asked(NamedTuple):
 
     def wide_and_flat(self) -> _Crossing:
         """The largest bore and the least height: h (a^2 - b^2) = k."""
-        bore = np.asarray(self.limits.inner_radius_max)
-        return _Crossing(
-            bore, np.sqrt(np.sqrt(self.full / np.asarray(self.limits.height_min) + bore**4))
-        )
+        bore, flat = (np.asarray(x) for x in (self.limits.inner_radius_max, self.limits.height_min))
+        return _Crossing(bore, np.sqrt(np.sqrt(self.full / flat + bore**4)))
 
     def stretched_and_heavy(self) -> _Crossing:
         """The hoop stress and the largest mass: t b^2 + m (a + b) = k with b = (S - p a) / n.

@@ -5,13 +5,11 @@ from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 
-from ocs_design.actuation.motor import GearRoom
 from ocs_design.common.arrays import FloatArray, frozen, vector
 from ocs_design.device.layout import PAIR, Direction, Layout
-from ocs_design.parts.bell import HeldMotor
 from ocs_design.parts.foot import base_radius, larger, wheel_height
 from ocs_design.parts.housing import housing_outer_radius
-from ocs_design.parts.motor_mount import Behind, mount_of
+from ocs_design.parts.motor_mount import Behind
 from ocs_design.parts.printed import PLATE_THICKNESS, half_height, plate_back
 from ocs_design.parts.solids import Carrier
 from ocs_design.robot.mass import MassProperties, combine
@@ -36,7 +34,7 @@ class Size(NamedTuple, Generic[Real]):
 
 def wheel_size(outer_radius: Real, height: Real) -> Size[Real]:
     """Size of a bare wheel that turns freely over what carries it."""
-    reach = sphere_radius(outer_radius, height)
+    reach: Real = (outer_radius**2 + height**2 / 4.0) ** 0.5
     return Size(reach, CLEARANCE * reach)
 
 
@@ -62,23 +60,6 @@ def module_size(
     motor = (depth**2 + behind.radius**2) ** 0.5
     base = base_radius(outer_radius, height, mount_reach, foot_plate)
     return Size(larger(larger(housing, motor), base), wheel_height(outer_radius, foot_plate))
-
-
-def motor_size(
-    motor: HeldMotor,
-    room: GearRoom | None,
-    outer_radius: Real,
-    height: Real,
-    guard_wall: float = 0.0,
-    *,
-    foot_plate: float = PLATE_THICKNESS,
-    on_bell: bool = False,
-) -> Size[Real]:
-    """Size of a motor behind a gear of this room, as far as it is known."""
-    mount = mount_of(motor, room, foot_plate, on_bell=on_bell)
-    behind = mount.behind(motor)
-    reach, height = mount.holes.reach, larger(height, mount.room)
-    return module_size(outer_radius, height, behind, reach, guard_wall, foot_plate=foot_plate)
 
 
 @dataclass(frozen=True)
@@ -111,14 +92,6 @@ class Place:
         if self.upright:
             centers[..., 2] += standing
         return np.asarray(centers)
-
-
-def sphere_radius(outer_radius: Real, height: Real) -> Real:
-    """Radius of the sphere around a cylinder, sqrt(R^2 + h^2 / 4) [m]."""
-    # No function of numpy: symbols know only operators.
-    square: Real = outer_radius**2 + height**2 / 4.0
-    reach: Real = square**0.5
-    return reach
 
 
 def around(middle: Direction, layout: Layout, aside: float = 0.0) -> Place:

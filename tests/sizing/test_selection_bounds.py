@@ -25,9 +25,9 @@ from ocs_design.sizing.selection.bounds import (
 )
 from ocs_design.sizing.selection.candidates import Candidates, drives_of
 from ocs_design.sizing.selection.composite_inertia import (
+    CompositeInertia,
     Least,
     LeastInertia,
-    composite_inertia,
     least_composite_inertia,
 )
 from ocs_design.sizing.selection.demand import columns, wheel_task
@@ -66,7 +66,8 @@ def whole_of(wheel, motor, depth, foot, size):
 def test_inertia_as_joined_body_by_body(layout):
     whole, size = whole_of(*random_modules(np.random.default_rng(0), 20))
     angles, place = np.linspace(0.0, np.pi / 2.0, 7), AROUND[layout]
-    composed, asked = composite_inertia(ROBOT, place, whole, size, layout), np.tile(angles, (20, 1))
+    asked = np.tile(angles, (20, 1))
+    composed = CompositeInertia(ROBOT, layout, whole, place.centers(size) - ROBOT.com)
     found, upright = composed.at(asked), composed.upright(asked)
     for row in range(20):
         body = Carrier.of(whole.take(row))
@@ -97,7 +98,8 @@ def test_no_larger_or_heavier_module_has_less_inertia(layout):
     angles = rng.uniform(0.0, np.pi / 2.0, (500, 1))
     if layout.angle is not None:
         angles[:] = layout.angle
-    whole = composite_inertia(ROBOT, place, *modules, layout).at(angles)
+    centers = place.centers(grown) - ROBOT.com
+    whole = CompositeInertia(ROBOT, layout, modules[0], centers).at(angles)
     assert (bound.inertia.diagonal <= whole.diagonal[:, 0] * (1.0 + 1e-12)).all()
     assert np.median(bound.inertia.diagonal / whole.diagonal[:, 0]) > 0.6
     assert (np.abs(whole.product[:, 0] - bound.inertia.product) <= bound.spread).all()

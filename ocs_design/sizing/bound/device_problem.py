@@ -9,7 +9,6 @@ that no rim has proves that there is no device.
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import NamedTuple
 
 import numpy as np
 
@@ -101,13 +100,6 @@ def device_demands(
     return tuple(found)
 
 
-def chosen_incidence(problem: DeviceProblem, shape: RimShape | None, incidence: float) -> float:
-    """The incidence of the design [rad], with the wheels standing at `incidence` so far."""
-    if problem.incidence is not None:
-        return problem.incidence
-    return best_incidences(problem, shape, incidence)[problem.criterion]
-
-
 def best_incidences(
     problem: DeviceProblem, shape: RimShape | None, incidence: float
 ) -> Mapping[Criterion, float]:
@@ -148,12 +140,13 @@ _OFF_THE_EDGE = 1.0 + 1e-10
 
 @dataclass(frozen=True, eq=False)
 class FixedPoint:
-    """A device that meets what robot and device together ask for.
+    """What robot and device together ask for, and a rim that has it.
 
     Attributes:
-        spin_inertia: of each wheel [kg m^2]. incidence: [rad].
+        spin_inertia: of each wheel [kg m^2]; inf if an axis is out of reach.
+        incidence: [rad].
         demands: on the wheels.
-        total: robot and wheels, braked, in B.
+        shape: of their rims; None: no rim has so much, and there is no device.
         residual: relative change of the spin inertia or change of the incidence [rad] in one more
             iteration, the larger one.
         iterations: taken.
@@ -162,26 +155,12 @@ class FixedPoint:
     spin_inertia: float
     incidence: float
     demands: tuple[SpinDemand, ...]
-    total: MassProperties
-    residual: float
-    iterations: int
+    shape: RimShape | None = None
+    residual: float = 0.0
+    iterations: int = 0
 
 
-class DeadEnd(NamedTuple):
-    """Standing of an iteration, or the spin inertia that it came to and no rim has.
-
-    Attributes:
-        spin_inertia: at least asked of each wheel [kg m^2]; inf if an axis is out of reach.
-        incidence: [rad].
-        demands: on the wheels.
-    """
-
-    spin_inertia: float
-    incidence: float
-    demands: tuple[SpinDemand, ...]
-
-
-def find_fixed_point(problem: DeviceProblem) -> FixedPoint | DeadEnd:
+def find_fixed_point(problem: DeviceProblem) -> FixedPoint:
     """Iterate from the robot alone until nothing moves.
 
     Raises:
@@ -196,24 +175,23 @@ def find_fixed_point(problem: DeviceProblem) -> FixedPoint | DeadEnd:
         change = abs(following.spin_inertia / guess.spin_inertia - 1.0)
         residual = max(change, abs(following.incidence - guess.incidence))
         if residual < _CONVERGED:
-            return FixedPoint(
-                spin_inertia=guess.spin_inertia,
-                incidence=guess.incidence,
-                demands=following.demands,
-                total=braked_total(problem, shape, guess.incidence),
-                residual=residual,
-                iterations=iterations,
+            demands = following.demands
+            return replace(
+                guess, demands=demands, shape=shape, residual=residual, iterations=iterations
             )
         guess = following
     return guess
 
 
-def _follow(problem: DeviceProblem, shape: RimShape | None, incidence: float) -> DeadEnd:
+def _follow(problem: DeviceProblem, shape: RimShape | None, incidence: float) -> FixedPoint:
     """The incidence, the demands and the spin inertia that a rim at an incidence entails."""
-    incidence = chosen_incidence(problem, shape, incidence)
+    if problem.incidence is not None:
+        incidence = problem.incidence
+    else:
+        incidence = best_incidences(problem, shape, incidence)[problem.criterion]
     demands = device_demands(problem, shape, incidence)
     if problem.requirement.spin_inertia is not None:
-        return DeadEnd(problem.requirement.spin_inertia, incidence, demands)
+        return FixedPoint(problem.requirement.spin_inertia, incidence, demands)
     largest = max((demand.spin_inertia for demand in demands), default=0.0)
     if largest == 0.0:
         raise UsageError(
@@ -221,4 +199,4 @@ def _follow(problem: DeviceProblem, shape: RimShape | None, incidence: float) ->
             hint="Ask for a rate change, for a maneuver, or for a spin inertia.",
         )
     smallest = smallest_spin_inertia(problem.rim_problem(largest).limits)
-    return DeadEnd(max(largest, float(smallest) * _OFF_THE_EDGE), incidence, demands)
+    return FixedPoint(max(largest, float(smallest) * _OFF_THE_EDGE), incidence, demands)

@@ -10,7 +10,6 @@ import numpy as np
 from ocs_design.common.errors import Infeasible
 from ocs_design.common.units import round_outwards
 from ocs_design.sizing.bound.device_problem import (
-    DeadEnd,
     DeviceProblem,
     FixedPoint,
     find_fixed_point,
@@ -47,7 +46,7 @@ def infeasible_rim(problem: RimProblem, solve: Callable[[RimProblem], object]) -
 
 
 def infeasible_device(
-    problem: DeviceProblem, dead_end: DeadEnd, solve: Callable[[DeviceProblem], object]
+    problem: DeviceProblem, dead_end: FixedPoint, solve: Callable[[DeviceProblem], object]
 ) -> Infeasible:
     """The error for a device that cannot be.
 
@@ -82,8 +81,7 @@ def infeasible_device(
             asked_by = f"{most.source} asks for too much: "
 
     def possible(changed: DeviceProblem) -> bool:
-        """Whether there is a device."""
-        return isinstance(find_fixed_point(changed), FixedPoint)
+        return find_fixed_point(changed).shape is not None
 
     changes = _changes(problem, limits, possible, DEVICE_PRECISION)
     return _infeasible(problem, rim, changes, solve, binding=in_the_way(rim), asked_by=asked_by)
@@ -196,7 +194,6 @@ def largest_spin_inertia(problem: RimProblem) -> float:
         return 0.0
 
     def fails(inertia: float) -> bool:
-        """Whether no rim has it."""
         return not is_feasible(replace(problem, spin_inertia=inertia))
 
     return narrowed(fails, reached, beyond, 1e-12)[0]

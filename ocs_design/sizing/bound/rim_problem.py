@@ -39,8 +39,6 @@ from numpy.typing import ArrayLike
 from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray, Table
 from ocs_design.common.errors import UsageError
-from ocs_design.parts.joints import bell_bond_radius
-from ocs_design.parts.printed import CLEARANCE, WALL
 from ocs_design.parts.rim import (
     LIGAMENT,
     NO_CUTS,
@@ -201,62 +199,6 @@ def limits_with_web(
     )
 
 
-_NO_HEIGHT = 1e-9
-"""Height of a ring that there is no room for [m]."""
-
-_LEAST_BELL = 1e-3
-"""Below the radius of any bell [m]."""
-
-
-def bond_figures(kind: Material) -> tuple[float, float, float]:
-    """Elastic modulus [Pa], Poisson's ratio and thermal expansion [1/K] of a ring on a bell.
-
-    Without all of them the temperature is left out here, and its joint is not known.
-    """
-    if kind.elastic_modulus is None or kind.thermal_expansion is None:
-        return 0.0, kind.poisson_ratio or 0.0, 0.0
-    return kind.elastic_modulus, kind.poisson_ratio or 0.0, kind.thermal_expansion
-
-
-def limits_on_bell(
-    limits: RimLimits,
-    bore: FloatArray,
-    overspeed: FloatArray,
-    bonded: FloatArray,
-    cuts: RimCuts = NO_CUTS,
-) -> RimLimits:
-    """Limits of rings around bells; there is none around a bell below the least bore.
-
-    Args:
-        limits: of the rims alone.
-        bore: radius of the ring's [m].
-        overspeed: at which the bond holds [rad/s].
-        bonded: `bond_figures` of the materials, shape (3, ...).
-        cuts: off the rings.
-    """
-    modulus, poisson_ratio, expansion = bonded
-    widest = bell_bond_radius(
-        np.maximum(bore, _LEAST_BELL),
-        float(np.max(limits.outer_radius_max)),
-        density=np.asarray(limits.density),
-        elastic_modulus=modulus,
-        poisson_ratio=poisson_ratio,
-        expansion=expansion,
-        speed=overspeed,
-    )
-    least = np.maximum(limits.inner_radius_min, cuts.inner_radius_min)
-    return replace(
-        limits,
-        outer_radius_max=np.minimum(limits.outer_radius_max, widest),
-        inner_radius_min=bore,
-        inner_radius_max=bore,
-        height_max=np.where((bore >= least) & (bore > 0.0), limits.height_max, _NO_HEIGHT),
-        height_min=np.maximum(limits.height_min, cuts.height_min),
-        wall_min=np.maximum(limits.wall_min, cuts.wall_min),
-        cuts=cuts,
-    )
-
-
 def stretch_beside_holes(stress: float | FloatArray, stress_safety: float) -> float | FloatArray:
     """Share of the allowed hoop stress at which holes in the web yield, or all of it.
 
@@ -267,13 +209,6 @@ def stretch_beside_holes(stress: float | FloatArray, stress_safety: float) -> fl
     if stress_safety == 0.0:
         return 1.0
     return stress_safety / np.maximum(stress, stress_safety)
-
-
-def limits_with_mount(limits: RimLimits, mount_reach: float | FloatArray) -> RimLimits:
-    """Limits of rims whose housing's floor has a wall around its mount [m]."""
-    return replace(
-        limits, outer_radius_min=np.maximum(np.asarray(mount_reach) + (WALL - CLEARANCE), 0.0)
-    )
 
 
 def check_limits(envelope: Envelope, material: Material, wheel_speed: float) -> None:
@@ -326,10 +261,15 @@ def lightest_rim(spin_inertia: ArrayLike, limits: RimLimits) -> RimShape:
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         tall = 2.0 * inertia / (np.pi * limits.density * limits.height_max)
         flat = np.divide(2.0 * inertia, np.pi * limits.density * np.asarray(limits.height_min))
-        outer = np.minimum(
-            np.minimum(limits.outer_radius_max, _hoop_radius(tall, limits)),
-            flat_wall_radius(flat, limits.wall_min),
-        )
+        # Radius beyond which the hoop stress costs more bore than it gains, written so that an
+        # unlimited one (inf) gives inf.
+        (p, n), stretch, wall = limits.hoop_weights, np.asarray(limits.stretch_max), limits.wall_min
+        root = np.sqrt(np.maximum(1.0 - (p**2 - n**2) * tall / stretch**2, 0.0))
+        by_height = (stretch + n**2 * tall / stretch) / (p + n * root)
+        discriminant = np.maximum((p + n) * stretch - n * p * wall**2, 0.0)
+        by_stress = np.maximum(np.sqrt(by_height), (n * wall + np.sqrt(discriminant)) / (p + n))
+        widest = np.minimum(limits.outer_radius_max, by_stress)
+        outer = np.minimum(widest, flat_wall_radius(flat, wall))
         bore_by_height = np.maximum(outer**4 - tall, 0.0) ** 0.25
         bore_by_wall = outer - limits.wall_min
         inner = np.minimum(bore_by_height, bore_by_wall)
@@ -347,7 +287,7 @@ def lightest_rim(spin_inertia: ArrayLike, limits: RimLimits) -> RimShape:
             & (inner * slack >= limits.inner_radius_min)
             & (inner * slack >= BORE_SHARE * outer)
             & (mass <= limits.mass_max * slack)
-            & (limits.hoop_weights[0] * outer**2 <= limits.stretch_max * slack)
+            & (p * outer**2 <= limits.stretch_max * slack)
         )
     values = np.broadcast_arrays(inner, outer, height, mass)
     return RimShape(*(np.where(fits, value, np.nan) for value in values))
@@ -395,16 +335,4 @@ def flat_wall_radius(flat: FloatArray, wall: float | FloatArray) -> FloatArray:
     argument = np.sqrt(27.0) * flat / thickness**4
     middle = thickness / np.sqrt(3.0) * np.sinh(np.arcsinh(argument) / 3.0)
     radius: FloatArray = np.where(thickness > 0.0, middle + thickness / 2.0, np.inf)
-    return radius
-
-
-def _hoop_radius(tall: FloatArray, limits: RimLimits) -> FloatArray:
-    """Outer radius beyond which the hoop stress costs more bore than the radius gains [m]."""
-    (p, n), stretch, wall = limits.hoop_weights, np.asarray(limits.stretch_max), limits.wall_min
-    # Written so that an unlimited hoop stress (inf) gives inf.
-    root = np.sqrt(np.maximum(1.0 - (p**2 - n**2) * tall / stretch**2, 0.0))
-    by_height = (stretch + n**2 * tall / stretch) / (p + n * root)
-    discriminant = np.maximum((p + n) * stretch - n * p * wall**2, 0.0)
-    by_wall = (n * wall + np.sqrt(discriminant)) / (p + n)
-    radius: FloatArray = np.maximum(np.sqrt(by_height), by_wall)
     return radius

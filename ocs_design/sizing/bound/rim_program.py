@@ -3,17 +3,10 @@
 Variables are a = (R / s)^2 and b = (r / s)^2 with a scale s, so that both are of the order of one,
 and limits that may be far away are divided by their own size: else the solver loses digits. By
 Lagrange, the optimal mass changes with a limit as the constraint g(a, b; limit) <= 0 does, times
-its multiplier.
-
-In a = R^2 and b = r^2, with the spin inertia I met with equality, the mass is 2 I / (a + b). All
-limits are convex but two, wall and least height, whose feasible side lies under a convex function:
-
-    wall:   b <= (sqrt(a) - t)^2          h_min:   a <= sqrt(Q + b^2)
-
-The convex-concave procedure puts the tangent at the last solution in place of that function. A
-tangent lies below it, so each solution is feasible, and none is heavier than the one before. Where
-the solutions stop moving, the multipliers of the last convex program are those of the rim itself
-(Yuille and Rangarajan, Neural Computation 15, 2003; Lipp and Boyd, Optim. Eng. 17, 2016).
+its multiplier. All limits are convex but wall and least height, for which tangents at the last
+solution stand, the convex-concave procedure: where the solutions stop moving, the multipliers of
+the last convex program are those of the rim itself (Yuille and Rangarajan, Neural Computation 15,
+2003; Lipp and Boyd, Optim. Eng. 17, 2016).
 """
 
 import warnings
@@ -49,27 +42,6 @@ class Constraint(NamedTuple):
     derivative: Callable[[float, float], float]
 
 
-class Tangent:
-    """The line y <= f(x0) + f'(x0) (x - x0) in place of y <= f(x), for a convex f and a movable x0.
-
-    Attributes:
-        bound: the line as a CVXPY expression of x.
-    """
-
-    def __init__(self, x: "Variable", function: Callable[[float], tuple[float, float]]) -> None:
-        """`function` returns f and f'."""
-        cvxpy = import_module("cvxpy")
-        self._x, self._function = x, function
-        self._slope, self._offset = cvxpy.Parameter(), cvxpy.Parameter()
-        self.bound: Expression = self._slope * x + self._offset
-
-    def touch(self) -> None:
-        """Move x0 to the value that x has now."""
-        contact = np.asarray(self._x.value).item()
-        height, slope = self._function(contact)
-        self._slope.value, self._offset.value = slope, height - slope * contact
-
-
 class RimConstraints:
     """All limits of one rim problem.
 
@@ -85,7 +57,7 @@ class RimConstraints:
         self.a: Variable
         self.b: Variable
         self.a, self.b = cvxpy.Variable(), cvxpy.Variable()
-        self._tangents: list[Tangent] = []
+        self._moves: list[Callable[[], None]] = []
         room, inertia, density = problem.envelope, problem.spin_inertia, problem.material.density
         radius, bore = room.outer_radius_max / scale, room.inner_radius_min / scale
         wall, per_height = room.wall_min / scale, 2.0 * inertia / (np.pi * density * scale**4)
@@ -143,8 +115,8 @@ class RimConstraints:
     def touch(self, a: float, b: float) -> None:
         """Move the tangents to this point."""
         self.a.value, self.b.value = a, b
-        for tangent in self._tangents:
-            tangent.touch()
+        for move in self._moves:
+            move()
 
     def point(self) -> FloatArray:
         """The values of a and b, shape (2,); never below zero, as a solver's last digit may be."""
@@ -153,8 +125,18 @@ class RimConstraints:
     def _tangent(
         self, x: "Variable", function: Callable[[float], tuple[float, float]]
     ) -> "Expression":
-        self._tangents.append(Tangent(x, function))
-        return self._tangents[-1].bound
+        """The tangent of a convex function, which returns its value and its slope, at `touch`."""
+        cvxpy = import_module("cvxpy")
+        slope, offset = cvxpy.Parameter(), cvxpy.Parameter()
+
+        def move() -> None:
+            contact = np.asarray(x.value).item()
+            height, steepness = function(contact)
+            slope.value, offset.value = steepness, height - steepness * contact
+
+        self._moves.append(move)
+        line: Expression = slope * x + offset
+        return line
 
 
 _SOLVER_OPTIONS = {"tol_gap_abs": 1e-10, "tol_gap_rel": 1e-10, "tol_feas": 1e-10}
@@ -169,20 +151,17 @@ class RimOptimum:
     """What the convex program found.
 
     Attributes:
-        outer_radius, inner_radius: [m].
+        outer_radius: [m].
         mass: [kg].
         prices: change of the mass per change of each limit that is set [kg per SI unit].
         gap: primal less dual objective, over the primal one.
-        iterations: of the convex-concave procedure.
         status: CVXPY's.
     """
 
     outer_radius: float
-    inner_radius: float
     mass: float
     prices: Mapping[str, float]
     gap: float
-    iterations: int
     status: str
 
 
@@ -210,24 +189,16 @@ def optimise_rim(problem: RimProblem, outer_radius: float, inner_radius: float) 
         gap = _solved_gap(program)
         point = constraints.point()
         step, iterations = np.abs(point - last).max(), iterations + 1
-    multipliers = {
-        name: np.asarray(limit.convex.dual_value).item()
-        for name, limit in constraints.by_name.items()
-    }
-    outer, inner = scale * np.sqrt(point)
-    mass_scale = 2.0 * problem.spin_inertia / scale**2
+    mass_scale, prices = 2.0 * problem.spin_inertia / scale**2, {}
+    for name, limit in constraints.by_name.items():
+        multiplier = np.asarray(limit.convex.dual_value).item()
+        price = mass_scale * multiplier * float(limit.derivative(*point))
+        prices[name] = price if multiplier > _IDLE else 0.0
     return RimOptimum(
-        outer_radius=float(outer),
-        inner_radius=float(inner),
+        outer_radius=float(scale * np.sqrt(point[0])),
         mass=float(mass_scale / point.sum()),
-        prices={
-            name: mass_scale * multiplier * float(constraints.by_name[name].derivative(*point))
-            if multiplier > _IDLE
-            else 0.0
-            for name, multiplier in multipliers.items()
-        },
+        prices=prices,
         gap=gap,
-        iterations=iterations,
         status=str(program.status),
     )
 

@@ -1,22 +1,7 @@
 """Lower bounds on the mass of every candidate, and where to look for it first.
 
-Each is proved by terms that only grow (docs/theory.md, The selection):
-
-1. A maneuver asks for no less as the inertia grows. With q = h W the momentum of a wheel, h / I_red
-   dq/dt is the motor's torque at the speed q / h. More inertia asks for more of q's integral, or
-   gives the trunk less way (a larger I_red), or neither; never for less.
-2. It asks for no less over a range of incidences than with the largest sine and the largest cosine
-   in it, each by itself: |P_x| / s + |P_y| / c falls with either share. Axes by hand are no better
-   than a box around their zonotope. |P_x|, |P_y| and kappa are each at their own best
-   (`actuation.wheel_load`).
-3. The inertia of the whole is no less than with the smallest drum around the least mass that has
-   the spin inertia within the largest radius, and its motor behind it: mass, rim and distance only
-   add to it.
-4. The lightest module of more spin inertia is no lighter: of a module with the more, take height,
-   then wall, then radius away, and every limit still holds. Housing and foot grow with both.
-
-So a bound on the spin inertia gives one on the mass, that one on the inertia, and that a better one
-on the spin inertia; each pass tightens them.
+Each is proved by terms that only grow (docs/theory.md, The selection): a bound on the spin inertia
+gives one on the mass, that one on the inertia, and that a better one on the spin inertia.
 """
 
 from collections.abc import Sequence
@@ -41,10 +26,7 @@ from ocs_design.parts.printed import half_height
 from ocs_design.parts.rim import LIGHTENED, hub_of
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.sizing.bound.rim_problem import (
-    BORE_SHARE,
-    RimLimits,
-)
+from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits
 from ocs_design.sizing.bound.rim_problem import smallest_spin_inertia as smallest_rim
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.module_radii import smallest_radius

@@ -1,4 +1,4 @@
-"""Candidates as arrays: every motor behind every gear, with a rim of every material."""
+"""Candidates as arrays: every motor behind every gear, on its robot, with a rim of any material."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -18,6 +18,7 @@ from ocs_design.actuation.drive import (
 )
 from ocs_design.actuation.motor import DIRECT, Gear, GearRoom, Motor
 from ocs_design.common.arrays import FloatArray, Table, stacked
+from ocs_design.parts.joints import bell_bond_radius
 from ocs_design.parts.module import (
     Printed,
     by_floor,
@@ -27,25 +28,26 @@ from ocs_design.parts.module import (
 )
 from ocs_design.parts.moments import MassMoments, round_body
 from ocs_design.parts.motor_mount import mount_of
-from ocs_design.parts.printed import PANEL, half_height
+from ocs_design.parts.printed import CLEARANCE, PANEL, WALL, half_height
 from ocs_design.parts.rim import NO_HUB, cylinder_transverse_inertia
 from ocs_design.sizing.bound.rim_problem import (
     RimLimits,
     RimProblem,
-    bond_figures,
-    limits_on_bell,
-    limits_with_mount,
     limits_with_web,
     smallest_spin_inertia,
     stretch_beside_holes,
 )
 from ocs_design.sizing.lightest_module import ModuleShape, lightest_module_at
 from ocs_design.sizing.place import Size
+from ocs_design.sizing.selection.composite_inertia import CompositeInertia
 from ocs_design.sizing.selection.drives import Drives, Seat
 from ocs_design.sizing.selection.problem import SelectionProblem
 
 _OFF_THE_EDGE = 1.0 + 1e-10
 """Factor on the smallest rim of all, which must not get lost to rounding."""
+
+_NO_HEIGHT, _LEAST_BELL = 1e-9, 1e-3
+"""Height of a ring that there is no room for, and less than the radius of any bell [m]."""
 
 _NOTHING = 1e-12
 """Spin inertia below that of any wheel [kg m^2]."""
@@ -161,6 +163,12 @@ class Candidates(Table):
         )
         return whole, drives.size(outer + guard, height)
 
+    def on_robot(self, spin_inertia: FloatArray, shapes: ModuleShape) -> CompositeInertia:
+        """Robot and modules of each candidate as one."""
+        problem, (module, size) = self.problem, self.modules(spin_inertia, shapes)
+        centers = problem.place.centers(size) - problem.robot.com
+        return CompositeInertia(problem.robot, problem.layout, module, centers)
+
 
 @dataclass(frozen=True, eq=False)
 class Guess(Table):
@@ -206,11 +214,11 @@ def rim_limits(
         rim_height: least one that leaves room for the hub's screws [m].
         lightened, lightened_bore, stretch_left: see `limits_with_web`.
     """
-    room = problem.envelope
+    room, cuts = problem.envelope, problem.cuts
     each = [RimProblem(0.0, room, kind, 1.0).limits for kind in problem.materials]
     figures = np.array([(one.density, one.stretch_max, one.poisson_ratio) for one in each])
     density, stretch, poisson_ratio = figures[material].T
-    alone = RimLimits(
+    limits = RimLimits(
         density=density,
         outer_radius_max=room.outer_radius_max,
         inner_radius_min=np.full_like(density, room.inner_radius_min),
@@ -222,23 +230,52 @@ def rim_limits(
         stretch_max=stretch / overspeed**2,
         poisson_ratio=poisson_ratio,
         web=np.zeros_like(density),
+        # The housing's floor has a wall around the mount.
+        outer_radius_min=np.maximum(np.asarray(mount_reach) + (WALL - CLEARANCE), 0.0),
     )
-    mounted = limits_with_mount(alone, mount_reach)
-    if problem.on_bell:
-        figures = np.array([bond_figures(kind) for kind in problem.materials])[material]
-        return limits_on_bell(mounted, np.asarray(bell), overspeed, figures.T, problem.cuts)
-    if not problem.web:
-        return mounted
-    web = None if problem.web_material is None else problem.web_densities[material]
-    return limits_with_web(
-        mounted,
-        hub_radius,
-        problem.cuts,
-        web,
-        rim_height,
-        lightened=lightened,
-        lightened_bore=lightened_bore,
-        stretch_left=stretch_left,
+    if problem.web:
+        return limits_with_web(
+            limits,
+            hub_radius,
+            cuts,
+            None if problem.web_material is None else problem.web_densities[material],
+            rim_height,
+            lightened=lightened,
+            lightened_bore=lightened_bore,
+            stretch_left=stretch_left,
+        )
+    if not problem.on_bell:
+        return limits
+    bore = np.asarray(bell)
+    # Without all of a material's figures the temperature is left out, and its joint is not known.
+    warm = np.array(
+        [
+            (kind.elastic_modulus, kind.thermal_expansion)
+            if kind.elastic_modulus is not None and kind.thermal_expansion is not None
+            else (0.0, 0.0)
+            for kind in problem.materials
+        ]
+    )
+    modulus, expansion = warm[material].T
+    widest = bell_bond_radius(
+        np.maximum(bore, _LEAST_BELL),
+        room.outer_radius_max,
+        density=density,
+        elastic_modulus=modulus,
+        poisson_ratio=poisson_ratio,
+        expansion=expansion,
+        speed=overspeed,
+    )
+    least = np.maximum(room.inner_radius_min, cuts.inner_radius_min)
+    return replace(
+        limits,
+        outer_radius_max=np.minimum(room.outer_radius_max, widest),
+        inner_radius_min=bore,
+        inner_radius_max=bore,
+        height_max=np.where((bore >= least) & (bore > 0.0), room.height_max, _NO_HEIGHT),
+        height_min=np.maximum(limits.height_min, cuts.height_min),
+        wall_min=np.maximum(room.wall_min, cuts.wall_min),
+        cuts=cuts,
     )
 
 

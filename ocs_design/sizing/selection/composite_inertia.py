@@ -73,17 +73,6 @@ class CompositeInertia:
         return second
 
 
-def composite_inertia(
-    robot: MassProperties,
-    place: Place,
-    module: MassMoments[FloatArray],
-    size: Size[FloatArray],
-    layout: Layout,
-) -> CompositeInertia:
-    """Inertia of devices on the robot, whose modules take that room; see `CompositeInertia`."""
-    return CompositeInertia(robot, layout, module, place.centers(size) - robot.com)
-
-
 _Range: TypeAlias = tuple[FloatArray, FloatArray]
 """Two ends, from and to."""
 

@@ -1,5 +1,6 @@
 """A solved candidate as a whole device, and its figures."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -63,7 +64,6 @@ def with_demands(problem: SelectionProblem, device: Candidate) -> Candidate:
     demands: list[TaskDemand] = []
     requirement, line, spin = problem.requirement, device.line.reserved(), device.spin_inertia
     top_speed = float(line.top_speed)
-    one_stops = requirement.detection is not None
     for maneuver in requirement.maneuvers:
         at = device.incidence if maneuver.incidence is None else maneuver.incidence
         inertia = inertia_at(problem, device, at)
@@ -91,15 +91,26 @@ def with_demands(problem: SelectionProblem, device: Candidate) -> Candidate:
             peak_torque=float(torque.max()),
         )
         demands.append(demand)
-    if requirement.rate_change is not None:
-        at = device.incidence
-        inertia, axes = inertia_at(problem, device, at), device.layout.axes(at)[:2]
-        momenta = held_by_rate(requirement.rate_change, inertia, axes, one_stops=one_stops)
-        for axis, momentum in zip(AXES, momenta.tolist(), strict=True):
-            least, peak = momentum / top_speed, momentum / spin
-            name = f"rate change, {axis}"
-            demands.append(TaskDemand(name, at, least, None, None, peak, None))
+    demands += rate_demands(requirement, device, inertia_at(problem, device, device.incidence))
     return replace(device, demands=tuple(demands))
+
+
+def rate_demands(
+    requirement: Requirement, device: Candidate, inertia: TiltInertia
+) -> Iterator[TaskDemand]:
+    """What a change of rate takes of the device, about roll and about pitch; none is none.
+
+    Args:
+        requirement: that has it. device: that makes it. inertia: of robot and device.
+    """
+    if requirement.rate_change is None:
+        return
+    at, one_stops = device.incidence, requirement.detection is not None
+    axes, top_speed = device.layout.axes(at)[:2], float(device.line.reserved().top_speed)
+    momenta = held_by_rate(requirement.rate_change, inertia, axes, one_stops=one_stops)
+    for axis, momentum in zip(AXES, momenta.tolist(), strict=True):
+        least, peak = momentum / top_speed, momentum / device.spin_inertia
+        yield TaskDemand(f"rate change, {axis}", at, least, None, None, peak, None)
 
 
 def _task_of(

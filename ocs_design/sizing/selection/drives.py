@@ -1,7 +1,7 @@
 """Motors behind gears as arrays, each with its place behind the housing's floor and its hub."""
 
 from dataclasses import dataclass, replace
-from typing import Generic, NamedTuple
+from typing import Generic
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,17 +92,17 @@ class Drives(Table):
     @property
     def hub_mass(self) -> FloatArray:
         """Mass of the wheel's hub beyond its web, at the least [kg]."""
-        return self._of_hub(self.hub_volume).least
+        return np.minimum(*self._of_hub(self.hub_volume))
 
     @property
     def hub_mass_most(self) -> FloatArray:
-        """Mass of the wheel's hub beyond its web, at the most [kg]."""
-        return self._of_hub(self.hub_volume).most
+        """The same at the most [kg]."""
+        return np.maximum(*self._of_hub(self.hub_volume))
 
     @property
     def hub_inertia(self) -> FloatArray:
         """Inertia of the wheel's hub about any axis, at the least [kg m^2]."""
-        return self._of_hub(np.minimum(self.hub_spread, self.hub_across)).least
+        return np.minimum(*self._of_hub(np.minimum(self.hub_spread, self.hub_across)))
 
     @property
     def mass(self) -> FloatArray:
@@ -118,12 +118,11 @@ class Drives(Table):
     @property
     def beside_rim(self) -> FloatArray:
         """Part of the spin inertia that rim and web need not have, at the most [kg m^2]."""
-        return self.rotor_share + self._of_hub(self.hub_spread).most
+        return self.rotor_share + np.maximum(*self._of_hub(self.hub_spread))
 
-    def _of_hub(self, figure: FloatArray) -> "_Extremes":
-        """A figure per density. A hub of a wide bore has less than the web in its place."""
-        ends = figure * self.web_least, figure * self.web_most
-        return _Extremes(np.minimum(*ends), np.maximum(*ends))
+    def _of_hub(self, figure: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """A figure per density at either. A hub of a wide bore has less than the web beneath it."""
+        return figure * self.web_least, figure * self.web_most
 
     @property
     def line(self) -> DriveLine:
@@ -139,10 +138,3 @@ class Drives(Table):
     def overspeed(self) -> FloatArray:
         """Speed at which the hoop stress of a rim is limited [rad/s]."""
         return OVERSPEED * np.asarray(self.whole.top_speed)
-
-
-class _Extremes(NamedTuple):
-    """The least and the largest value of a figure."""
-
-    least: FloatArray
-    most: FloatArray

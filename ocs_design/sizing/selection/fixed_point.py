@@ -1,11 +1,9 @@
 """Wheel, incidence and robot at their fixed point, for many candidates at once.
 
-A heavier module asks for a larger wheel. Its spin inertia, the rim and the housing for it, the
-inertia of the whole with them, and the spin inertia that the maneuvers then ask for are iterated to
-their fixed point, from a lower bound up. Each iteration looks at some incidences around the best so
-far and takes one step of Newton's method towards what is asked for at the best of them; it closes
-in on the incidence as it goes. What a turn asks of the busier wheel, |P_x| / s + |P_y| / c, has one
-valley over the incidence, and so has the largest of several such.
+A heavier module asks for a larger wheel. What is asked for is iterated to its fixed point, from a
+lower bound up (docs/theory.md, The selection). Each iteration looks at some incidences around the
+best so far and takes one step of Newton's method towards what is asked for at the best of them; it
+closes in on the incidence as it goes.
 
 The lightest module of a given spin inertia has one valley over its radius (`lightest_module`), but
 a smaller one stands nearer to the robot and may ask for less, and where the torque hardly does it
@@ -24,7 +22,6 @@ from ocs_design.sizing.bound.rim_problem import smallest_spin_inertia
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.module_radii import smallest_radius
 from ocs_design.sizing.selection.candidates import Candidates, Guess
-from ocs_design.sizing.selection.composite_inertia import composite_inertia
 from ocs_design.sizing.selection.demand import margins_of, worst
 
 _ITERATIONS_MAX = 40
@@ -241,10 +238,7 @@ def _step(candidates: Candidates, spin: FloatArray, shapes: ModuleShape, design:
 
     Turned maneuvers have no say in the incidence of the design.
     """
-    problem = candidates.problem
-    whole = composite_inertia(
-        problem.robot, problem.place, *candidates.modules(spin, shapes), problem.layout
-    )
+    problem, whole = candidates.problem, candidates.on_robot(spin, shapes)
     offsets = design.width[:, None] * (_POINTS if design.width.any() else np.zeros(1))
     angles = np.clip(design.angle[:, None] + offsets, 0.0, np.pi / 2.0)
     by_design, turned = margins_of(problem.requirement, candidates.drives, whole, spin, angles)

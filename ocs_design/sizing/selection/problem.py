@@ -19,7 +19,7 @@ from ocs_design.device.layout import PAIR, Layout
 from ocs_design.device.records.selection import TaskDemand
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.module import Printed, standing
-from ocs_design.parts.motor_mount import mount_of
+from ocs_design.parts.motor_mount import MotorMount, mount_of
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import PLATE_THICKNESS
 from ocs_design.parts.rim import (
@@ -38,7 +38,7 @@ from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.rim_problem import RimLimits, check_limits
 from ocs_design.sizing.driven_wheel import DrivenWheel
 from ocs_design.sizing.limits import BUS_POWER, BUS_VOLTAGE, RIM_LIMITS, TIME, WHEEL_SPEED, Limit
-from ocs_design.sizing.place import Place, braked, motor_size
+from ocs_design.sizing.place import Place, braked, module_size
 
 
 @dataclass(frozen=True, eq=False)
@@ -235,6 +235,11 @@ class Candidate(DrivenWheel):
         material = self.web_material or self.material
         return self.hub.beyond_web(material.density).axial_inertia
 
+    @property
+    def mount(self) -> MotorMount:
+        """How the motor is held."""
+        return mount_of(self.motor, self.gear.room, self.foot_plate, on_bell=self.on_bell)
+
     @cached_property
     def carrier(self) -> Carrier:
         """What stands still of one module: motor, gear, housing and foot."""
@@ -251,14 +256,13 @@ class Candidate(DrivenWheel):
     @cached_property
     def centers(self) -> FloatArray:
         """Centres of the wheels in B [m], shape (n, 3)."""
-        size = motor_size(
-            self.motor,
-            self.gear.room,
+        size = module_size(
             self.outer_radius,
-            self.height,
+            max(self.height, self.mount.room),
+            self.mount.behind(self.motor),
+            self.mount.holes.reach,
             self.guard_wall,
             foot_plate=self.foot_plate,
-            on_bell=self.on_bell,
         )
         return frozen(self.place.centers(size))
 
@@ -274,9 +278,8 @@ class Candidate(DrivenWheel):
     @property
     def shell(self) -> Printed:
         """Housing and foot around a wheel of any size."""
-        mount = mount_of(self.motor, self.gear.room, self.foot_plate, on_bell=self.on_bell)
-        reach = mount.holes.reach
-        return Printed(reach, mount.posts, self.guard_wall, self.foot_plate, mount.room)
+        reach, posts = self.mount.holes.reach, self.mount.posts
+        return Printed(reach, posts, self.guard_wall, self.foot_plate, self.mount.room)
 
     @property
     def mass(self) -> float:

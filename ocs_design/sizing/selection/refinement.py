@@ -1,15 +1,8 @@
 """One candidate as a smooth nonlinear programme without a fixed point, and what limits cost by it.
 
 Over the logarithms of outer radius, height and wall, and the incidence, the mass is the smallest
-for which every part of the requirement is met on the robot with the device. Where a device can
-hardly carry itself, a fixed point at a given incidence runs away though there is one beside it;
-here what is asked for is a limit as any other, and may be missed on the way. SciPy's SLSQP solves
-it (Kraft, A software package for sequential quadratic programming, DFVLR-FB 88-28, 1988).
-
-The same programme tells what slightly looser limits save with the same motor, gear and material:
-the device is sized anew with one limit looser and all else as it is, from where it stands. A limit
-that is not active is worth nothing. What another drive would make of the change is not looked at:
-that the choice may jump is told by how much heavier the next drive is.
+for which every part of the requirement is met on the robot with the device; SciPy's SLSQP solves it
+(docs/theory.md, The selection: Refinement and Prices of the limits).
 """
 
 from collections.abc import Iterator
@@ -29,7 +22,7 @@ from ocs_design.sizing.bound.rim_problem import BORE_SHARE
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.limits import STRESS, TIME, WHEEL_SPEED
 from ocs_design.sizing.selection.candidates import Candidates, drives_of, web_inertia
-from ocs_design.sizing.selection.composite_inertia import CompositeInertia, composite_inertia
+from ocs_design.sizing.selection.composite_inertia import CompositeInertia
 from ocs_design.sizing.selection.demand import margins_of
 from ocs_design.sizing.selection.fixed_point import FINE, Design, FixedPoint, fixed_point
 from ocs_design.sizing.selection.problem import (
@@ -98,9 +91,9 @@ def lightest(programme: "Programme", start: FloatArray) -> Optimum:
     low: FloatArray = np.append(start[:3] - _AROUND, turn[0])
     high: FloatArray = np.append(start[:3] + _AROUND, turn[1])
 
+    # The last one is kept: SLSQP asks for each in parts.
     @lru_cache(maxsize=1)
     def evaluation(point: bytes) -> _Evaluation:
-        """The last one is kept: SLSQP asks for each in parts."""
         return programme.evaluation(np.frombuffer(point), low, high)
 
     def at(point: FloatArray) -> _Evaluation:
@@ -112,8 +105,7 @@ def lightest(programme: "Programme", start: FloatArray) -> Optimum:
     def slope(point: FloatArray) -> FloatArray:
         return at(point).slope
 
-    def constraint(rows: slice, most: float) -> NonlinearConstraint:
-        """Limits between 0 and `most`."""
+    def between(rows: slice, most: float) -> NonlinearConstraint:
         return NonlinearConstraint(
             lambda point: at(point).limits[rows],
             0.0,
@@ -130,10 +122,7 @@ def lightest(programme: "Programme", start: FloatArray) -> Optimum:
             jac=slope,
             method="SLSQP",
             bounds=Bounds(low, high),
-            constraints=[
-                constraint(unequal, np.inf),
-                *([constraint(equal, 0.0)] if stated else []),
-            ],
+            constraints=[between(unequal, np.inf), *([between(equal, 0.0)] if stated else [])],
             options={"maxiter": _ITERATIONS_MAX, "ftol": _DIGITS},
         )
     end = at(np.asarray(found.x))
@@ -255,14 +244,13 @@ class Programme:
         self, candidates: Candidates, shapes: ModuleShape
     ) -> tuple[FloatArray, CompositeInertia]:
         """Spin inertias of the wheels [kg m^2], and what they turn."""
-        problem, limits = candidates.problem, candidates.limits
+        limits = candidates.limits
         dimensions = (shapes.inner_radius, shapes.outer_radius, shapes.height)
         cut = limits.cuts.axial_inertia(shapes.inner_radius, shapes.outer_radius, 1.0)
         rim = (cylinder_spin_inertia(*dimensions, 1.0) - cut) * np.asarray(limits.density)
         web = web_inertia(limits, shapes.inner_radius)
         spin = rim + web + candidates.drives.beside_rim
-        modules = candidates.modules(spin, shapes)
-        return spin, composite_inertia(problem.robot, problem.place, *modules, problem.layout)
+        return spin, candidates.on_robot(spin, shapes)
 
     def _shapes(self, points: FloatArray) -> ModuleShape:
         outer, height, wall = np.exp(points[:, :3]).T

@@ -148,23 +148,10 @@ class Part(NamedTuple):
     late: FloatArray
     reason: NDArray[np.int_]
 
-
-class _Obstacle(NamedTuple):
-    """Obstacle of one drive: the fields of the part that is worst, as single figures.
-
-    Attributes:
-        largest: spin inertia of the largest wheel that fits [kg m^2]; 0 where not even a rim does.
-        weighty: the same if rims might weigh anything [kg m^2].
-    """
-
-    name: str
-    incidence: float
-    time: float
-    needed: float
-    late: float
-    reason: int
-    largest: float
-    weighty: float
+    def at(self, row: int, angle: int) -> "Part":
+        """The part of one drive at one incidence, all as single figures."""
+        _, incidence, _, *of_each = self
+        return Part(self.name, incidence[angle], self.time, *(one[row, angle] for one in of_each))
 
 
 def _unable(found: PairBounds, motors: Sequence[int]) -> dict[int, Rejection]:
@@ -189,19 +176,10 @@ def _unable(found: PairBounds, motors: Sequence[int]) -> dict[int, Rejection]:
         rows = np.flatnonzero(drives.motor == motor)
         first, angle = np.unravel_index(np.argmin(score[rows]), score[rows].shape)
         row = int(rows[first])
-        part = max(parts, key=lambda part: float(part.late[row, angle]))
-        obstacle = _Obstacle(
-            name=part.name,
-            incidence=float(part.incidence[angle]),
-            time=part.time,
-            needed=float(part.needed[row, angle]),
-            late=float(part.late[row, angle]),
-            reason=int(part.reason[row, angle]),
-            largest=float(largest[row]) if largest[row] > drives.beside_rim[row] else 0.0,
-            weighty=float(weighty[row]),
-        )
+        part = max((one.at(row, int(angle)) for one in parts), key=lambda part: float(part.late))
+        fits = float(largest[row]) if largest[row] > drives.beside_rim[row] else 0.0
         drive = drives.take(np.array([row]))
-        reason, detail = _reason(problem, drive, obstacle)
+        reason, detail = _reason(problem, drive, part, (fits, float(weighty[row])))
         detail = f"{detail} ({problem.gears[drives.gear[row]].name})"
         if np.isfinite(found.least[motor]).any():
             detail = f"{detail}; {_at_least(found, motor)}"
@@ -214,8 +192,8 @@ def _unable(found: PairBounds, motors: Sequence[int]) -> dict[int, Rejection]:
             reason=reason,
             detail=detail,
             shortfall=max(min(float(late[row, angle]), beyond), narrow) - 1.0,
-            needed=obstacle.needed if np.isfinite(obstacle.needed) else None,
-            largest=obstacle.largest,
+            needed=float(part.needed) if np.isfinite(part.needed) else None,
+            largest=fits,
         )
     return reasons
 
@@ -264,8 +242,17 @@ def _parts(problem: SelectionProblem, drives: Drives, largest: FloatArray) -> It
         yield Part("the rate change", angles, np.inf, needed, late, reason)
 
 
-def _reason(problem: SelectionProblem, drive: Drives, part: _Obstacle) -> tuple[Reason, str]:
-    """The first obstacle, with figures."""
+def _reason(
+    problem: SelectionProblem, drive: Drives, part: Part, fitting: tuple[float, float]
+) -> tuple[Reason, str]:
+    """The first obstacle, with figures.
+
+    Args:
+        problem: that was searched. drive: alone. part: that is worst for it, single figures.
+        fitting: spin inertias of the largest wheel that fits, 0 where not even a rim does, and of
+            that if rims might weigh anything [kg m^2].
+    """
+    fits, weighty = fitting
     wheel = f"{part.name} needs a wheel of {part.needed:.3g} kg m^2"
     if part.reason == SlewReason.AXIS:
         at = np.degrees(part.incidence)
@@ -293,13 +280,13 @@ def _reason(problem: SelectionProblem, drive: Drives, part: _Obstacle) -> tuple[
         return Reason.OWN_WEIGHT, f"{wheel} on the robot alone, and none that fits with its device"
     weak = part.reason == SlewReason.TORQUE
     if np.isfinite(part.needed) and not weak:
-        reason = Reason.ENVELOPE if part.needed > part.weighty else Reason.MASS
-        fits = f"{part.largest:.3g} fits" if part.largest > 0.0 else "and no rim fits at all"
-        return reason, f"{wheel}, {fits}"
+        reason = Reason.ENVELOPE if part.needed > weighty else Reason.MASS
+        which = f"{fits:.3g} fits" if fits > 0.0 else "and no rim fits at all"
+        return reason, f"{wheel}, {which}"
     asked = next((each for each in problem.requirement.maneuvers if each.name == part.name), None)
     best, given = f"{part.late * part.time:.3g} s at best", f"{part.time:.3g} s"
     if isinstance(asked, Balance):
-        best, given = f"{asked.times(1.0 / part.late).upset} at best", asked.upset
+        best, given = f"{asked.times(float(1.0 / part.late)).upset} at best", asked.upset
     elif np.isinf(part.late):
         best = "never in time"
     detail = f"{best} for {part.name}, {given} given"

@@ -1,15 +1,8 @@
 """Branch and bound over motors, gears and materials; the incidence is solved for.
 
-Every pair of a motor and a gear carries a lower bound on the mass of its lightest device, of any
-material and web. It starts as what motor, gear and the smallest wheel weigh, is tightened step by
-step (`bounds`), and becomes the mass itself where the fixed point is solved (`fixed_point`), for
-the most promising candidates first. A candidate is left out once its bound exceeds the tenth
-lightest device that is known, and is none of a motor that may be among the five with the lightest
-devices: so the ten lightest and the lightest of the five best motors are found whatever the order.
-What may be the lightest of all is to be refined in the end (`Found.refine`).
-
-Materials of one density make devices of one mass, but for the last digits. Of such devices the
-safest comes first (`devices_by_mass`).
+Every pair of a motor and a gear carries a lower bound on the mass of its lightest device, which is
+tightened step by step (`bounds`) and becomes the mass itself where the fixed point is solved
+(`fixed_point`), for the most promising candidates first (docs/theory.md, The selection).
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -178,16 +171,6 @@ def _best_of_motors(ordered: Sequence[Rank]) -> list[Rank]:
     return list(best.values())[:MOTORS]
 
 
-def search(problem: SelectionProblem) -> Found:
-    """The lightest devices, and for every motor and gear how light its lightest is at least.
-
-    None is refined yet (`Found.refine`).
-    """
-    found = Found.of(problem)
-    _search(found)
-    return found
-
-
 def search_lightest(problem: SelectionProblem, below: float = np.inf) -> Found:
     """The lightest device alone, not refined: at a stated incidence to 0.1 % of its mass.
 
@@ -195,14 +178,17 @@ def search_lightest(problem: SelectionProblem, below: float = np.inf) -> Found:
         problem: see `SelectionProblem`.
         below: what is no lighter need not be found [kg].
     """
+    return search(problem, below, ranks=False)
+
+
+def search(problem: SelectionProblem, below: float = np.inf, *, ranks: bool = True) -> Found:
+    """The lightest devices, and for every motor and gear how light its lightest is at least.
+
+    Every motor behind every gear is examined whose bound leaves it a place in the list. None is
+    refined yet (`Found.refine`).
+    """
     found = Found.of(problem)
-    found.below, found.ranks = below, False
-    _search(found)
-    return found
-
-
-def _search(found: Found) -> None:
-    """Examine every motor behind every gear whose bound leaves it a place in the list."""
+    found.below, found.ranks = below, ranks
     least = np.where(found.known, found.least, np.nan)
     order = np.argsort(least, axis=None, kind="stable")[: int(found.known.sum())]
     pairs = np.stack(np.unravel_index(order, least.shape), axis=-1)
@@ -210,7 +196,7 @@ def _search(found: Found) -> None:
     _, first = np.unique(pairs[:, 0], return_index=True)
     rest = np.delete(pairs, first, axis=0)
     chunks = (rest[start : start + _CHUNK] for start in range(0, len(rest), _CHUNK))
-    problem, webs = found.problem, np.arange(len(found.problem.lightenings))
+    webs = np.arange(len(problem.lightenings))
     for some in (pairs[first], *chunks):
         # Bound those that may be listed, then solve those that still may.
         asked = some[found.least[tuple(some.T)] < found.enough[some[:, 0]]]
@@ -227,6 +213,7 @@ def _search(found: Found) -> None:
         _solve_best(found, drives, spin, bound)
         for least, values in ((found.spin_inertia, spin), (found.least, bound.min(axis=0))):
             least[tuple(asked.T)] = values.reshape(len(asked), -1).min(axis=1)
+    return found
 
 
 def _solve_best(found: Found, drives: Drives, spin: FloatArray, bound: FloatArray) -> None:
