@@ -9,9 +9,8 @@ from ocs_design.actuation.drive import DriveLine
 from ocs_design.device.layout import module_axes
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.sizing.trajectory.boundary import boundary
-from ocs_design.sizing.trajectory.flight import FineGrid, fly
+from ocs_design.sizing.trajectory.flight import Flight, fly
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
-from ocs_design.sizing.trajectory.motion import Trajectory
 from ocs_design.sizing.trajectory.program import Dimensions, Solution, solve
 from ocs_design.sizing.trajectory.transcription import Plant, Turn
 
@@ -44,15 +43,13 @@ def asked(maneuver):
     return boundary(maneuver, STANDING)
 
 
-@dataclass(frozen=True)
-class SmallestWheels:
+@dataclass(frozen=True, eq=False)
+class SmallestWheels(Flight):
     """The program's answer, and the gyrostat with the wheels that it found, flown."""
 
     gyrostat: Gyrostat
     incidence: float
     solution: Solution
-    fine: FineGrid
-    trajectory: Trajectory
 
 
 def smallest_wheels(guess, asked, *, free_incidence=False, start=None, passes=(16, 48)):
@@ -81,4 +78,4 @@ def smallest_wheels(guess, asked, *, free_incidence=False, start=None, passes=(1
     found = replace(guess, spin_inertia=guess.spin_inertia * factor, axes=axes)
     flown = replace(turn, gyrostat=found)
     flight = fly(found, EC_45_FLAT, asked, flown.outline, solution.motions[0])
-    return SmallestWheels(found, incidence, solution, flight.fine, flight.trajectory)
+    return SmallestWheels(**vars(flight), gyrostat=found, incidence=incidence, solution=solution)

@@ -59,6 +59,15 @@ class Boundary:
         """The world's upward direction in B at the end, shape (3,)."""
         return vertical_of(self.final_attitude)
 
+    def missed(self, attitude: FloatArray) -> float:
+        """Angle to the attitude asked for [rad], or to its vertical where the heading is free."""
+        if self.end == End.AT_REST:
+            return 0.0
+        if self.end == End.ATTITUDE:
+            return float(2.0 * np.arccos(np.clip(abs(attitude @ self.final_attitude), 0.0, 1.0)))
+        vertical, wanted = vertical_of(attitude), self.final_vertical
+        return float(np.arctan2(np.linalg.norm(np.cross(vertical, wanted)), vertical @ wanted))
+
 
 @singledispatch
 def boundary(maneuver: Maneuver, standing_height: float) -> Boundary:

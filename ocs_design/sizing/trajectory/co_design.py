@@ -18,15 +18,15 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import module_axes
 from ocs_design.device.records.selection import TaskDemand
-from ocs_design.requirement.bound import AXES
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.sizing.lightest_module import binding_limits, lightest_module_at
-from ocs_design.sizing.selection.demand import UNDOES, held_by_rate
+from ocs_design.sizing.selection.demand import UNDOES
+from ocs_design.sizing.selection.device import rate_demands
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
 from ocs_design.sizing.trajectory.boundary import boundary
 from ocs_design.sizing.trajectory.flight import Flight, fly
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
-from ocs_design.sizing.trajectory.program import Dimensions, Solution, solve
+from ocs_design.sizing.trajectory.program import Dimensions, solve
 from ocs_design.sizing.trajectory.transcription import Plant, Turn
 
 LEAST_GAIN = 1e-4
@@ -77,7 +77,7 @@ class CoDesign:
     @property
     def fine_violation(self) -> float:
         """Largest overstepping of a drive's limit on the fine grid, relative."""
-        return max((flight.fine.violation for flight in self.flights), default=0.0)
+        return max((flight.violation for flight in self.flights), default=0.0)
 
 
 def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
@@ -115,9 +115,17 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
         gyrostat = _gyrostat(problem, found, own)
         outline = replace(turn, gyrostat=gyrostat).outline
         flights.append(fly(gyrostat, _usable(problem, found), turn.asked, outline, motion))
-    wrong = _rejection_reason(
-        solution, flights, found.mass / mass, [turn.asked.name for turn in turns]
+    failed = (
+        f"in {turn.asked.name!r}, {flight.failure}"
+        for turn, flight in zip(turns, flights, strict=True)
+        if flight.failure
     )
+    ratio, wrong = found.mass / mass, next(failed, "")
+    if not solution.solved:
+        wrong = f"IPOPT ended with {solution.status}"
+    elif not wrong and ratio > 1.0 - LEAST_GAIN:
+        more = f"{100.0 * (ratio - 1.0):+.2f} % of mass"
+        wrong = f"the co-design in 3-D found nothing lighter ({more})"
     outcome = replace(
         stands,
         note=f"the selection stands: {wrong}",
@@ -234,39 +242,33 @@ class FreeDevice:
             if each.incidence is None and each.name in requirement.reserves
         )
         change, roll = requirement.rate_change or 0.0, max(rolls, default=0.0)
+        top, robot = float(self.selected.line.reserved().top_speed), self.problem.robot.inertia
+        # Either wheel is the busier one; which of them does not change with the device.
+        sense = np.sign(TiltInertia.of(self.selected.total.inertia).product)
+
+        def excess(dimensions: ca.MX) -> ca.MX:
+            """Momentum that the wheels lack, over the robot's: to change its rate, and to undo a
+            roll at lift-off (`held_in_roll`)."""
+            plant, parts = self.plant(dimensions), []
+            whole, shares = plant.inertia, plant.axes[:2, 0]
+            held = 2.0 * top * plant.spin_inertia * shares
+            if change:
+                product = whole[0, 1] - whole[0, 2] * whole[1, 2] / whole[2, 2]
+                across = sense * product * shares / ca.vertcat(shares[1], shares[0])
+                asked = (ca.vertcat(whole[0, 0], whole[1, 1]) + across) * change
+                parts.append((asked - held) / ca.DM(np.diag(robot)[:2] * change))
+            if roll:
+                asked = whole[0, 0] * (1.0 + whole[0, 0] / whole[2, 2]) * roll / UNDOES
+                parts.append((asked - held[0]) / float(robot[0, 0] * roll))
+            return ca.vertcat(*parts)
+
         return Dimensions(
             start=np.append(np.clip(1.0, self.lower, self.upper), incidence),
             lower=np.append(self.lower, nearest),
             upper=np.append(self.upper, farthest),
             objective=lambda dimensions: self.figures(dimensions[:2])[0],
-            excess=partial(self._excess, change=change, roll=roll) if change or roll else None,
+            excess=excess if change or roll else None,
         )
-
-    def _excess(self, dimensions: ca.MX, change: float, roll: float) -> ca.MX:
-        """Momentum that the wheels lack, relative: for a change of rate, and for flips that roll.
-
-        Args:
-            dimensions: of the device. change: of rate [rad/s]; 0: none is asked.
-            roll: rate at lift-off that flips undo [rad/s], see `held_in_roll`; 0: none.
-        """
-        parts = []
-        if change:
-            plant = self.plant(dimensions)
-            whole, shares = plant.inertia, plant.axes[:2, 0]
-            held = 2.0 * _top_speed(self.selected) * plant.spin_inertia * shares
-            # Either wheel is the busier one; which of them does not change with the device.
-            product = whole[0, 1] - whole[0, 2] * whole[1, 2] / whole[2, 2]
-            sense = np.sign(TiltInertia.of(self.selected.total.inertia).product)
-            across = sense * product * shares / ca.vertcat(shares[1], shares[0])
-            asked = (ca.vertcat(whole[0, 0], whole[1, 1]) + across) * change
-            parts.append((asked - held) / ca.DM(np.diag(self.problem.robot.inertia)[:2] * change))
-        if roll:
-            plant = self.plant(dimensions)
-            whole, sine = plant.inertia, plant.axes[0, 0]
-            held = 2.0 * _top_speed(self.selected) * plant.spin_inertia * sine
-            asked = whole[0, 0] * (1.0 + whole[0, 0] / whole[2, 2]) * roll / UNDOES
-            parts.append((asked - held) / float(self.problem.robot.inertia[0, 0] * roll))
-        return ca.vertcat(*parts)
 
 
 def with_wheels(
@@ -309,27 +311,6 @@ def _usable(problem: SelectionProblem, device: Candidate) -> DriveLine:
     return device.line.reserved(RESERVE / max(factors, default=1.0))
 
 
-def _top_speed(device: Candidate) -> float:
-    """Highest speed of a wheel that a design may use [rad/s]."""
-    return float(device.line.reserved().top_speed)
-
-
-def _rejection_reason(
-    solution: Solution, flights: Sequence[Flight], ratio: float, names: Sequence[str]
-) -> str:
-    """Why the outcome is not adopted, in a few words; empty: it is."""
-    if not solution.solved:
-        return f"IPOPT ended with {solution.status}"
-    for name, flight in zip(names, flights, strict=True):
-        if flight.fine.failure:
-            return f"in {name!r}, {flight.fine.failure}"
-    if ratio > 1.0 - LEAST_GAIN:
-        return (
-            f"the co-design in 3-D found nothing lighter ({100.0 * (ratio - 1.0):+.2f} % of mass)"
-        )
-    return ""
-
-
 def _demands(
     problem: SelectionProblem, device: Candidate, flights: Sequence[Flight]
 ) -> Iterator[TaskDemand]:
@@ -350,11 +331,4 @@ def _demands(
             peak_speed=float(np.abs(flight.trajectory.wheel_speed).max()),
             peak_torque=float(np.abs(flight.trajectory.wheel_torque).max()),
         )
-    if requirement.rate_change is not None:
-        inertia = TiltInertia.of(device.total.inertia)
-        axes = module_axes(incidence)[:2]
-        momenta = held_by_rate(requirement.rate_change, inertia, axes)
-        for axis, held in zip(AXES, momenta.tolist(), strict=True):
-            least, peak = held / _top_speed(device), held / device.spin_inertia
-            source = f"rate change, {axis}"
-            yield TaskDemand(source, incidence, least, None, None, peak, None)
+    yield from rate_demands(requirement, device, TiltInertia.of(device.total.inertia))

@@ -8,8 +8,6 @@ parabolas. A polynomial in Bernstein form lies between its smallest and its larg
 points too.
 """
 
-from dataclasses import dataclass
-from functools import cache
 from math import comb
 
 import numpy as np
@@ -21,60 +19,6 @@ DEGREE = 3
 """Degree of the states: an error of the fifth order in the length of the interval."""
 
 TORQUE_DEGREE = 2
-
-
-@dataclass(frozen=True, eq=False)
-class Collocation:
-    """Matrices that act on the values of a polynomial at its nodes, with n = `DEGREE`.
-
-    Attributes:
-        nodes: 0 and the Radau points, the last of which is 1, shape (n + 1,).
-        derivative: from the values at the nodes to d/ds at the Radau points, shape (n, n + 1).
-        bernstein: from the values at the nodes to Bernstein coefficients, shape (n + 1, n + 1).
-        torque: from Bernstein coefficients of a torque to its values at the Radau points,
-            shape (n, 3).
-        elevation: from those coefficients to the ones of degree n, shape (n + 1, 3).
-        weights: of the Radau points in an integral over s, shape (n,).
-        square: b^T G b is the integral of a torque's square over s, shape (3, 3).
-    """
-
-    nodes: FloatArray
-    derivative: FloatArray
-    bernstein: FloatArray
-    torque: FloatArray
-    elevation: FloatArray
-    weights: FloatArray
-    square: FloatArray
-
-
-@cache
-def collocation() -> Collocation:
-    """The matrices of `DEGREE` and `TORQUE_DEGREE`."""
-    points = radau_points(DEGREE)
-    nodes = np.append(0.0, points)
-    powers = np.arange(DEGREE + 1)
-    monomials = np.linalg.inv(np.vander(nodes, increasing=True))
-    slopes = powers[1:] * points[:, None] ** (powers[1:] - 1)
-    to_bernstein = _from_monomials(DEGREE)
-    # Gram matrix: integrals over 0..1 of the products of two Bernstein polynomials.
-    rows = range(TORQUE_DEGREE + 1)
-    products = [
-        [
-            comb(TORQUE_DEGREE, i) * comb(TORQUE_DEGREE, k) / comb(2 * TORQUE_DEGREE, i + k)
-            for k in rows
-        ]
-        for i in rows
-    ]
-    return Collocation(
-        nodes=nodes,
-        derivative=slopes @ monomials[1:],
-        bernstein=to_bernstein @ monomials,
-        torque=bernstein_basis(points),
-        elevation=to_bernstein[:, : TORQUE_DEGREE + 1]
-        @ np.linalg.inv(_from_monomials(TORQUE_DEGREE)),
-        weights=np.asarray(np.linalg.solve(np.vander(points, increasing=True).T, 1.0 / powers[1:])),
-        square=np.array(products) / (2 * TORQUE_DEGREE + 1),
-    )
 
 
 def radau_points(count: int) -> FloatArray:
@@ -112,3 +56,37 @@ def _from_monomials(degree: int) -> FloatArray:
     """Matrix from coefficients of 1, s, s^2, ... to Bernstein coefficients."""
     rows = range(degree + 1)
     return np.array([[comb(i, k) / comb(degree, k) for k in rows] for i in rows])
+
+
+NODES = np.append(0.0, radau_points(DEGREE))
+"""0 and the Radau points, the last of which is 1, shape (n + 1,) with n = `DEGREE`."""
+
+_POWERS = np.arange(1, DEGREE + 1)
+_MONOMIALS = np.linalg.inv(np.vander(NODES, increasing=True))
+_TO_BERNSTEIN = _from_monomials(DEGREE)
+
+DERIVATIVE = (_POWERS * NODES[1:, None] ** (_POWERS - 1)) @ _MONOMIALS[1:]
+"""From the values at the nodes to d/ds at the Radau points, shape (n, n + 1)."""
+
+BERNSTEIN = _TO_BERNSTEIN @ _MONOMIALS
+"""From the values at the nodes to Bernstein coefficients, shape (n + 1, n + 1)."""
+
+TORQUE = bernstein_basis(NODES[1:])
+"""From Bernstein coefficients of a torque to its values at the Radau points, shape (n, 3)."""
+
+ELEVATION = _TO_BERNSTEIN[:, : TORQUE_DEGREE + 1] @ np.linalg.inv(_from_monomials(TORQUE_DEGREE))
+"""From those coefficients to the ones of degree n, shape (n + 1, 3)."""
+
+WEIGHTS = np.linalg.solve(np.vander(NODES[1:], increasing=True).T, 1.0 / _POWERS)
+"""Weights of the Radau points in an integral over s, shape (n,)."""
+
+SQUARE = np.array(
+    [
+        [
+            comb(TORQUE_DEGREE, i) * comb(TORQUE_DEGREE, k) / comb(2 * TORQUE_DEGREE, i + k)
+            for k in range(TORQUE_DEGREE + 1)
+        ]
+        for i in range(TORQUE_DEGREE + 1)
+    ]
+) / (2 * TORQUE_DEGREE + 1)
+"""Gram matrix G: b^T G b is the integral of a torque's square over s, shape (3, 3)."""

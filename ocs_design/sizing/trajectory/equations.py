@@ -18,10 +18,15 @@ import numpy as np
 
 from ocs_design.sizing.trajectory.boundary import Boundary
 from ocs_design.sizing.trajectory.collocation import (
+    BERNSTEIN,
     DEGREE,
+    DERIVATIVE,
+    ELEVATION,
+    SQUARE,
+    TORQUE,
     TORQUE_DEGREE,
+    WEIGHTS,
     bernstein_product,
-    collocation,
 )
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
@@ -41,8 +46,7 @@ def interval(wheels: int, *, stands: bool) -> ca.Function:
     all motors (1, 2 d + 1), with `copper`, the heat over a squared torque [W/(N m)^2], times the
     gear's efficiency [W]; `swinging`, the defect of the momentum about a pivot (3, d) [N m s].
     """
-    table, rows = collocation(), 4 + wheels + 3 * stands
-    states = ca.SX.sym("states", rows, DEGREE + 1)
+    states = ca.SX.sym("states", 4 + wheels + 3 * stands, DEGREE + 1)
     torques = ca.SX.sym("torques", wheels, TORQUE_DEGREE + 1)
     length = ca.SX.sym("length")
     inverse, held = ca.SX.sym("inverse", 3, 3), ca.SX.sym("held", 3, wheels)
@@ -50,11 +54,10 @@ def interval(wheels: int, *, stands: bool) -> ca.Function:
     axis, copper, pull = ca.SX.sym("axis", 3), ca.SX.sym("copper"), ca.SX.sym("pull", 3)
     mobility = held.T @ inverse
     mass = driven * ca.SX.eye(wheels) - mobility @ held
-    slopes, values = states @ table.derivative.T, torques @ table.torque.T
+    slopes, values = states @ DERIVATIVE.T, torques @ TORQUE.T
     turning, driving, rates, swinging = [], [], [], []
-    speeds, elevated = states[4 : 4 + wheels, :] @ table.bernstein.T, torques @ table.elevation.T
-    given = copper * elevated + speeds
-    power = _product_of_coefficients(elevated, given)
+    speeds, elevated = states[4 : 4 + wheels, :] @ BERNSTEIN.T, torques @ ELEVATION.T
+    power = _product_of_coefficients(elevated, copper * elevated + speeds)
     for j in range(DEGREE):
         attitude, speed = states[:4, j + 1], states[4 : 4 + wheels, j + 1]
         now = states[4 + wheels :, j + 1] if stands else momentum
@@ -69,38 +72,25 @@ def interval(wheels: int, *, stands: bool) -> ca.Function:
         turning.append(slopes[:4, j] - change * length)
         driving.append(mass @ slopes[4 : 4 + wheels, j] - torque * length)
         rates.append(rate)
-    return ca.Function(
-        "interval",
-        [
-            states,
-            torques,
-            length,
-            ca.veccat(inverse, held, driven, momentum, axis, copper, pull),
-        ],
-        [
-            ca.horzcat(*turning),
-            ca.horzcat(*driving),
-            speeds,
-            elevated,
-            rates[-1],
-            ca.trace(torques @ table.square @ torques.T) * length,
-            axis.T @ ca.horzcat(*rates) @ table.weights * length,
-            power,
-            ca.horzcat(*swinging),
-        ],
-        ["states", "torques", "length", "figures"],
-        [
-            "turning",
-            "driving",
-            "speeds",
-            "elevated",
-            "rates",
-            "effort",
-            "swept",
-            "power",
-            "swinging",
-        ],
-    )
+    inputs = {
+        "states": states,
+        "torques": torques,
+        "length": length,
+        "figures": ca.veccat(inverse, held, driven, momentum, axis, copper, pull),
+    }
+    outputs = {
+        "turning": ca.horzcat(*turning),
+        "driving": ca.horzcat(*driving),
+        "speeds": speeds,
+        "elevated": elevated,
+        "rates": rates[-1],
+        "effort": ca.trace(torques @ SQUARE @ torques.T) * length,
+        "swept": axis.T @ ca.horzcat(*rates) @ WEIGHTS * length,
+        "power": power,
+        "swinging": ca.horzcat(*swinging),
+    }
+    both = list(inputs.values()), list(outputs.values())
+    return ca.Function("interval", *both, list(inputs), list(outputs))
 
 
 @cache

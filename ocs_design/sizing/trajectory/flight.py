@@ -12,7 +12,6 @@ import numpy as np
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import cross
-from ocs_design.requirement.maneuver import End
 from ocs_design.sizing.trajectory.boundary import (
     Boundary,
     conjugate,
@@ -33,17 +32,19 @@ DEFECT_MAX = 1e-4
 """Largest difference of the trunk's rate, over its largest, that it may show there."""
 
 
-@dataclass(frozen=True)
-class FineGrid:
-    """Errors of a program that show on the fine grid.
+@dataclass(frozen=True, eq=False)
+class Flight:
+    """A maneuver flown, and how it compares with what was asked, allowed and claimed.
 
     Attributes:
+        trajectory: on the fine grid.
         violation: largest overstepping of the drive's limits, relative to each.
         end_tilt: angle between the attitude at the end and the one asked for [rad].
         end_rate: of the trunk at the end about the axes that the wheels reach [rad/s].
         defect: largest difference to the program's own rate, over the largest rate.
     """
 
+    trajectory: Trajectory
     violation: float
     end_tilt: float
     end_rate: float
@@ -57,14 +58,6 @@ class FineGrid:
         if self.defect > DEFECT_MAX:
             return f"an integration of its torques differs by {self.defect:.1e}"
         return ""
-
-
-@dataclass(frozen=True, eq=False)
-class Flight:
-    """A maneuver flown, and how it compares with what was asked, allowed and claimed."""
-
-    trajectory: Trajectory
-    fine: FineGrid
 
 
 def fly(
@@ -133,16 +126,14 @@ def fly(
     difference = float(np.abs(trajectory.rate - claimed_rate).max())
     return Flight(
         trajectory,
-        FineGrid(
-            # Before and after each jump: both torques may be allowed, and their mean not.
-            violation=max(
-                limit_violation(trajectory.wheel_speed[:-1], first, line),
-                limit_violation(trajectory.wheel_speed[1:], last, line),
-            ),
-            end_tilt=_missed(asked, flown[-1, :4]),
-            end_rate=float(np.linalg.norm(gyrostat.turns_about @ trajectory.rate[-1])),
-            defect=difference / largest if largest > 0.0 else 0.0,
+        # Before and after each jump: both torques may be allowed, and their mean not.
+        violation=max(
+            limit_violation(trajectory.wheel_speed[:-1], first, line),
+            limit_violation(trajectory.wheel_speed[1:], last, line),
         ),
+        end_tilt=asked.missed(flown[-1, :4]),
+        end_rate=float(np.linalg.norm(gyrostat.turns_about @ trajectory.rate[-1])),
+        defect=difference / largest if largest > 0.0 else 0.0,
     )
 
 
@@ -161,13 +152,3 @@ def limit_violation(speed: FloatArray, torque: FloatArray, line: DriveLine) -> f
             ]
         )
     )
-
-
-def _missed(asked: Boundary, attitude: FloatArray) -> float:
-    """Angle to the attitude asked for [rad], or to its vertical where the heading is free."""
-    if asked.end == End.AT_REST:
-        return 0.0
-    if asked.end == End.ATTITUDE:
-        return float(2.0 * np.arccos(np.clip(abs(attitude @ asked.final_attitude), 0.0, 1.0)))
-    vertical, wanted = vertical_of(attitude), asked.final_vertical
-    return float(np.arctan2(np.linalg.norm(np.cross(vertical, wanted)), vertical @ wanted))

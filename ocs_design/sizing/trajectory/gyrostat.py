@@ -125,6 +125,11 @@ class Gyrostat:
         return np.asarray(np.abs(self.axes).max(axis=1) > OUT_OF_REACH)
 
     @property
+    def spanned(self) -> int:
+        """Number of independent axes that the wheels have."""
+        return int(np.linalg.matrix_rank(self.axes, OUT_OF_REACH))
+
+    @property
     def sharing(self) -> FloatArray:
         """Matrix from a torque on the trunk to the smallest minus motor torques, shape (n, 3)."""
         inverse = np.linalg.pinv(self.axes, rcond=OUT_OF_REACH)

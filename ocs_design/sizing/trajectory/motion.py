@@ -16,10 +16,11 @@ from ocs_design.sizing.trajectory.boundary import (
     vertical_of,
 )
 from ocs_design.sizing.trajectory.collocation import (
+    BERNSTEIN,
     DEGREE,
+    NODES,
     TORQUE_DEGREE,
     bernstein_basis,
-    collocation,
 )
 from ocs_design.sizing.trajectory.gyrostat import OUT_OF_REACH, Gyrostat
 
@@ -60,7 +61,7 @@ class Motion:
         """States at some times [s], shape (4 + n, len(times)), or three rows more."""
         interval, s = self._locate(times)
         nodes = interval[:, None] * DEGREE + np.arange(DEGREE + 1)
-        weights = bernstein_basis(s, DEGREE) @ collocation().bernstein
+        weights = bernstein_basis(s, DEGREE) @ BERNSTEIN
         return np.asarray(np.einsum("imj,mj->im", self.states[:, nodes], weights))
 
     def torque_at(self, times: FloatArray) -> FloatArray:
@@ -91,11 +92,10 @@ class Motion:
         speeds = most * (idle / np.abs(idle).max() if stays else each)
         time = self.lengths.sum()
         starts, lengths = self.starts[:, None] / time, self.lengths[:, None] / time
-        s = np.append(0.0, (starts + lengths * collocation().nodes[1:]).ravel())
+        s = np.append(0.0, (starts + lengths * NODES[1:]).ravel())
         at = (starts + lengths * np.array([0.0, 0.5, 1.0])).ravel()
         share, slope = (s**2, 2.0 * at) if stays else (s**2 * (1.0 - s), 2.0 * at - 3.0 * at**2)
-        # The parabola through its values at both ends and in the middle.
-        slope[1::3] = 2.0 * slope[1::3] - (slope[0::3] + slope[2::3]) / 2.0
+        slope = _parabolas(slope)
         states, driven = self.states.copy(), gyrostat.spin_inertia + gyrostat.armature
         states[4 : 4 + wheels] += np.outer(speeds, share)
         torques = self.torques + np.outer(driven * speeds / time, slope)
@@ -104,11 +104,9 @@ class Motion:
     def onto(self, lengths: FloatArray) -> "Motion":
         """Nearly the same motion on other intervals."""
         starts = np.append(0.0, np.cumsum(lengths)[:-1])[:, None]
-        nodes = starts + lengths[:, None] * collocation().nodes[1:]
+        nodes = starts + lengths[:, None] * NODES[1:]
         ends = starts + lengths[:, None] * np.array([_INSIDE, 0.5, 1.0 - _INSIDE])
-        torques = self.torque_at(ends.ravel())
-        # The parabola through its values at both ends and in the middle.
-        torques[:, 1::3] = 2.0 * torques[:, 1::3] - (torques[:, 0::3] + torques[:, 2::3]) / 2.0
+        torques = _parabolas(self.torque_at(ends.ravel()))
         return Motion(lengths, self.state_at(np.append(0.0, nodes.ravel())), torques)
 
     def refined(self, intervals: int) -> "Motion":
@@ -135,6 +133,24 @@ class Motion:
         starts = self.starts
         interval = np.searchsorted(starts, times, side="right") - 1
         return interval, (times - starts[interval]) / self.lengths[interval]
+
+
+def _parabolas(values: FloatArray) -> FloatArray:
+    """Bernstein coefficients of parabolas through values at start, middle and end, (..., 3 k)."""
+    found = values.copy()
+    found[..., 1::3] = 2.0 * values[..., 1::3] - (values[..., 0::3] + values[..., 2::3]) / 2.0
+    return found
+
+
+def _even_mesh(duration: float, intervals: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Lengths of even intervals [s], and as shares of the time their nodes and their ends.
+
+    Between the two ends of each is its middle.
+    """
+    edges = np.arange(intervals)[:, None] / intervals
+    nodes = np.append(0.0, (edges + NODES[1:] / intervals).ravel())
+    ends = (edges + np.array([0.0, 0.5, 1.0]) / intervals).ravel()
+    return np.full(intervals, duration / intervals), nodes, ends
 
 
 @dataclass(frozen=True, eq=False)
@@ -218,11 +234,9 @@ class FixedAxisTurn:
 
     def motion(self, gyrostat: Gyrostat, intervals: int) -> Motion:
         """The turn on even intervals and the wheels that drive it, their limits ignored."""
-        lengths = np.full(intervals, self.duration / intervals)
-        edges = np.arange(intervals)[:, None] / intervals
-        nodes = np.append(0.0, (edges + collocation().nodes[1:] / intervals).ravel())
+        lengths, nodes, ends = _even_mesh(self.duration, intervals)
         angle, rate, _ = self._profile(nodes)
-        _, _, acceleration = self._profile((edges + np.array([0.0, 0.5, 1.0]) / intervals).ravel())
+        _, _, acceleration = self._profile(ends)
         turned = np.vstack([np.cos(angle / 2.0), np.outer(self.axis, np.sin(angle / 2.0))])
         # Speeds of the wheels that take a momentum off the trunk, per momentum.
         taking = gyrostat.sharing * gyrostat.reaction / gyrostat.spin_inertia
@@ -276,10 +290,7 @@ class HeadingLoop:
 
     def motion(self, gyrostat: Gyrostat, intervals: int) -> Motion:
         """The loop on even intervals and the wheels that drive it, from rest, limits ignored."""
-        lengths = np.full(intervals, self.duration / intervals)
-        edges = np.arange(intervals)[:, None] / intervals
-        nodes = np.append(0.0, (edges + collocation().nodes[1:] / intervals).ravel())
-        ends = (edges + np.array([0.0, 0.5, 1.0]) / intervals).ravel()
+        lengths, nodes, ends = _even_mesh(self.duration, intervals)
         taking = -gyrostat.sharing * gyrostat.reaction / gyrostat.spin_inertia
         to_speeds = taking @ gyrostat.inertia
         change = (self._rate(ends + _INSIDE) - self._rate(ends - _INSIDE)) / (2.0 * _INSIDE)

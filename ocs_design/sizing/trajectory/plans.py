@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ocs_design.actuation.drive import PLANNED, DriveLine, power_less_friction
-from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import format_quantity, rpm
 from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.maneuver import End, Maneuver, Unforeseen
@@ -26,8 +25,8 @@ from ocs_design.sizing.trajectory.boundary import (
     product,
     vertical_of,
 )
-from ocs_design.sizing.trajectory.flight import FineGrid, fly
-from ocs_design.sizing.trajectory.gyrostat import OUT_OF_REACH, Gyrostat, taken_over
+from ocs_design.sizing.trajectory.flight import Flight, fly
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat, taken_over
 from ocs_design.sizing.trajectory.motion import HeadingLoop, Trajectory
 from ocs_design.sizing.trajectory.program import Solution, solve
 from ocs_design.sizing.trajectory.tracking import tracking_gains
@@ -68,24 +67,21 @@ _UNFORESEEN = "a push is not known beforehand: no trajectory is planned, feedbac
 
 
 @dataclass(frozen=True, eq=False)
-class Planned:
-    """A maneuver of least peak power.
+class Planned(Flight):
+    """A maneuver of least peak power, flown from the start of the turn, the end of a push.
 
     Attributes:
-        solution: of the program. fine: its errors on a finer grid.
-        trajectory: from the start of the turn, which is the end of a push.
+        solution: of the program.
     """
 
     solution: Solution
-    fine: FineGrid
-    trajectory: Trajectory
 
     @property
     def failure(self) -> str:
         """What is wrong with it, in a few words; empty if nothing is."""
         solution = self.solution
         if solution.solved:
-            return self.fine.failure
+            return super().failure
         # Whether it gives up or proves that there is none depends on the processor.
         status = solution.status.replace("_", " ").lower()
         return f"nothing within the limits in {solution.iterations} iterations, IPOPT: {status}"
@@ -202,13 +198,19 @@ def reference(
     )
     spun = 0.0
     if isinstance(maneuver, Pivoted) and asked.rate.any():
-        spun = _braked_from(gyrostat, asked.rate)
+        # What the brake takes off the wheels about the axes that they reach, h A W = I w.
+        reached, momentum = gyrostat.turns_about, gyrostat.inertia @ asked.rate
+        taken = np.linalg.pinv(reached @ gyrostat.axes) @ (reached @ momentum)
+        spun = float(np.abs(taken / gyrostat.spin_inertia).max())
         most = float(line.top_speed)
         if spun > most:
             told = " and ".join(map(rpm, (spun, most)))
             note = f"speed of the wheels that the brake takes, and that the motors reach: {told}"
             return Reference(None, note, None, part=most / spun, spun=spun)
-    loops = asked.end == End.ATTITUDE and _tall(gyrostat)
+    # Two axes turn the heading by a loop of the tilt; a tall body yaws more easily than it tilts.
+    x, y, z = np.diag(gyrostat.inertia)
+    tall = not gyrostat.stands and gyrostat.spanned == 2 and max(x, y) > _TALL * z
+    loops = asked.end == End.ATTITUDE and tall
     most = TALL_SPARE if loops else LEAST_SPARE
     first = () if asked.end == End.LEVEL else (TALL_SPARE, *GENTLE)[not loops :]
     shares = tuple(dict.fromkeys((*first, PLANNED / kept, PLANNED, 1.0)))
@@ -241,13 +243,6 @@ def reference(
     )
 
 
-def _tall(gyrostat: Gyrostat) -> bool:
-    """Whether it turns its heading by a loop of the tilt, and yaws more easily than it tilts."""
-    spanned = int(np.linalg.matrix_rank(gyrostat.axes, OUT_OF_REACH))
-    x, y, z = np.diag(gyrostat.inertia)
-    return not gyrostat.stands and spanned == 2 and max(x, y) > _TALL * z
-
-
 def _refused(
     maneuver: Maneuver, asked: Boundary, gyrostat: Gyrostat, line: DriveLine, planned: Planned
 ) -> Reference:
@@ -271,10 +266,7 @@ def _refused(
                 angle=part * asked.angle,
                 rate=smaller * asked.rate,
             )
-            if gentlest(tried, gyrostat, line).failure:
-                high = part
-            else:
-                low = part
+            low, high = (low, part) if gentlest(tried, gyrostat, line).failure else (part, high)
         part, tilt = low, abs(float(asked.angle))
         all_of_it, less = (format_quantity(each, "deg") for each in (tilt, part * tilt))
         told = f"from {less} they would" if part > 0.0 else "nor from a sixteenth of that"
@@ -316,16 +308,6 @@ def _balanced(
     return replace(held, gains=gains, time=np.append(held.time[:-1], until))
 
 
-def _braked_from(gyrostat: Gyrostat, rate: FloatArray) -> float:
-    """Speed of the fastest wheel before a brake that leaves the trunk at this rate [rad/s].
-
-    What the brake takes off the wheels about the axes that they reach, `h A W = I w`.
-    """
-    axes, momentum = gyrostat.turns_about @ gyrostat.axes, gyrostat.inertia @ rate
-    taken = np.linalg.pinv(axes) @ (gyrostat.turns_about @ momentum) / gyrostat.spin_inertia
-    return float(np.abs(taken).max())
-
-
 def gentlest(
     asked: Boundary,
     gyrostat: Gyrostat,
@@ -341,28 +323,29 @@ def gentlest(
     `Turn`.
     """
     # Wheels of one axis command no heading, and wheels of two turn it by a loop of the tilt.
-    spanned = int(np.linalg.matrix_rank(gyrostat.axes, OUT_OF_REACH))
-    if asked.end == End.ATTITUDE and spanned == 1:
+    if asked.end == End.ATTITUDE and gyrostat.spanned == 1:
         asked = replace(asked, end=End.LEVEL)
     about_axis = Turn(asked, gyrostat, one_stops=one_stops)
     start = about_axis.outline.attitude
     w, x, y, z = product(conjugate(start), asked.final_attitude)
     heading = remainder(2.0 * np.arctan2(z, w), 2.0 * np.pi)
     guesses = [about_axis]
-    if asked.end == End.ATTITUDE and spanned < len(gyrostat.inertia) and abs(heading) >= _SAME:
+    loops = asked.end == End.ATTITUDE and gyrostat.spanned < len(gyrostat.inertia)
+    if loops and abs(heading) >= _SAME:
         # Either way round; the turn is a swing without heading, and then a twist about z.
         w, x, y, z = product(np.array([w, x, y, z]), about(np.array([0.0, 0.0, 1.0]), -heading))
         sine = np.hypot(x, y)
         swing = np.array([x, y, 0.0]) * (2.0 * np.arctan2(sine, w) / sine if sine > 0.0 else 0.0)
-        loops = (
-            HeadingLoop(start, swing, heading, begins, asked.duration) for begins in (0.0, np.pi)
-        )
-        guesses = [replace(about_axis, guess=loop.motion(gyrostat, intervals)) for loop in loops]
+        guesses = [
+            replace(about_axis, guess=loop.motion(gyrostat, intervals))
+            for begins in (0.0, np.pi)
+            for loop in [HeadingLoop(start, swing, heading, begins, asked.duration)]
+        ]
     found = []
     for turn in guesses:
         solution = solve([turn], line, (intervals,))
         flight = fly(gyrostat, line, turn.asked, turn.outline, solution.motions[0])
-        found.append(Planned(solution, flight.fine, flight.trajectory))
+        found.append(Planned(**vars(flight), solution=solution))
     return min(found, key=lambda planned: (planned.failure != "", planned.solution.cost))
 
 
@@ -372,21 +355,19 @@ def quickest(asked: Boundary, gyrostat: Gyrostat, line: DriveLine) -> float | No
     None: not in `LONGEST` times the time asked for, which is taken to be too short.
     """
     short, enough = 1.0, 1.0 + TIME_STEP
-    while gentlest(_lasting(asked, enough), gyrostat, line).failure:
+
+    def fails(factor: float) -> bool:
+        lasting = replace(asked, duration=factor * asked.duration)
+        return gentlest(lasting, gyrostat, line).failure != ""
+
+    while fails(enough):
         short, enough = enough, 1.0 + 2.0 * (enough - 1.0)
         if enough > LONGEST:
             return None
     while enough > (1.0 + TIME_STEP) * short:
         middle = 0.5 * (short + enough)
-        if gentlest(_lasting(asked, middle), gyrostat, line).failure:
-            short = middle
-        else:
-            enough = middle
+        short, enough = (middle, enough) if fails(middle) else (short, middle)
     return enough
-
-
-def _lasting(asked: Boundary, factor: float) -> Boundary:
-    return replace(asked, duration=factor * asked.duration)
 
 
 def gyrostat_of(

@@ -107,10 +107,10 @@ def test_its_maneuvers_hold_on_the_fine_grid(answered):
     assert len(found.flights) == len(problem.requirement.maneuvers)
     line = selected.line.reserved()
     for flight in found.flights:
-        assert flight.fine.violation < 1e-6
-        assert flight.fine.end_tilt < 1e-4
-        assert flight.fine.end_rate < 1e-4
-        assert flight.fine.defect < 1e-4
+        assert flight.violation < 1e-6
+        assert flight.end_tilt < 1e-4
+        assert flight.end_rate < 1e-4
+        assert flight.defect < 1e-4
         assert np.abs(flight.trajectory.wheel_torque).max() <= line.torque_limit * (1.0 + 1e-6)
 
 

@@ -6,11 +6,11 @@ from hypothesis.extra.numpy import arrays
 from numpy.polynomial import Polynomial
 from scipy.integrate import quad
 
+from ocs_design.sizing.trajectory import collocation as table
 from ocs_design.sizing.trajectory.collocation import (
     DEGREE,
     bernstein_basis,
     bernstein_product,
-    collocation,
     radau_points,
 )
 from ocs_design.sizing.trajectory.motion import Motion
@@ -29,36 +29,33 @@ def test_three_radau_points_are_those_of_the_literature():
 
 
 def test_a_cubic_is_differentiated_and_written_in_bernstein_form_exactly():
-    table = collocation()
-    values = CUBIC(table.nodes)
+    values = CUBIC(table.NODES)
     np.testing.assert_allclose(
-        table.derivative @ values, CUBIC.deriv()(table.nodes[1:]), rtol=1e-12
+        table.DERIVATIVE @ values, CUBIC.deriv()(table.NODES[1:]), rtol=1e-12
     )
     np.testing.assert_allclose(
-        bernstein_basis(S, DEGREE) @ (table.bernstein @ values), CUBIC(S), rtol=1e-12
+        bernstein_basis(S, DEGREE) @ (table.BERNSTEIN @ values), CUBIC(S), rtol=1e-12
     )
 
 
 def test_radau_quadrature_is_exact_to_the_fourth_power():
-    table = collocation()
     for power in range(2 * DEGREE - 1):
-        assert table.weights @ table.nodes[1:] ** power == pytest.approx(1.0 / (power + 1))
+        assert table.WEIGHTS @ table.NODES[1:] ** power == pytest.approx(1.0 / (power + 1))
 
 
 def test_torques_keep_their_values_and_their_square():
-    table = collocation()
     middle = 2.0 * PARABOLA(0.5) - (PARABOLA(0.0) + PARABOLA(1.0)) / 2.0
     coefficients = np.array([PARABOLA(0.0), middle, PARABOLA(1.0)])
-    np.testing.assert_allclose(table.torque @ coefficients, PARABOLA(table.nodes[1:]), rtol=1e-12)
-    elevated = bernstein_basis(S, DEGREE) @ (table.elevation @ coefficients)
+    np.testing.assert_allclose(table.TORQUE @ coefficients, PARABOLA(table.NODES[1:]), rtol=1e-12)
+    elevated = bernstein_basis(S, DEGREE) @ (table.ELEVATION @ coefficients)
     np.testing.assert_allclose(elevated, PARABOLA(S), rtol=1e-12)
     square = quad(lambda s: PARABOLA(s) ** 2, 0.0, 1.0)[0]
-    assert coefficients @ table.square @ coefficients == pytest.approx(square)
+    assert coefficients @ table.SQUARE @ coefficients == pytest.approx(square)
 
 
 @given(arrays(np.float64, DEGREE + 1, elements=st.floats(-10.0, 10.0)))
 def test_a_polynomial_lies_between_its_bernstein_coefficients(values):
-    coefficients = collocation().bernstein @ values
+    coefficients = table.BERNSTEIN @ values
     between = bernstein_basis(S, DEGREE) @ coefficients
     assert between.min() >= coefficients.min() - 1e-9
     assert between.max() <= coefficients.max() + 1e-9
@@ -68,7 +65,7 @@ def _motion(torque, intervals):
     """A motion whose torques are a parabola over 2 s; its states are cubics."""
     lengths = np.full(intervals, 2.0 / intervals)
     starts = np.append(0.0, np.cumsum(lengths)[:-1])[:, None]
-    nodes = np.append(0.0, (starts + lengths[:, None] * collocation().nodes[1:]).ravel())
+    nodes = np.append(0.0, (starts + lengths[:, None] * table.NODES[1:]).ravel())
     first, middle, last = (torque(starts + part * lengths[:, None]) for part in (0.0, 0.5, 1.0))
     torques = np.hstack([first, 2.0 * middle - (first + last) / 2.0, last]).ravel()
     return Motion(lengths, np.tile(CUBIC(nodes), (6, 1)), np.tile(torques, (2, 1)))

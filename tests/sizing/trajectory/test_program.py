@@ -24,7 +24,7 @@ from ocs_design.common.errors import SpecificationError
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.maneuver import Disturbance, Flip
 from ocs_design.sizing.trajectory.boundary import Boundary, vertical_of
-from ocs_design.sizing.trajectory.collocation import collocation
+from ocs_design.sizing.trajectory.collocation import SQUARE
 from ocs_design.sizing.trajectory.equations import after_push
 from ocs_design.sizing.trajectory.flight import limit_violation
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
@@ -68,7 +68,7 @@ def _momentum(gyrostat, path):
 def test_it_ends_at_rest_where_it_should(solved):
     _, boundary, solution = solved
     assert solution.solution.solved
-    assert not solution.fine.failure
+    assert not solution.failure
     path = solution.trajectory
     assert path.time[-1] == pytest.approx(boundary.duration)
     np.testing.assert_allclose(path.vertical[-1], boundary.final_vertical, rtol=0, atol=1e-5)
@@ -84,7 +84,7 @@ def test_limits_hold_at_every_sample(solved):
     slope = line.no_load_speed / line.stall_torque
     reached = np.abs(path.wheel_speed + slope * path.wheel_torque).max()
     assert reached <= line.no_load_speed * (1.0 + 1e-6)
-    assert solution.fine.violation < 1e-6
+    assert solution.violation < 1e-6
 
 
 def test_momentum_is_kept_in_the_world(solved):
@@ -178,7 +178,7 @@ def _effort(planned):
     """Integral of all squared torques [N^2 m^2 s]."""
     motion = planned.solution.motions[0]
     each = motion.torques.reshape(len(motion.torques), len(motion.lengths), -1)
-    return np.einsum("ika,ab,ikb,k->", each, collocation().square, each, motion.lengths)
+    return np.einsum("ika,ab,ikb,k->", each, SQUARE, each, motion.lengths)
 
 
 def test_a_mechanical_speed_limit_is_kept():
@@ -200,7 +200,7 @@ def test_an_axis_out_of_reach_is_left_alone():
     found = _planned(body(0.0, inertia=FULL), drop(20.0, 15.0))
     assert not found.failure
     assert found.trajectory.vertical[-1, 0] == pytest.approx(0.0, abs=1e-6)
-    assert np.degrees(found.fine.end_tilt) > 10.0
+    assert np.degrees(found.end_tilt) > 10.0
 
 
 def test_level_from_the_start_asks_for_nothing():
@@ -250,7 +250,7 @@ def test_tumbling_with_wheels_that_spin_it_comes_to_rest():
     )
     found = gentlest(start, gyrostat, EC_45_FLAT)
     assert not found.failure
-    assert found.fine.end_tilt < 1e-5
+    assert found.end_tilt < 1e-5
     path = found.trajectory
     np.testing.assert_allclose(path.rate[0], start.rate, rtol=1e-12)
     np.testing.assert_allclose(path.wheel_speed[0], start.wheel_speed, rtol=1e-12)

@@ -77,7 +77,7 @@ def test_it_beats_the_figures_of_torques_that_are_held_for_a_step(
     assert found.solution.solved
     assert 0.98 < found.gyrostat.spin_inertia / stated < 0.99
     assert np.degrees(found.incidence) == pytest.approx(degrees, abs=0.1)
-    assert found.fine.violation < 1e-6
+    assert found.violation < 1e-6
 
 
 def _held_for_a_step(tilt, axes, steps=40):
@@ -139,7 +139,7 @@ def test_a_push_needs_what_holds_its_momentum_and_turns_back():
     shares = np.sin(np.radians(35.0)), np.cos(np.radians(35.0))
     least = (roll / shares[0] + pitch / shares[1]) / 2.0 / EC_45_FLAT.no_load_speed
     assert found.gyrostat.spin_inertia > least
-    assert found.fine.end_rate < 1e-6
+    assert found.end_rate < 1e-6
 
 
 SINGLE = np.array([[0.0], [1.0], [0.0]])
@@ -170,14 +170,14 @@ def test_one_program_sizes_any_layout_of_wheels(axes, pitch, roll, stated):
     found = smallest_wheels(Gyrostat(DIAGONAL, axes, 1.2e-4), asked(drop(pitch, roll)))
     assert found.solution.solved
     assert 0.97 < found.gyrostat.spin_inertia / stated < 0.995
-    assert not found.fine.failure
-    assert found.fine.end_tilt < 1e-6
+    assert not found.failure
+    assert found.end_tilt < 1e-6
 
 
 def test_a_single_wheel_flips_the_robot():
     """The theory's figure, with torques that are held for a step, is within 1 %."""
     found = smallest_wheels(Gyrostat(DIAGONAL, SINGLE, 2e-4), asked(BACK_FLIP))
-    assert not found.fine.failure
+    assert not found.failure
     assert 0.99 < found.gyrostat.spin_inertia / 2.95e-4 < 1.0
 
 
@@ -193,8 +193,8 @@ def test_wheels_about_the_vertical_turn_the_heading(axes, stated):
     up = np.array([0.0, 0.0, 1.0])
     yaw = Boundary("yaw", LEVEL, QUARTER, up, np.pi / 2.0, 2.0, end="attitude")
     found = smallest_wheels(Gyrostat(DIAGONAL, axes, 1.2e-4), yaw)
-    assert not found.fine.failure
-    assert found.fine.end_tilt < 1e-6
+    assert not found.failure
+    assert found.end_tilt < 1e-6
     assert 0.975 < found.gyrostat.spin_inertia / stated < 0.995
 
 
@@ -213,7 +213,7 @@ def test_two_wheels_turn_the_heading_by_a_loop_of_the_tilt(duration, stated):
     yaw = Boundary("yaw", LEVEL, QUARTER, up, 0.0, duration, end="attitude")
     loop = HeadingLoop(LEVEL, np.zeros(3), np.pi / 2.0, 0.0, duration)
     found = smallest_wheels(guess, yaw, start=loop.motion(guess, 16))
-    assert not found.fine.failure
-    assert found.fine.end_tilt < 1e-5
+    assert not found.failure
+    assert found.end_tilt < 1e-5
     assert found.gyrostat.spin_inertia == pytest.approx(stated, rel=0.02)
     assert np.abs(found.trajectory.rate[:, 2]).max() < 1e-6
