@@ -1,14 +1,8 @@
 """What would make a device lighter: single changes of the specification, and what they save.
 
-A selection at the place, the incidence and with the material and the reserve of the device as it
-stands tells quickly which drive is lightest after a change. The changed question is then sized as a
-whole with that drive, on a footing of its own with its own reserve, so that the mass is that of a
-device that `size` would find with it. Another drive may be lighter still there. Of a device that
-nothing holds on its robot the quick look is told, good to about 2 % of the modules, and says so.
-
-Where the mass to be saved is stated, each answer is the smallest change of one figure, in whole
-percent, or one or two other choices; where none of these does, one figure with one choice. It is
-searched for in the same way, and the changed question is then sized as a whole.
+A selection on the footing of the device as it stands tells quickly which drive is lightest after a
+change; the changed question is then sized as a whole with it (docs/theory.md, Alternatives and What
+must give). Where the mass to be saved is stated, each answer is the smallest change that does.
 """
 
 from bisect import bisect_left
@@ -117,11 +111,8 @@ def relaxations(specification: Specification, asked: SelectionProblem) -> Iterat
 def lighter_otherwise(
     specification: Specification, resolved: Resolved, choice: Choice | None, robot: Robot
 ) -> tuple[tuple[Alternative, ...], Owed | None]:
-    """What each relaxation would save, and to which maneuver the mass is owed.
-
-    Args: see `alternatives` and `owed_to`.
-    """
-    return _relaxed(specification, resolved, choice, robot), owed_to(choice, robot)
+    """What each relaxation would save, and to which maneuver the mass is owed."""
+    return alternatives(specification, resolved, choice, robot), owed_to(choice, robot)
 
 
 def alternatives(
@@ -129,35 +120,25 @@ def alternatives(
 ) -> tuple[Alternative, ...]:
     """What each relaxation of the defaults and of the limits would save; empty without a motor.
 
-    Last comes the other construction, see `built_otherwise`.
-
     Args:
         specification: what was stated: what it relaxes already is not offered again.
         resolved: the same with nothing left open.
         choice: the device, and what it was chosen from; None: it has no motor.
         robot: that carries it.
     """
-    relaxed = _relaxed(specification, resolved, choice, robot)
-    return (*relaxed, *built_otherwise(specification, resolved, choice, robot))
-
-
-def _relaxed(
-    specification: Specification, resolved: Resolved, choice: Choice | None, robot: Robot
-) -> tuple[Alternative, ...]:
-    """What each relaxation would save."""
     if choice is None:
         return ()
     chosen = choice.chosen
     worth = (1.0 - _WORTH) * chosen.mass
     answers, hangs = [], _hangs(choice, robot)
     for change in _changes(specification, resolved, choice, robot):
-        found, note = _lighter(change, choice, robot, quick=hangs), SAVES_NOTHING
+        found, note = change.lighter(choice, robot, quick=hangs), SAVES_NOTHING
         # What is lighter may be wider, and so may its plate.
         if found is None or found.mass > worth:
             found = chosen
         else:
-            quick = [_QUICK] if hangs and change.problem.incidence is not None else []
-            note = "; ".join([*quick, *_notes(change.problem, found, choice.problem)])
+            quick = ["by a quick look"] if hangs and not change.turns else []
+            note = "; ".join([*quick, *change.notes(found, choice.problem)])
         answers.append(_answer(change.text, found, note))
     return tuple(answers)
 
@@ -182,9 +163,48 @@ class _Change:
     resolved: Resolved
     problem: SelectionProblem
 
+    @property
+    def turns(self) -> bool:
+        """Whether the incidence is to be chosen anew."""
+        return self.problem.incidence is None
 
-_QUICK = "by a quick look"
-"""Note on what is not sized as a whole."""
+    def lighter(self, choice: Choice, robot: Robot, *, quick: bool) -> Candidate | None:
+        """The device with it, where a quick look finds drives that save anything.
+
+        It is sized as a whole with the lightest of those drives.
+
+        Args:
+            choice: the device as it stands. robot: that carries it.
+            quick: whether a device at the same incidence is told as the look finds it, with the
+                plate or the mast that it would stand on.
+        """
+        found = lightest_below(self.problem, (1.0 - _WORTH) * choice.chosen.modules_mass)
+        offered = self.resolved.choice
+        if found is None or offered is None:
+            return None
+        if quick and not self.turns:
+            return with_plate(found, self.problem, robot)
+        parts = replace(offered, motors=(found.motor,), gears=(found.gear,))
+        stated = self.specification.flywheel.material
+        if len(self.problem.materials) > 1 or (self.turns and stated != AUTO):
+            # Steels make much the same device, and to weigh them all at every incidence takes long.
+            parts = replace(parts, materials=(found.material,))
+        return _whole(self.specification, replace(self.resolved, choice=parts), robot)
+
+    def notes(self, found: Candidate, asked: SelectionProblem) -> Iterator[str]:
+        """What to know of the device that is found, beside its mass and its motor."""
+        if self.turns:
+            yield f"alpha {format_quantity(found.incidence, 'deg', 3)}"
+        if len(self.problem.materials) > 1:
+            yield found.material.name
+        rated = found.motor.rated_voltage
+        if rated is not None and self.problem.bus_voltage > _OVER * rated:
+            yield f"the motor is rated for {rated:g} V"
+        gaps = build_gaps(found.motor)
+        if gaps:
+            yield f"not buildable: {', '.join(gaps[:_GAPS_TOLD])} not known"
+        elif found.motor.name not in {motor.name for motor in asked.motors}:
+            yield "not buildable: its threads or shaft do not hold the wheel or the motor"
 
 
 def _hangs(choice: Choice, robot: Robot) -> bool:
@@ -197,30 +217,6 @@ def _hangs(choice: Choice, robot: Robot) -> bool:
         return False
     device = assemble_selected(choice.chosen)
     return footing_under(device, robot, stated=choice.problem.place.stated) is None
-
-
-def _lighter(change: _Change, choice: Choice, robot: Robot, *, quick: bool) -> Candidate | None:
-    """The device of a changed question, where a quick look finds drives that save anything.
-
-    It is sized as a whole with the lightest of those drives.
-
-    Args:
-        change: of the question. choice: the device as it stands. robot: that carries it.
-        quick: whether a device at the same incidence is told as the look finds it, with the plate
-            or the mast that it would stand on.
-    """
-    found = lightest_below(change.problem, (1.0 - _WORTH) * choice.chosen.modules_mass)
-    offered = change.resolved.choice
-    if found is None or offered is None:
-        return None
-    if quick and change.problem.incidence is not None:
-        return with_plate(found, change.problem, robot)
-    parts = replace(offered, motors=(found.motor,), gears=(found.gear,))
-    many, stated = len(change.problem.materials) > 1, change.specification.flywheel.material
-    if many or (change.problem.incidence is None and stated != AUTO):
-        # Steels make much the same device, and to weigh them all at every incidence takes long.
-        parts = replace(parts, materials=(found.material,))
-    return _whole(change.specification, replace(change.resolved, choice=parts), robot)
 
 
 def _whole(specification: Specification, resolved: Resolved, robot: Robot) -> Candidate | None:
@@ -265,20 +261,12 @@ def _changes(
     problem = replace(choice.problem, incidence=chosen.incidence, materials=(chosen.material,))
 
     def changed(text: str, to: SelectionProblem) -> _Change:
-        """What does not change is as it was resolved: factors on turns that were found too small,
-        and kicks about the centre of mass with a device."""
-        maneuvers = to.requirement.maneuvers
-        return _Change(
-            text,
-            specification,
-            replace(
-                resolved,
-                requirement=replace(resolved.requirement, maneuvers=maneuvers),
-                envelope=to.envelope,
-                choice=replace(offered, supply=to.supply),
-            ),
-            to,
-        )
+        # What does not change is as it was resolved: factors on turns that were found too small,
+        # and kicks about the centre of mass with a device.
+        requirement = replace(resolved.requirement, maneuvers=to.requirement.maneuvers)
+        own = replace(offered, supply=to.supply)
+        own_resolved = replace(resolved, requirement=requirement, envelope=to.envelope, choice=own)
+        return _Change(text, specification, own_resolved, to)
 
     for each in relaxations(specification, problem):
         stated = each.stated(specification)
@@ -321,22 +309,6 @@ def _changes(
     if asked.maneuvers:
         text = f"{MORE_TIME - 1.0:.0%} more time for every maneuver"
         yield changed(text, with_limit(problem, TIME, MORE_TIME))
-
-
-def _notes(changed: SelectionProblem, found: Candidate, asked: SelectionProblem) -> Iterator[str]:
-    """What to know of the device of a changed problem, beside its mass and its motor."""
-    if changed.incidence is None:
-        yield f"alpha {format_quantity(found.incidence, 'deg', 3)}"
-    if len(changed.materials) > 1:
-        yield found.material.name
-    rated = found.motor.rated_voltage
-    if rated is not None and changed.bus_voltage > _OVER * rated:
-        yield f"the motor is rated for {rated:g} V"
-    gaps = build_gaps(found.motor)
-    if gaps:
-        yield f"not buildable: {', '.join(gaps[:_GAPS_TOLD])} not known"
-    elif found.motor.name not in {motor.name for motor in asked.motors}:
-        yield "not buildable: its threads or shaft do not hold the wheel or the motor"
 
 
 def owed_to(choice: Choice | None, robot: Robot) -> Owed | None:
@@ -431,12 +403,10 @@ class _Search:
         """The smallest change that does: the more gives way, the lighter the device."""
 
         def does(percent: int) -> bool:
-            """Whether the selection has a device that is light enough."""
             return self._selected(lever.changed(percent)) is not None
 
         @cache
         def answer(percent: int) -> Alternative | None:
-            """Whether it is as light sized as a whole."""
             return self.answer(lever.text(percent), lever.changed(percent))
 
         if not does(MOST):
@@ -496,18 +466,41 @@ class _Search:
 
 
 def _levers(task: Task, owed: str) -> Iterator[_Lever]:
-    """Figures that can give way: time, room, supply, and what is asked."""
+    """Figures that can give way: time, room, supply, and what is asked.
+
+    Of the maneuver that the mass is `owed` to, its own time where there are several, and its tilt
+    or push; no flip is smaller.
+    """
     names, height = [maneuver.name for maneuver in task.maneuvers], task.standing_height
+
+    def longer(maneuver: Maneuver, percent: int) -> Maneuver:
+        return slower(maneuver, 1.0 + percent / 100.0, height)
+
+    def share(percent: int) -> float:
+        return round_outwards(1.0 / (1.0 + percent / 100.0), upwards=False, digits=2)
+
     if names:
         yield _Lever(
-            lambda percent: task.with_maneuvers(
-                lambda each: slower(each, 1.0 + percent / 100.0, height), names
-            ),
+            lambda percent: task.with_maneuvers(lambda each: longer(each, percent), names),
             lambda percent: f"{percent}% more time for every maneuver",
         )
     alone = next((each for each in task.maneuvers if each.name == owed), None)
     if alone is not None:
-        yield from _levers_of_one(task, alone)
+        if len(names) > 1:
+            yield _Lever(
+                lambda percent: task.with_maneuvers(lambda _: longer(alone, percent), [owed]),
+                lambda percent: (
+                    f"{percent}% more time for one: {change_text(alone, longer(alone, percent))}"
+                ),
+            )
+        kinds = {Drop: "tilt", StandUp: "tilt", Disturbance: "push", Shove: "push"}
+        if (what := kinds.get(type(alone))) is not None:
+            yield _Lever(
+                lambda percent: task.with_maneuvers(
+                    lambda _: milder(alone, share(percent)), [owed]
+                ),
+                lambda percent: f"{share(percent):.0%} of the {what} of {owed}",
+            )
     resolved = task.resolved
     envelope, rate = resolved.envelope, resolved.requirement.rate_change
     yield _key(task, "flywheel", "r_max", envelope.outer_radius_max, "mm")
@@ -521,41 +514,12 @@ def _levers(task: Task, owed: str) -> Iterator[_Lever]:
             yield _key(task, "supply", "power_max", supply.power_max, "W")
 
 
-def _levers_of_one(task: Task, maneuver: Maneuver) -> Iterator[_Lever]:
-    """More time for one maneuver of several, and a smaller tilt or push; no flip is smaller."""
-
-    def after(percent: int) -> Maneuver:
-        """The maneuver with more time."""
-        return slower(maneuver, 1.0 + percent / 100.0, task.standing_height)
-
-    def share(percent: int) -> float:
-        """Share of its tilt or push that is left."""
-        return round_outwards(1.0 / (1.0 + percent / 100.0), upwards=False, digits=2)
-
-    if len(task.maneuvers) > 1:
-        yield _Lever(
-            lambda percent: task.with_maneuvers(lambda _: after(percent), [maneuver.name]),
-            lambda percent: (
-                f"{percent}% more time for one: {change_text(maneuver, after(percent))}"
-            ),
-        )
-    kinds = {Drop: "tilt", StandUp: "tilt", Disturbance: "push", Shove: "push"}
-    if (what := kinds.get(type(maneuver))) is not None:
-        yield _Lever(
-            lambda percent: task.with_maneuvers(
-                lambda _: milder(maneuver, share(percent)), [maneuver.name]
-            ),
-            lambda percent: f"{share(percent):.0%} of the {what} of {maneuver.name}",
-        )
-
-
 def _key(
     task: Task, section: str, key: str, own: float, unit: str, *, upwards: bool = True
 ) -> _Lever:
     """A key of the file, rounded to three digits on its loose side."""
 
     def value(percent: int) -> float:
-        """Value of the key [SI]."""
         factor = 1.0 + percent / 100.0
         return round_outwards(own * factor if upwards else own / factor, upwards=upwards)
 

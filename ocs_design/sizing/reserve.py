@@ -201,7 +201,6 @@ def account(
     whole = sum(falls.values()) or 1.0
 
     def saved(key: str) -> float:
-        """What the device of the same parts weighs less if this is known [kg]."""
         if before is None or not spends:
             return 0.0
         lighter = resized(reserve.of(known[key]))
@@ -316,12 +315,12 @@ class Reality:
         )
         sure = NormalDist().inv_cdf(reserve.reliability)
         maneuvers = problem.requirement.maneuvers
-        flown = [self._flown(problem, device, maneuver, drawn) for maneuver in maneuvers]
+        flown = [_Flown.of(self, problem, device, maneuver, drawn) for maneuver in maneuvers]
         rates = [one.rate_kept(sure) for one in flown]
-        has = np.array([one.has(device, (0.0, 0.0)) for one in flown])
-        begun = [one.has(device, rate) for one, rate in zip(flown, rates, strict=True)]
+        has = np.array([one.has((0.0, 0.0)) for one in flown])
+        begun = [one.has(rate) for one, rate in zip(flown, rates, strict=True)]
         factors = [
-            one.factors(one.wheels(device, line, reserve.reliability), own)
+            one.factors(one.wheels(line, reserve.reliability), own)
             for one, own in zip(flown, has, strict=True)
         ]
         asked = np.stack(factors, axis=1)
@@ -336,68 +335,7 @@ class Reality:
             left=np.where(np.array(begun) > 0.0, begun / has, 1.0),
             blind=np.stack([one.lost for one in flown], axis=1),
             rolls=np.stack([one.rolls for one in flown], axis=1),
-            room=np.array([one.room(device) for one in flown]),
-        )
-
-    def _flown(
-        self,
-        problem: SelectionProblem,
-        device: Candidate,
-        maneuver: Maneuver,
-        drawn: Mapping[str, FloatArray],
-    ) -> "_Flown":
-        """One maneuver of the robots that are drawn."""
-        at = device.incidence if maneuver.incidence is None else maneuver.incidence
-        reached = np.abs(device.layout.axes(at)[:2]).max(axis=1)
-        nominal = inertia_at(problem, device, at).within_reach(reached, maneuver.stray)
-        # I_xx = S_y + S_z and I_yy = S_x + S_z, of the trunk's second moments S.
-        moments = self.trunk * drawn["inertia_error"]
-        added = moments[:, 2:] + moments[:, 1::-1]
-        heavier = drawn["mass_error"] * np.diag(problem.robot.inertia)[:2]
-        diagonal = nominal.diagonal + added + heavier
-        inertia = TiltInertia(diagonal, np.broadcast_to(nominal.product, len(diagonal)))
-        slew = maneuver.slew(inertia, problem.requirement.standing_height)
-        speed = maneuver.lift_off
-        # Forward of the middle the push pitches, left of it it rolls.
-        off = drawn["com_error"][:, 1::-1] if self.pushes_off else 0.0
-        rates = PUSH_OFF * device.total.mass * speed * off / diagonal
-        rates = rates + (drawn["takeoff_rate"] if speed else 0.0)
-        time, share = slew.duration, 1.0
-        arrives = isinstance(maneuver, Unforeseen | Drop)
-        if isinstance(maneuver, Flip):
-            # Who is behind the plan may take the whole flight, but brakes late, and ends in time
-            # only where the supply takes the wheels' energy in what the flight lasts beyond it.
-            energy = 0.5 * device.spin_inertia * device.line.top_speed**2
-            whole = self.flight * maneuver.flight_time
-            late = energy <= device.line.power_max * (whole - time)
-            arrives = bool(late) and self.flight > 1.0
-            time, share = (whole, 1.0) if late else (time, PLANNED)
-        # Each module is turned by hand on its foot, (robots, 2, n).
-        built, off = device.layout.axes(at), drawn["incidence_error"][:, None]
-        across = np.cross(device.layout.feet(built), built, axis=0)
-        axes = (np.cos(off) * built + np.sin(off) * across)[:, :2]
-        if problem.requirement.detection is not None:
-            # One robot after the other loses another wheel, at once.
-            lost = np.arange(len(axes)) % len(device.layout)
-            axes = axes * (np.arange(len(device.layout)) != lost[:, None])[:, None]
-            time -= problem.requirement.detection
-            arrives = False
-        return _Flown(
-            maneuver=maneuver,
-            requirement=problem.requirement,
-            designed=device.layout.axes(at),
-            nominal=nominal,
-            upright=float(device.total.inertia[2, 2]),
-            inertia=diagonal,
-            # A turn undoes a tilt of the other sense.
-            swept=slew.swept * (1.0 if isinstance(maneuver, Unforeseen) else -1.0),
-            momentum=slew.momentum + diagonal * rates,
-            rates=rates,
-            duration=time - drawn["torque_delay"],
-            share=share,
-            tilted=ARRIVES if arrives else 1.0,
-            axes=axes,
-            bias=drawn["attitude_bias"],
+            room=np.array([one.room for one in flown]),
         )
 
 
@@ -423,9 +361,9 @@ class _Flown:
     """One maneuver of the robots that are drawn.
 
     Attributes:
-        maneuver, requirement: see there.
+        maneuver, requirement, device: what is flown.
         designed: axes of the wheels, shape (3, n).
-        nominal: inertia of robot and device as designed. upright: its I_zz [kg m^2].
+        nominal: inertia of robot and device as designed.
         inertia: as built [kg m^2], (robots, 2).
         swept, momentum: that the wheels must take about roll and pitch, shape (robots, 2).
         rates: of roll and pitch at lift-off [rad/s], shape (robots, 2).
@@ -438,9 +376,9 @@ class _Flown:
 
     maneuver: Maneuver
     requirement: Requirement
+    device: Candidate
     designed: FloatArray
     nominal: TiltInertia
-    upright: float
     inertia: FloatArray
     swept: FloatArray
     momentum: FloatArray
@@ -450,6 +388,74 @@ class _Flown:
     tilted: float
     axes: FloatArray
     bias: FloatArray
+
+    @classmethod
+    def of(
+        cls,
+        reality: Reality,
+        problem: SelectionProblem,
+        device: Candidate,
+        maneuver: Maneuver,
+        drawn: Mapping[str, FloatArray],
+    ) -> "_Flown":
+        """One maneuver of the robots that are drawn."""
+        at = device.incidence if maneuver.incidence is None else maneuver.incidence
+        reached = np.abs(device.layout.axes(at)[:2]).max(axis=1)
+        nominal = inertia_at(problem, device, at).within_reach(reached, maneuver.stray)
+        # I_xx = S_y + S_z and I_yy = S_x + S_z, of the trunk's second moments S.
+        moments = reality.trunk * drawn["inertia_error"]
+        added = moments[:, 2:] + moments[:, 1::-1]
+        heavier = drawn["mass_error"] * np.diag(problem.robot.inertia)[:2]
+        diagonal = nominal.diagonal + added + heavier
+        inertia = TiltInertia(diagonal, np.broadcast_to(nominal.product, len(diagonal)))
+        slew = maneuver.slew(inertia, problem.requirement.standing_height)
+        speed = maneuver.lift_off
+        # Forward of the middle the push pitches, left of it it rolls.
+        off = drawn["com_error"][:, 1::-1] if reality.pushes_off else 0.0
+        rates = PUSH_OFF * device.total.mass * speed * off / diagonal
+        rates = rates + (drawn["takeoff_rate"] if speed else 0.0)
+        time, share = slew.duration, 1.0
+        arrives = isinstance(maneuver, Unforeseen | Drop)
+        if isinstance(maneuver, Flip):
+            # Who is behind the plan may take the whole flight, but brakes late, and ends in time
+            # only where the supply takes the wheels' energy in what the flight lasts beyond it.
+            energy = 0.5 * device.spin_inertia * device.line.top_speed**2
+            whole = reality.flight * maneuver.flight_time
+            late = energy <= device.line.power_max * (whole - time)
+            arrives = bool(late) and reality.flight > 1.0
+            time, share = (whole, 1.0) if late else (time, PLANNED)
+        # Each module is turned by hand on its foot, (robots, 2, n).
+        built, off = device.layout.axes(at), drawn["incidence_error"][:, None]
+        across = np.cross(device.layout.feet(built), built, axis=0)
+        axes = (np.cos(off) * built + np.sin(off) * across)[:, :2]
+        if problem.requirement.detection is not None:
+            # One robot after the other loses another wheel, at once.
+            lost = np.arange(len(axes)) % len(device.layout)
+            axes = axes * (np.arange(len(device.layout)) != lost[:, None])[:, None]
+            time -= problem.requirement.detection
+            arrives = False
+        return cls(
+            maneuver=maneuver,
+            requirement=problem.requirement,
+            device=device,
+            designed=device.layout.axes(at),
+            nominal=nominal,
+            inertia=diagonal,
+            # A turn undoes a tilt of the other sense.
+            swept=slew.swept * (1.0 if isinstance(maneuver, Unforeseen) else -1.0),
+            momentum=slew.momentum + diagonal * rates,
+            rates=rates,
+            duration=time - drawn["torque_delay"],
+            share=share,
+            tilted=ARRIVES if arrives else 1.0,
+            axes=axes,
+            bias=drawn["attitude_bias"],
+        )
+
+    @property
+    def upright(self) -> float:
+        """I_zz of robot and device as designed [kg m^2]."""
+        return float(self.device.total.inertia[2, 2])
 
     @property
     def _turns_over(self) -> bool:
@@ -485,10 +491,10 @@ class _Flown:
             [self.maneuver], requirement, self.nominal, axes, begun=[True], upright=upright
         )
 
-    def has(self, device: Candidate, rate: tuple[float, float]) -> float:
+    def has(self, rate: tuple[float, float]) -> float:
         """What the device does over what is asked, by the selection's own formula."""
-        demand = spin_demand(self._task(rate), device.line.reserved(), device.armature)
-        can = capability(demand, np.asarray(device.spin_inertia))
+        demand = spin_demand(self._task(rate), self.device.line.reserved(), self.device.armature)
+        can = capability(demand, np.asarray(self.device.spin_inertia))
         return (can.sweep / demand.sweep).item()
 
     def _each(self, asked: FloatArray) -> FloatArray:
@@ -499,12 +505,10 @@ class _Flown:
         reached = self._reached
         return held_by_each(self.axes * reached[:, None], asked * reached)
 
-    def wheels(
-        self, device: Candidate, line: DriveLine, reliability: float
-    ) -> tuple[FloatArray, FloatArray]:
+    def wheels(self, line: DriveLine, reliability: float) -> tuple[FloatArray, FloatArray]:
         """What each wheel must sweep and what it can [N m s^2], with its sense, (robots, n)."""
         momentum = self.momentum
-        if np.quantile(self.rolls, reliability) > self.room(device):
+        if np.quantile(self.rolls, reliability) > self.room:
             # Other wheels or another incidence undo the roll: larger ones here would not.
             momentum = momentum - self.inertia * self.rates * [1.0, 0.0]
         held, load = self._each(momentum), self._task((0.0, 0.0)).load()
@@ -514,11 +518,11 @@ class _Flown:
             momentum=np.abs(held),
             duration=self.duration,
             coupling=np.asarray(load.coupling.item()),
-            armature=np.asarray(device.armature),
+            armature=np.asarray(self.device.armature),
             least=np.zeros(1),
             drive=UnitDrive.of(line.reserved(self.share).begun(load.begins.item())),
         )
-        can = capability(demand, np.asarray(device.spin_inertia)).sweep
+        can = capability(demand, np.asarray(self.device.spin_inertia)).sweep
         return asked, np.copysign(can, asked)
 
     def factors(self, wheels: tuple[FloatArray, FloatArray], has: float) -> FloatArray:
@@ -546,10 +550,11 @@ class _Flown:
         alike = turned_roll(self.nominal.diagonal[..., 0], self.upright)
         return undone / alike if self._undoes_roll else np.zeros(len(undone))
 
-    def room(self, device: Candidate) -> float:
+    @property
+    def room(self) -> float:
         """The largest rate of roll at lift-off that the device undoes in a flip [rad/s]."""
         per_rate = held_in_roll(1.0, self.nominal, self.upright, self.designed, self.requirement)
-        most = device.spin_inertia * float(device.line.reserved().top_speed)
+        most = self.device.spin_inertia * float(self.device.line.reserved().top_speed)
         return most / float(per_rate) if self._undoes_roll and per_rate > 0.0 else np.inf
 
     @property

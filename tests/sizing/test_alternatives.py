@@ -17,7 +17,7 @@ from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.maneuver import Flip
 from ocs_design.requirement.sections import RequirementSection, RobotSection
 from ocs_design.requirement.specification import Specification
-from ocs_design.sizing.alternatives import MORE_TIME, alternatives
+from ocs_design.sizing.alternatives import MORE_TIME, alternatives, built_otherwise
 from ocs_design.sizing.design import design_device
 from ocs_design.workflows.pareto import read_task
 
@@ -30,11 +30,17 @@ MOTORS = "MN4014 KV400"
 STATED = Specification(motor=MotorSection(name=MOTORS))
 
 
+def told_of(task, designed):
+    """All that would be lighter, the other construction last."""
+    asked = task.specification, task.resolved, designed.choice, task.robot
+    return (*alternatives(*asked), *built_otherwise(*asked))
+
+
 @cache
 def compared(specification):
     """The task, the device, and what would be lighter by change."""
     task, designed = design_of(specification)
-    found = alternatives(task.specification, task.resolved, designed.choice, task.robot)
+    found = told_of(task, designed)
     return task, designed, {each.change: each for each in found}
 
 
@@ -102,7 +108,7 @@ def test_rings_on_a_robot_are_weighed_on_feet_and_a_plate_of_their_own():
     stated = Specification(robot=RobotSection(file=SOLO12))
     task = read_task(stated)
     designed = design_device(stated, task.robot, task.resolved, ranked=False)
-    found = alternatives(stated, task.resolved, designed.choice, task.robot)
+    found = told_of(task, designed)
     told = {each.change: each.mass_total for each in found}
     ring = replace(stated, ocs=OcsSection(wheel="ring"))
     longer = task.with_maneuvers(
@@ -154,7 +160,7 @@ def test_where_nothing_holds_a_device_a_quick_look_is_told_and_says_so(monkeypat
     """The look leaves out only the reserve of its own and what a mast asks of the wheels."""
     task, designed, whole = compared(STATED)
     monkeypatch.setattr("ocs_design.sizing.alternatives._hangs", lambda *_: True)
-    quick = alternatives(task.specification, task.resolved, designed.choice, task.robot)
+    quick = told_of(task, designed)
     assert not any(each.note.startswith("--wheel") for each in quick)
     told = {each.change: each for each in quick}
     change = "modules turned to 0 deg by hand for each flip"

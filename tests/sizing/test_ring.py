@@ -23,7 +23,7 @@ from ocs_design.parts.printed import CLEARANCE
 from ocs_design.requirement.device_sections import FlywheelSection, MotorSection, OcsSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.robot.mass import MassProperties, combine
-from ocs_design.sizing.alternatives import alternatives
+from ocs_design.sizing.alternatives import built_otherwise
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.limits import TIME
 from ocs_design.sizing.selection.candidates import Candidates, drives_of
@@ -158,7 +158,8 @@ def test_each_construction_tells_of_the_other():
     sides, alone = {}, {"alpha": 0.6}
     for wheel in ("disc", "ring"):
         task, designed = made(wheel, **alone)
-        found = alternatives(task.specification, task.resolved, designed.choice, task.robot)
+        asked = task.specification, task.resolved, designed.choice, task.robot
+        found = built_otherwise(*asked)
         (sides[wheel],) = (each for each in found if each.note.startswith("--wheel"))
     for wheel, other in (("disc", "ring"), ("ring", "disc")):
         assert sides[wheel].note == f"--wheel {other}"
