@@ -55,7 +55,8 @@ def all_warnings(design: OcsDesign) -> Iterator[str]:
         links = f"{first} and {counted(len(others), 'more link')}" if others else first
         yield f"{links} can hit a module within the joints' limits"
     yield from _motor_notes(design)
-    yield from (note for note in ocs.fitting if _NOT_DESIGNED in note)
+    # A part of one's own comes before what is done by hand.
+    yield from sorted(ocs.fitting, key=lambda note: _NOT_DESIGNED not in note)
 
 
 def unchecked_stress(ocs: OcsRecord) -> str:
