@@ -42,9 +42,11 @@ class Result:
         return re.sub(r"[│╭╮╰╯─\s]+", " ", f"{self.stderr}\n{self.stdout}")
 
 
-def run(*arguments, stdin=b""):
-    """In this process, for a process of its own takes seconds to start."""
-    # A pipe would have unbroken lines.
+def run(*arguments, stdin=b"", piped=False):
+    """In this process, for a process of its own takes seconds to start.
+
+    Lines are those of a terminal of 80 columns, or of a pipe, which breaks none.
+    """
     width = {"COLUMNS": os.environ.get("COLUMNS", "80")}
     streams = [io.TextIOWrapper(io.BytesIO(), "utf-8", write_through=True) for _ in range(2)]
     given = io.TextIOWrapper(io.BytesIO(stdin), "utf-8")
@@ -54,6 +56,8 @@ def run(*arguments, stdin=b""):
         mock.patch.object(sys, "stdin", given),
         mock.patch.dict(os.environ, width),
     ):
+        if piped:
+            del os.environ["COLUMNS"]
         code = errors.run(app, [str(argument) for argument in arguments])
     out, err = (stream.buffer.getvalue().decode() for stream in streams)
     return Result(code, out, err)

@@ -2,6 +2,7 @@
 
 import os
 
+import pytest
 from hypothesis import settings
 
 LONGEST = "test_the_commands_that_the_docs_show_still_print_that"
@@ -21,4 +22,19 @@ def pytest_collection_modifyitems(items):
     Next comes the file that makes the products of `size`: a worker that comes to another file that
     opens them would wait till they are there.
     """
-    items.sort(key=lambda item: (item.name != LONGEST, item.path.name != OPENED_BY_MANY))
+    items.sort(key=lambda item: (LONGEST not in item.name, item.path.name != OPENED_BY_MANY))
+
+
+@pytest.fixture(scope="module")
+def no_alternatives():
+    """`size` looks for nothing lighter: half of its time, where nothing is asked of it."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("ocs_design.workflows.size.lighter_otherwise", lambda *_: ((), None))
+        patch.setattr("ocs_design.workflows.size.built_otherwise", lambda *_: ())
+        yield
+
+
+@pytest.fixture
+def no_files(monkeypatch):
+    """`size` writes its design and its report alone, where no part or robot is opened."""
+    monkeypatch.setattr("ocs_design.workflows.size.USUAL_FORMATS", ())

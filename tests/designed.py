@@ -6,11 +6,14 @@ Each is made once in a process, however it is asked for.
 from dataclasses import replace
 from functools import cache
 
+from commands import SOLO12
 from fronts import by_hand
 
 from ocs_design.requirement.device_sections import FlywheelSection, MotorSection, OcsSection
-from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.sections import RobotSection
+from ocs_design.requirement.specification import Specification, specification_from_options
 from ocs_design.sizing.design import design_device
+from ocs_design.workflows.pareto import read_task
 
 MOTOR = "EC 45 flat 70 W 411812"
 
@@ -32,3 +35,20 @@ def design_of(specification):
     task = by_hand()
     task = task.with_specification(replace(specification, robot=task.specification.robot))
     return task, design_device(task.specification, task.robot, task.resolved)
+
+
+@cache
+def solo12():
+    """What is asked by default of Solo12's own file, which is read once."""
+    return read_task(Specification(robot=RobotSection(file=SOLO12)))
+
+
+def on_solo12(**options):
+    """The task for it with these options of the command; `motor__name` is `motor.name`."""
+    named = {name.replace("__", "."): value for name, value in options.items()}
+    return solo12().with_specification(specification_from_options({"robot.file": SOLO12, **named}))
+
+
+def device_for(task, **options):
+    """The design of a task."""
+    return design_device(task.specification, task.robot, task.resolved, **options)

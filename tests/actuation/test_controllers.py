@@ -1,46 +1,18 @@
 """The rule for controllers' masses against what can be bought."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from ocs_design.actuation.controllers import (
     BASE_MASS,
+    KNOWN,
     MASS_PER_CURRENT,
     controller_mass,
     controller_mass_of,
 )
 from ocs_design.catalogue.motors import motors
-
-
-@dataclass(frozen=True)
-class Controller:
-    """Mass [kg] and peak current, amplitude of a phase [A], of one that can be bought."""
-
-    name: str
-    mass: float
-    peak_current: float
-    source: str
-
-
-_MOTEUS = "README of github.com/mjbots/moteus"
-_ODRIVE = "docs.odriverobotics.com/v/latest/hardware"
-
-KNOWN = (
-    Controller("ODrive Micro", 0.0081, 7.0, f"{_ODRIVE}/micro-datasheet.html, with its receptacle"),
-    Controller("moteus-c1", 0.0089, 20.0, _MOTEUS),
-    Controller(
-        "Aerostar 30A RVS G2",
-        0.033,
-        40.0,
-        "github.com/DVA490-474-Project-Course/SSL-Hardware-Development, wiki page ESC, with wires",
-    ),
-    Controller("moteus-r4.11", 0.0142, 100.0, _MOTEUS),
-    Controller("moteus-n1", 0.0146, 100.0, _MOTEUS),
-    Controller("moteus-x1", 0.0238, 120.0, _MOTEUS),
-    Controller("ODrive Pro", 0.072, 120.0, f"{_ODRIVE}/pro-datasheet.html, with heat spreader"),
-)
 
 
 def test_the_rule_is_the_least_squares_of_the_known_ones():

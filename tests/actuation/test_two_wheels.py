@@ -107,12 +107,11 @@ PAIRS = [
 def test_a_slew_about_pitch(pair, angle, rate):
     """Both motors on their limits turn the trunk by the angle and leave it at rest."""
     load = pair.task([0.0, angle], [0.0, rate]).load()
-    final = load.final_speed(pair.spin_inertia)
     profile = slew_profile(
         load.angle(pair.spin_inertia),
         load.reduced_inertia(pair.spin_inertia, pair.armature),
         LINE,
-        final,
+        load.final_speed(pair.spin_inertia),
     )
 
     def drive(phase, speeds, matrix):
@@ -124,9 +123,9 @@ def test_a_slew_about_pitch(pair, angle, rate):
     # The trunk turns against its wheels.
     assert state[:2] == pytest.approx([0.0, -angle], abs=1e-8 * angle)
     assert state[4:6] == pytest.approx([0.0, 0.0], abs=1e-8)
-    assert state[6:] == pytest.approx([float(final)] * 2, rel=1e-8, abs=1e-6)
+    assert state[6:] == pytest.approx([float(profile.final_speed)] * 2, rel=1e-8, abs=1e-6)
     # What it sweeps beyond its final speed, and that speed all the time.
-    turned = float(load.angle(pair.spin_inertia) + final * profile.end)
+    turned = float(load.angle(pair.spin_inertia) + profile.final_speed * profile.end)
     assert state[2:4] == pytest.approx([turned, turned], rel=1e-8)
 
 

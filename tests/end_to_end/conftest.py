@@ -46,26 +46,12 @@ def exported(product):
     return pinocchio_model((product.folder / "robot" / "solo12_ocs.urdf").read_text())
 
 
-@pytest.fixture(scope="module")
-def no_alternatives():
-    """`size` compares with no other device: a third of its time, where nothing is asked of it."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("ocs_design.sizing.alternatives.alternatives", lambda *_: ())
-        yield
-
-
 @pytest.fixture(scope="session", autouse=True)
 def one_process():
     """Tests run on all processors already; commands in processes of their own use a second one."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("ocs_design.common.beside.processors", lambda: 1)
         yield
-
-
-@pytest.fixture
-def no_files(monkeypatch):
-    """`size` writes its design and its report alone, where no part or robot is opened."""
-    monkeypatch.setattr("ocs_design.workflows.size.USUAL_FORMATS", ())
 
 
 @pytest.fixture

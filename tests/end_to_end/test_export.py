@@ -43,10 +43,6 @@ def robot_in_mjcf():
     return sized("in.xml", "--rate-change", "1rad/s", "--trunk", "trunk")
 
 
-def robot_with_y_up():
-    return sized(HUMAN)
-
-
 def robot_gzipped():
     Path("solo.urdf.gz").write_bytes(gzip.compress(Path(SOLO12).read_bytes()))
     return sized("solo.urdf.gz", "--posture", "zero", "--joint", "FL_KFE=-0.5")
@@ -62,7 +58,7 @@ def robot_with_meshes_elsewhere():
 
 @pytest.mark.parametrize(
     "make",
-    [robot_by_hand, robot_in_mjcf, robot_with_y_up, robot_gzipped, robot_with_meshes_elsewhere],
+    [robot_by_hand, robot_in_mjcf, robot_gzipped, robot_with_meshes_elsewhere],
 )
 def test_it_is_the_same_for_a(folder, make):
     source = make()
@@ -94,6 +90,8 @@ def test_parts_and_snippets_need_no_robot(solo12):
 def test_the_seat_of_a_robot_with_y_up_is_in_the_design(folder):
     shutil.copy(HUMAN, "h.urdf")
     source = sized("h.urdf")
+    assert run("export", source, "-o", "whole", "-q").code == 0
+    assert made_in("whole") == made_in(source)
     Path("h.urdf").unlink()
     assert run("export", source, "-o", "again", "-q", "--formats", "snippets").code == 0
     for name, content in made_in("again").items():

@@ -17,6 +17,7 @@ TOO_TIGHT = {
     "thin room": ("--r-max", "49mm", "--r-min", "48mm"),
     "rate": ("--rate-change", "30rad/s", "--r-max", "30mm"),
 }
+ONE_KIND = ("--gear", "direct", "--material", "stainless-304")
 WHEELS_ALONE = ("--motor", "none", "--no-validate")
 TOO_WEAK = "Antigravity 4004 KV300"
 NEEDED_MOTOR = re.compile(
@@ -72,7 +73,7 @@ def test_a_missing_authority_is_no_matter_of_size(folder):
 
 
 def test_no_motor_reaches_an_axis_that_the_incidence_leaves_out(folder):
-    error = refused(SOLO12, "--alpha", "0", "--motor", "R80 KV110")
+    error = refused(SOLO12, "--alpha", "0", "--motor", "R80 KV110", *ONE_KIND)
     assert (error["relaxations"], error["required_spin_inertia"]) == ({}, None)
     assert "axis out of reach" in error["message"]
     # That is so, and no limit of the room has any part in it.
@@ -83,7 +84,7 @@ def test_no_motor_reaches_an_axis_that_the_incidence_leaves_out(folder):
 def test_two_motors_that_are_both_too_weak(folder):
     """Four times Solo12, with motors of its size: more time would do, and so would a third one."""
     weak = ("--mass", "10", "--inertia", "0.3,0.45,0.5", "--motor", f"{TOO_WEAK}, MN4014 KV400")
-    error = refused(*weak)
+    error = refused(*weak, *ONE_KIND)
     assert error["binding"] == ["torque"]
     said = r"None of 2 motors can do it at 24 V with \d wheels; MN4014 KV400 comes closest"
     assert re.search(said, error["message"])
@@ -91,9 +92,6 @@ def test_two_motors_that_are_both_too_weak(folder):
     assert set(error["relaxations"]) == {"time"}
     for key in ("drop height", "back-flip jump_height", "duration"):
         assert key in error["hint"]
-
-
-ONE_KIND = ("--gear", "direct", "--material", "stainless-304")
 
 
 def test_a_refusal_tells_what_is_doubted_what_was_assumed_and_what_nobody_asked_for(folder):

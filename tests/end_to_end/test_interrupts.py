@@ -11,7 +11,7 @@ import pytest
 from commands import BOUND, PROGRAM, SOLO12, everything_in
 
 
-@pytest.mark.parametrize("typed", ["inspect --json", "size", "inspect"])
+@pytest.mark.parametrize("typed", ["inspect --json", "size"])
 def test_the_reader_of_the_output_may_leave(folder, typed):
     """As `head` does: no complaint, and nothing half done is left."""
     command, *options = typed.split()
@@ -35,11 +35,6 @@ def started(process, folder, said):
 def loaded(process, folder, said):
     """The solver is, and the robot is read next."""
     return b"load the solver" in said.read_bytes()
-
-
-def sized(process, folder, said):
-    """The device is, and everything is written and flown next."""
-    return b"size the device" in said.read_bytes()
 
 
 def written(process, folder, said):
@@ -92,7 +87,6 @@ TWICE = (signal.SIGINT, signal.SIGINT)
         (started, (signal.SIGINT,)),
         (started, (signal.SIGTERM,)),
         (loaded, (signal.SIGHUP,)),
-        (sized, TWICE),
     ],
     ids=lambda each: getattr(each, "__name__", None) or "-".join(number.name for number in each),
 )

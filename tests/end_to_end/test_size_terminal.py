@@ -97,15 +97,6 @@ def test_json_is_the_artefact_and_nothing_else(product, tmp_path, monkeypatch):
     assert result.stdout == (tmp_path / "solo12-ocs" / "design.json").read_text()
 
 
-@pytest.mark.slow
-def test_jumps_start_on_the_ground(tmp_path, no_alternatives, no_files):
-    result = run("size", SOLO12, "-o", tmp_path / "out", "--json")
-    assert result.code == 0
-    for record in result.document["validation"]:
-        assert record["passed"] is record["ocs"], record["reason"]
-        assert (record["metrics"]["lift_off_time"] > 0.0) == (record["scenario"] != "drop")
-
-
 def in_a_terminal(*arguments, **variables):
     """What a terminal of 80 columns gets to see."""
     child, screen = pty.fork()

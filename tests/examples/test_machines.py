@@ -8,13 +8,13 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
+from designed import device_for
 from scripts import script_at
 
 from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia
 from ocs_design.requirement.reading import read_specification
 from ocs_design.requirement.resolving import read_specified_robot, resolve
 from ocs_design.robot.mass import MassProperties
-from ocs_design.sizing.design import design_device
 from ocs_design.sizing.trajectory.boundary import pivot_boundary
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.plans import drive_line_of, gentlest
@@ -117,14 +117,19 @@ def test_the_room_for_a_rim_is_that_of_the_wheel_as_built(name, mass, spin, acro
         assert cylinder_transverse_inertia(*whole) == pytest.approx(across)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("axis", ["roll", "pitch"])
-def test_rex_hopper_as_built_catches_itself_from_16_degrees(axis):
-    """Planned with everything that its motors have, in the whole machine as published."""
+@pytest.fixture(scope="module")
+def hopping():
+    """REx Hopper's device."""
     stated = specification("rex_hopper")
     nominal = replace(stated, requirement=replace(stated.requirement, reliability=0.5))
-    task = read_task(nominal, package_paths={}, strict=False)
-    device = design_device(nominal, task.robot, task.resolved, ranked=False).device
+    return stated, device_for(read_task(nominal), ranked=False).device
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("axis", ["roll", "pitch"])
+def test_rex_hopper_as_built_catches_itself_from_16_degrees(axis, hopping):
+    """Planned with everything that its motors have, in the whole machine as published."""
+    stated, device = hopping
     whole = standing.REX_HOPPER
     body = MassProperties(whole.mass, whole.com, whole.inertia)
     for degrees, catches in ((16.0, True), (17.0, False)):

@@ -47,6 +47,7 @@ def test_every_figure_is_on_the_page_and_small():
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("no_files")
 def test_the_flights_on_the_page_are_those_that_are_flown(script, tmp_path):
     text = PAGE.read_text()
     assert script.page(text) == text

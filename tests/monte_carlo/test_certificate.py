@@ -145,7 +145,7 @@ def test_no_reserve_is_raised_where_it_does_not_help(campaign, metric, cause, wo
     assert words in learnt.told
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive  # `test_the_notebook_runs` flies it too, as `validate` does.
 def test_what_the_docs_quote_is_what_flies():
     """Single flights may end otherwise on another machine: intervals overlap, the verdict stays."""
     quoted = certified.kept()["solo12"]

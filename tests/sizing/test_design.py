@@ -6,9 +6,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from designed import MOTOR, designed
+from designed import MOTOR, designed, device_for, on_solo12, solo12
 from products import equal_rate
-from robots import SOLO12
 from wheels import braked_inertia
 
 from ocs_design.actuation.drive import speed_limit
@@ -23,10 +22,9 @@ from ocs_design.parts.printed import CLEARANCE, SHOCK
 from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.phrases import Kick
 from ocs_design.requirement.sections import RequirementSection, RobotSection
-from ocs_design.requirement.specification import Specification, specification_from_options
+from ocs_design.requirement.specification import Specification
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing import on_robot
-from ocs_design.sizing.design import design_device
 from ocs_design.sizing.footing.feet import Footing
 from ocs_design.workflows.pareto import read_task
 
@@ -41,11 +39,8 @@ def test_the_total_is_robot_and_device_braked(motor):
 
 
 def test_the_incidence_of_the_robot_alone_does_not_count_the_plate():
-    asked = specification_from_options(
-        {"robot.file": str(SOLO12), "motor.name": "Antigravity MN5006 KV450"}
-    )
-    task = read_task(asked, package_paths={}, strict=False)
-    found = design_device(asked, task.robot, task.resolved)
+    task = on_solo12(motor__name="Antigravity MN5006 KV450")
+    found = device_for(task)
     assert found.device.plate is not None
     alone = found.sized.incidence_by_criterion_robot[Criterion.EQUAL_RATE]
     assert alone == pytest.approx(equal_rate(task.robot.inertia), rel=1e-12)
@@ -53,17 +48,13 @@ def test_the_incidence_of_the_robot_alone_does_not_count_the_plate():
 
 def test_wheels_that_a_brake_stops_turn_no_faster_than_their_joint_takes():
     """J W / t of the rotor goes through it; the motor alone would turn faster than that."""
-    asked = specification_from_options(
-        {
-            "robot.file": str(SOLO12),
-            "motor.name": "XING2 2207 KV1855",
-            "requirement.pivot": "0,0,-0.272 along left",
-            "requirement.stand_up": "pitch 20deg by brake",
-        }
+    task = on_solo12(
+        motor__name="XING2 2207 KV1855",
+        requirement__pivot="0,0,-0.272 along left",
+        requirement__stand_up="pitch 20deg by brake",
     )
-    task = read_task(asked, package_paths={}, strict=False)
     (climb,) = task.resolved.requirement.maneuvers
-    found = design_device(asked, task.robot, task.resolved).device
+    found = device_for(task).device
     joint = next(each for each in joints_of(found) if each.name == SHAFT_JOINT)
     drive = found.motor
     most = joint.capacity * climb.stop / (1.5 * drive.rotor_inertia)
@@ -113,7 +104,7 @@ def test_feet_of_a_heavy_device_are_as_thick_as_its_shock_asks_for():
     """To 0.1 mm, and 0.2 mm that are left as they are; all of it is weighed."""
     robot = RobotSection(mass=12.0, inertia=(0.1, 0.25, 0.3))
     task = read_task(Specification(robot=robot, motor=MotorSection(name="U8 Lite L KV110")))
-    device = design_device(task.specification, task.robot, task.resolved).device
+    device = device_for(task).device
     thick = device.foot_plate
     assert thick > 0.006
     bears = foot_shock(foot_of(device), device.flywheel.mass + device.carrier.mass)
@@ -156,14 +147,10 @@ def test_guard_rings_hold_the_wheel_that_they_were_sized_with():
 def test_a_device_is_sized_for_kicks_about_the_centre_of_mass_of_all():
     """From above, for less than the robot alone would have to take up, and so it is lighter."""
     asked = RequirementSection(jump_height=(0.3,), kick=(Kick(1.0, (0.1, 0.1, 0.03)),))
-    task = read_task(
-        Specification(
-            robot=RobotSection(file="examples/solo12.urdf"),
-            requirement=asked,
-            motor=MotorSection(name=MOTOR),
-        )
+    task = solo12().with_specification(
+        Specification(requirement=asked, motor=MotorSection(name=MOTOR))
     )
-    found = design_device(task.specification, task.robot, task.resolved)
+    found = device_for(task)
     own, alone = found.requirement.kicks, task.resolved.requirement.kicks
     assert own == pytest.approx(task.resolved.requirement.on(found.sized.total).kicks)
     assert found.choice.problem.requirement.kicks == pytest.approx(own, rel=0.01, abs=1e-9)
@@ -183,7 +170,7 @@ def test_a_device_that_is_held_another_way_each_time_is_refused(monkeypatch, kil
     monkeypatch.setattr(on_robot, "footing_under", lambda *_, **__: next(held))
     refused = None
     try:
-        design_device(task.specification, task.robot, task.resolved)
+        device_for(task)
     except on_robot.NeverHeld as error:
         refused = error
     assert (refused is None) is stays

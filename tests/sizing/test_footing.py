@@ -2,7 +2,7 @@
 
 import re
 from dataclasses import replace
-from itertools import combinations, pairwise, product
+from itertools import combinations, cycle, pairwise, product
 from math import acos, hypot, pi, sqrt
 
 import msgspec
@@ -182,7 +182,7 @@ def test_two_pairs_stand_on_the_trunk_or_on_a_plate_each(boxed, width):
     np.testing.assert_allclose(frames[:2], [each.frame for each in DEVICE.modules], atol=1e-12)
 
 
-@pytest.mark.parametrize("count", [3, 4, 5, 6])
+@pytest.mark.parametrize("count", [3, 6])
 def test_a_ring_of_modules_stands_on_one_plate(boxed, count):
     """On a trunk that is narrower than it: threads for each foot, and two screws hold each arm."""
     robot = boxed(0.13)
@@ -301,8 +301,7 @@ def test_what_leans_stands_on_pedestals_that_the_design_counts(boxed, name):
         check_device(replace(device, pedestals=(replace(other, module="none"), *rest)))
 
 
-@pytest.mark.parametrize("layout", [LayoutName.PAIR, LayoutName.TRIAD])
-@pytest.mark.parametrize("name", REAL)
+@pytest.mark.parametrize(("name", "layout"), zip(REAL, cycle((LayoutName.PAIR, LayoutName.TRIAD))))
 def test_nothing_hangs_and_nothing_collides_over_a_full_turn(name, layout):
     """A wheel is within its housing whatever its angle: cylinders are all that they sweep."""
     robot, layout = read_robot(ROBOTS / f"{name}.urdf"), Layout(layout)
@@ -325,6 +324,9 @@ def test_nothing_hangs_and_nothing_collides_over_a_full_turn(name, layout):
         for solid in module.foot:
             nearest = min(between(disc, solid) for disc in plate_solids(device.plate))
             assert nearest == pytest.approx(0.0, abs=1e-6)
+
+
+NOT_ON_A_NARROW_TRUNK = {LayoutName.BY_HAND, LayoutName.PYRAMID}
 
 
 def swept(part):
@@ -359,7 +361,11 @@ def built(device):
 @pytest.mark.parametrize(
     ("name", "width"),
     [
-        *((name, 0.12) for name in LayoutName if name is not LayoutName.BY_HAND),
+        *(
+            (name, 0.12)
+            for name in LayoutName
+            if name not in {LayoutName.BY_HAND, LayoutName.PYRAMID}
+        ),
         (LayoutName.ORTHOGONAL, 0.6),
         (LayoutName.PYRAMID, 0.6),
     ],
@@ -421,8 +427,9 @@ def jointed(base, limb, mass, height, axis, inertia):
 </robot>"""
 
 
-@pytest.mark.parametrize("name", [LayoutName.PAIR, LayoutName.DOUBLE_PAIR])
-@pytest.mark.parametrize("width", [0.12, 0.5])
+@pytest.mark.parametrize(
+    ("name", "width"), [(LayoutName.PAIR, 0.12), (LayoutName.DOUBLE_PAIR, 0.5)]
+)
 def test_to_both_sides_of_an_arm_over_the_trunk(tmp_path, name, width):
     """No part of any module, nor a plate under the arm, has any volume in common with it."""
     armed = jointed(f"0.6 {width} 0.1", "0.6 0.06 0.06", 1, 0.13, "0 1 0", (0.6, 0.6))

@@ -13,8 +13,8 @@ from ocs_design.requirement.specification import Specification
 from ocs_design.sizing.alternatives import lighter_by, owed_to
 from ocs_design.sizing.design import design_device
 
-MOTORS = MotorSection(name="Antigravity MN5006 KV450, MN4014 KV400")
-"""Two, so that it is quick."""
+MOTORS = MotorSection(name="MN4014 KV400")
+"""One, so that it is quick."""
 LESS = 0.02
 
 

@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from robots import SOLO12
+from commands import SOLO12
+from designed import device_for, solo12
 
 from ocs_design.actuation.wheel_load import reach, reach_without_one
 from ocs_design.common.errors import Infeasible, UsageError
@@ -20,6 +21,9 @@ from ocs_design.sizing.trajectory.plans import drive_line_of, plan
 from ocs_design.workflows.layouts import compare_layouts
 from ocs_design.workflows.pareto import read_task
 from ocs_design.workflows.size import design_ocs
+
+pytestmark = pytest.mark.usefixtures("no_alternatives", "no_files")
+
 
 S, C = np.sin(0.5), np.cos(0.5)
 THIRD = np.sqrt(3.0)
@@ -86,7 +90,7 @@ def test_axes_by_hand():
 def test_four_wheels_where_no_motor_is_strong_enough_for_two(tmp_path):
     """One motor to choose from: four share what two cannot; a pair that is stated is refused."""
     asked = {
-        "robot.file": str(SOLO12),
+        "robot.file": SOLO12,
         "motor.name": "XING 2806.5 KV1800",
         "requirement.reliability": "0.5",
         "validation.enabled": False,
@@ -129,7 +133,7 @@ def test_fewer_robots_where_nothing_is_sure_for_99_of_100(tmp_path):
     Of a normal rate 90 % stay below 1.645 deviations, 99 % below 2.576.
     """
     asked = {
-        "robot.file": str(SOLO12),
+        "robot.file": SOLO12,
         "motor.name": "Antigravity MN5006 KV450",
         "ocs.layout": "pair",
         "ocs.alpha": "33deg",
@@ -149,8 +153,8 @@ def test_fewer_robots_where_nothing_is_sure_for_99_of_100(tmp_path):
 
 @pytest.mark.slow
 def test_the_lightest_is_the_same_without_the_plates_of_the_others():
-    asked = specification_from_options({"robot.file": str(SOLO12)})
-    task = read_task(asked, package_paths={}, strict=False)
+    asked = specification_from_options({"robot.file": SOLO12})
+    task = solo12().with_specification(asked)
     whole, alone = (
         design_device(asked, task.robot, task.resolved, ranked=ranked) for ranked in (True, False)
     )
@@ -163,7 +167,7 @@ def test_the_lightest_is_the_same_without_the_plates_of_the_others():
 def test_all_layouts_of_one_robot():
     """A flip alone: a single wheel is the lightest, and it does not roll the robot."""
     asked = specification_from_options(
-        {"robot.file": str(SOLO12), "requirement.flip": "back", "requirement.gravity": "1.62"}
+        {"robot.file": SOLO12, "requirement.flip": "back", "requirement.gravity": "1.62"}
     )
     answer = compare_layouts(specification_of(asked))
     by_name = {each.layout: each for each in answer.layouts}
@@ -175,7 +179,7 @@ def test_all_layouts_of_one_robot():
 
 
 SURVIVES = {
-    "robot.file": str(SOLO12),
+    "robot.file": SOLO12,
     "requirement.survives": "one",
     "requirement.fall": "1m",
     "requirement.tilt": "20deg",
@@ -186,9 +190,9 @@ SURVIVES = {
 @pytest.mark.parametrize("layout", ["single", "pair", "orthogonal"])
 def test_layouts_that_cannot_do_without_any_one_wheel_are_refused(layout):
     asked = specification_from_options({**SURVIVES, "ocs.layout": layout})
-    task = read_task(asked, package_paths={}, strict=False)
+    task = solo12().with_specification(asked)
     with pytest.raises(CannotSurvive, match=f"'{layout}' does not survive .* without wheel"):
-        design_device(asked, task.robot, task.resolved)
+        device_for(task)
 
 
 @pytest.mark.parametrize(
@@ -206,9 +210,9 @@ def test_what_does_not_go_with_a_stopped_drive(option):
 def test_wheels_share_the_supply_when_sized_as_when_planned(layout):
     """Four wheels that were promised the half of it each found no plan of the drop."""
     drop = {"requirement.fall": "1m", "requirement.tilt": "30deg", "supply.power_max": "600 W"}
-    asked = specification_from_options({"robot.file": str(SOLO12), "ocs.layout": layout, **drop})
-    task = read_task(asked, package_paths={}, strict=False)
-    designed = design_device(asked, task.robot, task.resolved)
+    asked = specification_from_options({"robot.file": SOLO12, "ocs.layout": layout, **drop})
+    task = solo12().with_specification(asked)
+    designed = device_for(task)
     promised = designed.choice.chosen.line.power_max
     assert drive_line_of(designed.device).power_max == pytest.approx(promised, rel=1e-9)
     standing = task.resolved.requirement.standing_height
@@ -222,18 +226,18 @@ def test_wheels_that_reach_yaw_are_sized_for_it_without_a_loop(layout, direct):
     """The wheels are what the closed form asks for, and a plan for them leaves something."""
     asked = specification_from_options(
         {
-            "robot.file": str(SOLO12),
+            "robot.file": SOLO12,
             "ocs.layout": layout,
             "requirement.turn": "yaw 90deg in 2s",
             "requirement.gravity": "1.62",
         }
     )
-    task = read_task(asked, package_paths={}, strict=False)
+    task = solo12().with_specification(asked)
     (turn,) = selection_problem(asked, task.robot, task.resolved).requirement.maneuvers
     assert turn.headed == direct
     assert (turn.turn == 0.0).all() == direct
     if direct:
-        designed = design_device(asked, task.robot, task.resolved)
+        designed = device_for(task)
         standing = task.resolved.requirement.standing_height
         found = plan(task.robot.mass_properties, designed.device, (turn,), standing)
         assert found[turn.name].share < 1.0
@@ -253,8 +257,8 @@ def test_what_needs_less_than_the_smallest_rim_gets_a_larger_one():
             "supply.voltage": "28V",
         }
     )
-    task = read_task(asked, package_paths={}, strict=False)
-    chosen = design_device(asked, task.robot, task.resolved).choice.chosen
+    task = read_task(asked)
+    chosen = device_for(task).choice.chosen
     (demand,) = chosen.demands
     assert demand.spin_inertia <= chosen.spin_inertia
     problem = selection_problem(asked, task.robot, task.resolved)
@@ -266,7 +270,7 @@ def test_what_needs_less_than_the_smallest_rim_gets_a_larger_one():
 @pytest.mark.slow
 def test_a_triad_for_solo12_can_be_built(tmp_path):
     """On one plate, whose mass is a part of the device's; read again it is the same."""
-    asked = specification_from_options({"robot.file": str(SOLO12), "ocs.layout": "triad"})
+    asked = specification_from_options({"robot.file": SOLO12, "ocs.layout": "triad"})
     design = design_ocs(asked, out=tmp_path / "a").design
     assert design.buildable.yes is True
     assert design.buildable.open == ()

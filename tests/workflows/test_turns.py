@@ -11,7 +11,7 @@ from ocs_design.requirement.phrases import About
 from ocs_design.requirement.sections import RequirementSection, RobotSection, ValidationSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.workflows import rounds as rounds_of
-from ocs_design.workflows import size
+from ocs_design.workflows.size import design_ocs
 
 QUARTER = Specification(
     robot=RobotSection(file=str(SOLO12)),
@@ -25,16 +25,14 @@ QUARTER = Specification(
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("no_alternatives", "no_files")
 @pytest.mark.parametrize("rounds", [rounds_of.TURN_ROUNDS, 0])
 def test_a_closed_form_that_asks_too_little_is_made_good_by_the_plan(rounds, tmp_path, monkeypatch):
     full = turns.loop_length
     monkeypatch.setattr(turns, "loop_length", lambda heading: 0.6 * full(heading))
     monkeypatch.setattr(rounds_of, "TURN_ROUNDS", rounds)
-    # What else could be built is not asked, nor any part.
-    monkeypatch.setattr("ocs_design.sizing.alternatives.alternatives", lambda *_: ())
-    monkeypatch.setattr(size, "USUAL_FORMATS", ())
     told = []
-    outcome = size.design_ocs(
+    outcome = design_ocs(
         QUARTER, out=tmp_path / "x", progress=lambda name, _part: told.append(name)
     )
     warnings = outcome.design.ocs.warnings

@@ -4,19 +4,14 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
-from commands import SOLO12
+from designed import device_for, on_solo12
 from selections import ALUMINIUM, random_problem
 
 from ocs_design.catalogue.materials import Material, material
 from ocs_design.device.layout import Criterion
-from ocs_design.requirement.device_sections import MotorSection
-from ocs_design.requirement.sections import RobotSection
-from ocs_design.requirement.specification import Specification
-from ocs_design.sizing.design import design_device
 from ocs_design.sizing.selection.problem import SAME_MASS, devices_by_mass, lightest_first
 from ocs_design.sizing.selection.search import search_lightest
 from ocs_design.sizing.selection.select import select, select_by
-from ocs_design.workflows.pareto import read_task
 
 STRONG = Material("strong", 7833.0, 621e6, 827e6, 0.32, "for tests")
 WEAK = Material("weak", 7833.0, 552e6, 621e6, 0.32, "for tests")
@@ -60,11 +55,7 @@ def test_it_is_found_where_only_the_lightest_is_looked_for(steels):
 
 def test_at_its_own_incidence_the_winner_is_as_light_as_its_twins():
     """Solo12's device can only just carry itself: a step too far takes a smaller radius."""
-    specification = Specification(
-        robot=RobotSection(file=str(SOLO12)), motor=MotorSection(name="Antigravity MN5006 KV450")
-    )
-    task = read_task(specification)
-    solo = design_device(specification, task.robot, task.resolved, ranked=False)
+    solo = device_for(on_solo12(motor__name="Antigravity MN5006 KV450"), ranked=False)
     strong, weak = material("steel-4140-normalized"), material("steel-1045-cold-worked")
     for heavier in (-ROUNDING, ROUNDING):
         steels = replace(weak, density=weak.density * (1.0 + heavier)), strong

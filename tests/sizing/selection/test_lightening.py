@@ -14,7 +14,7 @@ from ocs_design.sizing.assembly import assemble_selected
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.select import select
 
-SEEDS = (4, 10, 16)
+SEEDS = (4, 16)
 """Of drawn problems with webs of one piece."""
 
 

@@ -51,7 +51,7 @@ def answered(request):
     return (*question(request.param), answer(request.param))
 
 
-@pytest.mark.parametrize("seed", [0, 1, 21])
+@pytest.mark.parametrize("seed", [0, 21])
 def test_symbols_and_numbers_are_the_same_device(seed):
     problem, selected = question(seed)
     device, rng = FreeDevice.of(problem, selected), np.random.default_rng(seed)
