@@ -14,6 +14,7 @@ from ocs_design.report.limits import (
     alternatives_note,
     alternatives_table,
     assumed,
+    demand_table,
     heat,
     holding_up,
     lighter,
@@ -43,6 +44,16 @@ def test_each_margin_is_a_row_and_each_note_a_line():
     assert "stored energy 8.14 J - - back-flip" in table
     assert any("rms current: a pause of 8.8 s cools it" in row for row in rows)
     assert max(map(len, rows)) <= 80
+
+
+def test_demands_are_told_in_the_units_of_the_bench():
+    made = design()
+    for demand, row in zip(made.requirement.demands, demand_table(made).rows, strict=True):
+        told = [float(cell) for cell in row[2:5]]
+        exact = [1e3 * demand.roll_momentum, 1e3 * demand.pitch_momentum, 1e6 * demand.spin_inertia]
+        assert row[0] == demand.source
+        assert told == pytest.approx(exact, rel=1e-3, abs=0.06)
+    assert any(demand.roll_momentum > 1e-3 for demand in made.requirement.demands)
 
 
 def test_limits_that_are_no_keys_are_named_in_words():

@@ -1,12 +1,14 @@
 """Distributions against SciPy's, and their text."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
+from wheels import EC45
 
 from ocs_design.common.errors import OcsError
 from ocs_design.common.units import Dimension
@@ -91,6 +93,16 @@ def test_defaults_scale_with_the_robot():
     assert default.com_error == Normal(0.0, 0.00272)
     assert default.takeoff_rate.deviation == pytest.approx(0.008 * math.sqrt(9.81 / 0.272))
     assert default.coulomb_friction is None
+
+
+def test_friction_is_that_of_the_motor_at_the_voltage_it_is_rated_for():
+    """Half of k_t I_0 is dry; a quarter to three quarters goes with speed, 1 at no-load speed."""
+    motor = replace(EC45, torque_constant=0.03, no_load_current=0.2, rated_voltage=12.0)
+    default, torque = default_uncertainty(0.272, motor), 0.03 * 0.2
+    assert default.coulomb_friction == Uniform(0.25 * torque, 0.75 * torque)
+    slope = torque / (EC45.no_load_speed / 2.0)
+    assert default.viscous_friction.low == pytest.approx(0.25 * slope, rel=1e-6)
+    assert default.viscous_friction.high == pytest.approx(0.75 * slope, rel=1e-6)
 
 
 def test_a_file_takes_the_place_of_the_defaults(tmp_path):

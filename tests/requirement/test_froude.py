@@ -15,6 +15,8 @@ from ocs_design.requirement.froude import (
     Scale,
     default_envelope,
     default_maneuvers,
+    example_shove,
+    example_turns,
     standing_height,
 )
 from ocs_design.robot.legs import find_legs, find_trunk
@@ -82,6 +84,20 @@ def test_the_jump_keeps_its_froude_number(length, gravity):
     assert upward**2 / (gravity * length * height) == pytest.approx(2.4**2 / (9.81 * height))
     assert forward / upward == pytest.approx(0.5 / 2.4)
     assert push.onset * upward / length == pytest.approx(0.24)
+
+
+@given(length=RATIOS, gravity=st.floats(1.0, 25.0))
+def test_examples_take_as_much_of_a_robots_own_time_as_on_solo12(length, gravity):
+    """sqrt(L / g): a shove of 0.1 s and 0.5 s to come to rest, a turn on the Moon, a stop."""
+    own, on_earth = np.sqrt(length * np.array([9.81 / gravity, 1.0]))
+    with patch.object(Scale, "of", return_value=Scale(length, 1.0, 1.0)):
+        shove, (turn, stop) = example_shove(None, gravity), example_turns(None, gravity)
+    assert (shove.duration, shove.settling) == pytest.approx((0.1 * own, 0.5 * own))
+    assert (turn.duration, stop.duration) == pytest.approx((3.0 * on_earth, 0.5 * own))
+    assert stop.rate == pytest.approx((0.2 / own, 0.5 / own, 0.0))
+    for each in (turn, stop):
+        aloft = np.sqrt(8.0 * each.jump_height / each.gravity)
+        assert each.duration == pytest.approx(0.9 * aloft)
 
 
 def test_without_legs_the_radius_of_gyration_scales(make_robot):

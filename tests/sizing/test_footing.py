@@ -301,7 +301,9 @@ def test_what_leans_stands_on_pedestals_that_the_design_counts(boxed, name):
         check_device(replace(device, pedestals=(replace(other, module="none"), *rest)))
 
 
-@pytest.mark.parametrize(("name", "layout"), zip(REAL, cycle((LayoutName.PAIR, LayoutName.TRIAD))))
+@pytest.mark.parametrize(
+    ("name", "layout"), list(zip(REAL, cycle((LayoutName.PAIR, LayoutName.TRIAD)), strict=False))
+)
 def test_nothing_hangs_and_nothing_collides_over_a_full_turn(name, layout):
     """A wheel is within its housing whatever its angle: cylinders are all that they sweep."""
     robot, layout = read_robot(ROBOTS / f"{name}.urdf"), Layout(layout)
