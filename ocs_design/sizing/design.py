@@ -235,7 +235,7 @@ def _by_selection(
     # The lightest on its plate need not be the one that led the search.
     best = with_demands(problem, selection.best)
     selection = replace(selection, ranking=(best, *selection.ranking[1:]))
-    choice = Choice(problem, selection, best, None)
+    chosen, found = best, None
     stated = problem.layout != PAIR or specification.ocs.alpha is not None
     if specification.ocs.co_design:
         # CasADi takes a third of a second to import.
@@ -249,9 +249,8 @@ def _by_selection(
             if own.mass >= best.mass:
                 note = "the selection stands: a heavier plate takes up what the wheels would save"
                 found = replace(found, adopted=False, note=note, device=best)
-        choice = Choice(problem, selection, found.device, found)
+        chosen = found.device
     name = LIGHTEST if criterion is None else str(criterion)
-    chosen = choice.chosen
 
     def resized(other: Reserve) -> float | None:
         """Mass of the selected parts and the plate with another reserve [kg]."""
@@ -271,7 +270,7 @@ def _by_selection(
         device=device,
         sized=replace(sized_selection(problem, chosen, robot.mass_properties), total=total),
         criterion=BY_HAND if stated else name,
-        choice=choice,
+        choice=Choice(problem, selection, chosen, found),
         reserve=reserve,
         account=lambda: account(reserve, reality, problem, chosen, resized, nominal=least.mass),
     )

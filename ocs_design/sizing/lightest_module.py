@@ -1,17 +1,8 @@
 """The lightest rim with its web and the shell around it, for many at once.
 
-The lightest rim of a spin inertia I is as large as it may be (`rim_closed_form`), but its housing
-and foot grow with it. The web is a disc that fills the bore, of a thickness that counts like t of
-the rim's material; with lightening holes like t as spin inertia and y t, a little less, as mass.
-Without them, with a = R^2, b = r^2 and k = 2 I / (pi rho),
-
-    k = h (a^2 - b^2) + t b^2,    m = pi rho (h (a - b) + t b) + m_shell(R, h),
-
-in which h (a - b) + t b = (k + t a b) / (a + b). At a given R, with C = dm_shell/dh,
-
-    dm/db = pi rho (k - t a^2) / (a + b)^2 (2 q b / (a - b)^2 - 1),  q = C / (pi rho).
-
-The rim is taller than t, so that k > t a^2, and the mass is at its best where
+With a = R^2, b = r^2, k = 2 I / (pi rho), a web that counts like t of the rim's material, and
+q = C / (pi rho) of C = dm_shell/dh, the mass at a given R is at its best where (docs/theory.md, Web
+and hub)
 
     (a - b)^2 = 2 q b,  so that  b = a + q - sqrt(q (2 a + q)),
 
@@ -30,8 +21,8 @@ a plain one of k + L, and its best bore where, with e from the derivatives of L 
     (a - b)^2 (1 - e) = 2 q b,
     e (k + L - t a^2) / (a + b)^2 = L' (1 + q / (a - b)) / (a + b) - M'.
 
-They are a few per cent at most and are found along with C. Lightening holes add (y - 1) t to the
-right-hand side of the last line.
+They are a few per cent at most and are found along with C. Lightening holes, with which the web
+weighs like y t, add (y - 1) t to the right-hand side of the last line.
 """
 
 from dataclasses import dataclass

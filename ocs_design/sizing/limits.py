@@ -138,10 +138,7 @@ def smallest_changes(
 
     Args:
         values: of the limits as they are [SI].
-        mends: whether a design exists with one limit at another value.
-        precision: of the values, relative.
-        most: factor by which a limit is changed at most.
-        conceivable: see `smallest_change`.
+        mends, precision, most, conceivable: see `smallest_change`, of any limit.
         progress: is told the share that is done.
     """
     found = {}

@@ -11,7 +11,7 @@ from ocs_design.device.layout import PAIR, Direction, Layout
 from ocs_design.parts.motor_mount import Behind
 from ocs_design.requirement.device_sections import Envelope
 from ocs_design.robot.clearance import Ranges, descended, landing_poses, landing_ranges
-from ocs_design.robot.collision import CollisionModel, Nearest, Part, collision_model
+from ocs_design.robot.collision import CollisionModel, Part, collision_model
 from ocs_design.robot.meshes import trunk_extent, trunk_top
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import Ball, Drum
@@ -172,10 +172,10 @@ class Sizes:
     @classmethod
     def of(cls, envelope: Envelope) -> "Sizes":
         """Sizes of modules in their housings around rims that an envelope allows."""
-        least_radius = envelope.inner_radius_min + envelope.wall_min
+        nothing, least_radius = Behind(0.0, 0.0), envelope.inner_radius_min + envelope.wall_min
         return cls(
-            _housing(least_radius, envelope.height_min),
-            _housing(envelope.outer_radius_max, envelope.height_max),
+            module_size(least_radius, envelope.height_min, nothing, 0.0),
+            module_size(envelope.outer_radius_max, envelope.height_max, nothing, 0.0),
         )
 
     def all(self) -> Iterator[Size[float]]:
@@ -192,14 +192,11 @@ class FreePlace:
     Attributes:
         place: of both, for every size.
         face: where on the trunk, as in "behind the trunk".
-        blocked_by: the part that keeps them from standing on top over the centre of mass; empty if
-            they do.
         free: whether nothing is hit there; False: no place that was tried is free.
     """
 
     place: Place
     face: str
-    blocked_by: str
     free: bool
 
 
@@ -218,14 +215,13 @@ def place_free(robot: Robot, envelope: Envelope, layout: Layout = PAIR) -> FreeP
     """
     search = Search(collision_model(robot), Sizes.of(envelope), layout)
     on_top = place_on_top(robot, layout)
-    blocker = search.blocker(on_top)
-    if blocker is None:
-        return FreePlace(on_top, ON_TOP, "", free=True)
+    if search.is_free(on_top):
+        return FreePlace(on_top, ON_TOP, free=True)
     for face, spot in search.spots():
         if search.is_free(face.place(spot)):
             place = face.place(search.drawn_in(face, spot))
-            return FreePlace(place, face.name, blocker.name, free=True)
-    return FreePlace(on_top, ON_TOP, blocker.name, free=False)
+            return FreePlace(place, face.name, free=True)
+    return FreePlace(on_top, ON_TOP, free=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -271,15 +267,6 @@ class Search:
             for solid in collision.near(solids, pose, others, -_ROUNDING)
         )
 
-    def blocker(self, place: Place) -> Part | None:
-        """What of the robot comes too near."""
-        for size in self.sizes.all():
-            hits = [self.hit(ball) for ball in self._balls(place, size)]
-            found = [hit for hit in hits if hit is not None]
-            if found:
-                return min(found, key=lambda hit: hit.distance).part
-        return None
-
     def drawn_in(self, face: Face, spot: Spot) -> Spot:
         """Nearer than the grid of spots has it: to the face, to the middle, to the trunk's own."""
         for axis in (2, 1, 0):
@@ -293,25 +280,15 @@ class Search:
                     spot = candidate
         return spot
 
-    def hit(self, solid: Ball | Drum) -> Nearest | None:
-        """What a solid touches, or would in some posture between those that were drawn."""
-        nearest = self._nearest(solid)
-        return nearest if nearest is not None and nearest.distance < -_ROUNDING else None
-
     def touches(self, solid: Ball | Drum) -> bool:
-        """Whether a solid touches anything; see `hit`, which also looks for the nearest."""
-        nearest = self._nearest(solid, enough=-_ROUNDING)
-        return nearest is not None and nearest.distance < -_ROUNDING
-
-    def _nearest(self, solid: Ball | Drum, *, enough: float = -np.inf) -> Nearest | None:
-        """What comes nearest to a solid in landings, or nearer than `enough` [m]; None: far off."""
+        """Whether a solid touches anything in landings, or between the postures that are drawn."""
         # Thin tubes are looked at as closely as the modules on them.
         gap = _NEAR * max(solid.radius, CLEARANCE * self.sizes.smallest.reach)
-        poses = landing_poses(self.collision)
+        poses, enough = landing_poses(self.collision), -_ROUNDING
         near = self.collision.nearest(solid, poses, self._others, within=gap, enough=enough)
-        if near is None:
-            return None
-        return descended(self.collision, solid, near, self._ranges, enough=enough)
+        if near is not None:
+            near = descended(self.collision, solid, near, self._ranges, enough=enough)
+        return near is not None and near.distance < -_ROUNDING
 
     @cached_property
     def _ranges(self) -> Ranges:
@@ -332,7 +309,3 @@ class Search:
         x, y, z = (place.centers(self.sizes.largest) - robot.com).T
         roll, pitch = y**2 + z**2, x**2 + z**2
         return float((roll / robot.inertia[0, 0] + pitch / robot.inertia[1, 1]).mean())
-
-
-def _housing(outer_radius: float, height: float) -> Size[float]:
-    return module_size(outer_radius, height, Behind(0.0, 0.0), 0.0)

@@ -218,14 +218,11 @@ def rim_limits(
     each = [RimProblem(0.0, room, kind, 1.0).limits for kind in problem.materials]
     figures = np.array([(one.density, one.stretch_max, one.poisson_ratio) for one in each])
     density, stretch, poisson_ratio = figures[material].T
-    limits = RimLimits(
+    limits = replace(
+        each[0],
         density=density,
-        outer_radius_max=room.outer_radius_max,
         inner_radius_min=np.full_like(density, room.inner_radius_min),
-        height_max=room.height_max,
         height_min=np.full_like(density, room.height_min),
-        wall_min=room.wall_min,
-        mass_max=room.mass_max,
         # The hoop stress grows with the square of the speed, from that at 1 rad/s.
         stretch_max=stretch / overspeed**2,
         poisson_ratio=poisson_ratio,

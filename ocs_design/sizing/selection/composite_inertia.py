@@ -110,6 +110,43 @@ class Least(NamedTuple):
     largest: Size[FloatArray]
     heaviest: FloatArray
 
+    def lopsidedness(self, apart: FloatArray, layout: Layout) -> FloatArray:
+        """Most that modules which are no mirror images add to I_xy about their middle [kg m^2].
+
+        Args:
+            apart: of the wheels from their middle at each corner of the sizes [m], (..., n, w, 3).
+            layout: of the modules.
+        """
+        _, outward, upward = np.moveaxis(layout.frames(layout.angle or 0.0), -1, 0)
+        turned = sum(
+            abs(float((one[:, 0] * other[:, 1] + other[:, 0] * one[:, 1]).sum()))
+            for one, other in ((outward, outward), (upward, upward), (outward, upward))
+        )
+        along, across = np.abs(apart[..., 0]), np.abs(apart[..., 1])
+        places = np.abs((apart[..., 0] * apart[..., 1]).sum(axis=-1)).max(axis=0)
+        moved = (along + across).sum(axis=-1).max(axis=0) * np.abs(self.depth)
+        return np.asarray(self.heaviest * (places + moved + turned * self.largest.reach**2))
+
+    def coupling_spread(
+        self, robot: MassProperties, x: _Range, z: _Range, wheels: int
+    ) -> FloatArray:
+        """Most that a device changes J_xy by, term by term [kg m^2], shape (n,).
+
+        A module's own products are no more than its mass times its room around its wheel squared.
+        """
+        reach, standing = self.largest
+        room, mass = reach + standing + np.abs(self.above), wheels * self.heaviest
+        reduced = robot.mass * mass / (robot.mass + mass)
+        forward, up = (
+            np.maximum(np.abs(low - about), np.abs(high - about)) + room
+            for (low, high), about in ((x, robot.com[0]), (z, robot.com[2]))
+        )
+        left, (xz, yz) = abs(robot.com[1]), np.abs(robot.inertia[:2, 2])
+        aslant, sideways = reduced * forward * up + mass * room**2, reduced * left * up
+        # Of I_xz I_yz / I_zz, the last term because I_zz grows too.
+        yaw = aslant * yz + xz * sideways + aslant * sideways + xz * yz
+        return np.asarray(reduced * left * forward + yaw / robot.inertia[2, 2])
+
 
 def least_composite_inertia(
     robot: MassProperties, place: Place, least: Least, layout: Layout = PAIR
@@ -146,51 +183,10 @@ def least_composite_inertia(
     pitch = robot.inertia[1, 1] + reduced * (forward + up) + along + above + own
     diagonal = np.stack([roll, pitch], axis=-1)
     product = np.full(len(roll), TiltInertia.of(robot.inertia).product)
-    coupling = _coupling_spread(robot, least, x, z, wheels)
+    coupling = least.coupling_spread(robot, x, z, wheels)
     if not layout.pairs:
-        coupling = coupling + _lopsidedness(least, apart, layout)
+        coupling = coupling + least.lopsidedness(apart, layout)
     return LeastInertia(TiltInertia(diagonal, product), coupling)
-
-
-def _lopsidedness(least: Least, apart: FloatArray, layout: Layout) -> FloatArray:
-    """Most that modules which are no mirror images add to I_xy about their middle [kg m^2], (n,).
-
-    Args:
-        least: of a module.
-        apart: of the wheels from their middle at each corner of the sizes [m], (..., n, w, 3).
-        layout: of the modules.
-    """
-    _, outward, upward = np.moveaxis(layout.frames(layout.angle or 0.0), -1, 0)
-    turned = sum(
-        abs(float((one[:, 0] * other[:, 1] + other[:, 0] * one[:, 1]).sum()))
-        for one, other in ((outward, outward), (upward, upward), (outward, upward))
-    )
-    along, across = np.abs(apart[..., 0]), np.abs(apart[..., 1])
-    places = np.abs((apart[..., 0] * apart[..., 1]).sum(axis=-1)).max(axis=0)
-    moved = (along + across).sum(axis=-1).max(axis=0) * np.abs(least.depth)
-    return np.asarray(least.heaviest * (places + moved + turned * least.largest.reach**2))
-
-
-def _coupling_spread(
-    robot: MassProperties, least: Least, x: _Range, z: _Range, wheels: int
-) -> FloatArray:
-    """Most that a device changes J_xy by, term by term [kg m^2], shape (n,).
-
-    A module's own products are no more than its mass times its room around its wheel squared.
-    """
-    reach, standing = least.largest
-    room = reach + standing + np.abs(least.above)
-    mass = wheels * least.heaviest
-    reduced = robot.mass * mass / (robot.mass + mass)
-    forward, up = (
-        np.maximum(np.abs(low - about), np.abs(high - about)) + room
-        for (low, high), about in ((x, robot.com[0]), (z, robot.com[2]))
-    )
-    left, (xz, yz) = abs(robot.com[1]), np.abs(robot.inertia[:2, 2])
-    aslant, sideways = reduced * forward * up + mass * room**2, reduced * left * up
-    # Of I_xz I_yz / I_zz, the last term because I_zz grows too.
-    yaw = aslant * yz + xz * sideways + aslant * sideways + xz * yz
-    return np.asarray(reduced * left * forward + yaw / robot.inertia[2, 2])
 
 
 def _least_square(between: _Range, about: float) -> FloatArray:

@@ -111,6 +111,31 @@ class Found(PairBounds):
         self.batches.append(solved)
         self._list([*self.places, *_ranks(len(self.batches) - 1, solved)])
 
+    def solve_best(self, drives: Drives, spin: FloatArray, bound: FloatArray) -> None:
+        """Solve candidates in the order of their bounds, which become masses in place."""
+        material, row = np.nonzero(bound < self.enough[drives.motor])
+        candidates = Candidates(self.problem, drives.take(row), material)
+        nowhere = np.zeros_like(spin[row])
+        guess = Guess(spin[row], bound[material, row], nowhere, nowhere)
+        left, rough = np.arange(row.size), np.ones(row.size, dtype=np.bool_)
+        while True:
+            left = left[guess.mass[left] < self.enough[candidates.drives.motor[left]]]
+            left = left[np.argsort(guess.mass[left], kind="stable")]
+            some, ahead = left[:_BATCH], left[:_AHEAD]
+            if not some.size:
+                break
+            if rough[some].any():
+                closer = ahead[rough[ahead]]
+                rough[closer] = False
+                bounds = initial_guess(candidates.take(closer), guess.spin_inertia[closer])
+                guess = guess.put(closer, bounds)
+                continue
+            solved = solve(candidates.take(some), guess.take(some))
+            self.add(solved)
+            guess.mass[some] = solved.mass
+            left = left[_BATCH:]
+        bound[material, row] = guess.mass
+
     def refine(self, by: Callable[[Candidates, FixedPoint], FixedPoint]) -> None:
         """Refine what may be the lightest of all, and what may be feasible and lighter.
 
@@ -210,33 +235,7 @@ def search(problem: SelectionProblem, below: float = np.inf, *, ranks: bool = Tr
             cells, left = cells_of(problem.incidence, count), drives.take(worth)
             spin[worth] = least_spin_inertias(problem, left, cells, spin[worth]).min(axis=1)
             bound[:, worth] = least_masses(found.floor, left, spin[worth])
-        _solve_best(found, drives, spin, bound)
+        found.solve_best(drives, spin, bound)
         for least, values in ((found.spin_inertia, spin), (found.least, bound.min(axis=0))):
             least[tuple(asked.T)] = values.reshape(len(asked), -1).min(axis=1)
     return found
-
-
-def _solve_best(found: Found, drives: Drives, spin: FloatArray, bound: FloatArray) -> None:
-    """Solve candidates in the order of their bounds, which become masses in place."""
-    material, row = np.nonzero(bound < found.enough[drives.motor])
-    candidates = Candidates(found.problem, drives.take(row), material)
-    nowhere = np.zeros_like(spin[row])
-    guess = Guess(spin[row], bound[material, row], nowhere, nowhere)
-    left, rough = np.arange(row.size), np.ones(row.size, dtype=np.bool_)
-    while True:
-        left = left[guess.mass[left] < found.enough[candidates.drives.motor[left]]]
-        left = left[np.argsort(guess.mass[left], kind="stable")]
-        some, ahead = left[:_BATCH], left[:_AHEAD]
-        if not some.size:
-            break
-        if rough[some].any():
-            closer = ahead[rough[ahead]]
-            rough[closer] = False
-            bounds = initial_guess(candidates.take(closer), guess.spin_inertia[closer])
-            guess = guess.put(closer, bounds)
-            continue
-        solved = solve(candidates.take(some), guess.take(some))
-        found.add(solved)
-        guess.mass[some] = solved.mass
-        left = left[_BATCH:]
-    bound[material, row] = guess.mass

@@ -127,7 +127,19 @@ def select_by(
         return selection
     lightest = devices_by_mass(own)[0]
     there = select(replace(problem, incidence=lightest.incidence))
-    return _led_by(with_demands(problem, lightest), there)
+    # It leads; motors that are lighter at this incidence, which is not their own, have fallen out.
+    heavier = [entry for entry in there.ranking if entry.mass > lightest.mass]
+    others = [entry for entry in heavier if not same_parts(entry, lightest)]
+    ranking = (with_demands(problem, lightest), *others)
+    listed = {entry.motor.name for entry in ranking}
+    lighter = {entry.motor.name: entry.mass for entry in reversed(there.ranking)}
+    fallen = [
+        Rejection(name, Reason.INCIDENCE, f"{1e3 * mass:.0f} g, at another than its own", 0.0)
+        for name, mass in lighter.items()
+        if name not in listed
+    ]
+    rest = [rejection for rejection in there.rejections if rejection.motor not in listed]
+    return replace(there, ranking=ranking, rejections=(*fallen, *rest))
 
 
 def lightest_by(problem: SelectionProblem, criterion: Criterion | None) -> Candidate | None:
@@ -219,26 +231,6 @@ def _devices_at(
             # The iteration runs away where a device can only just carry itself; a programme not.
             one = replace(one, point=refine(one.candidates, one.point))
         yield device_of(one) if one.point.feasible[0] else None
-
-
-def _led_by(chosen: Candidate, selection: Selection) -> Selection:
-    """Selection led by this device; motors that are lighter at this incidence are rejected.
-
-    Args:
-        chosen: at its own incidence.
-        selection: at that incidence.
-    """
-    heavier = [entry for entry in selection.ranking if entry.mass > chosen.mass]
-    ranking = (chosen, *(entry for entry in heavier if not same_parts(entry, chosen)))
-    listed = {entry.motor.name for entry in ranking}
-    lighter = {entry.motor.name: entry.mass for entry in reversed(selection.ranking)}
-    fallen = [
-        Rejection(name, Reason.INCIDENCE, f"{1e3 * mass:.0f} g, at another than its own", 0.0)
-        for name, mass in lighter.items()
-        if name not in listed
-    ]
-    others = [rejection for rejection in selection.rejections if rejection.motor not in listed]
-    return replace(selection, ranking=ranking, rejections=(*fallen, *others))
 
 
 def same_parts(one: Candidate, other: Candidate) -> bool:

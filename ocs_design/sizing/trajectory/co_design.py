@@ -5,10 +5,9 @@ height are those of the lightest module that has both. A smaller module may weig
 easier to carry. The incidence is free beside them.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from time import perf_counter
 
 import casadi as ca
 import numpy as np
@@ -17,7 +16,6 @@ from ocs_design.actuation.drive import RESERVE, DriveLine
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import module_axes
-from ocs_design.device.records.selection import TaskDemand
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.sizing.lightest_module import binding_limits, lightest_module_at
 from ocs_design.sizing.selection.demand import UNDOES
@@ -55,7 +53,7 @@ class CoDesign:
         device: to build.
         found_mass: of what the program ended with, adopted or not [kg].
         selected_mass: of the selection [kg].
-        status: IPOPT's own word. iterations: taken. seconds: in all.
+        status: IPOPT's own word. iterations: taken.
         flights: of all maneuvers, on the finer grid.
     """
 
@@ -66,7 +64,6 @@ class CoDesign:
     selected_mass: float
     status: str
     iterations: int
-    seconds: float
     flights: tuple[Flight, ...]
 
     @property
@@ -86,7 +83,7 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
     Never heavier than the selection: where IPOPT fails, finds nothing lighter, or the fine grid
     does not bear its answer out, the selection stands and the note says why.
     """
-    began, mass = perf_counter(), float(selected.mass)
+    mass = float(selected.mass)
     stands = CoDesign(
         adopted=False,
         note="the selection stands: the spin inertia is stated",
@@ -95,7 +92,6 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
         selected_mass=mass,
         status="not tried",
         iterations=0,
-        seconds=0.0,
         flights=(),
     )
     if problem.requirement.spin_inertia is not None:
@@ -132,18 +128,31 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
         found_mass=found.mass,
         status=solution.status,
         iterations=solution.iterations,
-        seconds=perf_counter() - began,
         flights=tuple(flights),
     )
     if wrong:
         return outcome
+    # Each maneuver takes what it does in 3-D, and all the time that it has. Its smallest spin
+    # inertia is the closed form's, or the device's own where it does with less.
+    demands = [
+        replace(
+            demand,
+            incidence=found.incidence if maneuver.incidence is None else demand.incidence,
+            spin_inertia=min(demand.spin_inertia, found.spin_inertia),
+            time_needed=demand.time_given,
+            peak_speed=float(np.abs(flight.trajectory.wheel_speed).max()),
+            peak_torque=float(np.abs(flight.trajectory.wheel_torque).max()),
+        )
+        for maneuver, demand, flight in zip(maneuvers, found.demands, flights, strict=False)
+    ]
+    demands += rate_demands(problem.requirement, found, TiltInertia.of(found.total.inertia))
     return replace(
         outcome,
         adopted=True,
         note=f"co-design in 3-D saves {outcome.gain:.2%} of the selection's mass",
         device=replace(
             found,
-            demands=tuple(_demands(problem, found, flights)),
+            demands=tuple(demands),
             residual=solution.violation,
             iterations=solution.iterations,
         ),
@@ -309,26 +318,3 @@ def _usable(problem: SelectionProblem, device: Candidate) -> DriveLine:
     """
     factors = (kept.demand for kept in problem.requirement.reserves.values())
     return device.line.reserved(RESERVE / max(factors, default=1.0))
-
-
-def _demands(
-    problem: SelectionProblem, device: Candidate, flights: Sequence[Flight]
-) -> Iterator[TaskDemand]:
-    """Demands of each part of the requirement on the co-designed device.
-
-    A maneuver takes what it does in 3-D, and all the time that it has. Its smallest spin inertia is
-    the closed form's, or the device's own where it does with less.
-    """
-    requirement, incidence = problem.requirement, device.incidence
-    # The demands of a change of rate come after those of the maneuvers.
-    of_maneuvers = zip(requirement.maneuvers, device.demands, flights, strict=False)
-    for maneuver, demand, flight in of_maneuvers:
-        yield replace(
-            demand,
-            incidence=incidence if maneuver.incidence is None else demand.incidence,
-            spin_inertia=min(demand.spin_inertia, device.spin_inertia),
-            time_needed=demand.time_given,
-            peak_speed=float(np.abs(flight.trajectory.wheel_speed).max()),
-            peak_torque=float(np.abs(flight.trajectory.wheel_torque).max()),
-        )
-    yield from rate_demands(requirement, device, TiltInertia.of(device.total.inertia))

@@ -222,16 +222,6 @@ class FixedAxisTurn:
         nears = np.cross(vertical, rate) @ wanted > 0.0
         return cls(attitude, rate / fast, fast, left if nears else -left, asked.duration)
 
-    @property
-    def peak_rate(self) -> float:
-        """Estimate of the trunk's largest rate [rad/s]."""
-        return max(1.5 * abs(self.angle) / self.duration, abs(self.rate))
-
-    @property
-    def peak_acceleration(self) -> float:
-        """Largest angular acceleration of the cubic [rad/s^2]."""
-        return (6.0 * abs(self.angle) / self.duration + 4.0 * abs(self.rate)) / self.duration
-
     def motion(self, gyrostat: Gyrostat, intervals: int) -> Motion:
         """The turn on even intervals and the wheels that drive it, their limits ignored."""
         lengths, nodes, ends = _even_mesh(self.duration, intervals)

@@ -135,7 +135,9 @@ def numbers_of(turn: Turn, plant: Plant, line: DriveLine, guess: Motion) -> dict
     wheels = len(guess.torques)
     # Numbers around one: speeds over that without load, torques over the current limit, else over
     # the stall torque, else over what the turn asks for.
-    demand = outline.peak_acceleration * float(np.linalg.eigvalsh(gyrostat.inertia)[-1])
+    angle, fast, time = abs(outline.angle), abs(outline.rate), outline.duration
+    peak = (6.0 * angle / time + 4.0 * fast) / time
+    demand = peak * float(np.linalg.eigvalsh(gyrostat.inertia)[-1])
     limits = (float(line.torque_limit), float(line.stall_torque), demand)
     torque_unit, speed_unit = next(filter(isfinite, limits)), float(line.no_load_speed)
     weight = float(np.linalg.norm(gyrostat.pull)) * asked.duration
@@ -155,7 +157,7 @@ def numbers_of(turn: Turn, plant: Plant, line: DriveLine, guess: Motion) -> dict
         "momentum": figures[-3:] / weight if gyrostat.stands else 0.0,
         "at_rest": gyrostat.turns_about.T,
         # A trunk that is asked for no turn has no rate to count in.
-        "rate_unit": outline.peak_rate or 1.0 / asked.duration,
+        "rate_unit": max(1.5 * angle / time, fast) or 1.0 / time,
         "final": asked.final_attitude,
         "up": asked.final_vertical,
         "righted": _righted(asked, gyrostat),
