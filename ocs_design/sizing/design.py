@@ -7,7 +7,9 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import Infeasible
+from ocs_design.common.records import recorded
 from ocs_design.device.layout import PAIR, Criterion
+from ocs_design.device.records.selection import CoDesignRecord
 from ocs_design.requirement.checks import contradictions
 from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.resolving import Resolved, resolve
@@ -235,7 +237,7 @@ def _by_selection(
     # The lightest on its plate need not be the one that led the search.
     best = with_demands(problem, selection.best)
     selection = replace(selection, ranking=(best, *selection.ranking[1:]))
-    chosen, found = best, None
+    chosen, co_designed = best, None
     stated = problem.layout != PAIR or specification.ocs.alpha is not None
     if specification.ocs.co_design:
         # CasADi takes a third of a second to import.
@@ -250,6 +252,8 @@ def _by_selection(
                 note = "the selection stands: a heavier plate takes up what the wheels would save"
                 found = replace(found, adopted=False, note=note, device=best)
         chosen = found.device
+        told = {"mass": found.found_mass, "violation": found.fine_violation, "remark": found.note}
+        co_designed = recorded(CoDesignRecord, found, **told)
     name = LIGHTEST if criterion is None else str(criterion)
 
     def resized(other: Reserve) -> float | None:
@@ -270,7 +274,7 @@ def _by_selection(
         device=device,
         sized=replace(sized_selection(problem, chosen, robot.mass_properties), total=total),
         criterion=BY_HAND if stated else name,
-        choice=Choice(problem, selection, chosen, found),
+        choice=Choice(problem, selection, chosen, co_designed),
         reserve=reserve,
         account=lambda: account(reserve, reality, problem, chosen, resized, nominal=least.mass),
     )

@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,7 +11,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.records import recorded
 from ocs_design.device.device import Device
 from ocs_design.device.layout import Criterion, incidence_by_criterion
-from ocs_design.device.records.selection import ReserveRecord, SizingRecord
+from ocs_design.device.records.selection import CoDesignRecord, ReserveRecord, SizingRecord
 from ocs_design.requirement.bound import AXES, SpinDemand, rate_momenta
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
@@ -23,9 +22,6 @@ from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.limits import RIM_LIMITS, STRESS
 from ocs_design.sizing.reserve import Reserve
 from ocs_design.sizing.selection.problem import Candidate, Selection, SelectionProblem, inertia_at
-
-if TYPE_CHECKING:
-    from ocs_design.sizing.trajectory.co_design import CoDesign
 
 METHOD = "branch and bound over the catalogue, each module in closed form"
 
@@ -171,7 +167,7 @@ class Choice:
     problem: SelectionProblem
     selection: Selection
     chosen: Candidate
-    co_design: "CoDesign | None"
+    co_design: CoDesignRecord | None
 
 
 @dataclass(frozen=True, eq=False)

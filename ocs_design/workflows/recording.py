@@ -28,7 +28,6 @@ from ocs_design.device.records.requirement import (
 )
 from ocs_design.device.records.selection import (
     Alternative,
-    CoDesignRecord,
     Lighter,
     Owed,
     RankedRecord,
@@ -56,12 +55,7 @@ if TYPE_CHECKING:
 
 def record_selection(choice: Choice, kept: ReserveRecord | None = None) -> SelectionRecord:
     """Record of how motor, gear, material and incidence were chosen."""
-    problem, chosen, selection, refined = (
-        choice.problem,
-        choice.chosen,
-        choice.selection,
-        choice.co_design,
-    )
+    problem, chosen, selection = choice.problem, choice.chosen, choice.selection
     return SelectionRecord(
         bus_voltage=problem.bus_voltage,
         reserve=RESERVE,
@@ -89,15 +83,7 @@ def record_selection(choice: Choice, kept: ReserveRecord | None = None) -> Selec
             recorded(RejectionRecord, entry, reason=str(entry.reason))
             for entry in selection.rejections
         ),
-        co_design=None
-        if refined is None
-        else recorded(
-            CoDesignRecord,
-            refined,
-            mass=refined.found_mass,
-            violation=refined.fine_violation,
-            remark=refined.note,
-        ),
+        co_design=choice.co_design,
         prices=tuple(mass_prices(problem, selection.best)),
         kept=kept,
     )

@@ -129,8 +129,8 @@ def select_by(
     there = select(replace(problem, incidence=lightest.incidence))
     # It leads; motors that are lighter at this incidence, which is not their own, have fallen out.
     heavier = [entry for entry in there.ranking if entry.mass > lightest.mass]
-    others = [entry for entry in heavier if not same_parts(entry, lightest)]
-    ranking = (with_demands(problem, lightest), *others)
+    after = (entry for entry in heavier if not same_parts(entry, lightest))
+    ranking = (with_demands(problem, lightest), *after)
     listed = {entry.motor.name for entry in ranking}
     lighter = {entry.motor.name: entry.mass for entry in reversed(there.ranking)}
     fallen = [
