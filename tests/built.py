@@ -11,7 +11,8 @@ from ocs_design.device.device import Device, Module, Web
 from ocs_design.device.solids import foot_of
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.module import standing
-from ocs_design.parts.rim import WEB_THICKNESS, hub_of, web_mass
+from ocs_design.parts.moments import cylinder_mass
+from ocs_design.parts.rim import WEB_THICKNESS, hub_of
 from ocs_design.parts.solids import Carrier
 
 CAGED = motor("MN5212 KV340")
@@ -25,7 +26,8 @@ def housed(
     held = replace(CAGED, mounting=mounting)
     hub = hub_of(held)
     of = PAPER_WHEEL.density
-    mass = web_mass(PAPER_WHEEL.inner_radius, of, WEB_THICKNESS) + hub.beyond_web(of).mass
+    disc = cylinder_mass(0.0, PAPER_WHEEL.inner_radius, WEB_THICKNESS, of)
+    mass = disc + hub.beyond_web(of).mass
     web = Web(PAPER_WHEEL.material, of, WEB_THICKNESS, mass, hub)
     wheel = replace(PAPER_WHEEL, mass=PAPER_WHEEL.mass + mass, web=web, outer_radius=outer_radius)
     drive = replace(

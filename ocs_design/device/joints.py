@@ -18,7 +18,7 @@ from ocs_design.parts.cage import floor_at_shock, heads_at_shock
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.foot import stem_frequency
-from ocs_design.parts.guard import Containment, containment, fragment_of
+from ocs_design.parts.guard import Containment, fragment_of
 from ocs_design.parts.joints import (
     BOND_SHARE,
     COLDEST,
@@ -80,7 +80,7 @@ def burst_of(device: Device) -> Containment:
         web_mass=web,
         wheel_speed=device.motor.top_speed,
     )
-    return containment(piece, wheel.outer_radius, housing_of(device).rim_height)
+    return Containment.of(piece, wheel.outer_radius, housing_of(device).rim_height)
 
 
 def joints_of(device: Device) -> tuple[Margin, ...]:

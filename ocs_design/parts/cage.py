@@ -36,7 +36,6 @@ from ocs_design.parts.printed import (
     ear_radius,
     eared,
     half_height,
-    plate_back,
 )
 from ocs_design.parts.shapes import EAR_COUNT, Eared, Post
 from ocs_design.parts.solids import Part, Prism
@@ -70,7 +69,7 @@ class Posts(Table, Generic[Real]):
 
     def length(self, height: Real) -> Real:
         """Length up to the foot's plate, with a rim of that height [m]."""
-        return self.seat - plate_back(half_height(height), self.foot_plate)
+        return self.seat - (half_height(height) + self.foot_plate)
 
     def mass(self, height: Real) -> Real:
         """Mass [kg]."""

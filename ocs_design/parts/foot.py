@@ -37,7 +37,6 @@ from ocs_design.parts.printed import (
     WALL,
     MountHoles,
     base_thickness,
-    plate_back,
     screw_lever,
     trunk_screws,
 )
@@ -141,7 +140,7 @@ class Foot(Generic[Real]):
     @property
     def back(self) -> Real:
         """Distance of the plate's back from the wheel's middle [m]."""
-        return plate_back(self.housing.half_height, self.thickness)
+        return self.housing.half_height + self.thickness
 
     @property
     def slot_radius(self) -> Real:

@@ -19,8 +19,8 @@ from dataclasses import dataclass
 from math import ceil, pi, sin, sqrt
 
 from ocs_design.actuation.fasteners import STEEL
+from ocs_design.parts.moments import cylinder_mass
 from ocs_design.parts.printed import CLEARANCE
-from ocs_design.parts.solids import Part, hollow_cylinder
 
 PIECES = 3
 """Equal parts that a rim bursts into."""
@@ -105,68 +105,44 @@ def steel_wall(energy: float, diameter: float) -> float:
     return BUILT * perforated * INCH
 
 
-def aluminium_wall(energy: float, diameter: float) -> float:
-    """Thickness of 6061-T6 that takes as much energy to shear through as the steel does [m].
-
-    No tests are behind it: the energy to shear a plug goes with strength times thickness squared
-    (A. C. Hagg, G. O. Sankey, The Containment of Disk Burst Fragments by Cylindrical Shells, J.
-    Eng. Power 96(2), 1974), so the thickness goes with the root of the strengths' ratio.
-    """
-    return steel_wall(energy, diameter) * sqrt(STEEL_STRENGTH / ALUMINIUM_STRENGTH)
-
-
-@dataclass(frozen=True)
-class Band:
-    """A closed ring around a rim.
-
-    Attributes:
-        inner_radius, wall, height: [m]. density: [kg/m^3].
-    """
-
-    inner_radius: float
-    wall: float
-    height: float
-    density: float
-
-    @property
-    def part(self) -> Part[float]:
-        """The ring about the z axis, its middle at the origin."""
-        half = self.height / 2.0
-        ring = hollow_cylinder(self.inner_radius, self.inner_radius + self.wall, -half, half)
-        return Part("band", self.density, (ring,))
-
-    @property
-    def mass(self) -> float:
-        """Mass [kg]."""
-        mass: float = self.part.mass()
-        return mass
-
-
 @dataclass(frozen=True)
 class Containment:
-    """What would hold a wheel that bursts at its top speed.
+    """Rings in the housing, from its floor to its lid, that would hold a wheel that bursts.
 
     Attributes:
-        fragment: that must be held.
-        steel, aluminium: rings in the housing, from its floor to its lid.
+        fragment: that must be held at top speed.
+        inner_radius, height: of either ring [m].
+        steel, aluminium: its wall, of mild steel or of 6061-T6 [m].
     """
 
     fragment: Fragment
-    steel: Band
-    aluminium: Band
+    inner_radius: float
+    height: float
+    steel: float
+    aluminium: float
+
+    @classmethod
+    def of(cls, fragment: Fragment, outer_radius: float, height: float) -> "Containment":
+        """Rings around a rim of that outer radius and height [m]."""
+        steel = steel_wall(fragment.energy, fragment.diameter)
+        # No tests are behind aluminium: the energy to shear a plug goes with strength times
+        # thickness squared (A. C. Hagg, G. O. Sankey, The Containment of Disk Burst Fragments by
+        # Cylindrical Shells, J. Eng. Power 96(2), 1974).
+        aluminium = steel * sqrt(STEEL_STRENGTH / ALUMINIUM_STRENGTH)
+        room = outer_radius + CLEARANCE, height + 2.0 * CLEARANCE
+        return cls(fragment, *room, steel, aluminium)
+
+    @property
+    def masses(self) -> tuple[float, float]:
+        """Mass of the ring of steel, and of that of aluminium [kg]."""
+        walls = (self.steel, STEEL), (self.aluminium, ALUMINIUM_DENSITY)
+        steel, aluminium = (
+            cylinder_mass(self.inner_radius, self.inner_radius + wall, self.height, density)
+            for wall, density in walls
+        )
+        return steel, aluminium
 
     @property
     def built_wall(self) -> float:
         """Wall of the steel ring, up to the next tenth of a millimetre [m]."""
-        return ceil(self.steel.wall / STEP - 1e-9) * STEP
-
-
-def containment(fragment: Fragment, outer_radius: float, height: float) -> Containment:
-    """Rings around a rim of that outer radius and height [m]."""
-    inside, tall = outer_radius + CLEARANCE, height + 2.0 * CLEARANCE
-    energy, across = fragment.energy, fragment.diameter
-    return Containment(
-        fragment,
-        Band(inside, steel_wall(energy, across), tall, STEEL),
-        Band(inside, aluminium_wall(energy, across), tall, ALUMINIUM_DENSITY),
-    )
+        return ceil(self.steel / STEP - 1e-9) * STEP

@@ -65,35 +65,22 @@ class Printed:
         around = np.where(height >= np.asarray(self.room), around, 0.0)
         return around + self.posts.mass_per_height()
 
-    def _foot(self, outer_radius: FloatArray, height: FloatArray) -> Foot[FloatArray]:
-        reach, height = np.asarray(self.mount_reach), np.maximum(height, self.room)
-        return _foot(outer_radius, height, reach, self.guard_wall, self.foot_plate)
+    def moments(self, outer_radius: Real, height: Real) -> MassMoments[Real]:
+        """Moments of all but the posts (`Posts.moments`) about the wheel's centre."""
+        foot: Foot[Real] = self._foot(outer_radius, height)
+        housing = housing_moments(foot.housing) + lid_screw_moments(foot.housing)
+        return housing + foot_moments(foot) + trunk_screw_moments(foot)
+
+    def _foot(self, outer_radius: Real, height: Real) -> Foot[Real]:
+        """Foot under a housing for a rim of at least `room`."""
+        reach: Any = np.asarray(self.mount_reach)
+        tall: Any = np.maximum(height, self.room)
+        housing = Housing(outer_radius, tall, MountHoles(reach), LID_SCREW, self.guard_wall)
+        return Foot(housing, self.foot_plate)
 
 
 Shell: TypeAlias = Printed | PlainDrum
 """What stands around a wheel, whose mass grows with the rim's outer radius and height [m]."""
-
-
-def shell_moments(
-    outer_radius: Real,
-    height: Real,
-    mount_reach: Real,
-    guard_wall: float = 0.0,
-    foot_plate: float = PLATE_THICKNESS,
-) -> MassMoments[Real]:
-    """Moments of housing and foot about the wheel's centre, with screws, no mount's holes."""
-    foot = _foot(outer_radius, height, mount_reach, guard_wall, foot_plate)
-    housing = housing_moments(foot.housing) + lid_screw_moments(foot.housing)
-    return housing + foot_moments(foot) + trunk_screw_moments(foot)
-
-
-def _foot(
-    outer_radius: Real, height: Real, mount_reach: Real, guard_wall: float, thickness: float
-) -> Foot[Real]:
-    """The foot under a housing whose mount's holes stay within some radius."""
-    reach: Any = mount_reach
-    housing = Housing(outer_radius, height, MountHoles(reach), LID_SCREW, guard_wall)
-    return Foot(housing, thickness)
 
 
 def drive_moments(motor: Motor) -> MassMoments[float]:
@@ -151,5 +138,6 @@ def standing(
     mount = mount_of(motor, gear.room, foot_plate, on_bell=on_bell)
     height = max(height, mount.room)
     held = by_floor(motor, gear, mount).shifted(-half_height(height), 0.0) + by_wheel(motor, mount)
-    shell = shell_moments(outer_radius, height, mount.holes.reach, guard_wall, foot_plate)
-    return Carrier.of(held + mount.posts.moments(height) + shell)
+    shell = Printed(mount.holes.reach, NO_POSTS, guard_wall, foot_plate)
+    around = shell.moments(outer_radius, height)
+    return Carrier.of(held + mount.posts.moments(height) + around)

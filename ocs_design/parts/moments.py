@@ -125,14 +125,11 @@ def product(one: Real | float, other: Real | float) -> Real | float:
     return 0.0 if isinstance(one, float) and one == 0.0 else one * other
 
 
-def cylinder_mass(inner_radius: Real, outer_radius: Real, height: Real, density: float) -> Real:
-    """Mass m = pi rho h (R^2 - r^2) [kg]."""
+def cylinder_mass(
+    inner_radius: Real | float, outer_radius: Real, height: Real | float, density: Real | float
+) -> Real:
+    """Mass m = pi rho h (R^2 - r^2) [kg]; with r = 0 that of a disc."""
     return np.pi * density * height * (outer_radius**2 - inner_radius**2)
-
-
-def nothing() -> MassMoments[float]:
-    """Moments of no body at all."""
-    return MassMoments(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 def point(mass: Real) -> MassMoments[Real]:

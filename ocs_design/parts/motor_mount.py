@@ -7,9 +7,7 @@ gear is between, on the plate with nothing but a hole for what turns.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from functools import reduce
 from math import inf, sin
-from operator import add
 from typing import Generic
 
 from ocs_design.actuation.fasteners import CLASSES, IN_PLASTIC, Fastening, screw
@@ -17,7 +15,7 @@ from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
 from ocs_design.common.arrays import Table
 from ocs_design.parts.bell import Bell, HeldMotor, bell_of
 from ocs_design.parts.cage import HALF_POST, NO_POSTS, Cage, Posts
-from ocs_design.parts.moments import MassMoments, Real, nothing, ring
+from ocs_design.parts.moments import MassMoments, Real, point, ring
 from ocs_design.parts.printed import (
     LID_SCREW,
     PANEL,
@@ -26,7 +24,6 @@ from ocs_design.parts.printed import (
     MountHoles,
     ear_radius,
     half_height,
-    plate_back,
 )
 from ocs_design.parts.rim import BOLTED_HUB_HEIGHT, HUB_WALL, hub_height
 
@@ -153,12 +150,12 @@ class MotorMount:
         """Moments of screws less the holes, about the middle of the outside of the floor."""
         walls = self.holes.cut_out(PANEL + self.foot_plate)
         total = walls.shifted((PANEL - self.foot_plate) / 2.0, 0.0)
-        return reduce(add, (each.moments() for each in self.screwed if not each.by_wheel), total)
+        return sum((each.moments() for each in self.screwed if not each.by_wheel), total)
 
     def by_wheel(self) -> MassMoments[float]:
         """Moments of screws and of the cage's floor about the wheel's middle; see `posts` too."""
-        total = nothing() if self.cage is None else self.cage.floor_moments()
-        return reduce(add, (each.moments() for each in self.screwed if each.by_wheel), total)
+        total = point(0.0) if self.cage is None else self.cage.floor_moments()
+        return sum((each.moments() for each in self.screwed if each.by_wheel), total)
 
 
 def mount_of(
@@ -321,7 +318,7 @@ def motor_front(mount: MotorMount, height: float) -> float:
     """
     if mount.cage is not None:
         return -mount.cage.front
-    return -(plate_back(half_height(height), mount.foot_plate) + mount.gap)
+    return -(half_height(height) + mount.foot_plate + mount.gap)
 
 
 def drive_cylinders(
@@ -332,7 +329,7 @@ def drive_cylinders(
     A gear is what turns with the wheel, and beside it what turns with the motor. The cage has the
     heads of the motor's screws behind it.
     """
-    back = -plate_back(half_height(height), mount.foot_plate)
+    back = -(half_height(height) + mount.foot_plate)
     if room is not None and room.depth > 0.0:
         yield DriveSolid("gear", room.wheel_radius, back - room.depth, back)
         if room.offset > 0.0:

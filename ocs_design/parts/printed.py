@@ -5,9 +5,7 @@ Sizes may be arrays or CasADi's symbols: outlines of them can be weighed, not dr
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import reduce
 from math import pi
-from operator import add
 from typing import Any
 
 import numpy as np
@@ -15,7 +13,7 @@ import numpy as np
 from ocs_design.actuation.fasteners import STEEL, Fastening, Screw, screw
 from ocs_design.actuation.motor import BoltCircle
 from ocs_design.common.frames import Placement
-from ocs_design.parts.moments import MassMoments, Real, nothing
+from ocs_design.parts.moments import MassMoments, Real, point
 from ocs_design.parts.shapes import EAR_COUNT, Disc, Eared
 from ocs_design.parts.solids import HERE, Prism
 
@@ -166,17 +164,12 @@ class MountHoles:
     def cut_out(self, thickness: float) -> MassMoments[float]:
         """Moments of what they take of a printed plate [m], about its middle."""
         holes = (hole.moments() for hole in self.prisms(-thickness / 2.0, thickness / 2.0))
-        return reduce(add, holes, nothing()).turned(UPRIGHT).times(-DENSITY)
+        return sum(holes, point(0.0)).turned(UPRIGHT).times(-DENSITY)
 
 
 def half_height(height: Real) -> Real:
     """Distance from the wheel's middle to the outside of floor and lid [m]."""
     return height / 2.0 + (CLEARANCE + PANEL)
-
-
-def plate_back(half: Real, thickness: Real | float) -> Real:
-    """Distance of the plate's back from the middle of a housing of that half height [m]."""
-    return half + thickness
 
 
 def screw_lever(edge: float, slot_radius: float) -> float:

@@ -106,7 +106,7 @@ _BORES = 400
 
 
 def cylinder_spin_inertia(
-    inner_radius: Real, outer_radius: Real, height: Real, density: float
+    inner_radius: Real | float, outer_radius: Real, height: Real | float, density: Real | float
 ) -> Real:
     """Inertia about the axis: m (R^2 + r^2) / 2 [kg m^2]."""
     mass = cylinder_mass(inner_radius, outer_radius, height, density)
@@ -114,7 +114,7 @@ def cylinder_spin_inertia(
 
 
 def cylinder_transverse_inertia(
-    inner_radius: Real, outer_radius: Real, height: Real, density: float
+    inner_radius: Real | float, outer_radius: Real, height: Real | float, density: Real | float
 ) -> Real:
     """Inertia across the axis through the centre of mass: m (3 (R^2 + r^2) + h^2) / 12 [kg m^2]."""
     mass = cylinder_mass(inner_radius, outer_radius, height, density)
@@ -323,9 +323,9 @@ class Hub:
 
         What it leaves out within the hub, the hub has.
         """
-        disc = (bore, density, self.web_thickness)
-        mass = web_mass(*disc) * (1.0 - self.lightened)
-        axial = web_axial_inertia(*disc) * spread_left(self.lightened)
+        disc = (0.0, bore, self.web_thickness, density)
+        mass = cylinder_mass(*disc) * (1.0 - self.lightened)
+        axial = cylinder_spin_inertia(*disc) * spread_left(self.lightened)
         return Carrier(mass, axial, axial / 2.0 + mass * self.web_thickness**2 / 12.0)
 
     @property
@@ -354,13 +354,13 @@ def _beyond_web(hub: Hub) -> Carrier:
     body = Part("hub", 1.0, (Prism(Disc(hub.radius), -half, half),), tuple(holes)).moments()
     # With its bore it is a hollow cylinder as a rim is, and so are its edges.
     edges, size = RimCuts(hub.chamfer), (hub.bore_radius, hub.radius)
-    disc, left = (hub.radius, 1.0, hub.web_thickness), hub.web(hub.radius, 1.0)
+    disc, left = (0.0, hub.radius, hub.web_thickness, 1.0), hub.web(hub.radius, 1.0)
     return Carrier(
-        body.mass - edges.mass(*size, 1.0) + web_mass(*disc) - left.mass,
+        body.mass - edges.mass(*size, 1.0) + cylinder_mass(*disc) - left.mass,
         body.xx + body.yy - edges.axial_inertia(*size, 1.0)
-        + web_axial_inertia(*disc) - left.axial_inertia,
+        + cylinder_spin_inertia(*disc) - left.axial_inertia,
         (body.xx + body.yy) / 2.0 + body.zz - edges.transverse_inertia(*size, hub.height, 1.0)
-        + web_transverse_inertia(*disc) - left.transverse_inertia,
+        + cylinder_transverse_inertia(*disc) - left.transverse_inertia,
     )  # fmt: skip
 
 
@@ -480,18 +480,3 @@ def wheel_body(
 def spread_left(lightened: Real) -> Real:
     """Share of a disc's spin inertia that holes leave which take that share of its mass."""
     return 1.0 - 2.0 * LIGHTENING_PLACE * lightened
-
-
-def web_mass(bore: Real, density: Real | float, thickness: float) -> Real:
-    """Mass of the disc in a rim of bore radius r, without hub and holes [kg]."""
-    return pi * density * thickness * bore**2
-
-
-def web_axial_inertia(bore: Real, density: Real | float, thickness: float) -> Real:
-    """Inertia of that disc about the axis: m r^2 / 2 [kg m^2]."""
-    return web_mass(bore, density, thickness) * bore**2 / 2.0
-
-
-def web_transverse_inertia(bore: Real, density: Real | float, thickness: float) -> Real:
-    """Inertia of that disc across the axis: m (3 r^2 + t^2) / 12 [kg m^2]."""
-    return web_mass(bore, density, thickness) * (3.0 * bore**2 + thickness**2) / 12.0

@@ -10,7 +10,7 @@ from ocs_design.device.layout import PAIR, Direction, Layout
 from ocs_design.parts.foot import base_radius, larger, wheel_height
 from ocs_design.parts.housing import housing_outer_radius
 from ocs_design.parts.motor_mount import Behind
-from ocs_design.parts.printed import PLATE_THICKNESS, half_height, plate_back
+from ocs_design.parts.printed import PLATE_THICKNESS, half_height
 from ocs_design.parts.solids import Carrier
 from ocs_design.robot.mass import MassProperties, combine
 
@@ -56,7 +56,7 @@ def module_size(
     outer_radius = outer_radius + guard_wall
     half = half_height(height)
     housing = (housing_outer_radius(outer_radius) ** 2 + half**2) ** 0.5
-    depth = larger(plate_back(half, foot_plate) + behind.depth, behind.from_wheel)
+    depth = larger(half + foot_plate + behind.depth, behind.from_wheel)
     motor = (depth**2 + behind.radius**2) ** 0.5
     base = base_radius(outer_radius, height, mount_reach, foot_plate)
     return Size(larger(larger(housing, motor), base), wheel_height(outer_radius, foot_plate))

@@ -21,7 +21,7 @@ from ocs_design.parts.housing import (
     housing_parts,
     undrilled,
 )
-from ocs_design.parts.module import Printed, shell_moments
+from ocs_design.parts.module import Printed
 from ocs_design.parts.printed import (
     CLEARANCE,
     DENSITY,
@@ -117,8 +117,8 @@ def test_masses_are_those_of_the_moments(outer_radius, height):
         housing_mass(outer_radius, height), rel=1e-12
     )
     for walls in ((0.0, 0.005), (0.002, 0.009)):
-        whole = shell_moments(outer_radius, height, 0.01, *walls).mass
         shell = Printed(0.01, NO_POSTS, *walls)
+        whole = shell.moments(outer_radius, height).mass
         assert shell.mass(outer_radius, height) == pytest.approx(whole, rel=1e-12)
 
 
@@ -128,5 +128,5 @@ def test_arrays_as_numbers():
     np.testing.assert_allclose(housing_mass(outer, height), masses, rtol=1e-15)
     slopes = [housing_mass_per_height(size[0]) for size in SIZES]
     np.testing.assert_allclose(housing_mass_per_height(outer), slopes, rtol=1e-15)
-    alone = [shell_moments(*size, 0.01).yz for size in SIZES]
-    np.testing.assert_allclose(shell_moments(outer, height, 0.01).yz, alone, rtol=1e-12)
+    alone = [Printed(0.01).moments(*size).yz for size in SIZES]
+    np.testing.assert_allclose(Printed(0.01).moments(outer, height).yz, alone, rtol=1e-12)

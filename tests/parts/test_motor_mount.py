@@ -13,6 +13,7 @@ from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
 from ocs_design.catalogue.motors import motor
 from ocs_design.device.device import Flywheel, Web
 from ocs_design.export.device_parts import wheel_geometry
+from ocs_design.parts.moments import cylinder_mass
 from ocs_design.parts.motor_mount import is_held, mount_of
 from ocs_design.parts.rim import (
     HUB_WALL,
@@ -21,7 +22,6 @@ from ocs_design.parts.rim import (
     WEB_THICKNESS,
     Hub,
     hub_of,
-    web_mass,
     wheel_body,
 )
 from ocs_design.parts.solids import total
@@ -84,7 +84,7 @@ def wheel_on(hub: Hub) -> Flywheel:
         PAPER_WHEEL.material,
         of,
         WEB_THICKNESS,
-        web_mass(inner, of, WEB_THICKNESS) + hub.beyond_web(of).mass,
+        cylinder_mass(0.0, inner, WEB_THICKNESS, of) + hub.beyond_web(of).mass,
         hub,
     )
     return replace(PAPER_WHEEL, inner_radius=inner, outer_radius=inner + 0.01, web=web)

@@ -130,7 +130,7 @@ def test_guard_rings_hold_the_wheel_that_they_were_sized_with():
     """Device, bill and burst go together: the ring is weighed, and thick enough for this wheel."""
     _, free = designed()
     task, found = designed(guard="containing")
-    device, wall = found.device, burst_of(found.device).steel.wall
+    device, wall = found.device, burst_of(found.device).steel
     assert wall <= device.guard_wall <= wall + 2e-4
     rows = {row.part: row for row in bill_rows(device)}
     inside = device.flywheel.outer_radius + CLEARANCE

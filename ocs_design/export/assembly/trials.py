@@ -81,10 +81,10 @@ def spin_test(assembly: Assembly) -> Iterator[str]:
     speed, burst = assembly.top_speed, assembly.burst
     if speed is None or burst is None:
         return
-    wheel, steel = assembly.device.flywheel, burst.steel.wall
+    wheel = assembly.device.flywheel
     yield (
         "Clamp the module by its foot on a bench inside a closed steel box or behind steel of "
-        f"at least {max(2.0, math.ceil(2e3 * steel)):.0f} mm (twice the wall that holds it, "
+        f"at least {max(2.0, math.ceil(2e3 * burst.steel)):.0f} mm (twice the wall that holds it, "
         "see Safety) on all sides of the wheel's plane. Nobody stands in that plane. Drive it "
         "from behind the wall; a switch there cuts the supply."
     )
@@ -148,24 +148,24 @@ def safety(assembly: Assembly) -> Iterator[str]:
         f"If a wheel bursts at that speed, a third of it ({1e3 * part.mass:.0f} g) flies off "
         f"at {part.speed:.0f} m/s with {_two(part.energy)} J."
     )
-    steel, aluminium = burst.steel, burst.aluminium
     rule = "BRL formula, 1.25 times the thickness that is just perforated"
     built = assembly.device.guard_wall
-    if built >= steel.wall:
+    if built >= burst.steel:
         yield (
             f"The guard ring of {1e3 * built:.1f} mm holds that piece by the {rule}, which "
-            f"asks for {_at_least(steel.wall)} mm. That formula rests on tests of large plates; "
+            f"asks for {_at_least(burst.steel)} mm. That formula rests on tests of large plates; "
             "no ring of this kind has been tested: stay out of the wheel's plane all the same."
         )
     elif "drum" in assembly.numbers:
         short = f" and its ring of {1e3 * built:.1f} mm" if built else ""
+        steel, aluminium = burst.masses
         yield (
             f"The printed guard{short} keeps fingers out. It does not hold a burst rim: that "
-            f"would need a ring of {_at_least(steel.wall)} mm of mild steel in the drum, "
-            f"{1e3 * steel.mass:.0f} g each ({2e3 * steel.inner_radius:.1f} mm inside, "
-            f"{1e3 * steel.height:.1f} mm wide; {rule}), or by an estimate without tests "
-            f"behind it {_at_least(aluminium.wall)} mm of 6061-T6, "
-            f"{1e3 * aluminium.mass:.0f} g each. `size --guard containing` builds the one of "
+            f"would need a ring of {_at_least(burst.steel)} mm of mild steel in the drum, "
+            f"{1e3 * steel:.0f} g each ({2e3 * burst.inner_radius:.1f} mm inside, "
+            f"{1e3 * burst.height:.1f} mm wide; {rule}), or by an estimate without tests "
+            f"behind it {_at_least(burst.aluminium)} mm of 6061-T6, "
+            f"{1e3 * aluminium:.0f} g each. `size --guard containing` builds the one of "
             "steel in."
         )
     if "cage" in assembly.numbers:

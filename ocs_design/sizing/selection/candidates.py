@@ -24,7 +24,6 @@ from ocs_design.parts.module import (
     by_floor,
     by_wheel,
     gear_moments,
-    shell_moments,
 )
 from ocs_design.parts.moments import MassMoments, round_body
 from ocs_design.parts.motor_mount import mount_of
@@ -156,7 +155,7 @@ class Candidates(Table):
         tall = np.maximum(height, seat.room)
         whole = (
             round_body(mass, wheel, across + web + drives.hub_across * drives.web_most)
-            + shell_moments(outer, tall, seat.reach, guard, self.problem.foot_plate)
+            + self.shell.moments(outer, tall)
             + seat.posts.moments(height)
             + seat.by_wheel
             + seat.by_floor.shifted(-half_height(tall), np.zeros_like(tall))

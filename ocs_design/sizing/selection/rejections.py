@@ -20,7 +20,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import Infeasible
 from ocs_design.common.units import format_quantity
 from ocs_design.parts.housing import PlainDrum
-from ocs_design.parts.rim import web_axial_inertia
+from ocs_design.parts.rim import cylinder_spin_inertia
 from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.pivoted import Balance, Pivoted
 from ocs_design.requirement.turns import TurnTo
@@ -308,7 +308,7 @@ def largest_wheel(problem: SelectionProblem, room: Envelope) -> float:
     beside = np.zeros_like(inner)
     if problem.web:
         cut = problem.cuts.axial_inertia(inner, np.full_like(inner, outer), 1.0)
-        web = web_axial_inertia(inner, problem.web_densities, problem.web_thickness)
+        web = cylinder_spin_inertia(0.0, inner, problem.web_thickness, problem.web_densities)
         beside = web - density * cut
     inertia = np.where(inner >= bore, mass * (outer**2 + inner**2) / 2.0 + beside, 0.0)
     return float(inertia.max(initial=0.0))
