@@ -60,8 +60,8 @@ def main() -> None:
     if code == INTERRUPTED:
         _on_signals(signal.SIG_IGN)
         # Whoever has not come to load it has nothing to remove.
-        if staging := sys.modules.get("ocs_design.export.staging"):
-            staging.remove_unfinished()
+        if folder := sys.modules.get("ocs_design.export.folder"):
+            folder.remove_unfinished()
         # The terminal may be what has ended.
         with suppress(OSError):
             print("interrupted; nothing half done is left", file=sys.stderr, flush=True)

@@ -1,6 +1,6 @@
-"""Joints of a designed device, and how its wheels are balanced."""
+"""What holds a designed device together and on its robot, and how its wheels are balanced."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import inf, pi, sqrt
 
@@ -11,13 +11,13 @@ from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.materials import Material, materials
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
 from ocs_design.device.device import Device, Flywheel, Web
-from ocs_design.device.foot_hold import foot_hold
+from ocs_design.device.records.device import MarginRecord
 from ocs_design.device.solids import foot_of, housing_of, motor_mount
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.cage import floor_at_shock, heads_at_shock
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.dog_bone import directions
-from ocs_design.parts.foot import stem_frequency
+from ocs_design.parts.foot import FootHold, stem_frequency
 from ocs_design.parts.guard import Containment, fragment_of
 from ocs_design.parts.joints import (
     BOND_SHARE,
@@ -63,6 +63,9 @@ RIM_JOINT, SHAFT_JOINT = "rim joint", "shaft joint"
 FOOT_SHOCK, FLOOR_SHOCK = "landing shock, foot", "landing shock, cage"
 SCREWS_SHOCK = "landing shock, screws in the trunk"
 
+BEARING_MOMENT = "bearing moment"
+"""Name of the margin of what turns a wheel's axis."""
+
 RUN_OUT = 0.05e-3
 """Permissible run-out of the rim to the bore, on the wheel's drawing [m]; half of it is the
 distance of their middles."""
@@ -81,6 +84,26 @@ def burst_of(device: Device) -> Containment:
         wheel_speed=device.motor.top_speed,
     )
     return Containment.of(piece, wheel.outer_radius, housing_of(device).rim_height)
+
+
+def foot_hold(device: Device) -> FootHold:
+    """What holds each foot: on a plate it tilts about its edge, which is within the foot's own."""
+    foot, plate = foot_of(device), device.plate
+    edge = foot.base_radius if plate is None else min(foot.base_radius, plate.radius)
+    return FootHold.of(foot, device.flywheel.mass + device.carrier.mass, edge)
+
+
+def unheld_moment(device: Device, margins: Sequence[MarginRecord]) -> float:
+    """Moment of a wheel that would turn its foot about the vertical [N m]; 0: friction holds it.
+
+    It counts as vertical, whole, as it is where a trunk that pitches turns a wheel whose axis lies
+    level and off the lateral direction.
+
+    Args:
+        device: whose feet are held by `foot_hold`. margins: of its motion.
+    """
+    asked = max((each.demand for each in margins if each.name == BEARING_MOMENT), default=0.0)
+    return asked if asked > foot_hold(device).turning else 0.0
 
 
 def joints_of(device: Device) -> tuple[Margin, ...]:

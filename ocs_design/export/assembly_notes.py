@@ -7,8 +7,14 @@ from ocs_design.actuation.motor import DIRECT, Face, GearRoom, Mounting
 from ocs_design.catalogue.motors import known_motors
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
 from ocs_design.device.device import Device
-from ocs_design.device.foot_hold import foot_hold
-from ocs_design.device.joints import DAMPING, FLOOR_SHOCK, foot_frequency, joints_of, resonances_of
+from ocs_design.device.joints import (
+    DAMPING,
+    FLOOR_SHOCK,
+    foot_frequency,
+    foot_hold,
+    joints_of,
+    resonances_of,
+)
 from ocs_design.device.solids import drive_solids, foot_of, motor_mount, shaft_cut
 from ocs_design.export.device_parts import foot_holes, places, trunk_holes, wheel_geometry
 from ocs_design.export.drawing.wheel import BROKEN_EDGE, lost_by_breaking

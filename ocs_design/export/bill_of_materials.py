@@ -10,8 +10,7 @@ from pathlib import Path
 from ocs_design.actuation.fasteners import IN_PLASTIC, STEEL, Fastening
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.device import Device, Flywheel, Web
-from ocs_design.device.foot_hold import foot_hold, unheld_moment
-from ocs_design.device.joints import joints_of
+from ocs_design.device.joints import foot_hold, joints_of, unheld_moment
 from ocs_design.device.records.device import MarginRecord
 from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.export.assembly_notes import drive_notes

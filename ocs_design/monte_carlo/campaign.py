@@ -15,9 +15,8 @@ from ocs_design.common.files import TextKind, safe_name, to_json
 from ocs_design.device.answers import RESULT_FILE, MonteCarloRecord
 from ocs_design.device.device import Device
 from ocs_design.device.layout import Layout
-from ocs_design.export.folder import output_error
+from ocs_design.export.folder import clear_leftovers, output_error, staging_beside
 from ocs_design.export.physics import STEP
-from ocs_design.export.staging import clear_leftovers, staging_beside
 from ocs_design.jumping.jump import BALLISTIC, JumpPlans
 from ocs_design.monte_carlo.outcomes import METRICS, Outcomes, code_of, write_tables
 from ocs_design.monte_carlo.uncertainty import Sample, Uncertainty, built, quantities

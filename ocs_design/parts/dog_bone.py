@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ocs_design.common.arrays import FloatArray
 from ocs_design.parts.moments import MassMoments
 from ocs_design.parts.outline import Outline
-from ocs_design.parts.shapes import Shape, flat
+from ocs_design.parts.shapes import flat
 
 FILLET = 10.0e-3
 """Radius between neck and ends [m], or what there is room for: a cutter's, and no sharp notch."""
@@ -24,7 +24,7 @@ def directions(arms: int) -> FloatArray:
 
 
 @dataclass(frozen=True)
-class DogBone(Shape[float]):
+class DogBone:
     """Discs evenly around a middle, with a neck from there to each, rounded where they meet.
 
     Two have one neck between them, along y. With a neck as wide as the discs it is a rectangle with
@@ -80,6 +80,11 @@ class DogBone(Shape[float]):
         share = self.radius / (self.radius + self.fillet)
         out = self.neck + self.fillet
         return share * out, self.across - share * (self.across - self.straight)
+
+    @property
+    def area(self) -> float:
+        """Area [m^2]."""
+        return self.moments.mass
 
     @property
     def moments(self) -> MassMoments[float]:

@@ -19,6 +19,7 @@ from ocs_design.actuation.fasteners import Fastening
 from ocs_design.common.frames import Placement
 from ocs_design.parts.carrier_plate import SLOT_EDGE
 from ocs_design.parts.housing import Housing, housing_outer_radius
+from ocs_design.parts.joints import FRICTION, TIGHTENING_FACTOR
 from ocs_design.parts.moments import MassMoments, Real, flat_ring
 from ocs_design.parts.printed import (
     AROUND_SLOT,
@@ -28,6 +29,7 @@ from ocs_design.parts.printed import (
     FLOOR_SHARE,
     MODULUS,
     PLATE_THICKNESS,
+    PRESSURE_SHARE,
     SHOCK,
     STRENGTH,
     STRENGTH_ACROSS,
@@ -35,6 +37,7 @@ from ocs_design.parts.printed import (
     TRUNK_SCREW_COUNT,
     UPRIGHT,
     WALL,
+    WASHER_ACROSS,
     MountHoles,
     base_thickness,
     screw_lever,
@@ -239,6 +242,51 @@ def screw_pull(foot: Foot[float], mass: float, edge: float | None = None) -> flo
     """
     edge = foot.base_radius if edge is None else edge
     return mass * SHOCK * foot.wheel_height / screw_lever(edge, foot.slot_radius)
+
+
+@dataclass(frozen=True)
+class FootHold:
+    """How the two screws of a foot hold it: heads on slots, and their friction.
+
+    Attributes:
+        pull: largest of one screw under `SHOCK` along the wheel's axis [N].
+        washers: whether washers go under the heads: without, what the print lets them be
+            tightened to is less than that pull.
+        area: that a head, or its washer, presses on beside its slot [m^2].
+        prints_bear: acceleration at which stem or base break [m/s^2].
+        slot_radius: of the circle that the screws stand on [m].
+    """
+
+    pull: float
+    washers: bool
+    area: float
+    prints_bear: float
+    slot_radius: float
+
+    @property
+    def heads_bear(self) -> float:
+        """Acceleration at which the heads, or their washers, sink into the base [m/s^2]."""
+        return SHOCK * STRENGTH * self.area / self.pull
+
+    @property
+    def preload(self) -> float:
+        """Force that a screw is tightened to, by the print under it [N]."""
+        return PRESSURE_SHARE * STRENGTH * self.area
+
+    @property
+    def turning(self) -> float:
+        """Moment about the vertical that their friction bears at the least preload [N m]."""
+        least = self.preload / TIGHTENING_FACTOR
+        return FRICTION * TRUNK_SCREW_COUNT * least * self.slot_radius
+
+    @classmethod
+    def of(cls, foot: Foot[float], mass: float, edge: float) -> "FootHold":
+        """What holds a foot under a module of a mass [kg]; `edge`: see `screw_pull` [m]."""
+        pull = screw_pull(foot, mass, edge)
+        bare = TRUNK_SCREW.slot_area(TRUNK_SCREW.head_diameter)
+        washers = pull > PRESSURE_SHARE * STRENGTH * bare
+        area = TRUNK_SCREW.slot_area(WASHER_ACROSS) if washers else bare
+        return cls(pull, washers, area, foot_shock(foot, mass, edge), foot.slot_radius)
 
 
 def stem_frequency(

@@ -28,8 +28,8 @@ from ocs_design.parts.printed import (
     eared,
     half_height,
 )
-from ocs_design.parts.shapes import EAR_COUNT, Disc, Eared, Shape
-from ocs_design.parts.solids import Part, Prism
+from ocs_design.parts.shapes import EAR_COUNT, Disc, Eared
+from ocs_design.parts.solids import Part, Prism, Shape
 
 FIRST_EAR = pi / 4.0
 """Angle from the x axis [rad]: nothing stands out below, above, before and behind."""

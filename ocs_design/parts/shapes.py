@@ -5,7 +5,6 @@ symbols: its figures are built of operators alone. Moments are those of a plate 
 the plane z = 0, about the origin: area [m^2], first [m^3] and second ones [m^4].
 """
 
-from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 from math import asin, cos, pi, sin, tan
@@ -21,27 +20,8 @@ EAR_COUNT = 4
 """Ears around a band: between below, above, before and behind, where nothing stands out."""
 
 
-class Shape(Generic[Real]):
-    """A region of a plane."""
-
-    @property
-    def area(self) -> Real:
-        """Area [m^2]."""
-        area: Real = self.moments.mass
-        return area
-
-    @property
-    @abstractmethod
-    def moments(self) -> MassMoments[Real]:
-        """Moments about the origin, of unit density."""
-
-    @abstractmethod
-    def outline(self) -> Outline:
-        """The edge of a shape of numbers, counter-clockwise."""
-
-
 @dataclass(frozen=True, eq=False)
-class Disc(Shape[Real]):
+class Disc(Generic[Real]):
     """A full disc.
 
     Attributes:
@@ -71,7 +51,7 @@ class Disc(Shape[Real]):
 
 
 @dataclass(frozen=True, eq=False)
-class Rectangle(Shape[Real]):
+class Rectangle(Generic[Real]):
     """A rectangle parallel to the axes, between these coordinates [m]."""
 
     left: Real
@@ -101,7 +81,7 @@ class Rectangle(Shape[Real]):
 
 
 @dataclass(frozen=True, eq=False)
-class Polygon(Shape[Real]):
+class Polygon(Generic[Real]):
     """A polygon that does not cross itself.
 
     Attributes:
@@ -111,8 +91,14 @@ class Polygon(Shape[Real]):
     corners: tuple[tuple[Real | float, Real | float], ...]
 
     @property
+    def area(self) -> Real:
+        """Area by Green's theorem [m^2]."""
+        area: Real = self.moments.mass
+        return area
+
+    @property
     def moments(self) -> MassMoments[Real]:
-        """Triangles from the origin to each edge, added up (Green's theorem)."""
+        """Moments about the origin, of unit density: triangles from it to each edge, added up."""
         found: list[Any] = [0.0] * 6
         for (a, b), (c, d) in zip(self.corners, self.corners[1:] + self.corners[:1], strict=True):
             twice: Any = a * d - c * b
@@ -134,7 +120,7 @@ class Polygon(Shape[Real]):
 
 
 @dataclass(frozen=True, eq=False)
-class ArcSlot(Shape[Real]):
+class ArcSlot(Generic[Real]):
     """What a cutter of diameter `width` leaves on its way around the origin.
 
     Attributes:
@@ -182,7 +168,7 @@ class ArcSlot(Shape[Real]):
         return Outline(np.array(points), np.array([quarter, 1.0, -quarter, 1.0]))
 
 
-class _Stemmed(Shape[Real]):
+class _Stemmed(Generic[Real]):
     """A disc with stems: `radius` of the disc, `side` half of a stem's width [m]."""
 
     radius: Real
@@ -290,7 +276,7 @@ class Eared(_Stemmed[Real]):
 
 
 @dataclass(frozen=True, eq=False)
-class Post(Shape[float]):
+class Post:
     """One of four ears on the x axis, with the piece of the band that it stands on.
 
     Attributes:
@@ -302,6 +288,11 @@ class Post(Shape[float]):
     eared: Eared[float]
     bore: float
     half_angle: float
+
+    @property
+    def area(self) -> float:
+        """Area [m^2]."""
+        return self.moments.mass
 
     @property
     def moments(self) -> MassMoments[float]:

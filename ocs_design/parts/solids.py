@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from functools import reduce
 from math import pi
 from operator import add
-from typing import Any, Generic, TypeAlias
+from typing import Any, Generic, Protocol, TypeAlias
 
 import numpy as np
 
@@ -13,13 +13,27 @@ from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.common.frames import Placement
 from ocs_design.parts.moments import MassMoments, Real, product
 from ocs_design.parts.outline import Outline
-from ocs_design.parts.shapes import Shape
 from ocs_design.robot.mass import MassProperties, combine
 
 HERE = Placement.identity()
 
 THREE_POINTS = tuple(map(frozen, np.polynomial.legendre.leggauss(3)))
 """Nodes and weights of Gauss's rule of three points on [-1, 1]."""
+
+
+class Shape(Protocol[Real]):
+    """A region of a plane."""
+
+    @property
+    def area(self) -> Real:
+        """Area [m^2]."""
+
+    @property
+    def moments(self) -> MassMoments[Real]:
+        """Moments about the origin, of unit density."""
+
+    def outline(self) -> Outline:
+        """The edge of a shape of numbers."""
 
 
 @dataclass(frozen=True, eq=False)

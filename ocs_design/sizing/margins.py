@@ -13,7 +13,7 @@ import numpy as np
 
 from ocs_design.actuation.drive import speed_limit
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.foot_hold import BEARING_MOMENT
+from ocs_design.device.joints import BEARING_MOMENT
 from ocs_design.parts.joints import OVERSPEED, Margin
 from ocs_design.sizing.driven_wheel import DrivenWheel
 from ocs_design.sizing.trajectory.motion import Trajectory

@@ -3,8 +3,14 @@
 from collections.abc import Mapping, Sequence
 
 from ocs_design.actuation.motor import Motor, build_gaps
-from ocs_design.device.foot_hold import BEARING_MOMENT
-from ocs_design.device.joints import FLOOR_SHOCK, FOOT_SHOCK, RIM_JOINT, SCREWS_SHOCK, SHAFT_JOINT
+from ocs_design.device.joints import (
+    BEARING_MOMENT,
+    FLOOR_SHOCK,
+    FOOT_SHOCK,
+    RIM_JOINT,
+    SCREWS_SHOCK,
+    SHAFT_JOINT,
+)
 from ocs_design.device.records.device import Buildable, MarginRecord, OpenPoint
 from ocs_design.parts.joints import EPOXY, Margin
 from ocs_design.report.quantities import quantity

@@ -10,8 +10,7 @@ from manifold3d import Manifold, Mesh64
 from scipy.integrate import quad
 
 from ocs_design.actuation.fasteners import screw
-from ocs_design.device.foot_hold import BEARING_MOMENT, foot_hold, unheld_moment
-from ocs_design.device.joints import FOOT_SHOCK, joints_of
+from ocs_design.device.joints import BEARING_MOMENT, FOOT_SHOCK, foot_hold, joints_of, unheld_moment
 from ocs_design.device.records.device import MarginRecord
 from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly.booklet import chapters, screw_rows

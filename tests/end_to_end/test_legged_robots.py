@@ -14,7 +14,7 @@ from anatomy import LEGGED as WALKING
 from commands import PROGRAM, environment, run
 from robots import ROBOTS
 
-from ocs_design.parts.mast import TUBES
+from ocs_design.parts.carrier_plate import TUBES
 
 # Upper bodies of a humanoid: its legs are not in their files.
 LEGGED = [*WALKING, *(name for name in ANATOMY if name.startswith("alex_description"))]

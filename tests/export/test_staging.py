@@ -12,9 +12,13 @@ from commands import everything_in
 from ocs_design.common.errors import OutputError
 from ocs_design.device.records.design import DESIGN_FILE
 from ocs_design.export import folder as folders
-from ocs_design.export import staging as stagings
-from ocs_design.export.folder import check_target, staged_folder, write_whole
-from ocs_design.export.staging import clear_leftovers, remove_unfinished
+from ocs_design.export.folder import (
+    check_target,
+    clear_leftovers,
+    remove_unfinished,
+    staged_folder,
+    write_whole,
+)
 
 REPLACE = """
     import ctypes, fcntl, os, signal, sys
@@ -95,7 +99,7 @@ def test_killed_at_any_moment_it_is_the_old_folder_or_the_new(tmp_path, how, mom
 class InterruptedAt:
     """Raises an interrupt before the n-th instruction of the code that makes folders whole."""
 
-    FILES = (folders.__file__, stagings.__file__)
+    FILES = (folders.__file__,)
 
     def __init__(self, moment):
         self.left = moment

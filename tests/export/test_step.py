@@ -32,8 +32,7 @@ from ocs_design.device.bodies import STEEL, carrier_placement, wheel_placement
 from ocs_design.export.assembly.placed import placed_parts
 from ocs_design.export.step import device_bytes, module_bytes, step_bytes
 from ocs_design.export.visuals import ALUMINIUM, MOTOR, PRINT
-from ocs_design.parts.carrier_plate import mast_part, plate_part
-from ocs_design.parts.mast import Mast
+from ocs_design.parts.carrier_plate import Mast, mast_part, plate_part
 
 TOLERANCE = 1e-9
 

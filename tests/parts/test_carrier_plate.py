@@ -18,7 +18,9 @@ from ocs_design.export.stl import MILLIMETRES, stl_bytes
 from ocs_design.parts.carrier_plate import (
     MODULUS,
     STOCK,
+    TUBES,
     CarrierPlate,
+    Mast,
     mast_part,
     plate_bodies,
     plate_part,
@@ -26,7 +28,6 @@ from ocs_design.parts.carrier_plate import (
 )
 from ocs_design.parts.dog_bone import FILLET, DogBone, directions
 from ocs_design.parts.joints import screw_use, stress_area
-from ocs_design.parts.mast import TUBES, Mast
 from ocs_design.parts.plate_strength import (
     bending_stress,
     mast_screws_use,

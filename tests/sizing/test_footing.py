@@ -22,8 +22,7 @@ from ocs_design.device.solids import foot_of, module_solids, plate_heads, plate_
 from ocs_design.export.assembly.placed import placed_parts
 from ocs_design.export.device_parts import foot_holes, wheel_pieces
 from ocs_design.export.meshes import part_manifold
-from ocs_design.parts.carrier_plate import SAFETY, STOCK, YIELD_STRENGTH, plate_bodies
-from ocs_design.parts.mast import MAST_YIELD
+from ocs_design.parts.carrier_plate import MAST_YIELD, SAFETY, STOCK, YIELD_STRENGTH, plate_bodies
 from ocs_design.parts.pedestal import drilled
 from ocs_design.parts.plate_strength import mast_screws_use, mast_stress, plate_stress, posts_use
 from ocs_design.parts.printed import TRUNK_SCREW

@@ -11,13 +11,13 @@ from math import pi, sqrt
 
 from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening
 from ocs_design.device.device import Device
-from ocs_design.device.foot_hold import FootHold, foot_hold
-from ocs_design.device.joints import burst_of
+from ocs_design.device.joints import burst_of, foot_hold
 from ocs_design.device.records.device import MarginRecord
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.placed import Piece, bonding_pieces, holds_wheel, module_pieces
 from ocs_design.export.device_parts import places, trunk_holes
 from ocs_design.export.formats import Subject
+from ocs_design.parts.foot import FootHold
 from ocs_design.parts.guard import Containment
 from ocs_design.parts.joints import preload as joint_preload
 from ocs_design.parts.joints import tightening_torque

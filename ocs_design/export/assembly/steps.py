@@ -8,8 +8,15 @@ import numpy as np
 from ocs_design.catalogue.materials import materials
 from ocs_design.common.units import format_quantity
 from ocs_design.device.bodies import joint_name
-from ocs_design.device.foot_hold import foot_hold, unheld_moment
-from ocs_design.device.joints import RUN_OUT, SHAFT_JOINT, balance_of, joints_of, rim_fit
+from ocs_design.device.joints import (
+    RUN_OUT,
+    SHAFT_JOINT,
+    balance_of,
+    foot_hold,
+    joints_of,
+    rim_fit,
+    unheld_moment,
+)
 from ocs_design.device.layout import PAIR
 from ocs_design.device.solids import drive_solids, foot_of
 from ocs_design.export.assembly.content import Assembly, Tightened

@@ -38,9 +38,8 @@ from ocs_design.export.drawing.sheet import (
 )
 from ocs_design.export.drawing.title_block import Entries, frame, numbered, title_block
 from ocs_design.export.drawing.wheel import plain
-from ocs_design.parts.carrier_plate import CarrierPlate, mast_part, plate_part
+from ocs_design.parts.carrier_plate import CarrierPlate, Mast, mast_part, plate_part
 from ocs_design.parts.dog_bone import directions
-from ocs_design.parts.mast import Mast
 from ocs_design.parts.outline import flat_outline
 
 LEFT, TOP, RIGHT, _ = FRAME_BOX

@@ -15,14 +15,16 @@ from ocs_design.device.layout import Layout
 from ocs_design.device.solids import mast_solids, plate_solids
 from ocs_design.parts.carrier_plate import (
     EDGE,
+    MAST_YIELD,
     SLEEVE_MAX,
     SLOT_EDGE,
+    TUBES,
     CarrierPlate,
+    Mast,
     Point,
     plate_part,
 )
 from ocs_design.parts.joints import pattern_use
-from ocs_design.parts.mast import MAST_YIELD, TUBES, Mast
 from ocs_design.parts.plate_strength import arm_stress, mast_screws_use, mast_stress
 from ocs_design.parts.printed import SHOCK
 from ocs_design.robot.robot import Robot

@@ -11,8 +11,7 @@ from drawn_wheels import check_words, texts
 from ocs_design.export.drawing.plate_sheet import plate_sheets
 from ocs_design.export.drawing.sheet import OUTLINE, Circle, Polyline
 from ocs_design.export.meshes import part_manifold
-from ocs_design.parts.carrier_plate import plate_part
-from ocs_design.parts.mast import Mast
+from ocs_design.parts.carrier_plate import Mast, plate_part
 
 PLATE = DEVICES["on a plate"].plate
 MAST = Mast(side=0.04, wall=0.003, face=0.14, below=0.0988, high=0.04, overhang=0.09, spacer=0.01)
