@@ -52,11 +52,7 @@ from ocs_design.parts.plate_strength import (
 )
 from ocs_design.parts.printed import MODULUS, SHOCK
 from ocs_design.parts.rim import LIGAMENT
-from ocs_design.parts.turning_rings import (
-    Ring,
-    TurningRings,
-    holed_peaks,
-)
+from ocs_design.parts.turning_rings import Ring, TurningRings, holed_peaks
 
 RIM_JOINT, SHAFT_JOINT = "rim joint", "shaft joint"
 

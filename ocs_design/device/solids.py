@@ -213,12 +213,7 @@ def mast_solids(plate: CarrierPlate | None) -> tuple[Drum, ...]:
         (arm / 2.0 - plate.neck, level - 2.0 * quarter, backwards, arm) for level in plate.heights
     ]
     drums = [
-        Drum(
-            middle + [x, aside, z] + off * square,
-            axis,
-            sqrt(2.0) * quarter,
-            length,
-        )
+        Drum(middle + [x, aside, z] + off * square, axis, sqrt(2.0) * quarter, length)
         for x, z, axis, length in tubes
         for square in (np.cross(axis, _LEFT),)
         for aside in (quarter, -quarter)

@@ -14,19 +14,10 @@ from ocs_design.device.joints import foot_hold, joints_of, unheld_moment
 from ocs_design.device.records.device import MarginRecord
 from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.export.assembly_notes import drive_notes
-from ocs_design.export.device_parts import (
-    foot_screws,
-    pedestal_kinds,
-    printed_parts,
-    ring_fixture,
-)
+from ocs_design.export.device_parts import foot_screws, pedestal_kinds, printed_parts, ring_fixture
 from ocs_design.export.electrics import battery, controllers
 from ocs_design.export.formats import Notes, Subject
-from ocs_design.parts.carrier_plate import (
-    mast_part,
-    plate_part,
-    sleeve_part,
-)
+from ocs_design.parts.carrier_plate import mast_part, plate_part, sleeve_part
 from ocs_design.parts.housing import LID_SCREWS, guard_ring
 from ocs_design.parts.joints import BOND_STRENGTH, EPOXY
 from ocs_design.parts.printed import (

@@ -7,7 +7,7 @@ import numpy as np
 from ocs_design.common.frames import rpy_from_rotation
 from ocs_design.device.bodies import DeviceBody, device_bodies, largest_torque
 from ocs_design.device.device import Device, Flywheel
-from ocs_design.export.formats import Seat
+from ocs_design.export.formats import Base
 from ocs_design.export.templates import fill, numbers, quoted
 from ocs_design.export.visuals import Visual, plain_visuals, still_visuals
 from ocs_design.robot.leg_geometry import BASE_FRAME
@@ -22,9 +22,9 @@ MOCK_PLUGIN = "mock_components/GenericSystem"
 """Hardware of ros2_control's own that moves nothing."""
 
 
-def trunk_link(seat: Seat) -> str:
+def trunk_link(base: Base) -> str:
     """Name of the robot's own link that carries the device."""
-    return seat.trunk if seat.mount is None else seat.mount.link
+    return base.trunk if base.mount is None else base.mount.link
 
 
 def mount_urdf(mount: Mount) -> str:
@@ -55,7 +55,7 @@ def device_urdf(device: Device, parent: str, *, mesh: str | None = None) -> str:
             values["visual"] = solid if mesh is None else f'<mesh filename="{quoted(mesh)}"/>'
             elements.append(fill("flywheel.urdf", values))
         else:
-            values["visuals"] = visuals_urdf(looks(device, body))
+            values["visuals"] = visuals_urdf(looks(device, body.module))
             elements.append(fill("carrier.urdf", values))
     return "".join(elements)
 

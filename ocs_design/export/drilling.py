@@ -179,7 +179,7 @@ def drilling_of(subject: Subject) -> Drilling | None:
     ]
     return Drilling(
         subject.name,
-        subject.seat.trunk,
+        subject.base.trunk,
         holes,
         thread,
         (min(reach), max(reach)),

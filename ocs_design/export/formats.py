@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from ocs_design.common.errors import MissingToolError, UsageError, extra_command
 
@@ -24,7 +24,7 @@ Notes: TypeAlias = tuple[str, ...]
 
 
 @dataclass(frozen=True, eq=False)
-class Seat:
+class Base:
     """Place of the device on a robot.
 
     Attributes:
@@ -43,7 +43,7 @@ class Subject:
     Attributes:
         name: of the robot, fit for the names of files.
         device: on the robot.
-        seat: where the device sits.
+        base: frame that the device is in.
         robot: that carries it; None where only its parts and its snippets are wanted.
         margins: of its recorded flights; empty: none are known.
         fitting: what the design leaves to do by hand, one sentence each.
@@ -51,7 +51,7 @@ class Subject:
 
     name: str
     device: "Device"
-    seat: Seat
+    base: Base
     robot: "Robot | None"
     margins: "tuple[MarginRecord, ...]" = ()
     fitting: tuple[str, ...] = ()
@@ -59,7 +59,7 @@ class Subject:
     @classmethod
     def of(cls, robot: "Robot", device: "Device", name: str) -> "Subject":
         """Device on a robot that was read."""
-        return cls(name, device, Seat(robot.trunk, robot.mount), robot)
+        return cls(name, device, Base(robot.trunk, robot.mount), robot)
 
     def recorded(self, design: "OcsDesign") -> "Subject":
         """The subject with what its design records besides the device."""
@@ -75,13 +75,6 @@ class Subject:
         """Robot of the formats that need one."""
         assert self.robot is not None, "formats that need a robot are refused without one"
         return self.robot
-
-
-class _Writer(Protocol):
-    """Module of a format."""
-
-    def write(self, subject: Subject, folder: Path) -> Notes:
-        """Write the subject's files into a folder."""
 
 
 @dataclass(frozen=True)
@@ -118,12 +111,13 @@ class Format:
         if self.library and find_spec(self.library) is None:
             raise self._missing("is not installed")
         try:
-            writer: _Writer = import_module(f"ocs_design.export.{self.module}")
+            writer = import_module(f"ocs_design.export.{self.module}")
         except ImportError as error:
             if not self.library:
                 raise
             raise self._missing(f"cannot be loaded: {error}") from error
-        return writer.write(subject, folder)
+        notes: Notes = writer.write(subject, folder)
+        return notes
 
     def _missing(self, why: str) -> MissingToolError:
         return MissingToolError(

@@ -109,7 +109,7 @@ def robot_model(robot: Robot, device: Device) -> RobotModel:
         mesh, kind = PurePath(WHEEL_MESH).stem, mujoco.mjtGeom.mjGEOM_MESH
         spec.body(name).add_geom(type=kind, meshname=mesh, rgba=solid.rgba, **quiet)
     still = [body for body in device_bodies(device) if not body.joint]
-    shown = [(body.name, visual) for body in still for visual in still_visuals(device, body)]
+    shown = [(body.name, visual) for body in still for visual in still_visuals(device, body.module)]
     for body, visual in shown:
         geom = spec.body(body).add_geom(
             type=GEOM_TYPES[visual.kind],

@@ -79,7 +79,7 @@ def write(subject: Subject, folder: Path) -> Notes:
         "config/controllers.yaml": fill("ros2/controllers.yaml", values),
         f"urdf/{file}.urdf": described,
         f"urdf/{file}.urdf.xacro": fill("ros2/robot.urdf.xacro", values),
-        "urdf/ocs.urdf.xacro": snippet_xacro(device, subject.seat),
+        "urdf/ocs.urdf.xacro": snippet_xacro(device, subject.base),
         f"urdf/{file}.ros2_control.xacro": fill(
             "ros2/ros2_control.xacro", {**values, "system": system}
         ),

@@ -23,9 +23,9 @@ from ocs_design.export.device_urdf import (
     visual_values,
     visuals_urdf,
 )
-from ocs_design.export.formats import Notes, Seat, Subject
+from ocs_design.export.formats import Base, Notes, Subject
 from ocs_design.export.templates import fill, in_comment, numbers, quoted
-from ocs_design.export.visuals import plain_carrier_visuals, plain_visuals
+from ocs_design.export.visuals import plain_visuals
 from ocs_design.robot.leg_geometry import BASE_FRAME
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.tree import ShapeKind
@@ -41,33 +41,33 @@ _MACRO_PLACE = {
 
 def write(subject: Subject, folder: Path) -> Notes:
     """Write all snippets."""
-    for name, text in snippets(subject.device, subject.seat).items():
+    for name, text in snippets(subject.device, subject.base).items():
         (folder / name).write_bytes(text.encode())
     return ()
 
 
-def snippets(device: Device, seat: Seat) -> Mapping[str, str]:
+def snippets(device: Device, base: Base) -> Mapping[str, str]:
     """All snippets by the names of their files."""
     return {
-        "ocs.urdf": snippet_urdf(device, seat),
-        "ocs.urdf.xacro": snippet_xacro(device, seat),
+        "ocs.urdf": snippet_urdf(device, base),
+        "ocs.urdf.xacro": snippet_xacro(device, base),
         "ocs_ros2_control.urdf": snippet_ros2_control(device),
-        "ocs.xml": snippet_mjcf(device, seat),
-        "ocs.sdf": snippet_sdf(device, seat),
+        "ocs.xml": snippet_mjcf(device, base),
+        "ocs.sdf": snippet_sdf(device, base),
     }
 
 
-def snippet_urdf(device: Device, seat: Seat) -> str:
+def snippet_urdf(device: Device, base: Base) -> str:
     """Links and joints to paste into a URDF."""
-    base = "" if seat.mount is None else mount_urdf(seat.mount)
-    return fill("ocs.urdf", {**_names(seat), "device": base + device_urdf(device, seat.trunk)})
+    frame = "" if base.mount is None else mount_urdf(base.mount)
+    return fill("ocs.urdf", {**_names(base), "device": frame + device_urdf(device, base.trunk)})
 
 
-def snippet_xacro(device: Device, seat: Seat) -> str:
+def snippet_xacro(device: Device, base: Base) -> str:
     """Xacro macro `ocs`."""
     joints = [f"${{prefix}}{joint}" for joint in bodies.joint_names(device)]
     control = ros2_control_urdf(device, joints, name="${prefix}ocs", plugin="${hardware_plugin}")
-    rotation = np.eye(3) if seat.mount is None else seat.mount.placement.rotation
+    rotation = np.eye(3) if base.mount is None else base.mount.placement.rotation
     # What is under the feet stands on the macro's own base.
     under = [
         fill(
@@ -75,14 +75,14 @@ def snippet_xacro(device: Device, seat: Seat) -> str:
             {
                 **body_values(body, "${prefix}ocs_base"),
                 "link": f"${{prefix}}{body.name}",
-                "visuals": visuals_urdf(plain_visuals(device, body)),
+                "visuals": visuals_urdf(plain_visuals(device, None)),
             },
         )
         for body in bodies.device_bodies(device)
         if body.module is None
     ]
     values = {
-        **_names(seat),
+        **_names(base),
         "base_rpy": numbers(rpy_from_rotation(rotation)),
         **inertial_values(bodies.flywheel_inertial(device)),
         **_macro_wheels(device),
@@ -146,7 +146,7 @@ def _macro_carrier(device: Device) -> str:
         return "${" + "".join([*chain][:-1]) + f"'{values[-1]}'" + "}"
 
     sided = {name: told([values[name] for values in each]) for name in each[0]}
-    looks = [visuals_urdf(plain_carrier_visuals(device, each)) for each in device.modules]
+    looks = [visuals_urdf(plain_visuals(device, each)) for each in device.modules]
     if len({*looks}) == 1:
         visuals = looks[0]
     else:
@@ -163,7 +163,7 @@ def snippet_ros2_control(device: Device) -> str:
     return fill("ocs_ros2_control.urdf", {"ros2_control": element})
 
 
-def snippet_mjcf(device: Device, seat: Seat) -> str:
+def snippet_mjcf(device: Device, base: Base) -> str:
     """Model to attach to a MJCF robot."""
     limit = bodies.largest_torque(device.motor)
     limits = "" if limit is None else f' ctrllimited="true" ctrlrange="{numbers((-limit, limit))}"'
@@ -183,9 +183,9 @@ def snippet_mjcf(device: Device, seat: Seat) -> str:
         sensors.append(f'<jointactuatorfrc name="{torque}" joint="{joint}"/>')
     sensors.append(f'<framequat name="{attitude}" objtype="site" objname="{imu}"/>')
     sensors.append(f'<gyro name="{rate}" site="{imu}"/>')
-    rotation = np.eye(3) if seat.mount is None else seat.mount.placement.rotation
+    rotation = np.eye(3) if base.mount is None else base.mount.placement.rotation
     values = {
-        **_names(seat),
+        **_names(base),
         "bodies": ", ".join(
             (
                 *bodies.flywheel_names(device),
@@ -227,25 +227,25 @@ def _body_mjcf(device: Device, body: bodies.DeviceBody) -> str:
             "size": numbers(visual.size),
             "color": numbers(visual.color),
         }
-        for visual in plain_visuals(device, body)
+        for visual in plain_visuals(device, body.module)
     )
     values["geoms"] = "".join(fill("visual.xml", geom) for geom in geoms)
     return fill("carrier.xml", values)
 
 
-def snippet_sdf(device: Device, seat: Seat) -> str:
+def snippet_sdf(device: Device, base: Base) -> str:
     """Links and joints to paste into an SDF model (sdformat.org, specification 1.9)."""
-    link = trunk_link(seat)
-    place = {"parent": quoted(link), "frame": quoted(link if seat.mount is None else BASE_FRAME)}
-    base = ""
-    if seat.mount is not None:
+    link = trunk_link(base)
+    place = {"parent": quoted(link), "frame": quoted(link if base.mount is None else BASE_FRAME)}
+    frame = ""
+    if base.mount is not None:
         # The frame with x forward and z up, where the robot's own link has none.
-        at = seat.mount.placement
+        at = base.mount.placement
         pose = numbers([*at.position, *rpy_from_rotation(at.rotation)])
-        parent = quoted(seat.mount.link)
-        base = fill("base_frame.sdf", {"frame": BASE_FRAME, "parent": parent, "pose": pose})
+        parent = quoted(base.mount.link)
+        frame = fill("base_frame.sdf", {"frame": BASE_FRAME, "parent": parent, "pose": pose})
     parts = "".join(_body_sdf(device, body, place) for body in bodies.device_bodies(device))
-    values = {**place, "parent_in_comment": in_comment(link), "device": base + parts}
+    values = {**place, "parent_in_comment": in_comment(link), "device": frame + parts}
     return fill("ocs.sdf", values)
 
 
@@ -275,7 +275,7 @@ def _body_sdf(device: Device, body: bodies.DeviceBody, place: dict[str, str]) ->
         values["limit"] = limit
         return fill("flywheel.sdf", values)
     visuals = []
-    for index, visual in enumerate(plain_visuals(device, body)):
+    for index, visual in enumerate(plain_visuals(device, body.module)):
         if visual.kind is ShapeKind.BOX:
             geometry = f"<box><size>{numbers(2.0 * np.array(visual.size))}</size></box>"
         else:
@@ -291,6 +291,6 @@ def _body_sdf(device: Device, body: bodies.DeviceBody, place: dict[str, str]) ->
     return fill("carrier.sdf", {**values, "visuals": "".join(visuals)})
 
 
-def _names(seat: Seat) -> dict[str, str]:
-    trunk = trunk_link(seat)
+def _names(base: Base) -> dict[str, str]:
+    trunk = trunk_link(base)
     return {"parent": quoted(trunk), "parent_in_comment": in_comment(trunk)}

@@ -38,19 +38,14 @@ def wheel_meshes(flywheel: Flywheel) -> Mapping[str, Mesh]:
     return {name: part_mesh(piece) for name, piece in wheel_pieces(flywheel).items()}
 
 
-def wheel_stl(flywheel: Flywheel, *, units_per_metre: float) -> bytes:
-    """STL of the whole wheel, its centre at the origin and its spin axis along z."""
-    whole = merged(list(wheel_meshes(flywheel).values()))
-    return stl_bytes(whole, "flywheel", units_per_metre=units_per_metre)
-
-
 def device_meshes(device: Device) -> Mapping[Path, bytes]:
     """STL of wheel and of what stands still in metres, by their places beside the robot file."""
+    wheel = merged(list(wheel_meshes(device.flywheel).values()))
     still = {
         path: stl_bytes(mesh, path.stem, units_per_metre=METRES)
         for path, mesh in still_meshes(device).items()
     }
-    return {Path(WHEEL_MESH): wheel_stl(device.flywheel, units_per_metre=METRES), **still}
+    return {Path(WHEEL_MESH): stl_bytes(wheel, "flywheel", units_per_metre=METRES), **still}
 
 
 def stl_bytes(mesh: Mesh, name: str, *, units_per_metre: float) -> bytes:

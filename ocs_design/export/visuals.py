@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ocs_design.common.frames import Placement
-from ocs_design.device.bodies import STEEL, DeviceBody, carrier_placement
+from ocs_design.device.bodies import STEEL, carrier_placement
 from ocs_design.device.device import Device, Module
 from ocs_design.device.solids import drive_solids, foot_of, motor_mount
 from ocs_design.export.meshes import Color, Mesh, merged, part_mesh
@@ -107,16 +107,15 @@ def _carrier_meshes(foot: Foot, cage: Cage | None) -> Mapping[str, Mesh]:
     return meshes
 
 
-def still_visuals(device: Device, body: DeviceBody) -> tuple[Visual, ...]:
-    """Shapes of a body that stands still, of meshes where there are any."""
-    if body.module is not None:
-        return carrier_visuals(device, body.module)
-    under = {"plate": device.plate, "pedestal": device.pedestals}
-    return tuple(_mesh(name, HERE) for name, there in under.items() if there)
+def still_visuals(device: Device, module: Module | None) -> tuple[Visual, ...]:
+    """Shapes of what stands still of a module, or, None, of what is under all feet.
 
-
-def carrier_visuals(device: Device, module: Module) -> tuple[Visual, ...]:
-    """Housing, foot and cage as meshes, and motor and gear where their sizes are known."""
+    Housing, foot, cage, plate and pedestals are meshes; motor and gear are cylinders where their
+    sizes are known.
+    """
+    if module is None:
+        under = {"plate": device.plate, "pedestal": device.pedestals}
+        return tuple(_mesh(name, HERE) for name, there in under.items() if there)
     if device.carrier.mass == 0.0:
         return ()
     foot, turn, cage = foot_of(device), carrier_placement(module), motor_mount(device).cage
@@ -126,17 +125,12 @@ def carrier_visuals(device: Device, module: Module) -> tuple[Visual, ...]:
     return (*visuals, *_drive(device, turn, {"motor", "gear"}))
 
 
-def plain_visuals(device: Device, body: DeviceBody) -> tuple[Visual, ...]:
-    """Shapes of such a body as boxes and cylinders, for files that stand alone."""
-    if body.module is not None:
-        return plain_carrier_visuals(device, body.module)
-    if device.plate is not None:
-        return tuple(_plain_plate(device.plate))
-    return tuple(box for each in device.pedestals for box in _plain_pedestal(each))
-
-
-def plain_carrier_visuals(device: Device, module: Module) -> tuple[Visual, ...]:
-    """Carrier of boxes and cylinders, for files that stand alone."""
+def plain_visuals(device: Device, module: Module | None) -> tuple[Visual, ...]:
+    """The same as boxes and cylinders, for files that stand alone."""
+    if module is None:
+        plates = () if device.plate is None else _plain_plate(device.plate)
+        boxes = (box for each in device.pedestals for box in _plain_pedestal(each))
+        return (*plates, *boxes)
     if device.carrier.mass == 0.0:
         return ()
     foot, turn = foot_of(device), carrier_placement(module)

@@ -17,7 +17,7 @@ from ocs_design.device.checks import check_device
 from ocs_design.device.device import Device
 from ocs_design.device.records.device import OcsRecord
 from ocs_design.device.records.requirement import ManeuverRecord, RobotRecord
-from ocs_design.export.formats import Seat
+from ocs_design.export.formats import Base
 from ocs_design.requirement.kinds import MANEUVER_KINDS
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.values import Choice, Quantities
@@ -43,13 +43,13 @@ def device_of(record: OcsRecord, supply: Supply | None = None) -> Device:
     return device
 
 
-def seat_of(record: RobotRecord) -> Seat:
-    """Seat of the device on its robot."""
+def seat_of(record: RobotRecord) -> Base:
+    """Base of the device on its robot."""
     mount = record.mount
     if mount is None:
-        return Seat(record.trunk, None)
+        return Base(record.trunk, None)
     placement = Placement(np.array(mount.rotation), np.array(mount.position))
-    return Seat(record.trunk, Mount(mount.link, placement))
+    return Base(record.trunk, Mount(mount.link, placement))
 
 
 def maneuver_of(record: ManeuverRecord) -> Maneuver:

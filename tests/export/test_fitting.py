@@ -14,7 +14,7 @@ from ocs_design.device.bodies import wheel_placement
 from ocs_design.device.device import Device, Web
 from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly_notes import device_notes, drive_notes
-from ocs_design.export.visuals import carrier_visuals
+from ocs_design.export.visuals import still_visuals
 from ocs_design.parts.foot import foot_shock, plate_thickness
 from ocs_design.parts.rim import Hub, RimCuts
 
@@ -128,7 +128,7 @@ def test_motors_are_told_of_where_they_reach_over_the_middle(incidence, diameter
     """By brute force: points on the edges of both ends."""
     drive = replace(EC45, diameter=diameter, length=length)
     device = device_on(FLAT, drive, incidence=incidence)
-    motor = carrier_visuals(device, device.modules[0])[-1]
+    motor = still_visuals(device, device.modules[0])[-1]
     turn, (radius, half) = np.linspace(0.0, 2.0 * np.pi, 2001), motor.size
     ring = np.column_stack([radius * np.cos(turn), radius * np.sin(turn)])
     ends = [np.column_stack([ring, np.full(len(ring), end)]) for end in (-half, half)]

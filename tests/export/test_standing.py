@@ -23,7 +23,7 @@ from ocs_design.export.mjcf import export_robot_mjcf
 from ocs_design.export.robot_model import robot_model
 from ocs_design.export.snippets import snippet_mjcf, snippet_sdf, snippet_urdf, snippet_xacro
 from ocs_design.export.urdf import robot_urdf, write_meshes
-from ocs_design.export.visuals import carrier_visuals, plain_carrier_visuals
+from ocs_design.export.visuals import plain_visuals, still_visuals
 from ocs_design.robot.reader import read_robot
 
 ALPHA, LENGTH = np.radians(25.0), 0.021
@@ -110,7 +110,7 @@ def test_right_is_the_mirror_image_of_left(folder):
     solids = {}
     for module in DEVICE.modules:
         mesh = trimesh.load_mesh(folder / "meshes" / "ocs_housing.stl")
-        places = {each.name: each.place for each in carrier_visuals(DEVICE, module)}
+        places = {each.name: each.place for each in still_visuals(DEVICE, module)}
         mesh.apply_transform(wheel_of(module) @ homogeneous(places["housing"]))
         solids[module.name] = mesh
     left, right = solids["left"], solids["right"]
@@ -145,7 +145,7 @@ def test_pinocchio_sees_the_same_places(folder):
     pin.updateFramePlacements(model, data)
     trunk = data.oMf[model.getFrameId(TRUNK, pin.FrameType.BODY)]
     for module in DEVICE.modules:
-        visuals = carrier_visuals(DEVICE, module)
+        visuals = still_visuals(DEVICE, module)
         for index, visual in enumerate(visuals):
             which = seen.getGeometryId(f"ocs_{module.name}_motor_{index}")
             place = trunk.actInv(frames.oMg[which])
@@ -178,7 +178,7 @@ def test_the_glb_has_them_under_the_motors_links(folder):
     scene = trimesh.load_scene(folder / "robot.glb")
     children = scene.graph.transforms.children
     for side in ("left", "right"):
-        assert len(children[f"ocs_{side}_motor"]) == len(carrier_visuals(DEVICE, LEFT)) == 3
+        assert len(children[f"ocs_{side}_motor"]) == len(still_visuals(DEVICE, LEFT)) == 3
 
 
 def placed_by_urdf(text, side):
@@ -204,7 +204,7 @@ def placed_by_sdf(text, side):
 
 
 def placed_as_designed(module):
-    for visual in plain_carrier_visuals(DEVICE, module):
+    for visual in plain_visuals(DEVICE, module):
         size = [2.0 * each for each in visual.size]
         if visual.kind == "cylinder":
             size = [visual.size[0], 2.0 * visual.size[1]]
@@ -243,7 +243,7 @@ def test_snippets_have_boxes_and_cylinders_in_their_places(module, tmp_path):
 def test_boxes_and_cylinders_are_as_large_as_the_meshes():
     *_, foot = printed_parts(DEVICE)
     mesh, boxes = part_mesh(foot).vertices, []
-    for visual in plain_carrier_visuals(DEVICE, LEFT):
+    for visual in plain_visuals(DEVICE, LEFT):
         if visual.name == "foot":
             place = FOOT.placement.inverse() @ visual.place
             half = visual.size
@@ -259,12 +259,12 @@ def test_boxes_and_cylinders_are_as_large_as_the_meshes():
     "drive", [replace(DRIVE, length=None), replace(geared(1.5), diameter=0.043, length=LENGTH)]
 )
 def test_a_motor_of_unknown_size_or_place_is_left_out(drive):
-    names = [visual.name for visual in carrier_visuals(driven_device(ALPHA, drive), LEFT)]
+    names = [visual.name for visual in still_visuals(driven_device(ALPHA, drive), LEFT)]
     assert names == ["housing", "foot"]
 
 
 def test_what_weighs_nothing_is_not_shown(robot, tmp_path):
-    assert carrier_visuals(paper_device(), LEFT) == ()
+    assert still_visuals(paper_device(), LEFT) == ()
     text = robot_urdf(robot, paper_device()).decode()
     write_meshes(paper_device(), tmp_path)
     assert "ocs_housing" not in text
