@@ -20,7 +20,7 @@ from ocs_design.common.frames import Placement
 from ocs_design.parts.carrier_plate import SLOT_EDGE
 from ocs_design.parts.housing import Housing, housing_outer_radius
 from ocs_design.parts.joints import FRICTION, TIGHTENING_FACTOR
-from ocs_design.parts.moments import MassMoments, Real, flat_ring
+from ocs_design.parts.moments import Real
 from ocs_design.parts.printed import (
     AROUND_SLOT,
     CLEARANCE,
@@ -339,11 +339,6 @@ def undrilled(foot: Foot[Real]) -> Part[Real]:
     return Part("foot", DENSITY, (base, plate), tuple(cut))
 
 
-def foot_moments(foot: Foot[Real]) -> MassMoments[Real]:
-    """Moments of the foot in the module's frame, without the mount's holes."""
-    return undrilled(foot).moments().shifted(0.0, -foot.wheel_height)
-
-
 def foot_mass_per_height(foot: Foot[Real]) -> Real:
     """Change of the base's mass with the rim's height, R held [kg/m]."""
     corner = foot.corner
@@ -353,14 +348,3 @@ def foot_mass_per_height(foot: Foot[Real]) -> Real:
     slots = pi * TRUNK_SCREW.clearance_hole * sqrt(0.5)
     slope: Real = DENSITY * foot.base * (2.0 * pi * foot.base_radius * outward - slots)
     return slope
-
-
-def trunk_screw_moments(foot: Foot[Real]) -> MassMoments[Real]:
-    """Moments of the trunk's screws in the module's frame, their heads on the base, as points.
-
-    They stay at 45 degrees to the lateral direction while the foot turns under them, opposite each
-    other: as much forward as sideways. Their product of both is the left one's against the right
-    one's, and is left out.
-    """
-    up = foot.base - foot.screws.centre - foot.wheel_height
-    return flat_ring(foot.screws.mass + 0.0 * up, foot.slot_radius).shifted(0.0, up)

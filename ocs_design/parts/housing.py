@@ -14,7 +14,7 @@ from typing import Generic
 
 from ocs_design.actuation.fasteners import IN_PLASTIC, STEEL, Fastening, Screw
 from ocs_design.common.errors import PartError
-from ocs_design.parts.moments import MassMoments, Real, cylinder_mass, ring
+from ocs_design.parts.moments import MassMoments, Real, cylinder_mass
 from ocs_design.parts.printed import (
     CLEARANCE,
     DENSITY,
@@ -23,7 +23,6 @@ from ocs_design.parts.printed import (
     UPRIGHT,
     WALL,
     MountHoles,
-    ear_axis,
     ear_holes,
     eared,
     half_height,
@@ -138,13 +137,6 @@ def housing_mass_per_height(outer_radius: Real, guard_wall: float = 0.0) -> Real
     printed = eared(across, LID_SCREW, FIRST_EAR).area - room.area - EAR_COUNT * thread
     steel: Real = (outer_radius + (CLEARANCE + guard_wall / 2.0)) * (2.0 * pi * guard_wall)
     return DENSITY * printed + STEEL * steel
-
-
-def lid_screw_moments(housing: Housing[Real]) -> MassMoments[Real]:
-    """Moments of the lid's screws in the module's frame, their heads on the lid, as points."""
-    along = housing.half_height - LID_SCREWS.centre
-    on_ears = ring(LID_SCREWS.mass + 0.0 * along, ear_axis(housing.radius, LID_SCREW))
-    return on_ears.shifted(along, 0.0)
 
 
 @dataclass(frozen=True)

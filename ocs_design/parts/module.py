@@ -10,18 +10,17 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.parts import foot as feet
 from ocs_design.parts import housing as housings
 from ocs_design.parts.cage import NO_POSTS, Posts
-from ocs_design.parts.foot import Foot, foot_mass_per_height, foot_moments, trunk_screw_moments
+from ocs_design.parts.foot import Foot, foot_mass_per_height
 from ocs_design.parts.housing import (
     LID_SCREWS,
     Housing,
     PlainDrum,
     housing_mass_per_height,
     housing_moments,
-    lid_screw_moments,
 )
-from ocs_design.parts.moments import MassMoments, Real, point, round_body
+from ocs_design.parts.moments import MassMoments, Real, flat_ring, point, ring, round_body
 from ocs_design.parts.motor_mount import MotorMount, mount_of
-from ocs_design.parts.printed import LID_SCREW, PLATE_THICKNESS, MountHoles, half_height
+from ocs_design.parts.printed import LID_SCREW, PLATE_THICKNESS, MountHoles, ear_axis, half_height
 from ocs_design.parts.solids import Carrier
 
 
@@ -66,10 +65,21 @@ class Printed:
         return around + self.posts.mass_per_height()
 
     def moments(self, outer_radius: Real, height: Real) -> MassMoments[Real]:
-        """Moments of all but the posts (`Posts.moments`) about the wheel's centre."""
+        """Moments of all but the posts (`Posts.moments`) about the wheel's centre.
+
+        Screws are points, their heads on lid and base. The trunk's stay at 45 degrees to the
+        lateral direction while the foot turns under them, opposite each other: as much forward as
+        sideways. Their product of both is the left one's against the right one's, and is left out.
+        """
         foot: Foot[Real] = self._foot(outer_radius, height)
-        housing = housing_moments(foot.housing) + lid_screw_moments(foot.housing)
-        return housing + foot_moments(foot) + trunk_screw_moments(foot)
+        housing, held = foot.housing, foot.screws
+        along = housing.half_height - LID_SCREWS.centre
+        lid = ring(LID_SCREWS.mass + 0.0 * along, ear_axis(housing.radius, LID_SCREW))
+        up = foot.base - held.centre - foot.wheel_height
+        trunk = flat_ring(held.mass + 0.0 * up, foot.slot_radius)
+        base = feet.undrilled(foot).moments().shifted(0.0, -foot.wheel_height)
+        drum = housing_moments(housing) + lid.shifted(along, 0.0)
+        return drum + base + trunk.shifted(0.0, up)
 
     def _foot(self, outer_radius: Real, height: Real) -> Foot[Real]:
         """Foot under a housing for a rim of at least `room`."""

@@ -198,11 +198,14 @@ def mount_of(
         held = _through_walls(stator, foot_plate, f"motor on housing and foot; {_DEPTH}", 1.0)
         holes = screwed_by_face(mounting, stator)
         return MotorMount(holes, None, (*wheel, held), foot_plate=foot_plate)
-    pilot = for_what_turns(mounting)
-    cage = None
-    if mounting.stator_face is Face.BACK:
-        cage = cage_of(mounting, motor.diameter, motor.length, foot_plate)
+    cage = cage_of(motor, mounting, foot_plate) if mounting.stator_face is Face.BACK else None
     if cage is None or stator is None:
+        # A hole for the shaft, or for what stands between rotor and hub.
+        pilot = 0.0
+        if rotor is not None:
+            pilot = rotor.reach + ROTOR_ROOM
+        elif mounting.shaft_diameter is not None:
+            pilot = mounting.shaft_diameter / 2.0 + SHAFT_ROOM
         return MotorMount(MountHoles(pilot), None, wheel, foot_plate=foot_plate)
     passage = cage.passage
     assert passage.screws is not None
@@ -225,19 +228,12 @@ def is_held(motor: HeldMotor, room: GearRoom | None) -> bool:
     return mount_of(motor, room).holes.screws is not None
 
 
-def cage_of(
-    mounting: Mounting,
-    diameter: float | None,
-    length: float | None,
-    foot_plate: float = PLATE_THICKNESS,
-) -> Cage | None:
+def cage_of(motor: HeldMotor, mounting: Mounting, foot_plate: float) -> Cage | None:
     """The cage of a motor with threads at its back; None where its size is unknown or does not do.
 
-    Args:
-        mounting: of the motor.
-        diameter, length: of its body [m]. foot_plate: thickness of the foot's plate [m].
+    `foot_plate` is the thickness of the foot's plate [m].
     """
-    stator = mounting.stator
+    stator, diameter, length = mounting.stator, motor.diameter, motor.length
     if stator is None or diameter is None or length is None:
         return None
     # Behind its rotor's threads, or clear of a hub on its shaft.
@@ -256,15 +252,6 @@ def screwed_by_face(mounting: Mounting, stator: BoltCircle) -> MountHoles:
     """
     shaft = (mounting.shaft_diameter or 0.0) / 2.0
     return MountHoles(max(stator.inside - WALL, (stator.inside + shaft) / 2.0), stator)
-
-
-def for_what_turns(mounting: Mounting) -> float:
-    """Radius of a hole for the shaft, or for what stands between rotor and hub [m]; 0: none."""
-    if mounting.rotor is not None:
-        return mounting.rotor.reach + ROTOR_ROOM
-    if mounting.shaft_diameter is not None:
-        return mounting.shaft_diameter / 2.0 + SHAFT_ROOM
-    return 0.0
 
 
 def _through_walls(circle: BoltCircle, foot_plate: float, purpose: str, depth: float) -> Screwed:

@@ -1,6 +1,7 @@
 """What a carrier plate, its mast and its posts bear, and at what they swing.
 
-A shock of 20 g along any one axis counts, as it does for the printed parts.
+A shock of 20 g along any one axis counts, as it does for the printed parts. A plate has its screws,
+or is on a mast; `mass` is that of one module [kg], `height` that of its middle above the plate [m].
 """
 
 from math import hypot, inf, pi, sqrt
@@ -63,11 +64,6 @@ def plate_stress(plate: CarrierPlate, mass: float, height: float) -> float:
     bends the neck by its height as an arm; forward it twists the neck. Shear counts sqrt(3)
     times (von Mises). The ring under a foot is bent by what is down alone: the foot's base
     spreads the rest.
-
-    Args:
-        plate: with its screws, or on a mast.
-        mass: of a module [kg].
-        height: of the module's middle above the plate [m].
     """
     return float(plate_stresses(plate, np.array([plate.thickness]), mass, height)[0])
 
@@ -75,11 +71,7 @@ def plate_stress(plate: CarrierPlate, mass: float, height: float) -> float:
 def plate_stresses(
     plate: CarrierPlate, thicknesses: FloatArray, mass: float, height: float
 ) -> FloatArray:
-    """Largest stress of plates of this outline of some thicknesses [Pa], shape (n,).
-
-    Args:
-        thicknesses: [m], shape (n,). plate, mass, height: see `plate_stress`.
-    """
+    """Largest stress of plates of this outline of some thicknesses [m], both shape (n,) [Pa]."""
     if len(plate.rows) > 1:
         # On a mast they are alike.
         distinct = plate.each[:1] if plate.mast else plate.each
@@ -100,9 +92,6 @@ def arm_stress(plate: CarrierPlate, mass: float, height: float) -> float:
 
     A pair bends its arm, and twists it where it is pushed sideways; all arms bend or twist the
     upright.
-
-    Args:
-        plate, mass, height: see `plate_stress`.
     """
     mast = plate.mast
     if mast is None:
@@ -121,9 +110,6 @@ def mast_stress(plate: CarrierPlate, mass: float, height: float) -> float:
 
     Besides `arm_stress`, what is above or below the screws bends the upright, forward alone or
     sideways while the arms twist it.
-
-    Args:
-        plate, mass, height: see `plate_stress`.
     """
     mast = plate.mast
     if mast is None:
@@ -141,9 +127,6 @@ def mast_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
 
     See `pattern_use`; a push sideways bends sleeves between trunk and block by half of their
     length as well.
-
-    Args:
-        plate, mass, height: see `plate_stress`.
     """
     if plate.mast is None:
         return 0.0
@@ -163,9 +146,6 @@ def plate_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
 
     A push at the wheels' height shears all of them alike and pulls at each as far as it is off
     their middle, M r / sum r^2; see `screw_use`.
-
-    Args:
-        plate, mass, height: see `plate_stress`.
     """
     if plate.mast is not None:
         return mast_screws_use(plate, mass, height)
@@ -189,9 +169,6 @@ def posts_use(plate: CarrierPlate, mass: float, height: float) -> float:
     times half its length. Its moment about the middle of their length pulls at two and presses
     on two; see `pattern_use` for their screws. No joint opens: pull and bending are less than
     what the screw's preload presses.
-
-    Args:
-        plate, mass, height: see `plate_stress`.
     """
     if len(plate.rows) > 1:
         return max(posts_use(each, mass, height) for each in plate.each)
@@ -213,9 +190,6 @@ def plate_sway(plate: CarrierPlate, mass: float, height: float) -> float:
     Four of length l bend, by l^3 / (48 E I), and turn the plate about the middle of their
     length, as those of one side become longer and those of the other shorter: by the arm to
     there squared times l / (4 E (I + p^2 A)). The pair is a point.
-
-    Args:
-        plate, mass, height: see `plate_stress`.
     """
     if len(plate.rows) > 1:
         return min(plate_sway(each, mass, height) for each in plate.each)
@@ -231,9 +205,6 @@ def plate_frequency(plate: CarrierPlate, mass: float) -> float:
 
     Mohr's integral of the cantilever from the outermost screws to the middle of the foot, whose
     sections are those of `net_width`; the module is a point, the plate weighs nothing.
-
-    Args:
-        plate: with its screws, or on a mast. mass: of a module [kg].
     """
     if len(plate.rows) > 1:
         return min(plate_frequency(each, mass) for each in plate.each)
@@ -259,9 +230,6 @@ def plate_tilt(plate: CarrierPlate) -> tuple[float, float]:
     0.21 t/w (1 - t^4 / 12 w^4)) of a rectangle (table 10.1, case 4). Both over the sections of
     `net_width` from the outermost screws, or the arm of a mast, to the middle of the foot; what a
     mast gives is left out.
-
-    Args:
-        plate: with its screws, or on a mast.
     """
     if len(plate.rows) > 1:
         bent, twisted = map(max, zip(*map(plate_tilt, plate.each), strict=True))

@@ -24,7 +24,7 @@ from packaging.utils import canonicalize_name
 
 from ocs_design.common.errors import DISTRIBUTION, MissingToolError, install_command
 from ocs_design.common.files import processors as usable
-from ocs_design.device.answers import Examination, Finding, State
+from ocs_design.device.findings import Examination, Finding, State
 from ocs_design.export.programs import (
     FFMPEG_HINT,
     OPENGL_HINT,

@@ -11,7 +11,7 @@ from loading import HEAVY, modules_loaded_by
 from rich.console import Console
 
 from ocs_design.common.errors import MissingToolError, extra_command
-from ocs_design.device.answers import Examination, Finding, State
+from ocs_design.device.findings import Examination, Finding, State
 from ocs_design.report.text.answers import print_examination
 from ocs_design.workflows import doctor
 from ocs_design.workflows.doctor import examination_to_json, examine

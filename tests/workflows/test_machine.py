@@ -2,7 +2,7 @@
 
 import pytest
 
-from ocs_design.device.answers import State
+from ocs_design.device.findings import State
 from ocs_design.workflows.doctor import (
     compiler,
     film_maker,

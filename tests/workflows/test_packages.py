@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from packaging.requirements import Requirement
 
-from ocs_design.device.answers import State
+from ocs_design.device.findings import State
 from ocs_design.workflows import doctor
 from ocs_design.workflows.doctor import DEVELOPMENT, PURPOSES, import_failures, package_findings
 
