@@ -27,6 +27,9 @@ PLATE = f"{PREFIX}plate"
 IMU = f"{PREFIX}imu"
 """Site in MJCF, at the base frame B."""
 
+IMU_SENSORS = f"{IMU}_attitude", f"{IMU}_rate"
+"""Names of the sensors in MJCF of B's attitude as a quaternion and of its rate [rad/s]."""
+
 _FLYWHEEL = "_flywheel"
 
 STEEL = (0.55, 0.57, 0.6, 1.0)
@@ -70,19 +73,9 @@ def carrier_name(module: Module) -> str:
     return f"{PREFIX}{module.name}_motor"
 
 
-def velocity_sensor(module: Module) -> str:
-    """Name of the sensor in MJCF of the wheel's speed relative to the trunk [rad/s]."""
-    return f"{joint_name(module)}_velocity"
-
-
-def torque_sensor(module: Module) -> str:
-    """Name of the sensor in MJCF of the motor's torque on the wheel [N m]."""
-    return f"{joint_name(module)}_torque"
-
-
-def imu_sensors() -> tuple[str, str]:
-    """Names of the sensors in MJCF of B's attitude as a quaternion and of its rate [rad/s]."""
-    return f"{IMU}_attitude", f"{IMU}_rate"
+def wheel_sensors(module: Module) -> tuple[str, str]:
+    """Names of the sensors in MJCF of a wheel's speed [rad/s] and of its motor's torque [N m]."""
+    return f"{joint_name(module)}_velocity", f"{joint_name(module)}_torque"
 
 
 def require_free(kind: str, taken: Iterable[str], wanted: Iterable[str]) -> None:

@@ -79,14 +79,12 @@ def add_sensors(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
 
     They stand behind the robot's own, which keep their places in `sensordata`.
     """
-    attitude, rate = bodies.imu_sensors()
+    attitude, rate = bodies.IMU_SENSORS
+    kinds = mujoco.mjtSensor.mjSENS_JOINTVEL, mujoco.mjtSensor.mjSENS_JOINTACTFRC
     wanted = {
-        name(module): (kind, _JOINT, bodies.joint_name(module))
+        name: (kind, _JOINT, bodies.joint_name(module))
         for module in device.modules
-        for name, kind in (
-            (bodies.velocity_sensor, mujoco.mjtSensor.mjSENS_JOINTVEL),
-            (bodies.torque_sensor, mujoco.mjtSensor.mjSENS_JOINTACTFRC),
-        )
+        for name, kind in zip(bodies.wheel_sensors(module), kinds, strict=True)
     }
     wanted[attitude] = (mujoco.mjtSensor.mjSENS_FRAMEQUAT, _SITE, bodies.IMU)
     wanted[rate] = (mujoco.mjtSensor.mjSENS_GYRO, _SITE, bodies.IMU)

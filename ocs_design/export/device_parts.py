@@ -15,7 +15,7 @@ from ocs_design.parts.cage import cage_part
 from ocs_design.parts.carrier_plate import CarrierPlate, mast_part, plate_part
 from ocs_design.parts.foot import foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
-from ocs_design.parts.pedestal import Pedestal, drilled
+from ocs_design.parts.pedestal import Pedestal, pedestal_part
 from ocs_design.parts.printed import trunk_screws
 from ocs_design.parts.solids import Part
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre, wheel_parts
@@ -128,7 +128,7 @@ class PedestalKind:
     @property
     def part(self) -> Part:
         """One of them, as it is printed and drilled."""
-        return drilled(self.alike[0])
+        return pedestal_part(self.alike[0])
 
     @property
     def screws(self) -> Fastening:

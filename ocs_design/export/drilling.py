@@ -28,7 +28,6 @@ from ocs_design.export.drawing.sheet import (
     outline,
     rectangle,
 )
-from ocs_design.export.drawing.writers import pdf_of_pages
 from ocs_design.export.formats import Subject
 from ocs_design.parts.module import part_name
 from ocs_design.parts.outline import flat_outline
@@ -107,11 +106,6 @@ class Drilling:
     def drill(self) -> float:
         """Diameter of the holes, into which threads are cut [m]."""
         return self.screw.tapping_drill
-
-
-def drilling_pdf(drilling: Drilling) -> bytes:
-    """The template on A4 sheets."""
-    return pdf_of_pages(pages(drilling), f"Drilling template of {drilling.robot}")
 
 
 def drilling_of(subject: Subject) -> Drilling | None:

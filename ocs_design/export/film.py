@@ -99,16 +99,10 @@ def render_takes(takes: Sequence[Take]) -> list[Frames]:
 
 
 def drawn(takes: Iterable[Take], kind: str, read: Callable[[Path], T], what: str) -> list[T]:
-    """Results of the program that draws `what`, one for each take.
+    """Results of the program that draws, one for each take; errors as of `programs.draw`.
 
     Args:
-        takes: to draw.
-        kind: `frames` or `views`.
-        read: takes a result from its file.
-        what: is drawn, for the message.
-
-    Raises:
-        MissingToolError: OpenGL does not work here; the message says why.
+        kind: `frames` or `views`. read: takes a result from its file. what: is drawn, for people.
     """
     with tempfile.TemporaryDirectory() as folder:
         paths = [

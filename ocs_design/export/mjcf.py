@@ -76,11 +76,8 @@ def export_robot_mjcf(model: RobotModel, path: Path) -> Path:
 def scene_xml(model: RobotModel, data: mujoco.MjData, file: str, name: str) -> str:
     """Scene with a floor that meets whatever of the robot can touch, light and a camera.
 
-    Args:
-        model: of the robot.
-        data: of its keyframe, kinematics computed.
-        file: name of the MJCF to include.
-        name: of the robot.
+    `data` is that of the keyframe, kinematics computed; `file` is the model's MJCF, and `name` the
+    robot's.
     """
     compiled = model.compiled
     robot = compiled.geom_bodyid > 0

@@ -169,15 +169,12 @@ def snippet_mjcf(device: Device, base: Base) -> str:
     limits = "" if limit is None else f' ctrllimited="true" ctrlrange="{numbers((-limit, limit))}"'
     # Attaching puts the prefix in front of the names.
     imu, attitude, rate = (
-        name.removeprefix(bodies.PREFIX) for name in (bodies.IMU, *bodies.imu_sensors())
+        name.removeprefix(bodies.PREFIX) for name in (bodies.IMU, *bodies.IMU_SENSORS)
     )
     motors, sensors = [], []
     for module in device.modules:
         joint = bodies.joint_name(module).removeprefix(bodies.PREFIX)
-        speed, torque = (
-            name(module).removeprefix(bodies.PREFIX)
-            for name in (bodies.velocity_sensor, bodies.torque_sensor)
-        )
+        speed, torque = (name.removeprefix(bodies.PREFIX) for name in bodies.wheel_sensors(module))
         motors.append(f'<motor name="{joint}" joint="{joint}"{limits}/>')
         sensors.append(f'<jointvel name="{speed}" joint="{joint}"/>')
         sensors.append(f'<jointactuatorfrc name="{torque}" joint="{joint}"/>')
@@ -194,8 +191,7 @@ def snippet_mjcf(device: Device, base: Base) -> str:
             )
         ),
         "joints": ", ".join(bodies.joint_names(device)),
-        "speed": bodies.velocity_sensor(device.modules[0]),
-        "torque": bodies.torque_sensor(device.modules[0]),
+        **dict(zip(("speed", "torque"), bodies.wheel_sensors(device.modules[0]), strict=True)),
         "base_quaternion": numbers(quaternion(rotation)),
         "modules": "".join(_body_mjcf(device, body) for body in bodies.device_bodies(device)),
         "motors": "".join(f"    {motor}\n" for motor in motors),

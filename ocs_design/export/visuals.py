@@ -21,7 +21,7 @@ from ocs_design.parts.carrier_plate import CarrierPlate, plate_bodies
 from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
-from ocs_design.parts.pedestal import Pedestal, drilled
+from ocs_design.parts.pedestal import Pedestal, pedestal_part
 from ocs_design.parts.solids import HERE, Part
 from ocs_design.robot.tree import ShapeKind
 
@@ -44,10 +44,10 @@ MOTOR: Color = (0.15, 0.15, 0.17, 1.0)
 GEAR: Color = (0.75, 0.6, 0.3, 1.0)
 ALUMINIUM: Color = (0.78, 0.79, 0.8, 1.0)
 _DRIVE = {"motor": MOTOR, "gear": GEAR}
-_COLORS = _DRIVE | {"housing": SHELL, "foot": PRINT, "cage": SHELL, "pedestal": PRINT}
-_COLORS["plate"] = ALUMINIUM
+_COLORS = {**_DRIVE, "housing": SHELL, "cage": SHELL}
+_COLORS |= {"foot": PRINT, "pedestal": PRINT, "plate": ALUMINIUM}
 
-_PIECES = _DRIVE | dict.fromkeys(("drum", "lid", "foot", "cage"), PRINT)
+_PRINTED = ("drum", "lid", "foot", "cage")
 
 _SECTIONS = 64
 """Chords of a full circle: a quarter of those that are printed."""
@@ -88,7 +88,7 @@ def still_meshes(device: Device) -> Mapping[Path, Mesh]:
         bodies = plate_bodies(device.plate)
         found["plate"] = merged([part_mesh(part, _SECTIONS).placed(at) for part, at in bodies])
     if device.pedestals:
-        placed = [(drilled(each), each.placement) for each in device.pedestals]
+        placed = [(pedestal_part(each), each.placement) for each in device.pedestals]
         found["pedestal"] = merged([part_mesh(part, _SECTIONS).placed(at) for part, at in placed])
     return {_MESHES[name]: mesh for name, mesh in found.items()}
 
@@ -196,7 +196,7 @@ def piece_color(device: Device, name: str) -> Color:
     web = device.flywheel.web
     if name == "hub" and web is not None and web.material.startswith("aluminium"):
         return ALUMINIUM
-    return _PIECES.get(name.removesuffix("_2"), STEEL)
+    return PRINT if name in _PRINTED else _DRIVE.get(name.removesuffix("_2"), STEEL)
 
 
 def cage_placement(foot: Foot, cage: Cage) -> Placement:

@@ -208,10 +208,7 @@ def floor_at_shock(cage: Cage, motor: float, wheel: float) -> float:
 def heads_at_shock(cage: Cage, motor: float, wheel: float) -> float:
     """Acceleration along the axis at which the heads of a cage's screws sink into PETG [m/s^2].
 
-    They press on the housing's floor, and hold motor, wheel and cage on the foot.
-
-    Args:
-        cage: with its screws. motor, wheel: mass of each [kg].
+    They press on the housing's floor, and hold motor and wheel, masses [kg], and cage on the foot.
     """
     held = motor + wheel + float(cage_part(cage).mass())
     return EAR_COUNT * STRENGTH * LID_SCREW.head_area / held

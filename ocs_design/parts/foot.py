@@ -184,10 +184,7 @@ class Foot(Generic[Real]):
 def foot_shock(foot: Foot[float], mass: float, edge: float | None = None) -> float:
     """Acceleration along the wheel's axis at which a foot of PETG breaks [m/s^2].
 
-    Args:
-        foot: see `plate_thickness`.
-        mass: of the module above it [kg].
-        edge: see `screw_pull`.
+    `mass` and `edge`: see `screw_pull`.
     """
     stem = float(foot.thickness) / _stem_at_shock(foot, mass)
     # The base as a cantilever as wide as the stem, which the screw on the far side pulls at: the
@@ -237,7 +234,7 @@ def screw_pull(foot: Foot[float], mass: float, edge: float | None = None) -> flo
     """Largest pull of one of a foot's screws under `SHOCK` along its wheel's axis [N].
 
     Args:
-        foot, mass: see `foot_shock`.
+        foot: of PETG. mass: of the module above it [kg].
         edge: radius of what it stands on, whose edge it tilts about [m]; None: all of its base.
     """
     edge = foot.base_radius if edge is None else edge

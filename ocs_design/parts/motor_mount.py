@@ -220,10 +220,6 @@ def is_held(motor: HeldMotor, room: GearRoom | None) -> bool:
     """True if known screws hold the motor: through plate and floor, or in a cage.
 
     False behind any gear: how gear and motor are fixed to each other is in no row of the catalogue.
-
-    Args:
-        motor: with its mounting and size.
-        room: of the gear between motor and wheel; None: direct drive.
     """
     return mount_of(motor, room).holes.screws is not None
 
@@ -298,11 +294,7 @@ class DriveSolid:
 
 
 def motor_front(mount: MotorMount, height: float) -> float:
-    """Place of the motor's front along the left wheel's axis from its middle [m].
-
-    Args:
-        mount: that holds it. height: of the rim [m].
-    """
+    """Place of a motor's front along the left wheel's axis, behind a rim of that height [m]."""
     if mount.cage is not None:
         return -mount.cage.front
     return -(half_height(height) + mount.foot_plate + mount.gap)

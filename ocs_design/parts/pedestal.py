@@ -200,7 +200,7 @@ class Pedestal:
         own = replace(seated, depth=1.0)
         seat = self.seat.position + (foot - seated.centre) * self._directions[1]
         return (
-            drilled(self).mass_properties(),
+            pedestal_part(self).mass_properties(),
             *(
                 MassProperties(held.mass / held.count, np.array([x, y, head]), none)
                 for x, y in self.holes
@@ -211,16 +211,11 @@ class Pedestal:
 
 
 def pedestal_part(pedestal: Pedestal) -> Part[float]:
-    """The pedestal in its own frame without its holes for screws."""
-    half = pedestal.width / 2.0
-    frame = Prism(pedestal.profile, -half, half, ON_ITS_SIDE)
-    opened = Prism(pedestal.window, -half, half, ON_ITS_SIDE)
-    return Part("pedestal", DENSITY, (frame,), (opened,))
-
-
-def drilled(pedestal: Pedestal) -> Part[float]:
-    """The pedestal in its own frame, with its holes."""
-    blank, off = pedestal_part(pedestal), pedestal.off
+    """The pedestal in its own frame, with its holes; the first cut is its window."""
+    half, off = pedestal.width / 2.0, pedestal.off
+    frame, window = (
+        Prism(shape, -half, half, ON_ITS_SIDE) for shape in (pedestal.profile, pedestal.window)
+    )
     through = TRUNK_SCREW.clearance_hole / 2.0
     base = [Prism(Disc(through, place), 0.0, pedestal.base) for place in pedestal.holes]
     # Left on the near side, right on the far one: opposite each other, as the foot's slots.
@@ -230,7 +225,7 @@ def drilled(pedestal: Pedestal) -> Part[float]:
         )
         for x in (-off, off)
     ]
-    return Part(blank.name, DENSITY, blank.solids, (*blank.holes, *base, *seat))
+    return Part("pedestal", DENSITY, (frame,), (window, *base, *seat))
 
 
 def strengthened(pedestal: Pedestal, mass: float, above: float | None = None) -> Pedestal:

@@ -196,25 +196,21 @@ class Part(Generic[Real]):
 
     def mass_properties(self) -> MassProperties:
         """Mass properties of one part in its own frame, in closed form."""
-        return mass_properties(self.moments())
+        found: MassMoments[Any] = self.moments()
+        com = np.array([found.x, found.y, found.z]) / found.mass
+        about = np.array(
+            [
+                [found.xx, found.xy, found.xz],
+                [found.xy, found.yy, found.yz],
+                [found.xz, found.yz, found.zz],
+            ]
+        ) - found.mass * np.outer(com, com)
+        return MassProperties(float(found.mass), com, np.trace(about) * np.eye(3) - about)
 
 
 def total(parts: Iterable[Part[float]]) -> MassProperties:
     """Mass properties of parts that share one frame."""
     return combine(part.mass_properties() for part in parts)
-
-
-def mass_properties(moments: MassMoments[Any]) -> MassProperties:
-    """Mass, centre of mass and the inertia about it, in the same frame."""
-    com = np.array([moments.x, moments.y, moments.z]) / moments.mass
-    about = np.array(
-        [
-            [moments.xx, moments.xy, moments.xz],
-            [moments.xy, moments.yy, moments.yz],
-            [moments.xz, moments.yz, moments.zz],
-        ]
-    ) - moments.mass * np.outer(com, com)
-    return MassProperties(float(moments.mass), com, np.trace(about) * np.eye(3) - about)
 
 
 @dataclass(frozen=True)

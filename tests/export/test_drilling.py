@@ -12,7 +12,8 @@ from wheels import paper_device
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.export.device_parts import foot_holes
 from ocs_design.export.drawing.sheet import HEIGHT, Area, Circle, Line, Text
-from ocs_design.export.drilling import CHECK, SHEET, drilling_of, drilling_pdf, pages
+from ocs_design.export.drawing.writers import pdf_of_pages
+from ocs_design.export.drilling import CHECK, SHEET, drilling_of, pages
 from ocs_design.export.formats import Subject
 
 
@@ -49,7 +50,7 @@ def test_screws_of_the_feet_are_within_reach_of_their_slots():
 
 def test_on_paper_the_holes_are_in_full_size_with_forward_up(device):
     """A PDF's unit is a 72nd of an inch."""
-    content = drilling_pdf(drilling_of(subject(device))).decode("latin-1")
+    content = pdf_of_pages(pages(drilling_of(subject(device))), "x").decode("latin-1")
     box = re.search(r"/MediaBox \[ 0 0 (\S+) (\S+) \]", content)
     assert [float(each) * 25.4 / 72.0 for each in box.groups()] == pytest.approx([297.0, 210.0])
     (scale,) = re.findall(r"([\d.]+) 0 0 ([\d.]+) 0 0 cm", content.replace("1 0 0 1 0 0 cm", ""))

@@ -23,7 +23,7 @@ from ocs_design.export.assembly.placed import placed_parts
 from ocs_design.export.device_parts import foot_holes, wheel_pieces
 from ocs_design.export.meshes import part_manifold
 from ocs_design.parts.carrier_plate import MAST_YIELD, SAFETY, STOCK, YIELD_STRENGTH, plate_bodies
-from ocs_design.parts.pedestal import drilled
+from ocs_design.parts.pedestal import pedestal_part
 from ocs_design.parts.plate_strength import mast_screws_use, mast_stress, plate_stress, posts_use
 from ocs_design.parts.printed import TRUNK_SCREW
 from ocs_design.parts.shapes import Disc, Rectangle
@@ -391,7 +391,7 @@ def test_no_two_solids_of_any_layout_meet_over_a_full_turn(boxed, name, width):
     solids = built(device)
     for each in device.pedestals:
         where = np.column_stack([each.placement.rotation, each.placement.position])
-        solids["pedestal", each.module] = part_manifold(drilled(each), 96).transform(where)
+        solids["pedestal", each.module] = part_manifold(pedestal_part(each), 96).transform(where)
         radius, high = TRUNK_SCREW.head_diameter / 2.0, each.base + TRUNK_SCREW.head_height
         heads = tuple(Prism(Disc(radius, hole), each.base, high) for hole in each.holes)
         solids["heads", each.module] = part_manifold(Part("heads", 1.0, heads), 96).transform(where)

@@ -92,43 +92,37 @@ def placed_parts(device: Device) -> Mapping[str, tuple[Part[float], Placement]]:
         found[part.name] = (part, places.get(part.name, HERE))
     motor = device.motor
     masses = {"motor": motor.mass, "gear": motor.gear_mass}
-    solids = [solid for solid in drive_solids(device) if solid.name in masses]
-    volumes = {
-        name: sum(
-            body.volume()
-            for solid in solids
-            if solid.name == name
-            for body in (_cylinder(solid), *_shaft(device, solid))
-        )
-        for name in masses
-    }
-    for solid in solids:
+    drawn = [
+        (solid, _drive_bodies(device, solid))
+        for solid in drive_solids(device)
+        if solid.name in masses
+    ]
+    for solid, bodies in drawn:
+        alike = (each for other, each in drawn if other.name == solid.name)
+        volume = sum(body.volume() for each in alike for body in each)
         name = solid.name if solid.name not in found else f"{solid.name}_2"
-        bodies = (_cylinder(solid), *_shaft(device, solid))
-        part = Part(name, masses[solid.name] / volumes[solid.name], bodies)
+        part = Part(name, masses[solid.name] / volume, bodies)
         found[name] = (part, Placement(np.eye(3), np.array([0.0, -solid.up, 0.0])))
     return found
 
 
-def _cylinder(solid: DriveSolid) -> Revolution:
-    return hollow_cylinder(0.0, solid.radius, solid.low, solid.high)
+def _drive_bodies(device: Device, solid: DriveSolid) -> tuple[Revolution, ...]:
+    """Motor or gear as a cylinder, and the shaft in front of a motor.
 
-
-def _shaft(device: Device, solid: DriveSolid) -> tuple[Revolution, ...]:
-    """The shaft in front of a motor; as far as through its hub where its length is not known.
-
-    None where the wheel is screwed to the rotor, and the shaft in no source.
+    It goes through the hub where its length is not known. None is shown where the wheel is screwed
+    to the rotor, and the shaft in no source.
     """
+    body = hollow_cylinder(0.0, solid.radius, solid.low, solid.high)
     mounting, web = device.motor.mounting, device.flywheel.web
     if solid.name != "motor" or mounting is None or not mounting.shaft_diameter:
-        return ()
+        return (body,)
     length, _ = shaft_cut(device)
     if mounting.shaft_length is None and web is not None and mounting.rotor is None:
         length = web.hub.height / 2.0 - solid.high
     if length <= 0.0:
-        return ()
+        return (body,)
     end = solid.high + length
-    return (hollow_cylinder(0.0, mounting.shaft_diameter / 2.0, solid.high, end),)
+    return body, hollow_cylinder(0.0, mounting.shaft_diameter / 2.0, solid.high, end)
 
 
 def module_pieces(device: Device) -> tuple[Piece, ...]:

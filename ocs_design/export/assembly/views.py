@@ -166,8 +166,8 @@ def _placing(
 
     def place(at: FloatArray) -> tuple[float, float]:
         """Point of the sheet [mm], down positive."""
-        x, y = centre + _on_paper(scale, (at - middle) * [1.0, -1.0])
-        return float(x), float(y)
+        right, down = (at - middle) * [1.0, -1.0]
+        return float(centre[0] + scale(float(right))), float(centre[1] + scale(float(down)))
 
     return place
 
@@ -175,10 +175,6 @@ def _placing(
 def _fitting(size: FloatArray, room: FloatArray) -> Scale:
     """Largest scale at which a size [m] fits a room of the sheet [mm]."""
     return largest_scale(*zip(size.tolist(), room.tolist(), strict=True), standard=False)
-
-
-def _on_paper(scale: Scale, lengths: FloatArray) -> FloatArray:
-    return np.array([scale(float(length)) for length in lengths])
 
 
 def _balloons(

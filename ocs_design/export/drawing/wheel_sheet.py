@@ -46,7 +46,7 @@ from ocs_design.export.drawing.wheel import (
     shrunk_on,
 )
 from ocs_design.export.drawing.writers import pdf_of_pages, svg_text
-from ocs_design.export.drilling import drilling_of, drilling_pdf
+from ocs_design.export.drilling import drilling_of, pages
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.joints import GRADE
 
@@ -75,7 +75,8 @@ def write(subject: "Subject", folder: Path) -> "Notes":
         title = f"Plate under the feet of {subject.name}"
         (folder / "plate.pdf").write_bytes(pdf_of_pages(sheets, title))
     if drilling := drilling_of(subject):
-        (folder / "drilling.pdf").write_bytes(drilling_pdf(drilling))
+        title = f"Drilling template of {subject.name}"
+        (folder / "drilling.pdf").write_bytes(pdf_of_pages(pages(drilling), title))
     return ()
 
 
