@@ -68,11 +68,6 @@ def joint_name(module: Module) -> str:
     return f"{PREFIX}{module.name}"
 
 
-def carrier_name(module: Module) -> str:
-    """Name of what stands still of a module: link and fixed joint in URDF, body in MJCF."""
-    return f"{PREFIX}{module.name}_motor"
-
-
 def wheel_sensors(module: Module) -> tuple[str, str]:
     """Names of the sensors in MJCF of a wheel's speed [rad/s] and of its motor's torque [N m]."""
     return f"{joint_name(module)}_velocity", f"{joint_name(module)}_torque"
@@ -103,18 +98,6 @@ def require_no_device(joints: Iterable[str]) -> None:
 def flywheel_names(device: Device) -> tuple[str, ...]:
     """Names of the wheels, in the modules' order."""
     return tuple(flywheel_name(module) for module in device.modules)
-
-
-def carrier_names(device: Device) -> tuple[str, ...]:
-    """Names of what stands still of each module; none where it weighs nothing."""
-    if device.carrier.mass == 0.0:
-        return ()
-    return tuple(carrier_name(module) for module in device.modules)
-
-
-def plate_names(device: Device) -> tuple[str, ...]:
-    """Name of the body of what is under the feet; none where they stand on the trunk."""
-    return (PLATE,) if device.under else ()
 
 
 def joint_names(device: Device) -> tuple[str, ...]:
@@ -222,7 +205,7 @@ def device_bodies(device: Device) -> Iterator[DeviceBody]:
         yield DeviceBody(flywheel_name(module), wheel, at, turn, module, joint_name(module))
         carrier = carrier_inertial(device, module)
         if carrier is not None:
-            yield DeviceBody(carrier_name(module), carrier, at, turn, module)
+            yield DeviceBody(f"{joint_name(module)}_motor", carrier, at, turn, module)
     under, level = device.plate, (0.0, 0.0, 0.0)
     if under is not None:
         at = np.array(under.position)

@@ -333,8 +333,7 @@ class Balance:
     """How one wheel is balanced: assembled on its motor, as what holds it leaves it off centre.
 
     Attributes:
-        grade: of ISO 21940-11 [mm/s]. speed: at which it holds [rad/s].
-        eccentricity: permissible, e = G / w [m].
+        eccentricity: permissible at top speed, e = G / w [m].
         unbalance: permissible, m e [kg m].
         off_centre: that turning and what centres it may leave [m]; None: nothing centres it.
         centred_by: what does.
@@ -342,8 +341,6 @@ class Balance:
         correction: holes in the rim's faces that take an unbalance away.
     """
 
-    grade: float
-    speed: float
     eccentricity: float
     unbalance: float
     off_centre: float | None
@@ -475,8 +472,8 @@ def permissible_eccentricity(speed: float) -> float:
 
 def balance_of(device: Device) -> Balance:
     """Balance of one wheel at the highest speed of its drive."""
-    wheel, speed = device.flywheel, device.motor.top_speed
-    eccentricity = permissible_eccentricity(speed)
+    wheel = device.flywheel
+    eccentricity = permissible_eccentricity(device.motor.top_speed)
     rim = Ring(
         wheel.inner_radius,
         wheel.outer_radius,
@@ -498,8 +495,6 @@ def balance_of(device: Device) -> Balance:
         off_centre, shifted = RUN_OUT / 2.0, True
         by = f"its screws, once it is shifted until it runs true to {2e3 * RUN_OUT:g} mm"
     return Balance(
-        grade=GRADE,
-        speed=speed,
         eccentricity=eccentricity,
         unbalance=eccentricity * wheel.mass,
         off_centre=None if off_centre is None else RUN_OUT / 2.0 + off_centre,

@@ -23,21 +23,20 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
         robot: that the spec was built from.
         device: its wheels turn about the z axis of their own frames.
     """
-    wheels, joints = bodies.flywheel_names(device), bodies.joint_names(device)
-    fixed = bodies.carrier_names(device) + bodies.plate_names(device)
-    bodies.require_free("body", (body.name for body in spec.bodies), wheels + fixed)
+    made, joints = list(bodies.device_bodies(device)), bodies.joint_names(device)
+    bodies.require_free("body", (body.name for body in spec.bodies), (each.name for each in made))
     bodies.require_free("joint", (joint.name for joint in spec.joints), joints)
     bodies.require_free("actuator", (actuator.name for actuator in spec.actuators), joints)
-    bodies.require_free("geom", (geom.name for geom in spec.geoms), wheels)
+    bodies.require_free("geom", (geom.name for geom in spec.geoms), bodies.flywheel_names(device))
     trunk, base = trunk_body(spec, robot)
     attached = mujoco.MjSpec()
     frame = attached.worldbody.add_frame()
     limit = bodies.largest_torque(device.motor)
-    for each in bodies.device_bodies(device):
+    for each in made:
         body = inertial(each.own)
         place = base @ each.place
         # Attaching puts the prefix in front of the names.
-        made = attached.worldbody.add_body(
+        added = attached.worldbody.add_body(
             name=each.name.removeprefix(bodies.PREFIX),
             pos=place.position,
             quat=quaternion(place.rotation),
@@ -47,18 +46,18 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
             inertia=body.moments,
             explicitinertial=True,
         )
-        made.set_frame(frame)
+        added.set_frame(frame)
         if not each.joint:
             continue
         joint = each.joint.removeprefix(bodies.PREFIX)
-        made.add_joint(
+        added.add_joint(
             name=joint,
             type=mujoco.mjtJoint.mjJNT_HINGE,
             axis=(0.0, 0.0, 1.0),
             armature=device.motor.armature,
         )
-        made.add_geom(
-            name=made.name,
+        added.add_geom(
+            name=added.name,
             type=mujoco.mjtGeom.mjGEOM_CYLINDER,
             size=(device.flywheel.outer_radius, device.flywheel.height / 2.0, 0.0),
             contype=0,

@@ -12,9 +12,9 @@ from ocs_design.actuation.fasteners import Screw
 from ocs_design.common.units import format_quantity, round_outwards
 from ocs_design.device.solids import foot_of
 from ocs_design.export.device_parts import foot_holes, trunk_holes
-from ocs_design.export.drawing.dimensioning import LEADING, arrow, level_dimension
 from ocs_design.export.drawing.sheet import (
     HEIGHT,
+    LEADING,
     THIN,
     WIDTH,
     Area,
@@ -24,7 +24,9 @@ from ocs_design.export.drawing.sheet import (
     Point,
     Polyline,
     Text,
+    arrow,
     cross,
+    level_dimension,
     outline,
     rectangle,
 )

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.bodies import carrier_names, flywheel_names
+from ocs_design.device.bodies import device_bodies
 from ocs_design.device.device import Device
 from ocs_design.export.programs import draw
 from ocs_design.export.robot_model import robot_model
@@ -84,7 +84,8 @@ def film_model(robot: Robot, device: Device, *, ocs: bool) -> mujoco.MjModel:
     found = compiled(model.spec)
     found.opt.gravity[:] = 0.0
     if not ocs:
-        bodies = [found.body(name).id for name in flywheel_names(device) + carrier_names(device)]
+        hidden = [each.name for each in device_bodies(device) if each.module is not None]
+        bodies = [found.body(name).id for name in hidden]
         found.geom_group[np.isin(found.geom_bodyid, bodies)] = HIDDEN_GROUP
     return found
 

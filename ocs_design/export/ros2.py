@@ -15,11 +15,16 @@ import numpy as np
 
 from ocs_design.common.files import safe_name
 from ocs_design.device.bodies import joint_names
-from ocs_design.export.device_urdf import MOCK_PLUGIN, control_joint, control_wheels
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.snippets import snippet_xacro
 from ocs_design.export.templates import fill, in_comment, numbers, quoted
-from ocs_design.export.urdf import robot_urdf, write_meshes
+from ocs_design.export.urdf import (
+    MOCK_PLUGIN,
+    control_joint,
+    control_wheels,
+    robot_urdf,
+    write_meshes,
+)
 from ocs_design.robot.links import unused_name
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.xml import parse_xml

@@ -10,7 +10,9 @@ from ocs_design.common.frames import rpy_from_rotation
 from ocs_design.device import bodies
 from ocs_design.device.device import Device
 from ocs_design.device.layout import PAIR
-from ocs_design.export.device_urdf import (
+from ocs_design.export.formats import Base, Notes, Subject
+from ocs_design.export.templates import fill, in_comment, numbers, quoted
+from ocs_design.export.urdf import (
     MOCK_PLUGIN,
     body_values,
     cylinder_urdf,
@@ -23,8 +25,6 @@ from ocs_design.export.device_urdf import (
     visual_values,
     visuals_urdf,
 )
-from ocs_design.export.formats import Base, Notes, Subject
-from ocs_design.export.templates import fill, in_comment, numbers, quoted
 from ocs_design.export.visuals import plain_visuals
 from ocs_design.robot.leg_geometry import BASE_FRAME
 from ocs_design.robot.mujoco_bodies import quaternion
@@ -171,6 +171,7 @@ def snippet_mjcf(device: Device, base: Base) -> str:
     imu, attitude, rate = (
         name.removeprefix(bodies.PREFIX) for name in (bodies.IMU, *bodies.IMU_SENSORS)
     )
+    made = list(bodies.device_bodies(device))
     motors, sensors = [], []
     for module in device.modules:
         joint = bodies.joint_name(module).removeprefix(bodies.PREFIX)
@@ -183,17 +184,12 @@ def snippet_mjcf(device: Device, base: Base) -> str:
     rotation = np.eye(3) if base.mount is None else base.mount.placement.rotation
     values = {
         **_names(base),
-        "bodies": ", ".join(
-            (
-                *bodies.flywheel_names(device),
-                *bodies.carrier_names(device),
-                *bodies.plate_names(device),
-            )
-        ),
+        # Wheels first.
+        "bodies": ", ".join(each.name for each in sorted(made, key=lambda each: not each.joint)),
         "joints": ", ".join(bodies.joint_names(device)),
         **dict(zip(("speed", "torque"), bodies.wheel_sensors(device.modules[0]), strict=True)),
         "base_quaternion": numbers(quaternion(rotation)),
-        "modules": "".join(_body_mjcf(device, body) for body in bodies.device_bodies(device)),
+        "modules": "".join(_body_mjcf(device, body) for body in made),
         "motors": "".join(f"    {motor}\n" for motor in motors),
         "imu": imu,
         "sensors": "".join(f"    {sensor}\n" for sensor in sensors),

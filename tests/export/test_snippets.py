@@ -26,7 +26,6 @@ from robots import ROBOTS
 from seats import TRUNK, TrunkOnly, expanded
 from wheels import driven_device, geared, motor, paper_device
 
-from ocs_design.export.device_urdf import MOCK_PLUGIN
 from ocs_design.export.mjcf import precise_xml
 from ocs_design.export.snippets import (
     snippet_mjcf,
@@ -37,7 +36,7 @@ from ocs_design.export.snippets import (
     snippets,
 )
 from ocs_design.export.templates import in_comment
-from ocs_design.export.urdf import robot_urdf
+from ocs_design.export.urdf import MOCK_PLUGIN, robot_urdf
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.mujoco_model import build_spec
 

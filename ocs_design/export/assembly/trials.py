@@ -8,6 +8,7 @@ from ocs_design.common.units import round_outwards, rpm, significant
 from ocs_design.device.joints import DAMPING, balance_of, resonances_of
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.electrics import demand_of
+from ocs_design.parts.joints import GRADE
 from ocs_design.parts.rim import stored_energy
 
 SPIN_STEPS = (0.1, 0.25, 0.5, 0.75, 1.0)
@@ -30,7 +31,7 @@ def balance(assembly: Assembly) -> Iterator[str]:
         return
     balance = balance_of(assembly.device)
     yield (
-        f"Grade G {balance.grade:g} (ISO 21940-11) at {rpm(speed)}: at most "
+        f"Grade G {GRADE:g} (ISO 21940-11) at {rpm(speed)}: at most "
         f"{_two(1e6 * balance.unbalance)} g mm are left in one plane, the wheel's own; its "
         f"centre of mass is then {_two(1e6 * balance.eccentricity)} µm off the axis."
     )

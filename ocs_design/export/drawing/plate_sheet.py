@@ -9,15 +9,8 @@ from collections.abc import Iterator, Sequence
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.device.device import Device
-from ocs_design.export.drawing.dimensioning import (
-    ARROW,
-    arrow,
-    extension,
-    fits_inside,
-    level_dimension,
-    upright_dimension,
-)
 from ocs_design.export.drawing.sheet import (
+    ARROW,
     CENTRE,
     FRAME_BOX,
     OUTLINE,
@@ -31,10 +24,15 @@ from ocs_design.export.drawing.sheet import (
     Polyline,
     Scale,
     Text,
+    arrow,
     cross,
+    extension,
+    fits_inside,
     largest_scale,
+    level_dimension,
     outline,
     rectangle,
+    upright_dimension,
 )
 from ocs_design.export.drawing.title_block import Entries, frame, numbered, title_block
 from ocs_design.export.drawing.wheel import plain

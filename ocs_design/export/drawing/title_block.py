@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ocs_design.export.drawing.dimensioning import LEADING
 from ocs_design.export.drawing.sheet import (
     CENTRE,
     FRAME,
     FRAME_BOX,
     HEIGHT,
+    LEADING,
     MARGIN,
     MARGIN_LEFT,
     THIN,

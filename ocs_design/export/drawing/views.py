@@ -5,14 +5,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from ocs_design.export.drawing.dimensioning import (
-    extension,
-    fits_inside,
-    leader,
-    level_dimension,
-    upright_dimension,
-    viewing_arrow,
-)
 from ocs_design.export.drawing.sheet import (
     CENTRE,
     MARGIN,
@@ -26,9 +18,15 @@ from ocs_design.export.drawing.sheet import (
     Point,
     Scale,
     Text,
+    extension,
+    fits_inside,
     hatching,
     largest_scale,
+    leader,
+    level_dimension,
     outline,
+    upright_dimension,
+    viewing_arrow,
 )
 from ocs_design.export.drawing.wheel import diameters, fitted_bore, holes, plain, toleranced, widest
 from ocs_design.parts.joints import Grade
