@@ -3,6 +3,7 @@
 import numpy as np
 import pinocchio as pin
 import pytest
+from built import DEVICES
 from exported import (
     LEGGED,
     LEGGED_PATHS,
@@ -85,10 +86,11 @@ def test_an_mjcf_robot_becomes_the_same_robot_in_urdf(tmp_path):
         ("joint", "ocs_right"),
         ("link", "ocs_left_motor"),
         ("joint", "ocs_left_motor"),
+        ("link", "ocs_plate"),
     ],
 )
 def test_a_clash_of_names_is_an_error_that_says_so(tmp_path, element, name):
-    """Names of motors are free where there are none."""
+    """Names of motors and of a plate are free where there are none."""
     link, joint = (name, "weld") if element == "link" else ("other", name)
     extra = (
         f'<link name="{link}"/><joint name="{joint}" type="fixed">'
@@ -96,9 +98,10 @@ def test_a_clash_of_names_is_an_error_that_says_so(tmp_path, element, name):
     )
     (tmp_path / "in.urdf").write_text(SOLO12.read_text().replace("</robot>", extra + "</robot>"))
     robot = read_robot(tmp_path / "in.urdf")
+    device = DEVICES["on a plate"] if name == "ocs_plate" else driven_device()
     with pytest.raises(RobotError, match=rf"{element} named '{name}'"):
-        robot_urdf(robot, driven_device())
-    if name.endswith("motor"):
+        robot_urdf(robot, device)
+    if name.endswith(("motor", "plate")):
         robot_urdf(robot, paper_device())
 
 
