@@ -1,6 +1,6 @@
 """What a requirement asks of wheels and their drives, for many candidates at once."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -11,11 +11,13 @@ from ocs_design.actuation.spin_root import capability, newton_step
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.actuation.wheel_load import WheelTask, held, spin_demand, without_each
 from ocs_design.common.arrays import FloatArray
-from ocs_design.requirement.bound import rate_momenta, turned_roll
+from ocs_design.device.records.selection import TaskDemand
+from ocs_design.requirement.bound import AXES, rate_momenta, turned_roll
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.sizing.selection.composite_inertia import CompositeInertia
 from ocs_design.sizing.selection.drives import Drives
+from ocs_design.sizing.selection.problem import Candidate
 
 UNDOES = 0.35
 """Share of the momentum about roll of all wheels at top speed that undoes a roll at lift-off while
@@ -196,6 +198,24 @@ def held_by_rate(
     left = without_each(axes) if one_stops else (axes,)
     most = [held(each[..., None, None, :, :], both).most.max(axis=-1) for each in left]
     return np.asarray(np.max(most, axis=0))
+
+
+def rate_demands(
+    requirement: Requirement, device: Candidate, inertia: TiltInertia
+) -> Iterator[TaskDemand]:
+    """What a change of rate takes of the device, about roll and about pitch; none is none.
+
+    Args:
+        requirement: that has it. device: that makes it. inertia: of robot and device.
+    """
+    if requirement.rate_change is None:
+        return
+    at, one_stops = device.incidence, requirement.detection is not None
+    axes, top_speed = device.layout.axes(at)[:2], float(device.line.reserved().top_speed)
+    momenta = held_by_rate(requirement.rate_change, inertia, axes, one_stops=one_stops)
+    for axis, momentum in zip(AXES, momenta.tolist(), strict=True):
+        least, peak = momentum / top_speed, momentum / device.spin_inertia
+        yield TaskDemand(f"rate change, {axis}", at, least, None, None, peak, None)
 
 
 def held_in_roll(

@@ -1,6 +1,5 @@
 """A solved candidate as a whole device, and its figures."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -11,11 +10,10 @@ from ocs_design.actuation.spin_root import capability
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_load import WheelTask, smallest_spin_inertia, spin_demand
 from ocs_design.device.records.selection import TaskDemand
-from ocs_design.requirement.bound import AXES
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.sizing.lightest_module import binding_limits
-from ocs_design.sizing.selection.demand import held_by_rate, held_in_roll, wheel_task
+from ocs_design.sizing.selection.demand import held_in_roll, rate_demands, wheel_task
 from ocs_design.sizing.selection.fixed_point import Solved
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem, inertia_at
 
@@ -93,24 +91,6 @@ def with_demands(problem: SelectionProblem, device: Candidate) -> Candidate:
         demands.append(demand)
     demands += rate_demands(requirement, device, inertia_at(problem, device, device.incidence))
     return replace(device, demands=tuple(demands))
-
-
-def rate_demands(
-    requirement: Requirement, device: Candidate, inertia: TiltInertia
-) -> Iterator[TaskDemand]:
-    """What a change of rate takes of the device, about roll and about pitch; none is none.
-
-    Args:
-        requirement: that has it. device: that makes it. inertia: of robot and device.
-    """
-    if requirement.rate_change is None:
-        return
-    at, one_stops = device.incidence, requirement.detection is not None
-    axes, top_speed = device.layout.axes(at)[:2], float(device.line.reserved().top_speed)
-    momenta = held_by_rate(requirement.rate_change, inertia, axes, one_stops=one_stops)
-    for axis, momentum in zip(AXES, momenta.tolist(), strict=True):
-        least, peak = momentum / top_speed, momentum / device.spin_inertia
-        yield TaskDemand(f"rate change, {axis}", at, least, None, None, peak, None)
 
 
 def _task_of(

@@ -18,8 +18,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import module_axes
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.sizing.lightest_module import binding_limits, lightest_module_at
-from ocs_design.sizing.selection.demand import UNDOES
-from ocs_design.sizing.selection.device import rate_demands
+from ocs_design.sizing.selection.demand import UNDOES, rate_demands
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
 from ocs_design.sizing.trajectory.boundary import boundary
 from ocs_design.sizing.trajectory.flight import Flight, fly
