@@ -71,7 +71,7 @@ class BillRow:
 
 def write(subject: Subject, folder: Path) -> Notes:
     """Write `bill_of_materials.csv`."""
-    content = bill_csv(subject.device, subject.margins).encode()
+    content = bill_csv(subject.device, subject.margins, subject.refused).encode()
     (folder / "bill_of_materials.csv").write_bytes(content)
     return ()
 
@@ -222,11 +222,19 @@ def _unweighed_rows(device: Device, margins: Sequence[MarginRecord]) -> Iterator
         yield BillRow("threadlocker", 1, "", "", 0.0, where)
 
 
-def bill_csv(device: Device, margins: Sequence[MarginRecord] = ()) -> str:
-    """The rows and their sum as CSV, masses to the milligram; see `bill_rows`."""
+def bill_csv(device: Device, margins: Sequence[MarginRecord] = (), refused: str = "") -> str:
+    """The rows and their sum as CSV, masses to the milligram; see `bill_rows`.
+
+    What keeps the device from being built, where anything does, is the first row's remark.
+    """
     rows, text = bill_rows(device, margins), StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(COLUMNS)
+    if refused:
+        head, _, why = refused.partition(". ")
+        writer.writerow(
+            [head, *[""] * 5, plain(f"{why} Buy and make nothing before that is settled."), ""]
+        )
     for row in rows:
         masses = [_grams(row.mass), _grams(row.quantity * row.mass)] if row.mass else ["", ""]
         cells = [row.part, str(row.quantity), row.material, row.stock, *masses]

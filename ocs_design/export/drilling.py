@@ -29,6 +29,7 @@ from ocs_design.export.drawing.sheet import (
     level_dimension,
     outline,
     rectangle,
+    wrapped,
 )
 from ocs_design.export.formats import Subject
 from ocs_design.parts.module import part_name
@@ -42,6 +43,9 @@ SHEET = (15.0, 15.0, WIDTH - 15.0, HEIGHT - 30.0)
 
 CHECK = 50.0
 """Length to measure on the print [mm]."""
+
+_VERDICT = 2.5
+"""Height of the words that say that nothing is to be drilled [mm]."""
 
 CROSS = 4.0
 """Length of a centre mark beyond its hole [mm]."""
@@ -61,6 +65,7 @@ class Drilling:
         standing: what the thin lines are.
         upwards: whether it is the trunk's back, coordinates up and to the left; else its top,
             forward and to the left.
+        refused: that the device cannot be built, and why: no hole is to be drilled.
     """
 
     robot: str
@@ -72,6 +77,7 @@ class Drilling:
     around: tuple[Item, ...]
     standing: str = ""
     upwards: bool = False
+    refused: str = ""
 
     @property
     def items(self) -> tuple[Item, ...]:
@@ -81,6 +87,15 @@ class Drilling:
     @property
     def words(self) -> tuple[str, ...]:
         """What to do, line by line."""
+        back = ", z and y: its back, seen from behind" if self.upwards else ""
+        frame = f"coordinates in mm in the frame of {self.trunk}{back}"
+        if self.refused:
+            return (
+                f"{self.robot}: drill nothing by this sheet. The device cannot be built as it "
+                "stands, and what cures that may move its holes, or they lie off the trunk.",
+                f"At the crosses it would have {len(self.holes)} holes for {self.screw.name}; "
+                f"{frame}. Thin lines: {self.standing}.",
+            )
         ends = dict.fromkeys(f"{MILLIMETRES * each:.1f}" for each in self.reach)
         thread = round_outwards(self.thread, upwards=True, digits=2)
         deep, blind = (
@@ -88,8 +103,7 @@ class Drilling:
         )
         return (
             f"{self.robot}: drill {len(self.holes)} holes of {MILLIMETRES * self.drill:.3g} mm at "
-            f"the crosses, and tap {self.screw.name}; coordinates in mm in the frame of "
-            f"{self.trunk}{', z and y: its back, seen from behind' if self.upwards else ''}.",
+            f"the crosses, and tap {self.screw.name}; {frame}.",
             f"The screws go {' to '.join(ends)} mm into the trunk: thread at least {deep} deep, "
             f"the hole through the wall or {blind} deep. Look first what is behind the wall.",
             f"In a wall thinner than {MILLIMETRES * self.screw.diameter:.3g} mm, a print or "
@@ -98,6 +112,11 @@ class Drilling:
             "Assumed is a trunk of aluminium: no robot file tells what its wall is. Thin lines: "
             f"{self.standing}.",
         )
+
+    @property
+    def verdict(self) -> list[str]:
+        """Why the device cannot be built, in lines across the sheet; empty: nothing is known."""
+        return wrapped(self.refused, SHEET[2] - SHEET[0], _VERDICT)
 
     @property
     def thread(self) -> float:
@@ -183,6 +202,7 @@ def drilling_of(subject: Subject) -> Drilling | None:
         tuple(items),
         " and ".join(stands),
         upwards=mast is not None,
+        refused=subject.refused,
     )
 
 
@@ -196,6 +216,7 @@ def pages(drilling: Drilling) -> Iterator[list[Item]]:
     Where one has no room for all, of feet and plate only what is near the holes is shown.
     """
     left, top, right, bottom = SHEET
+    top += LEADING * len(drilling.verdict)
     width, height = right - left, bottom - top
     for shown in (drilling.items, drilling.marks):
         back, rightmost, front, leftmost = bounds(shown)
@@ -227,13 +248,16 @@ def pages(drilling: Drilling) -> Iterator[list[Item]]:
                 *page,
                 # What goes on on another sheet, and would run into the words.
                 Area(rectangle(0.0, bottom, WIDTH, HEIGHT), white=True),
-                *outline(rectangle(*SHEET), THIN),
+                *([Area(rectangle(0.0, 0.0, WIDTH, top), white=True)] if drilling.verdict else []),
+                *outline(rectangle(left, top, right, bottom), THIN),
                 *_words(drilling, number, across * along),
             ]
 
 
 def _words(drilling: Drilling, number: int, count: int) -> Iterator[Item]:
-    left, _, _, bottom = SHEET
+    left, top, _, bottom = SHEET
+    for line, text in enumerate(drilling.verdict):
+        yield Text((left, top + line * LEADING), text, _VERDICT)
     words = [
         *drilling.words,
         "Print at 100 %, without fitting it to the page, and measure the 50 mm.",

@@ -99,7 +99,9 @@ def drilling_text(drilling: Drilling) -> str:
                 space.add_lwpolyline(points, close=True, dxfattribs={"layer": FEET})
             case Text(place, text, height):
                 _add_text(space, text, place, height)
-    _, low, _, _ = bounds(drilling.items)
+    _, low, _, high = bounds(drilling.items)
+    if drilling.refused:
+        _add_text(space, drilling.refused, (-CHECK / 2.0, high + GAP / 2.0), 2.5)
     for line, words in enumerate(drilling.words, start=1):
         _add_text(space, words, (-CHECK / 2.0, low - line * GAP / 2.0), 2.5)
     y = low - 3.0 * GAP

@@ -16,7 +16,7 @@ from ocs_design.common.errors import MissingToolError, UsageError, extra_command
 if TYPE_CHECKING:
     from ocs_design.device.device import Device
     from ocs_design.device.records.design import OcsDesign
-    from ocs_design.device.records.device import MarginRecord
+    from ocs_design.device.records.device import Buildable, MarginRecord
     from ocs_design.robot.robot import Mount, Robot
 
 Notes: TypeAlias = tuple[str, ...]
@@ -47,6 +47,8 @@ class Subject:
         robot: that carries it; None where only its parts and its snippets are wanted.
         margins: of its recorded flights; empty: none are known.
         fitting: what the design leaves to do by hand, one sentence each.
+        refused: that the device cannot be built as it stands, why, and what can be done; empty:
+            nothing is known that keeps it from being built.
     """
 
     name: str
@@ -55,6 +57,7 @@ class Subject:
     robot: "Robot | None"
     margins: "tuple[MarginRecord, ...]" = ()
     fitting: tuple[str, ...] = ()
+    refused: str = ""
 
     @classmethod
     def of(cls, robot: "Robot", device: "Device", name: str) -> "Subject":
@@ -68,6 +71,7 @@ class Subject:
             device=replace(self.device, supply=design.supply),
             margins=design.margins,
             fitting=design.ocs.fitting,
+            refused=refusal(design.buildable),
         )
 
     @property
@@ -75,6 +79,14 @@ class Subject:
         """Robot of the formats that need one."""
         assert self.robot is not None, "formats that need a robot are refused without one"
         return self.robot
+
+
+def refusal(buildable: "Buildable") -> str:
+    """Sentences that say that a device cannot be built, why, and what can be done; else empty."""
+    if buildable.yes is not False:
+        return ""
+    points = (f"{each.what[:1].upper()}{each.what[1:]}; {each.cure}." for each in buildable.open)
+    return " ".join(("NOT buildable as it stands.", *points))
 
 
 @dataclass(frozen=True)

@@ -146,6 +146,7 @@ def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> st
     )
     values = {
         "name": subject.name,
+        "refused": f"**{subject.refused}**\n\n" if subject.refused else "",
         "picture": picture,
         "model": file,
         "file": file.removesuffix(".xml"),

@@ -17,7 +17,14 @@ from ocs_design.device.checks import device_warnings
 from ocs_design.device.joints import joints_of
 from ocs_design.device.layout import heading_drift
 from ocs_design.device.records.design import SCHEMA_VERSION, OcsDesign, Tool
-from ocs_design.device.records.device import ModuleRecord, MountingRecord, OcsRecord, ReachRecord
+from ocs_design.device.records.device import (
+    Buildable,
+    MarginRecord,
+    ModuleRecord,
+    MountingRecord,
+    OcsRecord,
+    ReachRecord,
+)
 from ocs_design.device.records.flights import ControlRecord, SurvivalRecord, ValidationRecord
 from ocs_design.device.records.requirement import (
     AxisInertia,
@@ -156,7 +163,7 @@ def record_design(
     package_paths: Mapping[str, Path] | None = None,
 ) -> OcsDesign:
     """Record of the whole design, which becomes `design.json`."""
-    margins, choice = record_margins(resolved, designed, runs, plans), designed.choice
+    margins = record_margins(resolved, designed, runs, plans)
     return OcsDesign(
         schema_version=SCHEMA_VERSION,
         tool=Tool(name="ocs-design", version=__version__),
@@ -173,18 +180,20 @@ def record_design(
         alternatives=alternatives,
         owed=owed,
         lighter=lighter,
-        buildable=buildable(
-            None if choice is None else choice.chosen.motor,
-            mounting,
-            margins,
-            joints_of(designed.device),
-            robot,
-        ),
+        buildable=buildable_of(robot, designed, margins, mounting),
         validation=tuple(map(record_run, runs)),
         control=control,
         reality=uncertainty or {},
         files=files,
     )
+
+
+def buildable_of(
+    robot: Robot, designed: Designed, margins: Sequence[MarginRecord], mounting: Mounting | None
+) -> Buildable:
+    """Whether a designed device can be built on its robot, and what is open."""
+    motor = None if designed.choice is None else designed.choice.chosen.motor
+    return buildable(motor, mounting, margins, joints_of(designed.device), robot)
 
 
 def _requirement_record(resolved: Resolved, sized: Sized) -> RequirementRecord:

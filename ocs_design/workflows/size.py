@@ -15,7 +15,7 @@ from ocs_design.device.records.flights import falls_short
 from ocs_design.device.records.selection import Alternative, Lighter, Owed
 from ocs_design.export.assembly.content import assembly_of
 from ocs_design.export.folder import check_target, recorded_hashes, staged_folder
-from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats
+from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats, refusal
 from ocs_design.report.charts.figures import FOLDER, all_charts
 from ocs_design.report.charts.svg import write_svgs
 from ocs_design.report.html.notebook import as_html
@@ -33,13 +33,14 @@ from ocs_design.requirement.vocabulary import NO_MOTOR
 from ocs_design.robot.collision import forget_collision_model
 from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot
+from ocs_design.simulation.margins import record_margins
 from ocs_design.simulation.run import Run
 from ocs_design.sizing.alternatives import built_otherwise, lighter_by, lighter_otherwise
 from ocs_design.sizing.bound.rim_program import load_solver
 from ocs_design.sizing.design import mass_without_survival
 from ocs_design.workflows.flying import control_of, flown_hash
 from ocs_design.workflows.inspect import posture_lines
-from ocs_design.workflows.recording import record_design, write_runs
+from ocs_design.workflows.recording import buildable_of, record_design, write_runs
 from ocs_design.workflows.rounds import (
     Placed,
     Proof,
@@ -145,8 +146,14 @@ def design_ocs(
     with staged_folder(folder, force=force) as staging:
         with steps.step("export parts and robot files"):
             # The model that they are written from is let go of: nothing keeps the subject.
+            built = buildable_of(
+                robot,
+                placed.designed,
+                record_margins(placed.resolved, placed.designed, runs, proof.references),
+                placed.mounting,
+            )
             remarks = export_formats(
-                Subject.of(robot, device, safe_name(robot.name)),
+                replace(Subject.of(robot, device, safe_name(robot.name)), refused=refusal(built)),
                 [each for each in USUAL_FORMATS if not each.needs_margins],
                 staging,
             )

@@ -17,8 +17,9 @@ from ocs_design.export.drilling import CHECK, SHEET, drilling_of, pages
 from ocs_design.export.formats import Subject
 
 
-def subject(device):
-    return Subject("dog", device, SimpleNamespace(trunk="trunk", mount=None), None)
+def subject(device, refused=""):
+    seat = SimpleNamespace(trunk="trunk", mount=None)
+    return Subject("dog", device, seat, None, refused=refused)
 
 
 TRIAD = around(Layout(LayoutName.TRIAD))
@@ -163,3 +164,17 @@ def test_dxf_has_the_holes_in_the_frame_of_the_trunk(device, tmp_path):
 
 def _middle(line):
     return np.array((line.dxf.start + line.dxf.end) / 2.0)[:2]
+
+
+def test_what_cannot_be_built_is_not_drilled(device):
+    """The verdict stands above everything else on each sheet, and no hole is asked for."""
+    refused = "NOT buildable as it stands. The feet hang in the air; " + 40 * "give a place "
+    for page in pages(drilling_of(subject(device, refused))):
+        texts = [each for each in page if isinstance(each, Text)]
+        order = " ".join(each.text for each in sorted(texts, key=lambda each: each.place[1]))
+        assert order.startswith("NOT buildable as it stands. The feet hang in the air;")
+        assert "drill nothing by this sheet" in order
+        assert re.search(r"drill \d", order) is None
+        low = max(each.place[1] for each in texts if "give a place" in each.text)
+        shown = [each for each in page if isinstance(each, Circle)]
+        assert all(each.center[1] - each.radius > low for each in shown)

@@ -134,6 +134,8 @@ def assembly_pages(assembly: Assembly) -> list[list[Item]]:
     # The exploded view, and below it the pieces by their numbers.
     view, scale = _exploded(assembly)
     first = [*view, *_scale("One module pulled apart", scale, EXPLODED_BOX)]
+    for line, text in enumerate(_refused_lines(assembly)):
+        first.append(Text((LEFT + _INSET, TOP + 15.0 + line * _LEADING), text, _HEADING))
     cells = [tuple(map(str, row)) for row in piece_rows(assembly)]
     top = EXPLODED_BOX[3] + 3.0
     half = (len(cells) + 1) // 2
@@ -145,7 +147,8 @@ def assembly_pages(assembly: Assembly) -> list[list[Item]]:
         first += _table(header, part, widths, (left, top, left + width))[0]
     bodies = [first, *_text_pages(assembly, chapters(assembly))]
     identity = f"design {device_hash(assembly.device)} · ocs-design {__version__}"
-    title, y = fitted(f"Assembly, {assembly.robot}", 130.0, _TITLE), TOP + 7.0
+    verdict = ": NOT buildable as it stands" if assembly.refused else ""
+    title, y = fitted(f"Assembly, {assembly.robot}{verdict}", 150.0, _TITLE), TOP + 7.0
     pages: list[list[Item]] = []
     for number, body in enumerate(bodies, start=1):
         sheet = f"{identity} · sheet {number} / {len(bodies)}"
@@ -161,7 +164,15 @@ def assembly_pages(assembly: Assembly) -> list[list[Item]]:
 @lru_cache(maxsize=1)
 def _exploded(assembly: Assembly) -> tuple[list[Item], Scale]:
     """The exploded view, drawn once for paper and for the report."""
-    return exploded_view(assembly.pieces, assembly.numbers, EXPLODED_BOX)
+    left, top, right, bottom = EXPLODED_BOX
+    if assembly.refused:
+        top += _LEADING * (1 + len(_refused_lines(assembly)))
+    return exploded_view(assembly.pieces, assembly.numbers, (left, top, right, bottom))
+
+
+def _refused_lines(assembly: Assembly) -> list[str]:
+    """Why the device cannot be built, in lines across the first sheet; none where it can."""
+    return wrapped(assembly.refused, RIGHT - LEFT - 2.0 * _INSET, _HEADING)
 
 
 def pictures(assembly: Assembly) -> Iterator[str]:
@@ -356,7 +367,8 @@ def _count(assembly: Assembly, piece: Piece) -> int:
 def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
     """All text, in the order of the work."""
     notes = dict.fromkeys((*drive_notes(assembly.device), *assembly.notes))
-    before = [
+    before = [assembly.refused] if assembly.refused else []
+    before += [
         "Read the safety notes at the end before anything turns.",
         *(f"{note[:1].upper()}{note[1:]}." for note in notes),
     ]

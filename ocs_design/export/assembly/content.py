@@ -111,12 +111,14 @@ class Assembly:
         device: to build.
         margins: of the recorded flights; empty where none are known.
         notes: what the design leaves to do by hand, one sentence each.
+        refused: that it cannot be built, why, and what can be done; empty: nothing is known.
     """
 
     robot: str
     device: Device
     margins: Sequence[MarginRecord] = ()
     notes: tuple[str, ...] = ()
+    refused: str = ""
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
@@ -205,7 +207,7 @@ class Assembly:
 @lru_cache(maxsize=1)
 def assembly_of(subject: Subject) -> Assembly:
     """Assembly of the subject's device, for the booklet and for the report."""
-    return Assembly(subject.name, subject.device, subject.margins, subject.fitting)
+    return Assembly(subject.name, subject.device, subject.margins, subject.fitting, subject.refused)
 
 
 def short(purpose: str) -> str:

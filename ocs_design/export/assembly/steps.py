@@ -206,7 +206,12 @@ def _trunk_steps(assembly: Assembly) -> Iterator[str]:
     )
     what = "feet and pedestals" if standing and holes else "pedestals" if holes else "the feet"
     places_of = f"{'; '.join(drilled)}; {what} stand at z = {stand} mm"
-    if device.plate is None:
+    if assembly.refused:
+        yield (
+            "Drill no hole into the trunk and cut nothing that stands on it before that is settled "
+            "which keeps the device from being built: they may come to lie elsewhere."
+        )
+    elif device.plate is None:
         yield (
             "Drill the trunk by cad/drilling.pdf, printed at 100 %; it says how deep. Places, "
             f"{frame}: {places_of}."

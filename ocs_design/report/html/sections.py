@@ -19,6 +19,7 @@ from ocs_design.export.drawing.wheel import (
     rim_inertia_error,
     toleranced,
 )
+from ocs_design.export.formats import refusal
 from ocs_design.parts.joints import Grade
 from ocs_design.report import flights, limits, monte_carlo, selection, warnings
 from ocs_design.report.charts.chart import Chart
@@ -259,7 +260,11 @@ def assembly_section(story: Story) -> Markup:
     design, ocs = story.design, story.design.ocs
     # Its exploded view takes a second to draw: what is written on paper too is drawn once.
     assembly = story.assembly or Assembly(
-        design.robot.name, ocs.device(design.supply), design.margins, ocs.fitting
+        design.robot.name,
+        ocs.device(design.supply),
+        design.margins,
+        ocs.fitting,
+        refusal(design.buildable),
     )
     pieces, screws = (
         tuple(tuple(map(str, row)) for row in rows)

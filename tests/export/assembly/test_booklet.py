@@ -23,7 +23,7 @@ from ocs_design.export.assembly.booklet import assembly_pages, chapters, piece_r
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.assembly.views import pulled_apart, spread
 from ocs_design.export.bill_of_materials import bill_rows
-from ocs_design.export.drawing.sheet import Circle, Line, Polyline
+from ocs_design.export.drawing.sheet import Circle, Line, Polyline, Text
 from ocs_design.parts.pedestal import Pedestal
 
 
@@ -210,6 +210,25 @@ def test_open_points_stand_first_and_once():
     said = texts(Assembly("solo12", DEVICES["unknown threads"], (), (note, note)), "Before")
     assert said.count(note) == 1
     assert "The motor's threads are not in the catalogue" in said
+
+
+def test_what_cannot_be_built_is_told_first_of_all():
+    """On the first sheet above the pieces, in the title of each, and before all steps."""
+    refused = "NOT buildable as it stands. The feet hang in the air; give a place."
+    for device in (DEVICES["caged"], DEVICES["on a plate"]):
+        assembly = Assembly("solo12", device, refused=refused)
+        assert all_texts(assembly)[0] == refused
+        said = texts(assembly, "Steps")
+        assert "Drill no hole into the trunk" in said
+        assert "cad/drilling.pdf" not in said
+        for page in assembly_pages(assembly):
+            check_words(page)
+            title, *_ = (each.text for each in page if isinstance(each, Text) and each.height > 3.0)
+            assert title == "Assembly, solo12: NOT buildable as it stands"
+        first, *_ = assembly_pages(assembly)
+        (told,) = (each for each in first if isinstance(each, Text) and each.text == refused)
+        drawn = [each.center[1] for each in first if isinstance(each, Circle)]
+        assert told.place[1] < min(drawn) - 4.0
 
 
 def test_the_flights_say_what_the_battery_gives():
