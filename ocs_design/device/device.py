@@ -137,8 +137,17 @@ class Device:
     @property
     def mass(self) -> float:
         """Mass of all modules, wheels, motors, gears, housings and feet, and of `under` [kg]."""
-        modules = len(self.modules) * (self.flywheel.mass + self.carrier.mass)
-        return modules + sum(each.mass for each in self.under)
+        return len(self.modules) * self.module_mass + sum(each.mass for each in self.under)
+
+    @property
+    def module_mass(self) -> float:
+        """Mass of one module [kg]."""
+        return self.flywheel.mass + self.carrier.mass
+
+    @property
+    def wheels_alone(self) -> bool:
+        """Whether it is no more than its wheels: nothing holds or drives them."""
+        return self.carrier.mass == 0.0
 
     @property
     def under(self) -> tuple[CarrierPlate | Pedestal, ...]:

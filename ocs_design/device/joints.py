@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import inf, pi, sqrt
+from math import pi, sqrt
 
 import numpy as np
 
@@ -86,7 +86,7 @@ def foot_hold(device: Device) -> FootHold:
     """What holds each foot: on a plate it tilts about its edge, which is within the foot's own."""
     foot, plate = foot_of(device), device.plate
     edge = foot.base_radius if plate is None else min(foot.base_radius, plate.radius)
-    return FootHold.of(foot, device.flywheel.mass + device.carrier.mass, edge)
+    return FootHold.of(foot, device.module_mass, edge)
 
 
 def unheld_moment(device: Device, margins: Sequence[MarginRecord]) -> float:
@@ -117,7 +117,7 @@ def joints_of(device: Device) -> tuple[Margin, ...]:
 
 def _shocks(device: Device) -> Iterator[Margin]:
     """Accelerations at which what holds the module breaks."""
-    module = device.flywheel.mass + device.carrier.mass
+    module = device.module_mass
     held = format_quantity(module, "kg" if module >= 1.0 else "g", digits=3)
     shock = f"{SHOCK / STANDARD_GRAVITY:.0f} g"
     hold = foot_hold(device)
@@ -176,24 +176,20 @@ def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
     wheel = device.flywheel
     rings, fit = wheel_rings(wheel), rim_fit(device)
     if rings is None:
-        yield Margin(
-            RIM_JOINT, 0.0, None, "Pa", f"elastic figures of {wheel.material} are not known"
-        )
+        note = f"elastic figures of {wheel.material} are not known"
+        yield Margin(RIM_JOINT, 0.0, None, "Pa", note)
     elif web.material == wheel.material:
         yield _one_piece(wheel.material, web, rings, OVERSPEED * device.motor.top_speed)
     elif fit is None:
         yield Margin(RIM_JOINT, 0.0, None, "Pa", "thermal expansions are not known")
     else:
         edges = (format_quantity(2.0 * each, "um", digits=3) for each in (fit.least, fit.most))
-        yield Margin(
-            RIM_JOINT,
-            fit.needed,
-            fit.held,
-            "Pa",
+        note = (
             f"shrunk on, {', '.join(edges)} too narrow across; least pressure at {OVERSPEED:g} x "
             f"top speed, {COLDEST:g} to {WARMEST:g} deg C, against what carries {SERVICE:g} x peak "
-            f"torque at a friction of {FRICTION:g}",
+            f"torque at a friction of {FRICTION:g}"
         )
+        yield Margin(RIM_JOINT, fit.needed, fit.held, "Pa", note)
         for name, stress, material in (
             ("web of the shrink fit", fit.stress_web, web.material),
             ("rim of the shrink fit", fit.stress_rim, wheel.material),
@@ -245,46 +241,35 @@ def _shaft_joints(device: Device, web: Web) -> Iterator[Margin]:
     """What holds the wheel on its motor."""
     drive, mounting = device.motor, device.motor.mounting
     torque = SERVICE * (drive.torque_limit or 0.0)
+    against = f"against {SERVICE:g} x peak torque"
+    carried: float | None = None
+    reserve: float | None = None
     if drive.gear != DIRECT.name:
-        unknown = "how a wheel is held on this gear is not in the catalogue"
-        yield Margin(SHAFT_JOINT, torque, None, "N m", unknown)
+        note = "how a wheel is held on this gear is not in the catalogue"
     elif mounting is not None and mounting.rotor is not None:
-        circle = mounting.rotor
-        held, figures = screw(circle.thread), (circle.bolts, circle.radius, circle.screws)
+        circle, carried = mounting.rotor, hub_joint(mounting, 0.0)
+        held = screw(circle.thread)
         tight = format_quantity(tightening_torque(held, circle.screws), "N m", digits=2)
-        force = f"{preload(held, circle.screws):,.0f} N"
-        yield Margin(
-            SHAFT_JOINT,
-            torque,
-            hub_joint(mounting, 0.0),
-            "N m",
-            f"friction under {circle}, class {circle.screws}, tightened with {tight} to {force}, "
-            f"against {SERVICE:g} x peak torque",
+        note = (
+            f"friction under {circle}, class {circle.screws}, tightened with {tight} to "
+            f"{preload(held, circle.screws):,.0f} N, {against}"
         )
-        yield Margin(
-            "shaft joint, screws in shear",
-            torque,
-            shear_torque(held, *figures),
-            "N m",
-            "should the faces slip: a reserve, not what it is built on",
-        )
+        reserve = shear_torque(held, circle.bolts, circle.radius, circle.screws)
     elif mounting is not None and mounting.shaft_diameter is not None:
         length = web.hub.height - 2.0 * web.hub.chamfer
         carried = hub_joint(mounting, length)
         across = format_quantity(mounting.shaft_diameter, "mm")
-        long = format_quantity(length, "mm", digits=3)
-        yield Margin(
-            SHAFT_JOINT,
-            torque,
-            carried,
-            "N m",
-            f"bonded with a retaining compound on the {across} shaft, over {long} of its length, "
-            f"counted at half of its 25 MPa, against {SERVICE:g} x peak torque; the fit alone "
-            "carries nothing",
+        note = (
+            f"bonded with a retaining compound on the {across} shaft, over "
+            f"{format_quantity(length, 'mm', digits=3)} of its length, counted at half of its 25 "
+            f"MPa, {against}; the fit alone carries nothing"
         )
     else:
-        unknown = "the shaft and the rotor's threads are not in the catalogue"
-        yield Margin(SHAFT_JOINT, torque, None, "N m", unknown)
+        note = "the shaft and the rotor's threads are not in the catalogue"
+    yield Margin(SHAFT_JOINT, torque, carried, "N m", note)
+    if reserve is not None:
+        note = "should the faces slip: a reserve, not what it is built on"
+        yield Margin("shaft joint, screws in shear", torque, reserve, "N m", note)
 
 
 def _bell_joints(device: Device) -> Iterator[Margin]:
@@ -385,9 +370,9 @@ def resonances_of(device: Device) -> tuple[Resonance, ...]:
     moment M works as the force 3 M / 2 L. Gyroscopic moments of the turning wheel are left out. A
     pedestal's seat gives way under all of the unbalance.
     """
-    if device.carrier.mass == 0.0:
+    if device.wheels_alone:
         return ()
-    foot, mass = foot_of(device), device.flywheel.mass + device.carrier.mass
+    foot, mass = foot_of(device), device.module_mass
     lever = 1.5 * (foot.back - device.foot_plate / 2.0) / (foot.wheel_height - foot.base)
     modes = [("foot", foot_frequency(device), lever)]
     if device.pedestals:
@@ -422,7 +407,7 @@ def foot_frequency(device: Device, modulus: float = MODULUS) -> float:
         device: with modules. modulus: of what the feet are made of [Pa].
     """
     foot, carrier = foot_of(device), device.carrier
-    mass = device.flywheel.mass + carrier.mass
+    mass = device.module_mass
     inertia = device.flywheel.transverse_inertia + float(carrier.inertia[0, 0])
     softness = stem_frequency(foot, mass, inertia, modulus) ** -2
     if device.pedestals:
@@ -441,7 +426,7 @@ def _twisted_frequency(device: Device, plate: CarrierPlate) -> float:
     The wheel does not turn with it about its own axis.
     """
     foot, carrier = foot_of(device), device.carrier
-    mass, inertia = device.flywheel.mass + carrier.mass, float(carrier.inertia[1, 1])
+    mass, inertia = device.module_mass, float(carrier.inertia[1, 1])
     _, tilt = _tilts(device, plate)
     arm = foot.wheel_height + plate.thickness / 2.0
     stem = stem_frequency(foot, mass, inertia, in_plane=True)
@@ -474,14 +459,7 @@ def balance_of(device: Device) -> Balance:
     """Balance of one wheel at the highest speed of its drive."""
     wheel = device.flywheel
     eccentricity = permissible_eccentricity(device.motor.top_speed)
-    rim = Ring(
-        wheel.inner_radius,
-        wheel.outer_radius,
-        wheel.height,
-        wheel.density,
-        elastic_modulus=inf,
-        poisson_ratio=0.0,
-    )
+    rim = wheel.inner_radius, wheel.outer_radius, wheel.height, wheel.density
     mounting = device.motor.mounting
     off_centre: float | None = None
     by, shifted = "nothing that is known", False
@@ -500,5 +478,5 @@ def balance_of(device: Device) -> Balance:
         off_centre=None if off_centre is None else RUN_OUT / 2.0 + off_centre,
         centred_by=by,
         shifted=shifted,
-        correction=correction(rim, chamfer=wheel.cuts.chamfer, ligament=LIGAMENT),
+        correction=correction(*rim, chamfer=wheel.cuts.chamfer, ligament=LIGAMENT),
     )

@@ -106,7 +106,7 @@ def pedestal_of(device: Device, module: Module, plane: float | None = None) -> P
         heading=atan2(along[1], along[0]),
     )
     above = None if plane is None else float(module.position[2]) - plane
-    found = strengthened(low, device.flywheel.mass + device.carrier.mass, above)
+    found = strengthened(low, device.module_mass, above)
     x, y, z = (module.position - found.placement.rotation @ found.wheel).tolist()
     return replace(found, position=(x, y, z))
 
@@ -150,7 +150,7 @@ class ModuleSolids:
 def module_solids(device: Device, module: Module) -> ModuleSolids:
     """What a module fills at the device's incidence."""
     wheel = device.flywheel
-    if device.carrier.mass == 0.0:
+    if device.wheels_alone:
         return ModuleSolids((Drum(module.position, module.axis, wheel.outer_radius, wheel.height),))
     foot = foot_of(device)
     housing, tall = foot.housing, 2.0 * foot.housing.half_height

@@ -48,7 +48,7 @@ def device_notes(device: Device) -> tuple[str, ...]:
 
 def drive_notes(device: Device) -> tuple[str, ...]:
     """Notes on motor and printed parts, one sentence each; none for wheels without motors."""
-    if device.carrier.mass == 0.0:
+    if device.wheels_alone:
         return ()
     motor, foot = device.motor, foot_of(device)
     if motor.gear != DIRECT.name:
@@ -173,7 +173,7 @@ def _overlap_notes(device: Device, foot: Foot) -> Iterator[str]:
 
 def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
     """Notes on prints and screws too weak for a landing, and on speeds at which parts resonate."""
-    module, modes = device.flywheel.mass + device.carrier.mass, resonances_of(device)
+    module, modes = device.module_mass, resonances_of(device)
     hold, own = foot_hold(device), foot_part(foot).mass_properties().mass
     bears = hold.prints_bear
     if bears < SHOCK:
@@ -223,7 +223,7 @@ def _overlap(parts: str, beyond: float) -> str:
 
 def trunk_notes(device: Device, robot: Robot) -> tuple[str, ...]:
     """Note on the holes that the trunk needs, and where the frame is that they are told in."""
-    if device.carrier.mass == 0.0:
+    if device.wheels_alone:
         return ()
     surface = trunk_surface(robot)
     if surface is None:

@@ -192,7 +192,7 @@ def _unweighed_rows(device: Device, margins: Sequence[MarginRecord]) -> Iterator
         braking = "switches on above the full battery, below the controllers' limit"
         yield BillRow("brake resistor with switch", 1, "", "", 0.0, f"{braking}; {left_out}")
     # Wheels alone are not put together.
-    if device.carrier.mass == 0.0:
+    if device.wheels_alone:
         return
     fixture = ring_fixture(device)
     if fixture is not None:

@@ -132,7 +132,7 @@ class Drilling:
 def drilling_of(subject: Subject) -> Drilling | None:
     """The template of a device on its trunk; None for wheels without feet."""
     device = subject.device
-    if device.carrier.mass == 0.0:
+    if device.wheels_alone:
         return None
     plate, foot, standing = device.plate, foot_of(device), foot_holes(device)
     feet = [place for places in standing.values() for place in places]

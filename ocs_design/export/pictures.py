@@ -48,7 +48,7 @@ def draw_pictures(device: Device, robot: Robot, model: RobotModel) -> dict[str, 
     ]
     # The wheel's pieces come first.
     takes = {"wheel": parts_take(shown[: len(wheel_pieces(device.flywheel))])}
-    if device.carrier.mass > 0.0:
+    if not device.wheels_alone:
         takes["module"] = parts_take(shown)
     qpos = np.array(model.compiled.qpos0)
     for joint, value in robot.posture.items():

@@ -86,7 +86,7 @@ def snippet_xacro(device: Device, base: Base) -> str:
         "base_rpy": numbers(rpy_from_rotation(rotation)),
         **inertial_values(bodies.flywheel_inertial(device)),
         **_macro_wheels(device),
-        "cylinder": cylinder_urdf(device.flywheel),
+        "cylinder": cylinder_urdf(device.flywheel.outer_radius, device.flywheel.height),
         "limit": limit_urdf(device),
         "carrier": indent(_macro_carrier(device), "  "),
         "plate": indent("".join(under), "  "),

@@ -19,7 +19,7 @@ from ocs_design.device.bodies import (
     largest_torque,
     require_free,
 )
-from ocs_design.device.device import Device, Flywheel
+from ocs_design.device.device import Device
 from ocs_design.export.formats import Base, Notes, Subject
 from ocs_design.export.stl import device_meshes
 from ocs_design.export.templates import fill, in_comment, numbers, quoted
@@ -156,7 +156,8 @@ def device_urdf(device: Device, parent: str, *, mesh: str | None = None) -> str:
     like cylinders and boxes.
     """
     looks = plain_visuals if mesh is None else still_visuals
-    solid, elements = cylinder_urdf(device.flywheel), []
+    wheel, elements = device.flywheel, []
+    solid = cylinder_urdf(wheel.outer_radius, wheel.height)
     for body in device_bodies(device):
         values = body_values(body, quoted(parent))
         if body.joint:
@@ -190,8 +191,7 @@ def visuals_urdf(visuals: Iterable[Visual]) -> str:
                 geometry = f'<box size="{numbers(2.0 * np.array(visual.size))}"/>'
             case ShapeKind.CYLINDER:
                 radius, half = visual.size
-                length = numbers(2.0 * half)
-                geometry = f'<cylinder radius="{numbers(radius)}" length="{length}"/>'
+                geometry = cylinder_urdf(radius, 2.0 * half)
             case _:
                 geometry = f'<mesh filename="{visual.mesh}"/>'
         elements.append(fill("visual.urdf", {**visual_values(visual), "geometry": geometry}))
@@ -211,21 +211,17 @@ def visual_values(visual: Visual) -> dict[str, str]:
 
 def inertial_values(body: MassProperties) -> dict[str, str]:
     """Mass properties of a body, for templates."""
-    moments = {f"i{axis}{axis}": body.inertia[k, k] for k, axis in enumerate("xyz")}
-    return {
-        "mass": numbers(body.mass),
-        "com": numbers(body.com),
-        "ixy": numbers(body.inertia[0, 1]),
-        "ixz": numbers(body.inertia[0, 2]),
-        "iyz": numbers(body.inertia[1, 2]),
-        **{name: numbers(value) for name, value in moments.items()},
+    moments = {
+        f"i{one}{other}": numbers(body.inertia[i, j])
+        for i, one in enumerate("xyz")
+        for j, other in enumerate("xyz")
     }
+    return {"mass": numbers(body.mass), "com": numbers(body.com), **moments}
 
 
-def cylinder_urdf(flywheel: Flywheel) -> str:
-    """Cylinder around the wheel."""
-    radius, length = numbers(flywheel.outer_radius), numbers(flywheel.height)
-    return f'<cylinder radius="{radius}" length="{length}"/>'
+def cylinder_urdf(radius: float, length: float) -> str:
+    """Cylinder as a geometry [m]."""
+    return f'<cylinder radius="{numbers(radius)}" length="{numbers(length)}"/>'
 
 
 def limit_urdf(device: Device) -> str:
@@ -323,12 +319,8 @@ def _link(name: str, body: Body) -> ET.Element:
         inertial = ET.SubElement(link, "inertial")
         inertial.append(_origin(Placement(np.eye(3), mass.com)))
         ET.SubElement(inertial, "mass", value=numbers(mass.mass))
-        moments = {
-            f"i{one}{other}": numbers(mass.inertia[i, j])
-            for i, one in enumerate("xyz")
-            for j, other in enumerate("xyz")
-            if i <= j
-        }
+        values = inertial_values(mass)
+        moments = {name: values[name] for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
         ET.SubElement(inertial, "inertia", moments)
     for shape in body.shapes:
         for geometry, place in _geometries(shape):

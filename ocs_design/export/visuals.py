@@ -82,7 +82,7 @@ class Visual:
 def still_meshes(device: Device) -> Mapping[Path, Mesh]:
     """Meshes of carrier, plate and pedestals that visuals name; none of a weightless carrier."""
     found: dict[str, Mesh] = {}
-    if device.carrier.mass > 0.0:
+    if not device.wheels_alone:
         found |= _carrier_meshes(foot_of(device), motor_mount(device).cage)
     if device.plate is not None:
         bodies = plate_bodies(device.plate)
@@ -116,7 +116,7 @@ def still_visuals(device: Device, module: Module | None) -> tuple[Visual, ...]:
     if module is None:
         under = {"plate": device.plate, "pedestal": device.pedestals}
         return tuple(_mesh(name, HERE) for name, there in under.items() if there)
-    if device.carrier.mass == 0.0:
+    if device.wheels_alone:
         return ()
     foot, turn, cage = foot_of(device), carrier_placement(module), motor_mount(device).cage
     visuals = [_mesh("housing", turn), _mesh("foot", turn @ foot.placement)]
@@ -131,7 +131,7 @@ def plain_visuals(device: Device, module: Module | None) -> tuple[Visual, ...]:
         plates = () if device.plate is None else _plain_plate(device.plate)
         boxes = (box for each in device.pedestals for box in _plain_pedestal(each))
         return (*plates, *boxes)
-    if device.carrier.mass == 0.0:
+    if device.wheels_alone:
         return ()
     foot, turn = foot_of(device), carrier_placement(module)
     half_base, half_plate = float(foot.base) / 2.0, device.foot_plate / 2.0

@@ -273,6 +273,10 @@ def slip_fit_eccentricity(diameter: float) -> float:
     return (tolerance_width(diameter, Grade.IT7) + tolerance_width(diameter, Grade.IT6)) / 2.0
 
 
+CORRECTION_HOLE = 0.8e-3
+"""Radius of holes that take an unbalance away, at most [m]."""
+
+
 @dataclass(frozen=True)
 class Correction:
     """Holes in a rim's faces, on its middle radius, that take an unbalance away.
@@ -298,23 +302,23 @@ class Correction:
 
 
 def correction(
-    rim: Ring, *, chamfer: float, ligament: float, hole_radius: float = 0.8e-3
+    inner: float, outer: float, height: float, density: float, *, chamfer: float, ligament: float
 ) -> Correction:
     """Largest correction that holes in a rim can make, drilled to tenths of a millimetre.
 
     Args:
-        rim: that is drilled.
+        inner, outer, height, density: of the rim [m], [kg/m^3].
         chamfer: of its edges [m].
         ligament: material between holes, to edges and between their bottoms [m].
-        hole_radius: wanted; narrower ones are taken where the wall asks for them [m].
     """
-    middle = (rim.inner + rim.outer) / 2.0
-    beside = (rim.outer - rim.inner) / 2.0 - chamfer - ligament
-    hole = _whole(max(min(hole_radius, beside), 0.0), 0.05e-3)
-    depth = _whole(max((rim.thickness - ligament) / 2.0, 0.0), 0.1e-3)
+    middle = (inner + outer) / 2.0
+    beside = (outer - inner) / 2.0 - chamfer - ligament
+    # Narrower ones where the wall asks for them.
+    hole = _whole(max(min(CORRECTION_HOLE, beside), 0.0), 0.05e-3)
+    depth = _whole(max((height - ligament) / 2.0, 0.0), 0.1e-3)
     if hole == 0.0 or depth == 0.0:
         return Correction(middle, 0.0, 0.0, 0.0, 0.0, 0, 0.0)
-    mass = 2.0 * pi * hole**2 * depth * rim.density
+    mass = 2.0 * pi * hole**2 * depth * density
     apart = 2.0 * hole + ligament
     step = apart / middle
     count = max(floor(pi / step), 1)

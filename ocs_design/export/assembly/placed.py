@@ -80,7 +80,7 @@ def placed_parts(device: Device) -> Mapping[str, tuple[Part[float], Placement]]:
         name.removeprefix("flywheel_"): (part, HERE)
         for name, part in wheel_pieces(device.flywheel).items()
     }
-    if device.carrier.mass == 0.0:
+    if device.wheels_alone:
         return found
     foot, cage = foot_of(device), motor_mount(device).cage
     if device.guard_wall:
@@ -135,7 +135,7 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
         for name, (part, place) in placed_parts(device).items()
     }
     wheel = [parts.pop(name.removeprefix("flywheel_")) for name in wheel_pieces(device.flywheel)]
-    if device.carrier.mass == 0.0:
+    if device.wheels_alone:
         return tuple(wheel)
     foot, mount = foot_of(device), motor_mount(device)
     floor = -foot.housing.half_height

@@ -188,7 +188,7 @@ def _trunk_steps(assembly: Assembly) -> Iterator[str]:
     ]
     heights += [each.position[2] for each in device.pedestals]
     stand = " and ".join(dict.fromkeys(f"{1e3 * height:.1f}" for height in heights))
-    mass = device.flywheel.mass + device.carrier.mass - device.motor.controller_mass
+    mass = device.module_mass - device.motor.controller_mass
     yield (
         f"Weigh the module with all its screws, without its controller: {1e3 * mass:.0f} g. If "
         "it is 2 % off, weigh its parts against cad/bill_of_materials.csv."
