@@ -18,14 +18,7 @@ from ocs_design.actuation.fasteners import screw
 from ocs_design.parts import motor_mount
 from ocs_design.parts.foot import Foot
 from ocs_design.parts.housing import Housing
-from ocs_design.parts.printed import (
-    CLEARANCE,
-    DENSITY,
-    LID_SCREW,
-    PANEL,
-    WALL,
-    MountHoles,
-)
+from ocs_design.parts.printed import CLEARANCE, LID_SCREW, PANEL, PETG, WALL, MountHoles
 
 GAP, DEEP = CLEARANCE + WALL, CLEARANCE + PANEL
 MARKS = ((24, 2.5e-3), (12, 4.0e-3))
@@ -36,10 +29,13 @@ def layer(area, second, low, high, axis):
     """A prism of outlines (area, second moments) between two heights along "y" or "z"."""
     first_across, second_across = second
     long, middle = high - low, (high + low) / 2.0
-    mass = DENSITY * area * long
+    mass = PETG.density * area * long
     along = mass * (middle**2 + long**2 / 12.0)
     zero = 0.0 * mass
-    first, other = DENSITY * long * first_across + zero, DENSITY * long * second_across + zero
+    first, other = (
+        PETG.density * long * first_across + zero,
+        PETG.density * long * second_across + zero,
+    )
     if axis == "y":
         return np.stack([mass, mass * middle, zero, first, along + zero, other, zero])
     return np.stack([mass, zero, mass * middle, first, other, along + zero, zero])
@@ -102,8 +98,8 @@ def foot_of(outer, height, mount, half, thick):
     least = np.maximum(outer, least_outer(mount) + 1e-9)
     area, first_z, in_x, in_z = per_value(lambda r: _plate(r, mount), least)
     plate = layer(area, (in_x, in_z), -back, -half, "y")
-    plate[2] += DENSITY * thick * first_z
-    plate[6] -= DENSITY * thick * first_z * (back + half) / 2.0
+    plate[2] += PETG.density * thick * first_z
+    plate[6] -= PETG.density * thick * first_z * (back + half) / 2.0
     return body + plate - layer(*_mount_outline(mount), -back, -half, "y")
 
 

@@ -50,7 +50,7 @@ from ocs_design.parts.plate_strength import (
     plate_sway,
     plate_tilt,
 )
-from ocs_design.parts.printed import MODULUS, SHOCK
+from ocs_design.parts.printed import PETG, SHOCK
 from ocs_design.parts.rim import LIGAMENT
 from ocs_design.parts.turning_rings import Ring, TurningRings, holed_peaks
 
@@ -397,7 +397,7 @@ def resonances_of(device: Device) -> tuple[Resonance, ...]:
     )
 
 
-def foot_frequency(device: Device, modulus: float = MODULUS) -> float:
+def foot_frequency(device: Device, modulus: float = PETG.modulus) -> float:
     """First mode of a module along its wheel's axis, on its foot and what that stands on [Hz].
 
     The plate, or a pedestal's seat, turns under the stem: one over the square of their common

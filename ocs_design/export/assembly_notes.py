@@ -19,13 +19,11 @@ from ocs_design.device.solids import drive_solids, foot_of, motor_mount, shaft_c
 from ocs_design.export.device_parts import foot_holes, places, trunk_holes, wheel_geometry
 from ocs_design.export.drawing.wheel import BROKEN_EDGE, lost_by_breaking
 from ocs_design.parts.bell import BELL_SHARE
-from ocs_design.parts.carrier_plate import DENSITY as PLATE_DENSITY
-from ocs_design.parts.carrier_plate import MODULUS as PLATE_MODULUS
-from ocs_design.parts.carrier_plate import YIELD_STRENGTH
+from ocs_design.parts.carrier_plate import ALUMINIUM
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.joints import GRADE
 from ocs_design.parts.motor_mount import motor_front
-from ocs_design.parts.printed import DENSITY, SHOCK, STRENGTH, TRUNK_SCREW
+from ocs_design.parts.printed import PETG, SHOCK, TRUNK_SCREW
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import trunk_surface
 
@@ -177,8 +175,11 @@ def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
     hold, own = foot_hold(device), foot_part(foot).mass_properties().mass
     bears = hold.prints_bear
     if bears < SHOCK:
-        stronger, heavier = YIELD_STRENGTH / STRENGTH, own * (PLATE_DENSITY / DENSITY - 1.0)
-        stiffer = foot_frequency(device, PLATE_MODULUS) / foot_frequency(device)
+        stronger, heavier = (
+            ALUMINIUM.strength / PETG.strength,
+            own * (ALUMINIUM.density / PETG.density - 1.0),
+        )
+        stiffer = foot_frequency(device, ALUMINIUM.modulus) / foot_frequency(device)
         sway = "".join(
             f", and let it sway at {mode.frequency:.0f} Hz" for mode in modes if mode.name == "foot"
         )
@@ -193,7 +194,7 @@ def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
         yield (
             f"mill the feet of 6061-T6 to the same file: at {SHOCK / STANDARD_GRAVITY:.0f} g the "
             f"heads of their screws press with {1e-6 * hold.pull / hold.area:.0f} MPa even on "
-            f"washers, and PETG yields at {1e-6 * STRENGTH:.0f}"
+            f"washers, and PETG yields at {1e-6 * PETG.strength:.0f}"
         )
     for each in joints_of(device):
         if each.name == FLOOR_SHOCK and each.capacity is not None and each.capacity < SHOCK:

@@ -9,7 +9,7 @@ from typing import NamedTuple, TypeAlias
 
 from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import Face, Motor
-from ocs_design.parts.printed import CLEARANCE, DENSITY, WALL
+from ocs_design.parts.printed import CLEARANCE, PETG, WALL
 from ocs_design.parts.solids import Part, revolved
 
 GLUE_GAP = 0.1e-3
@@ -109,4 +109,4 @@ def fixture_part(bell: Bell, outer_radius: float, height: float) -> Part[float]:
         (around, floor),
         (hole, floor),
     ]
-    return Part("ring_fixture", DENSITY, (revolved(profile),))
+    return Part("ring_fixture", PETG.density, (revolved(profile),))

@@ -21,13 +21,12 @@ from ocs_design.common.arrays import Table
 from ocs_design.parts.moments import MassMoments, Real, round_body
 from ocs_design.parts.printed import (
     CLEARANCE,
-    DENSITY,
     FLOOR,
     FLOOR_SHARE,
     LID_SCREW,
+    PETG,
     PLATE_THICKNESS,
     SHOCK,
-    STRENGTH,
     UPRIGHT,
     WALL,
     MountHoles,
@@ -73,11 +72,11 @@ class Posts(Table, Generic[Real]):
 
     def mass(self, height: Real) -> Real:
         """Mass [kg]."""
-        return DENSITY * self.area * self.length(height)
+        return PETG.density * self.area * self.length(height)
 
     def mass_per_height(self) -> Real | float:
         """Change of the mass with the rim's height [kg/m]."""
-        return -DENSITY * self.area / 2.0
+        return -PETG.density * self.area / 2.0
 
     def moments(self, height: Real) -> MassMoments[Real]:
         """Moments in the module's frame."""
@@ -175,7 +174,7 @@ class Cage:
 
     def floor_moments(self) -> MassMoments[float]:
         """Moments of its floor in the module's frame."""
-        floor = Part("floor", DENSITY, (Prism(self.band, 0.0, self.floor),), self._drilled)
+        floor = Part("floor", PETG.density, (Prism(self.band, 0.0, self.floor),), self._drilled)
         return floor.moments().turned(UPRIGHT).shifted(-self.back, 0.0)
 
     @property
@@ -202,7 +201,7 @@ def floor_at_shock(cage: Cage, motor: float, wheel: float) -> float:
     tilting = SHOCK * (motor * cage.motor_length / 2.0 + wheel * cage.seat)
     held, clamped = circle.radius + screw(circle.thread).head_diameter / 2.0, cage.bore
     ring = (clamped**2 - held**2) / (clamped**2 + held**2)
-    return sqrt(2.0 * 3.0 * tilting * max(ring, 0.0) / (pi * held * STRENGTH))
+    return sqrt(2.0 * 3.0 * tilting * max(ring, 0.0) / (pi * held * PETG.strength))
 
 
 def heads_at_shock(cage: Cage, motor: float, wheel: float) -> float:
@@ -211,7 +210,7 @@ def heads_at_shock(cage: Cage, motor: float, wheel: float) -> float:
     They press on the housing's floor, and hold motor and wheel, masses [kg], and cage on the foot.
     """
     held = motor + wheel + float(cage_part(cage).mass())
-    return EAR_COUNT * STRENGTH * LID_SCREW.head_area / held
+    return EAR_COUNT * PETG.strength * LID_SCREW.head_area / held
 
 
 def _posts(cage: Cage, low: float, high: float) -> tuple[Prism[float], Prism[float]]:
@@ -225,5 +224,5 @@ def cage_part(cage: Cage) -> Part[float]:
     """The cage in its own frame."""
     posts, tapped = _posts(cage, cage.floor, cage.length)
     return Part(
-        "cage", DENSITY, (Prism(cage.band, 0.0, cage.floor), posts), (*cage._drilled, tapped)
+        "cage", PETG.density, (Prism(cage.band, 0.0, cage.floor), posts), (*cage._drilled, tapped)
     )

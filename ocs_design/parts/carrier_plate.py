@@ -24,20 +24,17 @@ from ocs_design.actuation.fasteners import Fastening, Screw, screw
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import BACKWARDS, Placement
 from ocs_design.parts.dog_bone import DogBone, directions
-from ocs_design.parts.printed import AROUND_SLOT, TRUNK_SCREW
+from ocs_design.parts.printed import AROUND_SLOT, TRUNK_SCREW, Bulk
 from ocs_design.parts.shapes import Disc, Rectangle
 from ocs_design.parts.solids import Part, Prism, hollow_cylinder
 from ocs_design.robot.mass import MassProperties, combine
 
-MATERIAL, DENSITY, YIELD_STRENGTH = "aluminium-6061-t6", 2710.0, 255e6
-"""Name in the catalogue of materials, density [kg/m^3], yield strength [Pa]: Hibbeler, Mechanics
-of Materials, Appendix C."""
-
-MODULUS = 69e9
-"""Modulus of 6061 [Pa], as in the catalogue of materials."""
+MATERIAL, ALUMINIUM = "aluminium-6061-t6", Bulk(density=2710.0, strength=255e6, modulus=69e9)
+"""Name in the catalogue of materials, whose modulus this is; density and yield strength: Hibbeler,
+Mechanics of Materials, Appendix C."""
 
 SHEAR_MODULUS = 26e9
-"""Shear modulus of 6061 [Pa]: Hibbeler, Mechanics of Materials, Appendix C."""
+"""Shear modulus of 6061 [Pa]: likewise."""
 
 STOCK = (3.0e-3, 4.0e-3, 5.0e-3, 6.0e-3, 8.0e-3, 10.0e-3, 12.0e-3, 15.0e-3, 20.0e-3)
 """Thicknesses of rolled plate, EN 485-4 sizes that are kept in stock [m]."""
@@ -171,7 +168,7 @@ class CarrierPlate:
     thread: str = "M3"
     foot_thread: str = "M3"
     material: str = MATERIAL
-    density: float = DENSITY
+    density: float = ALUMINIUM.density
     rows: tuple[float, ...] = (0.0,)
     levels: tuple[float, ...] = ()
     mast: Mast | None = None

@@ -24,14 +24,12 @@ from ocs_design.parts.moments import Real
 from ocs_design.parts.printed import (
     AROUND_SLOT,
     CLEARANCE,
-    DENSITY,
     FLOOR,
     FLOOR_SHARE,
-    MODULUS,
+    PETG,
     PLATE_THICKNESS,
     PRESSURE_SHARE,
     SHOCK,
-    STRENGTH,
     STRENGTH_ACROSS,
     TRUNK_SCREW,
     TRUNK_SCREW_COUNT,
@@ -190,7 +188,9 @@ def foot_shock(foot: Foot[float], mass: float, edge: float | None = None) -> flo
     # The base as a cantilever as wide as the stem, which the screw on the far side pulls at: the
     # same case, but bent along its layers.
     arm, width = foot.slot_radius + foot.housing.half_height, 2.0 * foot.stem
-    base = float(foot.base) / sqrt(6.0 * screw_pull(foot, mass, edge) * arm / (width * STRENGTH))
+    base = float(foot.base) / sqrt(
+        6.0 * screw_pull(foot, mass, edge) * arm / (width * PETG.strength)
+    )
     return SHOCK * min(stem, base) ** 2
 
 
@@ -263,12 +263,12 @@ class FootHold:
     @property
     def heads_bear(self) -> float:
         """Acceleration at which the heads, or their washers, sink into the base [m/s^2]."""
-        return SHOCK * STRENGTH * self.area / self.pull
+        return SHOCK * PETG.strength * self.area / self.pull
 
     @property
     def preload(self) -> float:
         """Force that a screw is tightened to, by the print under it [N]."""
-        return PRESSURE_SHARE * STRENGTH * self.area
+        return PRESSURE_SHARE * PETG.strength * self.area
 
     @property
     def turning(self) -> float:
@@ -281,7 +281,7 @@ class FootHold:
         """What holds a foot under a module of a mass [kg]; `edge`: see `screw_pull` [m]."""
         pull = screw_pull(foot, mass, edge)
         bare = TRUNK_SCREW.slot_area(TRUNK_SCREW.head_diameter)
-        washers = pull > PRESSURE_SHARE * STRENGTH * bare
+        washers = pull > PRESSURE_SHARE * PETG.strength * bare
         area = TRUNK_SCREW.slot_area(WASHER_ACROSS) if washers else bare
         return cls(pull, washers, area, foot_shock(foot, mass, edge), foot.slot_radius)
 
@@ -290,7 +290,7 @@ def stem_frequency(
     foot: Foot[float],
     mass: float,
     inertia: float,
-    modulus: float = MODULUS,
+    modulus: float = PETG.modulus,
     *,
     in_plane: bool = False,
 ) -> float:
@@ -311,7 +311,7 @@ def stem_frequency(
     thickness = float(foot.thickness)
     deep, wide = (width, thickness) if in_plane else (thickness, width)
     stiffness = modulus * wide * deep**3 / (4.0 * arm**3)
-    stem = DENSITY * width * thickness * arm
+    stem = PETG.density * width * thickness * arm
     return sqrt(stiffness / (mass + 33.0 / 140.0 * stem + 2.25 * inertia / arm**2)) / (2.0 * pi)
 
 
@@ -320,7 +320,7 @@ def foot_part(foot: Foot[float]) -> Part[float]:
     blank, axis = undrilled(foot), np.array([0.0, 0.0, foot.wheel_height])
     around = Placement(UPRIGHT, axis)
     holes = foot.housing.mount.prisms(-foot.back, -foot.housing.half_height, around)
-    return Part("foot", DENSITY, blank.solids, (*blank.holes, *holes))
+    return Part("foot", PETG.density, blank.solids, (*blank.holes, *holes))
 
 
 def undrilled(foot: Foot[Real]) -> Part[Real]:
@@ -333,7 +333,7 @@ def undrilled(foot: Foot[Real]) -> Part[Real]:
         groove = Rectangle(end - length, end, -MARK_WIDTH / 2.0, MARK_WIDTH / 2.0)
         first = 2.0 * pi / LONG_MARKS * third / 3.0
         cut.append(Prism(groove, low, foot.base, count=LONG_MARKS, first=first))
-    return Part("foot", DENSITY, (base, plate), tuple(cut))
+    return Part("foot", PETG.density, (base, plate), tuple(cut))
 
 
 def foot_mass_per_height(foot: Foot[Real]) -> Real:
@@ -343,5 +343,5 @@ def foot_mass_per_height(foot: Foot[Real]) -> Real:
     by_slot = (1.0 + beyond / (beyond**2 + KNEE**2) ** 0.5) / 2.0
     outward = by_slot * sqrt(0.5) + (1.0 - by_slot) * foot.back / (2.0 * corner)
     slots = pi * TRUNK_SCREW.clearance_hole * sqrt(0.5)
-    slope: Real = DENSITY * foot.base * (2.0 * pi * foot.base_radius * outward - slots)
+    slope: Real = PETG.density * foot.base * (2.0 * pi * foot.base_radius * outward - slots)
     return slope

@@ -17,9 +17,9 @@ from ocs_design.common.errors import PartError
 from ocs_design.parts.moments import MassMoments, Real, cylinder_mass
 from ocs_design.parts.printed import (
     CLEARANCE,
-    DENSITY,
     LID_SCREW,
     PANEL,
+    PETG,
     UPRIGHT,
     WALL,
     MountHoles,
@@ -107,11 +107,11 @@ def undrilled(housing: Housing[Real]) -> tuple[Part[Real], Part[Real]]:
     room: Prism[Real] = Prism(Disc(housing.inner_radius), floor, under)
     drum, lid = Prism(band, low, under), Prism(band, under, high)
     if held is None or not isinstance(band, Eared):
-        return Part("drum", DENSITY, (drum,), (room,)), Part("lid", DENSITY, (lid,))
+        return Part("drum", PETG.density, (drum,), (room,)), Part("lid", PETG.density, (lid,))
     threads = ear_holes(band, held.tapping_drill, floor, under)
     passages = ear_holes(band, held.clearance_hole, under, high)
-    return Part("drum", DENSITY, (drum,), (room, threads)), Part(
-        "lid", DENSITY, (lid,), (passages,)
+    return Part("drum", PETG.density, (drum,), (room, threads)), Part(
+        "lid", PETG.density, (lid,), (passages,)
     )
 
 
@@ -136,7 +136,7 @@ def housing_mass_per_height(outer_radius: Real, guard_wall: float = 0.0) -> Real
     room, thread = Disc(across - WALL), pi / 4.0 * LID_SCREW.tapping_drill**2
     printed = eared(across, LID_SCREW, FIRST_EAR).area - room.area - EAR_COUNT * thread
     steel: Real = (outer_radius + (CLEARANCE + guard_wall / 2.0)) * (2.0 * pi * guard_wall)
-    return DENSITY * printed + STEEL * steel
+    return PETG.density * printed + STEEL * steel
 
 
 @dataclass(frozen=True)
@@ -146,10 +146,10 @@ class PlainDrum:
     def mass(self, outer_radius: Real, height: Real) -> Real:
         """Mass of both discs and the band [kg]."""
         across, inside = housing_outer_radius(outer_radius), height + 2.0 * CLEARANCE
-        discs = 2.0 * pi * DENSITY * PANEL * across**2
-        return discs + cylinder_mass(across - WALL, across, inside, DENSITY)
+        discs = 2.0 * pi * PETG.density * PANEL * across**2
+        return discs + cylinder_mass(across - WALL, across, inside, PETG.density)
 
     def mass_per_height(self, outer_radius: Real, height: Real) -> Real:
         """Change of the band's mass with the height, R held [kg/m]."""
         across = housing_outer_radius(outer_radius) + 0.0 * height
-        return pi * DENSITY * WALL * (2.0 * across - WALL)
+        return pi * PETG.density * WALL * (2.0 * across - WALL)

@@ -23,8 +23,7 @@ from ocs_design.parts.joints import pattern_use
 from ocs_design.parts.printed import (
     AROUND_SLOT,
     BASE_THICKNESS,
-    DENSITY,
-    MODULUS,
+    PETG,
     SHOCK,
     STRENGTH_ACROSS,
     TRUNK_SCREW,
@@ -225,7 +224,7 @@ def pedestal_part(pedestal: Pedestal) -> Part[float]:
         )
         for x in (-off, off)
     ]
-    return Part("pedestal", DENSITY, (frame,), (window, *base, *seat))
+    return Part("pedestal", PETG.density, (frame,), (window, *base, *seat))
 
 
 def strengthened(pedestal: Pedestal, mass: float, above: float | None = None) -> Pedestal:
@@ -285,7 +284,7 @@ def seat_compliance(pedestal: Pedestal) -> tuple[float, float]:
     Roark, table 8.1, cases 1e and 3e. Base, brace and the foot on it count as stiff.
     """
     a, b, whole = pedestal.middle, pedestal.base_radius, pedestal.length
-    stiffness = 3.0 * MODULUS * pedestal.width * pedestal.thickness**3 / 12.0
+    stiffness = 3.0 * PETG.modulus * pedestal.width * pedestal.thickness**3 / 12.0
     turns = (a**3 + b**3) / (stiffness * whole**2)
     return (a * b) ** 2 / (stiffness * whole), turns * pedestal.wheel_height**2
 

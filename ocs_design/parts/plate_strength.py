@@ -11,11 +11,10 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.parts.carrier_plate import (
-    MODULUS,
+    ALUMINIUM,
     SAFETY,
     SHEAR_MODULUS,
     SLEEVE_WALL,
-    YIELD_STRENGTH,
     CarrierPlate,
 )
 from ocs_design.parts.joints import pattern_use, screw_use
@@ -138,7 +137,7 @@ def mast_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
     off = plate.mast.face + plate.mast.spacer + gap
     bent = force / 4.0 * (1.0 + up / hypot(p, q)) * gap / 2.0 / section
     used = float(pattern_use(plate.screw, force, (off, np.asarray(up)), (p, q)))
-    return max(used, bent / (YIELD_STRENGTH / SAFETY))
+    return max(used, bent / (ALUMINIUM.strength / SAFETY))
 
 
 def plate_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
@@ -179,8 +178,8 @@ def posts_use(plate: CarrierPlate, mass: float, height: float) -> float:
     pressed = plate.screw.preload / area
     return max(
         float(pattern_use(plate.screw, force, arms, half)),
-        bent / min(pressed, YIELD_STRENGTH / SAFETY),
-        (bent + pressed) / YIELD_STRENGTH,
+        bent / min(pressed, ALUMINIUM.strength / SAFETY),
+        (bent + pressed) / ALUMINIUM.strength,
     )
 
 
@@ -196,7 +195,7 @@ def plate_sway(plate: CarrierPlate, mass: float, height: float) -> float:
     gap, (area, _, second) = max(plate.sleeves), plate.sleeve_section
     arm, near = gap / 2.0 + plate.thickness + height, min(plate.half_pattern)
     turns = arm**2 * gap / (4.0 * (second + near**2 * area))
-    compliance = (gap**3 / (48.0 * second) + turns) / MODULUS
+    compliance = (gap**3 / (48.0 * second) + turns) / ALUMINIUM.modulus
     return float(1.0 / np.sqrt(2.0 * mass * compliance) / (2.0 * pi)) if gap else inf
 
 
@@ -212,12 +211,12 @@ def plate_frequency(plate: CarrierPlate, mass: float) -> float:
     across = np.linspace(start, plate.across, _SECTIONS)
     second = plate.net_width(across) * plate.thickness**3 / 12.0
     arms = plate.across - across
-    compliance = float(np.trapezoid(arms**2 / (MODULUS * second), across))
+    compliance = float(np.trapezoid(arms**2 / (ALUMINIUM.modulus * second), across))
     if plate.mast is not None:
         # The arm carries both: it bends, and turns the upright above or below its screws.
         arm, above = plate.mast.back, plate.mast.overhang
         bends = arm**3 / 3.0 + (arm + plate.mast.side / 2.0) ** 2 * above
-        compliance += 2.0 * bends / (MODULUS * plate.mast.second_moment)
+        compliance += 2.0 * bends / (ALUMINIUM.modulus * plate.mast.second_moment)
     return float(1.0 / np.sqrt(compliance * mass) / (2.0 * pi))
 
 
@@ -241,6 +240,6 @@ def plate_tilt(plate: CarrierPlate) -> tuple[float, float]:
     torsion = most * least**3 * (1.0 / 3.0 - 0.21 * q * (1.0 - q**4 / 12.0))
     bending = widths * plate.thickness**3 / 12.0
     return (
-        float(np.trapezoid(1.0 / (MODULUS * bending), across)),
+        float(np.trapezoid(1.0 / (ALUMINIUM.modulus * bending), across)),
         float(np.trapezoid(1.0 / (SHEAR_MODULUS * torsion), across)),
     )

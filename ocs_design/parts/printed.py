@@ -6,7 +6,7 @@ Sizes may be arrays or CasADi's symbols: outlines of them can be weighed, not dr
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import pi
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -32,9 +32,24 @@ CLEARANCE = 2.0e-3
 """[m], between rim and shell on all sides: ten times what a printer is out over 100 mm (0.2 %), and
 room for a screw's head."""
 
-DENSITY = 1270.0
-"""[kg/m^3], of PETG: tougher than PLA, prints without a heated chamber. Prusament PETG, technical
-data sheet, Prusa Polymers, 2020: 1.27 g/cm^3."""
+
+class Bulk(NamedTuple):
+    """What parts are made of: density [kg/m^3], yield strength and elastic modulus [Pa]."""
+
+    density: float
+    strength: float
+    modulus: float
+
+
+PETG = Bulk(density=1270.0, strength=47e6, modulus=1.8e9)
+"""Tougher than PLA, prints without a heated chamber. Density and tensile yield strength along its
+layers: Prusament PETG, technical data sheet, Prusa Polymers, 2020, 1.27 g/cm^3 and 47 +- 2 MPa. The
+modulus is the least measured of its sister PCTG, printed any way (Essentium PCTG, technical data
+sheet, ISO 527-2: 1.7 to 1.9 GPa); additive.tools/materials/petg has 2 to 3 GPa."""
+
+STRENGTH_ACROSS = 25e6
+"""Tensile strength of PETG across its layers, the least of 25 to 38 MPa
+(additive.tools/materials/petg) [Pa]."""
 
 PLATE_THICKNESS = 5.0e-3
 """Least thickness of the plate of a foot [m]: 20 g on a module of 0.3 kg, 45 mm above the base,
@@ -42,14 +57,6 @@ bend a stem 40 mm wide with 16 MPa. Under heavier ones it is thicker, see `foot.
 
 SHOCK = 20.0 * 9.80665
 """Acceleration that feet, and plates under them, bear: 20 g [m/s^2]."""
-
-STRENGTH, STRENGTH_ACROSS = 47e6, 25e6
-"""Tensile yield strength of PETG along its layers [Pa]: Prusament PETG, technical data sheet, 47 +-
-2 MPa; and across them, the least of 25 to 38 MPa (additive.tools/materials/petg)."""
-
-MODULUS = 1.8e9
-"""Of PETG [Pa]: the least measured of its sister PCTG, printed any way (Essentium PCTG, technical
-data sheet, ISO 527-2: 1.7 to 1.9 GPa); additive.tools/materials/petg has 2 to 3 GPa."""
 
 LID_SCREW = screw("M2")
 
@@ -164,7 +171,7 @@ class MountHoles:
     def cut_out(self, thickness: float) -> MassMoments[float]:
         """Moments of what they take of a printed plate [m], about its middle."""
         holes = (hole.moments() for hole in self.prisms(-thickness / 2.0, thickness / 2.0))
-        return sum(holes, point(0.0)).turned(UPRIGHT).times(-DENSITY)
+        return sum(holes, point(0.0)).turned(UPRIGHT).times(-PETG.density)
 
 
 def half_height(height: Real) -> Real:

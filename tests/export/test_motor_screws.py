@@ -12,7 +12,7 @@ from ocs_design.device.solids import motor_mount
 from ocs_design.export.bill_of_materials import bill_csv, bill_rows
 from ocs_design.export.device_parts import printed_parts
 from ocs_design.parts.motor_mount import screwed_by_face
-from ocs_design.parts.printed import DENSITY, PANEL, WALL
+from ocs_design.parts.printed import PANEL, PETG, WALL
 from ocs_design.parts.solids import Carrier
 
 
@@ -71,7 +71,7 @@ def test_floor_and_foot_get_the_motor_s_holes():
         before.mass_properties().mass - after.mass_properties().mass
         for before, after in zip(plain, drilled, strict=True)
     ]
-    assert lost[0] == pytest.approx(DENSITY * area * PANEL, rel=1e-9)
+    assert lost[0] == pytest.approx(PETG.density * area * PANEL, rel=1e-9)
     assert lost[1] == 0.0
     assert lost[2] > 0.0
 

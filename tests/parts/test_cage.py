@@ -10,7 +10,7 @@ from scipy.integrate import solve_bvp
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.parts.cage import LEAST_POST, cage_part, floor_at_shock
-from ocs_design.parts.printed import CLEARANCE, FLOOR, SHOCK, STRENGTH, UPRIGHT, WALL
+from ocs_design.parts.printed import CLEARANCE, FLOOR, PETG, SHOCK, UPRIGHT, WALL
 from ocs_design.parts.solids import Part, hollow_cylinder
 
 MOTOR = Part(
@@ -74,5 +74,5 @@ def test_a_floor_bears_what_tilts_it_as_a_clamped_plate_does():
     whole = np.pi * held * (held * shear + bent)
     tilting = SHOCK * (motor * CAGE.motor_length / 2.0 + wheel * CAGE.seat)
     # Half of its edge is clamped, by the posts: counted twice.
-    needed = np.sqrt(2.0 * 6.0 * tilting * bent / whole / STRENGTH)
+    needed = np.sqrt(2.0 * 6.0 * tilting * bent / whole / PETG.strength)
     assert floor_at_shock(CAGE, motor, wheel) == pytest.approx(needed, rel=1e-3)

@@ -16,7 +16,7 @@ from ocs_design.export.assembly.content import tightened
 from ocs_design.export.meshes import part_manifold, part_mesh
 from ocs_design.export.stl import MILLIMETRES, stl_bytes
 from ocs_design.parts.carrier_plate import (
-    MODULUS,
+    ALUMINIUM,
     STOCK,
     TUBES,
     CarrierPlate,
@@ -366,8 +366,13 @@ def test_posts_sway_as_four_beams_under_a_rigid_plate_do(forward):
     p, q = (0.015, 0.06) if forward else (0.06, 0.015)
     plate = on_posts(gap, p, q)
     second, area = pi / 64.0 * (0.019**4 - 0.009**4), pi / 4.0 * (0.019**2 - 0.009**2)
-    bend = MODULUS * second / gap**3 * np.array([[12.0, -6.0 * gap], [-6.0 * gap, 4.0 * gap**2]])
-    stretch = MODULUS * area / gap * min(p, q) ** 2
+    bend = (
+        ALUMINIUM.modulus
+        * second
+        / gap**3
+        * np.array([[12.0, -6.0 * gap], [-6.0 * gap, 4.0 * gap**2]])
+    )
+    stretch = ALUMINIUM.modulus * area / gap * min(p, q) ** 2
     stiffness = 4.0 * (bend + np.diag([0.0, stretch]))
     # A force at the wheels' height above the posts' ends; turning moves that point the other way.
     up = plate.thickness + height

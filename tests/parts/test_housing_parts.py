@@ -24,9 +24,9 @@ from ocs_design.parts.housing import (
 from ocs_design.parts.module import Printed
 from ocs_design.parts.printed import (
     CLEARANCE,
-    DENSITY,
     LID_SCREW,
     PANEL,
+    PETG,
     WALL,
     MountHoles,
     half_height,
@@ -78,7 +78,7 @@ def housing_mass(outer_radius, height):
 
 def solid(radius, height):
     """Mass of a full cylinder."""
-    return np.pi * DENSITY * radius**2 * height
+    return np.pi * PETG.density * radius**2 * height
 
 
 @pytest.mark.parametrize(("outer_radius", "height"), SIZES)

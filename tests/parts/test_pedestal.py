@@ -20,7 +20,7 @@ from ocs_design.parts.pedestal import (
 )
 from ocs_design.parts.printed import (
     BASE_THICKNESS,
-    MODULUS,
+    PETG,
     PLATE_THICKNESS,
     TRUNK_SCREW,
     trunk_screws,
@@ -140,7 +140,7 @@ def test_the_seat_gives_way_as_a_beam_that_is_integrated(lean):
     near = at < a
     of_force = np.where(near, at * (whole - a) / whole, a * (whole - at) / whole)
     of_couple = np.where(near, -at / whole, 1.0 - at / whole)
-    bent = MODULUS * made.width * made.thickness**3 / 12.0
+    bent = PETG.modulus * made.width * made.thickness**3 / 12.0
     square, along = seat_compliance(made)
     assert square == pytest.approx(float(np.mean(of_force**2)) * whole / bent, rel=1e-4)
     assert along == pytest.approx(float(np.mean(of_couple**2)) * whole * high**2 / bent, rel=1e-4)

@@ -22,7 +22,7 @@ from ocs_design.device.solids import foot_of, module_solids, plate_heads, plate_
 from ocs_design.export.assembly.placed import placed_parts
 from ocs_design.export.device_parts import foot_holes, wheel_pieces
 from ocs_design.export.meshes import part_manifold
-from ocs_design.parts.carrier_plate import MAST_YIELD, SAFETY, STOCK, YIELD_STRENGTH, plate_bodies
+from ocs_design.parts.carrier_plate import ALUMINIUM, MAST_YIELD, SAFETY, STOCK, plate_bodies
 from ocs_design.parts.pedestal import pedestal_part
 from ocs_design.parts.plate_strength import mast_screws_use, mast_stress, plate_stress, posts_use
 from ocs_design.parts.printed import TRUNK_SCREW
@@ -148,7 +148,7 @@ def test_on_a_narrow_trunk_a_plate_carries_both(boxed, width):
     assert device.mass == pytest.approx(DEVICE.mass + plate.mass)
     assert all(contact.held for contact in contacts_of(robot, device))
     feet = feet_of(device)
-    least = YIELD_STRENGTH / SAFETY
+    least = ALUMINIUM.strength / SAFETY
     assert plate_stress(plate, feet.mass, feet.height) <= least
     thinner = [replace(plate, thickness=each) for each in STOCK if each < plate.thickness]
     assert all(plate_stress(each, feet.mass, feet.height) > least for each in thinner)
@@ -203,7 +203,7 @@ def test_a_ring_of_modules_stands_on_one_plate(boxed, count):
     nearest = np.linalg.norm(screws[:, None] - np.array(holes), axis=2).min(axis=1)
     np.testing.assert_allclose(nearest, 0.0, atol=1e-6)
     feet = feet_of(device)
-    assert plate_stress(plate, feet.mass, feet.height) <= YIELD_STRENGTH / SAFETY
+    assert plate_stress(plate, feet.mass, feet.height) <= ALUMINIUM.strength / SAFETY
     mounting = mounting_of(robot, device, (), robot.mass_properties)
     assert mounting_open_points(mounting) == ()
     assert msgspec.json.decode(msgspec.json.encode(plate), type=type(plate)) == plate
@@ -484,7 +484,7 @@ def test_over_bars_across_the_trunk_a_plate_stands_on_posts(boxed):
     check_device(device)
     feet = feet_of(device)
     assert posts_use(plate, feet.mass, feet.height) <= 1.0
-    assert plate_stress(plate, feet.mass, feet.height) <= YIELD_STRENGTH / SAFETY
+    assert plate_stress(plate, feet.mass, feet.height) <= ALUMINIUM.strength / SAFETY
     assert msgspec.json.decode(msgspec.json.encode(plate), type=type(plate)) == plate
     # Tubes of 17 mm by 9 mm are a part of what it weighs.
     tubes = 4 * 0.1 * plate.density * pi / 4.0 * (0.017**2 - 0.009**2)

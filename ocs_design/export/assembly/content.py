@@ -21,7 +21,7 @@ from ocs_design.parts.foot import FootHold
 from ocs_design.parts.guard import Containment
 from ocs_design.parts.joints import preload as joint_preload
 from ocs_design.parts.joints import tightening_torque
-from ocs_design.parts.printed import PRESSURE_SHARE, STRENGTH, WASHER, WASHER_HEIGHT
+from ocs_design.parts.printed import PETG, PRESSURE_SHARE, WASHER, WASHER_HEIGHT
 
 STRIP_SHARE = 1.0 / 3.0
 """Preload of a screw in a print over the one that strips its thread: prints shear along layers, and
@@ -86,14 +86,14 @@ def tightened(
         return Tightened(fastening, tightening_torque(screw, strength), rule, engagement)
     limits = [(screw.preload, "class 8.8 at 90 % of yield (VDI 2230, friction 0.12)")]
     if head_on_print:
-        pressed = PRESSURE_SHARE * STRENGTH * screw.head_area
+        pressed = PRESSURE_SHARE * PETG.strength * screw.head_area
         where = "head on PETG"
         if on_slot is not None:
             pressed = on_slot.preload
             where = f"{'washer' if washers else 'head'} beside a slot in PETG"
         limits.append((pressed, f"{where} at half its yield strength"))
     if fastening.depth >= IN_PLASTIC:
-        stripped = STRIP_SHARE * sheared * STRENGTH / sqrt(3.0)
+        stripped = STRIP_SHARE * sheared * PETG.strength / sqrt(3.0)
         limits.append((stripped, "thread in PETG at a third of what strips it"))
     else:
         stripped = THREAD_SHARE * sheared * ALUMINIUM_SHEAR

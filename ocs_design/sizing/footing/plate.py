@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 from ocs_design.actuation.fasteners import Screw, screw
 from ocs_design.common.arrays import FloatArray, Table
 from ocs_design.parts.carrier_plate import (
+    ALUMINIUM,
     EDGE,
     SAFETY,
     SLEEVE_MAX,
     SLEEVE_WALL,
     SLOT_EDGE,
     STOCK,
-    YIELD_STRENGTH,
     CarrierPlate,
     Point,
 )
@@ -397,7 +397,7 @@ def _borne(
 
 def _bearing(held: CarrierPlate, feet: Feet, thicknesses: tuple[float, ...]) -> CarrierPlate | None:
     """The plate in the first of some thicknesses [m] that bears the modules; None: in none."""
-    for plate in thick_enough(held, feet, YIELD_STRENGTH / SAFETY, thicknesses):
+    for plate in thick_enough(held, feet, ALUMINIUM.strength / SAFETY, thicknesses):
         if plate_screws_use(plate, feet.mass, feet.height) <= 1.0:
             return plate
     return None
