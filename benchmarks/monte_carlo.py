@@ -31,8 +31,8 @@ from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.uncertainty import UncertaintySection
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.engine import simulate
-from ocs_design.simulation.scenario import Options
-from ocs_design.workflows.flying import flight_options, read_task
+from ocs_design.simulation.scenario import Flights
+from ocs_design.workflows.flying import read_task
 
 SOLO12 = Path(__file__).parents[1] / "examples" / "solo12.urdf"
 WORLDS, SECONDS = 1024, 0.2
@@ -45,12 +45,7 @@ def drops(until=None):
     motor = replace(device.motor, torque_limit=1.0, stall_torque=1.5, no_load_speed=2000.0)
     device = replace(device, motor=motor)
     campaign = make_campaign(
-        robot,
-        device,
-        default_maneuvers(robot)[1:2],
-        options=Options(),
-        references={},
-        jumps={},
+        Flights(robot, device, default_maneuvers(robot)[1:2]),
         can_stand=[True],
         uncertainty=Uncertainty.of(UncertaintySection(), robot, device),
         seed=0,
@@ -149,12 +144,7 @@ def humanoid(design):
     """Processor seconds of a sample and the peak of this process, on one thread and on two."""
     task = read_task(Path(design), Specification())
     campaign = make_campaign(
-        task.robot,
-        task.device,
-        task.maneuvers,
-        options=flight_options(task.control),
-        references=task.references,
-        jumps=task.jumps,
+        task,
         can_stand=[False for _ in task.maneuvers],
         uncertainty=Uncertainty.of(task.uncertainty, task.robot, task.device),
         seed=0,

@@ -18,8 +18,10 @@ from ocs_design.requirement.specification import Specification
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.reference import Step
 from ocs_design.simulation.run import Metrics, Run
-from ocs_design.simulation.scenario import Options, run_scenarios
+from ocs_design.simulation.scenario import Flights as Flown
+from ocs_design.simulation.scenario import run_scenarios
 from ocs_design.simulation.scene import robot_scene
+from ocs_design.simulation.world_builder import Options
 
 SPECIFICATION = Path(__file__).resolve().parents[1] / "solo12.toml"
 HIGH_JUMP = 4.5
@@ -66,7 +68,7 @@ def fly() -> Flights:
         asked = replace(stated, maneuvers=maneuvers)
         outcome = design_ocs(asked, out=Path(folder) / "paper")
     at_once = Options(drop_profile=Step())
-    step, _ = run_scenarios(outcome.robot, outcome.device, [drop], options=at_once)
+    step, _ = run_scenarios(Flown(outcome.robot, outcome.device, [drop], options=at_once))
     return Flights(
         {maneuver.name: maneuver for maneuver in maneuvers},
         {(run.scenario, run.ocs): run for run in outcome.runs},

@@ -24,7 +24,7 @@ from ocs_design.cli.options import (
     typed_command,
     with_options,
 )
-from ocs_design.cli.output import Output
+from ocs_design.cli.output import Output, with_output
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -131,24 +131,24 @@ def _no_command(
 
 
 @app.command(epilog=_examples("size"))
-@with_options(opt.TASK_OPTIONS)
+@with_options(opt.SIZE_OPTIONS)
+@with_output
 def size(
     context: typer.Context,
-    lighter_by: opt.LighterBy = None,
-    co_design: opt.CoDesign = False,
-    no_validate: opt.NoValidate = False,
-    ballistic: opt.Ballistic = False,
-    certify: opt.Certify = False,
-    video: opt.Video = False,
-    open_report: opt.Open = False,
+    open_report: Annotated[
+        bool,
+        typer.Option("--open", help="Open the report in the browser, where there is a screen."),
+    ] = False,
     seed: opt.Seed = None,
-    out: opt.Out = None,
-    force: opt.Force = False,
-    as_json: opt.AsJson = False,
-    strict: opt.Strict = False,
-    quiet: opt.Quiet = False,
-    verbose: opt.Verbose = False,
-    no_color: opt.NoColor = False,
+    out: Annotated[
+        Path | None, opt.option("-o --out", "DIR", "Output folder. Default: <name>-ocs.")
+    ] = None,
+    verbose: Annotated[
+        bool,
+        typer.Option("-v", "--verbose", help="Print all figures, not the story on one screen."),
+    ] = False,
+    *,
+    output: Output,
 ) -> None:
     """Size a device for a robot, export it and fly it.
 
@@ -160,7 +160,7 @@ def size(
         specified_by_command(context),
         package_paths_of_command(context),
         out,
-        Output(as_json, no_color, quiet, force, strict),
+        output,
         verbose=verbose,
         open_report=open_report,
     )
@@ -374,6 +374,6 @@ def catalogue(
 
     listed = listing(what, {"motors": motors, "gears": gears})
     if as_json:
-        sys.stdout.buffer.write(listed.to_json())
+        sys.stdout.buffer.write(listed.json)
     else:
         listed.show(make_console(color=not no_color), verbose=verbose)

@@ -22,7 +22,6 @@ from ocs_design.common.errors import OcsError, UsageError
 from ocs_design.export.formats import FORMATS, USUAL_FORMATS
 
 if TYPE_CHECKING:
-    from ocs_design.requirement.specification import Specification
     from ocs_design.workflows.init import Start
 
 
@@ -83,24 +82,18 @@ def init(
     from ocs_design.report.text.answers import print_initialized
     from ocs_design.workflows.init import read_start, write_start
 
-    packages = package_paths_of_command(context)
-
-    def start_from(specification: "Specification") -> "Start":
-        """Read the robot."""
-        return read_start(specification, package_paths=packages, strict=strict)
-
-    def with_robot(answer: str) -> "Start":
-        """Read what is stated, with the robot in a file or none."""
-        file = answer.strip() or None
-        return start_from(replace(stated, robot=replace(stated.robot, file=file)))
-
+    packages, stated = package_paths_of_command(context), specified_by_command(context)
+    read = partial(read_start, package_paths=packages, strict=strict)
     asking = not (yes or as_json) and sys.stdin.isatty() and sys.stderr.isatty()
-    stated = specified_by_command(context)
     own = stated.robot
     if asking and all(item is None for item in (own.file, own.mass, own.inertia, own.human)):
-        start = _ask("Robot file (URDF, xacro or MJCF), or nothing", "", with_robot)
+        start = _ask(
+            "Robot file (URDF, xacro or MJCF), or nothing",
+            "",
+            lambda file: read(replace(stated, robot=replace(own, file=file.strip() or None))),
+        )
     else:
-        start = start_from(stated)
+        start = read(stated)
     file = out or start.default_file
     check_file_target(file, force=force)
     chosen: tuple[str, ...] = ()

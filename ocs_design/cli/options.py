@@ -124,29 +124,8 @@ GearsFile: TypeAlias = Annotated[
     Text,
     option("--gears", "FILE", "Gears of your own, CSV or TOML.", completion.files(".csv", ".toml")),
 ]
-LighterBy: TypeAlias = Annotated[
-    Text,
-    option(
-        "--lighter-by",
-        "MASS",
-        "Also tell what would have to give for a device so much lighter, e.g. 90g.",
-    ),
-]
-CoDesign: TypeAlias = Annotated[
-    bool,
-    typer.Option("--co-design", help="Refine all dimensions together with the maneuvers, in 3-D."),
-]
-NoValidate: TypeAlias = Annotated[
-    bool, typer.Option("--no-validate", help="Do not simulate the maneuvers.")
-]
 Ballistic: TypeAlias = Annotated[
     bool, typer.Option("--ballistic", help="Start jumps at lift-off: no push-off by the legs.")
-]
-Video: TypeAlias = Annotated[
-    bool, typer.Option("--video", help="Film the flights with and without the device: MP4 or GIF.")
-]
-Open: TypeAlias = Annotated[
-    bool, typer.Option("--open", help="Open the report in the browser, where there is a screen.")
 ]
 Reality: TypeAlias = Annotated[
     Text,
@@ -165,9 +144,6 @@ Certify: TypeAlias = Annotated[
     ),
 ]
 Seed: TypeAlias = Annotated[int | None, option("--seed", "N", "Seed of all random numbers.")]
-Out: TypeAlias = Annotated[
-    Path | None, option("-o --out", "DIR", "Output folder. Default: <name>-ocs.")
-]
 Force: TypeAlias = Annotated[
     bool, typer.Option("--force", help="Replace an output folder that exists, once complete.")
 ]
@@ -180,9 +156,6 @@ Picture: TypeAlias = Annotated[
     option("--picture", "FILE", "Draw trunk, legs and feet from three sides (.svg or .png)."),
 ]
 Quiet: TypeAlias = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
-Verbose: TypeAlias = Annotated[
-    bool, typer.Option("-v", "--verbose", help="Print all figures, not the story on one screen.")
-]
 NoColor: TypeAlias = Annotated[bool, typer.Option("--no-color", help="No colour; as NO_COLOR.")]
 
 ROBOT_OPTIONS: Mapping[str, object] = {
@@ -345,6 +318,19 @@ TASK_OPTIONS: Mapping[str, object] = {
 }
 """The same, and what the device must do and may be."""
 
+
+SIZE_OPTIONS: Mapping[str, object] = {
+    **TASK_OPTIONS,
+    "lighter_by": _text(
+        "MASS", "Also tell what would have to give for a device so much lighter, e.g. 90g."
+    ),
+    "co_design": _flag("--co-design", "Refine all dimensions together with the maneuvers, in 3-D."),
+    "no_validate": _flag("--no-validate", "Do not simulate the maneuvers."),
+    "ballistic": Ballistic,
+    "certify": Certify,
+    "video": _flag("--video", "Film the flights with and without the device: MP4 or GIF."),
+}
+"""The same, and what is done for a whole device."""
 
 STARTED = ("r_max", "h_max", "motor", "gear", "bus_voltage", "bus_current", "bus_power")
 

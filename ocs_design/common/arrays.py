@@ -64,12 +64,14 @@ class Table(DataclassInstance):
 
     @classmethod
     def joined(cls, parts: Sequence[Self]) -> Self:
-        """Table with the rows of several, one after the other; none has a table as its column."""
-        columns = {
-            field.name: np.concatenate([getattr(part, field.name) for part in parts])
-            for field in fields(cls)
-            if isinstance(getattr(parts[0], field.name), np.ndarray)
-        }
+        """Table with the rows of several, one after the other."""
+        columns: dict[str, Any] = {}
+        for field in fields(cls):
+            values = [getattr(part, field.name) for part in parts]
+            if isinstance(values[0], Table):
+                columns[field.name] = type(values[0]).joined(values)
+            elif isinstance(values[0], np.ndarray):
+                columns[field.name] = np.concatenate(values)
         return replace(parts[0], **columns)
 
     def repeat(self, times: int) -> Self:
@@ -113,3 +115,15 @@ def stacked(rows: Sequence[Rows]) -> Rows:
         nested = isinstance(values[0], Table)
         columns[field.name] = stacked(values) if nested else np.array(values, dtype=np.float64)
     return replace(rows[0], **columns)
+
+
+def stacked_columns(rows: Sequence[Rows]) -> Rows:
+    """The same with a second axis of one, shape (n, 1) or (n, 1, m), to broadcast along it."""
+    table = stacked(rows)
+    columns = {field.name: getattr(table, field.name)[:, None] for field in fields(table)}
+    return replace(table, **columns)
+
+
+def interpolated(at: FloatArray, samples: FloatArray, values: FloatArray) -> FloatArray:
+    """Values of shape (n, m) at n `samples`, linear between them, at k places, shape (k, m)."""
+    return np.column_stack([np.interp(at, samples, column) for column in values.T])

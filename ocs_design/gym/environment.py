@@ -84,7 +84,7 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         """
         task = read_task(design, Specification(), robot_file=robot_file)
         # What its legs bear is in the record, unless it was not flown.
-        flown = task.design.validation or task.fly(Steps.silent())
+        flown = task.design.validation or task.fly(Steps())
         self._campaign = campaign_of(task, flown)
         names = [flight.maneuver.name for flight in self._campaign.flights]
         if maneuver is not None and maneuver not in names:

@@ -65,7 +65,7 @@ class FloatingBase:
 
     Attributes:
         y, v, a: pose and joints, shape (6 + n, 1). f: of the ground on each foot, in the world,
-            shape (3 legs, 1). load: see `Load`.
+            shape (3 legs, 1).
         torque: of the joints [N m or N], shape (n, 1).
         imbalance: force and moment about B's origin that the trunk lacks, in B, shape (6, 1).
         momentum: of the whole in the world [kg m/s], shape (3, 1).

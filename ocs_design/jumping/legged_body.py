@@ -48,7 +48,6 @@ class LeggedBody:
 
     Attributes:
         trunk: mass properties of all that is in no leg, in B.
-        legs: see `JumpingLeg`.
         joints: of all legs, in their order.
         posture: of those joints in the nominal stance [rad or m], shape (n,).
         height: of B's origin over the ground in the nominal stance [m].

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ocs_design.common.arrays import interpolated
 from ocs_design.common.units import STANDARD_GRAVITY
 from ocs_design.device.device import Device
 from ocs_design.jumping.flight import FreeRobot, LegFlight, LegReturn
@@ -152,7 +153,6 @@ class JumpPlanner:
         """A push-off from which the robot comes down level by itself.
 
         Args:
-            jump: see `Jump`.
             trunk: of `LeggedBody`, with what it carries.
             similar: a push-off of this jump with another trunk, to begin the search at.
         """
@@ -172,13 +172,13 @@ class JumpPlanner:
         lift_off = float(push_off.time[-1])
         pushing = np.arange(0.0, lift_off, _SAMPLE)
         position, velocity = push_off.joints_at(pushing)
-        torque = [np.interp(pushing, push_off.time, column) for column in push_off.torque.T]
+        torque = interpolated(pushing, push_off.time, push_off.torque)
         trajectory = LegTrajectory(
             joints=tuple(joint.name for joint in self._body.joints),
             time=np.append(pushing, lift_off + flight.time),
             position=np.vstack([position, flight.position]),
             velocity=np.vstack([velocity, flight.velocity]),
-            torque=np.vstack([np.column_stack(torque), flight.torque]),
+            torque=np.vstack([torque, flight.torque]),
             lift_off=lift_off,
         )
         return Planned(JumpPlan(trajectory, ""), push_off)

@@ -13,26 +13,22 @@ import numpy as np
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import TextKind, safe_name, to_json
 from ocs_design.device.answers import RESULT_FILE, MonteCarloRecord
-from ocs_design.device.device import Device
 from ocs_design.device.layout import Layout
 from ocs_design.export.folder import clear_leftovers, output_error, staging_beside
 from ocs_design.export.physics import STEP
-from ocs_design.jumping.jump import BALLISTIC, JumpPlans
 from ocs_design.monte_carlo.outcomes import METRICS, Outcomes, code_of, write_tables
 from ocs_design.monte_carlo.uncertainty import Sample, Uncertainty, built, quantities
 from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.robot.robot import Robot
 from ocs_design.simulation.engine import Progress, scaled
 from ocs_design.simulation.imperfections import AirDrag, air_drag
 from ocs_design.simulation.metrics import objection
 from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.physics import Engine
 from ocs_design.simulation.run import Metrics, Run
-from ocs_design.simulation.scenario import Options, fly, world_builder
-from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.scenario import Flights, fly
 from ocs_design.simulation.verdict import MOMENTUM_GATE, Verdict, judge
 from ocs_design.simulation.world import World
-from ocs_design.sizing.trajectory.motion import Trajectory
+from ocs_design.simulation.world_builder import Options
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,13 +100,8 @@ class Campaign:
 
 
 def make_campaign(
-    robot: Robot,
-    device: Device,
-    maneuvers: Sequence[Maneuver],
+    flights: Flights,
     *,
-    options: Options,
-    references: Mapping[str, Trajectory],
-    jumps: Mapping[str, JumpPlans],
     can_stand: Sequence[bool | None],
     uncertainty: Uncertainty,
     seed: int,
@@ -118,27 +109,18 @@ def make_campaign(
     """The campaign of a design.
 
     Args:
-        robot, device, maneuvers, options, references, jumps: see `run_scenarios`.
+        flights: as designed.
         can_stand: of each maneuver, as its flights as designed showed it.
-        uncertainty: see `Uncertainty`. seed: of all samples.
+        seed: of all samples.
     """
-    builder = world_builder(robot, device, options)
-    worlds = [
-        builder.flight(
-            maneuver,
-            Wheels.ACTIVE,
-            references.get(maneuver.name),
-            jumps.get(maneuver.name, BALLISTIC).carrying,
-        )
-        for maneuver in maneuvers
-    ]
-    flights = tuple(
+    worlds, device = map(flights.driven, flights.maneuvers), flights.device
+    designed = tuple(
         DesignedFlight(maneuver, world, stands, objection(world))
-        for maneuver, world, stands in zip(maneuvers, worlds, can_stand, strict=True)
+        for maneuver, world, stands in zip(flights.maneuvers, worlds, can_stand, strict=True)
     )
-    wheels = len(device.modules)
-    limits = MotorLimits.of(device.motor.at_the_air_gap, device.supply, wheels)
-    return Campaign(flights, uncertainty, air_drag(device.flywheel), limits, seed, options.hold)
+    limits = MotorLimits.of(device.motor.at_the_air_gap, device.supply, len(device.modules))
+    air, hold = air_drag(device.flywheel), flights.options.hold
+    return Campaign(designed, uncertainty, air, limits, seed, hold)
 
 
 MEMORY = 512 << 20
@@ -173,7 +155,7 @@ def fly_samples(
     for start in range(0, len(indices), at_once):
         some = indices[start : start + at_once]
         done, after = start / len(indices), (start + len(some)) / len(indices)
-        tell = scaled(progress or (lambda _done: None), done, after)
+        tell = scaled(progress, done, after)
         parts.append(_flown_at_once(campaign, some, threads, tell))
     return Outcomes.joined(parts)
 

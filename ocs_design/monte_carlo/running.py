@@ -96,7 +96,7 @@ def run_campaign(
     """
     flown = {} if storage is None else dict(storage.found(blocks))
     missing = [block for block in blocks if block not in flown]
-    tell = scaled(progress or (lambda _done: None), len(flown) / len(blocks), 1.0)
+    tell = scaled(progress, len(flown) / len(blocks), 1.0)
     outcomes = _counted(blocks, flown, enough)
     with closing(workers.fly(campaign, missing, tell)) as arrivals:
         while outcomes is None:

@@ -22,9 +22,10 @@ from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import FAULTS, Outcomes, share, shares
 from ocs_design.requirement.maneuver import Flip, Maneuver, Shove
 from ocs_design.simulation.run import LANDING_TOLERANCE
-from ocs_design.simulation.scenario import Options, fly
+from ocs_design.simulation.scenario import fly
 from ocs_design.simulation.verdict import Fault, landing_attitude
 from ocs_design.simulation.world import World
+from ocs_design.simulation.world_builder import Options
 
 SIGNIFICANT = 4.0
 """Standard deviations of a rank correlation of independent numbers; 60 are looked at at a time."""
@@ -174,19 +175,14 @@ def _with_stiff_legs(world: World) -> World:
     return replace(world, model=model, support=world.support / 2.0)
 
 
-def _with_law(world: World, **changes: FloatArray) -> World:
-    """The flight with other gains while the robot stands."""
-    return replace(world, law=replace(world.law, **changes))
-
-
 REMEDIES: Mapping[str, Callable[[World], World]] = MappingProxyType(
     {
         "legs twice as stiff": _with_stiff_legs,
-        "wheels that damp twice as hard": lambda world: _with_law(
-            world, standing_damping=2.0 * world.law.damping
+        "wheels that damp twice as hard": lambda world: replace(
+            world, law=replace(world.law, standing_damping=2.0 * world.law.damping)
         ),
-        "wheels that also hold the attitude": lambda world: _with_law(
-            world, standing_stiffness=world.law.stiffness
+        "wheels that also hold the attitude": lambda world: replace(
+            world, law=replace(world.law, standing_stiffness=world.law.stiffness)
         ),
     }
 )

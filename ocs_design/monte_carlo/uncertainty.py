@@ -8,7 +8,7 @@ from functools import cached_property
 import mujoco
 import numpy as np
 
-from ocs_design.common.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray, stacked_columns
 from ocs_design.device.bodies import PREFIX
 from ocs_design.device.device import Device
 from ocs_design.device.layout import Layout
@@ -25,7 +25,7 @@ from ocs_design.robot.robot import Robot
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.imperfections import AirDrag, Imperfections
 from ocs_design.simulation.launch import Push
-from ocs_design.simulation.motor_limits import USED, MotorLimits
+from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.schedule import SURE
 from ocs_design.simulation.target import StoppedDrive
 from ocs_design.simulation.world import World
@@ -174,7 +174,6 @@ def built(
 
     Args:
         world: as designed, with its wheels active.
-        sample: see `Sample`.
         flight: its number, for the noise.
         air: drag of a wheel, the same for all.
         limits: of a motor as designed, before friction takes its part. The law counts on them here,
@@ -203,12 +202,7 @@ def built(
     mujoco.mj_setConst(model, mujoco.MjData(model) if scratch is None else scratch)
 
     # What friction is drawn is taken off once, from what the motor gives.
-    law = replace(
-        world.law,
-        no_load_speed=np.array([USED * limits.no_load_speed]),
-        torque_limit=np.array([limits.torque_limit]),
-        power_max=np.array([USED * limits.power_max]),
-    )
+    law = replace(world.law, limits=stacked_columns([limits.used]))
     constant = 1.0 + sample.of("torque_constant_error")
     voltage = 1.0 + sample.only("bus_voltage_error")
     resistance = 1.0 + sample.of("resistance_error")
@@ -220,12 +214,15 @@ def built(
         stream=sample.noise(flight),
         torque_gain=constant,
         # V = R i + k_t w (docs/theory.md, The motor).
-        no_load_speed=limits.no_load_speed * voltage / constant,
-        line_slope=limits.line_slope * resistance / constant**2,
-        torque_limit=limits.torque_limit * constant,
-        copper=limits.copper * resistance / constant**2,
-        efficiency=limits.efficiency,
-        power_max=limits.power_max,
+        limits=MotorLimits(
+            no_load_speed=limits.no_load_speed * voltage / constant,
+            line_slope=limits.line_slope * resistance / constant**2,
+            torque_limit=limits.torque_limit * constant,
+            speed_max=np.array([np.inf]),
+            copper=limits.copper * resistance / constant**2,
+            efficiency=np.array([limits.efficiency]),
+            power_max=np.array([limits.power_max]),
+        ),
         coulomb=sample.of("coulomb_friction"),
         viscous=sample.of("viscous_friction"),
         air=air,

@@ -27,7 +27,6 @@ class Surface:
     Attributes:
         vertices: in the frame of their body [m], shape (n, 3).
         faces: corners of each triangle, shape (m, 3).
-        color: see `Color`.
     """
 
     vertices: FloatArray

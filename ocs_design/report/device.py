@@ -42,6 +42,12 @@ FIRST_FACTS = {
 """Facts of the device at a first look, and the short names that they have there."""
 
 
+def first_facts(design: OcsDesign) -> Rows:
+    """What a first look at a device shows, by short names."""
+    found = dict(device_facts(design))
+    return tuple((short, found[name]) for name, short in FIRST_FACTS.items() if name in found)
+
+
 def robot_facts(robot: RobotRecord) -> Rows:
     """What was read of a robot: mass, trunk, posture and locked inertia."""
     trunk = robot.trunk

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.common.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray, Table, stacked_columns
 from ocs_design.common.units import STANDARD_GRAVITY
 from ocs_design.requirement.froude import Scale
 from ocs_design.robot.robot import Robot
@@ -22,9 +22,9 @@ SUPPORT = 0.05
 """Largest torque of a wheel over weight times standing height: the feet stay down."""
 
 
-@dataclass(frozen=True)
-class Desaturation:
-    """How the wheels of one world are braked while it stands.
+@dataclass(frozen=True, eq=False)
+class Desaturation(Table):
+    """How the wheels of one world are braked while it stands, or of n, as arrays of shape (n, 1).
 
     The law damps the trunk meanwhile: the feet take up what the wheels let go.
 
@@ -33,9 +33,9 @@ class Desaturation:
         damping: torque per wheel speed [N m s/rad]. torque_max: [N m].
     """
 
-    settling: float
-    damping: float
-    torque_max: float
+    settling: FloatArray | float
+    damping: FloatArray | float
+    torque_max: FloatArray | float
 
     @classmethod
     def of(
@@ -49,24 +49,14 @@ class Desaturation:
             SUPPORT * robot.mass * gravity * standing,
         )
 
+    def torque(self, speed: FloatArray, stood: FloatArray) -> FloatArray:
+        """Torque that brakes wheels while the robot stands [N m], shape (n, wheels).
 
-def braking(
-    speed: FloatArray,
-    stood: FloatArray,
-    *,
-    settling: FloatArray,
-    damping: FloatArray,
-    torque_max: FloatArray,
-) -> FloatArray:
-    """Torque that brakes wheels while the robot stands [N m], shape (n, wheels).
-
-    Args:
-        speed: of the wheels [rad/s], shape (n, wheels).
-        stood: time on the ground [s], shape (n, 1).
-        settling, damping, torque_max: see `Desaturation`, shape (n, 1).
-    """
-    wanted = np.minimum(np.maximum(-damping * speed, -torque_max), torque_max)
-    return np.where(stood >= settling, wanted, 0.0)
+        Args:
+            speed: of the wheels [rad/s], shape (n, wheels). stood: on the ground [s], shape (n, 1).
+        """
+        wanted = np.minimum(np.maximum(-self.damping * speed, -self.torque_max), self.torque_max)
+        return np.where(stood >= self.settling, wanted, 0.0)
 
 
 class WheelBrake:
@@ -75,11 +65,8 @@ class WheelBrake:
     def __init__(self, own: Sequence[Desaturation | None], period: float) -> None:
         """Brakes of worlds that decide every `period` [s]."""
         idle = Desaturation(np.inf, 0.0, 0.0)
-        rows = [idle if each is None else each for each in own]
-        self._settling = np.array([[each.settling] for each in rows])
-        self._damping = np.array([[each.damping] for each in rows])
-        self._largest = np.array([[each.torque_max] for each in rows])
-        self._stood, self._period = np.zeros(len(rows)), period
+        self._brakes = stacked_columns([idle if each is None else each for each in own])
+        self._stood, self._period = np.zeros(len(own)), period
 
     def added(self, target: Target, speed: FloatArray, contact: NDArray[np.bool_]) -> Target:
         """The target with the braking torque on top.
@@ -90,11 +77,5 @@ class WheelBrake:
         """
         n = len(speed)
         self._stood[:n] = np.where(contact, self._stood[:n] + self._period, 0.0)
-        torque = braking(
-            speed,
-            self._stood[:n, None],
-            settling=self._settling[:n],
-            damping=self._damping[:n],
-            torque_max=self._largest[:n],
-        )
+        torque = self._brakes.take(slice(n)).torque(speed, self._stood[:n, None])
         return replace(target, torque=target.torque + torque)

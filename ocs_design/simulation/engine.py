@@ -46,7 +46,6 @@ def simulate(
         progress: told the part of the work that is done, 0..1.
         engine: that has all worlds in one batch; None: MuJoCo on the processors.
     """
-    tell = progress or _ignore
     recordings: list[Recording] = []
     places: list[NDArray[np.intp]] = []
     steps = np.array([world.model.opt.timestep for world in worlds])
@@ -67,7 +66,7 @@ def simulate(
             Batch([worlds[index] for index in share], round(hold * STEP / step), pose_rate, engine)
             for share in shares
         ]
-        within = scaled(tell, done, done + part)
+        within = scaled(progress, done, done + part)
         # MuJoCo would write MUJOCO_LOG.TXT where the user stands; `Recording.stable` tells.
         before = mujoco.get_mju_user_warning()
         mujoco.set_mju_user_warning(lambda _message: None)
@@ -77,12 +76,14 @@ def simulate(
             mujoco.set_mju_user_warning(before)
         places += shares
         done += part
-    tell(1.0)
+    scaled(progress, 0.0, 1.0)(1.0)
     return joined(recordings, places)
 
 
-def scaled(progress: Progress, begin: float, end: float) -> Progress:
+def scaled(progress: Progress | None, begin: float, end: float) -> Progress:
     """Progress of a part of the work that begins and ends at these shares of all of it."""
+    if progress is None:
+        return _ignore
     return lambda share: progress(begin + (end - begin) * share)
 
 

@@ -18,10 +18,10 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.common.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray, stacked_columns
 from ocs_design.export.templates import fill
 from ocs_design.simulation import quaternions
-from ocs_design.simulation.desaturation import Desaturation, braking
+from ocs_design.simulation.desaturation import Desaturation
 from ocs_design.simulation.loop import LoopMargins, level_margins, plan_margins
 from ocs_design.simulation.schedule import References
 from ocs_design.simulation.target import Target
@@ -180,12 +180,7 @@ class Flown:
     def of(cls, world: World) -> "Flown":
         """Law and brake of a world."""
         own = world.desaturation
-        if own is None:
-            return cls(world.law, None)
-        settings: dict[str, Any] = {
-            each.name: np.array([[getattr(own, each.name)]]) for each in fields(own)
-        }
-        return cls(world.law, replace(own, **settings))
+        return cls(world.law, None if own is None else stacked_columns([own]))
 
 
 def targets_of(worlds: Sequence[World], period: float) -> list[list[Target]]:
@@ -229,8 +224,7 @@ def law_function(
     ground, stood = _symbols("ground_time", (1,))
     target = target.landed(stood[:, 0] > 0.0)
     if own.brake is not None:
-        brake = {each.name: getattr(own.brake, each.name) for each in fields(own.brake)}
-        target = replace(target, torque=target.torque + braking(W, stood, **brake))
+        target = replace(target, torque=target.torque + own.brake.torque(W, stood))
     torque = own.law.torque(quaternions.vertical(q), w, W, target, period, attitude=q)
     inputs = [attitude, rate, speed, ground, target_row, constant_row]
     return ca.Function("ocs_law", inputs, [ca.vertcat(*np.ravel(torque))]), constants, columns

@@ -14,11 +14,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ocs_design.common.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray, stacked_columns
 from ocs_design.device.device import Flywheel
 from ocs_design.parts.printed import CLEARANCE
 from ocs_design.simulation import quaternions
-from ocs_design.simulation.motor_limits import clipped, within_supply
+from ocs_design.simulation.motor_limits import MotorLimits
 
 _SENSED = 5
 """Numbers that noise is added to at each instant: two of attitude, three of rate."""
@@ -33,8 +33,7 @@ class Imperfections:
         attitude_noise, gyro_noise: standard deviation of each measurement [rad], [rad/s].
         stream: that the noise is drawn from; equal streams give equal noise.
         torque_gain: torque given over torque commanded, by each of m motors, shape (m,).
-        no_load_speed, line_slope, torque_limit: of each real motor, see `MotorLimits`, (m,).
-        copper: likewise. efficiency: of its gear. power_max: of the supply, of all motors [W].
+        limits: of each real motor, arrays of shape (m,) or (1,).
         coulomb, viscous: friction of each wheel [N m], [N m s/rad], shape (m,).
         air: drag of a wheel in its housing, the same for all worlds of a batch.
         air_factor: times that.
@@ -47,12 +46,7 @@ class Imperfections:
     gyro_noise: float
     stream: np.random.SeedSequence
     torque_gain: FloatArray
-    no_load_speed: FloatArray
-    line_slope: FloatArray
-    torque_limit: FloatArray
-    copper: FloatArray
-    efficiency: float
-    power_max: float
+    limits: MotorLimits
     coulomb: FloatArray
     viscous: FloatArray
     air: "AirDrag"
@@ -143,18 +137,12 @@ class Drives:
         """
         self._air = imperfections[0].air
         self._gain = (response * hold * step)[:, None]
-        self._torque_gain, self._line, self._slope, self._limit = (
+        self._limits = stacked_columns([own.limits for own in imperfections])
+        self._torque_gain, self._coulomb, self._viscous = (
             np.stack([getattr(own, name) for own in imperfections])
-            for name in ("torque_gain", "no_load_speed", "line_slope", "torque_limit")
+            for name in ("torque_gain", "coulomb", "viscous")
         )
-        self._copper, self._coulomb, self._viscous = (
-            np.stack([getattr(own, name) for own in imperfections])
-            for name in ("copper", "coulomb", "viscous")
-        )
-        self._air_factor, self._efficiency, self._power = (
-            np.array([[getattr(own, name)] for own in imperfections])
-            for name in ("air_factor", "efficiency", "power_max")
-        )
+        self._air_factor = np.array([[own.air_factor] for own in imperfections])
         delay = np.array([own.delay for own in imperfections])
         whole, part = np.divmod(delay, hold)
         # Before a part of a control step has passed, the command before the last still holds.
@@ -180,24 +168,10 @@ class Drives:
         n = len(command)
         self._commands[self._before + k, :n] = command
         heard = self._commands[self._before + k - self._back[:n], self._worlds[:n]]
-        motor = clipped(
-            heard * self._torque_gain[:n, None],
-            speed[:, None],
-            gain=self._gain[:n, None],
-            line_slope=self._slope[:n, None],
-            no_load_speed=self._line[:n, None],
-            torque_limit=self._limit[:n, None],
-        )
-        if np.isfinite(self._power[:n]).any():
-            # The law limits what it commands by the nominal motor's power, the supply the real one.
-            motor = within_supply(
-                motor,
-                speed[:, None],
-                gain=self._gain[:n, None],
-                copper=self._copper[:n, None],
-                efficiency=self._efficiency[:n, None],
-                power_max=self._power[:n, None],
-            )
+        limits, gain = self._limits.take(slice(n)), self._gain[:n, None]
+        motor = limits.clipped(heard * self._torque_gain[:n, None], speed[:, None], gain)
+        # The law limits what it commands by the nominal motor's power, the supply the real one.
+        motor = limits.within_supply(motor, speed[:, None], gain)
         # So written, the mean of equal torques is that torque to the last bit.
         mean = motor[:, 0] + (motor - motor[:, :1]).mean(axis=1)
         # Friction is implicit: it brings a wheel to rest at most, and one at rest stays so until

@@ -82,7 +82,6 @@ def launch(maneuver: Maneuver, standing_height: float, profile: Profile) -> Laun
     """The start that a maneuver asks for.
 
     Args:
-        maneuver: see `Maneuver`.
         standing_height: of the trunk over the ground with the feet on it [m].
         profile: of a turn to level during a drop.
     """

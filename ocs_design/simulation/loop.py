@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
-from ocs_design.common.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray, stacked_columns
+from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.target import Target
 from ocs_design.simulation.wheel_law import WheelLaw
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
@@ -91,11 +92,8 @@ def loop_margins(
 def level_margins(law: WheelLaw, body: Gyrostat, period: float) -> LoopMargins:
     """Margins of a law in one world about level flight at rest, within the motors' limits."""
     n = body.axes.shape[1]
-    free = {
-        name: np.full(1, np.inf)
-        for name in ("no_load_speed", "torque_limit", "speed_max", "power_max")
-    }
-    linear, none = replace(law, **free), np.zeros((1, 3))
+    linear = replace(law, limits=stacked_columns([MotorLimits(np.inf, 0.0, np.inf)]))
+    none = np.zeros((1, 3))
     level = Target(np.array([[0.0, 0.0, 1.0]]), none, none, np.zeros((1, n)), np.zeros(1, bool))
 
     def torque(state: FloatArray) -> FloatArray:

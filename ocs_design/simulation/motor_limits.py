@@ -9,114 +9,22 @@ import numpy as np
 
 from ocs_design.actuation.drive import RESERVE, Drive, power_less_friction
 from ocs_design.actuation.supply import Supply
-from ocs_design.common.arrays import FloatArray
-
-
-def clipped(
-    torque: FloatArray,
-    speed: FloatArray,
-    *,
-    gain: FloatArray,
-    line_slope: FloatArray,
-    no_load_speed: FloatArray,
-    torque_limit: FloatArray,
-    speed_max: FloatArray | float = np.inf,
-) -> FloatArray:
-    """Torques cut to current limit, voltage line and top speed at the end of the control step.
-
-    Both taken at the end, at `W + tau * gain`, are backward Euler: the exact line as the period
-    goes to zero, stable for any motor, and a wheel just keeps from passing its top speed. They cut
-    driving torque and leave braking.
-
-    Args:
-        torque: asked for [N m]. speed: of the wheels now [rad/s].
-        gain: change of speed in a control step per torque [rad/s/(N m)].
-        line_slope, no_load_speed, torque_limit, speed_max: see `MotorLimits`.
-    """
-    give = gain + line_slope
-    highest = np.minimum((no_load_speed - speed) / give, (speed_max - speed) / gain)
-    lowest = np.maximum((-no_load_speed - speed) / give, (-speed_max - speed) / gain)
-    driven = np.minimum(np.maximum(torque, lowest), highest)
-    return np.minimum(np.maximum(driven, -torque_limit), torque_limit)
-
-
-def bus_power(
-    torque: FloatArray,
-    speed: FloatArray,
-    *,
-    copper: FloatArray | float,
-    efficiency: FloatArray | float,
-) -> FloatArray:
-    """Power of all motors of a world at the bus [W], shape (n,): R i^2, and what the shafts take.
-
-    A gear's loss is drawn where its motor drives and lost where it brakes.
-
-    Args:
-        torque, speed: of the wheels [N m, rad/s], shape (n, wheels).
-        copper, efficiency: see `MotorLimits`.
-    """
-    shaft = torque * speed
-    taken = np.maximum(shaft / efficiency, shaft * efficiency)
-    power: FloatArray = (copper * torque**2 + taken).sum(axis=-1)
-    return power
-
-
-def within_supply(
-    torque: FloatArray,
-    speed: FloatArray,
-    *,
-    gain: FloatArray,
-    copper: FloatArray,
-    efficiency: FloatArray,
-    power_max: FloatArray,
-) -> FloatArray:
-    """Torques of a world, all scaled down alike until the supply can give or take their power.
-
-    Held torques speed wheels up and let them take more and more: a control step draws most at its
-    end and feeds back most at its start. With all torques times f, the power at the end is convex
-    in f and zero at f = 0; each of its parts is `a f^2 + b f`, which is P at 2 P / (b + root).
-
-    Args:
-        torque: that the motors could give [N m], (..., wheels).
-        speed: of the wheels now [rad/s], broadcast to that.
-        gain: change of speed in a control step per torque [rad/s/(N m)], shape (..., 1).
-        copper, efficiency, power_max: see `MotorLimits`, shape (..., 1).
-    """
-    limit, shaft = np.minimum(power_max[..., 0], _ENDLESS), torque * speed
-    heat = (copper * torque**2).sum(axis=-1)
-    factor = np.ones_like(heat)
-    for _ in range(torque.shape[-1] + 1):
-        # A motor that brakes at the start may drive at the end: each change takes another look.
-        ends = factor[..., None] * gain * torque**2 + shaft
-        share = np.where(ends > 0.0, 1.0 / efficiency, efficiency)
-        square = heat + (share * gain * torque**2).sum(axis=-1)
-        linear = (share * shaft).sum(axis=-1)
-        # Factor f up to which `square f^2 + linear f` is within the limit; inf: all.
-        depth = linear + np.sqrt(linear**2 + 4.0 * square * limit)
-        most = np.where(depth > 0.0, 2.0 * limit / np.where(depth > 0.0, depth, 1.0), np.inf)
-        factor = np.minimum(factor, most)
-    share = np.where(shaft > 0.0, 1.0 / efficiency, efficiency)
-    given = (share * shaft).sum(axis=-1)
-    # Beyond the larger root, more torque burns what it brakes in the windings.
-    root = np.sqrt(np.maximum(given**2 - 4.0 * heat * limit, 0.0))
-    feeds = factor * (heat * factor + given) < -limit
-    least = 2.0 * limit / np.where(feeds, root - given, 1.0)
-    scaled: FloatArray = torque * np.where(feeds, np.minimum(factor, least), factor)[..., None]
-    return scaled
-
+from ocs_design.common.arrays import FloatArray, Table
 
 _ENDLESS = 1e100
 """Stands for a power without limit: its products with others are finite [W]."""
-
 
 USED = 0.99
 """Share of voltage and of the supply's power that the law uses: what else turns the wheels within a
 control step, as the trunk hits the ground, changes speed and power by less than the rest."""
 
 
-@dataclass(frozen=True)
-class MotorLimits:
+@dataclass(frozen=True, eq=False)
+class MotorLimits(Table):
     """Limits of a motor at its wheel (docs/theory.md, What a motor can do).
+
+    Of one motor they are numbers; of n worlds arrays that broadcast to the torques of their wheels,
+    of shape (n, 1), or (n, 1, m) of m motors each (`stacked_columns`).
 
     Attributes:
         no_load_speed: where the line ends that friction leaves [rad/s]; inf: not limited.
@@ -131,21 +39,20 @@ class MotorLimits:
         voltage: of the supply [V]; None: the winding or the supply is not known.
     """
 
-    no_load_speed: float
-    line_slope: float
-    torque_limit: float
-    speed_max: float = np.inf
-    copper: float = 0.0
-    efficiency: float = 1.0
-    power_max: float = np.inf
-    voltage: float | None = None
+    no_load_speed: FloatArray | float
+    line_slope: FloatArray | float
+    torque_limit: FloatArray | float
+    speed_max: FloatArray | float = np.inf
+    copper: FloatArray | float = 0.0
+    efficiency: FloatArray | float = 1.0
+    power_max: FloatArray | float = np.inf
+    voltage: FloatArray | float | None = None
 
     @classmethod
     def of(cls, motor: Drive, supply: Supply | None = None, wheels: int = 1) -> "MotorLimits":
         """The limits of a catalogue or assumed motor.
 
         Args:
-            motor: see `Drive`.
             supply: that feeds all motors; None: nothing is known of it.
             wheels: how many motors it feeds.
         """
@@ -163,18 +70,81 @@ class MotorLimits:
         if supply is None or motor.resistance is None or motor.torque_constant is None:
             return line
         per_current = motor.gear_ratio * motor.gear_efficiency * motor.torque_constant
+        current = float(line.torque_limit) / per_current
         return replace(
             line,
             copper=motor.resistance / per_current**2,
             efficiency=motor.gear_efficiency,
-            power_max=power_less_friction(supply, wheels, motor, line.torque_limit / per_current),
+            power_max=power_less_friction(supply, wheels, motor, current),
             voltage=supply.voltage,
         )
+
+    def clipped(self, torque: FloatArray, speed: FloatArray, gain: FloatArray) -> FloatArray:
+        """Torques cut to current limit, voltage line and top speed at the end of the control step.
+
+        Both taken at the end, at `W + tau * gain`, are backward Euler: the exact line as the period
+        goes to zero, stable for any motor, and a wheel just keeps from passing its top speed. They
+        cut driving torque and leave braking.
+
+        Args:
+            torque: asked for [N m]. speed: of the wheels now [rad/s].
+            gain: change of speed in a control step per torque [rad/s/(N m)].
+        """
+        give, line = gain + self.line_slope, self.no_load_speed
+        highest = np.minimum((line - speed) / give, (self.speed_max - speed) / gain)
+        lowest = np.maximum((-line - speed) / give, (-self.speed_max - speed) / gain)
+        driven = np.minimum(np.maximum(torque, lowest), highest)
+        return np.minimum(np.maximum(driven, -self.torque_limit), self.torque_limit)
+
+    def within_supply(self, torque: FloatArray, speed: FloatArray, gain: FloatArray) -> FloatArray:
+        """Torques of a world, all scaled down alike until the supply can give or take their power.
+
+        Held torques speed wheels up and let them take more and more: a control step draws most at
+        its end and feeds back most at its start. With all torques times f, the power at the end is
+        convex in f and zero at f = 0; each of its parts is `a f^2 + b f`, which is P at
+        2 P / (b + root).
+
+        Args:
+            torque: that the motors could give [N m], (..., wheels).
+            speed: of the wheels now [rad/s], broadcast to that.
+            gain: change of speed in a control step per torque [rad/s/(N m)], shape (..., 1).
+        """
+        if np.isinf(self.power_max).all():
+            return torque
+        limit = np.minimum(self.power_max, _ENDLESS)[..., 0]
+        shaft, efficiency = torque * speed, self.efficiency
+        heat = (self.copper * torque**2).sum(axis=-1)
+        factor = np.ones_like(heat)
+        for _ in range(torque.shape[-1] + 1):
+            # A motor that brakes at the start may drive at the end: each change takes another look.
+            ends = factor[..., None] * gain * torque**2 + shaft
+            share = np.where(ends > 0.0, 1.0 / efficiency, efficiency)
+            square = heat + (share * gain * torque**2).sum(axis=-1)
+            linear = (share * shaft).sum(axis=-1)
+            # Factor f up to which `square f^2 + linear f` is within the limit; inf: all.
+            depth = linear + np.sqrt(linear**2 + 4.0 * square * limit)
+            most = np.where(depth > 0.0, 2.0 * limit / np.where(depth > 0.0, depth, 1.0), np.inf)
+            factor = np.minimum(factor, most)
+        share = np.where(shaft > 0.0, 1.0 / efficiency, efficiency)
+        given = (share * shaft).sum(axis=-1)
+        # Beyond the larger root, more torque burns what it brakes in the windings.
+        root = np.sqrt(np.maximum(given**2 - 4.0 * heat * limit, 0.0))
+        feeds = factor * (heat * factor + given) < -limit
+        least = 2.0 * limit / np.where(feeds, root - given, 1.0)
+        scaled: FloatArray = torque * np.where(feeds, np.minimum(factor, least), factor)[..., None]
+        return scaled
 
     @property
     def is_finite(self) -> bool:
         """Whether the torque has a limit at every speed."""
         return bool(np.isfinite(self.torque_limit) or self.line_slope > 0.0)
+
+    @property
+    def used(self) -> "MotorLimits":
+        """What the wheel law counts on (`USED`)."""
+        return replace(
+            self, no_load_speed=USED * self.no_load_speed, power_max=USED * self.power_max
+        )
 
     def reserved(self) -> "MotorLimits":
         """What a reference may take; the rest of voltage, current and speed is for the feedback."""
@@ -215,5 +185,14 @@ class MotorLimits:
         return float(max(voltage, current, np.abs(speed).max() / self.speed_max, power))
 
     def bus_power(self, speed: FloatArray, torque: FloatArray) -> FloatArray:
-        """Power of all motors at the bus [W], see `bus_power`."""
-        return bus_power(torque, speed, copper=self.copper, efficiency=self.efficiency)
+        """Power of all motors of a world at the bus [W], shape (n,): R i^2, and what shafts take.
+
+        A gear's loss is drawn where its motor drives and lost where it brakes.
+
+        Args:
+            speed, torque: of the wheels [rad/s, N m], shape (n, wheels).
+        """
+        shaft = torque * speed
+        taken = np.maximum(shaft / self.efficiency, shaft * self.efficiency)
+        power: FloatArray = (self.copper * torque**2 + taken).sum(axis=-1)
+        return power

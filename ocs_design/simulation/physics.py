@@ -36,16 +36,8 @@ class Physics(Protocol):
     ) -> object:
         """Step the first n worlds, and write what comes of it into `state` and `sensordata`.
 
-        Args:
-            model: of each world, shape (n,).
-            data: to work with, one for each thread.
-            initial_state: full physics states, shape (n, nstate).
-            control: of each step, (n, nstep, ...).
-            control_spec: what `control` holds, bits of `mjtState`; the rest is zero.
-            skip_checks: whether shapes are known to be right.
-            nstep: how many steps.
-            state: after each step, shape (n, nstep, nstate).
-            sensordata: at the start of each step, shape (n, nstep, nsensordata).
+        These have shape (n, nstep, ...), after each step and at its start. `control` holds what the
+        bits of `control_spec` say, the rest is zero. `data` is to work with, one for each thread.
         """
 
 

@@ -80,8 +80,7 @@ class PilotedFlight(Batch):
             torque: [N m], shape (m,).
         """
         k, speed = self._instant, self.seen.wheel_speed[None]
-        possible = self._law.within_motors(torque[None], speed, self._period)
-        asked = self._law.within_supply(possible, speed, self._period)
+        asked = self._law.possible(torque[None], speed, self._period)
         if self.flown < 0:
             asked[:] = 0.0
         self.advance(self._pool, self._physics, k, self.driven(k, asked))
@@ -111,7 +110,8 @@ class PilotedFlight(Batch):
         """What the law would ask for, noted with what it saw."""
         torque = super().decide(law, vertical, rate, speed, target, attitude=attitude)
         most = np.full_like(speed, np.inf)
-        low, high = (law.within_motors(all_of, speed, self._period) for all_of in (-most, most))
+        gain = (law.wheel_response * self._period)[:, None]
+        low, high = (law.limits.clipped(all_of, speed, gain) for all_of in (-most, most))
         speed = speed[0].copy()
         seen = vertical[0], quaternions.heading(attitude)[0], rate[0], speed
         self._found = Seen(*seen, torque[0], low[0], high[0])

@@ -107,8 +107,8 @@ class Turn:
         axis: unit vector, shape (3,).
         start, end: angle about it from level [rad].
         duration: [s], from lift-off.
-        profile: see `Profile`.
         extendable: whether it may take longer where the wheels need it; a fall does not wait.
+        note: what had to be changed for the wheels to follow it, one sentence; empty: nothing.
     """
 
     axis: FloatArray
@@ -117,6 +117,7 @@ class Turn:
     duration: float
     profile: Profile
     extendable: bool = True
+    note: str = ""
 
     def angle(self, time: FloatArray) -> FloatArray:
         """Angle at `time` from lift-off [rad]."""
@@ -138,20 +139,7 @@ class Turn:
 LEVEL = Turn(np.array([0.0, 1.0, 0.0]), 0.0, 0.0, 1.0, Step())
 
 
-@dataclass(frozen=True, eq=False)
-class FittedTurn:
-    """A turn that the wheels can follow, and what had to be changed for that.
-
-    Attributes:
-        turn: see `Turn`.
-        note: one sentence; empty where the turn is as asked.
-    """
-
-    turn: Turn
-    note: str
-
-
-def fit_turn(turn: Turn, body: Gyrostat, limits: MotorLimits) -> FittedTurn:
+def fit_turn(turn: Turn, body: Gyrostat, limits: MotorLimits) -> Turn:
     """Turn with the first profile that leaves the feedback its reserve (`actuation.drive.RESERVE`).
 
     The profile asked for comes first, then trapezoids from gentle to short ramps, which trade wheel
@@ -160,14 +148,14 @@ def fit_turn(turn: Turn, body: Gyrostat, limits: MotorLimits) -> FittedTurn:
     """
     usable = limits.reserved()
     if turn.span == 0.0 or utilisation(turn, body, usable) <= 1.0:
-        return FittedTurn(turn, "")
+        return turn
     ramps = np.linspace(0.45, 0.1, 15)
     options = [replace(turn, profile=SmoothTrapezoid(float(ramp))) for ramp in ramps]
     for option in options:
         if utilisation(option, body, usable) <= 1.0:
-            return FittedTurn(option, _FLATTENED)
+            return replace(option, note=_FLATTENED)
     if not turn.extendable:
-        return FittedTurn(replace(turn, profile=Step()), _STEPPED)
+        return replace(turn, profile=Step(), note=_STEPPED)
     stretched = []
     for option in (turn, *options):
         # The shortest time that keeps the limits, by bisection.
@@ -186,7 +174,7 @@ def fit_turn(turn: Turn, body: Gyrostat, limits: MotorLimits) -> FittedTurn:
         f"the turn takes {shortest.duration:.3g} s in place of the {turn.duration:.3g} s asked "
         f"for: the wheels cannot turn the trunk faster"
     )
-    return FittedTurn(shortest, note)
+    return replace(shortest, note=note)
 
 
 def utilisation(turn: Turn, body: Gyrostat, limits: MotorLimits) -> float:

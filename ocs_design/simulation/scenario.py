@@ -8,6 +8,7 @@ flies that maneuver once more, level and undisturbed, to tell the device's fault
 from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from ocs_design.device.device import Device
 from ocs_design.device.records.flights import StoppedRecord, SurvivalRecord
@@ -19,8 +20,6 @@ from ocs_design.robot.robot import Robot
 from ocs_design.simulation.batch import Recording
 from ocs_design.simulation.engine import Progress, poses_of, simulate
 from ocs_design.simulation.metrics import breakdown, measure, objection, series_of
-from ocs_design.simulation.physics import Engine
-from ocs_design.simulation.reference import Profile, Quintic
 from ocs_design.simulation.run import Metrics, Poses, Run, Series
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.target import StoppedDrive
@@ -33,35 +32,9 @@ from ocs_design.simulation.verdict import (
     off_at_touchdown,
     stands,
 )
-from ocs_design.simulation.wheel_law import Allocation, Gains
 from ocs_design.simulation.world import World
-from ocs_design.simulation.world_builder import WorldBuilder
+from ocs_design.simulation.world_builder import Options, WorldBuilder
 from ocs_design.sizing.trajectory.motion import Trajectory
-
-
-@dataclass(frozen=True)
-class Options:
-    """How to simulate.
-
-    Attributes:
-        allocation: of the torque to the wheels.
-        gains: of the wheel law; None: `wheel_gains` of the robot.
-        drop_profile: how a dropped robot is turned to level; `Step()` is the paper's command.
-        hold: steps of 1 ms per control step.
-        desaturate: whether the wheels are braked while the robot stands.
-        threads: of the physics; None: one per processor.
-        pose_rate: of the recorded poses [1/s]; None: none are.
-        engine: of the physics; None: MuJoCo on the processors.
-    """
-
-    allocation: Allocation = Allocation.PSEUDO_INVERSE
-    gains: Gains | None = None
-    drop_profile: Profile = field(default_factory=Quintic)
-    hold: int = 5
-    desaturate: bool = False
-    threads: int | None = None
-    pose_rate: float | None = None
-    engine: Engine | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,41 +78,58 @@ class Flown:
         )
 
 
-def run_scenarios(
-    robot: Robot,
-    device: Device,
-    maneuvers: Sequence[Maneuver],
-    *,
-    options: Options | None = None,
-    references: Mapping[str, Trajectory] | None = None,
-    jumps: Mapping[str, JumpPlans] | None = None,
-    progress: Progress | None = None,
-) -> tuple[Run, ...]:
-    """Fly every maneuver with the device and then without, in that order.
+@dataclass(frozen=True, eq=False)
+class Flights:
+    """Robot, device and maneuvers to be flown, as designed and as they might be built.
 
-    Args:
-        robot: at its nominal posture, which its joints hold.
-        device: that the robot carries.
-        maneuvers: see `Maneuver`.
-        options: see `Options`.
+    Attributes:
+        robot: at its nominal posture, which its joints hold. device: on it.
         references: what the device tracks in a maneuver, by its name; one without follows a smooth
             turn that its wheels can do, and a disturbance, not known beforehand, is met by feedback
             alone.
         jumps: how the legs make a maneuver, by its name; one without starts at lift-off.
-        progress: told the part of the work that is done, 0..1.
     """
-    chosen = options or Options()
-    builder = world_builder(robot, device, chosen)
-    planned, starts = references or {}, jumps or {}
+
+    robot: Robot
+    device: Device
+    maneuvers: Sequence[Maneuver]
+    options: Options = field(default_factory=Options)
+    references: Mapping[str, Trajectory] = field(default_factory=dict)
+    jumps: Mapping[str, JumpPlans] = field(default_factory=dict)
+
+    @cached_property
+    def builder(self) -> WorldBuilder:
+        """Builder of their worlds."""
+        return WorldBuilder(self.robot, self.device, self.options)
+
+    def starts(self, maneuver: Maneuver) -> JumpPlans:
+        """How the legs begin a maneuver."""
+        return self.jumps.get(maneuver.name, BALLISTIC)
+
+    def driven(self, maneuver: Maneuver) -> World:
+        """World of a maneuver with the device."""
+        reference = self.references.get(maneuver.name)
+        return self.builder.flight(
+            maneuver, Wheels.ACTIVE, reference, self.starts(maneuver).carrying
+        )
+
+
+def run_scenarios(flights: Flights, progress: Progress | None = None) -> tuple[Run, ...]:
+    """Fly every maneuver with the device and then without, in that order.
+
+    `progress` is told the part of the work that is done, 0..1.
+    """
+    robot, maneuvers, builder = flights.robot, flights.maneuvers, flights.builder
     worlds = [
-        builder.flight(maneuver, wheels, planned.get(maneuver.name), start)
+        world
         for maneuver in maneuvers
-        for wheels, start in zip(
-            (Wheels.ACTIVE, Wheels.ABSENT), starts.get(maneuver.name, BALLISTIC), strict=True
+        for world in (
+            flights.driven(maneuver),
+            builder.flight(maneuver, Wheels.ABSENT, None, flights.starts(maneuver).bare),
         )
     ]
-    flights = fly(worlds, chosen, progress)
-    pairs = list(zip(flights[::2], flights[1::2], strict=True))
+    flown = fly(worlds, flights.options, progress)
+    pairs = list(zip(flown[::2], flown[1::2], strict=True))
     unclear = refusal(robot)
 
     # Where flights come down well but none of those stands, it is the legs or the device.
@@ -152,10 +142,9 @@ def run_scenarios(
         if lands and down and not any(stands(metrics) for metrics in down):
             doubtful.append(index)
     landings = [
-        builder.level_landing(maneuvers[i], starts.get(maneuvers[i].name, BALLISTIC).carrying)
-        for i in doubtful
+        builder.level_landing(maneuvers[i], flights.starts(maneuvers[i]).carrying) for i in doubtful
     ]
-    for index, flight in zip(doubtful, fly(landings, chosen), strict=True):
+    for index, flight in zip(doubtful, fly(landings, flights.options), strict=True):
         can_stand[index] = stands(flight.metrics)
 
     runs = []
@@ -178,36 +167,26 @@ STOPS = 8
 
 
 def fly_stopped(
-    robot: Robot,
-    device: Device,
-    maneuvers: Sequence[Maneuver],
-    detection: float,
-    *,
-    options: Options | None = None,
-    references: Mapping[str, Trajectory] | None = None,
-    jumps: Mapping[str, JumpPlans] | None = None,
-    progress: Progress | None = None,
+    flights: Flights, detection: float, progress: Progress | None = None
 ) -> SurvivalRecord:
     """Fly every maneuver with each drive stopping at each of `STOPS` instants, and judge landings.
 
     Args:
-        detection: until the law knows of it [s]. The others: see `run_scenarios`.
+        flights: as designed. detection: until the law knows of a stop [s].
+        progress: told the part of the work that is done, 0..1.
     """
-    chosen = options or Options()
-    builder = world_builder(robot, device, chosen)
+    device = flights.device
     flown: list[tuple[Maneuver, StoppedDrive, World]] = []
-    for maneuver in maneuvers:
-        planned, jump = (references or {}).get(maneuver.name), (jumps or {}).get(maneuver.name)
-        carrying = (jump or BALLISTIC).carrying
-        world = builder.flight(maneuver, Wheels.ACTIVE, planned, carrying)
+    for maneuver in flights.maneuvers:
+        world = flights.driven(maneuver)
         for wheel in range(len(device.modules)):
             for part in range(STOPS):
                 stopped = StoppedDrive(wheel, part / STOPS * world.flight_time, detection)
                 flown.append((maneuver, stopped, replace(world, stopped=stopped)))
-    flights = fly([world for *_, world in flown], chosen, progress)
-    found = []
-    for (maneuver, stopped, _), flight in zip(flown, flights, strict=True):
-        against = refusal(robot) or flight.objection
+    found, worlds = [], [world for *_, world in flown]
+    ends = fly(worlds, flights.options, progress)
+    for (maneuver, stopped, _), flight in zip(flown, ends, strict=True):
+        against = refusal(flights.robot) or flight.objection
         verdict = judge(flight.metrics, maneuver, can_stand=None, objection=against)
         tilt = None
         if flight.metrics is not None and verdict.fault is not Fault.UNSOUND:
@@ -223,18 +202,6 @@ def fly_stopped(
             )
         )
     return SurvivalRecord(detection=detection, flights=tuple(found))
-
-
-def world_builder(robot: Robot, device: Device, options: Options) -> WorldBuilder:
-    """Builder of worlds that are flown with these options."""
-    return WorldBuilder(
-        robot,
-        device,
-        allocation=options.allocation,
-        gains=options.gains,
-        drop_profile=options.drop_profile,
-        desaturate=options.desaturate,
-    )
 
 
 HALVINGS = 2

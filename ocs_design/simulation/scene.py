@@ -6,7 +6,6 @@ from enum import StrEnum
 import mujoco
 import numpy as np
 
-from ocs_design.common.arrays import FloatArray
 from ocs_design.device.bodies import flywheel_names, joint_names
 from ocs_design.device.device import Device
 from ocs_design.export.attach import attach_device
@@ -188,14 +187,3 @@ def whole_mass(model: mujoco.MjModel, data: mujoco.MjData) -> MassProperties:
     squares = np.einsum("b,bi,bi->", mass, offset, offset)
     outer = np.einsum("b,bi,bj->ij", mass, offset, offset)
     return MassProperties(float(mass.sum()), com, turned + squares * np.eye(3) - outer)
-
-
-def locked_inertia(model: mujoco.MjModel, data: mujoco.MjData, rotation: FloatArray) -> FloatArray:
-    """Inertia of everything about its centre of mass, joints locked as in `data` [kg m^2], (3, 3).
-
-    Args:
-        model: compiled.
-        data: with kinematics and centres of mass computed.
-        rotation: of the frame to express it in, in the world, shape (3, 3).
-    """
-    return np.asarray(rotation.T @ whole_mass(model, data).inertia @ rotation)

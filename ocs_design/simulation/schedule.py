@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.common.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray, interpolated
 from ocs_design.simulation import quaternions
 from ocs_design.simulation.target import RegulatedPlan, Target
 from ocs_design.simulation.wheel_law import WheelLaw
@@ -126,7 +126,7 @@ def _commands(world: World) -> FloatArray:
     stiffness = model.actuator_gainprm[actuators, 0]
     damping = -model.actuator_biasprm[actuators, 2]
     position, velocity, torque = (
-        np.column_stack([np.interp(times, legs.time, column) for column in values.T])
+        interpolated(times, legs.time, values)
         for values in (legs.position, legs.velocity, legs.torque)
     )
     commands[:-1, actuators] = position + (damping * velocity + torque) / stiffness
@@ -157,16 +157,15 @@ def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: floa
     """The trajectory as the law of one world follows it.
 
     Args:
-        trajectory: see `Trajectory`.
         law: of one world.
         times: of the control instants from lift-off or release [s], shape (k,).
         period: from one to the next [s].
     """
     flying = (times < trajectory.time[-1])[:, None]
-    vertical = _at(times, trajectory.time, trajectory.vertical)
+    vertical = interpolated(times, trajectory.time, trajectory.vertical)
     vertical = vertical / np.linalg.norm(vertical, axis=1, keepdims=True)
-    rate = flying * _at(times, trajectory.time, trajectory.rate)
-    speed = _at(times, trajectory.time, trajectory.wheel_speed)
+    rate = flying * interpolated(times, trajectory.time, trajectory.rate)
+    speed = interpolated(times, trajectory.time, trajectory.wheel_speed)
 
     # The mean over each control step of a torque that is linear between samples and zero after the
     # last: held for a step, it gives the momentum that was planned for that step.
@@ -176,14 +175,14 @@ def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: floa
     steps = 0.5 * np.diff(samples)[:, None] * (values[1:] + values[:-1])
     whole = np.vstack([np.zeros(values.shape[1]), np.cumsum(steps, axis=0)])
     part = 0.5 * (until - samples[before])[:, None]
-    integral = whole[before] + part * (values[before] + _at(until, samples, values))
+    integral = whole[before] + part * (values[before] + interpolated(until, samples, values))
     given = np.diff(integral, axis=0) / period
 
     held = _LEVEL if trajectory.gains is None else trajectory.vertical[-1]
     ends = np.where(flying, vertical, held)
     if trajectory.gains is not None and trajectory.attitude is not None:
-        attitude = _at(times, trajectory.time, trajectory.attitude)
-        gains = _at(times, trajectory.time, trajectory.gains.reshape(len(samples), -1))
+        attitude = interpolated(times, trajectory.time, trajectory.attitude)
+        gains = interpolated(times, trajectory.time, trajectory.gains.reshape(len(samples), -1))
         plan = RegulatedPlan(
             attitude / np.linalg.norm(attitude, axis=1, keepdims=True),
             rate,
@@ -197,11 +196,6 @@ def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: floa
     # planned is in the planned torque already.
     planned = law.gyroscopic(rate, speed) @ law.torque_map[0, :, 2:].T
     return Track(ends, rate, given - planned)
-
-
-def _at(times: FloatArray, samples: FloatArray, values: FloatArray) -> FloatArray:
-    """Linear between samples, shape (k, m)."""
-    return np.column_stack([np.interp(times, samples, column) for column in values.T])
 
 
 Steps: TypeAlias = NDArray[np.int64]

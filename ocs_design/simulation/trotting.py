@@ -5,12 +5,11 @@ stand apart, and the device.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from ocs_design.common.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray, interpolated
 from ocs_design.common.errors import SpecificationError
 from ocs_design.jumping.jump import LegTrajectory
 from ocs_design.jumping.legged_body import obstacle_to_jumping
@@ -55,7 +54,7 @@ def waiting(maneuver: Maneuver, robot: Robot, weight: float, settling: float) ->
     """It stands until its legs have given way under its weight, or trots.
 
     Args:
-        maneuver: see `Maneuver`. robot: see `Robot`.
+        robot: see `Robot`.
         weight: of the robot with what it carries [N].
         settling: how long it stands, and is watched afterwards [s].
 
@@ -67,8 +66,8 @@ def waiting(maneuver: Maneuver, robot: Robot, weight: float, settling: float) ->
     if not maneuver.stride:
         return Waiting(settling, None)
     duration = shoved_at(maneuver.stride, TROTTED * settling)
-    trot = Trot(maneuver.stride, settling, duration + settling, weight)
-    return Waiting(duration, trot.references(robot))
+    legs = trot(robot, maneuver.stride, settling, duration + settling, weight)
+    return Waiting(duration, legs)
 
 
 def require_trot(maneuvers: Iterable[Maneuver], robot: Robot) -> None:
@@ -81,50 +80,39 @@ def require_trot(maneuvers: Iterable[Maneuver], robot: Robot) -> None:
         _pairs(robot, leg_geometries(robot.tree, robot.trunk, robot.legs))
 
 
-@dataclass(frozen=True)
-class Trot:
-    """Trot on the spot of one robot.
+def trot(
+    robot: Robot, stride: float, start: float, duration: float, weight: float
+) -> LegTrajectory:
+    """What the joints track in a trot on the spot.
 
-    Attributes:
-        stride: of each foot [s]. start: in which the steps grow from nothing to their height [s].
-        duration: of all of it [s].
+    Args:
+        stride: of each foot [s].
+        start: in which the steps grow from nothing to their height [s]. duration: of all of it [s].
         weight: of the robot with what it carries [N].
+
+    Raises:
+        SpecificationError: the robot has no two diagonal pairs of point feet.
     """
-
-    stride: float
-    start: float
-    duration: float
-    weight: float
-
-    def references(self, robot: Robot) -> LegTrajectory:
-        """What the joints track.
-
-        Raises:
-            SpecificationError: the robot has no two diagonal pairs of point feet.
-        """
-        geometries = leg_geometries(robot.tree, robot.trunk, robot.legs)
-        height = STEP_HEIGHT * Scale.of(robot).length
-        time = np.arange(0.0, self.duration + _SAMPLE, _SAMPLE)
-        growth = np.clip(time / self.start, 0.0, 1.0)
-        # Share of its swing that each foot has behind it, 0 where it stands.
-        phase = (time / self.stride + 0.5 * _pairs(robot, geometries)[:, None]) % 1.0
-        swing = np.maximum(phase - DUTY, 0.0) / (1.0 - DUTY)
-        share = 1.0 - growth * np.minimum(1.0, _UNLOADING * np.sin(np.pi * swing))
-        force = self.weight * share / share.sum(axis=0)
-        lift = height * growth * np.sin(np.pi * swing) ** 2
-        legs = [
-            _Leg.of(each, robot, height).follow(lift[i], force[i])
-            for i, each in enumerate(geometries)
-        ]
-        position = np.hstack([angles for angles, _ in legs])
-        return LegTrajectory(
-            joints=tuple(name for each in geometries for name in each.chain.names),
-            time=time,
-            position=position,
-            velocity=np.gradient(position, _SAMPLE, axis=0),
-            torque=np.hstack([torques for _, torques in legs]),
-            lift_off=0.0,
-        )
+    geometries = leg_geometries(robot.tree, robot.trunk, robot.legs)
+    height = STEP_HEIGHT * Scale.of(robot).length
+    time = np.arange(0.0, duration + _SAMPLE, _SAMPLE)
+    growth = np.clip(time / start, 0.0, 1.0)
+    # Share of its swing that each foot has behind it, 0 where it stands.
+    phase = (time / stride + 0.5 * _pairs(robot, geometries)[:, None]) % 1.0
+    swing = np.maximum(phase - DUTY, 0.0) / (1.0 - DUTY)
+    share = 1.0 - growth * np.minimum(1.0, _UNLOADING * np.sin(np.pi * swing))
+    force = weight * share / share.sum(axis=0)
+    lift = height * growth * np.sin(np.pi * swing) ** 2
+    legs = [_lifting(each, robot, height, lift[i], force[i]) for i, each in enumerate(geometries)]
+    position = np.hstack([angles for angles, _ in legs])
+    return LegTrajectory(
+        joints=tuple(name for each in geometries for name in each.chain.names),
+        time=time,
+        position=position,
+        velocity=np.gradient(position, _SAMPLE, axis=0),
+        torque=np.hstack([torques for _, torques in legs]),
+        lift_off=0.0,
+    )
 
 
 def shoved_at(stride: float, earliest: float) -> float:
@@ -152,35 +140,22 @@ def _pairs(robot: Robot, geometries: tuple[LegGeometry, ...]) -> FloatArray:
     return np.where(feet[:, 0] * feet[:, 1] > 0.0, 0.0, 1.0)
 
 
-@dataclass(frozen=True, eq=False)
-class _Leg:
-    """A leg by the height that its foot is lifted to.
+def _lifting(
+    each: LegGeometry, robot: Robot, highest: float, lift: FloatArray, force: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Joints of a leg [rad or m] and their torques at k instants, shape (k, n) each.
 
-    Attributes:
-        height: [m], shape (m,).
-        position: of the joints [rad or m], shape (m, n).
-        bearing: torque of the joints per force of the ground, upwards, shape (m, n).
+    The foot goes straight up from the nominal posture.
+
+    Args:
+        each: the leg. highest: it lifts its foot [m].
+        lift: of the foot [m], shape (k,). force: of the ground on it, upwards [N], shape (k,).
     """
-
-    height: FloatArray
-    position: FloatArray
-    bearing: FloatArray
-
-    @classmethod
-    def of(cls, each: LegGeometry, robot: Robot, highest: float) -> "_Leg":
-        """The foot straight up from the nominal posture."""
-        chain, leg, heights = each.chain, each.leg, np.linspace(0.0, highest, _HEIGHTS)
-        posture = np.array([robot.posture[name] for name in chain.names])
-        positions = lifted(chain, leg.foot, leg.length, posture, heights)
-        # Torques with which the joints hold against 1 N on the foot, upwards.
-        poses = [chain.pose(values) for values in positions]
-        bearing = [-chain.point_jacobian(pose, pose.point(leg.foot))[2] for pose in poses]
-        return cls(heights, positions, np.array(bearing))
-
-    def follow(self, lift: FloatArray, force: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Joints and their torques at k instants, shape (k, n) each."""
-        position, bearing = (
-            np.column_stack([np.interp(lift, self.height, column) for column in values.T])
-            for values in (self.position, self.bearing)
-        )
-        return position, bearing * force[:, None]
+    chain, leg, heights = each.chain, each.leg, np.linspace(0.0, highest, _HEIGHTS)
+    posture = np.array([robot.posture[name] for name in chain.names])
+    positions = lifted(chain, leg.foot, leg.length, posture, heights)
+    # Torques with which the joints hold against 1 N on the foot.
+    poses = [chain.pose(values) for values in positions]
+    bearing = [-chain.point_jacobian(pose, pose.point(leg.foot))[2] for pose in poses]
+    torques = interpolated(lift, heights, np.array(bearing)) * force[:, None]
+    return interpolated(lift, heights, positions), torques

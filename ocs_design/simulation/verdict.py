@@ -105,7 +105,7 @@ def _landing_verdict(
         return failure
     landing, final = f"{_ends(maneuver)} at {_tilt(metrics)}", _final_tilt(metrics)
     if isinstance(maneuver, TurnTo):
-        landing += f", heading turned by {_degrees(float(np.degrees(metrics.heading_drift)))} deg"
+        landing += f", heading turned by {_degrees(metrics.heading_drift)} deg"
     if not maneuver.gravity:
         return Verdict(True, landing)
     if can_stand is None:
@@ -129,28 +129,25 @@ def _landing_verdict(
 
 def _shove_verdict(metrics: Metrics, can_stand: bool | None) -> Verdict:
     """Verdict on a robot that is shoved as it stands; see `judge`."""
+    unjudged = ""
     if can_stand is None:
-        unsupported = "not judged: without legs there is nothing to stand on"
-        return Verdict(None, unsupported, Fault.UNSOUND)
-    if not can_stand:
-        falls = "not judged: the legs do not keep the robot up, not even unshoved"
-        return Verdict(None, falls, Fault.UNSOUND)
+        unjudged = "without legs there is nothing to stand on"
+    elif not can_stand:
+        unjudged = "the legs do not keep the robot up, not even unshoved"
     # What a shove has for touchdown is the instant that it begins.
-    if _off_level(metrics):
-        leans = (
-            f"not judged: the robot does not stand level by itself: it leans by {_tilt(metrics)} "
-            f"before the shove"
+    elif _off_level(metrics):
+        unjudged = (
+            f"the robot does not stand level by itself: it leans by {_tilt(metrics)} before the "
+            "shove"
         )
-        return Verdict(None, leans, Fault.UNSOUND)
-    if metrics.touchdown_rate > REST_RATE:
-        rate = np.degrees(metrics.touchdown_rate)
-        turns = (
-            f"not judged: the robot does not stand still by itself: it turns at {rate:.0f} deg/s "
-            f"before the shove"
+    elif metrics.touchdown_rate > REST_RATE:
+        unjudged = (
+            "the robot does not stand still by itself: it turns at "
+            f"{np.degrees(metrics.touchdown_rate):.0f} deg/s before the shove"
         )
-        return Verdict(None, turns, Fault.UNSOUND)
-    pitch, roll = np.degrees([metrics.pitch_swing, metrics.roll_swing])
-    swing = f"swings by pitch {_degrees(pitch)}, roll {_degrees(roll)} deg from peak to peak"
+    if unjudged:
+        return Verdict(None, f"not judged: {unjudged}", Fault.UNSOUND)
+    swing = f"swings by {_angles(metrics.pitch_swing, metrics.roll_swing)} from peak to peak"
     if not metrics.upright_at_end:
         ends = f"{swing} and does not stay up: ends at {_final_tilt(metrics)}"
         return Verdict(False, ends, Fault.STANDING)
@@ -159,9 +156,10 @@ def _shove_verdict(metrics: Metrics, can_stand: bool | None) -> Verdict:
 
 def _pivot_verdict(metrics: Metrics, maneuver: Pivoted) -> Verdict:
     """Verdict on a robot on a pivot; see `judge`."""
-    rate = np.degrees(metrics.touchdown_rate)
-    is_at = f"is at {_tilt(metrics)} off balance after {maneuver.duration:.3g} s, turning at "
-    is_at += f"{rate:.1f} deg/s"
+    is_at = (
+        f"is at {_tilt(metrics)} off balance after {maneuver.duration:.3g} s, turning at "
+        f"{np.degrees(metrics.touchdown_rate):.1f} deg/s"
+    )
     in_time = not _off_level(metrics) and metrics.touchdown_rate <= REST_RATE
     off = max(abs(metrics.final_roll), abs(metrics.final_pitch))
     if not in_time or not metrics.upright_at_end or off > LANDING_TOLERANCE:
@@ -219,19 +217,19 @@ def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> Verdict | None:
         isinstance(maneuver, Flip)
         and abs(metrics.turned_angle - maneuver.angle) > LANDING_TOLERANCE
     ):
-        turned, asked = np.degrees([metrics.turned_angle, maneuver.angle])
-        failure = f"turns {_degrees(turned)} of {asked:.0f} deg before touchdown"
+        share = f"{_degrees(metrics.turned_angle)} of {np.degrees(maneuver.angle):.0f} deg"
+        failure = f"turns {share} before touchdown"
         return Verdict(False, failure, Fault.TURN)
     _, _, heading = landing_attitude(maneuver)
     if heading is not None:
         turned = metrics.heading_drift
         if abs(remainder(turned - heading, tau)) > LANDING_TOLERANCE:
-            made, asked = (_degrees(float(np.degrees(angle))) for angle in (turned, heading))
-            failure = f"{_ends(maneuver)} with its heading turned by {made} of {asked} deg"
+            made = f"{_degrees(turned)} of {_degrees(heading)} deg"
+            failure = f"{_ends(maneuver)} with its heading turned by {made}"
             return Verdict(False, failure, Fault.TURN)
     if failure := _landing_failure(metrics, maneuver):
         if isinstance(maneuver, Flip) and abs(remainder(maneuver.angle, tau)) > LANDING_TOLERANCE:
-            asked = _degrees(float(np.degrees(maneuver.angle)))
+            asked = _degrees(maneuver.angle)
             failure += f": a turn of {asked} deg does not end level, one of 360deg does"
         return Verdict(False, failure, Fault.LANDING)
     return None
@@ -258,8 +256,7 @@ def _landing_failure(metrics: Metrics, maneuver: Maneuver) -> str:
         return _off_level(metrics)
     if off_at_touchdown(metrics, maneuver) <= LANDING_TOLERANCE:
         return ""
-    asked = _angles(pitch, roll)
-    return f"{_ends(maneuver)} at {_tilt(metrics)}, not at {asked}"
+    return f"{_ends(maneuver)} at {_tilt(metrics)}, not at {_angles(pitch, roll)}"
 
 
 def _vertical(roll: float, pitch: float) -> FloatArray:
@@ -301,10 +298,10 @@ def _final_tilt(metrics: Metrics) -> str:
 
 
 def _angles(pitch: float, roll: float) -> str:
-    pitch, roll = np.degrees([pitch, roll])
     return f"pitch {_degrees(pitch)}, roll {_degrees(roll)} deg"
 
 
-def _degrees(value: float) -> str:
-    """One digit, and no minus in front of zero."""
-    return f"{value:.1f}".replace("-0.0", "0.0") if abs(value) < 0.05 else f"{value:.1f}"
+def _degrees(angle: float) -> str:
+    """Angle [rad] in degrees with one digit, and no minus in front of zero."""
+    text = f"{np.degrees(angle):.1f}"
+    return "0.0" if text == "-0.0" else text

@@ -11,8 +11,8 @@ from enum import StrEnum
 
 import numpy as np
 
-from ocs_design.common.arrays import FloatArray, Table
-from ocs_design.simulation.motor_limits import USED, MotorLimits, clipped, within_supply
+from ocs_design.common.arrays import FloatArray, Table, stacked_columns
+from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.target import Target
 from ocs_design.sizing.trajectory.gyrostat import OUT_OF_REACH, Gyrostat
 
@@ -45,8 +45,7 @@ class WheelLaw(Table):
             not span all three axes.
         stiffness, damping: `Gains`, shape (n,).
         standing_stiffness, standing_damping: in their place on the ground, shape (n,).
-        line_slope, torque_limit, speed_max: see `MotorLimits`, shape (n,).
-        copper, efficiency: likewise. no_load_speed, power_max: that the law uses [rad/s, W], (n,).
+        limits: of the motors as the law uses them, arrays of shape (n, 1).
         wheel_response: see `Gyrostat`, shape (n,).
     """
 
@@ -55,13 +54,7 @@ class WheelLaw(Table):
     heading_map: FloatArray
     stiffness: FloatArray
     damping: FloatArray
-    no_load_speed: FloatArray
-    line_slope: FloatArray
-    torque_limit: FloatArray
-    speed_max: FloatArray
-    copper: FloatArray
-    efficiency: FloatArray
-    power_max: FloatArray
+    limits: MotorLimits
     wheel_response: FloatArray
     standing_stiffness: FloatArray
     standing_damping: FloatArray
@@ -96,13 +89,7 @@ class WheelLaw(Table):
             (-shared @ from_yaw)[None],
             np.array([gains.stiffness]),
             np.array([gains.damping]),
-            np.array([USED * limits.no_load_speed]),
-            np.array([limits.line_slope]),
-            np.array([limits.torque_limit]),
-            np.array([limits.speed_max]),
-            np.array([limits.copper]),
-            np.array([limits.efficiency]),
-            np.array([USED * limits.power_max]),
+            stacked_columns([limits.used]),
             np.array([body.wheel_response]),
             np.array([gains.stiffness if balances else 0.0]),
             np.array([gains.damping]),
@@ -113,12 +100,13 @@ class WheelLaw(Table):
         """No torque, in one world."""
         one, none = np.ones(1), np.zeros(1)
         maps = np.zeros((1, 3, 3 + wheels)), np.zeros((1, wheels, 5)), np.zeros((1, wheels))
-        return cls(*maps, none, none, one, one, none, one, none, one, np.inf * one, one, none, none)
+        limits = stacked_columns([MotorLimits(1.0, 1.0, 0.0, 1.0)])
+        return cls(*maps, none, none, limits, one, none, none)
 
     @property
     def is_off(self) -> bool:
         """Whether none of the motors ever pushes."""
-        return not self.torque_limit.any()
+        return not np.any(self.limits.torque_limit)
 
     def torque(
         self,
@@ -157,38 +145,13 @@ class WheelLaw(Table):
             asked = np.where(target.plan.holds[:, None], planned, asked)
         if target.shared is not None:
             asked = np.einsum("nij,nj->ni", target.shared, asked)
-        return self.within_supply(
-            self.within_motors(asked, wheel_speed, period), wheel_speed, period
-        )
+        return self.possible(asked, wheel_speed, period)
 
-    def within_motors(
-        self, torque: FloatArray, wheel_speed: FloatArray, period: float
-    ) -> FloatArray:
-        """Torques cut to what each motor can give, see `clipped`; shapes as of `torque`."""
-        return clipped(
-            torque,
-            wheel_speed,
-            gain=(self.wheel_response * period)[:, None],
-            line_slope=self.line_slope[:, None],
-            no_load_speed=self.no_load_speed[:, None],
-            torque_limit=self.torque_limit[:, None],
-            speed_max=self.speed_max[:, None],
-        )
-
-    def within_supply(
-        self, torque: FloatArray, wheel_speed: FloatArray, period: float
-    ) -> FloatArray:
-        """Torques of the motors cut to what the supply can give, see the function of that name."""
-        if np.isinf(self.power_max).all():
-            return torque
-        return within_supply(
-            torque,
-            wheel_speed,
-            gain=(self.wheel_response * period)[:, None],
-            copper=self.copper[:, None],
-            efficiency=self.efficiency[:, None],
-            power_max=self.power_max[:, None],
-        )
+    def possible(self, torque: FloatArray, wheel_speed: FloatArray, period: float) -> FloatArray:
+        """Torques cut to what motors and supply can give; shapes as of `torque`."""
+        gain = (self.wheel_response * period)[:, None]
+        cut = self.limits.clipped(torque, wheel_speed, gain)
+        return self.limits.within_supply(cut, wheel_speed, gain)
 
     def gyroscopic(self, rate: FloatArray, wheel_speed: FloatArray) -> FloatArray:
         """`w x (I_tot w + h A W)` [N m], shape (n, 3), or (k, 3) of k states of a single world."""

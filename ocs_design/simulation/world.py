@@ -144,7 +144,7 @@ class World:
         ctrl: of the joint drives, which hold the nominal posture, shape (nu,).
         support: added to it while the feet bear the weight, so that the legs do not give way under
             it, shape (nu,); zero where a trot has torques of its own.
-        addresses: see `Addresses`. wheels: their names. chain: see `TrunkChain`.
+        wheels: their names.
         body: what the law believes in, measured on the model at the start.
         law: of the wheels. turn: what the trunk should do. pushes: what hits it.
         limits: of the motors; None where the wheels are not driven, or by no limited torque.

@@ -1,6 +1,6 @@
 """From a maneuver to the worlds that fly it: start, law, legs and wheels of one robot."""
 
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 import mujoco
 import numpy as np
@@ -24,13 +24,13 @@ from ocs_design.simulation.launch import (
     place,
 )
 from ocs_design.simulation.motor_limits import MotorLimits
-from ocs_design.simulation.reference import FittedTurn, Profile, Quintic, fit_turn
+from ocs_design.simulation.physics import Engine
+from ocs_design.simulation.reference import Profile, Quintic, fit_turn
 from ocs_design.simulation.scene import (
     JUMP_STEP,
     Sensor,
     Wheels,
     compile_scene,
-    locked_inertia,
     robot_scene,
     whole_mass,
 )
@@ -45,25 +45,38 @@ PAPER_GAINS = Gains(stiffness=60.0, damping=12.0)
 """K_p and K_d of all robots where none are stated."""
 
 
+@dataclass(frozen=True)
+class Options:
+    """How to simulate.
+
+    Attributes:
+        allocation: of the torque to the wheels.
+        gains: of the wheel law; None: `wheel_gains` of the robot.
+        drop_profile: how a dropped robot is turned to level; `Step()` is the paper's command.
+        hold: steps of 1 ms per control step.
+        desaturate: whether the wheels are braked while the robot stands.
+        threads: of the physics; None: one per processor.
+        pose_rate: of the recorded poses [1/s]; None: none are.
+        engine: of the physics; None: MuJoCo on the processors.
+    """
+
+    allocation: Allocation = Allocation.PSEUDO_INVERSE
+    gains: Gains | None = None
+    drop_profile: Profile = field(default_factory=Quintic)
+    hold: int = 5
+    desaturate: bool = False
+    threads: int | None = None
+    pose_rate: float | None = None
+    engine: Engine | None = None
+
+
 class WorldBuilder:
     """Builds the worlds of one robot; its scene is made once."""
 
-    def __init__(
-        self,
-        robot: Robot,
-        device: Device,
-        *,
-        allocation: Allocation = Allocation.PSEUDO_INVERSE,
-        gains: Gains | None = None,
-        drop_profile: Profile | None = None,
-        desaturate: bool = False,
-    ) -> None:
-        self._robot = robot
-        self._device = device
-        self._allocation = allocation
-        self._gains = wheel_gains(robot) if gains is None else gains
-        self._drop_profile = Quintic() if drop_profile is None else drop_profile
-        self._desaturate = desaturate
+    def __init__(self, robot: Robot, device: Device, options: Options | None = None) -> None:
+        self._robot, self._device = robot, device
+        self._options = options or Options()
+        self._gains = self._options.gains or wheel_gains(robot)
         self._limits = MotorLimits.of(device.motor, device.supply, len(device.modules))
         self._scene = robot_scene(robot)
 
@@ -77,8 +90,6 @@ class WorldBuilder:
         """The maneuver with the wheels active, braked or absent.
 
         Args:
-            maneuver: see `Maneuver`.
-            wheels: see `Wheels`.
             trajectory: that active wheels track; None: a smooth turn that suits them. A disturbance
                 is not known beforehand, and is met by feedback alone.
             jump: how the legs push the robot off the ground, if they do.
@@ -117,7 +128,7 @@ class WorldBuilder:
             # Only now: in every flight the drives are the same.
             model.opt.timestep = JUMP_STEP
         body = Gyrostat(
-            locked_inertia(model, data, np.eye(3)),
+            whole_mass(model, data).inertia,
             device.axes,
             device.flywheel.spin_inertia,
             device.motor.armature,
@@ -132,7 +143,7 @@ class WorldBuilder:
         elif level:
             start = level_launch(maneuver, standing)
         else:
-            start = launch(maneuver, standing, self._drop_profile)
+            start = launch(maneuver, standing, self._options.drop_profile)
         flight = flight_time(maneuver, start, standing)
         settling = settling_time(self._robot, maneuver.gravity or STANDARD_GRAVITY)
         weight = float(model.body_mass.sum()) * maneuver.gravity
@@ -144,15 +155,18 @@ class WorldBuilder:
             standing, duration = -np.inf, (1.0 + HELD_ON) * pivoted.duration
 
         active = wheels is Wheels.ACTIVE
-        fitted = FittedTurn(start.turn, "" if trajectory is None else trajectory.note)
+        turn = start.turn
         if active and trajectory is None:
-            fitted = fit_turn(start.turn, body, self._limits)
+            turn = fit_turn(turn, body, self._limits)
+        changed = turn.note if trajectory is None else trajectory.note
         law, desaturation = WheelLaw.off(len(device.modules)), None
         if active:
             # One leg or two on the ground hold no attitude.
             balances = 0 < len(self._robot.legs) < STEADY_LEGS
-            law = WheelLaw.of(body, self._gains, self._limits, self._allocation, balances=balances)
-        if active and self._desaturate:
+            law = WheelLaw.of(
+                body, self._gains, self._limits, self._options.allocation, balances=balances
+            )
+        if active and self._options.desaturate:
             desaturation = Desaturation.of(
                 self._robot, standing, body.spin_inertia, maneuver.gravity
             )
@@ -180,7 +194,7 @@ class WorldBuilder:
             body=body,
             law=law,
             limits=self._limits if active and self._limits.is_finite else None,
-            turn=fitted.turn,
+            turn=turn,
             trajectory=trajectory,
             legs=waits.legs or legs,
             pushes=(start.push,),
@@ -190,7 +204,7 @@ class WorldBuilder:
             flight_time=flight,
             duration=duration,
             settles=None if pivoted is None else pivoted.duration,
-            note="; ".join(filter(None, (jump.note, fitted.note))),
+            note="; ".join(filter(None, (jump.note, changed))),
             desaturation=desaturation,
         )
 

@@ -169,9 +169,7 @@ def _write_controller(name: str, where: Whereabouts, folder: Path) -> None:
     from ocs_design.requirement.sections import ValidationSection  # noqa: PLC0415
     from ocs_design.requirement.specification import Specification  # noqa: PLC0415
     from ocs_design.simulation.firmware import write_controller  # noqa: PLC0415
-    from ocs_design.simulation.scenario import world_builder  # noqa: PLC0415
-    from ocs_design.simulation.scene import Wheels  # noqa: PLC0415
-    from ocs_design.workflows.flying import flight_options, read_task  # noqa: PLC0415
+    from ocs_design.workflows.flying import read_task  # noqa: PLC0415
 
     # How the legs make the flight is not the wheels' business.
     task = read_task(
@@ -180,15 +178,11 @@ def _write_controller(name: str, where: Whereabouts, folder: Path) -> None:
         robot_file=where.robot_file,
         package_paths=where.package_paths,
     )
-    builder = world_builder(task.robot, task.device, flight_options(task.control))
     delay = task.uncertainty.torque_delay
     folder.mkdir()
     write_controller(
         name,
-        {
-            each.name: builder.flight(each, Wheels.ACTIVE, task.references.get(each.name))
-            for each in task.maneuvers
-        },
+        {each.name: task.driven(each) for each in task.maneuvers},
         folder,
         joints=joint_names(task.device),
         period=task.control.period,

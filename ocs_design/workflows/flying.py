@@ -3,7 +3,6 @@
 import hashlib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,6 +13,7 @@ from ocs_design.common.files import AnyPath
 from ocs_design.device.device import Device
 from ocs_design.device.records.design import OcsDesign, design_file, read_design
 from ocs_design.device.records.flights import ControlRecord, SurvivalRecord, ValidationRecord
+from ocs_design.device.records.selection import ReserveRecord
 from ocs_design.export.physics import STEP
 from ocs_design.jumping.jump import JumpPlans
 from ocs_design.monte_carlo.campaign import Campaign, make_campaign
@@ -27,9 +27,9 @@ from ocs_design.requirement.uncertainty import UncertaintySection, entries, unce
 from ocs_design.requirement.vocabulary import CONTROL_PERIOD
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.run import Run
-from ocs_design.simulation.scenario import Options, fly_stopped, run_scenarios
+from ocs_design.simulation.scenario import Flights, fly_stopped, run_scenarios
 from ocs_design.simulation.wheel_law import Allocation, Gains
-from ocs_design.simulation.world_builder import wheel_gains
+from ocs_design.simulation.world_builder import Options, wheel_gains
 from ocs_design.sizing.trajectory.motion import Trajectory
 from ocs_design.workflows.restoring import Whereabouts, device_of, maneuver_of, read_recorded_robot
 
@@ -80,6 +80,28 @@ def overridden(control: ControlRecord, stated: ValidationSection) -> ControlReco
     return replace(control, period=period, **changes)
 
 
+def planned(
+    robot: Robot,
+    device: Device,
+    maneuvers: Sequence[Maneuver],
+    kept: ReserveRecord | None,
+    *,
+    one_stops: bool,
+) -> Mapping[str, "Reference"]:
+    """Turns that the flights track, by the maneuvers' names.
+
+    Args:
+        robot: that flies. device: on it, with a motor. maneuvers: to plan.
+        kept: reserve that the device was sized with. one_stops: whether one of its drives may stop.
+    """
+    # CasADi takes a third of a second to import, and wheels without a motor do without.
+    from ocs_design.sizing.trajectory.plans import plan  # noqa: PLC0415
+
+    demands, standing = None if kept is None else kept.demands, standing_height(robot)
+    flying = robot.mass_properties
+    return plan(flying, device, maneuvers, standing, demands, one_stops=one_stops)
+
+
 def trajectories(plans: Mapping[str, "Reference"]) -> Mapping[str, Trajectory]:
     """Trajectories that flights track; what has none is met by feedback or by a smooth turn."""
     return {
@@ -102,54 +124,29 @@ def jump_plans(
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Flights:
-    """Robot, device and maneuvers to be flown, as designed and as they might be built.
+class Planned(Flights):
+    """Flights of a design, told of as they are flown.
 
     Attributes:
-        robot: that flies. device: on it.
-        maneuvers: see `Maneuver`.
-        control: the wheel law.
-        references: what the device tracks, by the maneuver's name.
-        jumps: how the legs make a maneuver, by its name.
+        control: the wheel law, from which the options are.
         detection: time until a stopped drive is known, where one stops in flights too [s].
     """
 
-    robot: Robot
-    device: Device
-    maneuvers: tuple[Maneuver, ...]
     control: ControlRecord
-    references: Mapping[str, Trajectory]
-    jumps: Mapping[str, JumpPlans]
     detection: float | None = None
 
     def fly(self, steps: Steps, *, pose_rate: float | None = None) -> tuple[Run, ...]:
         """Flights of every maneuver as designed, with the device and without (`run_scenarios`)."""
+        posed = replace(self, options=replace(self.options, pose_rate=pose_rate))
         with steps.step("fly the maneuvers with and without the device") as step:
-            return run_scenarios(
-                self.robot,
-                self.device,
-                self.maneuvers,
-                options=replace(flight_options(self.control), pose_rate=pose_rate),
-                references=self.references,
-                jumps=self.jumps,
-                progress=step.update,
-            )
+            return run_scenarios(posed, step.update)
 
     def fly_stopped(self, steps: Steps) -> SurvivalRecord | None:
         """Flights of every maneuver with each drive stopping on the way; None where none has to."""
         if self.detection is None:
             return None
         with steps.step("fly them with each drive stopping on the way") as step:
-            found = fly_stopped(
-                self.robot,
-                self.device,
-                self.maneuvers,
-                self.detection,
-                options=flight_options(self.control),
-                references=self.references,
-                jumps=self.jumps,
-                progress=step.update,
-            )
+            found = fly_stopped(self, self.detection, step.update)
             step.note = f"{len(found.lost)} of {len(found.flights)} end beyond the allowance"
         return found
 
@@ -163,21 +160,13 @@ class Flights:
             stated: how what is built and met differs from the design.
             seed: of all samples.
         """
-        return make_campaign(
-            self.robot,
-            self.device,
-            self.maneuvers,
-            options=flight_options(self.control),
-            references=self.references,
-            jumps=self.jumps,
-            can_stand=[run.can_stand for run in runs if run.ocs],
-            uncertainty=Uncertainty.of(stated, self.robot, self.device, self.detection),
-            seed=seed,
-        )
+        uncertainty = Uncertainty.of(stated, self.robot, self.device, self.detection)
+        can_stand = [run.can_stand for run in runs if run.ocs]
+        return make_campaign(self, can_stand=can_stand, uncertainty=uncertainty, seed=seed)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Task(Flights):
+class Task(Planned):
     """Flights of a design that was read, of at least one maneuver.
 
     Attributes:
@@ -234,19 +223,9 @@ def read_task(
     references: Mapping[str, Trajectory] = {}
     if design.selection is not None:
         # A plan is a few hundred numbers that follow from the design: they are planned once more.
-        # CasADi takes a third of a second to import, and wheels without a motor do without.
-        planning = import_module("ocs_design.sizing.trajectory.plans")
-        kept, standing = design.selection.kept, standing_height(robot)
-        demands = None if kept is None else kept.demands
-        plans = planning.plan(
-            robot.mass_properties,
-            device,
-            maneuvers,
-            standing,
-            demands,
-            one_stops=design.requirement.detection is not None,
-        )
-        references = trajectories(plans)
+        stops = design.requirement.detection is not None
+        kept = design.selection.kept
+        references = trajectories(planned(robot, device, maneuvers, kept, one_stops=stops))
     return Task(
         path=path,
         design=design,
@@ -254,6 +233,7 @@ def read_task(
         device=device,
         maneuvers=maneuvers,
         control=control,
+        options=flight_options(control),
         # A file takes the place of everything that the design was sized with.
         uncertainty=stated.reality
         if stated.reality.file is not None

@@ -54,7 +54,13 @@ from ocs_design.sizing.reserve import Reserve
 from ocs_design.sizing.selection.rejections import Refused
 from ocs_design.sizing.sized import Designed
 from ocs_design.sizing.specified import CannotSurvive
-from ocs_design.workflows.flying import Flights, control_of, trajectories
+from ocs_design.workflows.flying import (
+    Planned,
+    control_of,
+    flight_options,
+    planned,
+    trajectories,
+)
 
 if TYPE_CHECKING:
     from ocs_design.jumping.planning import JumpPlanning
@@ -279,18 +285,9 @@ def references_of(placed: Placed, maneuvers: Sequence[Maneuver]) -> Mapping[str,
     """Turns that the flights track, by name; none without a motor's figures to plan for."""
     if placed.designed.choice is None or not maneuvers:
         return {}
-    # CasADi takes a third of a second to import, and wheels without a motor do without.
-    from ocs_design.sizing.trajectory.plans import plan  # noqa: PLC0415
-
-    requirement, kept = placed.resolved.requirement, placed.designed.kept
-    return plan(
-        placed.robot.mass_properties,
-        placed.designed.device,
-        maneuvers,
-        requirement.standing_height,
-        None if kept is None else kept.demands,
-        one_stops=requirement.detection is not None,
-    )
+    robot, designed = placed.robot, placed.designed
+    stops = placed.resolved.requirement.detection is not None
+    return planned(robot, designed.device, maneuvers, designed.kept, one_stops=stops)
 
 
 def turns_not_made(placed: Placed, references: Mapping[str, "Reference"]) -> Iterator[str]:
@@ -334,7 +331,7 @@ class Proof:
     """
 
     references: Mapping[str, "Reference"]
-    flights: Flights
+    flights: Planned
     runs: tuple[Run, ...] = ()
     survival: SurvivalRecord | None = None
     certificate: Certificate | None = None
@@ -350,11 +347,13 @@ def prove(placed: Placed, stated: ValidationSection, steps: Steps) -> Proof:
             jumps = {} if placed.jumping is None else dict(placed.jumping.plans())
             others = [name for name, jump in jumps.items() if jump.carrying.legs is None]
             step.note = f"at lift-off starts: {', '.join(others)}" if others else ""
-    flights = Flights(
-        robot=placed.robot,
-        device=placed.designed.device,
-        maneuvers=requirement.maneuvers,
-        control=control_of(stated, placed.robot),
+    control = control_of(stated, placed.robot)
+    flights = Planned(
+        placed.robot,
+        placed.designed.device,
+        requirement.maneuvers,
+        flight_options(control),
+        control=control,
         references=trajectories(references),
         jumps=jumps,
         detection=requirement.detection,

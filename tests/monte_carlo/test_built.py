@@ -161,8 +161,8 @@ def test_friction_takes_its_part_of_the_torque_once(solo12):
     def given(speed):
         asked = np.copysign(9.0, speed)
         drives = Drives([robot.imperfections], response=response, instants=1, hold=5, step=1e-3)
-        _, real = drives.driven(0, robot.law.within_motors(asked, speed, 5e-3), speed)
-        return real[0, 0], law.within_motors(asked, speed, 5e-3)[0]
+        _, real = drives.driven(0, robot.law.possible(asked, speed, 5e-3), speed)
+        return real[0, 0], law.possible(asked, speed, 5e-3)[0]
 
     real, nominal = given(np.array([[10.0, -20.0]]))
     np.testing.assert_allclose(np.abs(nominal), device.motor.torque_limit)

@@ -8,7 +8,7 @@ from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.simulation.desaturation import SETTLING
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.world_builder import WorldBuilder
+from ocs_design.simulation.world_builder import Options, WorldBuilder
 
 
 @pytest.fixture(scope="module")
@@ -16,7 +16,7 @@ def landed(solo12):
     """The push leaves momentum in the wheels; the same without and with braking."""
     jump = default_maneuvers(solo12)[0]
     worlds = [
-        WorldBuilder(solo12, paper_device(), desaturate=brake).flight(jump, Wheels.ACTIVE)
+        WorldBuilder(solo12, paper_device(), Options(desaturate=brake)).flight(jump, Wheels.ACTIVE)
         for brake in (False, True)
     ]
     return simulate(worlds), worlds

@@ -11,7 +11,7 @@ from wheels import paper_device, paper_maneuvers
 from ocs_design.simulation.batch import Recording, pose_stride
 from ocs_design.simulation.engine import poses_of, simulate
 from ocs_design.simulation.launch import Push
-from ocs_design.simulation.scenario import Options, run_scenarios
+from ocs_design.simulation.scenario import Flights, Options, run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world_builder import WorldBuilder
 
@@ -163,5 +163,7 @@ def test_a_pose_is_never_wanted_between_two_control_steps():
 
 def test_runs_carry_their_poses(solo12):
     maneuver = paper_maneuvers(solo12)[1]
-    runs = run_scenarios(solo12, paper_device(), [maneuver], options=Options(pose_rate=30.0))
+    runs = run_scenarios(
+        Flights(solo12, paper_device(), [maneuver], options=Options(pose_rate=30.0))
+    )
     assert [len(run.poses.qpos) for run in runs] == [len(run.poses.time) for run in runs]

@@ -22,7 +22,7 @@ from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.firmware import targets_of, write_controller
 from ocs_design.simulation.reference import Quintic
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.world_builder import WorldBuilder
+from ocs_design.simulation.world_builder import Options, WorldBuilder
 from ocs_design.sizing.trajectory.plans import drive_line_of
 from ocs_design.sizing.trajectory.tracking import tracking_gains
 
@@ -32,7 +32,7 @@ WOUND = replace(EC45, resistance=0.6, torque_constant=0.037)
 
 def worlds_of(solo12, device, *, desaturate):
     """The paper's three maneuvers; those that are foreseen with a plan."""
-    builder = WorldBuilder(solo12, device, desaturate=desaturate)
+    builder = WorldBuilder(solo12, device, Options(desaturate=desaturate))
     worlds = {}
     for each in default_maneuvers(solo12):
         world = builder.flight(each, Wheels.ACTIVE)

@@ -18,9 +18,19 @@ from ocs_design.simulation.imperfections import (
     cylinder_drag,
     disc_drag,
 )
+from ocs_design.simulation.motor_limits import MotorLimits
 
 NO_AIR = AirDrag(np.array([0.0, 1.0]), np.zeros(2))
 BOTH = np.ones(2)
+UNLIMITED = MotorLimits(
+    no_load_speed=np.inf * BOTH,
+    line_slope=0.0 * BOTH,
+    torque_limit=np.inf * BOTH,
+    speed_max=np.array([np.inf]),
+    copper=0.0 * BOTH,
+    efficiency=BOTH[:1],
+    power_max=np.array([np.inf]),
+)
 PERFECT = Imperfections(
     attitude_bias=np.zeros(2),
     gyro_bias=np.zeros(3),
@@ -28,12 +38,7 @@ PERFECT = Imperfections(
     gyro_noise=0.0,
     stream=np.random.SeedSequence(1),
     torque_gain=BOTH,
-    no_load_speed=np.inf * BOTH,
-    line_slope=0.0 * BOTH,
-    torque_limit=np.inf * BOTH,
-    copper=0.0 * BOTH,
-    efficiency=1.0,
-    power_max=np.inf,
+    limits=UNLIMITED,
     coulomb=0.0 * BOTH,
     viscous=0.0 * BOTH,
     air=NO_AIR,
@@ -90,7 +95,8 @@ def test_air_holds_a_wheel_back_as_its_table_says():
 def test_a_supply_gives_and_takes_what_it_can_whatever_the_motors_are(speed):
     """R (tau / k_t)^2 + tau W of both, where tau is 1.09 of the command and so is k_t."""
     copper, limit, held = 0.1 / 0.02**2 / 1.09**2, 100.0, HOLD * STEP / INERTIA
-    own = replace(PERFECT, torque_gain=1.09 * BOTH, copper=copper * BOTH, power_max=limit)
+    limits = replace(UNLIMITED, copper=copper * BOTH, power_max=np.array([limit]))
+    own = replace(PERFECT, torque_gain=1.09 * BOTH, limits=limits)
     speed, command = np.array([speed]), np.array([[0.06, -0.06]])
     mean, acting = drives(own).driven(0, command, speed)
 
@@ -121,13 +127,13 @@ def test_a_command_takes_effect_after_its_delay(delay):
 
 
 def test_a_real_motor_gives_its_own_torque_within_its_own_limits():
-    own = replace(
-        PERFECT,
-        torque_gain=np.array([1.1, 0.9]),
+    limits = replace(
+        UNLIMITED,
         torque_limit=np.array([0.5, 0.2]),
         no_load_speed=np.array([100.0, np.inf]),
         line_slope=np.array([50.0, 0.0]),
     )
+    own = replace(PERFECT, torque_gain=np.array([1.1, 0.9]), limits=limits)
     mean, _ = drives(own).driven(0, np.array([[0.3, 0.3]]), np.zeros((1, 2)))
     np.testing.assert_allclose(mean, [[0.33, 0.2]], rtol=1e-12)
     # On its line at 98 rad/s: what is left of the voltage, at the speed that the step ends with.

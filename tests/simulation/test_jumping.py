@@ -15,7 +15,7 @@ from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.maneuver import Shove
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.metrics import measure, series_of
-from ocs_design.simulation.scenario import run_scenarios
+from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import JUMP_STEP, Wheels
 from ocs_design.simulation.schedule import FlightClock, LegReferences
 from ocs_design.simulation.verdict import MOMENTUM_GATE
@@ -44,7 +44,7 @@ def world(builder, disturbance, jumps):
 
 @pytest.fixture(scope="module")
 def runs(solo12, disturbance, jumps):
-    return run_scenarios(solo12, paper_device(), [disturbance], jumps=jumps)
+    return run_scenarios(Flights(solo12, paper_device(), [disturbance], jumps=jumps))
 
 
 def test_from_the_ground_the_device_lands_the_disturbed_jump_and_nothing_else_does(runs):
@@ -74,10 +74,10 @@ def test_a_flight_whose_momentum_is_off_is_flown_again_in_half_the_step(
     """Solo12's braking legs at 1 ms; runs that keep their momentum are left as they are."""
     monkeypatch.setattr("ocs_design.simulation.world_builder.JUMP_STEP", STEP)
     monkeypatch.setattr("ocs_design.simulation.scenario.HALVINGS", 0)
-    coarse = run_scenarios(solo12, paper_device(), [disturbance], jumps=jumps)
+    coarse = run_scenarios(Flights(solo12, paper_device(), [disturbance], jumps=jumps))
     monkeypatch.undo()
     monkeypatch.setattr("ocs_design.simulation.world_builder.JUMP_STEP", STEP)
-    refined = run_scenarios(solo12, paper_device(), [disturbance], jumps=jumps)
+    refined = run_scenarios(Flights(solo12, paper_device(), [disturbance], jumps=jumps))
     is_off = [run.metrics.momentum_error > MOMENTUM_GATE for run in coarse]
     assert any(is_off)
     for before, after, fine, off in zip(coarse, refined, runs, is_off, strict=True):
@@ -210,7 +210,9 @@ def test_legs_too_weak_to_jump_are_not_judged(solo12, disturbance, jumps):
     )
     stays = JumpPlan(still, "")
     runs = run_scenarios(
-        solo12, paper_device(), [disturbance], jumps={"disturbance": JumpPlans(stays, stays)}
+        Flights(
+            solo12, paper_device(), [disturbance], jumps={"disturbance": JumpPlans(stays, stays)}
+        )
     )
     assert [run.passed for run in runs] == [None, None]
     assert "do not bring the robot off the ground" in runs[0].reason
@@ -218,7 +220,7 @@ def test_legs_too_weak_to_jump_are_not_judged(solo12, disturbance, jumps):
 
 def test_a_robot_that_stands_is_shoved_and_calmed(solo12, builder):
     shove = Shove(name="shove", torque=(2.0, 8.0, 0.0), duration=0.05, settling=0.5)
-    runs = run_scenarios(solo12, paper_device(), [shove])
+    runs = run_scenarios(Flights(solo12, paper_device(), [shove]))
     carrying, bare = (run.metrics for run in runs)
     assert [run.passed for run in runs] == [True, True]
     assert carrying.pitch_swing < 0.8 * bare.pitch_swing

@@ -10,7 +10,7 @@ from wheels import paper_device
 
 from ocs_design.requirement.maneuver import Disturbance
 from ocs_design.simulation.engine import simulate
-from ocs_design.simulation.scenario import run_scenarios
+from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world_builder import WorldBuilder
 
@@ -59,7 +59,7 @@ def test_a_force_at_a_point_does_what_mujoco_makes_of_it(solo12, wheels):
 
 
 def test_the_momentum_gate_stays_shut_to_a_kick(solo12):
-    with_device, without = run_scenarios(solo12, paper_device(), [KICK])
+    with_device, without = run_scenarios(Flights(solo12, paper_device(), [KICK]))
     for run in (with_device, without):
         assert run.metrics.momentum_error < 1e-6
         assert "not judged" not in run.reason

@@ -10,7 +10,7 @@ from hypothesis.extra.numpy import arrays
 from wheels import EC45, motor
 
 from ocs_design.actuation.supply import Supply
-from ocs_design.simulation.motor_limits import MotorLimits, bus_power, within_supply
+from ocs_design.simulation.motor_limits import MotorLimits
 
 SLOPE = 650.4 / 1.4566
 SLOW = replace(EC45, speed_max=300.0)
@@ -90,23 +90,20 @@ def column(value):
     return np.full((SHAPE[0], 1), value)
 
 
+def supplied(copper, efficiency, power=np.inf):
+    free = MotorLimits(np.inf, 0.0, np.inf)
+    return replace(free, copper=copper, efficiency=efficiency, power_max=power)
+
+
 def limited(torque, speed, gain, drive, power):
-    copper, efficiency = map(column, drive)
-    return within_supply(
-        torque,
-        speed,
-        gain=column(gain),
-        copper=copper,
-        efficiency=efficiency,
-        power_max=column(power),
-    )
+    return supplied(*map(column, (*drive, power))).within_supply(torque, speed, column(gain))
 
 
 @given(TORQUES, SPEEDS, GAINS, DRIVES, POWERS)
 def test_no_instant_of_the_control_step_draws_or_feeds_back_more(torque, speed, gain, drive, power):
     held = limited(torque, speed, gain, drive, power)
     for part in np.linspace(0.0, 1.0, 21):
-        now = bus_power(held, speed + part * gain * held, copper=drive[0], efficiency=drive[1])
+        now = supplied(*drive).bus_power(speed + part * gain * held, held)
         assert np.abs(now).max() <= power * (1.0 + 1e-9)
 
 
@@ -124,9 +121,7 @@ def test_torques_keep_their_direction_and_are_cut_no_more_than_needed(
     more = np.minimum(factor * (1.0 + 1e-6), 1.0)[:, None] * torque
     largest = np.max(
         [
-            np.abs(
-                bus_power(more, speed + part * gain * more, copper=drive[0], efficiency=drive[1])
-            )
+            np.abs(supplied(*drive).bus_power(speed + part * gain * more, more))
             for part in (0.0, 1.0)
         ],
         axis=0,

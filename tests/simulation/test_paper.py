@@ -10,7 +10,7 @@ from wheels import motor, paper_device, paper_maneuvers, scaled_device
 
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.reference import Step
-from ocs_design.simulation.scenario import Options, run_scenarios
+from ocs_design.simulation.scenario import Flights, Options, run_scenarios
 from ocs_design.simulation.wheel_law import Allocation
 
 RPM = np.pi / 30.0
@@ -27,7 +27,7 @@ def maneuvers(solo12):
 
 @pytest.fixture(scope="module")
 def runs(solo12, maneuvers):
-    flown = run_scenarios(solo12, paper_device(), maneuvers)
+    flown = run_scenarios(Flights(solo12, paper_device(), maneuvers))
     return {(run.scenario, run.ocs): run for run in flown}
 
 
@@ -37,7 +37,7 @@ def test_from_4_5_metres_per_second_the_bare_robot_turns_over(runs):
 
 def test_the_papers_step_asks_for_the_torque_that_theory_names(solo12, maneuvers):
     options = Options(drop_profile=Step())
-    run, _ = run_scenarios(solo12, paper_device(), maneuvers[1:2], options=options)
+    run, _ = run_scenarios(Flights(solo12, paper_device(), maneuvers[1:2], options=options))
     assert run.passed is True, run.reason
     assert run.metrics.peak_wheel_torque == pytest.approx(1.06, rel=0.1)
     assert run.metrics.peak_wheel_speed / RPM == pytest.approx(8200, rel=0.1)
@@ -45,14 +45,14 @@ def test_the_papers_step_asks_for_the_torque_that_theory_names(solo12, maneuvers
 
 def test_the_papers_transpose_passes_too(solo12, maneuvers):
     options = Options(allocation=Allocation.TRANSPOSE)
-    runs = run_scenarios(solo12, paper_device(), maneuvers[:3], options=options)
+    runs = run_scenarios(Flights(solo12, paper_device(), maneuvers[:3], options=options))
     assert [run.passed for run in runs] == [True, False] * 3
 
 
 def test_a_motor_that_is_too_weak_fails_and_says_why(solo12, maneuvers):
     """docs/theory.md, What a motor can do: 0.30 N m cannot do the drop in time with any wheel."""
     device = paper_device(drive=motor(1000.0, None, 0.2))
-    run, _ = run_scenarios(solo12, device, maneuvers[1:2])
+    run, _ = run_scenarios(Flights(solo12, device, maneuvers[1:2]))
     assert run.passed is False
     assert "more than 5 deg off level" in run.reason
     assert "step" in run.note
@@ -61,7 +61,7 @@ def test_a_motor_that_is_too_weak_fails_and_says_why(solo12, maneuvers):
 
 def test_a_simulation_that_breaks_down_is_not_judged(solo12, maneuvers, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    runs = run_scenarios(solo12, paper_device(), [replace(maneuvers[1], gravity=1e200)])
+    runs = run_scenarios(Flights(solo12, paper_device(), [replace(maneuvers[1], gravity=1e200)]))
     assert [run.passed for run in runs] == [None, None]
     assert all("became unstable" in run.reason for run in runs)
     assert not list(tmp_path.iterdir()), "MuJoCo left its log behind"
@@ -81,7 +81,7 @@ BIPEDS = [
 
 def fly(path):
     robot = read_robot(ROBOTS / f"{path}.urdf")
-    return run_scenarios(robot, scaled_device(robot), paper_maneuvers(robot))
+    return run_scenarios(Flights(robot, scaled_device(robot), paper_maneuvers(robot)))
 
 
 @pytest.mark.parametrize("path", every(3, [*QUADRUPEDS, *BIPEDS]))

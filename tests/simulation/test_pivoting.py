@@ -10,7 +10,7 @@ from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.pivoted import Balance, StandUp
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.simulation.engine import simulate
-from ocs_design.simulation.scenario import run_scenarios
+from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.trajectory.plans import gyrostat_of, plan, with_device
@@ -35,7 +35,7 @@ BRAKED = StandUp(
 def _flown(device, *maneuvers):
     found = plan(ROBOT.mass_properties, device, maneuvers, 0.2)
     references = {name: each.trajectory for name, each in found.items() if each.trajectory}
-    runs = run_scenarios(ROBOT, device, maneuvers, references=references)
+    runs = run_scenarios(Flights(ROBOT, device, maneuvers, references=references))
     return found, runs
 
 

@@ -22,7 +22,7 @@ from ocs_design.simulation.reference import (
     fit_turn,
     utilisation,
 )
-from ocs_design.simulation.scenario import run_scenarios
+from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.schedule import track
 from ocs_design.simulation.target import Target
@@ -88,7 +88,7 @@ def test_a_lopsided_trunk_asks_the_busier_wheel_and_drifts_in_heading():
 
 def test_a_turn_that_fits_is_left_as_it_is():
     fitted = fit_turn(FLIP, BODY, MotorLimits(np.inf, 0.0, np.inf))
-    assert fitted.turn is FLIP
+    assert fitted is FLIP
     assert fitted.note == ""
 
 
@@ -96,26 +96,26 @@ def test_a_wheel_a_little_too_slow_gets_a_flatter_profile():
     limits = MotorLimits(2000.0, 0.0, np.inf)
     assert utilisation(FLIP, BODY, limits) > 1.0
     fitted = fit_turn(FLIP, BODY, limits)
-    assert isinstance(fitted.turn.profile, SmoothTrapezoid)
-    assert fitted.turn.duration == FLIP.duration
-    assert utilisation(fitted.turn, BODY, limits) <= RESERVE
+    assert isinstance(fitted.profile, SmoothTrapezoid)
+    assert fitted.duration == FLIP.duration
+    assert utilisation(fitted, BODY, limits) <= RESERVE
     assert "trapezoid" in fitted.note
 
 
 def test_a_wheel_far_too_slow_gets_more_time_and_says_so():
     limits = MotorLimits(700.0, 350.0, 1.0)
     fitted = fit_turn(FLIP, BODY, limits)
-    assert utilisation(fitted.turn, BODY, limits) == pytest.approx(RESERVE, rel=1e-6)
+    assert utilisation(fitted, BODY, limits) == pytest.approx(RESERVE, rel=1e-6)
     assert "in place of the 2 s" in fitted.note
-    faster = replace(fitted.turn, duration=0.999 * fitted.turn.duration)
+    faster = replace(fitted, duration=0.999 * fitted.duration)
     assert utilisation(faster, BODY, limits) > RESERVE
 
 
 def test_a_fall_does_not_wait():
     drop = Turn(PITCH, 0.5, 0.0, 0.385, Quintic(), extendable=False)
     fitted = fit_turn(drop, BODY, MotorLimits(300.0, 0.0, np.inf))
-    assert isinstance(fitted.turn.profile, Step)
-    assert fitted.turn.duration == 0.385
+    assert isinstance(fitted.profile, Step)
+    assert fitted.duration == 0.385
     assert "step" in fitted.note
 
 
@@ -224,12 +224,12 @@ def test_each_maneuver_tracks_its_own_reference_and_a_push_none(solo12):
     drop = replace(drop, pitch=np.radians(15.0))
     builder = WorldBuilder(solo12, device)
     references = {maneuver.name: planned(builder, maneuver) for maneuver in (jump, drop)}
-    runs = run_scenarios(solo12, device, [jump, drop, flip], references=references)
+    runs = run_scenarios(Flights(solo12, device, [jump, drop, flip], references=references))
     notes = {run.scenario: run.note for run in runs if run.ocs}
     assert notes["drop"] == "by hand"
     assert "by hand" not in (notes["disturbance"], notes["back-flip"])
     assert {run.note for run in runs if not run.ocs} == {""}
-    alone = run_scenarios(solo12, device, [jump])[0]
+    alone = run_scenarios(Flights(solo12, device, [jump]))[0]
     np.testing.assert_array_equal(alone.series.wheel_torque, runs[0].series.wheel_torque)
 
 
@@ -252,7 +252,7 @@ def test_a_real_motor_never_does_what_it_cannot(solo12, speed_max, tracked):
     drop = paper_maneuvers(solo12)[1]
     builder = WorldBuilder(solo12, device)
     references = {drop.name: planned(builder, drop)} if tracked else {}
-    run, _ = run_scenarios(solo12, device, [drop], references=references)
+    run, _ = run_scenarios(Flights(solo12, device, [drop], references=references))
     flight = run.series.contact == 0
     speed, torque = run.series.wheel_speed[flight], run.series.wheel_torque[flight]
     slope = 650.4 / 1.4566

@@ -12,7 +12,7 @@ from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation import scenario
-from ocs_design.simulation.scenario import run_scenarios
+from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.world_builder import WorldBuilder
 
 GENTLE = Drop(name="gentle", height=0.4, pitch=np.radians(10.0))
@@ -33,7 +33,7 @@ def batches(monkeypatch):
 
 
 def test_a_robot_that_stands_is_flown_twice(solo12, batches):
-    runs = run_scenarios(solo12, paper_device(), [GENTLE])
+    runs = run_scenarios(Flights(solo12, paper_device(), [GENTLE]))
     assert "and stands" in runs[0].reason
     assert batches == [2]
 
@@ -48,7 +48,7 @@ def test_a_robot_that_falls_is_flown_level_too(solo12, batches, monkeypatch):
         return world
 
     monkeypatch.setattr(WorldBuilder, "_build", limp)
-    runs = run_scenarios(solo12, paper_device(), [GENTLE])
+    runs = run_scenarios(Flights(solo12, paper_device(), [GENTLE]))
     assert batches == [2, 1]
     assert "standing is not judged" in runs[0].reason
 
@@ -56,7 +56,7 @@ def test_a_robot_that_falls_is_flown_level_too(solo12, batches, monkeypatch):
 def test_without_legs_nothing_is_flown_level(batches):
     body = robot_by_hand(2.5, (0.030, 0.0535, 0.068))
     drop = replace(GENTLE, height=1.0)
-    runs = run_scenarios(body, paper_device(), [drop])
+    runs = run_scenarios(Flights(body, paper_device(), [drop]))
     assert batches == [2]
     assert "without legs" in runs[0].reason
 
@@ -65,19 +65,21 @@ def test_without_legs_nothing_is_flown_level(batches):
 def test_a_trunk_frame_whose_z_axis_lies_down_is_not_judged(trunk, judged):
     """The human's frames have y up; where no trunk is named, the reader adds one with z up."""
     human = read_robot(ROBOTS / "human_description" / "robots" / "human.urdf", trunk=trunk)
-    run, _ = run_scenarios(human, scaled_device(human), [Drop(name="low", height=1.3, pitch=0.1)])
+    run, _ = run_scenarios(
+        Flights(human, scaled_device(human), [Drop(name="low", height=1.3, pitch=0.1)])
+    )
     assert (run.passed is not None) is judged
     assert ("z axis of the trunk frame 'middle_pelvis'" in run.reason) is not judged
 
 
 def test_no_maneuvers_no_runs(solo12, batches):
-    assert run_scenarios(solo12, paper_device(), []) == ()
+    assert run_scenarios(Flights(solo12, paper_device(), [])) == ()
     assert batches == []
 
 
 def test_runs_come_in_the_order_of_the_maneuvers(solo12):
     jump, drop, _ = default_maneuvers(solo12)
-    runs = run_scenarios(solo12, paper_device(), [drop, jump])
+    runs = run_scenarios(Flights(solo12, paper_device(), [drop, jump]))
     assert [(run.scenario, run.ocs) for run in runs] == [
         ("drop", True),
         ("drop", False),

@@ -11,7 +11,7 @@ from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.maneuver import Drop
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.metrics import breakdown, drive_growth, measure, objection
-from ocs_design.simulation.scenario import run_scenarios
+from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import judge
 from ocs_design.simulation.wheel_law import WheelLaw
@@ -43,7 +43,7 @@ def test_a_start_in_the_air_on_drives_from_physics_is_sound(world):
 def test_a_drop_from_inside_the_floor_is_not_judged(solo12):
     """Tilted by 60 degrees at 0.3 m, the hind feet are under the floor."""
     low = Drop(name="low", height=0.3, pitch=np.radians(60.0))
-    runs = run_scenarios(solo12, paper_device(), [low])
+    runs = run_scenarios(Flights(solo12, paper_device(), [low]))
     assert [run.passed for run in runs] == [None, None]
     for run in runs:
         assert "mm into the floor; release it so much higher" in run.reason

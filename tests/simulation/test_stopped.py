@@ -10,7 +10,7 @@ from wheels import layout_device, paper_maneuvers
 
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.simulation.engine import simulate
-from ocs_design.simulation.scenario import STOPS, fly_stopped
+from ocs_design.simulation.scenario import STOPS, Flights, fly_stopped
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.target import StoppedDrive
 from ocs_design.simulation.world_builder import WorldBuilder
@@ -70,10 +70,10 @@ def test_every_drive_stops_at_every_instant_of_each_maneuver(solo12):
     device = layout_device(TRIAD)
     wheel = replace(device.flywheel, spin_inertia=2.0 * device.flywheel.spin_inertia)
     drop = paper_maneuvers(solo12)[1]
-    found = fly_stopped(solo12, replace(device, flywheel=wheel), [drop], 0.02)
+    found = fly_stopped(Flights(solo12, replace(device, flywheel=wheel), [drop]), 0.02)
     assert len(found.flights) == 3 * STOPS
     assert {each.module for each in found.flights} == {"1", "2", "3"}
     assert found.worst in (found.lost or found.flights)
     assert found.worst.tilt == max(each.tilt for each in found.lost or found.flights)
-    pair = fly_stopped(solo12, layout_device(Layout()), [drop], 0.02)
+    pair = fly_stopped(Flights(solo12, layout_device(Layout()), [drop]), 0.02)
     assert found.worst.tilt < pair.worst.tilt

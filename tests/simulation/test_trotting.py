@@ -12,9 +12,9 @@ from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.maneuver import Shove
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.engine import simulate
-from ocs_design.simulation.scenario import run_scenarios
+from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.trotting import STEP_HEIGHT, Trot, require_trot, shoved_at
+from ocs_design.simulation.trotting import STEP_HEIGHT, require_trot, shoved_at, trot
 from ocs_design.simulation.world_builder import WorldBuilder
 
 STRIDE = 0.4
@@ -29,7 +29,7 @@ def world(solo12):
 
 @pytest.fixture(scope="module")
 def references(solo12):
-    return Trot(STRIDE, start=0.5, duration=2.0, weight=WEIGHT).references(solo12)
+    return trot(solo12, STRIDE, start=0.5, duration=2.0, weight=WEIGHT)
 
 
 @pytest.fixture(scope="module")
@@ -87,7 +87,7 @@ def test_the_torques_bear_the_weight_on_the_feet_that_stand(posed):
 def test_the_shove_comes_as_two_feet_lift(solo12, earliest):
     instant = shoved_at(STRIDE, earliest)
     assert earliest <= instant < earliest + STRIDE
-    references = Trot(STRIDE, start=1e-3, duration=instant + 0.1, weight=WEIGHT).references(solo12)
+    references = trot(solo12, STRIDE, start=1e-3, duration=instant + 0.1, weight=WEIGHT)
     bent = np.abs(references.position - references.position[0]).max(axis=1)
     before, after = (np.abs(references.time - instant - shift).argmin() for shift in (-0.02, 0.03))
     assert bent[before] < 1e-9
@@ -95,7 +95,7 @@ def test_the_shove_comes_as_two_feet_lift(solo12, earliest):
 
 
 def test_a_robot_that_trots_is_shoved_and_calmed(solo12, world):
-    with_device, without = run_scenarios(solo12, paper_device(), [SHOVE])
+    with_device, without = run_scenarios(Flights(solo12, paper_device(), [SHOVE]))
     assert [with_device.passed, without.passed] == [True, True]
     assert with_device.metrics.pitch_swing < 0.9 * without.metrics.pitch_swing
     assert world.stands == shoved_at(STRIDE, 3.0)

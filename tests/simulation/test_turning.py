@@ -9,8 +9,8 @@ from wheels import driven_device
 
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.turns import Catch, TurnTo
-from ocs_design.simulation.scenario import run_scenarios
-from ocs_design.simulation.scene import Wheels, locked_inertia
+from ocs_design.simulation.scenario import Flights, run_scenarios
+from ocs_design.simulation.scene import Wheels, whole_mass
 from ocs_design.simulation.verdict import landing_attitude
 from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.trajectory.plans import plan
@@ -30,7 +30,7 @@ def flown(solo12):
     device = driven_device()
     found = plan(solo12.mass_properties, device, maneuvers, standing_height(solo12))
     references = {name: each.trajectory for name, each in found.items()}
-    runs = run_scenarios(solo12, device, maneuvers, references=references)
+    runs = run_scenarios(Flights(solo12, device, maneuvers, references=references))
     return found, {run.scenario: run for run in runs if run.ocs}
 
 
@@ -70,14 +70,14 @@ def test_the_regulator_corrects_what_the_tilt_law_cannot(solo12, flown):
     errors = []
     for gains in (trajectory.gains, None):
         tracked = {"yaw": replace(trajectory, gains=gains)}
-        run = run_scenarios(solo12, driven_device(), [pushed], references=tracked)[0]
+        run = run_scenarios(Flights(solo12, driven_device(), [pushed], references=tracked))[0]
         errors.append(abs(np.degrees(run.metrics.heading_drift) - 90.0))
     assert errors[0] < 1.0
     assert errors[1] > 2.5
 
 
 def test_a_turn_that_was_not_made_fails(solo12):
-    run = run_scenarios(solo12, driven_device(), [YAW])[0]
+    run = run_scenarios(Flights(solo12, driven_device(), [YAW]))[0]
     assert run.passed is False
     assert run.reason == "touches down with its heading turned by 0.0 of 90.0 deg"
 
@@ -90,7 +90,7 @@ def test_a_catch_starts_with_the_momentum_of_its_rate(solo12):
     data.qpos[:], data.qvel[:] = world.qpos, world.qvel
     mujoco.mj_forward(world.model, data)
     mujoco.mj_subtreeVel(world.model, data)
-    turning = locked_inertia(world.model, data, np.eye(3)) @ spun.rate
+    turning = whole_mass(world.model, data).inertia @ spun.rate
     wheels = world.body.spin_inertia * world.body.axes @ [100.0, 100.0]
     np.testing.assert_allclose(data.subtree_angmom[0], turning + wheels, rtol=1e-9)
     np.testing.assert_allclose(data.subtree_linvel[0, :2], 0.0, atol=1e-12)

@@ -21,7 +21,7 @@ from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.requirement import ManeuverReserve, Requirement
 from ocs_design.requirement.specification import merge
 from ocs_design.requirement.uncertainty import Constant
-from ocs_design.simulation.scenario import Options
+from ocs_design.simulation.scenario import Flights
 from ocs_design.sizing.reserve import LEVEL, Needed, Reserve
 from ocs_design.sizing.selection.demand import UNDOES, held_in_roll
 from ocs_design.sizing.trajectory.plans import plan
@@ -94,9 +94,9 @@ def flights(more):
     robot, stated = task.robot, task.specification
     (maneuver,) = found.choice.problem.requirement.maneuvers
     plans = plan(robot.mass_properties, found.device, [maneuver], standing_height(robot))
+    references = {name: each.trajectory for name, each in plans.items()}
     campaign = make_campaign(
-        robot, found.device, [maneuver], options=Options(),
-        references={name: each.trajectory for name, each in plans.items()}, jumps={},
+        Flights(robot, found.device, [maneuver], references=references),
         can_stand=[True], uncertainty=Uncertainty.of(stated.reality, robot, found.device),
         seed=11,
     )  # fmt: skip

@@ -44,7 +44,7 @@ def test_after_a_round_for_turns(placed, monkeypatch):
     monkeypatch.setattr(rounds, "references_of", lambda *_: next(plans))
     monkeypatch.setattr(rounds, "size_on_robot", size_again)
     taken = (("Layout: four wheels.",), ("four wheels are needed",))
-    found = size_for_turns(placed.telling(taken), Steps.silent(), strict=False)
+    found = size_for_turns(placed.telling(taken), Steps(), strict=False)
     assert asked == [{"turn": 1.5}]
     assert found.estimates == {"turn": 1.5}
     assert found.resolved.assumptions == ("Layout: four wheels.", "assumed")
@@ -108,7 +108,7 @@ def test_heavy_motors_give_way_to_more_wheels_that_weigh_less(
 
     monkeypatch.setattr(rounds, "size_on_robot", size_one)
     stated = replace(placed.specification, ocs=replace(placed.specification.ocs, layout=None))
-    found = size_or_advise(stated, placed.robot, Steps.silent(), strict=False)
+    found = size_or_advise(stated, placed.robot, Steps(), strict=False)
     assert tried == taken
     lightest = min([3.0, *(mass for mass in weigh.values() if mass)])
     assert found.designed.device.mass == pytest.approx(lightest)
@@ -130,8 +130,8 @@ def test_strict_looks_at_the_device_that_is_taken(placed, monkeypatch):
     monkeypatch.setattr(rounds, "placement_warnings", lambda *_, **__: ())
     stated = replace(placed.specification, ocs=replace(placed.specification.ocs, layout=None))
     lighter = True
-    found = size_or_advise(stated, placed.robot, Steps.silent(), strict=True)
+    found = size_or_advise(stated, placed.robot, Steps(), strict=True)
     assert found.designed.device.mass == pytest.approx(0.5)
     lighter = False
     with pytest.raises(SpecificationError, match="120% of the robot"):
-        size_or_advise(stated, placed.robot, Steps.silent(), strict=True)
+        size_or_advise(stated, placed.robot, Steps(), strict=True)

@@ -32,64 +32,85 @@ def time_charts(scenario: str, name: str, flights: Sequence[RecordedFlight]) -> 
         Rule(side * tolerance, upright=False, ink=Ink.FAINT, name=name_of_rule)
         for side in (-1.0, 1.0)
     ]
-    angles = _about_axes(flights, "{axis}_rad", "deg", thin=False)
-    tilt = Chart(
-        name=f"tilt_{name}",
-        title=f"{scenario}: attitude of the trunk",
-        description="Pitch and roll over time, solid with the device, dashed without it; rules "
+
+    def chart(
+        kind: str,
+        title: str,
+        description: str,
+        axis: tuple[str, str],
+        curves: Sequence[Line | Area],
+        *,
+        of: Sequence[RecordedFlight] = flights,
+        rules: Sequence[Rule] = (),
+        ends: Sequence[float] = (),
+    ) -> Chart:
+        return Chart(
+            name=f"{kind}_{name}",
+            title=f"{scenario}: {title}",
+            description=description,
+            x=_time(of),
+            y=Axis.around(*axis, [*ends, *_ends(curves)]),
+            marks=(*curves, *rules, *_events(of)),
+            height=_HEIGHT,
+        )
+
+    tilt = chart(
+        "tilt",
+        "attitude of the trunk",
+        "Pitch and roll over time, solid with the device, dashed without it; rules "
         f"at {tolerance:.0f} degrees either side of level are the landing tolerance.",
-        x=_time(flights),
-        y=Axis.around("angle", "deg", [-2.0 * tolerance, 2.0 * tolerance, *_ends(angles)]),
-        marks=(*angles, *allowed, *_events(flights)),
-        height=_HEIGHT,
+        ("angle", "deg"),
+        _about_axes(flights, "{axis}_rad", "deg", thin=False),
+        rules=allowed,
+        ends=[-2.0 * tolerance, 2.0 * tolerance],
     )
-    lines = _about_axes(flights, "rate_{letter}_rad_s", "deg/s", thin=True)
-    rates = Chart(
-        name=f"rates_{name}",
-        title=f"{scenario}: rates of the trunk",
-        description="Pitch and roll rate over time, solid with the device, dashed without it.",
-        x=_time(flights),
-        y=Axis.around("rate", "deg/s", _ends(lines)),
-        marks=(*lines, *_events(flights)),
-        height=_HEIGHT,
+    rates = chart(
+        "rates",
+        "rates of the trunk",
+        "Pitch and roll rate over time, solid with the device, dashed without it.",
+        ("rate", "deg/s"),
+        _about_axes(flights, "rate_{letter}_rad_s", "deg/s", thin=True),
     )
-    speeds, torques = [], []
-    for flight in flights:
-        if not flight.ocs:
-            continue
-        lines = _of_wheels(flight, flight.wheel_speed, "rpm", "wheel", thin=False)
-        speed = Chart(
-            name=f"wheel_speed_{name}",
-            title=f"{scenario}: speed of the wheels",
-            description="Speed of each wheel relative to the trunk over time.",
-            x=_time([flight]),
-            y=Axis.around("wheel speed", "rpm", _ends(lines)),
-            marks=(*lines, *_events([flight])),
-            height=_HEIGHT,
+    driven = [flight for flight in flights if flight.ocs]
+    speeds = (
+        chart(
+            "wheel_speed",
+            "speed of the wheels",
+            "Speed of each wheel relative to the trunk over time.",
+            ("wheel speed", "rpm"),
+            _of_wheels(flight, flight.wheel_speed, "rpm", "wheel", thin=False),
+            of=[flight],
         )
-        lowest, highest = (
-            flight.columns.get(f"wheel_torque_{end}_{flight.wheels[0]}_nm")
-            for end in ("lowest", "highest")
+        for flight in driven
+    )
+    torques = (
+        chart(
+            "wheel_torque",
+            "torque of the motors",
+            "Torque of each motor on its wheel over time, within the shaded range that the first "
+            "one can give at its speed.",
+            ("torque", "N m"),
+            [
+                *_range_of_motor(flight),
+                *_of_wheels(flight, flight.wheel_torque, "N m", "motor", thin=True),
+            ],
+            of=[flight],
         )
-        limits = []
-        if lowest is not None and highest is not None:
-            there_and_back = np.concatenate([flight.time, flight.time[::-1]])
-            outline = np.concatenate([highest, lowest[::-1]])
-            limits.append(Area(there_and_back, outline, Ink.FAINT, "range of the motor"))
-        lines = _of_wheels(flight, flight.wheel_torque, "N m", "motor", thin=True)
-        torque = Chart(
-            name=f"wheel_torque_{name}",
-            title=f"{scenario}: torque of the motors",
-            description="Torque of each motor on its wheel over time, within the shaded range that "
-            "the first one can give at its speed.",
-            x=_time([flight]),
-            y=Axis.around("torque", "N m", _ends([*limits, *lines])),
-            marks=(*limits, *lines, *_events([flight])),
-            height=_HEIGHT,
-        )
-        speeds.append(speed)
-        torques.append(torque)
+        for flight in driven
+    )
     return (tilt, rates, *speeds, *torques)
+
+
+def _range_of_motor(flight: RecordedFlight) -> Iterator[Area]:
+    """Torques that the first motor can give over time; none where they are not limited."""
+    lowest, highest = (
+        flight.columns.get(f"wheel_torque_{end}_{flight.wheels[0]}_nm")
+        for end in ("lowest", "highest")
+    )
+    if lowest is not None and highest is not None:
+        there_and_back = np.concatenate([flight.time, flight.time[::-1]])
+        outline = np.concatenate([highest, lowest[::-1]])
+        yield Area(there_and_back, outline, Ink.FAINT, "range of the motor")
 
 
 def _about_axes(

@@ -45,8 +45,12 @@ def decimated(bodies: Sequence[ShownBody], most_triangles: int) -> tuple[ShownBo
     cell = FINEST * extent
 
     def left() -> int:
-        """Number of triangles that are left."""
-        return sum(_count(faces, _cells(places, grain * cell)) for grain, places, faces in boxed)
+        """Number of triangles whose corners are in three cells."""
+        count = 0
+        for grain, places, faces in boxed:
+            cells = _cells(places, grain * cell)
+            count += len(np.unique(_keyed(*(cells[column] for column in faces))[1]))
+        return count
 
     while (count := left()) > most_triangles:
         # A surface takes as many cells as it has area.
@@ -73,13 +77,6 @@ def _cells(offsets: Sequence[FloatArray], cell: float) -> NDArray[np.int64]:
     x, y, z = (np.floor(column / cell).astype(np.int64) for column in offsets)
     number = (x * (int(y.max()) + 1) + y) * (int(z.max()) + 1) + z
     return number if number.max() < 1 << _BITS else _numbered(number)
-
-
-def _count(faces: NDArray[np.int64], cells: NDArray[np.int64]) -> int:
-    """Number of triangles that are left, whose corners are in three cells."""
-    _, key = _keyed(*(cells[column] for column in faces))
-    key.sort()
-    return int(np.count_nonzero(np.diff(key)) + bool(key.size))
 
 
 def clustered(surface: Surface, cell: float) -> Surface:

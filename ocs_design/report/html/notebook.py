@@ -12,7 +12,7 @@ from ocs_design.report.bodies import read_bodies, still
 from ocs_design.report.charts.front import front_chart
 from ocs_design.report.charts.momentum import ellipsoid_chart
 from ocs_design.report.charts.svg import svg_file
-from ocs_design.report.device import FIRST_FACTS, device_facts, device_title, share_of_robot
+from ocs_design.report.device import device_title, first_facts, share_of_robot
 from ocs_design.report.flights import flights_title, verdict_table
 from ocs_design.report.html.elements import Markup, element, items, table, void
 from ocs_design.report.monte_carlo import campaign_title, certificate_line, success_table
@@ -58,8 +58,6 @@ def as_html(found: OcsDesign | Front | Validated, folder: Path | None = None) ->
 
 
 def _design(design: OcsDesign, folder: Path | None) -> tuple[Markup, ...]:
-    facts = dict(device_facts(design))
-    rows = tuple((short, facts[name]) for name, short in FIRST_FACTS.items() if name in facts)
     flown = verdict_table(design)
     mass = f"{grams(design.ocs.mass_total)}, {share_of_robot(design)}"
     title = f"{device_title(design)} for {design.robot.name}, {mass}"
@@ -74,7 +72,7 @@ def _design(design: OcsDesign, folder: Path | None) -> tuple[Markup, ...]:
         element(
             "div",
             shown,
-            table("Device", Table(columns("<", "<"), rows)),
+            table("Device", Table(columns("<", "<"), first_facts(design))),
             style="display: flex; gap: 1em; align-items: center",
         ),
         table(f"Flights: {flights_title(design.validation)}", flown) if flown.rows else Markup(""),

@@ -4,6 +4,7 @@ import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 from typing import TypeAlias
@@ -43,7 +44,7 @@ class Listing:
     """One catalogue, ready to be printed: every entry, all as one document, and for people."""
 
     rows: Sequence[Row]
-    to_json: Callable[[], bytes]
+    json: bytes
     print_table: Callable[[Console], None]
 
     def show(self, console: Console, *, verbose: bool) -> None:
@@ -83,12 +84,12 @@ def listing(what: str, files: Mapping[str, str | None]) -> Listing:
     path = None if given is None else Path(given)
     if what == "motors":
         motors = tuple(known_motors(path).values())
-        return Listing(motors, lambda: motors_to_json(motors), lambda c: print_motors(c, motors))
+        return Listing(motors, motors_to_json(motors), partial(print_motors, found=motors))
     if what == "gears":
         gears = tuple(known_gears(path).values())
-        return Listing(gears, lambda: gears_to_json(gears), lambda c: print_gears(c, gears))
+        return Listing(gears, gears_to_json(gears), partial(print_gears, found=gears))
     found = tuple(materials().values())
-    return Listing(found, materials_to_json, lambda c: print_materials(c, found))
+    return Listing(found, materials_to_json(), partial(print_materials, found=found))
 
 
 def motor_mounting(mounting: Mounting | None) -> str:

@@ -135,14 +135,10 @@ class Steps:
     On a terminal a spinner or bar moves; in a pipe each finished step is one plain line.
     """
 
-    def __init__(self, console: Console, *, quiet: bool = False) -> None:
-        self._console = console
-        self._quiet = quiet
-
-    @classmethod
-    def silent(cls) -> "Steps":
-        """Nothing is printed."""
-        return cls(make_console(stderr=True), quiet=True)
+    def __init__(self, console: Console | None = None, *, quiet: bool = False) -> None:
+        """Progress on a console; None: nothing is printed."""
+        self._console = console or make_console(stderr=True)
+        self._quiet = quiet or console is None
 
     @classmethod
     def of(cls, progress: "Steps | Tell | None") -> "Steps":
@@ -153,7 +149,7 @@ class Steps:
             return _ToldSteps(progress)
         # A kernel is what tells a notebook from IPython on a terminal.
         shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
-        return cls.silent() if getattr(shell, "kernel", None) is None else _NotebookSteps()
+        return cls() if getattr(shell, "kernel", None) is None else _NotebookSteps()
 
     @contextmanager
     def step(self, label: str) -> Iterator["Step"]:
@@ -223,7 +219,7 @@ class _ToldSteps(Steps):
     """Progress as a function is told."""
 
     def __init__(self, tell: Tell) -> None:
-        super().__init__(make_console(stderr=True), quiet=True)
+        super().__init__()
         self._tell = tell
 
     @contextmanager
@@ -238,7 +234,7 @@ class _NotebookSteps(Steps):
     """Progress below a notebook's cell: a line for each step, a bar for the one that runs."""
 
     def __init__(self) -> None:
-        super().__init__(make_console(stderr=True), quiet=True)
+        super().__init__()
         self._lines: list[str] = []
         self._shown_at = 0.0
         display = import_module("IPython.display").display

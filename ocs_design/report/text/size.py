@@ -14,11 +14,11 @@ from ocs_design.device.records.selection import SelectionRecord
 from ocs_design.export.folder import REPORT_FILE
 from ocs_design.report import flights, limits, selection, warnings
 from ocs_design.report.device import (
-    FIRST_FACTS,
     criterion_table,
     device_facts,
     device_title,
     drawn_facts,
+    first_facts,
     share_of_robot,
 )
 from ocs_design.report.quantities import degrees_number, grams
@@ -196,8 +196,7 @@ def _device(design: OcsDesign) -> Iterator[tuple[str, str]]:
     """The robot that it is for, what is to be built, and what sets its mass."""
     robot = design.robot
     yield "robot", f"{robot.name}, {robot.mass:.4g} kg, posture {robot.posture_name}"
-    found = dict(device_facts(design))
-    yield from ((short, found[name]) for name, short in FIRST_FACTS.items() if name in found)
+    yield from first_facts(design)
     owed = limits.owed_to(design)
     why = [listed(limits.holding_up(design)), f"owed to {owed}" if owed else ""]
     if any(why):

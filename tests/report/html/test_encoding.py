@@ -16,7 +16,7 @@ from ocs_design.report.html.view import Blob, encoded_scene
 from ocs_design.report.story import flights_of
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.reader import read_robot
-from ocs_design.simulation.scenario import Options, run_scenarios
+from ocs_design.simulation.scenario import Flights, Options, run_scenarios
 from ocs_design.workflows.recording import record_run
 
 KINDS = {"f4": "<f4", "i2": "<i2", "u2": "<u2", "u4": "<u4"}
@@ -26,7 +26,7 @@ TRIANGLE = np.array([[0.0, 0.0, 0.0], [0.4, 0.0, 0.1], [0.0, 0.2, 0.1]])
 @pytest.fixture(scope="module")
 def flights(solo12):
     drop = default_maneuvers(solo12)[1]
-    runs = run_scenarios(solo12, paper_device(), [drop], options=Options(pose_rate=20.0))
+    runs = run_scenarios(Flights(solo12, paper_device(), [drop], options=Options(pose_rate=20.0)))
     return flights_of([*map(record_run, runs)], runs)
 
 

@@ -5,7 +5,7 @@ import pytest
 from drawn_selections import draw
 from sampled import every
 
-from ocs_design.simulation.scenario import run_scenarios
+from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.sizing.assembly import assemble_selected
 from ocs_design.sizing.selection.select import select
 from ocs_design.sizing.trajectory.plans import plan
@@ -23,12 +23,16 @@ def test_a_chosen_device_passes_with_its_motors_limits(seed):
         drawn.robot.mass_properties, device, requirement.maneuvers, requirement.standing_height
     )
     runs = run_scenarios(
-        drawn.robot,
-        device,
-        requirement.maneuvers,
-        references={
-            name: found.trajectory for name, found in plans.items() if found.trajectory is not None
-        },
+        Flights(
+            drawn.robot,
+            device,
+            requirement.maneuvers,
+            references={
+                name: found.trajectory
+                for name, found in plans.items()
+                if found.trajectory is not None
+            },
+        )
     )
     for run in runs[::2]:
         assert run.passed is True, f"{run.scenario}: {run.reason}; {run.note}"
