@@ -11,6 +11,7 @@ from dataclasses import dataclass, fields
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
+from typing import TypeAlias
 
 import msgspec
 import numpy as np
@@ -28,23 +29,14 @@ BLOCK = 32
 """Samples of a block: enough for the processors, few enough to stop soon after enough is known."""
 
 
-@dataclass(frozen=True)
-class Block:
-    """Samples `start` to `stop`, the last one not among them."""
-
-    start: int
-    stop: int
-
-    @property
-    def samples(self) -> range:
-        """Indices of its samples."""
-        return range(self.start, self.stop)
+Block: TypeAlias = range
+"""Indices of samples that are flown together."""
 
 
 def blocks_of(samples: int, size: int = BLOCK, *, first: int = 0) -> tuple[Block, ...]:
     """So many samples from index `first` on in blocks; the last may be smaller."""
     stop = first + samples
-    return tuple(Block(start, min(start + size, stop)) for start in range(first, stop, size))
+    return tuple(range(start, min(start + size, stop)) for start in range(first, stop, size))
 
 
 METRICS = tuple(field.name for field in fields(Metrics))
@@ -271,7 +263,7 @@ class Storage:
             except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
                 # Not there, or spoilt by whatever: it is flown again.
                 continue
-            if outcomes.index.tolist() == list(block.samples):
+            if outcomes.index.tolist() == list(block):
                 kept[block] = outcomes
         return kept
 

@@ -66,10 +66,10 @@ class ThisMachine(Workers):
         for start in range(0, len(blocks), self._at_once):
             some = blocks[start : start + self._at_once]
             tell = scaled(progress, start / len(blocks), (start + len(some)) / len(blocks))
-            indices = [index for block in some for index in block.samples]
+            indices = [index for block in some for index in block]
             flown = fly_samples(campaign, indices, threads=self._threads, progress=tell)
             for block in some:
-                yield block, flown.take(np.isin(flown.index, block.samples))
+                yield block, flown.take(np.isin(flown.index, block))
 
 
 def run_campaign(
@@ -185,4 +185,4 @@ class _Unpacked:
 
     def fly(self, block: Block) -> tuple[Block, Outcomes]:
         """Fly a block in one thread: the others fly other blocks."""
-        return block, fly_samples(self.campaign, block.samples, threads=1)
+        return block, fly_samples(self.campaign, block, threads=1)

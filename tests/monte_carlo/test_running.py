@@ -46,11 +46,11 @@ class Made(Workers):
                 raise KeyboardInterrupt
             self.flown.append(block)
             progress((done + 1) / len(blocks))
-            yield block, made_outcomes(block.samples, 2, fail_from=1.5)
+            yield block, made_outcomes(block, 2, fail_from=1.5)
 
 
 def test_blocks_hold_every_sample_once():
-    assert [n for block in BLOCKS for n in block.samples] == list(range(100))
+    assert [n for block in BLOCKS for n in block] == list(range(100))
 
 
 def test_the_order_of_arrival_does_not_matter():
