@@ -2,9 +2,9 @@
 
     python benchmarks/placement.py [PART_OF_A_NAME ...]
 
-Prints a Markdown table for devices without motors: what is in the way on top over the centre of
-mass, where the left module of the largest size goes instead, and how far the designed device is
-from the nearest link in the nominal posture and while the legs give way.
+Prints a Markdown table for devices without motors: where the left module of the largest size goes,
+and how far the designed device is from the nearest link in the nominal posture and while the legs
+give way.
 """
 
 import sys
@@ -29,8 +29,8 @@ from ocs_design.sizing.placement import Sizes, place_free
 
 
 def main() -> None:
-    print("| robot | in the way | where | left at [mm] | nearest [mm] | legs give way [mm] | s |")
-    print("|---|---|---|---|---|---|---|")
+    print("| robot | where | left at [mm] | nearest [mm] | legs give way [mm] | s |")
+    print("|---|---|---|---|---|---|")
     for name in LEGGED:
         if not sys.argv[1:] or any(word in name for word in sys.argv[1:]):
             print(f"| {name.rpartition('/')[2]} | {row(name)} |", flush=True)
@@ -47,20 +47,20 @@ def row(name: str) -> str:
     collision_model(robot)
     found = place_free(robot, resolved.envelope)
     seconds = time.perf_counter() - start
-    center = found.place.left_of_reach(Sizes.of(resolved.envelope).largest)
+    center = found.place.centers(Sizes.of(resolved.envelope).largest)[0]
     at = ", ".join(f"{1e3 * float(value):.0f}" for value in np.array(center))
     where = f"{found.face} the trunk" if found.free else "none is free"
     try:
         designed = design_device(specification, robot, resolved)
     except OcsError as error:
-        return f"{found.blocked_by} | {where} | {at} | {error.kind} | | {seconds:.2f}"
+        return f"{where} | {at} | {error.kind} | | {seconds:.2f}"
     start = time.perf_counter()
     mounting = mounting_of(
         robot, designed.device, resolved.requirement.maneuvers, designed.sized.total
     )
     seconds += time.perf_counter() - start
     clearances = f"{told(mounting.nearest)} | {told(mounting.landing)}"
-    return f"{found.blocked_by} | {where} | {at} | {clearances} | {seconds:.2f}"
+    return f"{where} | {at} | {clearances} | {seconds:.2f}"
 
 
 def told(clearance: Clearance | None) -> str:

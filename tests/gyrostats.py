@@ -77,5 +77,5 @@ def smallest_wheels(guess, asked, *, free_incidence=False, start=None, passes=(1
     axes = module_axes(incidence) if free_incidence else guess.axes
     found = replace(guess, spin_inertia=guess.spin_inertia * factor, axes=axes)
     flown = replace(turn, gyrostat=found)
-    flight = fly(found, EC_45_FLAT, asked, flown.outline, solution.motions[0])
+    flight = fly(flown, EC_45_FLAT, solution.motions[0])
     return SmallestWheels(**vars(flight), gyrostat=found, incidence=incidence, solution=solution)

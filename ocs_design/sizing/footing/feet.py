@@ -1,9 +1,10 @@
 """Feet of a device before what holds them is known, and the footing that is found for them."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from math import ceil, copysign, log, sqrt
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -19,6 +20,8 @@ from ocs_design.parts.printed import AROUND_SLOT
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.place import CLEARANCE, Place, Size, module_size, wheel_size
+
+Found = TypeVar("Found")
 
 SENSES = (1.0, -1.0)
 
@@ -213,3 +216,16 @@ def in_vain(robot: Robot, layout: Layout, search: str) -> InVain:
     """The modules that a search, by its name, failed for since `in_vain.cache_clear()`."""
     del robot, layout, search
     return InVain()
+
+
+def looked_for(
+    search: Callable[[Robot, Feet, Layout], Found | None], robot: Robot, feet: Feet, layout: Layout
+) -> Found | None:
+    """What a search finds for modules nearly as large, which is not made in vain twice."""
+    asked, vain = rough(feet), in_vain(robot, layout, search.__name__)
+    if vain.covers(asked):
+        return None
+    found = search(robot, asked, layout)
+    if found is None:
+        vain.tried.append(asked)
+    return found

@@ -30,7 +30,7 @@ from ocs_design.parts.printed import SHOCK
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_back
 from ocs_design.sizing.footing.contact import FLATNESS, PROUD, disc_points
-from ocs_design.sizing.footing.feet import SENSES, Feet, Footing, in_vain, rough
+from ocs_design.sizing.footing.feet import SENSES, Feet, Footing, looked_for
 from ocs_design.sizing.footing.plate import (
     HEAD_ROOM,
     PATTERN_STEP,
@@ -79,13 +79,9 @@ def footing_behind(robot: Robot, feet: Feet, layout: Layout) -> Footing | None:
 
     They stand one above the other, on plates of one kind, by the lightest tube that bears them.
     """
-    back, asked = trunk_back(robot), rough(feet)
-    vain = in_vain(robot, layout, footing_behind.__name__)
-    if back is None or vain.covers(asked):
-        return None
-    spot = _mast_spot(robot, asked, layout)
-    if spot is None:
-        vain.tried.append(asked)
+    back = trunk_back(robot)
+    spot = None if back is None else looked_for(_mast_spot, robot, feet, layout)
+    if back is None or spot is None:
         return None
     feet = _stacked(feet, layout)
     search, arms = Search.of(robot, feet.size, layout), _all_arms(feet, far=spot.far)

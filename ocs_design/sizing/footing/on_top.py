@@ -28,10 +28,9 @@ from ocs_design.sizing.footing.feet import (
     Feet,
     Footing,
     device_size,
-    in_vain,
     leans,
+    looked_for,
     ring_of,
-    rough,
 )
 from ocs_design.sizing.footing.plate import PLATE_SCREW, POST_SCREW, STRONG_SCREW, held_at, plate_of
 from ocs_design.sizing.place import around, place_at
@@ -55,15 +54,8 @@ def footing_on_top(surface: Surface, feet: Feet, search: Search) -> Footing | No
     found = _nearest_footing(surface, feet, search, 0.0, PLATE_SCREW)
     if found is not None:
         return found
-    robot, layout, asked = search.collision.robot, search.layout, rough(feet)
-    vain = in_vain(robot, layout, footing_on_top.__name__)
-    if vain.covers(asked):
-        return None
-    way = _way(robot, asked, layout)
-    if way is None:
-        vain.tried.append(asked)
-        return None
-    return _nearest_footing(surface, feet, search, *way)
+    way = looked_for(_way, search.collision.robot, feet, search.layout)
+    return None if way is None else _nearest_footing(surface, feet, search, *way)
 
 
 @lru_cache(maxsize=64)

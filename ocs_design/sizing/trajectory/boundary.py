@@ -4,7 +4,6 @@ Attitudes are unit quaternions (w, x, y, z) that turn B into the world.
 """
 
 from dataclasses import dataclass, field
-from functools import singledispatch
 
 import numpy as np
 
@@ -69,58 +68,52 @@ class Boundary:
         return float(np.arctan2(np.linalg.norm(np.cross(vertical, wanted)), vertical @ wanted))
 
 
-@singledispatch
 def boundary(maneuver: Maneuver, standing_height: float) -> Boundary:
-    """The boundary value problem of a maneuver.
+    """The boundary value problem of a maneuver in the air.
 
     Args:
         maneuver: any kind that a specification knows.
         standing_height: of the trunk over the ground [m].
+
+    Raises:
+        SpecificationError: no time is left after the torque of one that nobody foresees.
     """
-    del standing_height
-    raise TypeError(f"no boundary is known for a {type(maneuver).__name__}")
-
-
-@boundary.register
-def _drop(maneuver: Drop, standing_height: float) -> Boundary:
-    """Turn from rest, pitched about y and then rolled about x, to level within the fall."""
-    attitude = product(about(_PITCH, maneuver.pitch), about(np.eye(3)[0], maneuver.roll))
-    vertical = vertical_of(attitude)
-    # A rate w moves the vertical by -w x v.
-    axis = np.cross([0.0, 0.0, 1.0], vertical)
-    length = float(np.linalg.norm(axis))
-    return Boundary(
-        name=maneuver.name,
-        attitude=attitude,
-        final_attitude=LEVEL,
-        axis=axis / length if length > 0.0 else _PITCH,
-        angle=float(np.arctan2(length, vertical[2])),
-        duration=maneuver.time(standing_height),
-    )
-
-
-@boundary.register
-def _flip(maneuver: Flip, standing_height: float) -> Boundary:
-    """Turn by the whole angle of pitch from level at lift-off."""
-    del standing_height
-    return Boundary(
-        name=maneuver.name,
-        attitude=LEVEL,
-        final_attitude=about(_PITCH, maneuver.angle),
-        axis=_PITCH,
-        angle=maneuver.angle,
-        duration=maneuver.duration,
-    )
-
-
-@boundary.register
-def _turn_to(maneuver: TurnTo, standing_height: float) -> Boundary:
-    """Turn from level and the rate at lift-off to the attitude, or to what is asked of it."""
-    del standing_height
-    x, y, z = np.eye(3)
+    x, _, z = np.eye(3)
+    if isinstance(maneuver, Drop):
+        # From rest, pitched about y and then rolled about x, to level within the fall.
+        attitude = product(about(_PITCH, maneuver.pitch), about(x, maneuver.roll))
+        vertical = vertical_of(attitude)
+        # A rate w moves the vertical by -w x v.
+        axis = np.cross([0.0, 0.0, 1.0], vertical)
+        length = float(np.linalg.norm(axis))
+        axis = axis / length if length > 0.0 else _PITCH
+        angle, duration = float(np.arctan2(length, vertical[2])), maneuver.time(standing_height)
+        return Boundary(maneuver.name, attitude, LEVEL, axis, angle, duration)
+    if isinstance(maneuver, Flip):
+        angle, final = maneuver.angle, about(_PITCH, maneuver.angle)
+        return Boundary(maneuver.name, LEVEL, final, _PITCH, angle, maneuver.duration)
+    if isinstance(maneuver, Unforeseen):
+        if maneuver.time_left <= 0.0:
+            raise SpecificationError(
+                f"maneuver {maneuver.name!r}: no time is left after its torque",
+                hint="Let the torque start earlier, or the robot jump higher.",
+            )
+        # Back to level in the time after a torque, from level at its onset.
+        return Boundary(
+            maneuver.name,
+            LEVEL,
+            LEVEL,
+            _PITCH,
+            0.0,
+            maneuver.time_left,
+            push=np.array(maneuver.torque),
+            push_duration=maneuver.duration,
+        )
+    if not isinstance(maneuver, TurnTo):
+        raise TypeError(f"no boundary is known for a {type(maneuver).__name__}")
     angles = np.array([maneuver.roll, maneuver.pitch, maneuver.yaw])
     final = product(
-        about(z, maneuver.yaw), product(about(y, maneuver.pitch), about(x, maneuver.roll))
+        about(z, maneuver.yaw), product(about(_PITCH, maneuver.pitch), about(x, maneuver.roll))
     )
     if np.count_nonzero(angles) == 1:
         # About one axis: it may be more than half a turn.
@@ -131,36 +124,15 @@ def _turn_to(maneuver: TurnTo, standing_height: float) -> Boundary:
         axis = final[1:] / sine if sine > 0.0 else _PITCH
         angle = 2.0 * float(np.arctan2(sine, final[0]))
     return Boundary(
-        name=maneuver.name,
-        attitude=LEVEL,
-        final_attitude=final,
-        axis=axis,
-        angle=angle,
-        duration=maneuver.duration,
-        end=maneuver.end,
-        rate=np.array(maneuver.rate),
-        wheel_speed=maneuver.wheel_speed,
-    )
-
-
-@boundary.register
-def _unforeseen(maneuver: Unforeseen, standing_height: float) -> Boundary:
-    """Turn back to level in the time after a torque, from level at its onset."""
-    del standing_height
-    if maneuver.time_left <= 0.0:
-        raise SpecificationError(
-            f"maneuver {maneuver.name!r}: no time is left after its torque",
-            hint="Let the torque start earlier, or the robot jump higher.",
-        )
-    return Boundary(
-        name=maneuver.name,
-        attitude=LEVEL,
-        final_attitude=LEVEL,
-        axis=_PITCH,
-        angle=0.0,
-        duration=maneuver.time_left,
-        push=np.array(maneuver.torque),
-        push_duration=maneuver.duration,
+        maneuver.name,
+        LEVEL,
+        final,
+        axis,
+        angle,
+        maneuver.duration,
+        maneuver.end,
+        np.array(maneuver.rate),
+        maneuver.wheel_speed,
     )
 
 

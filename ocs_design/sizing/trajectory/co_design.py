@@ -103,13 +103,11 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
     turns = list(device.turns())
     solution = solve(turns, _usable(problem, selected), PASSES, device.dimensions())
     found = device.at(*solution.dimensions.tolist())
-    flights: list[Flight] = []
-    maneuvers = problem.requirement.maneuvers
+    maneuvers, flights = problem.requirement.maneuvers, list[Flight]()
     for maneuver, turn, motion in zip(maneuvers, turns, solution.motions, strict=True):
         own = found.incidence if maneuver.incidence is None else maneuver.incidence
-        gyrostat = _gyrostat(problem, found, own)
-        outline = replace(turn, gyrostat=gyrostat).outline
-        flights.append(fly(gyrostat, _usable(problem, found), turn.asked, outline, motion))
+        flown = replace(turn, gyrostat=_gyrostat(problem, found, own))
+        flights.append(fly(flown, _usable(problem, found), motion))
     failed = (
         f"in {turn.asked.name!r}, {flight.failure}"
         for turn, flight in zip(turns, flights, strict=True)

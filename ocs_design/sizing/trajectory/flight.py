@@ -13,14 +13,13 @@ from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import cross
 from ocs_design.sizing.trajectory.boundary import (
-    Boundary,
     conjugate,
     product,
     turned_into_world,
     vertical_of,
 )
-from ocs_design.sizing.trajectory.gyrostat import Gyrostat
-from ocs_design.sizing.trajectory.motion import FixedAxisTurn, Motion, Trajectory
+from ocs_design.sizing.trajectory.motion import Motion, Trajectory
+from ocs_design.sizing.trajectory.transcription import Turn
 
 FINER = 10
 """Steps for each interval of the program."""
@@ -60,18 +59,15 @@ class Flight:
         return ""
 
 
-def fly(
-    gyrostat: Gyrostat, line: DriveLine, asked: Boundary, turn: FixedAxisTurn, motion: Motion
-) -> Flight:
+def fly(flown: Turn, line: DriveLine, motion: Motion) -> Flight:
     """Apply the torques of a motion from the start of the turn.
 
     Args:
-        gyrostat: robot and device, at the incidence of the maneuver.
+        flown: the turn, with robot and device as they are.
         line: what of the drives may be used.
-        asked: boundary value problem of the maneuver.
-        turn: attitude and rate at the start, and the axis about which turns are counted.
         motion: of the program.
     """
+    asked, gyrostat, turn = flown.asked, flown.gyrostat, flown.outline
     wheels = gyrostat.axes.shape[1]
     mass_matrix = gyrostat.mass_matrix
     inverse, pull = gyrostat.inverse_mass_matrix, gyrostat.pull
@@ -100,19 +96,19 @@ def fly(
         k4 = slope(state + h * k3, after)
         state = state + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
         states.append(state)
-    flown = np.array(states)
+    passed = np.array(states)
     torque = np.vstack([first[:1], (first[1:] + last[:-1]) / 2.0, last[-1:]])
     trajectory = Trajectory(
         time=np.append(0.0, np.cumsum(steps)),
-        vertical=vertical_of(flown[:, :4].T).T,
-        rate=flown[:, 4:7],
-        acceleration=np.array([slope(*row)[4:7] for row in zip(flown, torque, strict=True)]),
-        wheel_speed=flown[:, 7 : 7 + wheels],
+        vertical=vertical_of(passed[:, :4].T).T,
+        rate=passed[:, 4:7],
+        acceleration=np.array([slope(*row)[4:7] for row in zip(passed, torque, strict=True)]),
+        wheel_speed=passed[:, 7 : 7 + wheels],
         wheel_torque=torque,
-        turned=flown[:, -1],
+        turned=passed[:, -1],
         note="",
         step_torque=np.stack([first, last], axis=1),
-        attitude=flown[:, :4],
+        attitude=passed[:, :4],
     )
     claimed = motion.state_at(trajectory.time)
     momentum = mass_matrix[:3] @ np.append(rate, speed)
@@ -131,7 +127,7 @@ def fly(
             limit_violation(trajectory.wheel_speed[:-1], first, line),
             limit_violation(trajectory.wheel_speed[1:], last, line),
         ),
-        end_tilt=asked.missed(flown[-1, :4]),
+        end_tilt=asked.missed(passed[-1, :4]),
         end_rate=float(np.linalg.norm(gyrostat.turns_about @ trajectory.rate[-1])),
         defect=difference / largest if largest > 0.0 else 0.0,
     )

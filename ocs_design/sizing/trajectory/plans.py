@@ -344,7 +344,7 @@ def gentlest(
     found = []
     for turn in guesses:
         solution = solve([turn], line, (intervals,))
-        flight = fly(gyrostat, line, turn.asked, turn.outline, solution.motions[0])
+        flight = fly(turn, line, solution.motions[0])
         found.append(Planned(**vars(flight), solution=solution))
     return min(found, key=lambda planned: (planned.failure != "", planned.solution.cost))
 
