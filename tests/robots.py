@@ -12,13 +12,13 @@ ALL_URDFS = sorted(ROBOTS.rglob("*.urdf"))
 
 
 def one_of_each(robots):
-    """Paths or names of robots as parameters: of each maker's folder the first, the rest slow."""
+    """Paths or names of robots as parameters: the first of each maker's, the rest exhaustive."""
     seen, marked = set(), []
     for robot in robots:
         name = str(robot.relative_to(ROBOTS)) if isinstance(robot, Path) else robot
         family = name.partition("/")[0]
         marked.append(
-            pytest.param(robot, id=name, marks=[pytest.mark.slow] if family in seen else [])
+            pytest.param(robot, id=name, marks=[pytest.mark.exhaustive] if family in seen else [])
         )
         seen.add(family)
     return marked

@@ -1,4 +1,4 @@
-"""The drive at the wheel: data-sheet figures, gears, reserve, and what may be missing."""
+"""What a drive does in a time: torque over speed, both ways of turning, and the tilt it turns."""
 
 import math
 from dataclasses import fields, replace
@@ -6,6 +6,9 @@ from dataclasses import fields, replace
 import driven_wheels
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from ocs_design.actuation.drive import (
     Drive,
@@ -16,7 +19,16 @@ from ocs_design.actuation.drive import (
     rotor_share,
     speed_limit,
 )
-from ocs_design.actuation.motor import DIRECT, Motor
+from ocs_design.actuation.motor import (
+    DIRECT,
+    Motor,
+    ResistanceConvention,
+    TorqueConstantConvention,
+    line_to_line_resistance,
+    six_step_current,
+    six_step_torque_constant,
+)
+from ocs_design.actuation.tilt_inertia import STRAY_MAX, TiltInertia
 from ocs_design.common.errors import OcsError
 
 RPM = math.pi / 30.0
@@ -155,3 +167,110 @@ def test_a_drive_has_every_figure_of_its_motor_that_the_gear_leaves_alone():
         else:
             assert getattr(drive, name) == getattr(found, name), name
     assert (drive.gear, drive.gear_ratio, drive.bus_voltage) == ("2:1", 2.0, 24.0)
+
+
+INERTIA = np.array([[1.49, -0.22, -0.33], [-0.22, 2.74, -0.16], [-0.33, -0.16, 2.75]])
+"""About that of a quadruped with an arm to one side [kg m^2]."""
+
+PITCH_ONLY = np.array([0.0, 1.0])
+
+
+def rates_without_momentum(inertia, held):
+    """All three rates of a unit rate about the held axis, with no momentum about the others."""
+    free = [axis for axis in range(3) if axis not in held]
+    rates = np.zeros(3)
+    rates[list(held)] = [float(axis == max(held)) for axis in held]
+    rates[free] = np.linalg.solve(inertia[np.ix_(free, free)], -inertia[free] @ rates)
+    return rates
+
+
+def test_a_pure_pitch_takes_the_roll_momentum_of_the_product():
+    rates = rates_without_momentum(INERTIA, (0, 1))
+    roll, pitch = TiltInertia.of(INERTIA).momentum(np.array([0.0, 1.0]))
+    assert roll == pytest.approx((INERTIA @ rates)[0], rel=1e-14)
+    # What the heading takes of I_yy is left in.
+    assert 0.0 <= pitch - (INERTIA @ rates)[1] == pytest.approx(0.16**2 / 2.75, rel=1e-12)
+
+
+def test_an_axis_out_of_reach_follows_and_gives_way():
+    """Wheels on the pitch axis alone: no momentum about roll, so that roll follows pitch."""
+    whole = TiltInertia.of(INERTIA)
+    inertia = np.array([[whole.diagonal[0], whole.product], [whole.product, whole.diagonal[1]]])
+    follows = -inertia[0, 1] / inertia[0, 0]
+    left = whole.within_reach(PITCH_ONLY, 0.0)
+    assert left.momentum(np.array([0.0, 1.0])) == pytest.approx(inertia @ [follows, 1.0], abs=1e-15)
+    assert whole.drift[0] == pytest.approx(abs(follows), rel=1e-14)
+
+
+def test_a_turn_that_would_end_off_level_asks_for_what_the_wheels_do_not_reach():
+    whole = TiltInertia.of(INERTIA)
+    enough = STRAY_MAX / whole.drift[0]
+    assert whole.within_reach(PITCH_ONLY, 0.999 * enough).product == 0.0
+    assert whole.within_reach(PITCH_ONLY, 1.001 * enough).product == whole.product
+    assert whole.within_reach(np.array([0.1, 0.99]), 0.0) is whole
+
+
+@given(st.integers(0, 10_000))
+def test_it_is_that_of_a_body(seed):
+    """Positive, whatever the body is; and the same seen from behind."""
+    rng = np.random.default_rng(seed)
+    x, y, z = rng.uniform(0.01, 1.0, 3)
+    turn = Rotation.random(random_state=rng).as_matrix()
+    body = turn @ np.diag([y + z, x + z, x + y]) @ turn.T
+    assert 0.0 <= TiltInertia.of(body).share < 1.0
+    behind = np.diag([-1.0, -1.0, 1.0])
+    assert TiltInertia.of(behind @ body @ behind).product == pytest.approx(
+        float(TiltInertia.of(body).product), abs=1e-15
+    )
+
+
+PHASES = 2.0 * np.pi * np.arange(3) / 3.0
+ANGLES = np.linspace(0.0, 2.0 * np.pi, 360, endpoint=False)
+
+
+def test_published_figures_per_kv():
+    """9.549/Kv between lines, 8.27/Kv per peak phase ampere (docs/theory.md)."""
+    kv = 300.0
+    six_step = 1.0 / (kv * math.pi / 30.0)
+    assert six_step * kv == pytest.approx(9.549, abs=5e-4)
+    for convention, figure in [
+        (TorqueConstantConvention.SIX_STEP, 9.549),
+        (TorqueConstantConvention.FOC, 8.270),
+        (TorqueConstantConvention.FOC_RMS, 11.695),
+    ]:
+        stated = figure / kv
+        assert six_step_torque_constant(stated, convention) == pytest.approx(six_step, rel=1e-4)
+
+
+def test_power_torque_and_heat_are_those_of_three_sine_phases():
+    """Sums over the phases, with no convention in them, at a speed of 100 rad/s."""
+    emf, amplitude, phase_resistance, speed = 7.0, 3.0, 0.2, 100.0
+    voltages = emf * np.sin(ANGLES[:, None] + PHASES)
+    currents = amplitude * np.sin(ANGLES[:, None] + PHASES)
+    power = (voltages * currents).sum(axis=1).mean()
+    heat = (phase_resistance * currents**2).sum(axis=1).mean()
+    largest_line_voltage = np.ptp(voltages[:, :2] @ [[1.0], [-1.0]]) / 2.0
+    torque = power / speed
+
+    foc = TorqueConstantConvention.FOC
+    k_t = six_step_torque_constant(torque / amplitude, foc)
+    current = six_step_current(amplitude, foc)
+    resistance = line_to_line_resistance(phase_resistance, ResistanceConvention.PHASE)
+    assert k_t * current == pytest.approx(torque, rel=1e-12)
+    assert resistance * current**2 == pytest.approx(heat, rel=1e-12)
+    assert k_t * speed == pytest.approx(largest_line_voltage, rel=1e-4)
+
+
+@pytest.mark.parametrize("convention", TorqueConstantConvention)
+def test_the_torque_does_not_depend_on_the_convention(convention):
+    torque = six_step_torque_constant(0.03, convention) * six_step_current(12.0, convention)
+    assert torque == pytest.approx(0.36, rel=1e-14)
+
+
+def test_root_mean_square_and_amplitude_differ_by_the_root_of_two():
+    foc = six_step_current(math.sqrt(2.0), TorqueConstantConvention.FOC)
+    assert six_step_current(1.0, TorqueConstantConvention.FOC_RMS) == pytest.approx(foc, rel=1e-14)
+
+
+def test_resistance_between_lines_stays():
+    assert line_to_line_resistance(0.4, ResistanceConvention.LINE_LINE) == 0.4

@@ -1,22 +1,27 @@
-"""A trunk with two driven wheels, body by body, against the reduced inertia and its closed forms.
+"""Two wheels at an angle, and the controllers of their motors."""
 
-Trunk, rims, rotors and gear wheels are bodies with energies of their own; Lagrange's equations
-`M q'' = Q` for the turning trunk and both wheels are integrated with motors that know their data
-sheet and when to brake. Nothing here uses a reduced inertia.
-"""
-
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from ocs_design.actuation.controllers import (
+    BASE_MASS,
+    KNOWN,
+    MASS_PER_CURRENT,
+    controller_mass,
+    controller_mass_of,
+)
 from ocs_design.actuation.drive import DriveLine, armature, rotor_share
+from ocs_design.actuation.fasteners import IN_PLASTIC, SCREWS, screw
 from ocs_design.actuation.motor import DIRECT, Gear
 from ocs_design.actuation.slew import slew_profile
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_load import WheelTask
+from ocs_design.catalogue.motors import motors
+from ocs_design.common.errors import PartError
 from ocs_design.device.layout import module_axes
 
 INF = np.inf
@@ -173,3 +178,79 @@ def test_a_slew_about_both_axes(pair, angle):
     second, speed = np.array(torques).T
     assert (second <= motor_torque(speed, 1.0) + 1e-9).all()
     assert (second >= motor_torque(speed, -1.0) - 1e-9).all()
+
+
+def test_the_rule_is_the_least_squares_of_the_known_ones():
+    current = np.array([each.peak_current for each in KNOWN])
+    mass = np.array([each.mass for each in KNOWN])
+    slope, base = np.polyfit(current, mass, 1)
+    assert pytest.approx(base, rel=0.01) == BASE_MASS
+    assert pytest.approx(slope, rel=0.01) == MASS_PER_CURRENT
+
+
+def test_the_rule_is_as_far_off_as_it_says():
+    ratios = [controller_mass(each.peak_current) / each.mass for each in KNOWN]
+    assert min(ratios) == pytest.approx(0.5, abs=0.05)
+    assert max(ratios) == pytest.approx(2.3, abs=0.1)
+
+
+def test_a_motor_by_hand():
+    """0.55 N m of 0.0212 N m/A are 26 A through two lines, 30 A of a phase's sine: 15 g."""
+    motor = replace(next(iter(motors().values())), peak_torque=0.55, torque_constant=0.0212)
+    assert controller_mass_of(motor) == pytest.approx(0.0151, abs=1e-4)
+    assert controller_mass_of(replace(motor, torque_constant=None)) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("name", "thickness", "designation"),
+    [
+        ("M3", 0.005, "ISO 4762 M3 x 8"),
+        ("M4", 0.005, "ISO 4762 M4 x 10"),
+        ("M3", 0.0051, "ISO 4762 M3 x 10"),
+        ("M2.5", 0.0066, "ISO 4762 M2.5 x 10"),
+        ("M4", 0.016, "ISO 4762 M4 x 20"),
+        ("M4", 0.0161, "ISO 4762 M4 x 25"),
+        ("M6", 0.029, "ISO 4762 M6 x 35"),
+    ],
+)
+def test_a_screw_reaches_as_deep_as_it_is_thick(name, thickness, designation):
+    found = screw(name)
+    assert found.designation(found.length_through(thickness)) == designation
+
+
+def test_threads_in_plastic_are_twice_as_deep():
+    assert screw("M2").length_through(0.0016, IN_PLASTIC) == 0.006
+
+
+# kg per 1000, Fuller Metric, weight chart of DIN 912 (the weights of ISO 4762 are the same).
+MASSES = {
+    ("M2", 6): 0.215,
+    ("M2.5", 8): 0.465,
+    ("M3", 8): 0.8,
+    ("M3", 10): 0.9,
+    ("M3", 16): 1.2,
+    ("M4", 10): 1.8,
+    ("M4", 20): 2.7,
+    ("M5", 12): 3.0,
+    ("M6", 12): 5.1,
+    ("M6", 20): 6.5,
+}
+
+
+@pytest.mark.parametrize(("name", "length"), MASSES)
+def test_screws_weigh_what_a_maker_says(name, length):
+    """Heads are of their largest size here, so that light ones come out heavier by 30 mg."""
+    stated = MASSES[name, length] * 1e-3
+    assert screw(name).mass(1e-3 * length) == pytest.approx(stated, rel=0.1, abs=5e-5)
+
+
+def test_every_screw_passes_its_clearance_hole_and_is_cut_into_the_other():
+    for found in SCREWS:
+        assert found.tapping_drill < found.diameter < found.clearance_hole < found.head_diameter
+        assert found.head_height == pytest.approx(found.diameter)
+
+
+def test_an_unknown_name_gets_those_that_there_are():
+    with pytest.raises(PartError, match="M7") as caught:
+        screw("M7")
+    assert "M2.5" in caught.value.hint

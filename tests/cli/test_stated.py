@@ -1,11 +1,15 @@
-"""From a command's parameters to what was stated."""
+"""Options as they are stated, and the examples of the commands."""
 
+import shlex
 from types import SimpleNamespace
 
 import pytest
+import typer
 
+from ocs_design.cli.app import EXAMPLES, app
 from ocs_design.cli.options import package_paths_of_command, specified_by_command
 from ocs_design.common.errors import UsageError
+from ocs_design.requirement.choices import unknown_names
 
 
 def stated(**parameters):
@@ -69,3 +73,31 @@ def test_package_paths_are_pairs(tmp_path):
 def test_what_is_no_pair_is_refused(text):
     with pytest.raises(UsageError, match="is not NAME=DIR"):
         package_paths(text)
+
+
+GROUP = typer.main.get_command(app)
+
+
+@pytest.mark.parametrize("line", [line for lines in EXAMPLES.values() for line in lines])
+def test_an_example_is_parsed(line):
+    program, name, *arguments = shlex.split(line)
+    assert program == "ocs-design"
+    assert line in EXAMPLES[name]
+    outer = GROUP.make_context("ocs-design", [name, *arguments])
+    context = GROUP.commands[name].make_context(name, arguments, parent=outer)
+    if "spec" in context.params and "design" not in context.params:
+        assert list(unknown_names(specified_by_command(context))) == []
+
+
+def test_every_command_has_examples_in_its_help_that_no_terminal_breaks():
+    assert set(EXAMPLES) == set(GROUP.commands)
+    for name, command in GROUP.commands.items():
+        context = command.context_class(command, info_name=name, max_content_width=80)
+        assert all(f"\n    {line}\n" in command.get_help(context) + "\n" for line in EXAMPLES[name])
+
+
+@pytest.mark.parametrize("option", ["-h", "--help"])
+def test_help_is_asked_for_in_two_ways(option, capsys):
+    for arguments in ([option], ["size", option]):
+        assert GROUP.main(arguments, prog_name="ocs-design", standalone_mode=False) == 0
+        assert "-h, --help" in capsys.readouterr().out

@@ -1,16 +1,21 @@
-"""A second process answers what this one would, and nothing hangs on whether it can."""
+"""Columns as one table, files, what can be installed, and a second process."""
 
 import math
 import os
 import signal
 import sys
 import time
+from dataclasses import dataclass
 
+import numpy as np
 import pytest
+from numpy.testing import assert_array_equal
 
-from ocs_design.common import beside
+from ocs_design.common import beside, errors
+from ocs_design.common.arrays import FloatArray, Table
 from ocs_design.common.beside import Beside
-from ocs_design.common.files import safe_name
+from ocs_design.common.errors import extra_command, install_command
+from ocs_design.common.files import read_plain_file, safe_name
 
 
 def own_process(asked):
@@ -68,3 +73,90 @@ def test_nothing_runs_on_when_nobody_waits_for_it():
         other.call(time.sleep, 600.0)
         process = other._process
     assert process.returncode == -signal.SIGKILL
+
+
+@dataclass(frozen=True, eq=False)
+class Inner(Table):
+    inertia: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Outer(Table):
+    mass: FloatArray
+    axes: FloatArray
+    inner: Inner
+    name: str = "shared"
+
+
+def table(seed, rows=5):
+    draw = np.random.default_rng(seed)
+    return Outer(draw.random(rows), draw.random((rows, 3)), Inner(draw.random(rows)))
+
+
+def columns(value):
+    return value.mass, value.axes, value.inner.inertia
+
+
+def test_take_is_indexing_every_column():
+    some = table(0)
+    for rows in (np.array([4, 0, 0]), np.array([True, False, False, True, False])):
+        for taken, column in zip(columns(some.take(rows)), columns(some), strict=True):
+            assert_array_equal(taken, column[rows])
+    assert some.take(np.array([1])).name == "shared"
+
+
+def test_repeat_keeps_copies_of_a_row_together():
+    for repeated, column in zip(columns(table(1).repeat(3)), columns(table(1)), strict=True):
+        assert_array_equal(repeated, column[np.repeat(np.arange(5), 3)])
+
+
+def test_put_replaces_rows_and_leaves_the_original_alone():
+    some, rows = table(2), np.array([3, 1])
+    before = [column.copy() for column in columns(some)]
+    put = some.put(rows, table(3, rows=2))
+    for after, other, column, old in zip(
+        columns(put), columns(table(3, rows=2)), columns(some), before, strict=True
+    ):
+        assert_array_equal(after[rows], other)
+        assert_array_equal(after[[0, 2, 4]], old[[0, 2, 4]])
+        assert_array_equal(column, old)
+
+
+def test_a_plain_file_is_read_whole(tmp_path):
+    path = tmp_path / "a"
+    path.write_bytes(b"1234")
+    assert read_plain_file(path, 4) == b"1234"
+    with pytest.raises(OSError, match="larger than"):
+        read_plain_file(path, 3)
+
+
+def test_what_never_ends_is_not_begun(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    for path in (tmp_path / "pipe", "/dev/zero"):
+        with pytest.raises(OSError, match="no plain file"):
+            read_plain_file(path, 1 << 20)
+    with pytest.raises(IsADirectoryError):
+        read_plain_file(tmp_path, 1)
+    with pytest.raises(FileNotFoundError):
+        read_plain_file(tmp_path / "gone", 1)
+
+
+@pytest.mark.parametrize(
+    ("receipt", "has_pip", "command"),
+    [
+        ("", True, "pip install 'ocs-design[dxf,step]'"),
+        ("pipx_metadata.json", False, "pipx runpip {name} install 'ocs-design[dxf,step]'"),
+        ("", False, "uv pip install --python {python} 'ocs-design[dxf,step]'"),
+    ],
+)
+def test_the_command_is_that_of_the_environment(receipt, has_pip, command, tmp_path, monkeypatch):
+    if receipt:
+        (tmp_path / receipt).touch()
+    monkeypatch.setattr(sys, "prefix", str(tmp_path))
+    monkeypatch.setattr(errors, "find_spec", lambda name: has_pip or None)
+    wanted = command.format(name=tmp_path.name, python=sys.executable)
+    assert extra_command("dxf", "step") == wanted
+
+
+def test_options_stand_before_the_packages():
+    assert install_command("a<2", "b", options="-U").endswith("install -U 'a<2' 'b'")

@@ -1,9 +1,11 @@
-"""Whatever is typed: one of the known exit codes, and no exception that nobody has thought of."""
+"""Any robot by hand, and files that were cut or altered."""
 
+import importlib.util
 import shutil
 import tempfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 from commands import everything_in, run
 from hypothesis import HealthCheck, example, given, settings
@@ -217,3 +219,16 @@ def test_flights_of_robots_by_hand(folder, moments, scale, speed, torque):
         "--motor=none",
     )
     check_exit(folder, "size", *typed, "-q", "-o", "out")
+
+
+SCRIPT = Path(__file__).parents[2] / "examples" / "level_in_mujoco.py"
+
+
+def test_what_falls_tilted_lands_level(product, capsys):
+    specification = importlib.util.spec_from_file_location(SCRIPT.stem, SCRIPT)
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    assert abs(module.main(product.folder)) < 0.2 * module.PITCH
+    assert "touches down after 0.3" in capsys.readouterr().out
+    module.KP = module.KD = 0.0
+    np.testing.assert_allclose(module.main(product.folder), module.PITCH, rtol=0.1)

@@ -1,8 +1,9 @@
-"""Pictures: what is on them, where it is, and what happens where nothing can be drawn."""
+"""Pictures: by OpenGL where there is one, by triangles else, and films."""
 
 import subprocess
 import sys
 
+import imageio_ffmpeg
 import mujoco
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from ocs_design.export import programs
 from ocs_design.export.film import Take
 from ocs_design.export.offscreen import HEIGHT, WIDTH, shown_box
 from ocs_design.export.pictures import draw_pictures, render_views
+from ocs_design.export.programs import ffmpeg_program
 from ocs_design.export.raster import png_bytes
 from ocs_design.export.robot_model import robot_model
 from ocs_design.robot.reader import read_robot
@@ -122,3 +124,32 @@ def test_the_program_does_not_load_the_rest_of_the_package():
     code = "import sys, ocs_design.export.offscreen; print('cvxpy' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True)
     assert done.stdout.strip() == b"False"
+
+
+@pytest.fixture
+def no_system(tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    return tmp_path
+
+
+def test_the_systems_own_comes_first(no_system):
+    program = no_system / "ffmpeg"
+    program.write_text("#!/bin/sh\n")
+    program.chmod(0o755)
+    assert ffmpeg_program() == str(program)
+
+
+def test_else_that_of_the_extra_which_runs(no_system):
+    said = subprocess.run([ffmpeg_program(), "-version"], capture_output=True, check=True).stdout
+    assert said.startswith(b"ffmpeg version")
+
+
+@pytest.mark.parametrize("why", ["not installed", "no binary"])
+def test_else_none(no_system, monkeypatch, why):
+    def refuse():
+        raise RuntimeError("No ffmpeg exe could be found")
+
+    if why == "not installed":
+        monkeypatch.setattr(programs, "find_spec", lambda name: None)
+    monkeypatch.setattr(imageio_ffmpeg, "get_ffmpeg_exe", refuse)
+    assert ffmpeg_program() is None

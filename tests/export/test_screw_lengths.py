@@ -37,31 +37,31 @@ def test_there_are_motors_to_look_at():
     assert len(HELD) >= 9
 
 
-@pytest.mark.parametrize("motor", HELD, ids=lambda motor: motor.name)
-def test_every_screw_is_standard_and_holds(motor):
+def test_every_screw_is_standard_and_holds():
     """As short as it may be: the next shorter standard length would not hold."""
-    for each in (*fastenings(motor), LID_SCREWS, trunk_screws(PLATE_THICKNESS)):
-        least = 1e3 * max(each.depth * each.screw.diameter, each.least)
-        length = round(1e3 * each.length)
-        held = length - 1e3 * each.thickness
-        assert length in STANDARD
-        assert held >= least - 1e-9
-        assert each.depth >= (IN_PLASTIC if "tapped" in each.purpose else 1.0)
-        shorter = max((other for other in STANDARD if other < length), default=0)
-        assert shorter - 1e3 * each.thickness < least
+    for motor in HELD:
+        for each in (*fastenings(motor), LID_SCREWS, trunk_screws(PLATE_THICKNESS)):
+            least = 1e3 * max(each.depth * each.screw.diameter, each.least)
+            length = round(1e3 * each.length)
+            held = length - 1e3 * each.thickness
+            assert length in STANDARD
+            assert held >= least - 1e-9
+            assert each.depth >= (IN_PLASTIC if "tapped" in each.purpose else 1.0)
+            shorter = max((other for other in STANDARD if other < length), default=0)
+            assert shorter - 1e3 * each.thickness < least
 
 
-@pytest.mark.parametrize("motor", HELD, ids=lambda motor: motor.name)
-def test_no_screw_ends_in_what_is_behind_its_thread(motor):
+def test_no_screw_ends_in_what_is_behind_its_thread():
     """In a cage its thread is as long as the motor and the gap; else the depth is to be checked."""
-    mount = mount_of(motor, None)
-    for each in mount.screwed:
-        held = each.fastening
-        if "tapped" in held.purpose:
-            room = PANEL + PLATE_THICKNESS + mount.cage.length - FLOOR
-            assert held.length <= room + 1e-12
-        else:
-            assert "check the depth of the motor's thread" in held.purpose
+    for motor in HELD:
+        mount = mount_of(motor, None)
+        for each in mount.screwed:
+            held = each.fastening
+            if "tapped" in held.purpose:
+                room = PANEL + PLATE_THICKNESS + mount.cage.length - FLOOR
+                assert held.length <= room + 1e-12
+            else:
+                assert "check the depth of the motor's thread" in held.purpose
 
 
 def test_the_lid_s_screws_end_in_the_drum_s_ears():
@@ -83,15 +83,15 @@ def test_torques_are_those_of_vdi_2230(name):
     assert screw(name).torque(screw(name).preload) == pytest.approx(torque, rel=0.05)
 
 
-@pytest.mark.parametrize("motor", HELD, ids=lambda motor: motor.name)
-def test_no_torque_is_beyond_what_screw_thread_and_print_stand(motor):
-    for each in (*fastenings(motor), LID_SCREWS, trunk_screws(PLATE_THICKNESS)):
-        soft, hard = (tightened(each, on_metal=metal) for metal in (False, True))
-        stronger = CLASSES[each.strength].yields / CLASSES[USUAL_CLASS].yields
-        most = each.screw.torque(stronger * each.screw.preload)
-        assert 0.0 < soft.torque <= hard.torque <= most
-        if each.depth >= IN_PLASTIC:
-            assert "PETG" in soft.rule
+def test_no_torque_is_beyond_what_screw_thread_and_print_stand():
+    for motor in HELD:
+        for each in (*fastenings(motor), LID_SCREWS, trunk_screws(PLATE_THICKNESS)):
+            soft, hard = (tightened(each, on_metal=metal) for metal in (False, True))
+            stronger = CLASSES[each.strength].yields / CLASSES[USUAL_CLASS].yields
+            most = each.screw.torque(stronger * each.screw.preload)
+            assert 0.0 < soft.torque <= hard.torque <= most
+            if each.depth >= IN_PLASTIC:
+                assert "PETG" in soft.rule
 
 
 def test_a_print_s_thread_is_tightened_by_hand():

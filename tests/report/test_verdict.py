@@ -108,15 +108,15 @@ def test_where_it_cannot_be_told_it_says_so(changes, words):
 
 
 @pytest.mark.parametrize("show", [note, lambda console, text: items(console, [text])])
-@pytest.mark.parametrize("width", range(20, 60))
-def test_no_line_ends_between_a_number_and_its_unit(width, show):
+def test_no_line_ends_between_a_number_and_its_unit(show):
     text = "turns by (0.2, 0.8, 0) N m on the trunk for 0.05 s, 0.1 s after 3 kg m2 and 2.4 m/s up."
-    console = Console(file=StringIO(), width=width)
-    show(console, text)
-    lines = console.file.getvalue().splitlines()
-    assert max(map(len, lines)) <= width
-    for line in lines[:-1]:
-        assert not re.fullmatch(r"[\d.]+", line.split()[-1]), line
-        assert not line.rstrip().endswith((" N", " kg")), line
-    assert " ".join(" ".join(lines).replace("- ", "").split()) == text
-    assert wrapped(text, 1000) == text
+    for width in range(20, 60):
+        console = Console(file=StringIO(), width=width)
+        show(console, text)
+        lines = console.file.getvalue().splitlines()
+        assert max(map(len, lines)) <= width
+        for line in lines[:-1]:
+            assert not re.fullmatch(r"[\d.]+", line.split()[-1]), line
+            assert not line.rstrip().endswith((" N", " kg")), line
+        assert " ".join(" ".join(lines).replace("- ", "").split()) == text
+        assert wrapped(text, 1000) == text

@@ -1,16 +1,27 @@
-"""Bodies of a GLB against trimesh, which reads it on its own, and with fewer triangles."""
+"""Elements of the report's page, its bodies and colours."""
+
+import json
+import re
+from html.parser import HTMLParser
+from itertools import combinations
 
 import numpy as np
 import pytest
 import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from robots import SOLO12
 from wheels import paper_device
 
 from ocs_design.common.frames import Placement
 from ocs_design.export.glb import robot_glb
 from ocs_design.export.robot_model import robot_model
+from ocs_design.export.templates import template_text
 from ocs_design.report.bodies import ShownBody, Surface, read_bodies
+from ocs_design.report.charts.chart import SERIES
 from ocs_design.report.html.decimation import clustered, decimated
+from ocs_design.report.html.elements import Markup, data, element, items, table
+from ocs_design.report.table import Table, Tone, Toned, columns
 from ocs_design.robot.reader import read_robot
 
 UPRIGHT = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])
@@ -110,3 +121,149 @@ def test_no_triangle_is_without_area_or_there_twice():
     found = clustered(body(box()).surfaces[0], 0.013)
     assert (mesh_of(ShownBody("x", Placement.identity(), (found,))).area_faces > 0.0).all()
     assert len(np.unique(np.sort(found.faces, axis=1), axis=0)) == len(found.faces)
+
+
+TABLE = Table(columns("<name", "time [s]"), (("torque", Toned("1.2", Tone.OPEN)),))
+TEXT = st.text(st.characters(exclude_categories=["Cs", "Cc"]))
+
+
+class Reading(HTMLParser):
+    """Tags, attributes and texts, as a program that nobody here wrote reads them."""
+
+    def __init__(self, page):
+        super().__init__()
+        self.tags, self.attributes, self.texts = [], [], []
+        self.feed(page)
+        self.close()
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        self.attributes += attrs
+
+    def handle_data(self, text):
+        self.texts.append(text)
+
+
+@given(TEXT, TEXT)
+def test_no_text_becomes_an_element_or_an_attribute(text, value):
+    page = Reading(element("p", text, title=value, hidden=True))
+    assert page.tags == ["p"]
+    assert page.attributes == ([("title", value)] if value else []) + [("hidden", None)]
+    for power, letter in (("²", "2"), ("³", "3")):
+        text = text.replace(power, letter)
+        page.texts = [each.replace(power, letter) for each in page.texts]
+    assert "".join(page.texts) == text
+
+
+@settings(max_examples=30)
+@given(st.dictionaries(TEXT, TEXT))
+def test_data_comes_back_and_cannot_end_its_element(value):
+    page = Reading(data("design", json.dumps(value, ensure_ascii=False)))
+    assert page.tags == ["script"]
+    assert json.loads("".join(page.texts)) == value
+
+
+def test_markup_stands_as_it_is_and_what_is_not_does_not():
+    assert element("p", Markup("<b>x</b>"), "<b>") == "<p><b>x</b>&lt;b&gt;</p>"
+
+
+def test_units_get_their_powers():
+    assert (
+        element("p", "4 kg m2, 5 kg m^2, robot_m2, 3 rad/s2")
+        == "<p>4 kg m², 5 kg m², robot_m2, 3 rad/s²</p>"
+    )
+
+
+def test_lists_without_anything_are_not_there():
+    assert items([]) == ""
+    assert Reading(items(["a", "b"])).tags == ["ul", "li", "li"]
+
+
+def test_tables_have_a_caption_and_heads_for_their_columns():
+    page = Reading(table("Margins", TABLE))
+    assert " ".join(page.tags) == "div table caption thead tr th th tbody tr td td span"
+    assert page.attributes.count(("scope", "col")) == 2
+    assert page.texts == ["Margins", "name", "time [s]", "torque", "1.2"]
+    assert page.attributes.count(("class", "number")) == 2
+    assert page.attributes.count(("class", "mark open")) == 1
+
+
+# Of linear sRGB, severity 1: G. M. Machado, M. M. Oliveira, L. A. F. Fernandes, "A
+# Physiologically-based Model for Simulation of Color Vision Deficiency", IEEE TVCG 15(6), 2009.
+SEEN_BY = {
+    "all cones": np.eye(3),
+    "no red cones": np.array([
+        [0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216],
+        [-0.003882, -0.048116, 1.051998],
+    ]),
+    "no green cones": np.array([
+        [0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413],
+        [-0.011820, 0.042940, 0.968881],
+    ]),
+    "no blue cones": np.array([
+        [1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602],
+        [0.004733, 0.691367, 0.303900],
+    ]),
+}  # fmt: skip
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+
+
+def palettes():
+    """Palettes of the page in light and in dark."""
+    style = template_text("report/report.css")
+    blocks = re.findall(r":root \{(.*?)\}", style, re.DOTALL)[:2]
+    return {
+        look: dict(re.findall(r"--([\w-]+): (#[0-9a-f]{6})", block))
+        for look, block in zip(("light", "dark"), blocks, strict=True)
+    }
+
+
+def linear(color):
+    """Intensities of a colour of the screen (IEC 61966-2-1)."""
+    code = np.array([int(color[i : i + 2], 16) for i in (1, 3, 5)]) / 255.0
+    return np.where(code <= 0.04045, code / 12.92, ((code + 0.055) / 1.055) ** 2.4)
+
+
+def lab(intensity):
+    """CIE L*a*b* of linear sRGB under D65."""
+    to_xyz = np.array([
+        [0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750],
+        [0.0193339, 0.1191920, 0.9503041],
+    ])  # fmt: skip
+    ratio = to_xyz @ np.clip(intensity, 0.0, 1.0) / [0.95047, 1.0, 1.08883]
+    f = np.where(ratio > 216 / 24389, np.cbrt(ratio), (24389 / 27 * ratio + 16) / 116)
+    return np.array([116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])])
+
+
+def contrast(one, other):
+    """Ratio of WCAG 2.2, success criterion 1.4.3."""
+    light, dark = sorted((LUMINANCE @ linear(each) for each in (one, other)), reverse=True)
+    return (light + 0.05) / (dark + 0.05)
+
+
+@pytest.mark.parametrize("look", ["light", "dark"])
+@pytest.mark.parametrize("eyes", SEEN_BY)
+def test_curves_are_told_apart(look, eyes):
+    palette = palettes()[look]
+    seen = {ink: lab(SEEN_BY[eyes] @ linear(palette[ink])) for ink in SERIES}
+    for one, other in combinations(SERIES, 2):
+        # What is just seen beside each other is 2.3 (M. Mahy and others, 1994).
+        assert np.linalg.norm(seen[one] - seen[other]) > 4.0 * 2.3, (one, other)
+
+
+@pytest.mark.parametrize("look", ["light", "dark"])
+def test_words_stand_out_from_what_is_behind_them(look):
+    palette = palettes()[look]
+    for ink in ("text", "soft", "accent"):
+        for back in ("paper", "page"):
+            assert contrast(palette[ink], palette[back]) >= 4.5, (ink, back)
+    for state in ("good", "bad", "open"):
+        assert contrast(palette[state], palette[f"{state}-back"]) >= 4.5, state
+
+
+@pytest.mark.parametrize("look", ["light", "dark"])
+def test_curves_stand_out_from_the_paper(look):
+    palette = palettes()[look]
+    # The last two are only for a fifth and a sixth curve, which the legend names.
+    for ink in SERIES[:4]:
+        assert contrast(palette[ink], palette["paper"]) >= 3.0, ink
