@@ -7,14 +7,8 @@ from ocs_design.actuation.motor import DIRECT, Face, GearRoom, Mounting
 from ocs_design.catalogue.motors import known_motors
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
 from ocs_design.device.device import Device
-from ocs_design.device.joints import (
-    DAMPING,
-    FLOOR_SHOCK,
-    foot_frequency,
-    foot_hold,
-    joints_of,
-    resonances_of,
-)
+from ocs_design.device.joints import FLOOR_SHOCK, foot_hold, joints_of
+from ocs_design.device.resonances import DAMPING, foot_frequency, resonances_of
 from ocs_design.device.solids import drive_solids, foot_of, motor_mount, shaft_cut
 from ocs_design.export.device_parts import foot_holes, places, trunk_holes, wheel_geometry
 from ocs_design.export.drawing.wheel import BROKEN_EDGE, lost_by_breaking
@@ -175,10 +169,8 @@ def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
     hold, own = foot_hold(device), foot_part(foot).mass_properties().mass
     bears = hold.prints_bear
     if bears < SHOCK:
-        stronger, heavier = (
-            ALUMINIUM.strength / PETG.strength,
-            own * (ALUMINIUM.density / PETG.density - 1.0),
-        )
+        stronger = ALUMINIUM.strength / PETG.strength
+        heavier = own * (ALUMINIUM.density / PETG.density - 1.0)
         stiffer = foot_frequency(device, ALUMINIUM.modulus) / foot_frequency(device)
         sway = "".join(
             f", and let it sway at {mode.frequency:.0f} Hz" for mode in modes if mode.name == "foot"

@@ -5,7 +5,7 @@ from pathlib import Path
 from ocs_design.export.device_parts import pedestal_kinds, printed_parts, ring_fixture
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import part_mesh
-from ocs_design.export.stl import MILLIMETRES, stl_bytes
+from ocs_design.export.stl import stl_bytes
 from ocs_design.export.threemf import threemf_bytes
 
 
@@ -22,7 +22,7 @@ def write(subject: Subject, folder: Path) -> Notes:
     if fixture is not None:
         named[fixture.name] = part_mesh(fixture)
     for name, mesh in named.items():
-        content = stl_bytes(mesh, name.removeprefix("housing_"), units_per_metre=MILLIMETRES)
+        content = stl_bytes(mesh, name.removeprefix("housing_"))
         (folder / f"{name}.stl").write_bytes(content)
     (folder / "housing.3mf").write_bytes(threemf_bytes({**meshes, **pedestals}))
     return ()

@@ -24,11 +24,9 @@ _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute
 
 def write(subject: Subject, folder: Path) -> Notes:
     """Write the wheel, or each of its pieces, plate and guard ring, in mm."""
-    for name, mesh in wheel_meshes(subject.device.flywheel).items():
-        (folder / f"{name}.stl").write_bytes(stl_bytes(mesh, name, units_per_metre=MILLIMETRES))
-    for name, part in metal_pieces(subject.device).items():
-        content = stl_bytes(part_mesh(part), name, units_per_metre=MILLIMETRES)
-        (folder / f"{name}.stl").write_bytes(content)
+    others = {name: part_mesh(part) for name, part in metal_pieces(subject.device).items()}
+    for name, mesh in {**wheel_meshes(subject.device.flywheel), **others}.items():
+        (folder / f"{name}.stl").write_bytes(stl_bytes(mesh, name))
     return ()
 
 
@@ -48,7 +46,7 @@ def device_meshes(device: Device) -> Mapping[Path, bytes]:
     return {Path(WHEEL_MESH): stl_bytes(wheel, "flywheel", units_per_metre=METRES), **still}
 
 
-def stl_bytes(mesh: Mesh, name: str, *, units_per_metre: float) -> bytes:
+def stl_bytes(mesh: Mesh, name: str, *, units_per_metre: float = MILLIMETRES) -> bytes:
     """STL of a closed mesh, its name in the header cut to 69 bytes; the same bytes every time."""
     corners = units_per_metre * mesh.corners
     edges = corners[:, 1:] - corners[:, :1]

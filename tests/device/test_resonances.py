@@ -9,7 +9,7 @@ import pytest
 from built import DEVICES
 
 from ocs_design.device.device import Device, Module
-from ocs_design.device.joints import foot_frequency, resonances_of
+from ocs_design.device.resonances import foot_frequency, resonances_of
 from ocs_design.device.solids import foot_of
 
 SHEAR_OF_PETG, RIGID = 1.8e9 / 2.7, 1e16

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ocs_design.common.units import round_outwards, rpm, significant
-from ocs_design.device.joints import DAMPING, balance_of, resonances_of
+from ocs_design.device.joints import balance_of
+from ocs_design.device.resonances import DAMPING, resonances_of
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.electrics import demand_of
 from ocs_design.parts.joints import GRADE

@@ -1,0 +1,131 @@
+"""Modes of what carries a device's modules, which the speeds of their wheels may pass."""
+
+from dataclasses import dataclass
+from math import pi, sqrt
+
+import numpy as np
+
+from ocs_design.device.device import Device
+from ocs_design.device.joints import balance_of
+from ocs_design.device.solids import foot_of
+from ocs_design.parts.carrier_plate import CarrierPlate
+from ocs_design.parts.dog_bone import directions
+from ocs_design.parts.foot import stem_frequency
+from ocs_design.parts.pedestal import seat_compliance
+from ocs_design.parts.plate_strength import plate_frequency, plate_sway, plate_tilt
+from ocs_design.parts.printed import PETG
+
+DAMPING = 0.01
+"""Share of critical damping of feet and plates, assumed: bolted steelwork has 0.008 (EN 1991-1-4,
+table F.2, logarithmic decrement 0.05), and prints more."""
+
+
+@dataclass(frozen=True)
+class Resonance:
+    """A mode of what carries a module, which its wheel's speed may pass.
+
+    Attributes:
+        name: what bends. frequency: [Hz].
+        force: of the unbalance that its grade leaves, at this frequency [N].
+        amplitude: of the module where the wheel stays at this frequency, `DAMPING` alone holding
+            it [m].
+    """
+
+    name: str
+    frequency: float
+    force: float
+    amplitude: float
+
+    @property
+    def acceleration(self) -> float:
+        """Acceleration of the module at that amplitude [m/s^2]."""
+        return (2.0 * pi * self.frequency) ** 2 * self.amplitude
+
+
+def resonances_of(device: Device) -> tuple[Resonance, ...]:
+    """First modes of what carries a module that a wheel passes on its way to top speed.
+
+    A force U w^2 shakes a mass m on a spring by U / (2 zeta m) at resonance, however stiff it is.
+    The plate is shaken by all of the unbalance, up and down as it bends and across the wheel's axis
+    as it is twisted; the stem only by its moment about it: at the end of a cantilever of length L a
+    moment M works as the force 3 M / 2 L. Gyroscopic moments of the turning wheel are left out. A
+    pedestal's seat gives way under all of the unbalance.
+    """
+    if device.wheels_alone:
+        return ()
+    foot, mass = foot_of(device), device.module_mass
+    lever = 1.5 * (foot.back - device.foot_plate / 2.0) / (foot.wheel_height - foot.base)
+    modes = [("foot", foot_frequency(device), lever)]
+    if device.pedestals:
+        square = max(seat_compliance(each)[0] for each in device.pedestals)
+        modes.insert(0, ("pedestal", 1.0 / (2.0 * pi * sqrt(square * mass)), 1.0))
+    if device.plate is not None:
+        modes.insert(0, ("plate", plate_frequency(device.plate, mass), 1.0))
+        modes.append(("twisted plate", _twisted_frequency(device, device.plate), 1.0))
+        if device.plate.mast is None and device.plate.arms == 2:
+            sleeved = plate_sway(device.plate, mass, foot.wheel_height)
+            modes.insert(1, ("sleeve", sleeved, 1.0))
+    unbalance = balance_of(device).unbalance
+    return tuple(
+        Resonance(
+            name,
+            frequency,
+            share * unbalance * (2.0 * pi * frequency) ** 2,
+            share * unbalance / (2.0 * DAMPING * mass),
+        )
+        for name, frequency, share in modes
+        if 2.0 * pi * frequency < device.motor.top_speed
+    )
+
+
+def foot_frequency(device: Device, modulus: float = PETG.modulus) -> float:
+    """First mode of a module along its wheel's axis, on its foot and what that stands on [Hz].
+
+    The plate, or a pedestal's seat, turns under the stem: one over the square of their common
+    frequency is the sum of those of each alone (Dunkerley, a lower bound).
+
+    Args:
+        device: with modules. modulus: of what the feet are made of [Pa].
+    """
+    foot, carrier = foot_of(device), device.carrier
+    mass = device.module_mass
+    inertia = device.flywheel.transverse_inertia + float(carrier.inertia[0, 0])
+    softness = stem_frequency(foot, mass, inertia, modulus) ** -2
+    if device.pedestals:
+        along = max(seat_compliance(each)[1] for each in device.pedestals)
+        softness += (2.0 * pi) ** 2 * along * mass
+    if device.plate is not None:
+        tilt, _ = _tilts(device, device.plate)
+        arm = foot.wheel_height + device.plate.thickness / 2.0
+        softness += (2.0 * pi) ** 2 * tilt * (mass * arm**2 + inertia)
+    return 1.0 / sqrt(softness)
+
+
+def _twisted_frequency(device: Device, plate: CarrierPlate) -> float:
+    """First mode of a module across its wheel's axis, on a plate that turns under its foot [Hz].
+
+    The wheel does not turn with it about its own axis.
+    """
+    foot, carrier = foot_of(device), device.carrier
+    mass, inertia = device.module_mass, float(carrier.inertia[1, 1])
+    _, tilt = _tilts(device, plate)
+    arm = foot.wheel_height + plate.thickness / 2.0
+    stem = stem_frequency(foot, mass, inertia, in_plane=True)
+    return 1.0 / sqrt(stem**-2 + (2.0 * pi) ** 2 * tilt * (mass * arm**2 + inertia))
+
+
+def _tilts(device: Device, plate: CarrierPlate) -> tuple[float, float]:
+    """Largest turn of a foot on its plate by a moment on it [rad/(N m)].
+
+    About the horizontal across its wheel's axis, as a push along the axis turns it, and about the
+    axis itself: its own bends an arm in part, and twists it in part.
+    """
+    bends, twists = plate_tilt(plate)
+    arms = np.resize(directions(plate.arms), (len(device.modules), 2))
+    axes = np.array([module.axis[:2] for module in device.modules])
+    along = (axes * arms).sum(axis=1) ** 2 / (axes**2).sum(axis=1)
+    pushed, turned = bends * along, twists * along
+    return (
+        float((pushed + twists * (1.0 - along)).max()),
+        float((turned + bends * (1.0 - along)).max()),
+    )
