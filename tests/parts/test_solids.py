@@ -17,7 +17,7 @@ from ocs_design.parts.rim import (
     stored_energy,
 )
 from ocs_design.parts.shapes import Rectangle
-from ocs_design.parts.solids import Prism, Revolution, hollow_cylinder, mass_properties, revolved
+from ocs_design.parts.solids import Part, Prism, Revolution, hollow_cylinder, revolved
 from ocs_design.robot.mass import MassProperties, physical_defect
 
 LENGTHS = st.floats(0.01, 1.0)
@@ -25,7 +25,7 @@ LENGTHS = st.floats(0.01, 1.0)
 
 def weighed(solid, density):
     """Mass properties of a solid of that density [kg/m^3]."""
-    return mass_properties(solid.moments().times(density))
+    return Part("solid", density, (solid,)).mass_properties()
 
 
 def assert_same(one: MassProperties, other: MassProperties, tolerance: float = 1e-12) -> None:
