@@ -30,7 +30,6 @@ def any_of(names: Names) -> Completer:
     """Completion of names that are looked up when they are asked for."""
 
     def complete(incomplete: str) -> list[str]:
-        """Candidates that begin so."""
         offered = (name.replace(" ", "-") for name in names())
         return [each for each in offered if each.startswith(incomplete)]
 
@@ -41,7 +40,6 @@ def of_key(path: str) -> Completer:
     """Completion of words that a key of the specification takes, given by its path."""
 
     def words() -> Iterable[str]:
-        """Words in the order of the key."""
         from ocs_design.requirement.specification import all_keys
 
         return getattr(all_keys()[path].value, "words", ())
@@ -53,7 +51,6 @@ def listed(completer: Completer) -> Completer:
     """Completion of the last of several names with commas between them."""
 
     def complete(incomplete: str) -> list[str]:
-        """Completions, with what stands before them."""
         before, comma, last = incomplete.rpartition(",")
         return [before + comma + each for each in completer(last)]
 
@@ -67,7 +64,6 @@ def files(*ends: str) -> Completer:
     """
 
     def complete(incomplete: str) -> list[str]:
-        """Paths as they were begun."""
         found = sorted(_paths(incomplete, ends))
         # A folder alone would be taken for the whole word.
         while len(found) == 1 and found[0].endswith(os.sep):

@@ -26,11 +26,8 @@ def with_options(shared: Mapping[str, object]) -> Callable[[Command], Command]:
     """
 
     def declared(command: Command) -> Command:
-        """The command with the signature that Typer makes options from."""
-
         @functools.wraps(command)
         def run(**given: object) -> None:
-            """What is handed on is the context and the command's own options."""
             command(**{name: value for name, value in given.items() if name not in shared})
 
         context, *own = inspect.signature(command).parameters.values()

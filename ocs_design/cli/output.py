@@ -104,7 +104,6 @@ def with_output(command: opt.Command) -> opt.Command:
 
     @functools.wraps(command)
     def run(**given: object) -> None:
-        """Gathers them."""
         output = Output(**{name: bool(given.pop(name)) for name in OUTPUT_OPTIONS})
         command(**given, output=output)
 

@@ -141,10 +141,9 @@ class MotorLimits(Table):
 
     @property
     def used(self) -> "MotorLimits":
-        """What the wheel law counts on (`USED`)."""
-        return replace(
-            self, no_load_speed=USED * self.no_load_speed, power_max=USED * self.power_max
-        )
+        """What the wheel law counts on (`USED`); the supply's voltage says nothing to it."""
+        line, power = USED * self.no_load_speed, USED * self.power_max
+        return replace(self, no_load_speed=line, power_max=power, voltage=None)
 
     def reserved(self) -> "MotorLimits":
         """What a reference may take; the rest of voltage, current and speed is for the feedback."""

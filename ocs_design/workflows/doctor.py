@@ -127,7 +127,6 @@ def wanted_packages() -> tuple[Wanted, ...]:
     extras = metadata.metadata(DISTRIBUTION).get_all("Provides-Extra") or ()
 
     def package(requirement: Requirement, extra: str = "") -> Wanted:
-        """Package of one requirement."""
         return Wanted(canonicalize_name(requirement.name), str(requirement.specifier), extra)
 
     required = [package(each) for each in requirements if each.marker is None]
@@ -185,12 +184,6 @@ def import_failures(modules: Sequence[str]) -> Mapping[str, str]:
         ended = f"not done within {TIME_LIMIT:g} s"
     told = dict(json.loads(line) for line in said.splitlines())
     return {name: told.get(name, ended) for name in modules if told.get(name, ended)}
-
-
-def machine_findings() -> tuple[Finding, ...]:
-    """Findings about the machine, in the order in which they matter."""
-    folder = working_folder(Path.cwd())
-    return (python(), folder, processors(), *opengl(), film_maker(), compiler())
 
 
 def python() -> Finding:
@@ -307,8 +300,10 @@ def examine() -> Examination:
             f"{DISTRIBUTION} runs from its source and is not installed: what it needs is not known",
             hint="pip install .",
         ) from error
-    packages = tuple(package_findings(wanted))
-    return Examination(metadata.version(DISTRIBUTION), machine_findings(), packages)
+    folder, packages = working_folder(Path.cwd()), tuple(package_findings(wanted))
+    # In the order in which they matter.
+    machine = (python(), folder, processors(), *opengl(), film_maker(), compiler())
+    return Examination(metadata.version(DISTRIBUTION), machine, packages)
 
 
 def examination_to_json(examination: Examination) -> str:

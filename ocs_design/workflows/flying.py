@@ -111,18 +111,6 @@ def trajectories(plans: Mapping[str, "Reference"]) -> Mapping[str, Trajectory]:
     }
 
 
-def jump_plans(
-    control: ControlRecord, robot: Robot, device: Device, maneuvers: Sequence[Maneuver]
-) -> Mapping[str, JumpPlans]:
-    """How the legs make the maneuvers from the ground; none where flights start at lift-off."""
-    if control.ballistic:
-        return {}
-    # CasADi takes a third of a second to import, and what starts at lift-off does without.
-    from ocs_design.jumping.planning import plan_jumps  # noqa: PLC0415
-
-    return plan_jumps(robot, device, maneuvers)
-
-
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Planned(Flights):
     """Flights of a design, told of as they are flown.
@@ -226,6 +214,12 @@ def read_task(
         stops = design.requirement.detection is not None
         kept = design.selection.kept
         references = trajectories(planned(robot, device, maneuvers, kept, one_stops=stops))
+    jumps: Mapping[str, JumpPlans] = {}
+    if not control.ballistic:
+        # It takes a third of a second to import, and what starts at lift-off does without.
+        from ocs_design.jumping.planning import plan_jumps  # noqa: PLC0415
+
+        jumps = plan_jumps(robot, device, maneuvers)
     return Task(
         path=path,
         design=design,
@@ -239,7 +233,7 @@ def read_task(
         if stated.reality.file is not None
         else merge_section(uncertainty_of_texts(design.reality, str(path)), stated.reality),
         references=references,
-        jumps=jump_plans(control, robot, device, maneuvers),
+        jumps=jumps,
         warnings=warnings,
         detection=stated.requirement.notices
         if stated.requirement.survives is not None

@@ -11,6 +11,7 @@ import numpy as np
 from ocs_design import __version__
 from ocs_design.actuation.drive import RESERVE
 from ocs_design.common.arrays import matrix, vector
+from ocs_design.common.files import AnyPath
 from ocs_design.common.records import recorded
 from ocs_design.common.units import format_quantity
 from ocs_design.device.checks import device_warnings
@@ -160,7 +161,7 @@ def record_design(
     lighter: Lighter | None = None,
     seed: int,
     files: Mapping[str, str],
-    package_paths: Mapping[str, Path] | None = None,
+    package_paths: Mapping[str, AnyPath] | None = None,
 ) -> OcsDesign:
     """Record of the whole design, which becomes `design.json`."""
     margins = record_margins(resolved, designed, runs, plans)

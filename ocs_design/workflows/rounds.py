@@ -100,6 +100,11 @@ class Placed:
         resolved = replace(self.resolved, assumptions=(*assumptions, *self.resolved.assumptions))
         return replace(self, resolved=resolved, warnings=(*warnings, *self.warnings), taken=taken)
 
+    def cancel(self) -> None:
+        """Begin no further plan of its jumps."""
+        if self.jumping is not None:
+            self.jumping.cancel()
+
     @property
     def combinations(self) -> str:
         """How many combinations of parts were looked at; empty without a motor."""
@@ -186,20 +191,6 @@ def warnings_of(placed: Placed, *, strict: bool) -> tuple[str, ...]:
     )
 
 
-def refuse_warnings(placed: Placed) -> None:
-    """Refuse a device that there is any warning about.
-
-    Raises:
-        SpecificationError: with the first one; its jumps are no longer planned.
-    """
-    try:
-        warnings_of(placed, strict=True)
-    except SpecificationError:
-        if placed.jumping is not None:
-            placed.jumping.cancel()
-        raise
-
-
 def size_or_advise(
     specification: Specification, robot: Robot, steps: Steps, *, strict: bool
 ) -> Placed:
@@ -239,13 +230,16 @@ def size_or_advise(
         else:
             best, heavier = sorted((best, placed), key=lambda each: each.designed.device.mass)
             tried.append((heavier.specification, Heavier(heavier.designed.device.mass)))
-            if heavier.jumping is not None:
-                heavier.jumping.cancel()
+            heavier.cancel()
         if best is not placed or not more_wheels_may_do(best.designed.device, robot.mass):
             break
     if best is not None:
         if strict:
-            refuse_warnings(best)
+            try:
+                warnings_of(best, strict=True)
+            except SpecificationError:
+                best.cancel()
+                raise
         return best.telling(substitutions(specification, best.specification, tried))
     refusal = closest(tried, robot.mass)
     with steps.step("look for the smallest changes that would do") as step:

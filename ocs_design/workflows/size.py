@@ -116,7 +116,6 @@ def design_ocs(
         OcsError: see `exceptions`; nothing is written then.
     """
     specification = specification_of(design_for)
-    paths = {name: Path(path) for name, path in (package_paths or {}).items()}
     stated = specification.validation
     flying = {"--video films the": stated.video, "--certify repeats the": stated.certify}
     for what, wanted in flying.items():
@@ -128,7 +127,7 @@ def design_ocs(
     if out is not None:
         check_target(Path(out), force=force)
     with steps.step("read the robot") as step:
-        robot = read_specified_robot(specification, package_paths=paths, strict=strict)
+        robot = read_specified_robot(specification, package_paths=package_paths, strict=strict)
         folder = Path(out or f"{safe_name(robot.name)}-ocs")
         check_target(folder, force=force)
         require_no_device(robot.tree.joints)
@@ -181,7 +180,7 @@ def design_ocs(
             lighter=conceded,
             seed=stated.seed or 0,
             files={},
-            package_paths=paths,
+            package_paths=package_paths,
         )
         if proof.survival is not None:
             with steps.step("size a device that need not survive"):
