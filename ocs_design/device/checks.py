@@ -3,17 +3,18 @@
 Files are made from it without a second look, so what is no length, mass or direction ends here.
 """
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import fields, is_dataclass
-from math import inf, isfinite, pi
+from math import hypot, inf, isfinite, pi
 
 import numpy as np
 
-from ocs_design.actuation.fasteners import SCREW_NAMES
+from ocs_design.actuation.fasteners import CLASSES, SCREW_NAMES
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.device.device import Device
 from ocs_design.parts.carrier_plate import CarrierPlate
+from ocs_design.parts.rim import LIGHTENED
 from ocs_design.robot.mass import MassProperties
 
 LARGEST = 1e12
@@ -43,6 +44,14 @@ _ANY_SIGN = {
     *("along", "up", "product_of_inertia"),
 }
 _MAY_BE_ZERO = {"motor.mass", "carrier.mass"}
+
+_CHOICES: Mapping[str, Collection[str | int]] = {
+    "thread": SCREW_NAMES,
+    "foot_thread": SCREW_NAMES,
+    "screws": CLASSES,
+    "lightening": LIGHTENED,
+}
+"""Words and numbers that there are, by the name of the figure."""
 
 _UNIT_TOLERANCE = 1e-6
 
@@ -98,9 +107,7 @@ def _supply_faults(supply: Supply) -> Iterator[str]:
 
 
 def _plate_faults(plate: CarrierPlate) -> Iterator[str]:
-    """Faults of a plate beyond single figures: names of threads, numbers of holes, their places."""
-    if not {plate.thread, plate.foot_thread} <= set(SCREW_NAMES):
-        yield "plate.thread and plate.foot_thread must be " + ", ".join(SCREW_NAMES)
+    """Faults of a plate beyond single figures: numbers of holes and their places."""
     if len(plate.trunk) != len(plate.sleeves):
         yield "plate.trunk and plate.sleeves must have one length each"
     if plate.arms < 2 or not plate.shape.fits:
@@ -114,6 +121,10 @@ def _plate_faults(plate: CarrierPlate) -> Iterator[str]:
         yield "plate.mast has an end or an arm of no length"
     if not 0.0 < plate.neck <= plate.radius:
         yield "plate.neck is not between 0 and plate.radius"
+    for name in ("feet",) if mast is not None else ("feet", "trunk"):
+        for x, y in getattr(plate, name):
+            if min(hypot(x - row, y) for row in plate.rows) > plate.half_length:
+                yield f"plate.{name} has a hole at ({x:g}, {y:g}), beyond plate.half_length"
     lengths = np.array([*plate.position, *plate.sleeves, *np.ravel([*plate.trunk, *plate.feet])])
     if not (np.abs(lengths) <= LARGEST_LENGTH).all() or min(plate.sleeves, default=0.0) < 0.0:
         yield "a place of the plate is beyond all measure"
@@ -145,6 +156,10 @@ def _figures(value: object, path: str) -> Iterator[str]:
     if is_dataclass(value):
         for each in fields(value):
             yield from _figures(getattr(value, each.name), f"{path}.{each.name}")
+    elif path.rpartition(".")[2] in _CHOICES:
+        known = _CHOICES[path.rpartition(".")[2]]
+        if value not in known:
+            yield f"{path} is {value!r}, which is none of {', '.join(map(str, known))}"
     elif path.endswith((".bolts", ".holes")) and isinstance(value, int | float):
         if not 0 <= value <= MOST_BOLTS:
             yield f"{path} is {value}"

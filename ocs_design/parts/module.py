@@ -5,10 +5,11 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ocs_design.actuation.motor import Gear, GearRoom, Motor
+from ocs_design.actuation.motor import Gear, GearRoom
 from ocs_design.common.arrays import FloatArray
 from ocs_design.parts import foot as feet
 from ocs_design.parts import housing as housings
+from ocs_design.parts.bell import HeldMotor
 from ocs_design.parts.cage import NO_POSTS, Posts
 from ocs_design.parts.foot import Foot, foot_mass_per_height
 from ocs_design.parts.housing import (
@@ -93,7 +94,7 @@ Shell: TypeAlias = Printed | PlainDrum
 """What stands around a wheel, whose mass grows with the rim's outer radius and height [m]."""
 
 
-def drive_moments(motor: Motor) -> MassMoments[float]:
+def drive_moments(motor: HeldMotor) -> MassMoments[float]:
     """Moments of a motor about its middle.
 
     A solid cylinder; a thin disc if its length is not known, a point without its diameter. Either
@@ -111,7 +112,7 @@ def gear_moments(gear: Gear, foot_plate: float) -> MassMoments[float]:
     return point(gear.mass).shifted(-(foot_plate + room.depth / 2.0), room.center)
 
 
-def by_floor(motor: Motor, gear: Gear, mount: MotorMount) -> MassMoments[float]:
+def by_floor(motor: HeldMotor, gear: Gear, mount: MotorMount) -> MassMoments[float]:
     """Moments of what stands at the floor, about the middle of its outside: the same for any wheel.
 
     Screws and gear, less the mount's holes through floor and plate, and a motor behind the plate.
@@ -123,7 +124,7 @@ def by_floor(motor: Motor, gear: Gear, mount: MotorMount) -> MassMoments[float]:
     return held + drive_moments(motor).shifted(-middle, mount.up)
 
 
-def by_wheel(motor: Motor, mount: MotorMount) -> MassMoments[float]:
+def by_wheel(motor: HeldMotor, mount: MotorMount) -> MassMoments[float]:
     """Moments of what stands at the wheel's hub, about the wheel's middle: the same for any rim.
 
     Screws, and a motor in its cage with the cage's floor; of its posts see `Posts`.
@@ -135,7 +136,7 @@ def by_wheel(motor: Motor, mount: MotorMount) -> MassMoments[float]:
 
 
 def standing(
-    motor: Motor,
+    motor: HeldMotor,
     gear: Gear,
     outer_radius: float,
     height: float,

@@ -38,6 +38,7 @@ from math import inf, pi, sin, sqrt
 
 import numpy as np
 
+from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import Motor, Mounting
 from ocs_design.parts.moments import Real, cylinder_mass
@@ -328,6 +329,10 @@ class Hub:
         axial = cylinder_spin_inertia(*disc) * spread_left(self.lightened)
         return Carrier(mass, axial, axial / 2.0 + mass * self.web_thickness**2 / 12.0)
 
+    def mass_with_web(self, bore: float, density: float) -> float:
+        """Mass of hub and web in a rim of that bore radius, less all holes [kg]."""
+        return self.web(bore, density).mass + self.beyond_web(density).mass
+
     @property
     def rim_height_min(self) -> float:
         """Least height of a rim whose lid leaves room for hub and heads [m]; 0: any."""
@@ -397,7 +402,7 @@ def hub_height(mounting: Mounting) -> float:
 
 
 def hub_of(
-    motor: Motor,
+    motor: Motor | Drive,
     *,
     direct: bool = True,
     chamfer: float = 0.0,

@@ -111,7 +111,7 @@ def _flywheel(
         )
     if hub is not None:
         of = material if web_material is None else web_material
-        mass = hub.web(inner, of.density).mass + hub.beyond_web(of.density).mass
+        mass = hub.mass_with_web(inner, of.density)
         web = Web(of.name, of.density, hub.web_thickness, mass, hub, hub.holes(inner))
     body = wheel_body(
         *cylinder,

@@ -13,7 +13,6 @@ from ocs_design.device.records.design import (
     SCHEMA_VERSION,
     OcsDesign,
     design_file,
-    read_design,
 )
 from ocs_design.export.folder import (
     file_hashes,
@@ -33,7 +32,7 @@ from ocs_design.report.text.console import Steps, Tell
 from ocs_design.workflows.inspect import posture_lines
 from ocs_design.workflows.restoring import (
     Whereabouts,
-    device_of,
+    read_designed,
     read_recorded_robot,
     seat_of,
 )
@@ -86,8 +85,8 @@ def export_design(
     rest = [name for name in ON_DESIGN if name in names or ALL in names]
     with steps.step("read the design and its robot") as step:
         path = design_file(design)
-        known = read_design(path)
-        device, name = device_of(known.ocs, known.supply), safe_name(known.robot.name)
+        known, device = read_designed(path)
+        name = safe_name(known.robot.name)
         where = Whereabouts(path, robot_file, package_paths or {}, _WHERE)
         subject = Subject(name, device, seat_of(known.robot), None)
         warnings: tuple[str, ...] = ()

@@ -11,7 +11,7 @@ import msgspec
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.common.files import AnyPath
 from ocs_design.device.device import Device
-from ocs_design.device.records.design import OcsDesign, design_file, read_design
+from ocs_design.device.records.design import OcsDesign, design_file
 from ocs_design.device.records.flights import ControlRecord, SurvivalRecord, ValidationRecord
 from ocs_design.device.records.selection import ReserveRecord
 from ocs_design.export.physics import STEP
@@ -31,7 +31,12 @@ from ocs_design.simulation.scenario import Flights, fly_stopped, run_scenarios
 from ocs_design.simulation.wheel_law import Allocation, Gains
 from ocs_design.simulation.world_builder import Options, wheel_gains
 from ocs_design.sizing.trajectory.motion import Trajectory
-from ocs_design.workflows.restoring import Whereabouts, device_of, maneuver_of, read_recorded_robot
+from ocs_design.workflows.restoring import (
+    Whereabouts,
+    maneuver_of,
+    read_designed,
+    read_recorded_robot,
+)
 
 if TYPE_CHECKING:
     from ocs_design.sizing.trajectory.plans import Reference
@@ -192,7 +197,7 @@ def read_task(
             be flown.
     """
     path = design_file(path)
-    design = read_design(path)
+    design, device = read_designed(path)
     if stated.reality.file is not None:
         # Whoever names a file is told that it cannot be read, whether or not anything is drawn.
         entries(Path(stated.reality.file))
@@ -204,7 +209,6 @@ def read_task(
         )
     where = Whereabouts(path, robot_file, package_paths or {}, "say where it is with --robot FILE")
     robot, warnings = read_recorded_robot(design.robot, where, strict=strict)
-    device = device_of(design.ocs, design.supply)
     control = overridden(
         design.control or control_of(ValidationSection(), robot), stated.validation
     )

@@ -13,8 +13,10 @@ from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError, RobotError
 from ocs_design.common.files import AnyPath
 from ocs_design.common.frames import Placement
+from ocs_design.device.agreement import check_agreement
 from ocs_design.device.checks import check_device
 from ocs_design.device.device import Device
+from ocs_design.device.records.design import OcsDesign, design_file, read_design
 from ocs_design.device.records.device import OcsRecord
 from ocs_design.device.records.requirement import ManeuverRecord, RobotRecord
 from ocs_design.export.formats import Base
@@ -41,6 +43,21 @@ def device_of(record: OcsRecord, supply: Supply | None = None) -> Device:
     device = record.device(supply)
     check_device(device)
     return device
+
+
+def read_designed(path: AnyPath) -> tuple[OcsDesign, Device]:
+    """A design, and its device.
+
+    Raises:
+        OcsError: it cannot be read, no such device can be, or its figures contradict each other.
+    """
+    design = read_design(path)
+    try:
+        device = device_of(design.ocs, design.supply)
+        check_agreement(design, device)
+    except OcsError as error:
+        raise OcsError(f"{design_file(path)}: {error.message}", hint=error.hint) from error
+    return design, device
 
 
 def seat_of(record: RobotRecord) -> Base:

@@ -20,6 +20,7 @@ from ocs_design.sizing.specified import CannotSurvive, selection_problem, specif
 from ocs_design.sizing.trajectory.plans import drive_line_of, plan
 from ocs_design.workflows.layouts import compare_layouts
 from ocs_design.workflows.pareto import read_task
+from ocs_design.workflows.restoring import read_designed
 from ocs_design.workflows.size import design_ocs
 
 pytestmark = pytest.mark.usefixtures("no_alternatives", "no_files")
@@ -108,7 +109,7 @@ def test_four_wheels_where_no_motor_is_strong_enough_for_two(tmp_path):
     assert len(device.modules) == 4
     assert any("double-pair" in line for line in outcome.design.requirement.assumptions)
     assert any("4 wheels" in label for label in told)
-    again = read_design(outcome.folder).ocs
+    again = read_designed(outcome.folder)[0].ocs
     assert again.axes == device.layout
     assert [each.name for each in again.modules] == ["left_1", "right_1", "left_2", "right_2"]
 
@@ -278,7 +279,7 @@ def test_a_triad_for_solo12_can_be_built(tmp_path):
     assert plate.arms == len(ocs.modules)
     modules = len(ocs.modules) * (ocs.flywheel.mass + ocs.carrier.mass)
     assert ocs.mass_total == pytest.approx(modules + plate.mass)
-    assert read_design(tmp_path / "a").ocs.plate == plate
+    assert read_designed(tmp_path / "a")[1].plate == plate
 
 
 @pytest.mark.slow
@@ -290,7 +291,7 @@ def test_what_survives_lands_whichever_drive_stops(layout, tmp_path):
     survival = outcome.design.survival
     assert not survival.lost
     assert outcome.device.mass > survival.mass_without
-    assert read_design(outcome.folder).survival == survival
+    assert read_designed(outcome.folder)[0].survival == survival
     rows = (outcome.folder / "validation" / "stopped.csv").read_text().splitlines()
     assert len(rows) == 1 + len(survival.flights) == 1 + 8 * len(outcome.device.modules)
     assert read_design(outcome.folder).requirement.detection == 0.02

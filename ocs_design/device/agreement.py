@@ -1,0 +1,232 @@
+"""Whether the figures of a design agree with each other.
+
+`size` weighs a device by its dimensions and writes both. Files that are made of a `design.json`
+take some of them from the one and some from the other, so that an edit of a single key makes a
+wheel that weighs one thing on its drawing and another in the bill. So all that a design states of
+its masses, inertias and limits is computed again, by the functions that it was sized with.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from ocs_design import __version__
+from ocs_design.actuation.motor import DIRECT
+from ocs_design.common.errors import OcsError
+from ocs_design.common.units import format_quantity
+from ocs_design.device.device import Device
+from ocs_design.device.records.design import OcsDesign
+from ocs_design.parts.module import standing
+from ocs_design.parts.rim import WebHoles, hub_of, stored_energy, wheel_body
+from ocs_design.parts.solids import Carrier
+from ocs_design.robot.mass import MassProperties, combine
+
+ROUNDING = 1e-6
+"""Difference that is none, over the largest of the figures compared; files have full precision."""
+
+_LEAST = {"m": 1e-2}
+"""Size that the rounding of a figure is measured by at the least, by its unit: [m]."""
+
+_NAMED = 2
+"""Contradictions that a message names."""
+
+
+class _Figure(NamedTuple):
+    """A figure of a design, and what others of the same design make of it.
+
+    Attributes:
+        key: in `design.json`. stated: there. found: from the others.
+        unit: of both; empty: words or plain numbers.
+        others: that `found` comes from, for people.
+    """
+
+    key: str
+    stated: object
+    found: object
+    unit: str
+    others: str
+
+    @property
+    def agrees(self) -> bool:
+        """Whether both are one but for rounding."""
+        if isinstance(self.found, str):
+            return self.stated == self.found
+        stated, found = (np.ravel(np.asarray(each, float)) for each in (self.stated, self.found))
+        if stated.shape != found.shape:
+            return False
+        size = max(np.abs(found).max(initial=0.0), _LEAST.get(self.unit, 0.0))
+        return bool((np.abs(stated - found) <= ROUNDING * size).all())
+
+    def __str__(self) -> str:
+        """Text for people: what is stated, and what it should be."""
+        stated, found = (_text(each, self.unit) for each in (self.stated, self.found))
+        return f"{self.key} is {stated}, but {self.others} {found}"
+
+
+def _text(value: object, unit: str) -> str:
+    """A figure for people; the rows of a matrix one after the other."""
+    if isinstance(value, str):
+        return repr(value)
+    figures = np.ravel(np.asarray(value, float)).tolist()
+    if unit == "kg":
+        return format_quantity(figures[0], "g")
+    text = ", ".join(f"{each:.4g}" for each in figures)
+    return f"{text if len(figures) == 1 else f'({text})'} {unit}".rstrip()
+
+
+def check_agreement(design: OcsDesign, device: Device) -> None:
+    """Refuse a design whose figures contradict each other.
+
+    Args:
+        design: as it is written. device: that it describes, which can be made (`check_device`).
+
+    Raises:
+        OcsError: with the first contradictions, each with its key.
+    """
+    # Dimensions that no device has may lead to no number.
+    with np.errstate(all="ignore"):
+        faults = [str(each) for each in _figures(design, device) if not each.agrees]
+    if faults:
+        rest = len(faults) - _NAMED
+        more = f"; and {rest} more" if rest > 0 else ""
+        raise OcsError(
+            f"the design contradicts itself: {'; '.join(faults[:_NAMED])}{more}",
+            hint="a design.json is what `ocs-design size` found, not what it reads: change the "
+            "specification, and run `ocs-design size` again",
+        )
+
+
+def _figures(design: OcsDesign, device: Device) -> Iterator[_Figure]:
+    """Figures that others of the design make again, the smallest part first."""
+    yield from _of_choice(design)
+    yield from _of_drive(device)
+    yield from _of_wheel(device)
+    # Another version may make what stands still otherwise; the bill tells what that comes to.
+    if design.tool.version == __version__ and design.ocs.center_of_mass is not None:
+        yield from _of_carrier(device)
+    ocs, angle = design.ocs, "ocs.incidence makes it"
+    for module, axis in zip(device.modules, device.layout.axes(device.incidence).T, strict=True):
+        yield _Figure(f"the axis of module {module.name}", module.axis, axis, "", angle)
+    parts = "its parts weigh"
+    yield _Figure("ocs.spin_inertia", ocs.spin_inertia, device.flywheel.spin_inertia, "kg m^2",
+                  "ocs.flywheel's is")  # fmt: skip
+    yield _Figure("ocs.mass_total", ocs.mass_total, device.mass, "kg", parts)
+    robot = design.robot
+    alone = MassProperties(robot.mass, np.array(robot.com), np.array(robot.inertia))
+    added = _braked(device)
+    whole, places = (
+        combine([alone, added]),
+        "places and masses of ocs.modules and of what is under them make it",
+    )
+    if ocs.center_of_mass is not None:
+        yield _Figure("ocs.center_of_mass", ocs.center_of_mass, added.com, "m", places)
+    yield _Figure("ocs.total_mass", ocs.total_mass, whole.mass, "kg", "robot and device weigh")
+    yield _Figure("ocs.total_com", ocs.total_com, whole.com, "m", places)
+    yield _Figure("ocs.total_inertia", ocs.total_inertia, whole.inertia, "kg m^2", places)
+
+
+def _of_choice(design: OcsDesign) -> Iterator[_Figure]:
+    """Names and voltage, which the record of the choice has too."""
+    motor, chosen = design.ocs.motor, design.selection
+    if chosen is None:
+        return
+    best, first = chosen.ranking[0], "selection.ranking has in the first place"
+    yield _Figure("ocs.motor.name", motor.name, best.motor, "", first)
+    yield _Figure("ocs.motor.gear", motor.gear, best.gear, "", first)
+    yield _Figure("ocs.motor.gear_ratio", motor.gear_ratio, best.gear_ratio, "", first)
+    yield _Figure("ocs.flywheel.material", design.ocs.flywheel.material, best.material, "", first)
+    voltage = "selection.bus_voltage is"
+    yield _Figure(
+        "ocs.motor.bus_voltage", motor.bus_voltage or 0.0, chosen.bus_voltage, "V", voltage
+    )
+    if design.supply is not None:
+        yield _Figure("supply.voltage", design.supply.voltage, chosen.bus_voltage, "V", voltage)
+
+
+def _of_drive(device: Device) -> Iterator[_Figure]:
+    """The voltage line (`actuation.drive`)."""
+    motor = device.motor
+    voltage, k_t, resistance = motor.bus_voltage, motor.torque_constant, motor.resistance
+    if voltage is None or k_t is None:
+        return
+    speed, line = voltage / (k_t * motor.gear_ratio), "voltage, winding and gear make it"
+    yield _Figure("ocs.motor.no_load_speed", motor.no_load_speed, speed, "rad/s", line)
+    if resistance is not None and motor.stall_torque is not None:
+        torque = motor.gear_ratio * motor.gear_efficiency * voltage * k_t / resistance
+        yield _Figure("ocs.motor.stall_torque", motor.stall_torque, torque, "N m", line)
+
+
+def _of_wheel(device: Device) -> Iterator[_Figure]:
+    """Masses, inertias and energy of the wheel."""
+    wheel, motor, sizes = device.flywheel, device.motor, "its dimensions make it"
+    web, hub, of = wheel.web, None, wheel.density
+    if web is not None:
+        # Version 1 had the thickness beside the hub alone.
+        hub, of = replace(web.hub, web_thickness=web.thickness), web.density
+        mass = hub.mass_with_web(wheel.inner_radius, of)
+        yield _Figure("ocs.flywheel.web.mass", web.mass, mass, "kg", sizes)
+        holes = _sizes(web.holes), _sizes(hub.holes(wheel.inner_radius))
+        yield _Figure("ocs.flywheel.web.holes", *holes, "", sizes)
+    rim = wheel.inner_radius, wheel.outer_radius, wheel.height, wheel.density
+    body = wheel_body(*rim, hub, cuts=wheel.cuts, web_density=of)
+    across, unit = body.transverse_inertia, "kg m^2"
+    spin = body.axial_inertia + motor.rotor_inertia
+    yield _Figure("ocs.flywheel.mass", wheel.mass, body.mass, "kg", sizes)
+    yield _Figure("ocs.flywheel.spin_inertia", wheel.spin_inertia, spin, unit, sizes)
+    yield _Figure("ocs.flywheel.transverse_inertia", wheel.transverse_inertia, across, unit, sizes)
+    energy, speed = stored_energy(spin, motor.top_speed), "inertia and top speed make it"
+    yield _Figure("ocs.flywheel.stored_energy", wheel.stored_energy, energy, "J", speed)
+
+
+def _sizes(holes: WebHoles | None) -> tuple[float, ...]:
+    """Number and radii of holes [m]; nothing without any."""
+    return () if holes is None else (holes.count, holes.circle_radius, holes.hole_radius)
+
+
+def _of_carrier(device: Device) -> Iterator[_Figure]:
+    """What stands still around each wheel, and the hub on the motor."""
+    motor, wheel, stated = device.motor, device.flywheel, device.carrier
+    web = wheel.web
+    if web is not None:
+        hub = hub_of(
+            motor,
+            direct=motor.gear_room is None,
+            chamfer=wheel.cuts.chamfer,
+            web_thickness=web.thickness,
+            lightening=web.hub.lightening,
+        )
+        for name, found in vars(hub).items():
+            key = f"ocs.flywheel.web.hub.{name}"
+            yield _Figure(key, getattr(web.hub, name), found, "", "the motor's mounting makes it")
+    if stated.mass == 0.0:
+        return
+    gear = replace(DIRECT, mass=motor.gear_mass, room=motor.gear_room)
+    found = standing(
+        motor,
+        gear,
+        wheel.outer_radius,
+        wheel.height,
+        device.guard_wall,
+        foot_plate=device.foot_plate,
+        on_bell=device.on_bell,
+    )
+    parts = "motor, gear, housing and foot make it"
+    yield _Figure("ocs.carrier.mass", stated.mass, found.mass, "kg", parts)
+    places = (stated.along, stated.up), (found.along, found.up)
+    yield _Figure("ocs.carrier.along and up", *places, "m", parts)
+    yield _Figure("the inertia of ocs.carrier", stated.inertia, found.inertia, "kg m^2", parts)
+
+
+def _braked(device: Device) -> MassProperties:
+    """The device alone, its wheels braked, in B."""
+    wheel, motor = device.flywheel, device.motor
+    turning = wheel.spin_inertia - motor.rotor_inertia
+    still = Carrier(wheel.mass, turning, wheel.transverse_inertia)
+    modules = (
+        body.mass_properties().moved(module.frame, module.position)
+        for module in device.modules
+        for body in (still, device.carrier)
+    )
+    return combine([*modules, *(each.mass_properties() for each in device.under)])

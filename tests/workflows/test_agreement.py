@@ -1,0 +1,114 @@
+"""What of a design was changed by hand is refused with its key; what was designed is not."""
+
+import json
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import pytest
+from commands import run
+from designed import MOTOR, design_of
+
+from ocs_design.common.errors import OcsError
+from ocs_design.common.files import to_json
+from ocs_design.requirement.device_sections import FlywheelSection, MotorSection, OcsSection
+from ocs_design.requirement.sections import RequirementSection
+from ocs_design.requirement.specification import Specification
+from ocs_design.workflows.export import export_design
+from ocs_design.workflows.recording import record_design
+from ocs_design.workflows.restoring import read_designed
+
+DATA = Path(__file__).parents[1] / "data"
+
+OUTRUNNER = MotorSection(name="Antigravity MN5008 KV400")
+FLAT = MotorSection(name=MOTOR)
+LITTLE = RequirementSection(rate_change=1.0)
+KINDS = {
+    "disc": Specification(motor=OUTRUNNER),
+    "shrunk on": Specification(motor=FLAT, flywheel=FlywheelSection(web="aluminium")),
+    "spokes": Specification(motor=FLAT, flywheel=FlywheelSection(web="none")),
+    "ring": Specification(motor=OUTRUNNER, ocs=OcsSection(wheel="ring")),
+    "gear": Specification(requirement=LITTLE, motor=replace(FLAT, gear="PLE040 3")),
+    "guard": Specification(motor=FLAT, ocs=OcsSection(guard="containing")),
+    "leaning": Specification(requirement=LITTLE, motor=FLAT, ocs=OcsSection(layout="orthogonal")),
+    "four wheels": Specification(motor=FLAT, ocs=OcsSection(layout="double-pair")),
+    "no motor": Specification(motor=MotorSection(name="none")),
+}
+
+
+@cache
+def written(kind):
+    task, made = design_of(KINDS[kind])
+    return to_json(
+        record_design(
+            task.robot, task.resolved, made, (), plans={}, mounting=None, seed=0, files={}
+        )
+    )
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_was_designed_agrees_with_itself(kind, tmp_path):
+    (tmp_path / "design.json").write_bytes(written(kind))
+    design, device = read_designed(tmp_path)
+    assert device.mass == design.ocs.mass_total
+
+
+@pytest.mark.parametrize("name", ["design_0_1_0", "design_1"])
+def test_what_older_versions_wrote_is_read(name, tmp_path):
+    """Also once it was exported again, as a document of this schema."""
+    export_design(DATA / f"{name}.json", "bom", out=tmp_path / "again")
+    read_designed(tmp_path / "again")
+
+
+def edited(folder, key, value, kind="disc"):
+    """A design with another value at a key; a callable makes it of the one before."""
+    document = json.loads(written(kind))
+    *path, last = key.split(".")
+    place = document
+    for step in path:
+        place = place[int(step) if step.isdigit() else step]
+    last = int(last) if last.isdigit() else last
+    place[last] = value(place[last]) if callable(value) else value
+    (folder / "design.json").write_text(json.dumps(document))
+    return folder
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "said"),
+    [
+        ("ocs.flywheel.outer_radius", 0.06, r"ocs\.flywheel\.mass is .* g, but its dimensions"),
+        ("ocs.flywheel.height", lambda mm: 1e3 * mm, r"ocs\.flywheel\.mass is"),
+        ("ocs.flywheel.spin_inertia", lambda x: 3.0 * x, r"ocs\.flywheel\.spin_inertia is"),
+        ("ocs.flywheel.web.holes.hole_radius", lambda x: 0.9 * x, r"flywheel\.web\.holes is"),
+        ("ocs.mass_total", 5.0, r"ocs\.mass_total is 5000 g, but its parts weigh"),
+        ("ocs.motor.name", "MN4012 KV480", r"ocs\.motor\.name is 'MN4012 KV480', but selection"),
+        ("ocs.motor.mass", lambda x: 1.1 * x, r"ocs\.carrier\.mass is"),
+        ("ocs.motor.bus_voltage", 48.0, r"ocs\.motor\.bus_voltage is 48 V"),
+        ("ocs.motor.mounting.shaft_diameter", 0.008, r"ocs\.flywheel\.web\.hub\.radius is"),
+        ("ocs.motor.mounting.stator.thread", "M99", r"mounting\.stator\.thread is 'M99'.*M3"),
+        ("ocs.foot_plate", 1e-4, r"ocs\.carrier\.mass is"),
+        ("ocs.modules.0.position.2", 0.02, r"ocs\.center_of_mass is .* ocs\.modules"),
+        ("ocs.incidence", 0.2, r"axis of module left is .* ocs\.incidence makes it"),
+        ("robot.mass", 25.0, r"ocs\.total_mass is"),
+        ("supply.voltage", 48.0, r"supply\.voltage is 48 V, but selection\.bus_voltage is"),
+    ],
+)
+def test_what_contradicts_the_rest_is_refused_with_its_key(key, value, said, tmp_path):
+    with pytest.raises(OcsError, match=rf"design\.json: .*{said}") as refused:
+        read_designed(edited(tmp_path, key, value))
+    assert refused.value.exit_code == 3
+    assert "size" in refused.value.hint
+
+
+def test_a_wheel_without_a_motor_is_weighed_too(tmp_path):
+    with pytest.raises(OcsError, match=r"ocs\.flywheel\.mass is"):
+        read_designed(edited(tmp_path, "ocs.flywheel.inner_radius", 0.02, "no motor"))
+
+
+@pytest.mark.parametrize("command", ["export", "validate"])
+def test_commands_refuse_it_before_anything_is_made(command, tmp_path):
+    said = run(command, edited(tmp_path, "ocs.mass_total", 5.0), "-o", tmp_path / "out")
+    assert said.code == 3
+    assert "ocs.mass_total is 5000 g" in said.said
+    assert "change the specification" in said.said
+    assert not (tmp_path / "out").exists()
