@@ -306,7 +306,12 @@ class Candidate(DrivenWheel):
     @property
     def wheel_mass(self) -> float:
         """Mass of one wheel: rim, web and hub [kg]."""
-        return self.rim_mass + (self.wheel.mass - self.rim_mass)
+        return self.rim_mass + self.web_mass
+
+    @property
+    def web_mass(self) -> float:
+        """Mass of one wheel's web with its hub [kg]."""
+        return self.wheel.mass - self.rim_mass
 
     @property
     def binding_maneuver(self) -> str:
