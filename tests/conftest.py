@@ -22,7 +22,7 @@ def pytest_collection_modifyitems(items):
     Next comes the file that makes the products of `size`: a worker that comes to another file that
     opens them would wait till they are there.
     """
-    items.sort(key=lambda item: (LONGEST not in item.name, item.path.name != OPENED_BY_MANY))
+    items.sort(key=lambda item: (item.name != LONGEST, item.path.name != OPENED_BY_MANY))
 
 
 @pytest.fixture(scope="module")
