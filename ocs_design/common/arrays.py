@@ -118,7 +118,7 @@ def stacked(rows: Sequence[Rows]) -> Rows:
 
 
 def stacked_columns(rows: Sequence[Rows]) -> Rows:
-    """The same with a second axis of one, shape (n, 1) or (n, 1, m), to broadcast along it."""
+    """Table as of `stacked` with a second axis of one, (n, 1) or (n, 1, m), to broadcast along."""
     table = stacked(rows)
     columns = {field.name: getattr(table, field.name)[:, None] for field in fields(table)}
     return replace(table, **columns)

@@ -126,7 +126,7 @@ def still_visuals(device: Device, module: Module | None) -> tuple[Visual, ...]:
 
 
 def plain_visuals(device: Device, module: Module | None) -> tuple[Visual, ...]:
-    """The same as boxes and cylinders, for files that stand alone."""
+    """Boxes and cylinders for what stands still, for files without meshes; see `still_visuals`."""
     if module is None:
         plates = () if device.plate is None else _plain_plate(device.plate)
         boxes = (box for each in device.pedestals for box in _plain_pedestal(each))

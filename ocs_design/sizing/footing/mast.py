@@ -60,7 +60,7 @@ _PATTERNS = 8
 
 @dataclass(frozen=True)
 class _Spot:
-    """Where a mast stands.
+    """Place of a mast on the trunk's back.
 
     Attributes:
         far: whether its arms are long. height: of its lowest plate in B [m].
@@ -137,7 +137,7 @@ def _stacked(feet: Feet, layout: Layout) -> Feet:
 
 @lru_cache(maxsize=64)
 def _mast_spot(robot: Robot, feet: Feet, layout: Layout) -> _Spot | None:
-    """Where a mast holds them that no limb comes near while the legs give way; None: nowhere."""
+    """Place of a mast whose modules no limb reaches while the legs give way; None: nowhere."""
     back = trunk_back(robot)
     if back is None or not layout.pairs:
         return None

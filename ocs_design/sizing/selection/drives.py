@@ -96,7 +96,7 @@ class Drives(Table):
 
     @property
     def hub_mass_most(self) -> FloatArray:
-        """The same at the most [kg]."""
+        """Mass of the wheel's hub beyond its web, at the most [kg]."""
         return np.maximum(*self._of_hub(self.hub_volume))
 
     @property
