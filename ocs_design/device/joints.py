@@ -46,6 +46,7 @@ from ocs_design.parts.rim import LIGAMENT
 from ocs_design.parts.turning_rings import Ring, TurningRings, holed_peaks
 
 RIM_JOINT, SHAFT_JOINT = "rim joint", "shaft joint"
+WHEEL_STRESS = "largest stress of the wheel"
 
 FOOT_SHOCK, FLOOR_SHOCK = "landing shock, foot", "landing shock, cage"
 SCREWS_SHOCK = "landing shock, screws in the trunk"
@@ -167,8 +168,8 @@ def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
     wheel = device.flywheel
     rings, fit = wheel_rings(wheel), rim_fit(device)
     if rings is None:
-        note = f"elastic figures of {wheel.material} are not known"
-        yield Margin(RIM_JOINT, 0.0, None, "Pa", note)
+        name = WHEEL_STRESS if web.material == wheel.material else RIM_JOINT
+        yield Margin(name, 0.0, None, "Pa", f"elastic figures of {wheel.material} are not known")
     elif web.material == wheel.material:
         yield _one_piece(wheel.material, web, rings, OVERSPEED * device.motor.top_speed)
     elif fit is None:
@@ -193,6 +194,16 @@ def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
 
 def _one_piece(material: str, web: Web, rings: tuple[Ring, ...], speed: float) -> Margin:
     """Largest stress of a wheel of one piece, hub, web and rim."""
+    where, peak = _peak(web, rings, speed)
+    note = (
+        f"in {where} at {OVERSPEED:g} x top speed, against yield; one piece, as a rotating disc of "
+        "three thicknesses"
+    )
+    return Margin(WHEEL_STRESS, peak, materials()[material].yield_strength, "Pa", note)
+
+
+def _peak(web: Web, rings: tuple[Ring, ...], speed: float) -> tuple[str, float]:
+    """Place of the largest stress of a wheel of one piece, and that stress [Pa]."""
     turning, names = TurningRings.of(rings, speed), ["the hub", "the web", "the rim"]
     values = [turning.peak(ring) for ring in range(len(rings))]
     hub, holes = web.hub, web.holes
@@ -204,11 +215,35 @@ def _one_piece(material: str, web: Web, rings: tuple[Ring, ...], speed: float) -
     if hub.bolts:
         peaks["the hub's holes"] = turning.peak_at_hole(0, hub.bolt_circle_radius)
     where = max(peaks, key=lambda name: peaks[name])
-    note = (
-        f"one piece; stress in {where} at {OVERSPEED:g} x top speed, rotating disc of three "
-        "thicknesses, against yield"
-    )
-    return Margin(RIM_JOINT, peaks[where], materials()[material].yield_strength, "Pa", note)
+    return where, peaks[where]
+
+
+def yield_margin(device: Device, speed: float) -> tuple[str, float] | None:
+    """Place where a wheel's stress comes nearest to yield, and the yield strength over it.
+
+    A shrink fit's stress is the largest up to `OVERSPEED`; that of a rim on massless spokes is the
+    hoop stress of a ring. None where a figure of the material is not known.
+
+    Args:
+        device: whose wheel it is. speed: at which it turns [rad/s].
+    """
+    wheel, known = device.flywheel, materials()
+    rings, web, fit = wheel_rings(wheel), wheel.web, rim_fit(device)
+    if rings is None or web is None:
+        if wheel.stress_margin is None:
+            return None
+        return "the rim", wheel.stress_margin * (device.motor.top_speed / speed) ** 2
+    peaks = [("the web", fit.stress_web, web.material)] if fit is not None else []
+    if fit is not None:
+        peaks.append(("the rim", fit.stress_rim, wheel.material))
+    elif web.material == wheel.material:
+        peaks.append((*_peak(web, rings, speed), wheel.material))
+    found = [
+        (where, strength / stress)
+        for where, stress, material in peaks
+        if (strength := known[material].yield_strength) is not None
+    ]
+    return min(found, key=lambda each: each[1], default=None)
 
 
 def rim_fit(device: Device) -> ShrinkFit | None:
@@ -270,12 +305,12 @@ def _bell_joints(device: Device) -> Iterator[Margin]:
     elastic = _elastic(kind)
     if kind is None or elastic is None or kind.thermal_expansion is None:
         unknown = f"elastic figures or expansion of {wheel.material} are not known"
-        yield Margin(RIM_JOINT, 0.0, None, "Pa", unknown)
+        yield Margin(WHEEL_STRESS, 0.0, None, "Pa", unknown)
     else:
         ring = Ring(wheel.inner_radius, wheel.outer_radius, wheel.height, wheel.density, *elastic)
         alone = TurningRings.of((ring,), speed).peak(0)
         note = f"a ring by itself at {OVERSPEED:g} x top speed, against yield"
-        yield Margin(RIM_JOINT, alone, kind.yield_strength, "Pa", note)
+        yield Margin(WHEEL_STRESS, alone, kind.yield_strength, "Pa", note)
         pulled = bell_bond_tension(
             ring.inner,
             ring.outer,

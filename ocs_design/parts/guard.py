@@ -134,8 +134,8 @@ class Containment:
 
     @property
     def masses(self) -> tuple[float, float]:
-        """Mass of the ring of steel, and of that of aluminium [kg]."""
-        walls = (self.steel, STEEL), (self.aluminium, ALUMINIUM_DENSITY)
+        """Mass of the ring of steel, and of that of aluminium, as thick as they are built [kg]."""
+        walls = (stepped(self.steel), STEEL), (stepped(self.aluminium), ALUMINIUM_DENSITY)
         steel, aluminium = (
             cylinder_mass(self.inner_radius, self.inner_radius + wall, self.height, density)
             for wall, density in walls
@@ -144,5 +144,10 @@ class Containment:
 
     @property
     def built_wall(self) -> float:
-        """Wall of the steel ring, up to the next tenth of a millimetre [m]."""
-        return ceil(self.steel / STEP - 1e-9) * STEP
+        """Wall of the steel ring that is built [m]."""
+        return stepped(self.steel)
+
+
+def stepped(wall: float) -> float:
+    """A wall up to the next tenth of a millimetre [m]."""
+    return ceil(wall / STEP - 1e-9) * STEP

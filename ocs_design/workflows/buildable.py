@@ -10,6 +10,7 @@ from ocs_design.device.joints import (
     RIM_JOINT,
     SCREWS_SHOCK,
     SHAFT_JOINT,
+    WHEEL_STRESS,
 )
 from ocs_design.device.records.device import Buildable, MarginRecord, OpenPoint
 from ocs_design.parts.joints import EPOXY, Margin
@@ -50,6 +51,7 @@ The others may be: a continuous current for a second, and a voltage, which then 
 """
 
 _JOINT_CURES = {
+    WHEEL_STRESS: "choose a stronger material (--material), or a slower motor",
     RIM_JOINT: "make the wheel in one piece, of a stronger material (--material), or choose a "
     "slower motor",
     SHAFT_JOINT: "choose a motor with threads in its rotor (--motor)",

@@ -11,7 +11,13 @@ from ocs_design.actuation.fasteners import screw
 from ocs_design.actuation.motor import BoltCircle, Mounting
 from ocs_design.catalogue.materials import material
 from ocs_design.device.device import Web
-from ocs_design.device.joints import balance_of, joints_of, rim_fit, wheel_rings
+from ocs_design.device.joints import (
+    balance_of,
+    joints_of,
+    rim_fit,
+    wheel_rings,
+    yield_margin,
+)
 from ocs_design.device.resonances import resonances_of
 from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.export.device_parts import printed_parts
@@ -42,12 +48,17 @@ def named(found):
 
 def test_one_piece_stands_its_largest_stress_at_over_speed():
     one = device()
-    joint = named(one)["rim joint"]
+    joint = named(one)["largest stress of the wheel"]
     turning = TurningRings.of(wheel_rings(one.flywheel), 1.2 * one.motor.top_speed)
     peaks = [turning.peak(ring) for ring in range(3)]
     assert joint.demand == pytest.approx(max(*peaks, turning.peak_at_hole(0, 0.006)))
     assert joint.capacity == STEEL.yield_strength
     assert joint.factor == pytest.approx(joint.capacity / joint.demand)
+    assert joint.note.startswith("in the web at 1.2 x top speed, against yield; one piece")
+    # With the square of the speed.
+    where, factor = yield_margin(one, 1.05 * one.motor.top_speed)
+    assert where == "the web"
+    assert factor == pytest.approx(joint.factor * (1.2 / 1.05) ** 2)
     assert one.motor.top_speed == pytest.approx(min(650.4, 300.0 * pi))
 
 
@@ -108,6 +119,9 @@ def test_a_rim_on_another_web_is_shrunk_on():
     # 1.5 x 0.9 N m on 2 pi 36^2 x 1 mm by a friction of 0.1.
     assert joint.demand == pytest.approx(1.35 / (2.0 * pi * 0.036**2 * WEB_THICKNESS * 0.1))
     assert rim_fit(device()) is None
+    where, factor = yield_margin(device(web=ALUMINIUM), device().motor.top_speed)
+    both = {name: found[f"{name} of the shrink fit"].factor for name in ("web", "rim")}
+    assert (where.removeprefix("the "), factor) == min(both.items(), key=lambda each: each[1])
 
 
 def test_screws_carry_by_friction_and_shear_is_a_reserve():
@@ -139,7 +153,9 @@ def test_what_is_not_in_the_catalogue_has_no_capacity(unknown):
 def test_a_material_without_figures_has_no_capacity():
     plain = replace(device().flywheel, material="stainless-paper")
     unknown = replace(plain, web=replace(plain.web, material="stainless-paper"))
-    assert named(replace(device(), flywheel=unknown))["rim joint"].capacity is None
+    assert (
+        named(replace(device(), flywheel=unknown))["largest stress of the wheel"].capacity is None
+    )
 
 
 def test_massless_spokes_have_no_joints():

@@ -62,7 +62,10 @@ def test_the_ring_stands_around_the_rim():
     assert found.inner_radius == pytest.approx(0.046)
     assert found.height == pytest.approx(0.010)
     assert found.aluminium > found.steel == steel_wall(fragment().energy, fragment().diameter)
-    outer = 0.046 + found.steel
+    # As thick as it is told and built, in tenths of a millimetre.
+    assert 0.0 <= found.built_wall - found.steel < 1e-4
+    assert found.built_wall / 1e-4 == pytest.approx(round(found.built_wall / 1e-4))
+    outer = 0.046 + found.built_wall
     steel, aluminium = found.masses
     assert steel == pytest.approx(7850.0 * pi * (outer**2 - 0.046**2) * 0.010)
     assert aluminium < steel

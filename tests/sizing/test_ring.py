@@ -54,7 +54,7 @@ def test_it_is_around_the_bell_within_its_straight_part_and_its_joints_hold():
     assert wheel.inner_radius == pytest.approx(drive.diameter / 2.0 + GLUE_GAP, rel=1e-12)
     assert wheel.height <= 0.45 * drive.length
     assert [joint.name for joint in joints_of(designed.device)] == [
-        "rim joint",
+        "largest stress of the wheel",
         "rim joint, pull on the bond",
         "shaft joint",
         "landing shock, foot",

@@ -3,6 +3,7 @@
 The report's section shows the same tables and chapters.
 """
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -15,7 +16,7 @@ from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.device import Device
 from ocs_design.export.assembly.content import Assembly, assembly_of, short
 from ocs_design.export.assembly.placed import Piece
-from ocs_design.export.assembly.steps import module_steps
+from ocs_design.export.assembly.steps import module_steps, robot_steps
 from ocs_design.export.assembly.trials import balance, safety, spin_test
 from ocs_design.export.assembly.views import BALLOON, exploded_view, section_view
 from ocs_design.export.assembly_notes import drive_notes
@@ -113,11 +114,12 @@ class ScrewRow(NamedTuple):
 
 @dataclass(frozen=True)
 class Chapter:
-    """Sentences under a heading; in order where `numbered`."""
+    """Sentences under a heading; in order where `numbered`, from the number `first` on."""
 
     title: str
     texts: tuple[str, ...]
     numbered: bool = False
+    first: int = 1
 
 
 def write(subject: Subject, folder: Path) -> Notes:
@@ -227,7 +229,7 @@ def _text_pages(assembly: Assembly, texts: Sequence[Chapter]) -> list[list[Item]
         blocks.append(("", chapter.title))
         blocks += [
             (str(number) if chapter.numbered else "–", text)
-            for number, text in enumerate(chapter.texts, start=1)
+            for number, text in enumerate(chapter.texts, chapter.first)
         ]
     for (number, text), (_, following) in zip(blocks, [*blocks[1:], ("", "")], strict=True):
         lines = _lines(number, text, here)
@@ -364,6 +366,43 @@ def _count(assembly: Assembly, piece: Piece) -> int:
     return modules * (piece.count if piece.fastening is None else piece.fastening.count)
 
 
+DRAWN = {"U8 Lite": (3.0, 3.6), "MN4014": (3.8, 3.6), "MN6007 II": (7.0, 9.0)}
+"""Depths of the threads that a model of a motor draws, at its rotor and at its stator [mm]:
+github.com/defencore/ProtoLab-3D src/parts/bldc-motor/lib/models.json. No maker states them."""
+
+
+def _motor_threads(assembly: Assembly) -> Iterator[str]:
+    """What is known of the motor's threads, and how far the screws reach into them."""
+    found = {
+        name: each
+        for name, each in assembly.screws.items()
+        if each.fastening.depth < IN_PLASTIC and "motor" in each.fastening.purpose
+    }
+    if not found:
+        return
+    reach = " and ".join(
+        f"{1e3 * each.engagement:.1f} mm ({short(name)})" for name, each in found.items()
+    )
+    motor, drawn = assembly.device.motor, ""
+    named = f"{motor.name} {motor.source}"
+    model = next((each for each in DRAWN if re.search(rf"\b{each}\b", named)), None)
+    stated = all(each.fastening.least > 0.0 for each in found.values())
+    if model is not None and not stated:
+        at = (DRAWN[model][0 if name.startswith("wheel") else 1] for name in found)
+        drawn = (
+            f" Of {model}, whose threads the catalogue counts for this motor, a model draws "
+            f"{' and '.join(f'{depth:.1f} mm' for depth in at)}: its modeller's figures, not the "
+            "maker's."
+        )
+    known = "its maker's figures are in the table of screws" if stated else "no maker states it"
+    yield (
+        "Measure how deep the motor's threads are before you put screws into them: "
+        f"{known}. The screws of this design reach {reach} into it.{drawn} A screw that is too "
+        "long cuts into the winding; take a shorter one, or washers, so that its tip stays 0.5 mm "
+        "off the bottom, and tighten it less by as much as there is less thread."
+    )
+
+
 def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
     """All text, in the order of the work."""
     notes = dict.fromkeys((*drive_notes(assembly.device), *assembly.notes))
@@ -372,23 +411,17 @@ def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
         "Read the safety notes at the end before anything turns.",
         *(f"{note[:1].upper()}{note[1:]}." for note in notes),
     ]
-    if any(
-        found.fastening.depth < IN_PLASTIC and "motor" in found.fastening.purpose
-        for found in assembly.screws.values()
-    ):
-        before.append(
-            "Measure how deep the motor's threads are before you put screws into them: the "
-            "catalogue does not know. A screw that is too long cuts into the winding; take a "
-            "shorter one, or washers, so that its tip stays 0.5 mm off the bottom."
-        )
+    before += _motor_threads(assembly)
     before.append(
         "Tools: torque screwdriver from 0.05 N m, hex keys, taps for the threads in the prints "
         "(drill sizes are those of the holes), dial gauge, hand drill on a stand, scales to "
         "0.01 g, tachometer."
     )
+    each, once = tuple(module_steps(assembly)), tuple(robot_steps(assembly))
     whole = (
         Chapter("Before you start", tuple(before)),
-        Chapter("Steps, for each module", tuple(module_steps(assembly)), numbered=True),
+        Chapter("Steps, for each module", each, numbered=True),
+        Chapter("Steps, once for the robot", once, numbered=True, first=len(each) + 1),
         Chapter("Balance", tuple(balance(assembly))),
         Chapter("Spin test, before anything goes on the robot", tuple(spin_test(assembly)), True),
         Chapter("Wiring", tuple(wiring(assembly.device, assembly.margins))),

@@ -51,7 +51,7 @@ DROP = 0.03e-3
 
 
 def module_steps(assembly: Assembly) -> Iterator[str]:
-    """How one module is made, put together, tried, and set on the robot."""
+    """How one module is made, put together and tried."""
     device = assembly.device
     if "drum" in assembly.numbers:
         caged = "cage" in assembly.numbers
@@ -94,6 +94,17 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
             next(name for name in assembly.screws if name.startswith("lid")), lid=True
         )
         yield "Run the spin test (below), lid on."
+        mass = device.module_mass - device.motor.controller_mass
+        yield (
+            f"Weigh the module with all its screws, without its controller: {1e3 * mass:.0f} g. If "
+            "it is 2 % off, weigh its parts against cad/bill_of_materials.csv."
+        )
+
+
+def robot_steps(assembly: Assembly) -> Iterator[str]:
+    """How the modules are set on the robot, and their drives named."""
+    device = assembly.device
+    if "lid" in assembly.numbers:
         yield from _trunk_steps(assembly)
     turns: dict[str, list[str]] = {"counter-clockwise": [], "clockwise": []}
     for module in device.modules:
@@ -188,11 +199,6 @@ def _trunk_steps(assembly: Assembly) -> Iterator[str]:
     ]
     heights += [each.position[2] for each in device.pedestals]
     stand = " and ".join(dict.fromkeys(f"{1e3 * height:.1f}" for height in heights))
-    mass = device.module_mass - device.motor.controller_mass
-    yield (
-        f"Weigh the module with all its screws, without its controller: {1e3 * mass:.0f} g. If "
-        "it is 2 % off, weigh its parts against cad/bill_of_materials.csv."
-    )
     if device.layout == PAIR:
         yield (
             "Both modules are of the same parts. On the robot the right one is turned by half "

@@ -4,12 +4,15 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ocs_design.common.units import round_outwards, rpm, significant
-from ocs_design.device.joints import balance_of
+from ocs_design.common.units import rpm, significant
+from ocs_design.device.joints import balance_of, yield_margin
 from ocs_design.device.resonances import DAMPING, resonances_of
+from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.electrics import demand_of
+from ocs_design.parts.guard import stepped
 from ocs_design.parts.joints import GRADE
+from ocs_design.parts.printed import CLEARANCE
 from ocs_design.parts.rim import stored_energy
 
 SPIN_STEPS = (0.1, 0.25, 0.5, 0.75, 1.0)
@@ -60,6 +63,7 @@ def balance(assembly: Assembly) -> Iterator[str]:
             "that is off by more is made "
             f"anew.{'' if wheel.web is None else ' Nothing is taken off web and hub.'}"
         )
+        yield from _at_the_rim(assembly)
     else:
         yield (
             "The rim's wall is too thin to drill by hand: grind the heavy side of its face, "
@@ -78,12 +82,48 @@ def balance(assembly: Assembly) -> Iterator[str]:
     )
 
 
+def _at_the_rim(assembly: Assembly) -> Iterator[str]:
+    """How a drill gets at both faces of a rim whose inner one is next to the drum's floor."""
+    device, mount = assembly.device, motor_mount(assembly.device)
+    held = next((name for name in assembly.screws if name.startswith("motor")), None)
+    if held is None or "drum" not in assembly.numbers:
+        return
+    screws = f"{assembly.screws[held].fastening.count} screws{assembly.number(held)}"
+    chips = "Chips stick to the motor's magnets: tape over all openings, and drill with it on top."
+    back = "Put both back as they were marked, and check the run-out again."
+    across, window = device.motor.diameter or 0.0, 2.0 * mount.holes.pilot_radius
+    if mount.bell is not None:
+        yield (
+            f"The inner face is next to the drum's floor: undo the motor's {screws}, unplug it, "
+            f"and motor and ring come out of the drum. {chips} {back}"
+        )
+    elif mount.cage is not None and across < window:
+        yield (
+            f"The inner face is {1e3 * CLEARANCE:g} mm off the drum's floor: undo the motor's "
+            f"{screws}, unplug it, mark how it stood in its cage, and wheel and motor come out "
+            f"together on the lid's side, for its {1e3 * across:.1f} mm pass through the window of "
+            f"{1e3 * window:.1f} mm. {chips} {back}"
+        )
+    elif on_rotor := next((name for name in assembly.screws if name.startswith("wheel")), None):
+        yield (
+            f"The inner face is {1e3 * CLEARANCE:g} mm off the drum's floor: mark how the wheel "
+            f"stands on the motor, undo its {assembly.screws[on_rotor].fastening.count} screws"
+            f"{assembly.number(on_rotor)}, and drill it off its motor. {back}"
+        )
+    else:
+        yield (
+            f"The inner face is {1e3 * CLEARANCE:g} mm off the drum's floor, and the motor's "
+            f"{screws} are behind the wheel: drill the outer face alone, two holes beside each "
+            "other for a pair, half of that room. Hold a vacuum cleaner to the drill, with tape "
+            "over the motor's hole, for chips stick to its magnets."
+        )
+
+
 def spin_test(assembly: Assembly) -> Iterator[str]:
     """How a module is run up behind a wall before it goes on the robot."""
     speed, burst = assembly.top_speed, assembly.burst
     if speed is None or burst is None:
         return
-    wheel = assembly.device.flywheel
     yield (
         "Clamp the module by its foot on a bench inside a closed steel box or behind steel of "
         f"at least {max(2.0, math.ceil(2e3 * burst.steel)):.0f} mm (twice the wall that holds it, "
@@ -110,12 +150,10 @@ def spin_test(assembly: Assembly) -> Iterator[str]:
         if motor.bus_voltage is None or share <= 1.0
         else f", which takes {share * motor.bus_voltage:.3g} V"
     )
-    margin = wheel.stress_margin
-    stress = (
-        ""
-        if margin is None
-        else f" The yield strength is then {margin / share**2:.1f} times the hoop stress."
-    )
+    stressed, stress = yield_margin(assembly.device, share * speed), ""
+    if stressed is not None:
+        where, factor = stressed
+        stress = f" The yield strength is then {factor:.1f} times the largest stress, in {where}."
     yield f"Once, for ten seconds, {share:.0%}: {over}{supply}.{stress}"
     yield (
         "It fails if anything hums that did not before, if the vibration rises between two "
@@ -192,5 +230,5 @@ def _two(value: float) -> str:
 
 
 def _at_least(wall: float) -> str:
-    """A wall that must hold in millimetres, rounded up to two digits."""
-    return f"{1e3 * round_outwards(wall, upwards=True, digits=2):.2g}"
+    """A wall that must hold in millimetres, as thick as it is built."""
+    return f"{1e3 * stepped(wall):.1f}"

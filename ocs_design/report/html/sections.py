@@ -287,7 +287,9 @@ def assembly_section(story: Story) -> Markup:
             joined(
                 (
                     element("h3", each.title),
-                    element("ol", *(element("li", text) for text in each.texts))
+                    element(
+                        "ol", *(element("li", text) for text in each.texts), start=str(each.first)
+                    )
                     if each.numbered
                     else items(each.texts),
                 )

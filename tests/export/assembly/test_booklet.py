@@ -15,7 +15,7 @@ from wheels import paper_device
 from ocs_design.catalogue.materials import materials
 from ocs_design.device.bodies import carrier_placement, wheel_placement
 from ocs_design.device.device import Module
-from ocs_design.device.joints import balance_of, burst_of, rim_fit
+from ocs_design.device.joints import balance_of, burst_of, rim_fit, yield_margin
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.device.records.device import MarginRecord
 from ocs_design.device.solids import foot_of
@@ -53,9 +53,10 @@ def all_texts(assembly):
 
 
 def texts(assembly, title):
-    """Of one chapter."""
-    (chapter,) = (each for each in chapters(assembly) if each.title.startswith(title))
-    return " ".join(chapter.texts)
+    """Of the chapters whose titles begin so."""
+    found = [each for each in chapters(assembly) if each.title.startswith(title)]
+    assert found
+    return " ".join(text for each in found for text in each.texts)
 
 
 @pytest.mark.parametrize("name", ["caged", "by its face"])
@@ -149,6 +150,12 @@ def test_the_guard_is_told_what_it_does_not_do():
     (outer,) = re.findall(r"behind it ([\d.]+) mm of 6061-T6", said)
     for told, wall in ((ring, burst.steel), (outer, burst.aluminium)):
         assert 0.0 <= float(told) - 1e3 * wall < 0.1
+    # The mass is that of the wall that is told.
+    weighs, inside, wide = re.search(
+        r"in the drum, (\d+) g each \(([\d.]+) mm inside, ([\d.]+) mm wide", said
+    ).groups()
+    area = np.pi * float(ring) * (float(inside) + float(ring))
+    assert float(weighs) == pytest.approx(7.85e-3 * area * float(wide), abs=0.6)
     energy = 0.5 * device.flywheel.spin_inertia * 650.4**2
     assert f"Each wheel stores {energy:.3g} J at 6,211 rpm, 2 of them {2 * energy:.3g} J" in said
 
@@ -177,6 +184,66 @@ def test_the_balance_says_how_much_is_left_and_what_holes_take():
     assert f"a pair takes {1e3 * pair:.2g} g, which are {1e6 * pair * away:.2g} g mm" in said
     assert f"drill of {2e3 * holes.hole_radius:.1f} mm, at most {1e3 * holes.depth:.1f} mm" in said
     assert balance.centred_by in said
+
+
+def test_work_on_the_robot_is_not_told_for_each_module():
+    """Its numbers go on."""
+    each, once = (
+        chapter for chapter in chapters(Assembly("dog", DEVICES["on a plate"]))
+        if chapter.title.startswith("Steps")
+    )  # fmt: skip
+    assert (each.title, once.title) == ("Steps, for each module", "Steps, once for the robot")
+    assert (each.first, once.first) == (1, len(each.texts) + 1)
+    robot = ("Make the plate", "Plate on trunk", "Name the drives", "Both modules are")
+    assert not any(text.startswith(robot) for text in each.texts)
+    assert {start for start in robot for text in once.texts if text.startswith(start)} == set(robot)
+    assert each.texts[-1].startswith("Weigh the module")
+
+
+@pytest.mark.parametrize(
+    ("name", "says"),
+    [
+        ("caged", "undo the motor's 4 screws (1), unplug it"),
+        ("by its face", "behind the wheel: drill the outer face alone"),
+        ("unknown threads", ""),
+    ],
+)
+def test_a_drill_gets_at_the_rim_as_the_motor_is_held(name, says):
+    device = DEVICES[name]
+    # Of a wall that can be drilled.
+    wheel = replace(device.flywheel, inner_radius=device.flywheel.outer_radius - 0.004)
+    said = texts(Assembly("dog", replace(device, flywheel=wheel)), "Balance")
+    assert "in both faces of the rim" in said
+    assert ("The inner face is" in said) == bool(says)
+    assert says in said
+    if name == "caged":
+        across, window = device.motor.diameter, foot_of(device).housing.mount.pilot_radius
+        assert across < 2.0 * window
+        assert f"its {1e3 * across:.1f} mm pass through the window of {2e3 * window:.1f} mm" in said
+
+
+def test_the_screws_reach_into_the_motor_is_told_beside_what_its_model_draws():
+    """Screws less what they go through; models are of the motor, or of the one that it follows."""
+    device = DEVICES["caged"]
+    screws = {name.split("; ")[0]: each for name, each in Assembly("dog", device).screws.items()}
+    names = [name for name in screws if name.startswith(("wheel", "motor"))]
+    reach = [screws[name].fastening.length - screws[name].fastening.thickness for name in names]
+    reached = " and ".join(
+        f"{1e3 * deep:.1f} mm ({name})" for name, deep in zip(names, reach, strict=True)
+    )
+    of_rotor = {"": 0.0, "U8 Lite": 3.0, "MN4014": 3.8}
+    for motor, model in (
+        ({"name": "M1", "source": "a list"}, ""),
+        ({"name": "M1", "source": "threads: those of U8 Lite, of the same series"}, "U8 Lite"),
+        ({"name": "MN4014 KV330", "source": "a list"}, "MN4014"),
+    ):
+        told = replace(device, motor=replace(device.motor, **motor))
+        said = texts(Assembly("dog", told), "Before")
+        assert f"The screws of this design reach {reached} into it." in said
+        drawn = [of_rotor[model] if name.startswith("wheel") else 3.6 for name in names]
+        figures = " and ".join(f"{depth:.1f} mm" for depth in drawn)
+        assert (f"a model draws {figures}: its modeller" in said) == bool(model)
+        assert f"Of {model}, whose" in said or not model
 
 
 def test_a_rim_of_another_material_is_shrunk_on():
@@ -259,7 +326,13 @@ def test_the_spin_test_keeps_to_the_speed_that_the_motor_is_allowed(allowed, say
     motor = replace(
         device.motor, no_load_speed=free, speed_max=allowed * free, bus_voltage=24.0, gear="direct"
     )
-    assert says in texts(Assembly("solo12", replace(device, motor=motor)), "Spin test")
+    steel = {"material": "stainless-304"}
+    wheel = replace(device.flywheel, **steel, web=replace(device.flywheel.web, **steel))
+    driven = replace(device, motor=motor, flywheel=wheel)
+    said = texts(Assembly("solo12", driven), "Spin test")
+    assert says in said
+    where, factor = yield_margin(driven, min(1.1, allowed) * free)
+    assert f"yield strength is then {factor:.1f} times the largest stress, in {where}." in said
 
 
 @pytest.mark.parametrize(("shaft", "told"), [(None, True), (0.004, False)])
