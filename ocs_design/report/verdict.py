@@ -63,9 +63,12 @@ def headline(found: OcsDesign | Validated) -> Headline:
         tones = {"certified": Tone.PASS, "falls short": Tone.FAIL, "undecided": Tone.OPEN}
         verdict = f"{100.0 * certified.asked:.4g} % {certified.verdict}"
         parts.append(Toned(verdict, tones[certified.verdict]))
+    # Those that fail before those that are not judged.
+    worst = sorted(runs, key=lambda run: run.passed is None)
+    faults = (f"{run.scenario}: {run.reason}" for run in worst if run.passed is not True)
     matters = (
         shortage,
-        _of_flights(runs),
+        next(faults, "") or falls(runs),
         survival_sentence(survival) if survival is not None and survival.lost else "",
         by_hand,
         "" if certified is None else certificate_line(certified),
@@ -108,11 +111,3 @@ def _flights(runs: Sequence[ValidationRecord]) -> Iterator[Toned]:
 
 def _share(word: str, good: int, of: int, otherwise: Tone) -> Toned:
     return Toned(f"{word} {good} of {of}", Tone.PASS if good == of else otherwise)
-
-
-def _of_flights(runs: Sequence[ValidationRecord]) -> str:
-    """What is wrong with the worst flight; empty if nothing is."""
-    for run in sorted(runs, key=lambda run: run.passed is None):
-        if run.passed is not True:
-            return f"{run.scenario}: {run.reason}"
-    return falls(runs)
