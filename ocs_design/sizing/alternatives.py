@@ -1,8 +1,9 @@
 """What would make a device lighter: single changes of the specification, and what they save.
 
 A selection on the footing of the device as it stands tells quickly which drive is lightest after a
-change; the changed question is then sized as a whole with it (docs/theory.md, Alternatives and What
-must give). Where the mass to be saved is stated, each answer is the smallest change that does.
+change; the changed question is then sized as a whole with it (docs/theory.md, The selection:
+Alternatives, What must give). Where the mass to be saved is stated, each answer is the smallest
+change that does.
 """
 
 from bisect import bisect_left
