@@ -44,12 +44,14 @@ def time_charts(scenario: str, name: str, flights: Sequence[RecordedFlight]) -> 
         rules: Sequence[Rule] = (),
         ends: Sequence[float] = (),
     ) -> Chart:
+        end = max(float(flight.time[-1]) for flight in of) or 1.0
+        reach = [(np.nanmin(curve.y), np.nanmax(curve.y), 0.0) for curve in curves]
         return Chart(
             name=f"{kind}_{name}",
             title=f"{scenario}: {title}",
             description=description,
-            x=_time(of),
-            y=Axis.around(*axis, [*ends, *_ends(curves)]),
+            x=Axis("time", "s", 0.0, end),
+            y=Axis.around(*axis, [*ends, *np.ravel(reach)]),
             marks=(*curves, *rules, *_events(of)),
             height=_HEIGHT,
         )
@@ -157,14 +159,6 @@ def _events(flights: Sequence[RecordedFlight]) -> list[Rule]:
     last = "upright by now" if any(flight.on_pivot for flight in flights) else "touchdown"
     times += [(min(down), last)] if down else []
     return [Rule(time, upright=True, label=label, ink=Ink.FAINT) for time, label in times]
-
-
-def _time(flights: Sequence[RecordedFlight]) -> Axis:
-    return Axis("time", "s", 0.0, max(float(flight.time[-1]) for flight in flights) or 1.0)
-
-
-def _ends(lines: Sequence[Line | Area]) -> FloatArray:
-    return np.concatenate([[np.nanmin(line.y), np.nanmax(line.y), 0.0] for line in lines])
 
 
 def distribution_charts(record: MonteCarloRecord, pivots: Collection[str] = ()) -> Iterator[Chart]:
