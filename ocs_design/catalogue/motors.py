@@ -337,8 +337,97 @@ def _bolt_circle_faults(sheet: MotorSheet, side: str, circle: BoltCircle | None)
         yield f"{where}: {circle.bolts} holes for {circle.thread} leave less than 1 mm between them"
 
 
+LARGEST = 1.0
+"""Size that no motor has [m]; the widest of the catalogue has 0.23."""
+
+DENSITIES = (1.3e3, 7.0e3)
+"""Mass over the cylinder around its body, of the catalogue's motors [kg/m^3]."""
+
+POSSIBLE, LIKELY = (0.3e3, 20e3), (0.5e3, 15e3)
+"""The same beyond which a row is refused, and beyond which it is doubted [kg/m^3]. Tungsten has
+19.3e3."""
+
+SPEED_CONSTANTS = (25.0, 2800.0)
+"""Speed constants of the catalogue's motors [rpm/V]; ten times more or less are doubted."""
+
+VOLTAGE_SHARES = (1e-3, 3.0)
+"""Voltage that the peak current takes at rest, over the rated one, beyond which a row is doubted;
+the catalogue's motors have 0.01 to 1."""
+
+
+def _density(sheet: MotorSheet) -> float | None:
+    """Mass over the cylinder around the body [kg/m^3]; None: not known."""
+    mass, diameter, length = sheet.mass_kg, sheet.diameter_m, sheet.length_m
+    if mass is None or diameter is None or length is None:
+        return None
+    return mass / (math.pi / 4.0 * diameter**2 * length)
+
+
+def _meant(value: float, unit: str, share: float, limits: tuple[float, float]) -> str:
+    """Question for a unit that is off by a thousand, where that would mend it.
+
+    Args:
+        value: as it is stated. unit: of it.
+        share: that grows with it, and should be within `limits`.
+    """
+    for factor in (1e-3, 1e3):
+        if limits[0] <= share * factor <= limits[1]:
+            return f"did you mean {value * factor:g} {unit}?"
+    return "check its unit"
+
+
+def _of_mass(sheet: MotorSheet, limits: tuple[float, float]) -> Iterator[str]:
+    """Line on a mass that its body does not have within these densities [kg/m^3]."""
+    mass, density = sheet.mass_kg or 0.0, _density(sheet)
+    if density is not None and not limits[0] <= density <= limits[1]:
+        size = " x ".join(
+            f"{1e3 * (each or 0.0):.4g}" for each in (sheet.diameter_m, sheet.length_m)
+        )
+        usual = " to ".join(f"{1e-3 * each:g}" for each in DENSITIES)
+        yield (
+            f"mass_kg is {mass:g} kg in a body of {size} mm, {1e-3 * density:.4g} g/cm3, where "
+            f"motors have {usual}: {_meant(mass, 'kg', density, LIKELY)}"
+        )
+
+
+def _impossible(sheet: MotorSheet) -> Iterator[str]:
+    """Sizes and masses that no motor has, one line each with the likely slip."""
+    sizes = {name: size for name, size in vars(sheet).items() if name.endswith("_m") and size}
+    large = {name: size for name, size in sizes.items() if size >= LARGEST}
+    for name, size in large.items():
+        yield f"{name} is {size:g} m, and no motor is that large: did you mean {size / 1e3:g} m?"
+    if not large:
+        yield from _of_mass(sheet, POSSIBLE)
+
+
+def _doubts(sheet: MotorSheet) -> Iterator[str]:
+    """Figures that are possible and hardly meant, one line each with the likely slip."""
+    yield from _of_mass(sheet, LIKELY)
+    k_t, (slow, fast) = sheet.torque_constant, SPEED_CONSTANTS
+    kv = slow if k_t is None else 1.0 / (k_t * rad_s(1.0))
+    if not slow / 10.0 <= kv <= 10.0 * fast:
+        of_kt = "kt_nm_per_a", sheet.kt_nm_per_a, "N m/A", 1.0 / kv, (1.0 / fast, 1.0 / slow)
+        of_kv = "kv_rpm_per_v", sheet.kv_rpm_per_v, "rpm/V", kv, SPEED_CONSTANTS
+        name, value, unit, share, limits = of_kt if sheet.kv_rpm_per_v is None else of_kv
+        yield (
+            f"{name} is {value:g} {unit}, where motors have {slow:g} to {fast:g} rpm/V: "
+            f"{_meant(value or 0.0, unit, share, limits)}"
+        )
+    current, resistance, voltage = sheet.peak_current, sheet.resistance, sheet.rated_voltage_v
+    if current is not None and resistance is not None and voltage is not None:
+        share = current * resistance / voltage
+        if not VOLTAGE_SHARES[0] <= share <= VOLTAGE_SHARES[1]:
+            stated = sheet.resistance_ohm or 0.0
+            yield (
+                f"resistance_ohm is {stated:g} ohm, which takes {current * resistance:.4g} V for "
+                f"peak_current_a, {sheet.peak_current_a:g} A, and rated_voltage_v is {voltage:g} "
+                f"V: {_meant(stated, 'ohm', share, VOLTAGE_SHARES)}"
+            )
+
+
 def _faults(sheet: MotorSheet) -> Iterator[str]:
     """What is wrong with a row, one line each; a remark explains contradictions alone."""
+    yield from _impossible(sheet)
     if sheet.kt_nm_per_a is not None and sheet.kt_convention is None:
         yield f"kt_nm_per_a needs its kt_convention{_fitting(sheet)}"
     if sheet.resistance_ohm is not None and sheet.resistance_between is None:
@@ -394,14 +483,28 @@ def load_motors(path: Path) -> Mapping[str, Motor]:
     Raises:
         SpecificationError: see `load_entries`.
     """
+    return MappingProxyType({name: sheet.motor() for name, sheet in _sheets(path).items()})
+
+
+def motor_doubts(path: Path) -> tuple[str, ...]:
+    """Sentences on what a file of motors states and hardly means, each with its row and column.
+
+    Raises:
+        SpecificationError: see `load_entries`.
+    """
+    sheets = _sheets(path).items()
+    return tuple(f"{path}, {name}: {doubt}" for name, sheet in sheets for doubt in _doubts(sheet))
+
+
+def _sheets(path: Path) -> Mapping[str, MotorSheet]:
+    """Every row of a file by its motor's name."""
 
     def lacks(sheet: MotorSheet) -> str:
         """Clause on the figures without which nobody can build with it; empty: none is missing."""
         gaps = build_gaps(sheet.motor())
         return f"to be built with, it lacks {', '.join(gaps)}" if gaps else ""
 
-    sheets = load_entries(path, "motor", MotorSheet, _faults, lacks)
-    return MappingProxyType({name: sheet.motor() for name, sheet in sheets.items()})
+    return load_entries(path, "motor", MotorSheet, _faults, lacks)
 
 
 def motors_to_json(found: Iterable[Motor]) -> bytes:

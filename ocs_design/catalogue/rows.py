@@ -333,10 +333,12 @@ def load_entries(
         if isinstance(name, str) and first.setdefault(name, row.where) != row.where:
             twice.append(f"{row.where}: {name!r} is already the name of {first[name]}")
         before = len(faults)
-        read = sheet(**_read_cells(row, where, sheet, faults))
+        values, unread = _read_cells(row, where, sheet, faults)
+        read = sheet(**values)
         if len(faults) == before:
             faults.extend(f"{where}: {fault}" for fault in faults_of(read))
-        lacking[where] = lacks(read)
+        # A number that is wrong is told as such, and not as missing too.
+        lacking[where] = lacks(sheet(**values | dict.fromkeys(unread, 1)))
         found[read.name] = read
     faults += twice
     if faults:
@@ -346,9 +348,14 @@ def load_entries(
     return _by_name(found)
 
 
-def _read_cells(row: Row, where: str, sheet: type, faults: list[str]) -> dict[str, Any]:
-    """The value of each column that can be read; texts that must be there are empty otherwise."""
-    columns, values = columns_of(sheet), {}
+def _read_cells(
+    row: Row, where: str, sheet: type, faults: list[str]
+) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """The value of each column that can be read, and the columns of numbers that cannot.
+
+    Texts that must be there are empty where they cannot be read.
+    """
+    columns, values, unread = columns_of(sheet), {}, []
     for column, raw in row.cells.items():
         if column not in columns:
             close = [each for each in columns if each.startswith(f"{column}_")][:1]
@@ -360,10 +367,12 @@ def _read_cells(row: Row, where: str, sheet: type, faults: list[str]) -> dict[st
             values[column] = columns[column](raw)
         except ValueError as error:
             faults.append(f"{where}, {column}: {error}")
+            if columns[column] in {positive, whole}:
+                unread.append(column)
     required = {item.name for item in fields(sheet) if item.default is MISSING}
     missing = sorted(required - row.cells.keys())
     faults.extend(f"{where}, {column}: is missing" for column in missing)
-    return {**dict.fromkeys(required, ""), **values}
+    return {**dict.fromkeys(required, ""), **values}, tuple(unread)
 
 
 def packaged(name: str, load: Callable[[Path], Mapping[str, E]]) -> Mapping[str, E]:

@@ -11,7 +11,7 @@ from ocs_design.actuation.motor import DIRECT, Gear, Motor, build_gaps
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.gears import known_gears, named_stages, stages
 from ocs_design.catalogue.materials import Material, material, strong_materials
-from ocs_design.catalogue.motors import known_motors, load_motors, motor
+from ocs_design.catalogue.motors import known_motors, load_motors, motor, motor_doubts
 from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.specification import Specification
@@ -180,6 +180,16 @@ def any_motors(specification: Specification) -> tuple[Motor, ...]:
     """Every motor on offer with its controller, those that nobody can build with among them."""
     offered = _motors(replace(specification, motor=replace(specification.motor, any=True)))
     return tuple(_controlled(each, specification) for each in offered)
+
+
+def doubts_about_motors(specification: Specification) -> tuple[str, ...]:
+    """Doubts about the figures in a user's file of motors, one sentence each.
+
+    Raises:
+        SpecificationError: the file cannot be read, or has faults.
+    """
+    file, name = _path(specification.motor.motors), specification.motor.name
+    return () if file is None or name == NO_MOTOR else motor_doubts(file)
 
 
 def highest_rated_voltage(specification: Specification) -> float | None:

@@ -12,7 +12,13 @@ from ocs_design.common.errors import RobotError, SpecificationError, UsageError
 from ocs_design.common.files import AnyPath
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity, rpm, to_unit
 from ocs_design.requirement.checks import contradictions, unfit_for_robot
-from ocs_design.requirement.choices import POWER_PER_MASS, MotorChoice, default_supply, motor_choice
+from ocs_design.requirement.choices import (
+    POWER_PER_MASS,
+    MotorChoice,
+    default_supply,
+    doubts_about_motors,
+    motor_choice,
+)
 from ocs_design.requirement.device_sections import (
     LIMIT_OF_KEY,
     Envelope,
@@ -194,6 +200,7 @@ def read_specified_robot(
             f"{weighed:.4g} kg: {wrong} in its file"
         )
         robot = replace(robot, warnings=(*robot.warnings, warning))
+    robot = replace(robot, warnings=(*robot.warnings, *doubts_about_motors(specification)))
     if strict and robot.warnings:
         raise RobotError("--strict: " + "; ".join(robot.warnings), hint="mend the robot's file")
     return robot

@@ -1,12 +1,14 @@
 """Catalogue files of users: both formats, and every way in which one can be wrong."""
 
 import re
+from importlib.resources import as_file, files
 
 import motor_rows
 import pytest
 
+from ocs_design.actuation.motor import build_gaps
 from ocs_design.catalogue.gears import known_gears, load_gears
-from ocs_design.catalogue.motors import known_motors, load_motors, motors
+from ocs_design.catalogue.motors import known_motors, load_motors, motor_doubts, motors
 from ocs_design.common.errors import SpecificationError
 
 HEADER = "name,maker,source,mass_kg,kt_nm_per_a,kt_convention,kv_rpm_per_v,resistance_ohm"
@@ -89,6 +91,16 @@ FAULTS = {
     "stall current": (toml(stall_current_a=20), "stall current is 20 A, but V / R is 48 A"),
     "peak torque": (toml(peak_current_a=10), "peak torque is 0.3 N m, above k_t times"),
     "continuous torque": (toml(continuous_torque_nm=0.4), "continuous torque is above"),
+    "grams": (
+        toml(mass_kg=120, diameter_m=0.0556, length_m=0.025),
+        r"mass_kg is 120 kg in a body of 55.6 x 25 mm, 1977 g/cm3, .*: did you mean 0.12 kg\?",
+    ),
+    "tonnes": (
+        csv(mass_kg=1e-4, diameter_m=0.0556, length_m=0.025),
+        r"mass_kg is 0.0001 kg .*: did you mean 0.1 kg\?",
+    ),
+    "millimetres": (toml(diameter_m=55.6), r"diameter_m is 55.6 m, .*: did you mean 0.0556 m\?"),
+    "a long shaft": (toml(shaft_length_m=5), r"shaft_length_m is 5 m, .*: did you mean 0.005 m\?"),
     "twice in a file": (toml() + "\n" + toml(), r"motor\[2\]: 'M' is already .* of motor\[1\]"),
     "too many cells": (csv() + "a,b,c,d,e,f,g,h,i,j,k\n", "line 3: has 11 cells for 10"),
     "a column twice": ("name,name\na,b\n", "the column 'name' stands there twice"),
@@ -154,6 +166,51 @@ def test_all_faults_at_once(load):
         "line 3 (B)",
     ]
     assert "it lacks kind: outrunner or inrunner, bolt circle" in caught.value.problems[-1]
+
+
+@pytest.mark.parametrize("column", ["mass_kg", "resistance_ohm", "kt_nm_per_a"])
+@pytest.mark.parametrize("value", [-0.1, 0, "much"])
+def test_a_figure_that_is_wrong_is_not_told_as_missing_too(load, column, value):
+    right = load(toml())["M"]
+    with pytest.raises(SpecificationError) as caught:
+        load(toml(**{column: value}))
+    wrong, gaps = caught.value.problems
+    assert wrong.startswith(f"motor[1] (M), {column}: ")
+    assert gaps == f"motor[1] (M): to be built with, it lacks {', '.join(build_gaps(right))}"
+
+
+DOUBTS = {
+    "hardly any mass": (
+        {"mass_kg": 0.025, "diameter_m": 0.0556, "length_m": 0.025},
+        r"mass_kg is 0.025 kg .* 0.4119 g/cm3, where motors have 1.3 to 7: check its unit",
+    ),
+    "milliohm": (
+        {"resistance_ohm": 60, "peak_current_a": 26},
+        r"resistance_ohm is 60 ohm, which takes 1560 V for peak_current_a, 26 A, and "
+        r"rated_voltage_v is 24 V: did you mean 0.06 ohm\?",
+    ),
+    "thousands of rpm": (
+        {"kt_nm_per_a": None, "kt_convention": None, "kv_rpm_per_v": 450_000},
+        r"kv_rpm_per_v is 450000 rpm/V, where .* 25 to 2800 rpm/V: did you mean 450 rpm/V\?",
+    ),
+    "mN m": (
+        {"kt_nm_per_a": 20.0},
+        r"kt_nm_per_a is 20 N m/A, where .*: did you mean 0.02 N m/A\?",
+    ),
+}
+
+
+@pytest.mark.parametrize(("changes", "message"), DOUBTS.values(), ids=DOUBTS)
+def test_figures_that_are_hardly_meant_are_doubted(load, changes, message):
+    (doubt,) = load(toml(**changes), read=motor_doubts)
+    assert re.search(f"mine.toml, M: {message}", doubt), doubt
+    # They are read all the same.
+    assert "M" in load(toml(**changes))
+
+
+def test_nothing_of_the_catalogue_is_doubted():
+    with as_file(files("ocs_design.catalogue") / "motors.csv") as path:
+        assert motor_doubts(path) == ()
 
 
 def test_a_remark_lets_a_contradiction_stand(load):

@@ -10,7 +10,7 @@ from ocs_design.actuation.motor import DIRECT, build_gaps
 from ocs_design.catalogue.gears import gears, stages
 from ocs_design.catalogue.materials import materials
 from ocs_design.catalogue.motors import motor, motors
-from ocs_design.common.errors import SpecificationError
+from ocs_design.common.errors import RobotError, SpecificationError
 from ocs_design.requirement.choices import motor_choice
 from ocs_design.requirement.device_sections import (
     FlywheelSection,
@@ -18,7 +18,8 @@ from ocs_design.requirement.device_sections import (
     OcsSection,
     SupplySection,
 )
-from ocs_design.requirement.resolving import resolve
+from ocs_design.requirement.resolving import read_specified_robot, resolve
+from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.values import Names, names_in
 from ocs_design.robot.manual import robot_by_hand
@@ -231,3 +232,19 @@ def test_controllers_weigh_what_the_rule_or_the_specification_says():
             motor=MotorSection(name="R80 KV110"), supply=SupplySection(controllers=stated)
         )
         assert motor_choice(specification, LIGHT).motors[0].controller_mass == mass
+
+
+def test_doubts_about_a_motor_stand_with_those_about_the_robot(tmp_path):
+    """They are told before anything is sized, and are errors with --strict."""
+    own = tmp_path / "own.toml"
+    own.write_text(
+        '[[motor]]\nname = "Own"\nmaker = "me"\nsource = "bench"\nkv_rpm_per_v = 450000\n'
+    )
+    by_hand = RobotSection(mass=2.5, inertia=(0.032, 0.055, 0.07, 0.0, 0.0, 0.0))
+    asked = Specification(robot=by_hand, motor=MotorSection(motors=str(own)))
+    (doubt,) = read_specified_robot(asked).warnings
+    assert "Own: kv_rpm_per_v is 450000 rpm/V" in doubt
+    with pytest.raises(RobotError, match=r"--strict: .* did you mean 450 rpm/V"):
+        read_specified_robot(asked, strict=True)
+    alone = replace(asked, motor=MotorSection(motors=str(own), name="none"))
+    assert read_specified_robot(alone).warnings == ()
