@@ -274,6 +274,11 @@ def unmeasured(body: Body) -> bool:
     return len(known) < sum(shape.collides is known[0].collides for shape in body.shapes)
 
 
+def lacks_mesh(body: Body) -> bool:
+    """Whether the file of any of its meshes was not found, those to look at included."""
+    return any(shape.kind is ShapeKind.MESH and shape.mesh is None for shape in body.shapes)
+
+
 def reach_of_body(body: Body, direction: FloatArray) -> float:
     """Farthest point of a body along `direction` of its frame [m].
 

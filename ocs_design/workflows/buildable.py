@@ -17,7 +17,7 @@ from ocs_design.parts.joints import EPOXY, Margin
 from ocs_design.report.quantities import quantity
 from ocs_design.report.table import listed
 from ocs_design.robot.links import listed as some_of
-from ocs_design.robot.meshes import unmeasured
+from ocs_design.robot.meshes import lacks_mesh, unmeasured
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.margins import (
     BRAKED_SHAFT,
@@ -86,8 +86,16 @@ def buildable(
         return Buildable(yes=None)
     points: list[OpenPoint] = []
     # Without meshes it is not known what the device stands on and hits.
+    mounted = () if mounting is None else mounting_open_points(mounting)
     bodies = () if robot is None else robot.tree.bodies
-    unknown, cure = [b.name for b in bodies if unmeasured(b)], robot.mesh_cure if robot else ""
+    trunk = None if robot is None else bodies[robot.tree.body_of_link[robot.trunk]]
+    # What is amiss with the feet on a trunk may be that one of its meshes is not there.
+    unknown = [
+        body.name
+        for body in bodies
+        if unmeasured(body) or (mounted and body is trunk and lacks_mesh(body))
+    ]
+    cure = robot.mesh_cure if robot else ""
     if missing := bool(unknown and cure):
         what = f"meshes are missing: the shape of {some_of(unknown)} is not known"
         points.append(OpenPoint(what=what, cure=cure))
@@ -109,7 +117,7 @@ def buildable(
         elif joint.factor is not None and joint.factor < 1.0 and joint.name not in _SPARE:
             asked, there = (quantity(each, joint.unit) for each in (joint.demand, joint.capacity))
             points.append(OpenPoint(what=f"{joint.name}: {asked} asked, {there} held", cure=cure))
-    points += () if mounting is None else mounting_open_points(mounting)
+    points += mounted
     for margin in margins:
         short = margin.margin is not None and margin.margin < 1.0 - TOLERANCE
         if short and margin.name in CURES and margin.capacity is not None:

@@ -1,6 +1,7 @@
 """What keeps a device from being built: its motor, joints, mounting and margins."""
 
 from dataclasses import replace
+from math import inf
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from ocs_design.catalogue.motors import motors
 from ocs_design.device.records.device import Clearance, MarginRecord
 from ocs_design.parts.joints import Margin
 from ocs_design.robot.reader import read_robot
+from ocs_design.sizing.footing.contact import FootContact
 from ocs_design.sizing.mounting import Mounting
 from ocs_design.workflows.buildable import buildable
 
@@ -124,6 +126,18 @@ def test_a_device_on_shapes_that_are_not_known_cannot_be_built(tmp_path, shapes,
         (point,) = found.open
         assert point.what == "meshes are missing: the shape of trunk is not known"
         assert point.cure == "give --package-path rover=DIR"
+
+
+@pytest.mark.parametrize(("visual", "missing"), [(MESH.format("skin"), True), (BALL, False)])
+def test_what_is_amiss_with_the_feet_may_be_a_mesh_of_the_trunk(tmp_path, visual, missing):
+    """Feet in the air over a trunk whose skin was not found: the skin is asked for first."""
+    file = tmp_path / "rover.urdf"
+    file.write_text(LEGLESS.format(f"<collision>{BALL}</collision><visual>{visual}</visual>"))
+    loose = FootContact("left foot", "trunk", 0.0, inf, 0.0, held=False)
+    found = buildable(WHOLE, replace(FREE, feet=(loose,)), (), (), read_robot(file, legs=()))
+    cures = [point.cure for point in found.open]
+    assert "--position" in cures[-1]
+    assert cures[:-1] == (["give --package-path rover=DIR"] if missing else [])
 
 
 @pytest.mark.parametrize(("collides", "missing"), [(1, True), (0, False)])
