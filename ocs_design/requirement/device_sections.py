@@ -14,15 +14,15 @@ from ocs_design.requirement.values import (
     SUPPLY,
     WHEEL_TORQUE,
     Choice,
-    Count,
-    Names,
-    Number,
     Quantities,
     Quantity,
     Sign,
-    Switch,
     Text,
     WordOr,
+    positive_number,
+    several_names,
+    true_or_false,
+    whole_number,
 )
 from ocs_design.requirement.vocabulary import (
     ALL_LAYOUTS,
@@ -93,7 +93,7 @@ class OcsSection:
         example='"90 g"',
     )
     co_design: bool | None = keyed(
-        Switch(),
+        true_or_false,
         "whether to refine all dimensions by optimal control in 3-D",
         why="0 to 0.8 % lighter on the robots tried, and seconds slower to find.",
     )
@@ -157,12 +157,12 @@ class FlywheelSection:
         why="none is the paper's: spokes that weigh nothing.",
     )
     stress_safety: float | None = keyed(
-        Number(),
+        positive_number,
         "yield strength over hoop stress at the highest speed",
         why="More where a burst rim could hurt someone.",
     )
     lightening: int | None = keyed(
-        Count(),
+        whole_number,
         "holes in a web that has room for them; 0: none",
         why="They take two fifths of the web, 3 mm of spoke is left; fewer parts to drill: 0.",
     )
@@ -172,7 +172,7 @@ class FlywheelSection:
         why="What your workshop breaks edges by; it is counted.",
     )
     balancing_holes: int | None = keyed(
-        Count(),
+        whole_number,
         "in each face of a rim with a web; 0: none",
         why="At least three, where weights are to balance the wheel; its wall grows to fit them.",
     )
@@ -228,7 +228,7 @@ class MotorSection:
     """`[motor]`: what drives a wheel [N m]."""
 
     name: str | None = keyed(
-        Names(),
+        several_names,
         "motors to choose from, of the catalogue; auto, or none",
         option="motor",
         why="Those that you have: see `ocs-design catalogue motors`; none: the bound alone.",
@@ -239,7 +239,7 @@ class MotorSection:
         why="auto: any of `ocs-design catalogue gears`; how they are held is not designed.",
     )
     any: bool | None = keyed(
-        Switch(),
+        true_or_false,
         "whether motors may lack what a builder needs",
         option="motors-any",
         why="true: what motors would do whose threads, say, no source gives; not to be built.",
@@ -252,7 +252,7 @@ class MotorSection:
         example='"my_motors.csv"',
     )
     with_catalogue: bool | None = keyed(
-        Switch(),
+        true_or_false,
         "whether to choose from the catalogue too, beside that file",
         why="true: your file's motors and the catalogue's.",
     )

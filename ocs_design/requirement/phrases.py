@@ -21,8 +21,8 @@ from ocs_design.requirement.values import (
     Quantity,
     Sign,
     Text,
-    Value,
     Vector3,
+    form,
 )
 
 DIRECTIONS: Mapping[str, Vector3] = MappingProxyType(
@@ -86,51 +86,47 @@ class Kick:
         return f"{self.impulse!r} N s at {at}{along}"
 
 
-@dataclass(frozen=True)
-class KickText(Value[Kick]):
+_KICK = re.compile(
+    r"\s*(.+?)\s+at\s+(.+?)(?:\s+along\s+(.+?)|\s+from\s+(?:the\s+)?(.+?))?\s*", re.I
+)
+_FORCE = re.compile(r"[\d.]+\s*k?N", re.I)
+_SPACED = re.compile(r"(?:[-+.\d][^\s,]*\s+){2}[-+.\d][^\s,]*")
+
+
+@form(
+    "IMPULSE at X,Y,Z or LINK, and if you like along X,Y,Z or a word such as left, or from a "
+    "side such as behind"
+)
+def kick_text(raw: object, where: str) -> Kick:
     """A kick: how much, where, and in which direction."""
-
-    _PARTS = re.compile(
-        r"\s*(.+?)\s+at\s+(.+?)(?:\s+along\s+(.+?)|\s+from\s+(?:the\s+)?(.+?))?\s*", re.I
-    )
-    _FORCE = re.compile(r"[\d.]+\s*k?N", re.I)
-    _SPACED = re.compile(r"(?:[-+.\d][^\s,]*\s+){2}[-+.\d][^\s,]*")
-
-    takes = (
-        "IMPULSE at X,Y,Z or LINK, and if you like along X,Y,Z or a word such as left, or from a "
-        "side such as behind"
-    )
-
-    def read(self, raw: object, where: str) -> Kick:
-        """Value that `raw` stands for (`Value.read`)."""
-        parts = self._PARTS.fullmatch(raw) if isinstance(raw, str) else None
-        if parts is None:
-            raise SpecificationError(
-                f"{where}: {shortened(raw)} does not say how much, and where",
-                hint="Write '12 N s at 0.1,0,0.2', '12 N s at FL_hip' or "
-                "'12 N s at 0.1,0,0.2 along 0,1,0'; metres in the trunk's frame.",
-            )
-        impulse, at, along, side = parts.groups()
-        if self._FORCE.fullmatch(impulse):
-            raise SpecificationError(
-                f"{where}: {impulse} is a force, and a kick is a force times a time",
-                hint="Write 50 N for 10 ms as '0.5 N s'.",
-            )
-        if self._SPACED.fullmatch(at):
-            at = ",".join(at.split())
-        direction = None if along is None else _direction(along, f"{where}, along")
-        if side is not None:
-            if side.casefold() not in SIDES:
-                raise SpecificationError(
-                    f"{where}: {shortened(side)} is no side that a kick comes from",
-                    hint=f"Write one of {', '.join(SIDES)}, or 'along 0,1,0'.",
-                )
-            direction = SIDES[side.casefold()]
-        return Kick(
-            Quantity(Dimension.IMPULSE).read(impulse, where),
-            _row(at, Dimension.LENGTH, f"{where}, at") if "," in at else Text().read(at, where),
-            direction,
+    parts = _KICK.fullmatch(raw) if isinstance(raw, str) else None
+    if parts is None:
+        raise SpecificationError(
+            f"{where}: {shortened(raw)} does not say how much, and where",
+            hint="Write '12 N s at 0.1,0,0.2', '12 N s at FL_hip' or "
+            "'12 N s at 0.1,0,0.2 along 0,1,0'; metres in the trunk's frame.",
         )
+    impulse, at, along, side = parts.groups()
+    if _FORCE.fullmatch(impulse):
+        raise SpecificationError(
+            f"{where}: {impulse} is a force, and a kick is a force times a time",
+            hint="Write 50 N for 10 ms as '0.5 N s'.",
+        )
+    if _SPACED.fullmatch(at):
+        at = ",".join(at.split())
+    direction = None if along is None else _direction(along, f"{where}, along")
+    if side is not None:
+        if side.casefold() not in SIDES:
+            raise SpecificationError(
+                f"{where}: {shortened(side)} is no side that a kick comes from",
+                hint=f"Write one of {', '.join(SIDES)}, or 'along 0,1,0'.",
+            )
+        direction = SIDES[side.casefold()]
+    return Kick(
+        Quantity(Dimension.IMPULSE).read(impulse, where),
+        _row(at, Dimension.LENGTH, f"{where}, at") if "," in at else Text().read(at, where),
+        direction,
+    )
 
 
 @dataclass(frozen=True)
@@ -146,29 +142,25 @@ class Person:
         return f"{self.mass!r} kg {self.height!r} m{carrying}"
 
 
-@dataclass(frozen=True)
-class PersonText(Value[Person]):
+_PERSON = re.compile(r"\s*([\d.]+ *[a-z]+)[\s,]+([\d.]+ *[a-z]+)(?:\s+with\s+(.+?))?\s*", re.I)
+
+
+@form("MASS HEIGHT, and if you like with PAYLOAD")
+def person_text(raw: object, where: str) -> Person:
     """A person: mass, height and, if there is any, payload."""
-
-    _PARTS = re.compile(r"\s*([\d.]+ *[a-z]+)[\s,]+([\d.]+ *[a-z]+)(?:\s+with\s+(.+?))?\s*", re.I)
-
-    takes = "MASS HEIGHT, and if you like with PAYLOAD"
-
-    def read(self, raw: object, where: str) -> Person:
-        """Value that `raw` stands for (`Value.read`)."""
-        parts = self._PARTS.fullmatch(raw) if isinstance(raw, str) else None
-        if parts is None:
-            raise SpecificationError(
-                f"{where}: {shortened(raw)} does not say how heavy and how tall",
-                hint="Write '75kg 1.75m', or '75kg 1.75m with 10kg'.",
-            )
-        mass, height, payload = parts.groups()
-        of_mass = Quantity(Dimension.MASS)
-        return Person(
-            of_mass.read(mass, f"{where}, mass"),
-            Quantity(Dimension.LENGTH, most=3.0).read(height, f"{where}, height"),
-            of_mass.read(payload, f"{where}, payload") if payload else 0.0,
+    parts = _PERSON.fullmatch(raw) if isinstance(raw, str) else None
+    if parts is None:
+        raise SpecificationError(
+            f"{where}: {shortened(raw)} does not say how heavy and how tall",
+            hint="Write '75kg 1.75m', or '75kg 1.75m with 10kg'.",
         )
+    mass, height, payload = parts.groups()
+    of_mass = Quantity(Dimension.MASS)
+    return Person(
+        of_mass.read(mass, f"{where}, mass"),
+        Quantity(Dimension.LENGTH, most=3.0).read(height, f"{where}, height"),
+        of_mass.read(payload, f"{where}, payload") if payload else 0.0,
+    )
 
 
 @dataclass(frozen=True)
@@ -195,40 +187,31 @@ TILTED: Mapping[str, tuple[str, float]] = MappingProxyType(
 """Axis and sign of a tilt by its name, or by the side that is lower."""
 
 
-@dataclass(frozen=True)
-class TiltText(Value[Tilt]):
+_TILT = re.compile(rf"\s*(.+?)\s*\b({'|'.join(TILTED)})\b", re.IGNORECASE)
+
+
+@form(f"{TILT.takes}; of pitch, or as in '20deg roll', '20deg left', '10deg roll 20deg pitch'")
+def tilt_text(raw: object, where: str) -> Tilt:
     """A tilt: an angle of pitch, or angles with their axes."""
-
-    _PART = re.compile(rf"\s*(.+?)\s*\b({'|'.join(TILTED)})\b", re.IGNORECASE)
-
-    @property
-    def takes(self) -> str:
-        """What may be written, in words (`Value.takes`)."""
-        return (
-            f"{TILT.takes}; of pitch, or as in '20deg roll', '20deg left', '10deg roll 20deg pitch'"
-        )
-
-    def read(self, raw: object, where: str) -> Tilt:
-        """Value that `raw` stands for (`Value.read`)."""
-        found: dict[str, float] = {}
-        rest = raw
-        while isinstance(rest, str) and (part := self._PART.match(rest)):
-            angle, word = part.groups()
-            axis, sign = TILTED[word.casefold()]
-            if axis in found:
-                raise SpecificationError(
-                    f"{where}: {shortened(raw)} has two angles of {axis}",
-                    hint="Write '20deg roll', or '10deg roll 20deg pitch'.",
-                )
-            found[axis] = sign * TILT.read(angle, where)
-            rest = rest[part.end() :]
-        if not found:
-            return Tilt(0.0, TILT.read(raw, where))
-        if isinstance(rest, str) and rest.strip():
+    found: dict[str, float] = {}
+    rest = raw
+    while isinstance(rest, str) and (part := _TILT.match(rest)):
+        angle, word = part.groups()
+        axis, sign = TILTED[word.casefold()]
+        if axis in found:
             raise SpecificationError(
-                f"{where}: {shortened(raw)} is no tilt", hint="Write '20deg' or '20deg roll'."
+                f"{where}: {shortened(raw)} has two angles of {axis}",
+                hint="Write '20deg roll', or '10deg roll 20deg pitch'.",
             )
-        return Tilt(found.get("roll", 0.0), found.get("pitch", 0.0))
+        found[axis] = sign * TILT.read(angle, where)
+        rest = rest[part.end() :]
+    if not found:
+        return Tilt(0.0, TILT.read(raw, where))
+    if isinstance(rest, str) and rest.strip():
+        raise SpecificationError(
+            f"{where}: {shortened(raw)} is no tilt", hint="Write '20deg' or '20deg roll'."
+        )
+    return Tilt(found.get("roll", 0.0), found.get("pitch", 0.0))
 
 
 @dataclass(frozen=True)
@@ -254,7 +237,7 @@ class About:
 
 
 @dataclass(frozen=True)
-class AboutText(Value[About]):
+class AboutText:
     """Angles or rates, each with its axis before or behind it, and a time behind all.
 
     Attributes:
@@ -321,16 +304,11 @@ def _tilt(raw: object, where: str) -> About:
     return tilt
 
 
-@dataclass(frozen=True)
-class UpsetText(Value[About | Kick]):
+@form(f"{TILT_TEXT.takes}, or {kick_text.takes}")
+def upset_text(raw: object, where: str) -> About | Kick:
     """What a robot on a pivot is to get over: a tilt, or an impulse."""
-
-    takes = f"{TILT_TEXT.takes}, or {KickText().takes}"
-
-    def read(self, raw: object, where: str) -> About | Kick:
-        """Value that `raw` stands for (`Value.read`)."""
-        kicked = isinstance(raw, str) and " at " in raw
-        return KickText().read(raw, where) if kicked else _tilt(raw, where)
+    kicked = isinstance(raw, str) and " at " in raw
+    return kick_text.read(raw, where) if kicked else _tilt(raw, where)
 
 
 @dataclass(frozen=True)
@@ -347,17 +325,12 @@ class Climb:
 _BY_BRAKE = " by brake"
 
 
-@dataclass(frozen=True)
-class ClimbText(Value[Climb]):
+@form("as in 'roll 45deg in 0.5s', 'roll 45deg by brake'")
+def climb_text(raw: object, where: str) -> Climb:
     """A tilt, a time if one is stated, and `by brake` if it is."""
-
-    takes = "as in 'roll 45deg in 0.5s', 'roll 45deg by brake'"
-
-    def read(self, raw: object, where: str) -> Climb:
-        """Value that `raw` stands for (`Value.read`)."""
-        brake = isinstance(raw, str) and raw.casefold().rstrip().endswith(_BY_BRAKE)
-        tilt = str(raw).rstrip()[: -len(_BY_BRAKE)] if brake else raw
-        return Climb(_tilt(tilt, where), brake)
+    brake = isinstance(raw, str) and raw.casefold().rstrip().endswith(_BY_BRAKE)
+    tilt = str(raw).rstrip()[: -len(_BY_BRAKE)] if brake else raw
+    return Climb(_tilt(tilt, where), brake)
 
 
 @dataclass(frozen=True)
@@ -372,23 +345,18 @@ class Pivot:
         return f"{','.join(map(repr, self.point))}{along}"
 
 
-@dataclass(frozen=True)
-class PivotText(Value[Pivot]):
+@form("X,Y,Z, and for an edge along X,Y,Z or a word such as left")
+def pivot_text(raw: object, where: str) -> Pivot:
     """A point, and the direction of an edge through it."""
-
-    takes = "X,Y,Z, and for an edge along X,Y,Z or a word such as left"
-
-    def read(self, raw: object, where: str) -> Pivot:
-        """Value that `raw` stands for (`Value.read`)."""
-        point, _, along = raw.partition(" along ") if isinstance(raw, str) else ("", "", "")
-        if "," not in point:
-            raise SpecificationError(
-                f"{where}: {shortened(raw)} is no point that a robot stands on",
-                hint="Write '0,0,-0.2', or '0,0,-0.2 along left' for an edge; metres in the "
-                "trunk's frame.",
-            )
-        at = _row(point, Dimension.LENGTH, where)
-        return Pivot(at, _direction(along.strip(), f"{where}, along") if along else None)
+    point, _, along = raw.partition(" along ") if isinstance(raw, str) else ("", "", "")
+    if "," not in point:
+        raise SpecificationError(
+            f"{where}: {shortened(raw)} is no point that a robot stands on",
+            hint="Write '0,0,-0.2', or '0,0,-0.2 along left' for an edge; metres in the "
+            "trunk's frame.",
+        )
+    at = _row(point, Dimension.LENGTH, where)
+    return Pivot(at, _direction(along.strip(), f"{where}, along") if along else None)
 
 
 def _direction(text: str, where: str) -> Vector3:

@@ -16,32 +16,32 @@ from ocs_design.requirement.phrases import (
     TURN_TEXT,
     About,
     Climb,
-    ClimbText,
     Kick,
-    KickText,
     Person,
-    PersonText,
     Pivot,
-    PivotText,
     Tilt,
-    TiltText,
-    UpsetText,
+    climb_text,
+    kick_text,
+    person_text,
+    pivot_text,
+    tilt_text,
+    upset_text,
 )
 from ocs_design.requirement.values import (
     HEIGHT,
     TRUNK_RATE,
     WHEEL_SPEED,
-    Chance,
     Choice,
-    Count,
-    JointValues,
-    LinkNames,
-    Number,
     Quantities,
     Quantity,
     Several,
-    Switch,
     Text,
+    chance,
+    joint_values,
+    link_names,
+    positive_number,
+    true_or_false,
+    whole_number,
 )
 from ocs_design.requirement.vocabulary import DETECTION, NONE_STOPS, PROJECTIONS, SURVIVED
 
@@ -74,7 +74,7 @@ class RobotSection:
         example='"trunk"',
     )
     legs: tuple[str, ...] | None = keyed(
-        LinkNames(),
+        link_names,
         "a link of each foot; none: it has no legs",
         why="State them where the wrong limbs were found to be legs.",
         default="found",
@@ -88,7 +88,7 @@ class RobotSection:
         example='"stand"',
     )
     joints: Mapping[str, float] | None = keyed(
-        JointValues(),
+        joint_values,
         "joint values on top of the posture",
         option="joint",
         why="For a posture that has no name.",
@@ -110,7 +110,7 @@ class RobotSection:
         example="[0.032, 0.055, 0.070]",
     )
     human: Person | None = keyed(
-        PersonText(),
+        person_text,
         "a person in place of a file, who wears the device",
         why="In place of a file: mass, height, payload.",
         default="read",
@@ -181,7 +181,7 @@ class RequirementSection:
         example='"0.4 m"',
     )
     kick: tuple[Kick, ...] | None = keyed(
-        Several(KickText()),
+        Several(kick_text),
         "impulse on the trunk during a jump",
         why="On the trunk during a jump; one without `along` comes from the side.",
         default="not asked",
@@ -195,7 +195,7 @@ class RequirementSection:
         example='"1 m"',
     )
     tilt: tuple[Tilt, ...] | None = keyed(
-        Several(TiltText()),
+        Several(tilt_text),
         "of the trunk when a fall starts",
         why="Of each fall, nose down; roll: to the right.",
         default="not asked",
@@ -223,21 +223,21 @@ class RequirementSection:
         example='"roll 20 deg/s pitch 45 deg/s in 0.5 s"',
     )
     pivot: Pivot | None = keyed(
-        PivotText(),
+        pivot_text,
         "point or edge that balance and stand_up are about",
         why="Of balance and stand_up, in the trunk's frame, below the centre of mass.",
         default="not asked",
         example='"0,0,-0.2 along left"',
     )
     balance: tuple[About | Kick, ...] | None = keyed(
-        Several(UpsetText()),
+        Several(upset_text),
         "tilt or impulse to get over on the pivot",
         why="To be upright again on the pivot: a tilt from where it balances, or an impulse.",
         default="not asked",
         example='"pitch 5 deg in 1 s"',
     )
     stand_up: tuple[Climb, ...] | None = keyed(
-        Several(ClimbText()),
+        Several(climb_text),
         "tilt to stand up from on the pivot",
         why="From a tilt to upright on the pivot, by the motors or by stopping the wheels.",
         default="not asked",
@@ -249,7 +249,7 @@ class RequirementSection:
         why="paper: beside a rate_change or a spin_inertia; leave it out where you state your own.",
     )
     reliability: float | None = keyed(
-        Chance(),
+        chance,
         "share of robots that shall pass as built (`[reality]`)",
         why="0.5: sized for a robot just as its file says; more keeps a reserve for [reality].",
     )
@@ -286,7 +286,7 @@ class ValidationSection:
     """`[validation]`: the proof by simulation; gains [1/s^2, 1/s]."""
 
     enabled: bool | None = keyed(
-        Switch(),
+        true_or_false,
         "whether to simulate at all",
         option="validate",
         why="false: size and export only, in half the time.",
@@ -297,32 +297,32 @@ class ValidationSection:
         why="transpose is the paper's, which scales the gains.",
     )
     kp: float | None = keyed(
-        Number(),
+        positive_number,
         "gain on the attitude error",
         why="Higher: quicker, and more torque.",
     )
     kd: float | None = keyed(
-        Number(),
+        positive_number,
         "gain on the rate error",
         why="2 sqrt(kp) damps critically.",
     )
     ballistic: bool | None = keyed(
-        Switch(),
+        true_or_false,
         "whether jumps start at lift-off, without a push-off",
         why="true: the legs need not make the jumps.",
     )
     seed: int | None = keyed(
-        Count(),
+        whole_number,
         "seed of all random numbers",
         why="The same seed gives the same figures.",
     )
     video: bool | None = keyed(
-        Switch(),
+        true_or_false,
         "whether to film the flights",
         why="true: each maneuver as a film, with the device and without.",
     )
     certify: bool | None = keyed(
-        Switch(),
+        true_or_false,
         "whether to fly robots as they might be built, until it is sure",
         why="true: fly robots as they might be built until it is sure; it takes minutes.",
     )
@@ -332,7 +332,7 @@ class ValidationSection:
         why="That of your controller; longer ones fly worse.",
     )
     desaturate: bool | None = keyed(
-        Switch(),
+        true_or_false,
         "whether the wheels are braked while the robot stands",
         why="true: wheels let go of their momentum after landing.",
     )

@@ -110,14 +110,15 @@ class Sweep(ABC):
             SpecificationError: nothing has this value.
         """
 
-    @abstractmethod
     def remarks(self, task: Task) -> tuple[str, ...]:
         """What else moves, and what does not."""
+        del task
+        return ()
 
 
 @dataclass(frozen=True)
 class KeySweep(Sweep):
-    """A figure that is one key of the file.
+    """A figure that is one key of the file; nothing else moves.
 
     Attributes:
         section, key: of the file.
@@ -136,29 +137,20 @@ class KeySweep(Sweep):
         """Specification at another value (`Sweep.at`)."""
         return task.with_key(self.section, self.key, value)
 
-    def remarks(self, task: Task) -> tuple[str, ...]:
-        """Nothing else moves."""
-        del task
-        return ()
-
 
 @dataclass(frozen=True)
 class ManeuverSweep(Sweep):
     """A figure of the maneuvers that turn the trunk.
 
     Attributes:
+        figure: of a maneuver, at the trunk's standing height [m]; None where it has none.
+        scaled: a maneuver that has it, with so many times as much, at that height.
         maneuver: which one varies alone; empty: all in one ratio, and the first gives the value.
     """
 
+    figure: Callable[[Maneuver, float], float | None]
+    scaled: Callable[[Maneuver, float, float], Maneuver]
     maneuver: str = ""
-
-    @abstractmethod
-    def figure(self, maneuver: Maneuver, standing_height: float) -> float | None:
-        """Figure of one maneuver; None where it has none."""
-
-    @abstractmethod
-    def scaled(self, maneuver: Maneuver, ratio: float, standing_height: float) -> Maneuver:
-        """A maneuver that has a figure, with that times a ratio."""
 
     def own(self, task: Task) -> float:
         """Value that the specification has (`Sweep.own`)."""
@@ -205,41 +197,37 @@ class ManeuverSweep(Sweep):
         return {name: figure for name, figure in figures.items() if figure}
 
 
-class TimeSweep(ManeuverSweep):
-    """Time of the fall or of the turn [s]."""
-
-    def figure(self, maneuver: Maneuver, standing_height: float) -> float | None:
-        """Time of a maneuver (`ManeuverSweep.figure`)."""
-        return maneuver.time(standing_height) if isinstance(maneuver, Drop | Flip) else None
-
-    def scaled(self, maneuver: Maneuver, ratio: float, standing_height: float) -> Maneuver:
-        """Maneuver that takes so many times as long: a fall from higher, a longer jump."""
-        if isinstance(maneuver, Flip):
-            height = maneuver.jump_height * ratio**2
-            return replace(maneuver, duration=maneuver.duration * ratio, jump_height=height)
-        return slower(maneuver, ratio, standing_height)
+def _time(maneuver: Maneuver, standing_height: float) -> float | None:
+    """Time of a fall or of a flip [s]."""
+    return maneuver.time(standing_height) if isinstance(maneuver, Drop | Flip) else None
 
 
-class AngleSweep(ManeuverSweep):
-    """Angle of the tilt or of the turn [rad], without its sign."""
+def _in_time(maneuver: Maneuver, ratio: float, standing_height: float) -> Maneuver:
+    """Maneuver that takes so many times as long: a fall from higher, a longer jump."""
+    if isinstance(maneuver, Flip):
+        height = maneuver.jump_height * ratio**2
+        return replace(maneuver, duration=maneuver.duration * ratio, jump_height=height)
+    return slower(maneuver, ratio, standing_height)
 
-    def figure(self, maneuver: Maneuver, standing_height: float) -> float | None:
-        """Angle of a maneuver (`ManeuverSweep.figure`)."""
-        del standing_height
-        if isinstance(maneuver, Flip):
-            return abs(maneuver.angle)
-        return hypot(maneuver.roll, maneuver.pitch) if isinstance(maneuver, Drop) else None
 
-    def scaled(self, maneuver: Maneuver, ratio: float, standing_height: float) -> Maneuver:
-        """Maneuver by so many times the angle; roll and pitch of a tilt keep their proportion."""
-        del standing_height
-        turned = ("angle",) if isinstance(maneuver, Flip) else ("roll", "pitch")
-        return replace(maneuver, **{name: getattr(maneuver, name) * ratio for name in turned})
+def _angle(maneuver: Maneuver, _: float) -> float | None:
+    """Angle of a tilt or of a flip [rad], without its sign."""
+    if isinstance(maneuver, Flip):
+        return abs(maneuver.angle)
+    return hypot(maneuver.roll, maneuver.pitch) if isinstance(maneuver, Drop) else None
+
+
+def _by_angle(maneuver: Maneuver, ratio: float, _: float) -> Maneuver:
+    """Maneuver by so many times the angle; roll and pitch of a tilt keep their proportion."""
+    turned = ("angle",) if isinstance(maneuver, Flip) else ("roll", "pitch")
+    return replace(maneuver, **{name: getattr(maneuver, name) * ratio for name in turned})
 
 
 _SWEEPS = (
-    TimeSweep("time", "time of the turn", Dimension.TIME, "ms", (0.8, 1.6)),
-    AngleSweep("angle", "angle of the turn", Dimension.ANGLE, "deg", (0.4, 1.6)),
+    ManeuverSweep("time", "time of the turn", Dimension.TIME, "ms", (0.8, 1.6), _time, _in_time),
+    ManeuverSweep(
+        "angle", "angle of the turn", Dimension.ANGLE, "deg", (0.4, 1.6), _angle, _by_angle
+    ),
     KeySweep(
         "radius",
         "room for the rim, r_max",

@@ -22,7 +22,7 @@ from ocs_design.common.errors import QuantityError, SpecificationError
 from ocs_design.common.files import TextKind
 from ocs_design.common.units import STANDARD_GRAVITY, Dimension, format_quantity, parse_quantity
 from ocs_design.requirement.keys import Faults, keyed, keys_of
-from ocs_design.requirement.values import Quantity, Text, Value
+from ocs_design.requirement.values import Quantity, Text
 
 CUT = 3.0
 """Standard deviations at which a normal distribution ends: no part is off by ten."""
@@ -92,7 +92,7 @@ _FORM = re.compile(r"\s*(normal|uniform)\s*\(([^,()]*),([^,()]*)\)\s*")
 
 
 @dataclass(frozen=True)
-class Spread(Value[Distribution]):
+class Spread:
     """A quantity, or how it is spread.
 
     Attributes:

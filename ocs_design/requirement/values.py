@@ -5,14 +5,13 @@ One class per kind of value; each reads or raises an `OcsError` that names the p
 
 import math
 import re
-from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from enum import Enum
 from math import pi
 from reprlib import repr as shortened
-from typing import Any, Generic, TypeAlias, TypeVar
+from typing import Any, Generic, Protocol, TypeAlias, TypeVar
 
 from ocs_design.common.errors import QuantityError, SpecificationError
 from ocs_design.common.units import (
@@ -25,6 +24,7 @@ from ocs_design.common.units import (
 )
 
 T = TypeVar("T")
+T_co = TypeVar("T_co", covariant=True)
 
 Vector3: TypeAlias = tuple[float, float, float]
 
@@ -49,16 +49,14 @@ class Sign(Enum):
         return self is Sign.ANY or number >= 0.0
 
 
-class Value(ABC, Generic[T]):
+class Value(Protocol[T_co]):
     """How a value of a specification is read."""
 
     @property
-    @abstractmethod
     def takes(self) -> str:
         """What may be written, in words."""
 
-    @abstractmethod
-    def read(self, raw: object, where: str) -> T:
+    def read(self, raw: object, where: str, /) -> T_co:
         """The value that `raw` stands for.
 
         Args:
@@ -71,7 +69,20 @@ class Value(ABC, Generic[T]):
 
 
 @dataclass(frozen=True)
-class Quantity(Value[float]):
+class Form(Generic[T]):
+    """A `Value` of which nothing but its reader has to be known."""
+
+    takes: str
+    read: Callable[[object, str], T]
+
+
+def form(takes: str) -> Callable[[Callable[[object, str], T]], Form[T]]:
+    """Decorator of a reader that makes it a `Form`; `takes` says what may be written."""
+    return lambda read: Form(takes, read)
+
+
+@dataclass(frozen=True)
+class Quantity:
     """A number with or without its unit, in SI once read.
 
     Attributes:
@@ -160,7 +171,7 @@ _DECIMAL_COMMA = re.compile(r",0[0-9]")
 
 
 @dataclass(frozen=True)
-class Quantities(Value[tuple[float, ...]]):
+class Quantities:
     """A row of quantities of one dimension: a TOML array, or text with commas.
 
     Attributes:
@@ -203,7 +214,7 @@ class Quantities(Value[tuple[float, ...]]):
 
 
 @dataclass(frozen=True)
-class Several(Value[tuple[Any, ...]]):
+class Several:
     """One value, or a list of such.
 
     Attributes:
@@ -223,49 +234,32 @@ class Several(Value[tuple[Any, ...]]):
         return tuple(dict.fromkeys(self.each.read(entry, where) for entry in entries))
 
 
-@dataclass(frozen=True)
-class Number(Value[float]):
+@form("positive number")
+def positive_number(raw: object, where: str) -> float:
     """A bare positive number."""
-
-    takes = "positive number"
-
-    def read(self, raw: object, where: str) -> float:
-        """Value that `raw` stands for (`Value.read`)."""
-        return Quantity(Dimension.RATIO).read(raw, where)
+    return Quantity(Dimension.RATIO).read(raw, where)
 
 
-class Chance(Value[float]):
+@form("number from 0.5 to below 1, or 50% to below 100%")
+def chance(raw: object, where: str) -> float:
     """A share of all flights, from an even chance to all but certain: 0.99 or 99%."""
-
-    takes = "number from 0.5 to below 1, or 50% to below 100%"
-
-    def read(self, raw: object, where: str) -> float:
-        """Value that `raw` stands for (`Value.read`)."""
-        share = parse_quantity(raw, Dimension.RATIO, where)
-        if not 0.5 <= share < 1.0:
-            meant = f"Did you mean {raw}%? " if 50.0 <= share < 100.0 else ""
-            raise QuantityError(
-                f"{where}: {raw} must be at least 0.5 and below 1",
-                hint=f"{meant}0.5 is the design for a robot just as its file says; "
-                "nothing is certain.",
-            )
-        return share
+    share = parse_quantity(raw, Dimension.RATIO, where)
+    if not 0.5 <= share < 1.0:
+        meant = f"Did you mean {raw}%? " if 50.0 <= share < 100.0 else ""
+        raise QuantityError(
+            f"{where}: {raw} must be at least 0.5 and below 1",
+            hint=f"{meant}0.5 is the design for a robot just as its file says; nothing is certain.",
+        )
+    return share
 
 
-@dataclass(frozen=True)
-class Count(Value[int]):
+@form("whole number")
+def whole_number(raw: object, where: str) -> int:
     """A whole number, zero or positive."""
-
-    takes = "whole number"
-
-    def read(self, raw: object, where: str) -> int:
-        """Value that `raw` stands for (`Value.read`)."""
-        text = str(raw).strip() if isinstance(raw, (str, int)) else ""
-        if isinstance(raw, bool) or not text.isascii() or not text.isdigit():
-            raise QuantityError(
-                f"{where}: {shortened(raw)} is not a whole number, zero or positive"
-            )
-        return int(text)
+    text = str(raw).strip() if isinstance(raw, (str, int)) else ""
+    if isinstance(raw, bool) or not text.isascii() or not text.isdigit():
+        raise QuantityError(f"{where}: {shortened(raw)} is not a whole number, zero or positive")
+    return int(text)
 
 
 def _as_written(raw: str, words: Sequence[str]) -> str:
@@ -274,7 +268,7 @@ def _as_written(raw: str, words: Sequence[str]) -> str:
 
 
 @dataclass(frozen=True)
-class Text(Value[str]):
+class Text:
     """Any text but an empty one.
 
     Attributes:
@@ -294,51 +288,42 @@ class Text(Value[str]):
         return _as_written(raw, self.words) or raw
 
 
-@dataclass(frozen=True)
-class Names(Value[str]):
+@form("name, or several with commas between them")
+def several_names(raw: object, where: str) -> str:
     """One name, or several: a list, or one text with commas between them. Twice is once."""
-
-    takes = "name, or several with commas between them"
-
-    def read(self, raw: object, where: str) -> str:
-        """Value that `raw` stands for (`Value.read`), as one text."""
-        texts = [
-            Text(("auto", "none")).read(each, where)
-            for each in (raw if isinstance(raw, list) else [raw])
-        ]
-        named = dict.fromkeys(name for text in texts for name in names_in(text))
-        return NAME_SEPARATOR.join(named)
+    texts = [
+        Text(("auto", "none")).read(each, where)
+        for each in (raw if isinstance(raw, list) else [raw])
+    ]
+    named = dict.fromkeys(name for text in texts for name in names_in(text))
+    return NAME_SEPARATOR.join(named)
 
 
 NAME_SEPARATOR = ", "
-"""Text between the names of a `Names`."""
+"""Text between names that `several_names` has read."""
 
 
 def names_in(text: str) -> tuple[str, ...]:
-    """Names of a text that `Names` has read."""
+    """Names of a text that `several_names` has read."""
     return tuple(name.strip() for name in text.split(",") if name.strip())
 
 
-class LinkNames(Value[tuple[str, ...]]):
+@form("names, or none")
+def link_names(raw: object, where: str) -> tuple[str, ...]:
     """Some names: a TOML array, or text with commas; the word `none` stands for no name."""
-
-    takes = "names, or none"
-
-    def read(self, raw: object, where: str) -> tuple[str, ...]:
-        """Value that `raw` stands for (`Value.read`)."""
-        if raw == "none":
-            return ()
-        entries = raw.split(",") if isinstance(raw, str) else raw
-        if not isinstance(entries, (list, tuple)):
-            raise SpecificationError(f"{where}: {shortened(raw)} is no list of names")
-        names = tuple(Text().read(entry, where).strip() for entry in entries)
-        if len(set(names)) < len(names):
-            raise SpecificationError(f"{where}: {shortened(raw)} has a name twice")
-        return names
+    if raw == "none":
+        return ()
+    entries = raw.split(",") if isinstance(raw, str) else raw
+    if not isinstance(entries, (list, tuple)):
+        raise SpecificationError(f"{where}: {shortened(raw)} is no list of names")
+    names = tuple(Text().read(entry, where).strip() for entry in entries)
+    if len(set(names)) < len(names):
+        raise SpecificationError(f"{where}: {shortened(raw)} has a name twice")
+    return names
 
 
 @dataclass(frozen=True)
-class Choice(Value[str]):
+class Choice:
     """One of a few words."""
 
     words: tuple[str, ...]
@@ -359,7 +344,7 @@ class Choice(Value[str]):
 
 
 @dataclass(frozen=True)
-class WordOr(Value[float | str]):
+class WordOr:
     """One of a few words, or a quantity.
 
     Attributes:
@@ -379,55 +364,45 @@ class WordOr(Value[float | str]):
         return raw if isinstance(raw, str) and raw in self.words else self.quantity.read(raw, where)
 
 
-@dataclass(frozen=True)
-class Switch(Value[bool]):
+@form("true or false")
+def true_or_false(raw: object, where: str) -> bool:
     """True or false."""
-
-    takes = "true or false"
-
-    def read(self, raw: object, where: str) -> bool:
-        """Value that `raw` stands for (`Value.read`)."""
-        if isinstance(raw, bool):
-            return raw
-        raise SpecificationError(f"{where}: {shortened(raw)} is neither true nor false")
+    if isinstance(raw, bool):
+        return raw
+    raise SpecificationError(f"{where}: {shortened(raw)} is neither true nor false")
 
 
-@dataclass(frozen=True)
-class JointValues(Value[Mapping[str, float]]):
+@form("table of joint = angle or length")
+def joint_values(raw: object, where: str) -> Mapping[str, float]:
     """Values of joints by name: angles, or lengths where a unit of length says so.
 
     A table, or texts `NAME=VALUE` from the command line.
     """
-
-    takes = "table of joint = angle or length"
-
-    def read(self, raw: object, where: str) -> Mapping[str, float]:
-        """Value that `raw` stands for (`Value.read`)."""
-        table = raw
-        if isinstance(raw, list):
-            pairs: dict[str, object] = {}
-            for text in raw:
-                name, separator, value = str(text).partition("=")
-                if not (name and separator):
-                    raise SpecificationError(
-                        f"{where}: {shortened(text)} is not NAME=VALUE", hint="Write hip=10deg."
-                    )
-                pairs[name] = value
-            table = pairs
-        if not isinstance(table, Mapping):
-            raise SpecificationError(
-                f"{where}: {shortened(raw)} is not a table, as in {{ hip = '10deg' }}"
-            )
-        found: dict[str, float] = {}
-        for name, value in table.items():
-            place = f"{where}.{name}"
-            try:
-                length = parse_quantity(value, Dimension.LENGTH, place)
-            except QuantityError:
-                found[name] = parse_quantity(value, Dimension.ANGLE, place)
-            else:
-                found[name] = _BARE_JOINT.read(value, place) if _is_bare(value) else length
-        return found
+    table = raw
+    if isinstance(raw, list):
+        pairs: dict[str, object] = {}
+        for text in raw:
+            name, separator, value = str(text).partition("=")
+            if not (name and separator):
+                raise SpecificationError(
+                    f"{where}: {shortened(text)} is not NAME=VALUE", hint="Write hip=10deg."
+                )
+            pairs[name] = value
+        table = pairs
+    if not isinstance(table, Mapping):
+        raise SpecificationError(
+            f"{where}: {shortened(raw)} is not a table, as in {{ hip = '10deg' }}"
+        )
+    found: dict[str, float] = {}
+    for name, value in table.items():
+        place = f"{where}.{name}"
+        try:
+            length = parse_quantity(value, Dimension.LENGTH, place)
+        except QuantityError:
+            found[name] = parse_quantity(value, Dimension.ANGLE, place)
+        else:
+            found[name] = _BARE_JOINT.read(value, place) if _is_bare(value) else length
+    return found
 
 
 _BARE_JOINT = angle(Sign.ANY, math.inf, ONE_TURN)

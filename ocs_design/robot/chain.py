@@ -6,6 +6,7 @@ The tree's own `placements` moves every body; a limb's inverse kinematics needs 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import takewhile
 from typing import TypeAlias
 
 import numpy as np
@@ -157,8 +158,7 @@ class Chain:
         chosen = range(len(self.driven)) if movable is None else movable
         start = self.neutral()
         best = self._ascended(local, direction, chosen, start)
-        lengths = [np.linalg.norm(body.placement.position) for body in self.bodies[1:]]
-        whole = float(sum(lengths) + np.linalg.norm(local))
+        whole = self.span(local)
         before = self._reached(best, local, direction)
         if before < _SHORT * whole:
             for turn in _TURNS:
@@ -169,6 +169,11 @@ class Chain:
                 if self._reached(again, local, direction) > before + _FARTHER * whole:
                     best, before = again, self._reached(again, local, direction)
         return best
+
+    def span(self, local: FloatArray) -> float:
+        """Way from the first joint over all others to a point of the last body [m]."""
+        lengths = [np.linalg.norm(body.placement.position) for body in self.bodies[1:]]
+        return float(sum(lengths) + np.linalg.norm(local))
 
     def _reached(self, values: FloatArray, local: FloatArray, direction: FloatArray) -> float:
         """How far a point of the last body is from the first joint along `direction` [m]."""
@@ -217,20 +222,16 @@ def nearest_turn(angle: float, lower: float, upper: float) -> float:
     return float(clipped[np.argmin(np.abs(clipped - turns))])
 
 
-def chain_of(tree: Tree, first: int, last: int, placements: Sequence[Placement]) -> Chain:
-    """The chain from body `first` to body `last`, its descendant or itself.
+def chain_of(tree: Tree, base: int, last: int, placements: Sequence[Placement]) -> Chain:
+    """The chain that hangs on body `base` and ends with body `last`, its descendant.
 
     Args:
         tree: of the robot.
-        first: index of the first body that belongs to the limb.
-        last: index of the limb's last body.
+        base, last: indices of the two bodies.
         placements: of all bodies in the reference frame.
     """
-    indices = [last]
-    while indices[-1] != first:
-        indices.append(tree.bodies[indices[-1]].parent)
-    start = placements[tree.bodies[first].parent]
-    return Chain(start, tuple(tree.bodies[i] for i in reversed(indices)))
+    path = list(takewhile(lambda body: body != base, tree.ancestors(last)))
+    return Chain(placements[base], tuple(tree.bodies[i] for i in reversed(path)))
 
 
 def neutral_posture(tree: Tree) -> Mapping[str, float]:

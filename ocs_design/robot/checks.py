@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.robot.chain import neutral_posture
+from ocs_design.robot.chain import chain_of, neutral_posture
 from ocs_design.robot.leg_geometry import sole_depths
-from ocs_design.robot.legs import is_wheel, leg_chain
+from ocs_design.robot.legs import is_wheel
 from ocs_design.robot.links import Warnings
 from ocs_design.robot.mass import (
     MassProperties,
@@ -337,7 +337,7 @@ def _judge_mirror_images(tree: Tree, trunk: str, legs: Sequence[Leg], warnings: 
     placements = tree.placements_from(trunk, neutral_posture(tree))
     sides = []
     for leg in legs:
-        chain = leg_chain(tree, leg, placements)
+        chain = chain_of(tree, leg.base, leg.body, placements)
         place, origins, masses = chain.start, [], []
         for body in chain.bodies:
             place = place @ body.placement

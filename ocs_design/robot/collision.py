@@ -108,16 +108,7 @@ def parts_of(robot: Robot, model: mujoco.MjModel) -> tuple[Part, ...]:
 
 def path_between(tree: Tree, trunk: int, body: int) -> list[int]:
     """Bodies whose joints move `body` against the trunk, from the trunk outwards."""
-
-    def to_root(index: int) -> list[int]:
-        """The body and those above it, without the root."""
-        path = []
-        while index > 0:
-            path.append(index)
-            index = tree.bodies[index].parent
-        return path
-
-    up, down = to_root(trunk), to_root(body)
+    up, down = ([i for i in tree.ancestors(end) if i > 0] for end in (trunk, body))
     shared = set(up) & set(down)
     return [i for i in up if i not in shared] + [i for i in reversed(down) if i not in shared]
 

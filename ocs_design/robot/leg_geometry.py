@@ -9,8 +9,8 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import RobotError
 from ocs_design.common.frames import Placement
-from ocs_design.robot.chain import Chain, neutral_posture
-from ocs_design.robot.legs import LegPlane, leg_chain, leg_plane
+from ocs_design.robot.chain import Chain, chain_of, neutral_posture
+from ocs_design.robot.legs import LegPlane, leg_plane
 from ocs_design.robot.robot import Leg, Mount
 from ocs_design.robot.tree import Tree
 
@@ -48,7 +48,7 @@ class LegGeometry:
 def leg_geometries(tree: Tree, trunk: str, legs: Sequence[Leg]) -> tuple[LegGeometry, ...]:
     """Chain and plane of each leg in B."""
     up, placements = up_axis(tree, trunk, legs), tree.placements_from(trunk, neutral_posture(tree))
-    chains = [leg_chain(tree, leg, placements) for leg in legs]
+    chains = [chain_of(tree, leg.base, leg.body, placements) for leg in legs]
     return tuple(
         LegGeometry(leg, chain, leg_plane(chain, leg.foot, up))
         for leg, chain in zip(legs, chains, strict=True)

@@ -1,6 +1,6 @@
 """Legs of any legged robot, their feet, the plane in which each bends, and the trunk."""
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -249,23 +249,6 @@ def find_legs(tree: Tree) -> tuple[Leg, ...]:
     return ()
 
 
-def trunk_body(tree: Tree, legs: Sequence[Leg]) -> int:
-    """Index of the body that the legs branch from: the last that all their chains share."""
-    shared = set.intersection(*(set(ancestors(tree, leg.body)) for leg in legs))
-    return max(shared)
-
-
-def leg_chain(tree: Tree, leg: Leg, placements: Sequence[Placement]) -> Chain:
-    """The leg's chain from its base on, seen from the frame that `placements` are given in."""
-    return chain_between(tree, leg.base, leg.body, placements)
-
-
-def chain_between(tree: Tree, base: int, last: int, placements: Sequence[Placement]) -> Chain:
-    """The chain that hangs on body `base` and ends with body `last`."""
-    first = next(i for i in ancestors(tree, last) if tree.bodies[i].parent == base)
-    return chain_of(tree, first, last, placements)
-
-
 def leg_of(
     tree: Tree, base: int, last: int, up: FloatArray, placements: Sequence[Placement]
 ) -> Leg:
@@ -278,7 +261,7 @@ def leg_of(
         up: unit vector against gravity in the root's frame, shape (3,).
         placements: of all bodies in the root's frame.
     """
-    chain = chain_between(tree, base, last, placements)
+    chain = chain_of(tree, base, last, placements)
     foot = find_foot(chain, up)
     return Leg(
         name=foot.link,
@@ -292,13 +275,6 @@ def leg_of(
     )
 
 
-def ancestors(tree: Tree, body: int) -> Iterator[int]:
-    """The body itself, its parent and so on to the root."""
-    while body >= 0:
-        yield body
-        body = tree.bodies[body].parent
-
-
 def _legs_along(
     tree: Tree, placements: Sequence[Placement], masses: Sequence[MassProperties], up: FloatArray
 ) -> tuple[Leg, ...]:
@@ -306,17 +282,18 @@ def _legs_along(
     base = 0
     robot = combine(masses)
     for trunk, ends in _alike(tree):
-        hanging = []
-        for first, last in ends:
-            chain = chain_of(tree, first, last, placements)
+        hanging, lengths = [], {}
+        for last in ends:
+            chain = chain_of(tree, trunk, last, placements)
             tip, rest = farthest_frame(chain.bodies[-1]), chain.pose(chain.neutral())
+            lengths[last] = chain.span(tip)
             hip = float(up @ rest.origins[0])
             at_rest = hip - float(up @ rest.point(tip))
             # Most arms and fingers do not hang at all.
             if at_rest > 0.0:
                 lowest = float(up @ chain.pose(chain.stretched(tip, -up)).point(tip))
                 hanging.append(_Limb(last, -lowest, hip - lowest, at_rest))
-        carriers = [masses[i] for i in ancestors(tree, trunk) if masses[i].mass > 0.0]
+        carriers = [masses[i] for i in tree.ancestors(trunk) if masses[i].mass > 0.0]
         # They hang low, can lift the robot off the ground, and do so to the same height.
         low = [
             limb
@@ -329,7 +306,13 @@ def _legs_along(
             )
         ]
         legs = [leg for leg in low if _depth(low) - leg.depth < _LARGEST_DEVIATION * leg.reach]
-        if _leave_twins(tree, ends, {leg.last for leg in legs}):
+        chosen = {leg.last for leg in legs}
+        twins = any(
+            abs(lengths[one] - lengths[other]) < _TWINS * lengths[one]
+            for one in chosen
+            for other in lengths.keys() - chosen
+        )
+        if twins:
             continue
         if len(legs) >= 2 and (not best or _depth(legs) > _depth(best)):
             best, base = legs, trunk
@@ -354,7 +337,7 @@ def _lying(
     """
     lie = np.zeros(3)
     for leg in legs:
-        rest = leg_chain(tree, leg, placements)
+        rest = chain_of(tree, leg.base, leg.body, placements)
         pose = rest.pose(rest.neutral())
         lie += pose.origins[0] - pose.point(leg.foot)
     axis = int(np.argmax(np.abs(lie)))
@@ -365,36 +348,20 @@ def _lying(
     return along if min(longer) > _LONGER * max(leg.length for leg in legs) else up
 
 
-def _alike(tree: Tree) -> Iterator[tuple[int, list[tuple[int, int]]]]:
-    """Trunks, each with limbs of the same number of joints, as first and last body."""
+def _alike(tree: Tree) -> Iterator[tuple[int, list[int]]]:
+    """Trunks, each with the last bodies of limbs of the same number of joints."""
     ends, driven = far_ends(tree), [0]
     for body in tree.bodies[1:]:
         moves = body.joint is not None and body.joint.mimic is None
         driven.append(driven[body.parent] + moves)
-    sets: dict[tuple[int, int], list[tuple[int, int]]] = {}
+    sets: dict[tuple[int, int], list[int]] = {}
     for first, body in enumerate(tree.bodies[1:], start=1):
         last = ends[first]
         hinges = driven[last] - driven[body.parent] - is_wheel(tree.bodies[last])
-        sets.setdefault((body.parent, hinges), []).append((first, last))
+        sets.setdefault((body.parent, hinges), []).append(last)
     for (trunk, hinges), limbs in sets.items():
         if hinges >= 2 and len(limbs) >= 2:
             yield trunk, limbs
-
-
-def _leave_twins(tree: Tree, limbs: Sequence[tuple[int, int]], chosen: Collection[int]) -> bool:
-    """Whether a limb that was not chosen is as long as one that was; each is first and last."""
-    lengths = {}
-    for first, last in limbs:
-        body, length = last, float(np.linalg.norm(farthest_frame(tree.bodies[last])))
-        while body != first:
-            length += float(np.linalg.norm(tree.bodies[body].placement.position))
-            body = tree.bodies[body].parent
-        lengths[last] = length
-    return any(
-        abs(lengths[one] - lengths[other]) < _TWINS * lengths[one]
-        for one in chosen
-        for other in lengths.keys() - chosen
-    )
 
 
 def far_ends(tree: Tree) -> list[int]:
@@ -421,7 +388,7 @@ def find_trunk(tree: Tree, legs: Sequence[Leg]) -> str:
     chest turns against it.
     """
     if legs:
-        return frame_link(tree.bodies[trunk_body(tree, legs)])
+        return frame_link(tree.bodies[legs[0].base])
     return frame_link(max(tree.bodies, key=lambda body: body.mass_properties.mass))
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.robot.chain import Chain, chain_of, neutral_posture
-from ocs_design.robot.legs import WORLD, ancestors, far_ends, farthest_frame, is_wheel
+from ocs_design.robot.legs import WORLD, far_ends, farthest_frame, is_wheel
 from ocs_design.robot.mass import combine
 from ocs_design.robot.tree import Tree
 
@@ -88,8 +88,8 @@ class Anatomy:
 
     def limb(self, base: int, last: int, up: FloatArray) -> Limb:
         """The limb from body `base` to body `last`."""
-        first = next(i for i in ancestors(self.tree, last) if self.tree.bodies[i].parent == base)
-        chain = chain_of(self.tree, first, last, self.placements)
+        first = next(i for i in self.tree.ancestors(last) if self.tree.bodies[i].parent == base)
+        chain = chain_of(self.tree, base, last, self.placements)
         end = chain.bodies[-1]
         local = farthest_frame(end)
         rest = chain.pose(chain.neutral())
@@ -125,13 +125,11 @@ class Anatomy:
         for first, body in enumerate(self.tree.bodies[1:], start=1):
             if body.parent != 0 and len(self.children[body.parent]) < 2:
                 continue
-            chain = [i for i in ancestors(self.tree, ends[first]) if i >= first]
-            moving = [self.tree.bodies[i].joint for i in chain]
-            lengths = [np.linalg.norm(self.tree.bodies[i].placement.position) for i in chain[:-1]]
-            length = sum(lengths) + np.linalg.norm(farthest_frame(self.tree.bodies[chain[0]]))
+            chain = chain_of(self.tree, body.parent, ends[first], self.placements)
+            length = chain.span(farthest_frame(chain.bodies[-1]))
             # Fingers and the like do not even reach down to the centre of mass.
             low = float(up @ (self.placements[first].position - self.robot.com)) < length
-            if low and any(joint is not None and joint.mimic is None for joint in moving):
+            if low and chain.driven:
                 found.append(self.limb(body.parent, ends[first], up))
         self._known[key] = found
         return found
@@ -145,7 +143,7 @@ class Anatomy:
             swings = limb.hinges == 1 and level and self.names([limb]) is True
             if limb.reach <= 0.0 or not (limb.hinges >= 2 or rolls or swings):
                 continue
-            lifted = [self.masses[i] for i in ancestors(self.tree, limb.base)]
+            lifted = [self.masses[i] for i in self.tree.ancestors(limb.base)]
             if limb.base != 0 or len(self.children[0]) > 1:
                 # A hopper's heavy foot lowers the centre of mass.
                 lifted.append(self.robot)
@@ -169,7 +167,7 @@ class Anatomy:
 
         Where a URDF leaves a loop open, exporters write a frame on both sides of the cut.
         """
-        own, above = bodies_of(self.tree, limb), set(ancestors(self.tree, limb.base))
+        own, above = bodies_of(self.tree, limb), set(self.tree.ancestors(limb.base))
         for pair in self.tree.loops:
             tied = [self.tree.body_of_link[name] for name in pair]
             for end, beyond in (tied, reversed(tied)):

@@ -13,7 +13,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import RobotError
-from ocs_design.robot.legs import ancestors, find_legs, find_trunk, frame_link, leg_of
+from ocs_design.robot.legs import find_legs, find_trunk, frame_link, leg_of
 from ocs_design.robot.limbs import EVEN, Anatomy, Limb, bodies_of, reach_alike, sets_of
 from ocs_design.robot.links import listed
 from ocs_design.robot.robot import (
@@ -269,11 +269,9 @@ class _Readings(Anatomy):
     def on_trunk(self, reading: Reading, trunk: str, body: int) -> Reading:
         """Legs as found, on a trunk that the user named."""
         doubts = tuple(each for each in reading.doubts if each.what != SPINE)
+        ancestors = self.tree.ancestors
         if any(
-            body
-            in set(ancestors(self.tree, leg.body))
-            - {leg.base}
-            - set(ancestors(self.tree, leg.base))
+            body != leg.base and body in ancestors(leg.body) and body not in ancestors(leg.base)
             for leg in reading.legs
         ):
             doubts = (*doubts, Doubt(f"'{trunk}' is part of a leg", 0.3))
@@ -284,12 +282,10 @@ class _Readings(Anatomy):
     ) -> Reading:
         """The reading that the user stated; `up` is in the root's frame, None where not known."""
         bodies = [self.tree.body_of_link[name] for name in names]
-        for one, other in combinations(range(len(bodies)), 2):
-            if bodies[one] in ancestors(self.tree, bodies[other]) or bodies[other] in ancestors(
-                self.tree, bodies[one]
-            ):
+        for (one, body), (other, twin) in combinations(zip(names, bodies, strict=True), 2):
+            if body in self.tree.ancestors(twin) or twin in self.tree.ancestors(body):
                 raise RobotError(
-                    f"'{names[one]}' and '{names[other]}' are links of one limb",
+                    f"'{one}' and '{other}' are links of one limb",
                     hint="name one link of each leg with --legs: its foot",
                 )
         stem = 0 if trunk is None else self.tree.body_of_link[trunk]
@@ -343,17 +339,17 @@ class _Readings(Anatomy):
 
         It is the first on the way to the root that other legs or the named trunk hang on too.
         """
-        trunks = set() if alone else set(ancestors(self.tree, stem))
+        trunks = set() if alone else set(self.tree.ancestors(stem))
         others = [foot for foot in feet if foot != body]
-        for above in list(ancestors(self.tree, body))[1:]:
-            shared = any(above in ancestors(self.tree, other) for other in others)
+        for above in list(self.tree.ancestors(body))[1:]:
+            shared = any(above in self.tree.ancestors(other) for other in others)
             if shared or above in trunks or (not others and alone and above == 0):
                 return above
         return -1
 
     def _spine_trunk(self, bases: Sequence[int]) -> int:
         """Heaviest of the bodies that the legs branch from and of those between them."""
-        paths = [list(ancestors(self.tree, base)) for base in set(bases)]
+        paths = [list(self.tree.ancestors(base)) for base in set(bases)]
         joint = max(set.intersection(*map(set, paths)))
         between = {body for path in paths for body in path if body >= joint}
         return max(between, key=lambda body: (self.masses[body].mass, -body))

@@ -4,7 +4,7 @@ A reader merges everything that is rigidly joined into one `Body`; only moving j
 with one degree of freedom. Mass properties are the file's raw numbers.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
@@ -189,6 +189,12 @@ class Tree:
     def body_of_link(self) -> Mapping[str, int]:
         """Index of the body that each link of the file belongs to."""
         return {link: index for index, body in enumerate(self.bodies) for link in body.links}
+
+    def ancestors(self, body: int) -> Iterator[int]:
+        """Index of the body itself, of its parent and so on to the root."""
+        while body >= 0:
+            yield body
+            body = self.bodies[body].parent
 
     def placements(self, posture: Mapping[str, float]) -> tuple[Placement, ...]:
         """Frame of each body in the root's frame; joints missing in `posture` are at zero."""

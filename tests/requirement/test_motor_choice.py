@@ -21,7 +21,7 @@ from ocs_design.requirement.device_sections import (
 from ocs_design.requirement.resolving import read_specified_robot, resolve
 from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
-from ocs_design.requirement.values import Names, names_in
+from ocs_design.requirement.values import names_in, several_names
 from ocs_design.robot.manual import robot_by_hand
 
 OWN_GEAR = """
@@ -162,13 +162,13 @@ def test_a_gear_is_meant_with_any_ratio_or_with_the_one_that_is_printed(sheet):
     ],
 )
 def test_names_are_a_list_or_a_text_with_commas(raw, names):
-    assert names_in(Names().read(raw, "motor.name")) == names
+    assert names_in(several_names.read(raw, "motor.name")) == names
 
 
 @pytest.mark.parametrize("raw", ["", " ", 3, ["a", 3], [["a"]]])
 def test_what_is_no_name_is_refused(raw):
     with pytest.raises(SpecificationError, match=r"motor\.name"):
-        Names().read(raw, "motor.name")
+        several_names.read(raw, "motor.name")
 
 
 @pytest.fixture

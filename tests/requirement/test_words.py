@@ -23,11 +23,11 @@ from ocs_design.requirement.phrases import (
     TURN_TEXT,
     About,
     Kick,
-    KickText,
     Person,
-    PersonText,
     Tilt,
-    TiltText,
+    kick_text,
+    person_text,
+    tilt_text,
 )
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.resolving import resolve
@@ -66,8 +66,8 @@ def asked(**words):
     ],
 )
 def test_a_kick_is_read_and_written(text, kick):
-    assert KickText().read(text, "kick") == kick
-    assert KickText().read(str(kick), "kick") == kick
+    assert kick_text.read(text, "kick") == kick
+    assert kick_text.read(str(kick), "kick") == kick
 
 
 @pytest.mark.parametrize(
@@ -86,7 +86,7 @@ def test_a_kick_is_read_and_written(text, kick):
 )
 def test_a_kick_that_is_none_is_told_how_to_write_it(text, says):
     with pytest.raises(OcsError, match=r"(?s)--kick.*") as told:
-        KickText().read(text, "--kick")
+        kick_text.read(text, "--kick")
     assert re.search(says, f"{told.value.message} {told.value.hint}", re.DOTALL)
 
 
@@ -101,9 +101,9 @@ def test_a_kick_that_is_none_is_told_how_to_write_it(text, says):
     ],
 )
 def test_a_tilt_is_read_and_written(text, roll, pitch):
-    tilt = TiltText().read(text, "tilt")
+    tilt = tilt_text.read(text, "tilt")
     assert tilt == Tilt(pytest.approx(radians(roll)), pytest.approx(radians(pitch)))
-    assert TiltText().read(str(tilt), "tilt") == tilt
+    assert tilt_text.read(str(tilt), "tilt") == tilt
 
 
 @pytest.mark.parametrize("text", ["pitch 45", "roll -115 pitch 1"])
@@ -116,11 +116,11 @@ def test_a_fast_rate_without_a_unit_was_meant_in_degrees(text):
 @pytest.mark.parametrize("text", ["20", "20deg yaw", "200deg", "roll", "5deg left 5deg roll"])
 def test_a_tilt_that_is_none_is_refused(text):
     with pytest.raises(OcsError, match="tilt"):
-        TiltText().read(text, "tilt")
+        tilt_text.read(text, "tilt")
 
 
 def test_the_lower_side_is_that_of_the_tilt():
-    tilt = TiltText().read("20deg left 10deg forward", "tilt")
+    tilt = tilt_text.read("20deg left 10deg forward", "tilt")
     left_wheel, nose = np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0])
     roll, pitch = tilt.roll, tilt.pitch
     # Roll turns y towards z, and pitch z towards x.
@@ -129,7 +129,7 @@ def test_the_lower_side_is_that_of_the_tilt():
 
 
 def test_a_person_is_mass_height_and_payload():
-    read = PersonText().read
+    read = person_text.read
     assert read("75kg 1.75m", "") == read("75 kg, 175 cm", "") == Person(75.0, 1.75)
     carrying = read("75kg 1.75m with 10kg", "")
     assert carrying == read(str(carrying), "") == Person(75.0, 1.75, 10.0)

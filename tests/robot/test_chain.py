@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 from urdf_text import inertial, joint, link, robot
 
 from ocs_design.robot.chain import chain_of, nearest_turn, neutral_posture
-from ocs_design.robot.legs import leg_chain
 from ocs_design.robot.urdf import read_urdf
 
 TALOS = "talos_data/robots/talos_reduced"
@@ -19,7 +18,7 @@ A1 = "a1_description/urdf/a1"
 def first_leg(name):
     tree, legs = tree_of(name), legs_of(name)
     placements = tree.placements(neutral_posture(tree))
-    return tree, legs[0], leg_chain(tree, legs[0], placements)
+    return tree, legs[0], chain_of(tree, legs[0].base, legs[0].body, placements)
 
 
 def some_values(chain, seed):
@@ -83,7 +82,7 @@ def test_a_mimic_moves_with_its_leader():
         ),
         find_mesh=lambda _: None,
     )
-    chain = chain_of(tree, 1, 2, tree.placements({}))
+    chain = chain_of(tree, 0, 2, tree.placements({}))
     assert chain.names == ("a",)
     pose, place = chain.pose(np.array([0.4])), tree.placements({"a": 0.4})[2]
     assert pose.end.rotation == pytest.approx(place.rotation, abs=1e-15)
