@@ -1,4 +1,4 @@
-"""The quickest slew of a wheel: how long it takes, and speed and torque over time.
+"""The quickest slew of a wheel: how long it takes, and the speed and torque that it peaks at.
 
 A wheel starts at rest relative to the trunk. Its motor accelerates the reduced inertia I_red on
 min(tau_L, tau_s (1 - W / w_0)), holds it at the highest speed if it gets there, brakes with
@@ -8,8 +8,7 @@ speed W_f. What counts is the wheel's angle beyond W_f: phi, the integral of (W 
 
 All functions take arrays that broadcast, with those of the line too.
 
-The closed forms are those of `unit_slew`. While braking on the voltage line from the speed m, the
-speed is x = (1 + m) e^(-t/l) - 1.
+The closed forms are those of `unit_drive`.
 """
 
 from dataclasses import dataclass
@@ -20,13 +19,10 @@ from numpy.typing import ArrayLike
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.unit_drive import (
     UnitDrive,
-    braked_speed,
     farthest_slew,
     positive,
     quickest_time,
-    rise_for,
     rise_sweep,
-    risen_speed,
 )
 from ocs_design.common.arrays import FloatArray
 
@@ -65,51 +61,19 @@ def in_units(line: DriveLine, reduced_inertia: ArrayLike) -> tuple[UnitDrive, Fl
 
 @dataclass(frozen=True, eq=False)
 class SlewProfile:
-    """A slew from rest over time; arrays of one shape, NaN where the slew cannot be done.
-
-    Up to `coast_from` the current, the power and then the voltage limit the acceleration. From
-    `brake_from` to `end` the power, the current and then the reverse voltage limit the braking.
-    Phases that do not occur have no length.
+    """Course of the quickest slew from rest; arrays of one shape, NaN where it cannot be done.
 
     Attributes:
-        line: of the drive at the wheel.
-        reduced_inertia: I_red [kg m^2].
-        coast_from, brake_from, end: times [s].
-        peak_speed, final_speed: of the wheel [rad/s].
+        brake_from, end: times [s].
+        peak_speed: of the wheel [rad/s].
+        peak_torque: of the motor at the wheel, at the start or as it begins to brake [N m]: a
+            torque falls with the speed while it pushes and rises with it while it brakes.
     """
 
-    line: DriveLine
-    reduced_inertia: FloatArray
-    coast_from: FloatArray
     brake_from: FloatArray
     end: FloatArray
     peak_speed: FloatArray
-    final_speed: FloatArray
-
-    def speed(self, time: ArrayLike) -> FloatArray:
-        """Wheel speed [rad/s] at `time` [s], which broadcasts with the slews."""
-        drive, unit = in_units(self.line, self.reduced_inertia)
-        return self._speed(drive, unit, np.asarray(time)) * drive.no_load_speed
-
-    def torque(self, time: ArrayLike) -> FloatArray:
-        """Motor torque at the wheel [N m] at `time` [s]; negative while it brakes."""
-        drive, unit = in_units(self.line, self.reduced_inertia)
-        at = np.asarray(time)
-        speed = self._speed(drive, unit, at)
-        pushing, held = at < self.coast_from, at < self.brake_from
-        share = np.where(
-            pushing, drive.accelerating(speed), np.where(held, 0.0, -drive.braking(speed))
-        )
-        return np.where((at >= 0.0) & (at < self.end), share, 0.0) * drive.torque
-
-    def _speed(self, drive: UnitDrive, unit: FloatArray, at: FloatArray) -> FloatArray:
-        """x at a time [w_0]."""
-        peak, final = self.peak_speed / drive.no_load_speed, self.final_speed / drive.no_load_speed
-        rising = risen_speed(drive, rise_for(drive, np.clip(at, 0.0, self.coast_from) / unit))
-        braked = np.clip(at - self.brake_from, 0.0, self.end - self.brake_from) / unit
-        falling = braked_speed(drive, peak, final, braked)
-        speed = np.where(at < self.brake_from, np.minimum(rising, peak), falling)
-        return np.where(at < self.end, speed, final + 0.0 * self.end)
+    peak_torque: FloatArray
 
 
 def slew_profile(
@@ -122,14 +86,13 @@ def slew_profile(
     possible = np.isfinite(time)
     final = np.where(possible, final, 0.0)
     slew = farthest_slew(drive, np.where(possible, time, 0.0) / unit, final)
-    up = rise_sweep(drive, slew.rise).time
-    known = np.where(possible, unit, np.nan)
+    up, known = rise_sweep(drive, slew.rise).time, np.where(possible, unit, np.nan)
+    brake_from, end = (up + slew.coast) * known, np.where(possible, time, np.nan)
+    pushes = np.where(up * known > 0.0, drive.accelerating(np.zeros_like(up)), 0.0)
+    brakes = np.where(brake_from < end, drive.braking(slew.peak), 0.0)
     return SlewProfile(
-        line=line,
-        reduced_inertia=np.broadcast_to(reduced_inertia, time.shape),
-        coast_from=up * known,
-        brake_from=(up + slew.coast) * known,
-        end=np.where(possible, time, np.nan),
+        brake_from=brake_from,
+        end=end,
         peak_speed=np.where(possible, slew.peak * drive.no_load_speed, np.nan),
-        final_speed=np.where(possible, final * drive.no_load_speed, np.nan),
+        peak_torque=np.maximum(pushes, brakes) * drive.torque,
     )

@@ -276,48 +276,18 @@ def _powered_sweep(drive: UnitDrive, first: FloatArray, last: FloatArray, sense:
 def brake_sweep(drive: UnitDrive, peak: FloatArray, final: FloatArray) -> Sweep:
     """Braking from the peak to the final speed: within the power, the current, then the voltage."""
     top = np.minimum(np.maximum(drive.regenerating, final), peak)
-    by_power = _fed_back_sweep(drive, peak, top)
+    c, fed_back = 2.0 * drive.current, peak > top
+    first, last = (np.arccosh(np.maximum(speed / c, 1.0)) for speed in (top, peak))
+    powered = _powered_sweep(drive, first, last, -1.0)
+    time, angle = (np.where(fed_back, each, 0.0) for each in powered)
     middle = np.minimum(np.maximum(drive.clamp, final), top)
     ratio = (middle - final) / (1.0 + final)
     excess = log_remainder(ratio)
     clamped = drive.brake * (top - middle)
     return Sweep(
-        by_power.time + clamped + drive.knee * (ratio - excess),
-        by_power.angle + clamped * (top + middle) / 2.0 + drive.knee * (final * ratio + excess),
+        time + clamped + drive.knee * (ratio - excess),
+        angle + clamped * (top + middle) / 2.0 + drive.knee * (final * ratio + excess),
     )
-
-
-def _fed_back_sweep(drive: UnitDrive, peak: FloatArray, end: FloatArray) -> Sweep:
-    """Braking from the peak to a lower speed at the limit of power; nothing where they are one."""
-    c, braked = 2.0 * drive.current, peak > end
-    first, last = (np.arccosh(np.maximum(speed / c, 1.0)) for speed in (end, peak))
-    swept = _powered_sweep(drive, first, last, -1.0)
-    return Sweep(*(np.where(braked, each, 0.0) for each in swept))
-
-
-def braked_speed(
-    drive: UnitDrive, peak: FloatArray, final: FloatArray, time: FloatArray
-) -> FloatArray:
-    """x after braking from a peak for `time` [T_0], which is no longer than to the final speed."""
-    top = np.minimum(np.maximum(drive.regenerating, final), peak)
-    by_power = _fed_back_sweep(drive, peak, top).time
-    middle = np.minimum(np.maximum(drive.clamp, final), top)
-    after = time - by_power
-    limited = np.clip(after, 0.0, drive.brake * (top - middle))
-    free = np.maximum(after - drive.brake * (top - middle), 0.0)
-    at_limit = top - limited / positive(drive.brake)
-    falling = (1.0 + at_limit) * np.exp(-free / positive(drive.knee)) - 1.0
-    # From below: the rest of the time to u at the end, v - log v = 2 t / l with v = e^2u.
-    c = 2.0 * drive.current
-    start = np.arccosh(np.maximum(top / c, 1.0))
-    left = np.maximum(by_power - time, 0.0) / positive(drive.knee)
-    asked = np.exp(2.0 * start) - 2.0 * start + 2.0 * left
-    root = np.sqrt(2.0 * np.maximum(asked - 1.0, 0.0))
-    v = 1.0 + root + root**2 / 2.0
-    for _ in range(_POWER_STEPS):
-        v = v - np.where(v > 1.0, (v - np.log(v) - asked) / positive(1.0 - 1.0 / v), 0.0)
-    u = np.log(np.maximum(v, 1.0)) / 2.0
-    return np.where(after < 0.0, np.minimum(c * np.cosh(u), peak), falling)
 
 
 def rise_for(drive: UnitDrive, time: FloatArray) -> Rise:

@@ -5,10 +5,11 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from scipy.integrate import cumulative_trapezoid, solve_ivp
+from scipy.integrate import solve_ivp
 
 from ocs_design.actuation.drive import DriveLine
-from ocs_design.actuation.slew import slew_profile, slew_time
+from ocs_design.actuation.slew import in_units, slew_profile, slew_time
+from ocs_design.actuation.unit_drive import UnitDrive, brake_sweep
 
 INF = np.inf
 STALL, NO_LOAD, INERTIA = 1.4566, 650.4, 9e-5
@@ -22,100 +23,71 @@ CASES = [
 ]
 
 
-def integrated(line, profile, times):
-    """Speed and angle at `times` by a drive that only knows when to brake.
+def integrated(line, profile, motor):
+    """Speed at the peak and at the end, and the angle, of a drive that only knows when to brake.
 
-    `I dW/dt = tau`, tau from `V = R i + k_t W` with the current clipped, nothing at the highest
-    speed; the intervals end where the equation has a kink.
+    `I dW/dt = tau`, of a motor's torque at a speed, pushing (1) or braking (-1); nothing at the
+    highest speed. The intervals end where the equation has a kink.
     """
     speed_max = min(line.speed_max, line.no_load_speed)
 
-    def slope(time, state, braking):
-        sign = -1.0 if braking else 1.0
-        torque = sign * line.stall_torque * (1.0 - sign * state[0] / line.no_load_speed)
-        return [np.clip(torque, -line.torque_limit, line.torque_limit) / INERTIA, state[0]]
+    def slope(time, state, sense):
+        return [motor(state[0], sense) / INERTIA, state[0]]
 
-    def reached(time, state, braking):
+    def reached(time, state, sense):
         return state[0] - speed_max
 
     reached.terminal = True
-    options = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-12, "dense_output": True}
+    options = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-12}
     brake, end = float(profile.brake_from), float(profile.end)
-    up = solve_ivp(slope, (0.0, brake), [0.0, 0.0], args=(False,), events=reached, **options)
-    held = brake - up.t[-1]
+    up = solve_ivp(slope, (0.0, brake), [0.0, 0.0], args=(1.0,), events=reached, **options)
     peak, angle = up.y[:, -1]
-    down = solve_ivp(slope, (brake, end), [peak, angle + held * peak], args=(True,), **options)
-
-    def at(time):
-        if time > brake:
-            return down.sol(time)
-        state = up.sol(min(time, up.t[-1]))
-        held = max(time - up.t[-1], 0.0)
-        return [state[0], state[1] + held * peak]
-
-    return np.array([at(time) for time in times]).T
+    held = [peak, angle + (brake - up.t[-1]) * peak]
+    down = solve_ivp(slope, (brake, end), held, args=(-1.0,), **options)
+    return peak, *down.y[:, -1]
 
 
 @pytest.mark.parametrize(("phi", "lam", "speed_max", "final"), CASES[2::5])
 def test_the_motor_equation_gives_the_same_course(phi, lam, speed_max, final):
+    """The torque is from `V = R i + k_t W` with the current clipped."""
     line = DriveLine(STALL, NO_LOAD, lam * STALL, speed_max)
     profile = slew_profile(phi, INERTIA, line, final)
-    times = np.sort(np.append(np.linspace(0.0, profile.end, 41), profile.brake_from))
-    speed, angle = integrated(line, profile, times)
-    np.testing.assert_allclose(profile.speed(times[:-1]), speed[:-1], rtol=1e-8, atol=1e-8)
-    assert speed[-1] == pytest.approx(final, abs=1e-8 * NO_LOAD)
-    assert angle[-1] - final * profile.end == pytest.approx(phi, rel=1e-8)
-    assert profile.peak_speed == pytest.approx(speed.max(), rel=1e-8)
+
+    def motor(speed, sense):
+        torque = sense * line.stall_torque * (1.0 - sense * speed / line.no_load_speed)
+        return np.clip(torque, -line.torque_limit, line.torque_limit)
+
+    peak, last, angle = integrated(line, profile, motor)
+    assert profile.peak_speed == pytest.approx(peak, rel=1e-8)
+    assert last == pytest.approx(final, abs=1e-8 * NO_LOAD)
+    assert angle - final * profile.end == pytest.approx(phi, rel=1e-8)
+    ends = [motor(0.0, 1.0), motor(peak, -1.0) if profile.end > profile.brake_from else 0.0]
+    assert profile.peak_torque == pytest.approx(max(map(abs, ends)), rel=1e-9)
 
 
-@pytest.mark.parametrize(("phi", "lam", "speed_max", "final"), CASES[::5])
-def test_torque_is_the_limit_of_each_phase(phi, lam, speed_max, final):
-    line = DriveLine(STALL, NO_LOAD, lam * STALL, speed_max)
-    profile = slew_profile(phi, INERTIA, line, final)
-    switches = np.array([0.0, profile.coast_from, profile.brake_from, profile.end])
-    lengths = np.diff(switches)
-    assert (lengths >= -1e-15).all()
-    limit = line.torque_limit
-    for k in np.flatnonzero(lengths > 1e-9):
-        inside = switches[k] + lengths[k] * np.linspace(0.01, 0.99, 15)
-        speed, torque = profile.speed(inside), profile.torque(inside)
-        ahead, back = STALL * (1 - speed / NO_LOAD), -STALL * (1 + speed / NO_LOAD)
-        expected = [np.minimum(limit, ahead), 0.0 * ahead, np.maximum(-limit, back)][k]
-        np.testing.assert_allclose(torque, expected, rtol=1e-9, atol=1e-12)
-    if lengths[1] > 0.0:
-        assert profile.peak_speed == pytest.approx(speed_max, rel=1e-14)
-
-
-def test_every_course_ends_at_the_final_speed_to_the_last_digits():
-    """The phases, each by its own formula, add up to the time that was solved for."""
+def test_the_phases_add_up_to_the_time_to_the_last_digits():
+    """Each by its own formula."""
     rng = np.random.default_rng(12)
     count = 20_000
     lam = np.where(rng.random(count) < 0.5, 1.0, 10 ** rng.uniform(-1, 0.5, count))
     line = DriveLine(1.0, 1.0, lam, np.where(rng.random(count) < 0.2, 0.6, INF))
     final = np.where(rng.random(count) < 0.5, 0.0, rng.uniform(0.0, 0.5, count))
     profile = slew_profile(10 ** rng.uniform(-2, 1, count), 1.0, line, final)
-    error = np.abs(profile.speed(profile.end * (1.0 - 1e-15)) - final)
-    # The digits of the time, at a braking of at most 2.
+    drive, unit = in_units(line, 1.0)
+    braked = unit * brake_sweep(drive, profile.peak_speed, final).time
+    error = np.abs(profile.brake_from + braked - profile.end)
     assert (error / np.maximum(profile.end, 1.0)).max() < 1e-14
-
-
-def test_before_and_after():
-    profile = slew_profile(60.0, INERTIA, DriveLine(STALL, NO_LOAD, 1.0, INF), 100.0)
-    end = float(profile.end)
-    assert profile.speed([-1.0, end, end + 1.0]).tolist() == [0.0, 100.0, 100.0]
-    assert profile.torque([-1.0, end, end + 1.0]).tolist() == [0.0, 0.0, 0.0]
 
 
 def test_many_at_once_and_what_cannot_be_done():
     line = DriveLine(STALL, NO_LOAD, np.array([0.3, 1.0, 3.0]), 500.0)
     profile = slew_profile([20.0, 60.0, 60.0], INERTIA, line, [0.0, 0.0, 600.0])
-    assert np.isnan(profile.end).tolist() == [False, False, True]
-    times = np.linspace(0.0, 0.3, 7)[:, np.newaxis]
-    course = np.stack([profile.speed(times), profile.torque(times)])
-    assert course.shape == (2, 7, 3)
-    assert np.isnan(course[0, :, 2]).all()
+    for figure in (profile.end, profile.brake_from, profile.peak_speed):
+        assert np.isnan(figure).tolist() == [False, False, True]
+    assert profile.peak_torque[2] == 0.0
     alone = slew_profile(60.0, INERTIA, DriveLine(STALL, NO_LOAD, 1.0, 500.0))
-    np.testing.assert_allclose(profile.speed(times)[:, 1], alone.speed(times)[:, 0], rtol=1e-13)
+    for name, figure in vars(alone).items():
+        assert getattr(profile, name)[1] == pytest.approx(figure, rel=1e-13)
 
 
 STRONG, FAST = 8.0, 1100.0
@@ -136,44 +108,39 @@ def strongest(line, speed, sense):
     return torque[np.argmin(fits) - 1] if not fits.all() else torque[-1]
 
 
+def torque_at(line, speed, sense):
+    """Torque of the drive [N m], pushing (1) or braking (-1)."""
+    drive = UnitDrive.of(line)
+    x = np.asarray(speed) / drive.no_load_speed
+    return drive.torque * (drive.accelerating(x) if sense > 0.0 else -drive.braking(x))
+
+
 @pytest.mark.parametrize("share", [0.02, 0.1, 0.24])
 @pytest.mark.parametrize("lam", [0.07, 0.2, 0.9])
-@pytest.mark.parametrize("final", [0.0, 150.0])
-@pytest.mark.parametrize("speed_max", [INF, 700.0])
-def test_the_wheel_takes_all_that_the_supply_leaves(share, lam, final, speed_max):
-    line = DriveLine(STRONG, FAST, lam * STRONG, speed_max, share * WHOLE)
-    phi = np.array([2.0, 20.0, 80.0, 400.0])
-    profile = slew_profile(phi, INERTIA, line, final)
-    for row in range(phi.size):
-        end, brake = float(profile.end[row]), float(profile.brake_from[row])
-        one = [0.02 * end, 0.3 * brake, 0.7 * brake, 0.97 * brake]
-        down = [brake + part * (end - brake) for part in (0.02, 0.4, 0.8)]
-        for time in one + down:
-            sense = -1.0 if time in down else 1.0
-            speed = profile.speed(time)[row]
-            if sense > 0.0 and time >= profile.coast_from[row]:
-                continue
-            # Currents above that whose heat alone takes all the power are left out.
-            most = min(line.torque_limit, np.sqrt(share) * STRONG)
+def test_the_wheel_takes_all_that_the_supply_leaves(share, lam):
+    line = DriveLine(STRONG, FAST, lam * STRONG, INF, share * WHOLE)
+    # Currents above that whose heat alone takes all the power are left out.
+    most = min(line.torque_limit, np.sqrt(share) * STRONG)
+    for speed in FAST * np.linspace(0.01, 0.97, 25):
+        for sense in (1.0, -1.0):
             found = strongest(replace(line, torque_limit=most), speed, sense)
-            assert profile.torque(time)[row] == pytest.approx(found, rel=2e-3, abs=6e-4 * most)
+            own = torque_at(line, speed, sense)
+            assert own == pytest.approx(found, rel=2e-3, abs=6e-4 * most)
 
 
 @pytest.mark.parametrize("share", [0.02, 0.1])
 @pytest.mark.parametrize("lam", [0.07, 0.3])
+@pytest.mark.parametrize("speed_max", [INF, 700.0])
 @pytest.mark.parametrize(("phi", "final"), [(30.0, 0.0), (150.0, 100.0), (400.0, 0.0)])
-def test_the_motor_equation_gives_the_same_course_on_a_weak_supply(share, lam, phi, final):
-    line = DriveLine(STRONG, FAST, lam * STRONG, INF, share * WHOLE)
+def test_the_motor_equation_gives_the_same_course_on_a_weak_supply(
+    share, lam, speed_max, phi, final
+):
+    line = DriveLine(STRONG, FAST, lam * STRONG, speed_max, share * WHOLE)
     profile = slew_profile(phi, INERTIA, line, final)
-    switches = [0.0, float(profile.coast_from), float(profile.brake_from), float(profile.end)]
-    speed, angle = 0.0, 0.0
-    for begin, end in pairwise(switches):
-        # The torque jumps at the end of a phase.
-        times = np.linspace(begin, max(begin, end - 1e-12), 8001)
-        risen = speed + cumulative_trapezoid(profile.torque(times) / INERTIA, times, initial=0.0)
-        np.testing.assert_allclose(profile.speed(times), risen, rtol=1e-4, atol=0.01)
-        speed, angle = risen[-1], angle + np.trapezoid(risen, times)
-    assert angle - final * float(profile.end) == pytest.approx(phi, rel=1e-4)
+    peak, last, angle = integrated(line, profile, lambda *state: torque_at(line, *state).item())
+    assert profile.peak_speed == pytest.approx(peak, rel=1e-6)
+    assert last == pytest.approx(final, abs=1e-6 * FAST)
+    assert angle - final * float(profile.end) == pytest.approx(phi, rel=1e-6)
 
 
 def drives(count):
@@ -193,11 +160,11 @@ def drives(count):
 def test_no_slew_takes_or_feeds_back_more():
     line, inertia, final, phi = drives(1500)
     profile = slew_profile(phi, inertia, line, final)
-    ends = profile.end
     for part in np.linspace(0.0, 1.0, 41):
-        time = part * ends
-        used = power(line, profile.speed(time), profile.torque(time)) / line.power_max
-        assert np.nanmax(np.abs(used)) <= 1.0 + 1e-6
+        for sense, begin in ((1.0, 0.0), (-1.0, final)):
+            speed = begin + part * (profile.peak_speed - begin)
+            used = power(line, speed, torque_at(line, speed, sense)) / line.power_max
+            assert np.nanmax(np.abs(used)) <= 1.0 + 1e-6
 
 
 def test_it_lies_between_no_limit_and_a_current_that_never_passes_it():

@@ -76,9 +76,6 @@ def with_demands(problem: SelectionProblem, device: Candidate) -> Candidate:
         reduced = load.reduced_inertia(spin, device.armature)
         own, begins = line.begun(load.begins), load.begins.item()
         profile = slew_profile(load.angle(spin), reduced, own, load.final_speed(spin))
-        # The torque of a phase falls with the speed while it pushes and rises with it while it
-        # brakes.
-        torque = np.abs(profile.torque(np.array([0.0, profile.brake_from.item()])))
         demand = TaskDemand(
             source=maneuver.name,
             incidence=at,
@@ -86,7 +83,7 @@ def with_demands(problem: SelectionProblem, device: Candidate) -> Candidate:
             time_needed=profile.end.item(),
             time_given=np.asarray(task.duration).item(),
             peak_speed=max(abs(begins), profile.peak_speed.item() + begins),
-            peak_torque=float(torque.max()),
+            peak_torque=profile.peak_torque.item(),
         )
         demands.append(demand)
     demands += rate_demands(requirement, device, inertia_at(problem, device, device.incidence))
