@@ -64,24 +64,12 @@ class DriveLine(Table):
 
     def reserved(self, share: float | FloatArray = RESERVE) -> "DriveLine":
         """Line with a part of voltage, current, power and mechanical speed."""
-        return replace(
-            self,
-            stall_torque=self.stall_torque * share,
-            no_load_speed=self.no_load_speed * share,
-            torque_limit=self.torque_limit * share,
-            speed_max=self.speed_max * share,
-            power_max=self.power_max * share,
-        )
+        return replace(self, **{name: limit * share for name, limit in vars(self).items()})
 
     def divided(self, factor: float) -> "DriveLine":
         """The line within which torque and speed may grow by this factor; power stays."""
-        return replace(
-            self,
-            stall_torque=self.stall_torque / factor,
-            no_load_speed=self.no_load_speed / factor,
-            torque_limit=self.torque_limit / factor,
-            speed_max=self.speed_max / factor,
-        )
+        less = {name: limit / factor for name, limit in vars(self).items() if name != "power_max"}
+        return replace(self, **less)
 
     def begun(self, speed: float | FloatArray) -> "DriveLine":
         """The line over the change of a wheel's speed, from one that it begins with [rad/s].

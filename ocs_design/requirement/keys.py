@@ -63,6 +63,19 @@ class Faults(list[str]):
             self.append(f"{error.message}. {error.hint}" if error.hint else error.message)
             return None
 
+    def fields(
+        self, table: Mapping[str, object], values: Mapping[str, Value[Any]], where: str
+    ) -> dict[str, Any]:
+        """Value of each field of a table, None with the fault kept; unknown ones are faults."""
+        found: dict[str, Any] = {}
+        for name, raw in table.items():
+            path = f"{where}.{name}"
+            if name in values:
+                found[name] = self.read(values[name], raw, path)
+            else:
+                self.unknown(path, name, tuple(values))
+        return found
+
     def table(self, raw: object, where: str) -> Mapping[str, object]:
         """A table as it is; an empty one, with the fault kept, for anything else."""
         if isinstance(raw, Mapping):

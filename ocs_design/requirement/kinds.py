@@ -18,7 +18,7 @@ class ManeuverKind:
     """A kind of maneuver as the file sees it.
 
     Attributes:
-        maneuver: the class; a field whose annotation has a `Value` is a key of the file.
+        maneuver: the class; a field whose annotation has a `Value` and a note is a key of the file.
         note: what it is, a sentence for the file.
     """
 
@@ -26,13 +26,23 @@ class ManeuverKind:
     note: str
 
     @cached_property
+    def _said(self) -> Mapping[str, tuple[Any, ...]]:
+        """What the annotation of each key says: its type, how it is read, and the note, last."""
+        hints = get_type_hints(self.maneuver, include_extras=True)
+        said = {item.name: hints[item.name] for item in fields(self.maneuver)}
+        return {
+            name: get_args(hint) for name, hint in said.items() if get_origin(hint) is Annotated
+        }
+
+    @cached_property
     def values(self) -> Mapping[str, Value[Any]]:
         """How each key is read, by its name."""
-        hints = get_type_hints(self.maneuver, include_extras=True)
-        read = {item.name: hints[item.name] for item in fields(self.maneuver)}
-        return {
-            name: get_args(hint)[1] for name, hint in read.items() if get_origin(hint) is Annotated
-        }
+        return {name: said[1] for name, said in self._said.items()}
+
+    @cached_property
+    def notes(self) -> Mapping[str, str]:
+        """What each key is, by its name."""
+        return {name: said[-1] for name, said in self._said.items()}
 
     @property
     def required(self) -> tuple[str, ...]:
@@ -76,62 +86,6 @@ def kind_of(maneuver: Maneuver) -> tuple[str, Mapping[str, Value[Any]]]:
         for word, kind in MANEUVER_KINDS.items()
         if kind.maneuver is type(maneuver)
     )
-
-
-FIELD_NOTES: Mapping[str, str] = MappingProxyType(
-    {
-        "name": "yours, of each maneuver another",
-        "gravity": "if not that of [requirement]",
-        "incidence": "if the modules are turned by hand for it",
-        "takeoff_velocity": "forward, up",
-        "torque": "on the trunk, about its x (forward), y (left) and z",
-        "onset": "after lift-off",
-        "duration": "of the torque",
-        "flip.duration": "of the turn, from lift-off",
-        "turn.duration": "of the turn, from lift-off",
-        "catch.duration": "from lift-off until it is stopped",
-        "turn.roll": "at the end, reached by yaw, then pitch, then roll",
-        "turn.pitch": "at the end",
-        "catch.roll": "at the end, where end is attitude",
-        "catch.pitch": "at the end",
-        "yaw": "at the end",
-        "rate": "of the trunk at lift-off, about its x, y and z",
-        "wheel_speed": "of all wheels at lift-off",
-        "end": "level, attitude (with its heading) or at rest",
-        "settling": "from the end of the torque to rest",
-        "velocity_change": "of the centre of mass, by a force beside the torque",
-        "impulse": "of a force, from which torque and velocity_change follow",
-        "point": "of the trunk that the force hits",
-        "stride": "of a trot on the spot; 0: the robot stands",
-        "height": "of the trunk over the ground",
-        "roll": "at release",
-        "pitch": "at release",
-        "jump_height": "of the centre of mass",
-        "angle": "of pitch",
-        "pivot": "that it stands on, in the trunk's frame",
-        "edge": "direction of the edge that it stands on; zeros: a point",
-        "actuation": "motor, or brake: wheels spun up before are stopped in an instant",
-        **{
-            f"{kind}.{name}": note
-            for kind in ("balance", "stand-up")
-            for name, note in (
-                ("roll", "at the start, from where it balances"),
-                ("pitch", "at the start"),
-                ("duration", "until it is upright and at rest"),
-                ("wheel_speed", "of all wheels at the start"),
-                ("end", "level, or attitude: with its heading too"),
-            )
-        },
-        "balance.rate": "of the trunk at the start, about its x, y and z",
-        "balance.impulse": "of a force at the start",
-    }
-)
-"""What each field of a `[[maneuver]]` is; by `kind.field`, of that kind alone."""
-
-
-def field_note(kind: str, field: str) -> str:
-    """Note on a field of a kind of maneuver."""
-    return FIELD_NOTES.get(f"{kind}.{field}") or FIELD_NOTES[field]
 
 
 _LONGER_THAN_ITS_TURN = 1.02

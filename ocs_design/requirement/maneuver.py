@@ -67,12 +67,20 @@ class End(StrEnum):
 
 Time: TypeAlias = Annotated[float, Quantity(Dimension.TIME)]
 Height: TypeAlias = Annotated[float, HEIGHT]
+JumpHeight: TypeAlias = Annotated[Height, "of the centre of mass"]
+TurnTime: TypeAlias = Annotated[Time, "of the turn, from lift-off"]
 Tilt: TypeAlias = Annotated[float, TILT]
 Turn: TypeAlias = Annotated[float, TURN]
 Spin: TypeAlias = Annotated[float, SPIN]
-Torque: TypeAlias = Annotated[Vector3, Quantities(Dimension.TORQUE, (3,))]
+Torque: TypeAlias = Annotated[
+    Vector3,
+    Quantities(Dimension.TORQUE, (3,)),
+    "on the trunk, about its x (forward), y (left) and z",
+]
 Impulse: TypeAlias = Annotated[Vector3, Quantities(Dimension.IMPULSE, (3,))]
-Point: TypeAlias = Annotated[Vector3, Quantities(Dimension.LENGTH, (3,))]
+Point: TypeAlias = Annotated[
+    Vector3, Quantities(Dimension.LENGTH, (3,)), "of the trunk that the force hits"
+]
 Rate: TypeAlias = Annotated[Vector3, Quantities(Dimension.ANGULAR_SPEED, (3,))]
 
 _LONGEST_STRIDE = 5.0
@@ -89,11 +97,13 @@ class Maneuver(ABC):
         incidence: angle that the device is set to by hand [rad]; None: the design's.
     """
 
-    name: Annotated[str, Text()]
-    gravity: Annotated[float, Quantity(Dimension.ACCELERATION, Sign.NOT_NEGATIVE)] = (
-        STANDARD_GRAVITY
-    )
-    incidence: Annotated[float | None, INCIDENCE] = None
+    name: Annotated[str, Text(), "yours, of each maneuver another"]
+    gravity: Annotated[
+        float,
+        Quantity(Dimension.ACCELERATION, Sign.NOT_NEGATIVE),
+        "if not that of [requirement]",
+    ] = STANDARD_GRAVITY
+    incidence: Annotated[float | None, INCIDENCE, "if the modules are turned by hand for it"] = None
 
     @property
     def turn(self) -> FloatArray:
@@ -228,12 +238,22 @@ class Disturbance(Unforeseen):
             in B [N s], shape (3,). point: where it hits the trunk, in B [m], shape (3,).
     """
 
-    takeoff_velocity: Annotated[tuple[float, float], Quantities(Dimension.SPEED, (2,))]
+    takeoff_velocity: Annotated[
+        tuple[float, float], Quantities(Dimension.SPEED, (2,)), "forward, up"
+    ]
     torque: Torque
-    onset: Annotated[float, Quantity(Dimension.TIME, Sign.NOT_NEGATIVE)]
-    duration: Time
-    velocity_change: Annotated[Vector3, Quantities(Dimension.SPEED, (3,))] = (0.0, 0.0, 0.0)
-    impulse: Impulse = (0.0, 0.0, 0.0)
+    onset: Annotated[float, Quantity(Dimension.TIME, Sign.NOT_NEGATIVE), "after lift-off"]
+    duration: Annotated[Time, "of the torque"]
+    velocity_change: Annotated[
+        Vector3,
+        Quantities(Dimension.SPEED, (3,)),
+        "of the centre of mass, by a force beside the torque",
+    ] = (0.0, 0.0, 0.0)
+    impulse: Annotated[Impulse, "of a force, from which torque and velocity_change follow"] = (
+        0.0,
+        0.0,
+        0.0,
+    )
     point: Point = (0.0, 0.0, 0.0)
 
     def on(self, body: MassProperties) -> Self:
@@ -298,11 +318,13 @@ class Shove(Unforeseen):
     """
 
     torque: Torque
-    duration: Time
-    settling: Time
-    stride: Annotated[float, Quantity(Dimension.TIME, Sign.NOT_NEGATIVE, most=_LONGEST_STRIDE)] = (
-        0.0
-    )
+    duration: Annotated[Time, "of the torque"]
+    settling: Annotated[Time, "from the end of the torque to rest"]
+    stride: Annotated[
+        float,
+        Quantity(Dimension.TIME, Sign.NOT_NEGATIVE, most=_LONGEST_STRIDE),
+        "of a trot on the spot; 0: the robot stands",
+    ] = 0.0
 
     @property
     def time_left(self) -> float:
@@ -365,9 +387,9 @@ class Drop(Reorientation):
         height: of the trunk frame's origin over the ground [m]. roll, pitch: at release [rad].
     """
 
-    height: Height
-    roll: Tilt = 0.0
-    pitch: Tilt
+    height: Annotated[Height, "of the trunk over the ground"]
+    roll: Annotated[Tilt, "at release"] = 0.0
+    pitch: Annotated[Tilt, "at release"]
 
     def time(self, standing_height: float) -> float:
         """Time from release until the feet of the levelled robot meet the ground [s].
@@ -413,9 +435,9 @@ class Flip(Reorientation):
         angle: of pitch [rad]; a back-flip is negative about y (left). duration: from lift-off [s].
     """
 
-    jump_height: Height
-    angle: Turn
-    duration: Time
+    jump_height: JumpHeight
+    angle: Annotated[Turn, "of pitch"]
+    duration: TurnTime
 
     @property
     def turn(self) -> FloatArray:

@@ -112,13 +112,19 @@ class Pivoted(Maneuver):
         body: that stands, in B; None: not known yet (`on`).
     """
 
-    pivot: Point
-    edge: Annotated[Vector3, Quantities(Dimension.RATIO, (3,))] = (0.0, 0.0, 0.0)
-    roll: Tilt = 0.0
-    pitch: Tilt = 0.0
-    duration: Time
-    wheel_speed: Spin = 0.0
-    end: Annotated[str, Choice((End.LEVEL, End.ATTITUDE))] = End.LEVEL
+    pivot: Annotated[Point, "that it stands on, in the trunk's frame"]
+    edge: Annotated[
+        Vector3,
+        Quantities(Dimension.RATIO, (3,)),
+        "direction of the edge that it stands on; zeros: a point",
+    ] = (0.0, 0.0, 0.0)
+    roll: Annotated[Tilt, "at the start, from where it balances"] = 0.0
+    pitch: Annotated[Tilt, "at the start"] = 0.0
+    duration: Annotated[Time, "until it is upright and at rest"]
+    wheel_speed: Annotated[Spin, "of all wheels at the start"] = 0.0
+    end: Annotated[
+        str, Choice((End.LEVEL, End.ATTITUDE)), "level, or attitude: with its heading too"
+    ] = End.LEVEL
     estimate: float = 1.0
     slower: float = 1.0
     body: MassProperties | None = None
@@ -150,10 +156,15 @@ class Pivoted(Maneuver):
         return own
 
     @property
+    def _stands(self) -> MassProperties:
+        """The body, once it is known."""
+        assert self.body is not None, "no body stands yet"
+        return self.body
+
+    @property
     def lever(self) -> FloatArray:
         """Centre of mass from the pivot in B, across the edge [m], shape (3,)."""
-        assert self.body is not None, "no body stands yet"
-        lever, axis = self.body.com - np.array(self.pivot), self.axis
+        lever, axis = self._stands.com - np.array(self.pivot), self.axis
         return np.asarray(lever if axis is None else lever - axis * (axis @ lever))
 
     @property
@@ -164,26 +175,19 @@ class Pivoted(Maneuver):
 
     @property
     def inertia(self) -> FloatArray:
-        """Inertia about the pivot in B, wheels braked [kg m^2], shape (3, 3): parallel axes."""
-        assert self.body is not None, "no body stands yet"
-        lever = self.body.com - np.array(self.pivot)
-        return np.asarray(
-            self.body.inertia
-            + self.body.mass * (lever @ lever * np.eye(3) - np.outer(lever, lever))
-        )
+        """Inertia about the pivot in B, wheels braked [kg m^2], shape (3, 3)."""
+        return self._stands.inertia_about(np.array(self.pivot))
 
     def turned(self, inertia: TiltInertia) -> TiltInertia:
         """Inertia about the pivot, of that about the centre of mass: parallel axes."""
-        assert self.body is not None, "no body stands yet"
-        x, y, z = self.body.com - np.array(self.pivot)
-        further = self.body.mass * np.array([y * y + z * z, x * x + z * z])
-        return TiltInertia(inertia.diagonal + further, inertia.product - self.body.mass * x * y)
+        mass, (x, y, z) = self._stands.mass, self._stands.com - np.array(self.pivot)
+        further = mass * np.array([y * y + z * z, x * x + z * z])
+        return TiltInertia(inertia.diagonal + further, inertia.product - mass * x * y)
 
     @property
     def pull(self) -> FloatArray:
         """Weight times lever, m g l in B [N m], shape (3,)."""
-        assert self.body is not None, "no body stands yet"
-        return np.asarray(self.body.mass * self.gravity * self.lever)
+        return np.asarray(self._stands.mass * self.gravity * self.lever)
 
     @property
     def struck(self) -> FloatArray:
@@ -292,8 +296,8 @@ class Balance(Pivoted):
         impulse: of a force right then, in B [N s], shape (3,). point: where it hits, in B [m].
     """
 
-    rate: Rate = (0.0, 0.0, 0.0)
-    impulse: Impulse = (0.0, 0.0, 0.0)
+    rate: Annotated[Rate, "of the trunk at the start, about its x, y and z"] = (0.0, 0.0, 0.0)
+    impulse: Annotated[Impulse, "of a force at the start"] = (0.0, 0.0, 0.0)
     point: Point = (0.0, 0.0, 0.0)
 
     _longest: ClassVar[float] = 2.0
@@ -344,7 +348,11 @@ class StandUp(Pivoted):
         actuation: see `Actuation`.
     """
 
-    actuation: Annotated[str, Choice(tuple(Actuation))] = Actuation.MOTOR
+    actuation: Annotated[
+        str,
+        Choice(tuple(Actuation)),
+        "motor, or brake: wheels spun up before are stopped in an instant",
+    ] = Actuation.MOTOR
 
     @property
     def braked(self) -> bool:

@@ -14,7 +14,7 @@ from ocs_design.requirement.keys import Faults, keys_of
 from ocs_design.requirement.kinds import MANEUVER_KINDS
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.specification import SECTIONS, Specification, with_files
-from ocs_design.requirement.values import Text, Value
+from ocs_design.requirement.values import Text
 
 # A specification takes a few thousand bytes.
 _FILE = TextKind(
@@ -105,7 +105,7 @@ def _checked(content: Mapping[str, object], name: str) -> Specification:
     for title, section in SECTIONS.items():
         table = faults.table(content.get(title, {}), title)
         values = {key: found.value for key, found in keys_of(section).items()}
-        sections[title] = section(**_fields(table, values, title, faults))
+        sections[title] = section(**faults.fields(table, values, title))
     tables, maneuvers = content.get("maneuver", []), []
     if not isinstance(tables, list):
         faults.append("maneuver: write each maneuver as a [[maneuver]] table")
@@ -143,20 +143,6 @@ def _checked(content: Mapping[str, object], name: str) -> Specification:
     return specification
 
 
-def _fields(
-    table: Mapping[str, object], values: Mapping[str, Value[Any]], where: str, faults: Faults
-) -> dict[str, Any]:
-    """Each field of a section or a maneuver that its table has, with its faults kept."""
-    found: dict[str, Any] = {}
-    for name, raw in table.items():
-        path = f"{where}.{name}"
-        if name in values:
-            found[name] = faults.read(values[name], raw, path)
-        else:
-            faults.unknown(path, name, tuple(values))
-    return found
-
-
 def _maneuver(
     table: Mapping[str, object], index: int, gravity: float, faults: Faults
 ) -> Maneuver | None:
@@ -170,7 +156,7 @@ def _maneuver(
         faults.append(f"{where}.kind: {what}; one of {', '.join(MANEUVER_KINDS)}")
         return None
     before = len(faults)
-    values = _fields(table, {"kind": Text(), **kind.values}, where, faults)
+    values = faults.fields(table, {"kind": Text(), **kind.values}, where)
     del values["kind"]
     faults.extend(f"{where}.{name}: is missing" for name in kind.required if name not in table)
     values.setdefault("gravity", gravity)

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import pi, remainder, sqrt
-from typing import Annotated
+from typing import Annotated, TypeAlias
 
 import numpy as np
 
@@ -12,13 +12,14 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import rpm
 from ocs_design.requirement.maneuver import (
     End,
-    Height,
+    JumpHeight,
     Rate,
     Reorientation,
     Slew,
     Spin,
     Time,
     Turn,
+    TurnTime,
     angles_text,
     rates_text,
 )
@@ -26,6 +27,11 @@ from ocs_design.requirement.values import YAW, Choice
 
 LOOP_SHARE = 0.75
 """Share of a loop of the tilt that wheels and motors are asked for, in that share of its time."""
+
+_RateAtStart: TypeAlias = Annotated[Rate, "of the trunk at lift-off, about its x, y and z"]
+_End: TypeAlias = Annotated[
+    str, Choice(tuple(End)), "level, attitude (with its heading) or at rest"
+]
 
 _ENDS: Mapping[str, str] = {
     End.LEVEL: ", any heading,",
@@ -63,14 +69,14 @@ class TurnTo(Reorientation):
         direct: whether the wheels reach the vertical, and no loop of the tilt is needed.
     """
 
-    jump_height: Height = 0.0
-    roll: Turn = 0.0
-    pitch: Turn = 0.0
-    yaw: Annotated[float, YAW] = 0.0
-    duration: Time
-    rate: Rate = (0.0, 0.0, 0.0)
-    wheel_speed: Spin = 0.0
-    end: Annotated[str, Choice(tuple(End))] = End.ATTITUDE
+    jump_height: JumpHeight = 0.0
+    roll: Annotated[Turn, "at the end, reached by yaw, then pitch, then roll"] = 0.0
+    pitch: Annotated[Turn, "at the end"] = 0.0
+    yaw: Annotated[float, YAW, "at the end"] = 0.0
+    duration: TurnTime
+    rate: _RateAtStart = (0.0, 0.0, 0.0)
+    wheel_speed: Annotated[Spin, "of all wheels at lift-off"] = 0.0
+    end: _End = End.ATTITUDE
     estimate: float = 1.0
     direct: bool = False
 
@@ -162,5 +168,7 @@ class TurnTo(Reorientation):
 class Catch(TurnTo):
     """A stop of a trunk that turns as it leaves the ground."""
 
-    rate: Rate
-    end: Annotated[str, Choice(tuple(End))] = End.LEVEL
+    roll: Annotated[Turn, "at the end, where end is attitude"] = 0.0
+    duration: Annotated[Time, "from lift-off until it is stopped"]
+    rate: _RateAtStart
+    end: _End = End.LEVEL

@@ -15,7 +15,7 @@ from typing import Any
 
 from ocs_design.common.units import Dimension, format_quantity, parse_quantity, si_unit
 from ocs_design.requirement.keys import keys_of
-from ocs_design.requirement.kinds import MANEUVER_KINDS, field_note, kind_of
+from ocs_design.requirement.kinds import MANEUVER_KINDS, kind_of
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.phrases import About, Climb, Kick, Person, Pivot, Tilt
 from ocs_design.requirement.specification import SECTIONS, Specification, all_keys, with_files
@@ -218,9 +218,10 @@ def rounded_text(specification: Specification, path: str) -> str:
 def _commented_maneuver(maneuver: Maneuver, figures: Figures, mark: str) -> Iterator[str]:
     """Table of a maneuver with a note on each field; `mark` comments it out."""
     word, values = kind_of(maneuver)
-    yield from (f"# {MANEUVER_KINDS[word].note}", f"{mark}[[maneuver]]", f'{mark}kind = "{word}"')
+    kind = MANEUVER_KINDS[word]
+    yield from (f"# {kind.note}", f"{mark}[[maneuver]]", f'{mark}kind = "{word}"')
     for name, how in values.items():
         value = getattr(maneuver, name)
         if value is not None:
             line = f"{name} = {written(value, how, figures)}"
-            yield f"{mark}{line:<{_WIDTH}} # {field_note(word, name)}"
+            yield f"{mark}{line:<{_WIDTH}} # {kind.notes[name]}"

@@ -65,11 +65,14 @@ NEGLIGIBLE_MOMENT = 1e-15
 """Rounding of a moment that is zero [kg m^2]: a milligram 0.1 mm away has ten times as much."""
 
 
-def physical_defect(body: MassProperties, tolerance: float = 1e-9) -> str | None:
+_ROUNDED = 1e-9
+"""Rounding of the moments in a file, over the largest one."""
+
+
+def physical_defect(body: MassProperties) -> str | None:
     """Why no distribution of positive mass has these properties, or None if one has.
 
-    Principal moments must be positive and obey the triangle inequality; `tolerance` is relative
-    to the largest moment, for files that round.
+    Principal moments must be positive and obey the triangle inequality.
     """
     if not (
         np.isfinite(body.mass) and np.isfinite(body.com).all() and np.isfinite(body.inertia).all()
@@ -78,7 +81,7 @@ def physical_defect(body: MassProperties, tolerance: float = 1e-9) -> str | None
     if body.mass < 0.0:
         return f"has the negative mass {body.mass:g} kg"
     moments = np.linalg.eigvalsh(body.inertia)
-    slack = max(tolerance * max(abs(moments[2]), abs(moments[0])), NEGLIGIBLE_MOMENT)
+    slack = max(_ROUNDED * max(abs(moments[2]), abs(moments[0])), NEGLIGIBLE_MOMENT)
     if moments[0] < -slack:
         return f"has the negative principal moment {moments[0]:.3g} kg m^2"
     if moments[2] > moments[0] + moments[1] + slack:
