@@ -1,13 +1,13 @@
 """What holds a designed device together and on its robot, and how its wheels are balanced."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from ocs_design.actuation.fasteners import screw
+from ocs_design.actuation.fasteners import Fastening, screw
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.materials import Material, materials
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
-from ocs_design.device.device import Device, Flywheel, Web
+from ocs_design.device.device import Device, Flywheel, Module, Web
 from ocs_design.device.records.device import MarginRecord
 from ocs_design.device.solids import foot_of, housing_of, motor_mount
 from ocs_design.parts.bell import GLUE_GAP
@@ -41,7 +41,7 @@ from ocs_design.parts.joints import (
 from ocs_design.parts.plate_strength import (
     plate_screws_use,
 )
-from ocs_design.parts.printed import SHOCK
+from ocs_design.parts.printed import SHOCK, WASHER_HEIGHT, trunk_screws
 from ocs_design.parts.rim import LIGAMENT
 from ocs_design.parts.turning_rings import Ring, TurningRings, holed_peaks
 
@@ -79,6 +79,32 @@ def foot_hold(device: Device) -> FootHold:
     foot, plate = foot_of(device), device.plate
     edge = foot.base_radius if plate is None else min(foot.base_radius, plate.radius)
     return FootHold.of(foot, device.module_mass, edge)
+
+
+def foot_screws(device: Device, module: Module) -> Fastening:
+    """Screws of a module's foot, through their washers too, where they have any.
+
+    One that would come out under the plate is to be cut.
+    """
+    held, plate = counted_foot_screws(device, module), device.plate
+    if foot_hold(device).washers:
+        held = replace(held, thickness=held.thickness + WASHER_HEIGHT)
+    if plate is not None and held.length > held.thickness + plate.thickness + 1e-6:
+        through = 1e3 * (held.thickness + plate.thickness)
+        purpose = f"{held.purpose}; cut to {through:.1f} mm, else they come out under the plate"
+        return replace(held, purpose=purpose)
+    return held
+
+
+def counted_foot_screws(device: Device, module: Module) -> Fastening:
+    """Screws of a module's foot, into its pedestal, the plate or the trunk, as they are weighed.
+
+    Washers, which depend on what the module weighs, are not counted.
+    """
+    if any(each.module == module.name for each in device.pedestals):
+        return device.pedestals[0].seat_screws
+    held = trunk_screws(device.foot_plate)
+    return held if device.plate is None else replace(held, purpose="foot on plate")
 
 
 def unheld_moment(device: Device, margins: Sequence[MarginRecord]) -> float:

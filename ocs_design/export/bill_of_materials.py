@@ -3,18 +3,28 @@
 import csv
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from io import StringIO
 from pathlib import Path
 
 from ocs_design.actuation.fasteners import IN_PLASTIC, STEEL, Fastening
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.device import Device, Flywheel, Web
-from ocs_design.device.joints import foot_hold, joints_of, unheld_moment
+from ocs_design.device.joints import (
+    counted_foot_screws,
+    foot_hold,
+    foot_screws,
+    joints_of,
+    unheld_moment,
+)
 from ocs_design.device.records.device import MarginRecord
 from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.export.assembly_notes import drive_notes
-from ocs_design.export.device_parts import foot_screws, pedestal_kinds, printed_parts, ring_fixture
+from ocs_design.export.device_parts import (
+    pedestal_kinds,
+    printed_parts,
+    ring_fixture,
+)
 from ocs_design.export.electrics import battery, controllers
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.carrier_plate import mast_part, plate_part, sleeve_part
@@ -119,11 +129,17 @@ def bill_rows(device: Device, margins: Sequence[MarginRecord] = ()) -> Sequence[
             rows.append(BillRow("guard ring", count, "mild steel (S235)", size, ring.mass(), made))
         # The screws of wheel and motor only where the catalogue has their threads.
         screwed = (each.fastening for each in mount.screwed)
-        feet = [foot_screws(device, module) for module in device.modules]
-        held = dict.fromkeys((*screwed, LID_SCREWS), count) | {
-            each: feet.count(each) for each in feet
-        }
-        rows += [_screw_row(each, of) for each, of in held.items()]
+        rows += [_screw_row(each, count) for each in (*screwed, LID_SCREWS)]
+        feet = [
+            (foot_screws(device, module), counted_foot_screws(device, module).length)
+            for module in device.modules
+        ]
+        for held, counted in dict.fromkeys(feet):
+            row = _screw_row(held, feet.count((held, counted)))
+            if held.length > counted:
+                remark = f"{row.remark}; weighed as {held.screw.designation(counted)}"
+                row = replace(row, mass=held.screw.mass(counted), remark=remark)
+            rows.append(row)
     return [*rows, *_support_rows(device), *_unweighed_rows(device, margins)]
 
 
@@ -208,10 +224,19 @@ def _unweighed_rows(device: Device, margins: Sequence[MarginRecord]) -> Iterator
         yield BillRow("retaining compound", 1, "", "", 0.0, where)
     if foot_hold(device).washers:
         count, where = len(device.modules) * TRUNK_SCREW_COUNT, "under heads of the feet's screws"
-        mass = count * WASHER_MASS
+        longer = [
+            foot_screws(device, module).mass - counted_foot_screws(device, module).mass
+            for module in device.modules
+        ]
+        mass = count * WASHER_MASS + sum(longer)
         share = f"{1e3 * mass:.1f} g in all, {mass / device.mass:.2%} of the device"
         yield BillRow(
-            f"washer {WASHER}", count, "steel", "", 0.0, f"{where}; not in the mass: {share}"
+            f"washer {WASHER}",
+            count,
+            "steel",
+            "",
+            0.0,
+            f"{where}; not in the mass: {share}, the screws' length for them included",
         )
     if unheld_moment(device, margins):
         where = "through a foot's base into what it stands on; not in the mass"

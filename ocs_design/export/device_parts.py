@@ -8,7 +8,7 @@ from math import copysign, sqrt
 import numpy as np
 
 from ocs_design.actuation.fasteners import Fastening
-from ocs_design.device.device import Device, Flywheel, Module
+from ocs_design.device.device import Device, Flywheel
 from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.parts.bell import fixture_part
 from ocs_design.parts.cage import cage_part
@@ -16,7 +16,6 @@ from ocs_design.parts.carrier_plate import CarrierPlate, mast_part, plate_part
 from ocs_design.parts.foot import foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
 from ocs_design.parts.pedestal import Pedestal, pedestal_part
-from ocs_design.parts.printed import trunk_screws
 from ocs_design.parts.solids import Part
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre, wheel_parts
 
@@ -146,14 +145,6 @@ def pedestal_kinds(device: Device) -> tuple[PedestalKind, ...]:
     if len(kinds) == 1:
         return (PedestalKind("pedestal", device.pedestals),)
     return tuple(PedestalKind(f"pedestal_{kind[0].module}", kind) for kind in kinds.values())
-
-
-def foot_screws(device: Device, module: Module) -> Fastening:
-    """Screws of a module's foot, into its pedestal, the plate or the trunk."""
-    if any(each.module == module.name for each in device.pedestals):
-        return device.pedestals[0].seat_screws
-    held = trunk_screws(device.foot_plate)
-    return held if device.plate is None else replace(held, purpose="foot on plate")
 
 
 def printed_parts(device: Device) -> tuple[Part, ...]:

@@ -10,8 +10,12 @@ from dataclasses import dataclass, replace
 
 from ocs_design.actuation.fasteners import Screw
 from ocs_design.common.units import format_quantity, round_outwards
+from ocs_design.device.joints import foot_screws
 from ocs_design.device.solids import foot_of
-from ocs_design.export.device_parts import foot_holes, trunk_holes
+from ocs_design.export.device_parts import (
+    foot_holes,
+    trunk_holes,
+)
 from ocs_design.export.drawing.sheet import (
     HEIGHT,
     LEADING,
@@ -34,7 +38,7 @@ from ocs_design.export.drawing.sheet import (
 from ocs_design.export.formats import Subject
 from ocs_design.parts.module import part_name
 from ocs_design.parts.outline import flat_outline
-from ocs_design.parts.printed import TRUNK_SCREW, trunk_screws
+from ocs_design.parts.printed import TRUNK_SCREW
 
 MILLIMETRES = 1000.0
 
@@ -144,7 +148,7 @@ def drilling_of(subject: Subject) -> Drilling | None:
     if plate is None:
         holes, thread = _millimetres([*feet, *pedestals]), TRUNK_SCREW
         screws = [each.base_screws for each in device.pedestals]
-        screws += [trunk_screws(device.foot_plate)] if standing else []
+        screws += [foot_screws(device, each) for each in device.modules if each.name in standing]
         reach = [each.length - each.thickness for each in screws]
     else:
         own = trunk_holes(plate)

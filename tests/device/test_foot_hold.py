@@ -79,9 +79,16 @@ def test_torque_of_a_foot_s_screws_is_what_beside_a_slot_bears(mass):
     assert row.torque == ("0.079 N m" if mass == 0.3 else "0.42 N m")
     assert ("washer ISO 7093-1 - 3" in row.purpose) == (mass == 2.0)
     length = int(re.search(r"x (\d+)$", row.designation)[1])
-    base = 1e3 * float(foot_of(assembly.device).base)
-    held = length - base - (0.8 if mass == 2.0 else 0.0)
-    assert row.engagement.startswith(f"{held:.1f} mm")
+    base = 1e3 * float(foot_of(assembly.device).base) + (0.8 if mass == 2.0 else 0.0)
+    # A diameter of thread holds, beyond the washer too, and no more than the plate has.
+    thread = min(length - base, 3.0)
+    assert thread >= 3.0 - 1e-9
+    assert row.engagement.startswith(f"{thread:.1f} mm (1.0 d)")
+    told = f"cut to {base + 3.0:.1f} mm, else they come out under the plate"
+    assert (told in row.purpose) == (length - base > 3.0 + 1e-6)
+    parts = [each.part for each in bill_rows(assembly.device) if "foot on plate" in each.remark]
+    # So light a module leaves nothing for prints and their screws.
+    assert parts == ([f"screw {row.designation}"] if mass == 2.0 else [])
 
 
 @pytest.mark.parametrize("share", [0.9, 1.1])
@@ -135,6 +142,11 @@ def test_what_washers_weigh_beside_the_device_is_in_the_bill():
     device = weighing(2.0, plated=False)
     (row,) = (each for each in bill_rows(device) if each.part == "washer ISO 7093-1 - 3")
     grams = 4 * 0.25 * np.pi * (9.0**2 - 3.2**2) * 0.8 * 7.85e-3
+    # Screws of M3 go in steps of 2 mm: they are longer by one, and weighed without it.
+    (screws,) = (each for each in bill_rows(device) if each.remark.startswith("foot on trunk"))
+    assert screws.remark.endswith("weighed as ISO 4762 M3 x 6")
+    assert (screws.part, screws.mass) == ("screw ISO 4762 M3 x 8", screw("M3").mass(0.006))
+    grams += 4e3 * (screw("M3").mass(0.008) - screw("M3").mass(0.006))
     told = f"not in the mass: {grams:.1f} g in all, {1e-3 * grams / device.mass:.2%} of the device"
     assert row.mass == 0.0
-    assert row.remark.endswith(told)
+    assert told in row.remark

@@ -21,7 +21,7 @@ from ocs_design.parts.foot import FootHold
 from ocs_design.parts.guard import Containment
 from ocs_design.parts.joints import preload as joint_preload
 from ocs_design.parts.joints import tightening_torque
-from ocs_design.parts.printed import PETG, PRESSURE_SHARE, WASHER, WASHER_HEIGHT
+from ocs_design.parts.printed import PETG, PRESSURE_SHARE, WASHER
 
 STRIP_SHARE = 1.0 / 3.0
 """Preload of a screw in a print over the one that strips its thread: prints shear along layers, and
@@ -66,18 +66,19 @@ def tightened(
     on_metal: bool,
     head_on_print: bool = True,
     on_slot: FootHold | None = None,
+    deepest: float = math.inf,
 ) -> Tightened:
     """Torque of screws, those of the wheel, metal on metal, as their joint is computed.
 
     Others, of class 8.8, with the least of: 90 % of the screw's yield strength (VDI 2230); half of
     the force that shears off a thread in aluminium, or a third of it in a print, on half of the
     thread's cylinder; under a head on a print, half the print's yield strength as pressure, and on
-    a foot's slots what `on_slot` says. A print's shear strength is its tensile one over sqrt(3).
+    a foot's slots what `on_slot` says, the fastening going through its washers too. A print's shear
+    strength is its tensile one over sqrt(3). No thread is deeper than `deepest` [m].
     """
-    screw, engagement = fastening.screw, fastening.length - fastening.thickness
+    screw = fastening.screw
+    engagement = min(fastening.length - fastening.thickness, deepest)
     washers = on_slot is not None and on_slot.washers
-    if washers:
-        engagement -= WASHER_HEIGHT
     sheared = pi * screw.diameter * engagement / 2.0
     if on_metal:
         strength = fastening.strength
@@ -148,6 +149,9 @@ class Assembly:
                 on_metal=piece.name in on_wheel,
                 head_on_print=not piece.shared,
                 on_slot=foot_hold(self.device) if piece.name.startswith("foot on") else None,
+                deepest=self.device.plate.thickness
+                if self.device.plate is not None and piece.name.startswith("foot on plate")
+                else math.inf,
             )
             for piece in self.pieces
             if piece.fastening is not None

@@ -15,10 +15,10 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import Placement
 from ocs_design.device.bodies import carrier_placement, wheel_placement
 from ocs_design.device.device import Device
+from ocs_design.device.joints import foot_screws
 from ocs_design.device.solids import drive_solids, foot_of, motor_mount, shaft_cut
 from ocs_design.export.device_parts import (
     foot_holes,
-    foot_screws,
     pedestal_kinds,
     printed_parts,
     ring_fixture,
@@ -239,7 +239,7 @@ def _foot_screws(device: Device) -> Iterator[Piece]:
             off = foot.slot_radius * sin(pi / 4.0)
             places, place = [(off, off), (-off, -off)], foot.placement
             under = 0.0
-        heads = [_screw(held).moved(np.array([x, y, under + float(foot.base)])) for x, y in places]
+        heads = [_screw(held).moved(np.array([x, y, under + held.thickness])) for x, y in places]
         screws = merged(heads).placed(place)
         apart = -_APART * foot.housing.radius
         yield Piece(held.purpose, screws, held, drop=apart, modules=feet.count(held))
