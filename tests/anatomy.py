@@ -4,9 +4,9 @@ from functools import cache
 
 from robots import ROBOTS
 
-from ocs_design.robot.legs import find_legs
 from ocs_design.robot.reader import load
-from ocs_design.robot.robot import Leg
+from ocs_design.robot.recognition import recognise
+from ocs_design.robot.robot import Leg, Reading
 from ocs_design.robot.stance import Stand, stand
 from ocs_design.robot.tree import Tree
 
@@ -92,9 +92,14 @@ def tree_of(name: str) -> Tree:
 
 
 @cache
+def reading_of(name: str) -> Reading:
+    """Its trunk and legs, found once in each process."""
+    return recognise(tree_of(name)).reading
+
+
 def legs_of(name: str) -> tuple[Leg, ...]:
-    """Its legs, found once in each process."""
-    return find_legs(tree_of(name))
+    """Its legs."""
+    return reading_of(name).legs
 
 
 @cache

@@ -1,14 +1,13 @@
-"""Legs of any legged robot, their feet, the plane in which each bends, and the trunk."""
+"""Legs of any legged robot: their feet, the plane in which each bends, and links of bodies."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.common.frames import Placement
-from ocs_design.robot.chain import Chain, chain_of, neutral_posture
-from ocs_design.robot.mass import MassProperties, combine
+from ocs_design.robot.chain import Chain, chain_of
 from ocs_design.robot.meshes import extent, extent_of, solid_shapes
 from ocs_design.robot.robot import Leg
 from ocs_design.robot.tree import Body, JointKind, ShapeKind, Tree
@@ -194,61 +193,6 @@ def leg_plane(chain: Chain, foot: FloatArray, up: FloatArray) -> LegPlane:
     return LegPlane(pitch, axis, hip, forward, columns, flat, length)
 
 
-_SHARE_BELOW_TRUNK = 0.6
-_SHARE_AT_REST = 0.2
-_LARGEST_HEIGHT = 3.0
-_LARGEST_DEVIATION = 0.2
-_TWINS = 0.01
-
-
-@dataclass(frozen=True, eq=False)
-class _Limb:
-    """A limb for some direction as up. Its tip is the farthest point known by its frames.
-
-    Attributes:
-        last: index of its last body.
-        depth: of the stretched limb's tip below the root's origin [m].
-        reach: of the stretched limb's tip below the limb's first joint [m].
-        at_rest: of the tip below the first joint with all joints at zero [m].
-    """
-
-    last: int
-    depth: float
-    reach: float
-    at_rest: float
-
-
-def find_legs(tree: Tree) -> tuple[Leg, ...]:
-    """The legs of a robot, in file order; empty if it has none.
-
-    A limb is the chain from a child of some body to the farthest end below it. Legs are two or
-    more limbs that
-
-    * branch from the same body (the trunk) and have the same number of joints, two or more,
-      a wheel at the end not counted;
-    * hang: with all joints at zero their tip is below their first joint, by 20 % of their reach;
-    * can lift the robot off the ground: stretched downwards within their limits they reach below
-      the centre of mass of the robot, of the trunk, and of each body that carries the trunk, by
-      60 % of their reach, and the robot's is not higher above their tips than thrice their reach;
-    * reach equally deep, to 20 %;
-    * are all of their kind: no other limb of the same trunk has as many joints and the same length.
-      With a wrong direction for up, two legs of a quadruped may hang by chance.
-
-    If several sets qualify, the one that reaches deepest wins: a humanoid's arms lose to its legs.
-    Arms on a torso or a wheeled base, fingers on a palm and the one arm below a drone fail one of
-    the conditions, and so does a hopper: one leg cannot be told from one arm. No shapes are looked
-    at, for they may be missing or mere placeholders. Up is the root frame's z axis; if nothing
-    stands along it, y and then x are tried, for files of other conventions.
-    """
-    placements = tree.placements(neutral_posture(tree))
-    masses = tree.weighed_at(placements)
-    for up in np.eye(3)[[2, 1, 0]]:
-        legs = _legs_along(tree, placements, masses, up)
-        if legs:
-            return legs
-    return ()
-
-
 def leg_of(
     tree: Tree, base: int, last: int, up: FloatArray, placements: Sequence[Placement]
 ) -> Leg:
@@ -275,95 +219,6 @@ def leg_of(
     )
 
 
-def _legs_along(
-    tree: Tree, placements: Sequence[Placement], masses: Sequence[MassProperties], up: FloatArray
-) -> tuple[Leg, ...]:
-    best: list[_Limb] = []
-    base = 0
-    robot = combine(masses)
-    for trunk, ends in _alike(tree):
-        hanging, lengths = [], {}
-        for last in ends:
-            chain = chain_of(tree, trunk, last, placements)
-            tip, rest = farthest_frame(chain.bodies[-1]), chain.pose(chain.neutral())
-            lengths[last] = chain.span(tip)
-            hip = float(up @ rest.origins[0])
-            at_rest = hip - float(up @ rest.point(tip))
-            # Most arms and fingers do not hang at all.
-            if at_rest > 0.0:
-                lowest = float(up @ chain.pose(chain.stretched(tip, -up)).point(tip))
-                hanging.append(_Limb(last, -lowest, hip - lowest, at_rest))
-        carriers = [masses[i] for i in tree.ancestors(trunk) if masses[i].mass > 0.0]
-        # They hang low, can lift the robot off the ground, and do so to the same height.
-        low = [
-            limb
-            for limb in hanging
-            if limb.at_rest > _SHARE_AT_REST * limb.reach
-            and limb.depth + up @ robot.com < _LARGEST_HEIGHT * limb.reach
-            and all(
-                limb.depth + up @ each.com > _SHARE_BELOW_TRUNK * limb.reach
-                for each in (robot, *carriers)
-            )
-        ]
-        legs = [leg for leg in low if _depth(low) - leg.depth < _LARGEST_DEVIATION * leg.reach]
-        chosen = {leg.last for leg in legs}
-        twins = any(
-            abs(lengths[one] - lengths[other]) < _TWINS * lengths[one]
-            for one in chosen
-            for other in lengths.keys() - chosen
-        )
-        if twins:
-            continue
-        if len(legs) >= 2 and (not best or _depth(legs) > _depth(best)):
-            best, base = legs, trunk
-    found = [leg_of(tree, base, limb.last, up, placements) for limb in best]
-    if found:
-        along = _lying(tree, found, up, placements)
-        found = [leg_of(tree, base, limb.last, along, placements) for limb in best]
-    # Slides alone, as of a gantry, do not make a leg: nothing bends between hip and foot.
-    return tuple(found) if all(leg.length > 0.0 for leg in found) else ()
-
-
-_LONGER = 1.2
-"""How much longer legs must be along another axis for that to be up."""
-
-
-def _lying(
-    tree: Tree, legs: Sequence[Leg], up: FloatArray, placements: Sequence[Placement]
-) -> FloatArray:
-    """Up of a robot that lies at zero: the axis that its legs lie along and are longest along.
-
-    It is `up` itself for a robot that stands at zero, or crouches.
-    """
-    lie = np.zeros(3)
-    for leg in legs:
-        rest = chain_of(tree, leg.base, leg.body, placements)
-        pose = rest.pose(rest.neutral())
-        lie += pose.origins[0] - pose.point(leg.foot)
-    axis = int(np.argmax(np.abs(lie)))
-    along = np.asarray(np.eye(3)[axis] * np.sign(lie[axis]))
-    if along @ up > 0.5:
-        return up
-    longer = [leg_of(tree, leg.base, leg.body, along, placements).length for leg in legs]
-    return along if min(longer) > _LONGER * max(leg.length for leg in legs) else up
-
-
-def _alike(tree: Tree) -> Iterator[tuple[int, list[int]]]:
-    """Trunks, each with the last bodies of limbs of the same number of joints."""
-    ends, driven = far_ends(tree), [0]
-    for body in tree.bodies[1:]:
-        moves = body.joint is not None and body.joint.mimic is None
-        driven.append(driven[body.parent] + moves)
-    sets: dict[tuple[int, int], list[int]] = {}
-    for first, body in enumerate(tree.bodies[1:], start=1):
-        last = ends[first]
-        hinges = driven[last] - driven[body.parent] - is_wheel(tree.bodies[last])
-        sets.setdefault((body.parent, hinges), []).append(last)
-    for (trunk, hinges), limbs in sets.items():
-        if hinges >= 2 and len(limbs) >= 2:
-            yield trunk, limbs
-
-
 def far_ends(tree: Tree) -> list[int]:
     """Index of the descendant at the end of the longest path below each body, or of itself."""
     ends = list(range(len(tree.bodies)))
@@ -375,21 +230,6 @@ def far_ends(tree: Tree) -> list[int]:
         if length >= lengths[body.parent]:
             lengths[body.parent], ends[body.parent] = length, ends[index]
     return ends
-
-
-def _depth(limbs: Sequence[_Limb]) -> float:
-    return max(limb.depth for limb in limbs)
-
-
-def find_trunk(tree: Tree, legs: Sequence[Leg]) -> str:
-    """The link whose frame is the base frame B: where the legs branch, else the heaviest body's.
-
-    For a humanoid that is the pelvis: the device belongs where the legs' reaction arrives, and the
-    chest turns against it.
-    """
-    if legs:
-        return frame_link(tree.bodies[legs[0].base])
-    return frame_link(max(tree.bodies, key=lambda body: body.mass_properties.mass))
 
 
 def frame_link(body: Body) -> str:

@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
+from math import inf
 
 import numpy as np
 
@@ -43,6 +44,11 @@ class Limb:
     depth: float
     reach: float
 
+    @property
+    def length(self) -> float:
+        """Way from the first joint over all others to the farthest frame of the last body [m]."""
+        return self.chain.span(farthest_frame(self.chain.bodies[-1]))
+
 
 _REACHES_BELOW = 0.6
 """Least depth of a leg's tip below the centre of mass, over its reach."""
@@ -56,6 +62,10 @@ _COAXIAL = 0.05
 """Largest distance between the axes of limbs that share a hip, over the spread of all hips."""
 _PARALLEL = 0.97
 """Least product of axes that count as parallel (14 degrees)."""
+_HANGS = 0.2
+"""Least height of a hip over the tip of a limb that hangs at rest, over its reach."""
+_TWINS = 0.01
+"""Largest difference of length of limbs that are alike, over their length."""
 _MEET = 1e-3
 """Distance within which the ends of two limbs are one point, over the reach."""
 _ONE_HIP = 0.3
@@ -280,6 +290,30 @@ class Anatomy:
             if level and min(hips) - max(tips) > 0.2 * reach:
                 return True
         return False
+
+    def hanging(self, up: FloatArray) -> list[Limb]:
+        """Limbs that plainly hang: alike, equally deep, below their hips at rest; else none.
+
+        With a wrong direction for up two legs of a quadruped may hang by chance: the other two,
+        as long, then do not.
+        """
+        kinds: dict[tuple[int, int], list[Limb]] = {}
+        for limb in self.limbs(up):
+            if limb.hinges >= 2 and up @ (limb.hip - limb.tip) > _HANGS * limb.reach:
+                kinds.setdefault((limb.base, limb.hinges), []).append(limb)
+        best: list[Limb] = []
+        for kind, limbs in kinds.items():
+            deepest = max(limb.depth for limb in limbs)
+            even = [limb for limb in limbs if deepest - limb.depth < EVEN * limb.reach]
+            twins = any(
+                abs(one.length - other.length) < _TWINS * one.length
+                for other in self._all_limbs(up)
+                if (other.base, other.hinges) == kind and other not in even
+                for one in even
+            )
+            if len(even) > 1 and not twins and deepest > max((x.depth for x in best), default=-inf):
+                best = even
+        return best
 
     def balanced(self, chosen: Sequence[Limb], up: FloatArray, reach: float) -> bool:
         """Whether the robot's centre of mass is over the hips' polygon, line or point, nearly."""

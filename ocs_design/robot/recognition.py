@@ -13,7 +13,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import RobotError
-from ocs_design.robot.legs import find_legs, find_trunk, frame_link, leg_of
+from ocs_design.robot.legs import frame_link, leg_of
 from ocs_design.robot.limbs import EVEN, Anatomy, Limb, bodies_of, reach_alike, sets_of
 from ocs_design.robot.links import listed
 from ocs_design.robot.robot import (
@@ -70,7 +70,7 @@ def recognise(
         first = next((each.legs for each in (unaided.reading, *unaided.likely) if each.legs), ())
         found = unaided.reading.legs if legs else ()
         if not legs:
-            named = Reading(trunk or find_trunk(tree, ()), (), _STATED)
+            named = Reading(trunk or anatomy.heaviest, (), _STATED)
         elif {leg.name for leg in found} == set(legs):
             named = anatomy.stated(trunk, found)
         else:
@@ -82,8 +82,7 @@ def recognise(
             Reading(frame_link(tree.bodies[i]), named.legs, _STATED, _SPINE) for i in heaviest
         )
         return Recognition(named, spine if len(spine) > 1 else (), _stated(trunk, legs))
-    usual = find_legs(tree)
-    readings = anatomy.readings(usual)
+    readings = anatomy.readings()
     if trunk is not None:
         # With the trunk named, what spoke against it is answered.
         body = tree.body_of_link[trunk]
@@ -94,7 +93,7 @@ def recognise(
         _speaks(each, NAMES) is False for each in likely
     )
     none = anatomy.without_legs(trunk, likely=not arms)
-    best = _best(readings, usual) if readings else none
+    best = _best(readings) if readings else none
     if best.confidence >= SURE and best.legs:
         return Recognition(best, (), _stated(trunk, None))
     if none.confidence >= SURE and arms:
@@ -150,23 +149,23 @@ def _stated(trunk: str | None, legs: Sequence[str] | None) -> frozenset[str]:
     return frozenset(what for what, given in named if given)
 
 
-def _best(readings: Sequence[Reading], usual: Sequence[Leg]) -> Reading:
-    """The reading that explains most legs among those that are likely, else the most confident."""
+def _best(readings: Sequence[Reading]) -> Reading:
+    """The surest reading, or one that is as sure as needed and explains more legs."""
     best = max(readings, key=lambda each: each.confidence)
-    base = next((each for each in readings if usual and each.legs == tuple(usual)), best)
-    bodies = {leg.body for leg in base.legs}
+    bodies = {leg.body for leg in best.legs}
     larger = [
         each
         for each in readings
         if bodies < {leg.body for leg in each.legs}
-        and each.confidence >= min(base.confidence, SURE)
+        and each.confidence >= min(best.confidence, SURE)
     ]
-    if larger:
-        return max(larger, key=lambda each: (each.confidence, len(each.legs)))
-    return base if base.confidence >= SURE else best
+    return max(larger or [best], key=lambda each: (each.confidence, len(each.legs)))
 
 
 _UPS = np.eye(3)[[2, 1, 0]]
+
+_LONGER = 1.2
+"""How much longer legs must be along another axis for that to be up."""
 
 _LIGHT_TRUNK = 0.2
 """Share of the mass that the legs carry, below which they seem to be most of the robot."""
@@ -175,18 +174,27 @@ _LIGHT_TRUNK = 0.2
 class _Readings(Anatomy):
     """Ways to read a tree."""
 
+    @property
+    def heaviest(self) -> str:
+        """Link of the heaviest body."""
+        return frame_link(max(self.tree.bodies, key=lambda body: body.mass_properties.mass))
+
     def up_of(self, legs: Sequence[Leg]) -> FloatArray | None:
         """Up of legs in the root's frame, shape (3,); None if there are none."""
         if not legs:
             return None
         return np.round(self.placements[legs[0].base].rotation @ legs[0].up, 9)
 
-    def readings(self, usual: Sequence[Leg]) -> list[Reading]:
-        """Every reading with legs, the usual one among them, each set of feet once."""
+    def readings(self) -> list[Reading]:
+        """Every reading with legs, each set of feet once."""
         found: dict[frozenset[int], Reading] = {}
-        known = self.up_of(usual)
-        ups = _UPS if known is None else known[None]
-        for up in ups:
+        # Files of other conventions are rare: only where nothing hangs along z.
+        hanging = ((up, limbs) for up in _UPS if (limbs := self.hanging(up)))
+        upright, known = next(hanging, (_UPS[0], []))
+        if known:
+            upright = self._upright(known, upright)
+            known = [self.limb(limb.base, limb.last, upright) for limb in known]
+        for up in upright[None] if known else _UPS:
             limbs = self.limbs(up)
             sets = [each for each in sets_of(limbs) if self.may_stand(each, up)]
             # Legs that are not alike, such as a prosthesis, are told by their names alone.
@@ -197,6 +205,7 @@ class _Readings(Anatomy):
                 unlike = [limb for limb in called if limb.base == base]
                 if unlike not in sets:
                     sets.append(unlike)
+            sets += [known] if known else []
             sets = [self.one_of_each_pair(each, up) for each in sets]
             for chosen in (*sets, *self.spines(sets, up), *self.single(limbs, up)):
                 feet = frozenset(limb.last for limb in chosen)
@@ -210,16 +219,10 @@ class _Readings(Anatomy):
                 signs, doubts = self._signs(chosen, sets, up)
                 reading = Reading(frame_link(self.tree.bodies[trunk]), legs, signs, doubts)
                 # With a wrong direction for up some limbs hang by chance.
-                if up[2] == 1.0 or usual or _speaks(reading, NAMES):
+                if up[2] == 1.0 or known or _speaks(reading, NAMES):
                     found[feet] = reading
-            # Files of other conventions are rare: only where nothing stands along z.
             if any(each.confidence >= _LIKELY for each in found.values()):
                 break
-        if usual:
-            chosen = [self.limb(leg.base, leg.body, ups[0]) for leg in usual]
-            signs, doubts = self._signs(chosen, sets, ups[0])
-            feet = frozenset(leg.body for leg in usual)
-            found[feet] = Reading(find_trunk(self.tree, usual), tuple(usual), signs, doubts)
         readings = list(found.values())
         # Of robots with a spine, the other ends of it as trunk.
         for each in found.values():
@@ -232,6 +235,23 @@ class _Readings(Anatomy):
                     readings.append(Reading(name, each.legs, each.signs, doubts))
         return readings
 
+    def _upright(self, limbs: Sequence[Limb], up: FloatArray) -> FloatArray:
+        """Up of a robot that lies at zero: the axis that its legs lie along and are longest along.
+
+        It is `up` itself for a robot that stands at zero, or crouches.
+        """
+
+        def lengths(axis: FloatArray) -> list[float]:
+            """Length of each as a leg [m]."""
+            legs = (leg_of(self.tree, x.base, x.last, axis, self.placements) for x in limbs)
+            return [leg.length for leg in legs]
+
+        lie = np.sum([limb.hip - limb.tip for limb in limbs], axis=0)
+        axis = int(np.argmax(np.abs(lie)))
+        along = np.asarray(np.eye(3)[axis] * np.sign(lie[axis]))
+        lies = along @ up < 0.5 and min(lengths(along)) > _LONGER * max(lengths(up))
+        return along if lies else up
+
     def without_legs(self, trunk: str | None, *, likely: bool, body: str | None = None) -> Reading:
         """The reading of a robot without legs.
 
@@ -240,7 +260,7 @@ class _Readings(Anatomy):
             likely: whether some limbs look like legs.
             body: that is taken for the trunk; None: the heaviest.
         """
-        name = trunk or body or find_trunk(self.tree, ())
+        name = trunk or body or self.heaviest
         index = self.tree.body_of_link[name]
         share = self.masses[index].mass / max(self.robot.mass, 1e-300)
         signs = (

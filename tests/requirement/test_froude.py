@@ -19,8 +19,8 @@ from ocs_design.requirement.froude import (
     example_turns,
     standing_height,
 )
-from ocs_design.robot.legs import find_legs, find_trunk
 from ocs_design.robot.reader import load
+from ocs_design.robot.recognition import recognise
 from ocs_design.robot.stance import stand
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "solo12.urdf"
@@ -116,8 +116,8 @@ def maneuvers_of(scale: Scale, gravity: float = 9.81):
 def standing(path):
     """Height and mass properties of a robot file at its standing posture."""
     tree = load(path).tree
-    legs = find_legs(tree)
-    trunk = find_trunk(tree, legs)
+    reading = recognise(tree).reading
+    trunk, legs = reading.trunk, reading.legs
     found = stand(tree, trunk, legs)
     return found.standing_height, tree.locked_mass_properties(found.posture, trunk)
 

@@ -13,9 +13,9 @@ from urdf_text import robot as urdf_of
 
 from ocs_design.common.frames import Placement, rotation_about
 from ocs_design.robot.leg_geometry import BASE_FRAME, named_front, with_base_frame
-from ocs_design.robot.legs import find_legs
 from ocs_design.robot.posture import resolve_posture
 from ocs_design.robot.reader import read_robot
+from ocs_design.robot.recognition import recognise
 from ocs_design.robot.tree import Body, Tree
 
 RIGHT = np.pi / 2.0
@@ -54,7 +54,7 @@ def turned(tree: Tree, rotation) -> Tree:
 def test_inertia_does_not_depend_on_the_trunks_frame(name):
     robot = read_robot(SOLO12)
     tree = turned(robot.tree, TURNS[name])
-    legs = find_legs(tree)
+    legs = recognise(tree).reading.legs
     tree, mount, told = with_base_frame(tree, "base_link", legs)
     assert mount is not None
     assert len(told) == 1

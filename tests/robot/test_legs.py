@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
-from anatomy import ANATOMY, LEGGED, legs_of, tree_of
+from anatomy import ANATOMY, LEGGED, legs_of, reading_of, tree_of
 from pinocchio_robots import free_model
 from robots import ALL_URDFS, ROBOTS
 from urdf_text import inertial, joint, link, robot
 
-from ocs_design.robot.legs import find_legs, find_trunk
 from ocs_design.robot.reader import read_robot
+from ocs_design.robot.recognition import recognise
+from ocs_design.robot.robot import Recognition
 from ocs_design.robot.urdf import read_urdf
 
 LIMIT = '<limit lower="-2" upper="2" effort="3" velocity="4"/>'
@@ -25,7 +26,7 @@ def test_anatomy_covers_every_robot_that_can_be_read():
 def test_trunk_and_legs_are_found_and_nothing_else(name):
     trunk, count = ANATOMY[name]
     legs = legs_of(name)
-    assert find_trunk(tree_of(name), legs) == trunk
+    assert reading_of(name).trunk == trunk
     assert len({leg.name for leg in legs}) == len(legs) == count
 
 
@@ -33,7 +34,7 @@ def test_trunk_and_legs_are_found_and_nothing_else(name):
 def test_base_frame_is_the_frame_of_the_free_flyer(name):
     tree = tree_of(name)
     root = tree.bodies[0]
-    assert find_trunk(tree, legs_of(name)) == root.name
+    assert reading_of(name).trunk == root.name
     assert (root.links[root.name].position == 0.0).all()
 
 
@@ -118,11 +119,13 @@ def hinge(name: str, parent: str, child: str, xyz: str) -> str:
     return joint(name, parent, child, axis, LIMIT)
 
 
-def feet_of(*elements: str) -> list[str]:
+def recognised(*elements: str) -> Recognition:
     trunk = link("trunk", inertial(5.0))
-    return [
-        leg.name for leg in find_legs(read_urdf(robot(trunk, *elements), find_mesh=lambda _: None))
-    ]
+    return recognise(read_urdf(robot(trunk, *elements), find_mesh=lambda _: None))
+
+
+def feet_of(*elements: str) -> list[str]:
+    return [leg.name for leg in recognised(*elements).reading.legs]
 
 
 def test_three_legs_in_file_order():
@@ -134,18 +137,14 @@ def test_three_legs_in_file_order():
     assert feet_of(*limbs) == ["c_foot", "a_foot", "b_foot"]
 
 
-def test_one_leg_cannot_be_told_from_an_arm():
-    assert feet_of(*limb("a", "0 0 0", 0.2)) == []
-
-
 def test_a_short_limb_beside_the_legs_is_none():
     limbs = [*limb("a", "0 0.1 0", 0.2), *limb("b", "0 -0.1 0", 0.2), *limb("c", "0.1 0 0", 0.02)]
     assert feet_of(*limbs) == ["a_foot", "b_foot"]
 
 
-def test_limbs_high_above_the_centre_of_mass_are_no_legs():
+def test_limbs_high_above_the_centre_of_mass_are_asked_about():
     limbs = [*limb("a", "0 0.1 1", 0.2), *limb("b", "0 -0.1 1", 0.2)]
-    assert feet_of(*limbs) == []
+    assert not recognised(*limbs).sure
 
 
 def test_slides_alone_are_no_legs():
