@@ -18,12 +18,13 @@ from ocs_design.common.errors import OcsError
 from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device
 from ocs_design.device.records.design import OcsDesign
+from ocs_design.device.solids import foot_of
 from ocs_design.parts.module import standing
 from ocs_design.parts.rim import WebHoles, hub_of, stored_energy, wheel_body
 from ocs_design.parts.solids import Carrier
 from ocs_design.robot.mass import MassProperties, combine
 
-ROUNDING = 1e-6
+ROUNDING = 1e-8
 """Difference that is none, over the largest of the figures compared; files have full precision."""
 
 _LEAST = {"m": 1e-2}
@@ -85,9 +86,12 @@ def check_agreement(design: OcsDesign, device: Device) -> None:
     Raises:
         OcsError: with the first contradictions, each with its key.
     """
-    # Dimensions that no device has may lead to no number.
-    with np.errstate(all="ignore"):
-        faults = [str(each) for each in _figures(design, device) if not each.agrees]
+    faults: list[str] = []
+    try:
+        with np.errstate(all="ignore"):
+            faults.extend(str(each) for each in _figures(design, device) if not each.agrees)
+    except (ArithmeticError, ValueError):
+        faults.append("with these dimensions the rest cannot be computed")
     if faults:
         rest = len(faults) - _NAMED
         more = f"; and {rest} more" if rest > 0 else ""
@@ -214,6 +218,12 @@ def _of_carrier(device: Device) -> Iterator[_Figure]:
     )
     parts = "motor, gear, housing and foot make it"
     yield _Figure("ocs.carrier.mass", stated.mass, found.mass, "kg", parts)
+    foot = foot_of(device)
+    for pedestal in device.pedestals:
+        sizes = pedestal.base_radius, pedestal.slot_radius, pedestal.wheel_height
+        own = foot.base_radius, foot.slot_radius, foot.wheel_height
+        key = f"base_radius, slot_radius and wheel_height of ocs.pedestals {pedestal.module}"
+        yield _Figure(key, sizes, own, "m", "the foot on it makes it")
     places = (stated.along, stated.up), (found.along, found.up)
     yield _Figure("ocs.carrier.along and up", *places, "m", parts)
     yield _Figure("the inertia of ocs.carrier", stated.inertia, found.inertia, "kg m^2", parts)

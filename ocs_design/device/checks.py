@@ -12,7 +12,7 @@ import numpy as np
 from ocs_design.actuation.fasteners import CLASSES, SCREW_NAMES
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError, SpecificationError
-from ocs_design.device.device import Device
+from ocs_design.device.device import Device, Flywheel
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.rim import LIGHTENED
 from ocs_design.robot.mass import MassProperties
@@ -33,14 +33,22 @@ _OR_NONE = (
 _OF_GEARS = ("gear_room.depth", "offset", "wheel_radius", "motor_radius", "center")
 """Lengths [m] that are zero where there is no such thing."""
 
-_LENGTHS = {"outer_radius", "height", "thickness", "radius", "diameter", "half_length"}
+_LENGTHS = {
+    "outer_radius",
+    "height",
+    "thickness",
+    "radius",
+    "diameter",
+    "half_length",
+    "sleeve_wall",
+}
 _POSITIVE = {
     *("density", "mass", "spin_inertia", "gear_efficiency", "no_load_speed", "speed_max"),
     *("stall_torque", "torque_limit", "saturation_torque", "torque_constant", "resistance"),
-    *("bus_voltage", "rated_voltage"),
+    *("bus_voltage", "rated_voltage", "gear_ratio"),
 }
 _ANY_SIGN = {
-    *("rotor_inertia", "gear_ratio", "stress_margin", "armature"),
+    *("rotor_inertia", "stress_margin", "armature"),
     *("along", "up", "product_of_inertia"),
 }
 _MAY_BE_ZERO = {"motor.mass", "carrier.mass"}
@@ -86,16 +94,22 @@ def check_device(device: Device) -> None:
             faults.append(f"the axis of module {module.name} is no unit vector")
         if not (np.abs(module.position) <= LARGEST_LENGTH).all():
             faults.append(f"the position of module {module.name} is beyond all measure")
-    wheel = device.flywheel
-    if wheel.inner_radius >= wheel.outer_radius:
-        faults.append("flywheel.inner_radius is not below outer_radius")
-    if wheel.web is not None and wheel.web.mass >= wheel.mass:
-        faults.append("flywheel.web.mass is not below the wheel's mass")
+    faults += _wheel_faults(device.flywheel)
     if faults:
         raise OcsError(
             f"the design's device cannot be: {'; '.join(faults)}",
             hint="run `ocs-design size` again to write the design anew",
         )
+
+
+def _wheel_faults(wheel: Flywheel) -> Iterator[str]:
+    """Faults of a wheel beyond single figures: what is not within what is around it."""
+    if wheel.inner_radius >= wheel.outer_radius:
+        yield "flywheel.inner_radius is not below outer_radius"
+    if wheel.web is not None and wheel.web.hub.radius >= wheel.inner_radius:
+        yield "flywheel.web.hub.radius is not below inner_radius"
+    if wheel.web is not None and wheel.web.mass >= wheel.mass:
+        yield "flywheel.web.mass is not below the wheel's mass"
 
 
 def _supply_faults(supply: Supply) -> Iterator[str]:

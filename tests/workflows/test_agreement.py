@@ -86,6 +86,8 @@ def edited(folder, key, value, kind="disc"):
         ("ocs.motor.bus_voltage", 48.0, r"ocs\.motor\.bus_voltage is 48 V"),
         ("ocs.motor.mounting.shaft_diameter", 0.008, r"ocs\.flywheel\.web\.hub\.radius is"),
         ("ocs.motor.mounting.stator.thread", "M99", r"mounting\.stator\.thread is 'M99'.*M3"),
+        ("ocs.flywheel.web.hub.radius", 4.0, r"flywheel\.web\.hub\.radius is not below"),
+        ("ocs.motor.gear_ratio", 0.0, r"motor\.gear_ratio is 0"),
         ("ocs.foot_plate", 1e-4, r"ocs\.carrier\.mass is"),
         ("ocs.modules.0.position.2", 0.02, r"ocs\.center_of_mass is .* ocs\.modules"),
         ("ocs.incidence", 0.2, r"axis of module left is .* ocs\.incidence makes it"),
