@@ -25,7 +25,7 @@ from ocs_design.export.device_parts import (
     printed_parts,
     ring_fixture,
 )
-from ocs_design.export.electrics import battery, controllers
+from ocs_design.export.electrics import battery, controllers, wiring_parts
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.carrier_plate import mast_part, plate_part, sleeve_part
 from ocs_design.parts.housing import LID_SCREWS, guard_ring
@@ -207,6 +207,10 @@ def _unweighed_rows(device: Device, margins: Sequence[MarginRecord]) -> Iterator
         yield BillRow("battery", 1, "", "", 0.0, f"{gives}; {left_out}")
         braking = "switches on above the full battery, below the controllers' limit"
         yield BillRow("brake resistor with switch", 1, "", "", 0.0, f"{braking}; {left_out}")
+    yield from (
+        BillRow(part, count, "", "", 0.0, f"{remark}; {left_out}")
+        for part, count, remark in wiring_parts(device, margins)
+    )
     # Wheels alone are not put together.
     if device.wheels_alone:
         return

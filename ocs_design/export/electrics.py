@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 
 from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import TorqueConstantConvention, six_step_current
-from ocs_design.common.units import significant
+from ocs_design.common.units import rpm, significant
 from ocs_design.device.device import Device
 from ocs_design.device.records.device import MarginRecord
 
@@ -54,6 +54,34 @@ def battery(motor: Drive, margins: Sequence[MarginRecord]) -> str:
     ]
     most = f"; a maneuver takes at most {' and '.join(energies)}" if energies else ""
     return f"{' and '.join(parts)}{at}{most}" if parts else ""
+
+
+def wiring_parts(device: Device, margins: Sequence[MarginRecord]) -> Iterator[tuple[str, int, str]]:
+    """Parts between battery and motors that are bought: name, how many, what they must stand."""
+    motor, count = device.motor, len(device.modules)
+    current, voltage = motor_current(motor), motor.bus_voltage
+    if voltage is None:
+        return
+    bus = [
+        asked
+        for way in ("", ", drawn", ", fed back")
+        if (asked := demand_of(margins, f"bus current{way}")) is not None
+    ]
+    rated = f"{_up(VOLTAGE_RESERVE * voltage)} V direct voltage or more"
+    flows = f"{_up(max(bus))} A, as long as a maneuver takes, and {rated}" if bus else rated
+    yield (
+        "sensor of the rotor's angle",
+        count,
+        "encoder at the motor's back with its magnet, or Hall sensors, that the controller reads; "
+        f"none where the motor has one. It reads up to {rpm(motor.top_speed * motor.gear_ratio)}"
+        if math.isfinite(motor.top_speed)
+        else "encoder at the motor's back with its magnet, or Hall sensors",
+    )
+    yield "fuse with holder", 1, f"between battery and switch; carries {flows}"
+    yield "switch", 1, f"cuts the supply within reach; carries and breaks {flows}"
+    yield "cables of the bus, two wires", 1, f"battery to controllers, short; {flows}"
+    least = "" if current is None else f"; each wire {_up(current)} A at the torque limit"
+    yield "cables of a motor, three wires", count, f"controller to motor{least}; and the sensor's"
 
 
 def wiring(device: Device, margins: Sequence[MarginRecord]) -> Iterator[str]:

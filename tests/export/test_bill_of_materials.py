@@ -32,7 +32,7 @@ def rows_of(text):
 
 def test_all_parts_together_weigh_what_the_device_weighs():
     device = whole_device()
-    assert [row.part.split()[0] for row in bill_rows(device)] == [
+    assert [row.part.split()[0] for row in bill_rows(device) if row.mass] == [
         "flywheel",
         "motor",
         "gear",
@@ -46,7 +46,7 @@ def test_all_parts_together_weigh_what_the_device_weighs():
     *parts, total = rows_of(bill_csv(device))
     assert float(total["mass [g]"]) == pytest.approx(1e3 * device.mass, abs=1e-3)
     assert total["remark"] == "as designed"
-    assert sum(float(part["mass [g]"]) for part in parts) == pytest.approx(
+    assert sum(float(part["mass [g]"] or 0.0) for part in parts) == pytest.approx(
         float(total["mass [g]"]), abs=3e-3
     )
 
@@ -82,7 +82,7 @@ def test_lightening_holes_are_drilled():
 def test_only_what_the_device_holds_is_listed():
     assert [row.part for row in bill_rows(paper_device())] == ["flywheel rim"]
     bare = driven_device(carrier=replace(EC45_BODY, mass=EC45.mass))
-    assert [row.part for row in bill_rows(bare)] == ["flywheel rim", "motor test"]
+    assert [row.part for row in bill_rows(bare) if row.mass] == ["flywheel rim", "motor test"]
 
 
 @pytest.mark.parametrize(
@@ -155,7 +155,8 @@ def test_the_battery_gives_and_takes_what_the_flights_asked():
     )
     assert "brake resistor with switch" in {row["part"] for row in rows_of(text)}
     power = (*margins, margin("bus power", 600.0, "W"))
-    assert "29 A (600 W)" in bill_rows(device, power)[-2].remark
+    (battery,) = (row for row in bill_rows(device, power) if row.part == "battery")
+    assert "29 A (600 W)" in battery.remark
 
 
 def test_without_flights_there_is_no_battery_line():
@@ -189,3 +190,27 @@ def test_what_cannot_be_built_is_the_first_row():
     )
     assert (first["quantity"], first["mass [g]"]) == ("", "")
     assert second["part"].startswith("flywheel")
+
+
+def test_parts_of_the_wiring_are_bought_and_not_counted():
+    """Fuse, switch and bus carry what the flights drew or fed back, whichever is more."""
+    drive = replace(DEVICES["caged"].motor, bus_voltage=24.0)
+    device = replace(DEVICES["caged"], motor=drive)
+    asked = tuple(
+        MarginRecord(name=f"bus current{way}", demand=current, capacity=None, unit="A", margin=None)
+        for way, current in (("", 28.6), (", fed back", 41.2))
+    )
+    rows = {row.part: row for row in bill_rows(device, asked)}
+    for part, count in (
+        ("sensor of the rotor's angle", 2),
+        ("fuse with holder", 1),
+        ("switch", 1),
+        ("cables of the bus, two wires", 1),
+        ("cables of a motor, three wires", 2),
+    ):
+        assert (rows[part].quantity, rows[part].mass) == (count, 0.0)
+        assert rows[part].remark.endswith("not in the device's mass")
+    for part in ("fuse with holder", "switch", "cables of the bus, two wires"):
+        assert "42 A" in rows[part].remark
+        assert "29 V" in rows[part].remark
+    assert not any("fuse" in row.part for row in bill_rows(paper_device()))

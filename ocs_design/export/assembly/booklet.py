@@ -16,7 +16,7 @@ from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.device import Device
 from ocs_design.export.assembly.content import Assembly, assembly_of, short
 from ocs_design.export.assembly.placed import Piece
-from ocs_design.export.assembly.steps import module_steps, robot_steps
+from ocs_design.export.assembly.steps import module_steps, robot_steps, tools
 from ocs_design.export.assembly.trials import balance, safety, spin_test
 from ocs_design.export.assembly.views import BALLOON, exploded_view, section_view
 from ocs_design.export.assembly_notes import drive_notes
@@ -412,11 +412,7 @@ def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
         *(f"{note[:1].upper()}{note[1:]}." for note in notes),
     ]
     before += _motor_threads(assembly)
-    before.append(
-        "Tools: torque screwdriver from 0.05 N m, hex keys, taps for the threads in the prints "
-        "(drill sizes are those of the holes), dial gauge, hand drill on a stand, scales to "
-        "0.01 g, tachometer."
-    )
+    before.append(f"Tools: {', '.join(tools(assembly))}.")
     each, once = tuple(module_steps(assembly)), tuple(robot_steps(assembly))
     whole = (
         Chapter("Before you start", tuple(before)),

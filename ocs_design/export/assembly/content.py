@@ -30,6 +30,9 @@ creep."""
 ALUMINIUM_SHEAR = 207e6
 """Shear strength of 6061-T6 [Pa] (ASM), for motors' bells and trunks whose alloy is not known."""
 
+LEAST_DRILL = 0.8e-3
+"""Diameter below which steel is ground and not drilled [m]."""
+
 THREAD_SHARE = 0.5
 """Preload of a screw in aluminium over the one that strips its thread."""
 

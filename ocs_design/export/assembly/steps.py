@@ -5,9 +5,11 @@ from math import sqrt
 
 import numpy as np
 
+from ocs_design.actuation.fasteners import screw
 from ocs_design.catalogue.materials import materials
-from ocs_design.common.units import format_quantity
+from ocs_design.common.units import format_quantity, significant
 from ocs_design.device.bodies import joint_name
+from ocs_design.device.device import Device
 from ocs_design.device.joints import (
     RUN_OUT,
     SHAFT_JOINT,
@@ -18,8 +20,8 @@ from ocs_design.device.joints import (
     unheld_moment,
 )
 from ocs_design.device.layout import PAIR
-from ocs_design.device.solids import drive_solids, foot_of
-from ocs_design.export.assembly.content import Assembly, Tightened
+from ocs_design.device.solids import drive_solids, foot_of, shaft_cut
+from ocs_design.export.assembly.content import LEAST_DRILL, Assembly, Tightened
 from ocs_design.export.device_parts import (
     foot_holes,
     pedestal_kinds,
@@ -34,7 +36,7 @@ from ocs_design.parts.foot import LONG_MARKS
 from ocs_design.parts.joints import EPOXY
 from ocs_design.parts.module import part_name
 from ocs_design.parts.pedestal import SEATED
-from ocs_design.parts.printed import CLEARANCE, LID_SCREW, WALL, WASHER_HEIGHT
+from ocs_design.parts.printed import CLEARANCE, LID_SCREW, TRUNK_SCREW, WALL, WASHER_HEIGHT
 
 FREE_SPAN = 10.0e-3
 """Width that a printer bridges without supports [m]: an assumption. Of a round hole with its axis
@@ -46,8 +48,66 @@ KEY_LEG, KEY_ARM = 18.0e-3, 50.0e-3
 LEAST_ROOM = 6.0e-3
 """Above a head, in which a key with a cut leg can be put in and turned [m]: an assumption."""
 
+LARGEST_REAMER = 20.0e-3
+"""Diameter of a bore above which it is bored and not reamed [m]: an assumption."""
+
 DROP = 0.03e-3
 """Air on the diameter with which a hot rim drops on its web before it has cooled [m]."""
+
+
+def tools(assembly: Assembly) -> Iterator[str]:
+    """Tools that this design needs, one after another; what turns, mills and prints is not told."""
+    device, screws = assembly.device, assembly.screws.values()
+    if screws:
+        least = min(each.torque for each in screws)
+        *others, last = sorted({f"{1e3 * each.fastening.screw.key:g}" for each in screws})
+        keys = f"{', '.join(others)} and {last}" if others else last
+        yield f"torque screwdriver from {significant(least, 1)} N m"
+        yield f"hex keys of {keys} mm"
+    yield from _cutters(assembly)
+    web = device.flywheel.web
+    if web is not None and web.hub.bore_radius > 0.0:
+        bore = 2.0 * web.hub.bore_radius
+        of = f"reamer of {1e3 * bore:g} mm" if bore <= LARGEST_REAMER else "bore gauge for"
+        yield f"{of} H7 for the hub"
+    if shrunk_on(wheel_geometry(device.flywheel)):
+        yield "oven to shrink the rim on its web"
+    hole, cuts = balance_of(device).correction.hole_radius, device.flywheel.cuts
+    if assembly.top_speed is not None and cuts.holes:
+        yield f"drill of {2e3 * cuts.hole_radius:.2g} mm to balance"
+    elif assembly.top_speed is not None:
+        small = f"drills of {2e3 * hole:.2g} mm, some to spare,"
+        yield f"{small if hole >= LEAST_DRILL / 2.0 else 'small grinder'} to balance"
+    cut = ["the motor's shaft"] if shaft_cut(device)[1] > 0.0 else []
+    for name, found in assembly.screws.items():
+        room = room_above(device, found) if name.startswith("foot on") else None
+        if room is not None and LEAST_ROOM <= room <= KEY_LEG:
+            cut.append(f"the short leg of a hex key of {1e3 * found.fastening.screw.key:g} mm")
+        if "cut to" in name or "shorten" in name:
+            cut.append("screws")
+    if cut:
+        yield f"cutting disc for {' and '.join(dict.fromkeys(cut))}"
+    yield from ("dial gauge", "hand drill on a stand", "scales to 0.01 g", "tachometer")
+
+
+def _cutters(assembly: Assembly) -> Iterator[str]:
+    """Drills and taps of prints, plate and trunk, by what they cut."""
+    plate, printed = assembly.device.plate, "drum" in assembly.numbers
+    into = {LID_SCREW.name: ["the prints' ears"]} if printed else {}
+    if assembly.device.pedestals:
+        into.setdefault(TRUNK_SCREW.name, []).append("the pedestals' seats")
+    if plate is not None:
+        into.setdefault(plate.foot_thread, []).append("the plate")
+    if printed:
+        thread = TRUNK_SCREW.name if plate is None else plate.thread
+        into.setdefault(thread, []).append("the trunk")
+    for name, where in into.items():
+        drill = 1e3 * screw(name).tapping_drill
+        yield f"drill of {drill:g} mm and tap {name} for {' and '.join(where)}"
+    if plate is not None:
+        yield f"drill of {1e3 * plate.screw.clearance_hole:g} mm for the plate's screws"
+    if unheld_moment(assembly.device, assembly.margins):
+        yield "drill of 3 mm for the feet's pins"
 
 
 def module_steps(assembly: Assembly) -> Iterator[str]:
@@ -307,9 +367,9 @@ def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
     )
 
 
-def _under_motor(assembly: Assembly, found: Tightened) -> str:
-    """How a foot's screw is tightened that is under motor or cage; empty: none is."""
-    device, foot, driven = assembly.device, foot_of(assembly.device), found.fastening.screw
+def room_above(device: Device, found: Tightened) -> float | None:
+    """Least room above a foot's screw that is under motor or cage [m]; None: none is."""
+    foot, driven = foot_of(device), found.fastening.screw
     corner = driven.key / sqrt(3.0)
     top = float(foot.base) + driven.head_height + (WASHER_HEIGHT if found.washers else 0.0)
     rooms = []
@@ -326,9 +386,14 @@ def _under_motor(assembly: Assembly, found: Tightened) -> str:
                 and along - corner < solid.high
                 and beside < solid.radius
             ]
-    if not rooms:
+    return min(rooms, default=None)
+
+
+def _under_motor(assembly: Assembly, found: Tightened) -> str:
+    """How a foot's screw is tightened that is under motor or cage; empty: none is."""
+    room, driven = room_above(assembly.device, found), found.fastening.screw
+    if room is None:
         return ""
-    room = min(rooms)
     if room < LEAST_ROOM:
         return (
             " One of them is under the motor, where no key reaches it: set and tighten the foot "

@@ -8,7 +8,7 @@ from ocs_design.common.units import rpm, significant
 from ocs_design.device.joints import balance_of, yield_margin
 from ocs_design.device.resonances import DAMPING, resonances_of
 from ocs_design.device.solids import motor_mount
-from ocs_design.export.assembly.content import Assembly
+from ocs_design.export.assembly.content import LEAST_DRILL, Assembly
 from ocs_design.export.electrics import demand_of
 from ocs_design.parts.guard import stepped
 from ocs_design.parts.joints import GRADE
@@ -20,9 +20,6 @@ SPIN_STEPS = (0.1, 0.25, 0.5, 0.75, 1.0)
 
 OVERSPEED = 1.1
 """Speed of the spin test over the top speed, once, before the wheel goes on a robot."""
-
-LEAST_DRILL = 0.8e-3
-"""Diameter below which steel is ground and not drilled [m]."""
 
 _SOFT = 68.0
 """Heat deflection temperature of PETG at 0.45 MPa [deg C]: Prusament PETG, technical data sheet."""

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from built import DEVICES
+from built import DEVICES, housed
 from drawn_wheels import check_words
 from hypothesis import given
 from hypothesis import strategies as st
@@ -184,6 +184,38 @@ def test_the_balance_says_how_much_is_left_and_what_holes_take():
     assert f"a pair takes {1e3 * pair:.2g} g, which are {1e6 * pair * away:.2g} g mm" in said
     assert f"drill of {2e3 * holes.hole_radius:.1f} mm, at most {1e3 * holes.depth:.1f} mm" in said
     assert balance.centred_by in said
+
+
+@pytest.mark.parametrize(
+    ("name", "says", "not_said"),
+    [
+        (
+            "on a plate",
+            [
+                "drill of 1.6 mm and tap M2 for the prints' ears",
+                "drill of 2.5 mm and tap M3 for the plate and the trunk",
+                "drill of 3.4 mm for the plate's screws",
+                "H7 for the hub",
+                "to balance",
+            ],
+            "for the trunk,",
+        ),
+        ("caged", ["drill of 2.5 mm and tap M3 for the trunk"], "the plate"),
+        ("wheels alone", ["scales to 0.01 g"], "tap"),
+    ],
+)
+def test_tools_are_those_that_the_design_needs(name, says, not_said):
+    said = texts(Assembly("dog", DEVICES[name]), "Before")
+    told = said[said.index("Tools: ") :]
+    assert all(each in told for each in says), told
+    assert not_said not in told
+
+
+def test_a_key_that_is_cut_has_a_cutter():
+    device = housed(DEVICES["caged"].motor.mounting, outer_radius=0.05)
+    assert "short leg cut" in texts(Assembly("dog", device), "Steps")
+    told = texts(Assembly("dog", device), "Before")
+    assert "cutting disc for the short leg of a hex key of 2.5 mm" in told
 
 
 def test_work_on_the_robot_is_not_told_for_each_module():
