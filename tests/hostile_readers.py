@@ -25,7 +25,7 @@ from ocs_design.robot.meshes import mesh_bounds, own_bounds, size
 from ocs_design.robot.mujoco_model import build_spec
 from ocs_design.robot.reader import read_group_states, read_robot
 from ocs_design.workflows.inspect import inspect_robot
-from ocs_design.workflows.restoring import device_of, robot_of, seat_of
+from ocs_design.workflows.restoring import read_designed, robot_of, seat_of
 
 GEARS = b"""[[gear]]
 name = "one to five"
@@ -158,9 +158,8 @@ def read_and_resolve(path: Path) -> object:
 
 def read_and_restore(path: Path) -> object:
     """A design, the live values behind it, and what is made from them without a robot."""
-    design = read_design(path)
+    design, device = read_designed(path)
     robot = robot_of(design.robot, path, {}) if design.robot.format == "manual" else None
-    device = device_of(design.ocs)
     return (
         safe_name(design.robot.name),
         device.mass,
