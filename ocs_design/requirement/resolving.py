@@ -202,7 +202,9 @@ def read_specified_robot(
         robot = replace(robot, warnings=(*robot.warnings, warning))
     robot = replace(robot, warnings=(*robot.warnings, *doubts_about_motors(specification)))
     if strict and robot.warnings:
-        raise RobotError("--strict: " + "; ".join(robot.warnings), hint="mend the robot's file")
+        raise RobotError(
+            "--strict: " + "; ".join(robot.warnings), hint="mend the files of robot and motors"
+        )
     return robot
 
 
