@@ -388,12 +388,15 @@ def _motor_threads(assembly: Assembly) -> Iterator[str]:
     model = next((each for each in DRAWN if re.search(rf"\b{each}\b", named)), None)
     stated = all(each.fastening.least > 0.0 for each in found.values())
     if model is not None and not stated:
-        at = (DRAWN[model][0 if name.startswith("wheel") else 1] for name in found)
+        at = [DRAWN[model][0 if name.startswith("wheel") else 1] for name in found]
         drawn = (
             f" Of {model}, whose threads the catalogue counts for this motor, a model draws "
             f"{' and '.join(f'{depth:.1f} mm' for depth in at)}: its modeller's figures, not the "
             "maker's."
         )
+        reached = (1e3 * each.engagement for each in found.values())
+        if any(deep + 0.5 > depth for deep, depth in zip(reached, at, strict=True)):
+            drawn += " Were they right, these screws would be too long."
     known = "its maker's figures are in the table of screws" if stated else "no maker states it"
     yield (
         "Measure how deep the motor's threads are before you put screws into them: "

@@ -276,6 +276,9 @@ def test_the_screws_reach_into_the_motor_is_told_beside_what_its_model_draws():
         figures = " and ".join(f"{depth:.1f} mm" for depth in drawn)
         assert (f"a model draws {figures}: its modeller" in said) == bool(model)
         assert f"Of {model}, whose" in said or not model
+        # Half a millimetre is to be left below each tip.
+        long = any(1e3 * deep + 0.5 > depth for deep, depth in zip(reach, drawn, strict=True))
+        assert ("these screws would be too long" in said) == (bool(model) and long)
 
 
 def test_a_rim_of_another_material_is_shrunk_on():
