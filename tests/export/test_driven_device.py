@@ -78,7 +78,9 @@ def test_bodies_can_exist_whatever_the_rotor(rotor):
     device = replace(device, flywheel=replace(device.flywheel, spin_inertia=1.5e-4 + rotor))
     device = replace(device, flywheel=replace(device.flywheel, transverse_inertia=0.76e-4))
     for body in (flywheel_inertial(device), carrier_inertial(device, device.modules[0])):
-        assert physical_defect(body, 0.0) is None
+        assert physical_defect(body) is None
+        low, middle, high = np.linalg.eigvalsh(body.inertia)
+        assert 0.0 < low <= middle <= high <= low + middle
 
 
 def test_a_rotor_heavier_than_its_carrier_leaves_a_little_of_it():
