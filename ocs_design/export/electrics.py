@@ -69,13 +69,13 @@ def wiring_parts(device: Device, margins: Sequence[MarginRecord]) -> Iterator[tu
     ]
     rated = f"{_up(VOLTAGE_RESERVE * voltage)} V direct voltage or more"
     flows = f"{_up(max(bus))} A, as long as a maneuver takes, and {rated}" if bus else rated
+    fastest = motor.top_speed * motor.gear_ratio
+    up_to = f", up to {rpm(fastest)}" if math.isfinite(fastest) else ""
     yield (
         "sensor of the rotor's angle",
         count,
-        "encoder at the motor's back with its magnet, or Hall sensors, that the controller reads; "
-        f"none where the motor has one. It reads up to {rpm(motor.top_speed * motor.gear_ratio)}"
-        if math.isfinite(motor.top_speed)
-        else "encoder at the motor's back with its magnet, or Hall sensors",
+        "encoder at the motor's back with its magnet, or Hall sensors, that the controller "
+        f"reads{up_to}; none where the motor has one",
     )
     yield "fuse with holder", 1, f"between battery and switch; carries {flows}"
     yield "switch", 1, f"cuts the supply within reach; carries and breaks {flows}"

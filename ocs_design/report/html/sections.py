@@ -14,6 +14,7 @@ from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.wheel import (
     bore_diameter,
+    fitted_bore,
     plain,
     rim_diameter,
     rim_inertia_error,
@@ -86,6 +87,9 @@ def sizes_section(design: OcsDesign) -> Markup:
     if wheel.hub is not None:
         rows.append(("hub, diameter", f"Ø{plain(2.0 * wheel.hub.radius)}"))
         rows.append(("hub, height", plain(wheel.hub.height)))
+        if wheel.hub.bore_radius > 0.0:
+            rows.append(("hub, bore", fitted_bore(wheel.hub.bore_radius)))
+        rows.append(("web, thickness", plain(wheel.hub.web_thickness)))
     inertia_note = (
         "Within these tolerances the rim's spin inertia stays within "
         f"±{rim_inertia_error(wheel):.1%} (to first order)."

@@ -86,6 +86,19 @@ def test_every_link_leads_somewhere_and_no_name_is_there_twice(page):
             assert attributes["href"][1:] in names
 
 
+def test_the_wheel_is_told_with_what_its_hub_is_bored_to_and_how_thick_its_web_is():
+    """H7 of 3 to 6 mm: 12 um (ISO 286-2)."""
+    told = story()
+    web = told.design.ocs.flywheel.web
+    assert web is not None
+    web = replace(web, hub=replace(web.hub, bore_radius=2e-3), thickness=1.25e-3)
+    wheel = replace(told.design.ocs.flywheel, web=web)
+    ocs = replace(told.design.ocs, flywheel=wheel)
+    text = report_page(replace(told, design=replace(told.design, ocs=ocs)))
+    assert re.search(r"hub, bore</td>\s*<td[^>]*>Ø4 H7 \(0/\+0\.012\)", text)
+    assert re.search(r"web, thickness</td>\s*<td[^>]*>1\.25", text)
+
+
 def test_without_flights_it_says_that_nothing_is_proved():
     text = report_page(replace(story(), design=design(), flights=()))
     assert "no flight was simulated" in text
