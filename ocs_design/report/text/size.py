@@ -173,8 +173,8 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
     told = {line.matter, *(flights.run_sentence(run, with_note=False) for run in flown)}
     minded = [each for each in warnings.all_warnings(design) if each not in told]
     if minded:
-        more = f"; {len(minded) - MOST_MINDED} more with -v" if len(minded) > MOST_MINDED else ""
-        heading(console, f"To mind{more}")
+        # How many more there are tells nobody whether to look: what matters most is here.
+        heading(console, "To mind (-v: all)" if len(minded) > MOST_MINDED else "To mind")
         items(console, minded[:MOST_MINDED], style="yellow")
     changes = limits.lighter(design)[:MOST_CHANGES]
     if changes:
