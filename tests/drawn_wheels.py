@@ -42,6 +42,13 @@ HOLED = WheelDrawing(
 """One piece, with every kind of hole."""
 
 
+REFUSED = (
+    "NOT buildable as it stands. The feet hang in the air beside the trunk, by up to 41 mm; choose "
+    "a place on the trunk's back (--position), or leave it to the program."
+)
+"""Words that a sheet of what cannot be built begins with."""
+
+
 @st.composite
 def rings(draw, inner, outer, depth=math.inf):
     """With a millimetre to the edges and between the holes; None without the room."""
@@ -102,6 +109,7 @@ def drawings(draw):
         identity="9f3c0a1b2d4e",
         tool="ocs-design 0.1.0",
         speed=draw(st.none() | st.floats(1.0, 1e4)),
+        refused=draw(st.sampled_from(["", REFUSED])),
     )
 
 
@@ -126,6 +134,14 @@ def check_words(page):
         assert top <= y1 < y2 <= bottom
     for a, b in combinations(boxes, 2):
         assert a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] + 0.3 or b[3] <= a[1] + 0.3, (a, b)
+
+
+def assert_refused(page):
+    """No words stand higher than the verdict, and the first note says why."""
+    highest = min(texts(page), key=lambda item: box_of(item)[1])
+    assert highest.text.startswith("NOT buildable as it stands")
+    said = " ".join(item.text for item in texts(page))
+    assert REFUSED in said
 
 
 def overlap(one, other):

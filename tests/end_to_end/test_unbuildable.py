@@ -5,7 +5,10 @@ import csv
 import pytest
 from commands import SOLO12, run
 
-TOLD = ("cad/bill_of_materials.csv", "cad/drilling.pdf", "cad/assembly.pdf", "robot/README.md")
+TOLD = (
+    *("cad/bill_of_materials.csv", "cad/drilling.pdf", "cad/assembly.pdf", "robot/README.md"),
+    *("cad/wheel.pdf", "cad/wheel.svg"),
+)
 
 
 @pytest.mark.usefixtures("no_alternatives")
@@ -22,6 +25,8 @@ def test_files_of_a_device_that_cannot_be_built_say_so(folder):
     )
     with (folder / "out/cad/bill_of_materials.csv").open() as stream:
         assert next(csv.DictReader(stream))["part"] == "NOT buildable as it stands"
+    sheet = (folder / "out/cad/wheel.svg").read_text()
+    assert sheet.count("NOT buildable as it stands") == 2
     again = run("export", "out", "--formats", "bom,drawing,assembly,mjcf", "-o", "again")
     assert again.code == 0, again.said
     for name in TOLD:

@@ -34,7 +34,14 @@ from ocs_design.export.drawing.sheet import (
     rectangle,
     upright_dimension,
 )
-from ocs_design.export.drawing.title_block import Entries, frame, numbered, title_block
+from ocs_design.export.drawing.title_block import (
+    Entries,
+    frame,
+    numbered,
+    title_block,
+    verdict,
+    why,
+)
 from ocs_design.export.drawing.wheel import plain
 from ocs_design.parts.carrier_plate import CarrierPlate, Mast, mast_part, plate_part
 from ocs_design.parts.dog_bone import directions
@@ -57,7 +64,9 @@ _BETWEEN = 40.0
 """Distance between two views [mm]."""
 
 
-def plate_sheets(device: Device, robot: str, identity: str, tool: str) -> list[list[Item]]:
+def plate_sheets(
+    device: Device, robot: str, identity: str, tool: str, refused: str = ""
+) -> list[list[Item]]:
     """Sheets of the plate and of its mast, as `WheelDrawing`; none where the feet need no plate."""
     plate = device.plate
     if plate is None:
@@ -77,7 +86,8 @@ def plate_sheets(device: Device, robot: str, identity: str, tool: str) -> list[l
         identity,
         f"1 / {count}",
     )
-    sheets = [[*frame(), *view, *numbered(list(_plate_notes(plate))), *title_block(entries)]]
+    words = [*verdict(refused), *numbered([*why(refused), *_plate_notes(plate)])]
+    sheets = [[*frame(), *view, *words, *title_block(entries)]]
     if plate.mast is not None:
         scale, view = _mast_views(plate, plate.mast)
         entries = Entries(
@@ -92,7 +102,7 @@ def plate_sheets(device: Device, robot: str, identity: str, tool: str) -> list[l
             identity,
             f"2 / {count}",
         )
-        words = numbered(list(_mast_notes(plate, plate.mast)))
+        words = [*verdict(refused), *numbered([*why(refused), *_mast_notes(plate, plate.mast)])]
         sheets.append([*frame(), *view, *words, *title_block(entries)])
     return sheets
 

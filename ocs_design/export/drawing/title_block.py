@@ -13,6 +13,7 @@ from ocs_design.export.drawing.sheet import (
     MARGIN_LEFT,
     THIN,
     WIDTH,
+    Anchor,
     Circle,
     Item,
     Line,
@@ -24,7 +25,7 @@ from ocs_design.export.drawing.sheet import (
     wrapped,
 )
 
-_, _, RIGHT, BOTTOM = FRAME_BOX
+_, TOP, RIGHT, BOTTOM = FRAME_BOX
 BLOCK_WIDTH, ROW_HEIGHT, ROWS = 180.0, 9.0, 4
 """Size of the title block [mm]; its width is the standard's."""
 
@@ -35,6 +36,9 @@ NOTES_LEFT, NOTES_TOP = MARGIN_LEFT + 3.0, 145.0
 
 NUMBER_WIDTH = 5.0
 """Width of a note's number before its text [mm]."""
+
+_MOST_WORDS = 420
+"""Letters of the note that says why nothing can be built: three lines across the sheet."""
 
 
 def frame() -> list[Item]:
@@ -51,6 +55,20 @@ def frame() -> list[Item]:
         *outline(rectangle(left, top, right, bottom), FRAME),
         *(Line(start, end, FRAME) for start, end in marks),
     ]
+
+
+def verdict(refused: str) -> list[Item]:
+    """The line at the top of a sheet of what cannot be built; none where nothing is refused."""
+    words = "NOT buildable as it stands: make nothing of this sheet, note 1 says why"
+    return [Text((RIGHT - 4.0, TOP + 4.1), words, 3.0, Anchor.END)] if refused else []
+
+
+def why(refused: str) -> list[str]:
+    """First note of a sheet of what cannot be built, as much as there is room for; else none."""
+    if len(refused) <= _MOST_WORDS:
+        return [refused] if refused else []
+    points = refused[:_MOST_WORDS].rpartition(". ")[0]
+    return [f"{points}. All that is open is in cad/assembly.pdf."]
 
 
 @dataclass(frozen=True)

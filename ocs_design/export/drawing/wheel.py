@@ -36,6 +36,7 @@ class WheelDrawing:
         bonded: whether it is a ring around the bell of its motor.
         on_shaft: whether the motor's shaft is known, which the hub's bore fits.
         yield_strength: of the rim's material, with which it was sized [Pa]; None: not known.
+        refused: that the device cannot be built, and why; empty: nothing is known.
     """
 
     wheel: Wheel
@@ -47,6 +48,7 @@ class WheelDrawing:
     bonded: bool = False
     on_shaft: bool = False
     yield_strength: float | None = None
+    refused: str = ""
 
     @cached_property
     def masses(self) -> tuple[float, ...]:

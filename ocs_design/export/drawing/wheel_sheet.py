@@ -34,6 +34,8 @@ from ocs_design.export.drawing.title_block import (
     frame,
     numbered,
     title_block,
+    verdict,
+    why,
 )
 from ocs_design.export.drawing.views import front_view, lay_out, section_view
 from ocs_design.export.drawing.wheel import (
@@ -68,10 +70,11 @@ DIGITS = 12
 
 def write(subject: "Subject", folder: Path) -> "Notes":
     """Write `wheel.svg` and `wheel.pdf`, which show the same, `plate.pdf` and `drilling.pdf`."""
-    for suffix, content in draw_wheel(wheel_drawing(subject.device, subject.name)).items():
+    drawing = wheel_drawing(subject.device, subject.name, subject.refused)
+    for suffix, content in draw_wheel(drawing).items():
         (folder / f"wheel.{suffix}").write_bytes(content)
     identity = device_hash(subject.device), f"ocs-design {__version__}"
-    if sheets := plate_sheets(subject.device, subject.name, *identity):
+    if sheets := plate_sheets(subject.device, subject.name, *identity, subject.refused):
         title = f"Plate under the feet of {subject.name}"
         (folder / "plate.pdf").write_bytes(pdf_of_pages(sheets, title))
     if drilling := drilling_of(subject):
@@ -80,8 +83,11 @@ def write(subject: "Subject", folder: Path) -> "Notes":
     return ()
 
 
-def wheel_drawing(device: Device, robot: str) -> WheelDrawing:
-    """Content of the sheet of a device's wheel for a robot of that name; all wheels are equal."""
+def wheel_drawing(device: Device, robot: str, refused: str = "") -> WheelDrawing:
+    """Content of the sheet of a device's wheel for a robot of that name; all wheels are equal.
+
+    `refused` says that the device cannot be built, and why.
+    """
     material = materials().get(device.flywheel.material)
     speed, fit, mounting = device.motor.top_speed, rim_fit(device), device.motor.mounting
     return WheelDrawing(
@@ -94,6 +100,7 @@ def wheel_drawing(device: Device, robot: str) -> WheelDrawing:
         bonded=device.on_bell,
         on_shaft=mounting is not None and mounting.shaft_diameter is not None,
         yield_strength=None if material is None else material.yield_strength,
+        refused=refused,
     )
 
 
@@ -125,7 +132,8 @@ def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
         *frame(),
         *section_view(wheel, layout),
         *front_view(wheel, layout),
-        *numbered(list(notes(drawing)), block),
+        *verdict(drawing.refused),
+        *numbered([*why(drawing.refused), *notes(drawing)], block),
         *parts,
         *title_block(entries),
     ]

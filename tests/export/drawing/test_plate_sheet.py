@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from built import DEVICES
-from drawn_wheels import check_words, texts
+from drawn_wheels import REFUSED, assert_refused, check_words, texts
 
 from ocs_design.export.drawing.plate_sheet import plate_sheets
 from ocs_design.export.drawing.sheet import OUTLINE, Circle, Polyline
@@ -92,3 +92,20 @@ def test_a_mast_has_the_lengths_that_it_is_cut_to():
 
 def test_without_a_plate_there_is_no_sheet():
     assert plate_sheets(DEVICES["caged"], "dog", "0123456789ab", "tool") == []
+
+
+def test_a_plate_that_is_not_to_be_made_says_so_first(plate):
+    """At the top of each sheet, and why in its first note."""
+    device = replace(DEVICES["on a plate"], plate=plate)
+    for page in plate_sheets(device, "dog", "0123456789ab", "tool", REFUSED):
+        check_words(page)
+        assert_refused(page)
+
+
+def test_a_long_refusal_leaves_the_other_notes_their_room(plate):
+    many = " ".join(["NOT buildable as it stands."] + ["One thing; another that cures it."] * 40)
+    device = replace(DEVICES["on a plate"], plate=plate)
+    for page in plate_sheets(device, "dog", "0123456789ab", "tool", many):
+        check_words(page)
+        said = " ".join(item.text for item in texts(page))
+        assert "cures it. All that is open is in cad/assembly.pdf." in said

@@ -8,7 +8,18 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
-from drawn_wheels import FLAT, HOLED, HUB, box_of, covers, drawings, overlap, texts
+from drawn_wheels import (
+    FLAT,
+    HOLED,
+    HUB,
+    REFUSED,
+    assert_refused,
+    box_of,
+    covers,
+    drawings,
+    overlap,
+    texts,
+)
 from hypothesis import HealthCheck, given, settings
 from scipy.integrate import quad
 from wheels import paper_device
@@ -66,6 +77,11 @@ def test_both_formats_are_well_formed(drawing):
     assert ET.fromstring(drawn["svg"]).tag.endswith("svg")
     assert drawn["pdf"].startswith(b"%PDF-1.")
     assert drawn == draw_wheel(drawing)
+
+
+def test_a_wheel_that_is_not_to_be_made_says_so_first():
+    assert_refused(wheel_sheet(replace(FLAT, refused=REFUSED)))
+    assert "NOT" not in " ".join(words(FLAT))
 
 
 def test_every_size_is_written_once():
