@@ -8,7 +8,7 @@ from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.materials import Material, materials
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
 from ocs_design.device.device import Device, Flywheel, Module, Web
-from ocs_design.device.records.device import MarginRecord
+from ocs_design.device.records.device import Margin
 from ocs_design.device.solids import foot_of, housing_of, motor_mount
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.cage import floor_at_shock, heads_at_shock
@@ -26,7 +26,6 @@ from ocs_design.parts.joints import (
     SERVICE,
     WARMEST,
     Correction,
-    Margin,
     ShrinkFit,
     bell_bond_tension,
     correction,
@@ -107,7 +106,7 @@ def counted_foot_screws(device: Device, module: Module) -> Fastening:
     return held if device.plate is None else replace(held, purpose="foot on plate")
 
 
-def unheld_moment(device: Device, margins: Sequence[MarginRecord]) -> float:
+def unheld_moment(device: Device, margins: Sequence[Margin]) -> float:
     """Moment of a wheel that would turn its foot about the vertical [N m]; 0: friction holds it.
 
     It counts as vertical, whole, as it is where a trunk that pitches turns a wheel whose axis lies
@@ -144,13 +143,13 @@ def _shocks(device: Device) -> Iterator[Margin]:
         under = "washers" if hold.washers else "heads"
         along = f"{shock} on {held} along the wheel's axis, until the {under} of its screws sink in"
     bears = min(hold.prints_bear, hold.heads_bear)
-    yield Margin(FOOT_SHOCK, SHOCK, bears, "m/s2", along)
+    yield Margin(FOOT_SHOCK, SHOCK, bears, "m/s2", note=along)
     plate = device.plate
     if plate is not None:
         use = plate_screws_use(plate, module, foot_of(device).wheel_height)
         count = len(plate.trunk)
         note = f"{shock} on all modules, until one of {count} {plate.thread} of class 8.8 breaks"
-        yield Margin(SCREWS_SHOCK, SHOCK, SHOCK / use, "m/s2", note)
+        yield Margin(SCREWS_SHOCK, SHOCK, SHOCK / use, "m/s2", note=note)
     cage = motor_mount(device).cage
     if cage is not None:
         drive, wheel = device.motor.mass or 0.0, device.flywheel.mass
@@ -162,7 +161,7 @@ def _shocks(device: Device) -> Iterator[Margin]:
             if sunk < bears:
                 bears = sunk
                 note = f"{shock} on motor and wheel, until the heads of the cage's screws sink in"
-            yield Margin(FLOOR_SHOCK, SHOCK, bears, "m/s2", note)
+            yield Margin(FLOOR_SHOCK, SHOCK, bears, "m/s2", note=note)
 
 
 def wheel_rings(wheel: Flywheel) -> tuple[Ring, ...] | None:
@@ -195,11 +194,13 @@ def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
     rings, fit = wheel_rings(wheel), rim_fit(device)
     if rings is None:
         name = WHEEL_STRESS if web.material == wheel.material else RIM_JOINT
-        yield Margin(name, 0.0, None, "Pa", f"elastic figures of {wheel.material} are not known")
+        yield Margin(
+            name, 0.0, None, "Pa", note=f"elastic figures of {wheel.material} are not known"
+        )
     elif web.material == wheel.material:
         yield _one_piece(wheel.material, web, rings, OVERSPEED * device.motor.top_speed)
     elif fit is None:
-        yield Margin(RIM_JOINT, 0.0, None, "Pa", "thermal expansions are not known")
+        yield Margin(RIM_JOINT, 0.0, None, "Pa", note="thermal expansions are not known")
     else:
         edges = (format_quantity(2.0 * each, "um", digits=3) for each in (fit.least, fit.most))
         note = (
@@ -207,15 +208,15 @@ def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
             f"top speed, {COLDEST:g} to {WARMEST:g} deg C, against what carries {SERVICE:g} x peak "
             f"torque at a friction of {FRICTION:g}"
         )
-        yield Margin(RIM_JOINT, fit.needed, fit.held, "Pa", note)
+        yield Margin(RIM_JOINT, fit.needed, fit.held, "Pa", note=note)
         for name, stress, material in (
             ("web of the shrink fit", fit.stress_web, web.material),
             ("rim of the shrink fit", fit.stress_rim, wheel.material),
         ):
             strength, note = materials()[material].yield_strength, "at the tightest fit, to yield"
-            yield Margin(name, stress, strength, "Pa", f"largest stress {note}")
+            yield Margin(name, stress, strength, "Pa", note=f"largest stress {note}")
         buckling, note = "web of the shrink fit, to buckling", "a full plate with its edge held"
-        yield Margin(buckling, fit.squeezed, fit.buckling, "Pa", note)
+        yield Margin(buckling, fit.squeezed, fit.buckling, "Pa", note=note)
 
 
 def _one_piece(material: str, web: Web, rings: tuple[Ring, ...], speed: float) -> Margin:
@@ -225,7 +226,7 @@ def _one_piece(material: str, web: Web, rings: tuple[Ring, ...], speed: float) -
         f"in {where} at {OVERSPEED:g} x top speed, against yield; one piece, as a rotating disc of "
         "three thicknesses"
     )
-    return Margin(WHEEL_STRESS, peak, materials()[material].yield_strength, "Pa", note)
+    return Margin(WHEEL_STRESS, peak, materials()[material].yield_strength, "Pa", note=note)
 
 
 def _peak(web: Web, rings: tuple[Ring, ...], speed: float) -> tuple[str, float]:
@@ -318,10 +319,10 @@ def _shaft_joints(device: Device, web: Web) -> Iterator[Margin]:
         )
     else:
         note = "the shaft and the rotor's threads are not in the catalogue"
-    yield Margin(SHAFT_JOINT, torque, carried, "N m", note)
+    yield Margin(SHAFT_JOINT, torque, carried, "N m", note=note)
     if reserve is not None:
         note = "should the faces slip: a reserve, not what it is built on"
-        yield Margin("shaft joint, screws in shear", torque, reserve, "N m", note)
+        yield Margin("shaft joint, screws in shear", torque, reserve, "N m", note=note)
 
 
 def _bell_joints(device: Device) -> Iterator[Margin]:
@@ -331,12 +332,12 @@ def _bell_joints(device: Device) -> Iterator[Margin]:
     elastic = _elastic(kind)
     if kind is None or elastic is None or kind.thermal_expansion is None:
         unknown = f"elastic figures or expansion of {wheel.material} are not known"
-        yield Margin(WHEEL_STRESS, 0.0, None, "Pa", unknown)
+        yield Margin(WHEEL_STRESS, 0.0, None, "Pa", note=unknown)
     else:
         ring = Ring(wheel.inner_radius, wheel.outer_radius, wheel.height, wheel.density, *elastic)
         alone = TurningRings.of((ring,), speed).peak(0)
         note = f"a ring by itself at {OVERSPEED:g} x top speed, against yield"
-        yield Margin(WHEEL_STRESS, alone, kind.yield_strength, "Pa", note)
+        yield Margin(WHEEL_STRESS, alone, kind.yield_strength, "Pa", note=note)
         pulled = bell_bond_tension(
             ring.inner,
             ring.outer,
@@ -351,7 +352,7 @@ def _bell_joints(device: Device) -> Iterator[Margin]:
             float(pulled),
             held,
             "Pa",
-            f"bonded around the bell with {EPOXY}; the ring would grow off a rigid bell at "
+            note=f"bonded around the bell with {EPOXY}; the ring would grow off a rigid bell at "
             f"{OVERSPEED:g} x top speed, {COLDEST:g} to {HOTTEST:g} deg C, against "
             f"{BOND_SHARE:.0%} of its {1e-6 * EPOXY_STRENGTH:g} MPa at {HOTTEST:g} deg C",
         )
@@ -360,7 +361,7 @@ def _bell_joints(device: Device) -> Iterator[Margin]:
         SERVICE * (device.motor.torque_limit or 0.0),
         cylinder_torque(2.0 * wheel.inner_radius, wheel.height - 2.0 * wheel.cuts.chamfer, held),
         "N m",
-        f"bonded around the bell with {EPOXY}, at {BOND_SHARE:.0%} of its "
+        note=f"bonded around the bell with {EPOXY}, at {BOND_SHARE:.0%} of its "
         f"{1e-6 * EPOXY_STRENGTH:g} MPa at {HOTTEST:g} deg C, against {SERVICE:g} x peak torque",
     )
 

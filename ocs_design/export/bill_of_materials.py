@@ -17,7 +17,7 @@ from ocs_design.device.joints import (
     joints_of,
     unheld_moment,
 )
-from ocs_design.device.records.device import MarginRecord
+from ocs_design.device.records.device import Margin
 from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.device_parts import (
@@ -86,7 +86,7 @@ def write(subject: Subject, folder: Path) -> Notes:
     return ()
 
 
-def bill_rows(device: Device, margins: Sequence[MarginRecord] = ()) -> Sequence[BillRow]:
+def bill_rows(device: Device, margins: Sequence[Margin] = ()) -> Sequence[BillRow]:
     """All parts that the device holds; together they weigh what it weighs.
 
     Controllers, battery and what is used up are listed without a mass: they are not chosen. Margins
@@ -195,7 +195,7 @@ def _screw_row(held: Fastening, modules: int) -> BillRow:
     return BillRow(name, count, "steel", "", held.screw.mass(held.length), held.purpose, source)
 
 
-def _unweighed_rows(device: Device, margins: Sequence[MarginRecord]) -> Iterator[BillRow]:
+def _unweighed_rows(device: Device, margins: Sequence[Margin]) -> Iterator[BillRow]:
     """Controllers and battery, which are not chosen, and what is used up in the assembly."""
     controller, left_out = controllers(device.motor), "of your choice; not in the device's mass"
     if controller:
@@ -251,7 +251,7 @@ def _unweighed_rows(device: Device, margins: Sequence[MarginRecord]) -> Iterator
         yield BillRow("threadlocker", 1, "", "", 0.0, where)
 
 
-def bill_csv(device: Device, margins: Sequence[MarginRecord] = (), refused: str = "") -> str:
+def bill_csv(device: Device, margins: Sequence[Margin] = (), refused: str = "") -> str:
     """The rows and their sum as CSV, masses to the milligram; see `bill_rows`.
 
     What keeps the device from being built, where anything does, is the first row's remark.

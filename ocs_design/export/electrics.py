@@ -7,7 +7,7 @@ from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import TorqueConstantConvention, six_step_current
 from ocs_design.common.units import rpm, significant
 from ocs_design.device.device import Device
-from ocs_design.device.records.device import MarginRecord
+from ocs_design.device.records.device import Margin
 
 VOLTAGE_RESERVE = 1.2
 """Rated voltage of controllers over the bus voltage: a full battery has 5 % more than its nominal
@@ -32,7 +32,7 @@ def controllers(motor: Drive) -> str:
     )
 
 
-def battery(motor: Drive, margins: Sequence[MarginRecord]) -> str:
+def battery(motor: Drive, margins: Sequence[Margin]) -> str:
     """What the battery gives and takes back; empty where nothing of it is known."""
     voltage, parts = motor.bus_voltage, []
     for does, way in (("gives", "drawn"), ("takes back", "fed back")):
@@ -56,7 +56,7 @@ def battery(motor: Drive, margins: Sequence[MarginRecord]) -> str:
     return f"{' and '.join(parts)}{at}{most}" if parts else ""
 
 
-def wiring_parts(device: Device, margins: Sequence[MarginRecord]) -> Iterator[tuple[str, int, str]]:
+def wiring_parts(device: Device, margins: Sequence[Margin]) -> Iterator[tuple[str, int, str]]:
     """Parts between battery and motors that are bought: name, how many, what they must stand."""
     motor, count = device.motor, len(device.modules)
     current, voltage = motor_current(motor), motor.bus_voltage
@@ -84,7 +84,7 @@ def wiring_parts(device: Device, margins: Sequence[MarginRecord]) -> Iterator[tu
     yield "cables of a motor, three wires", count, f"controller to motor{least}; and the sensor's"
 
 
-def wiring(device: Device, margins: Sequence[MarginRecord]) -> Iterator[str]:
+def wiring(device: Device, margins: Sequence[Margin]) -> Iterator[str]:
     """What to tell a builder."""
     motor, supply, count = device.motor, device.supply, len(device.modules)
     rating, gives = controllers(motor), battery(motor, margins)
@@ -129,7 +129,7 @@ def wiring(device: Device, margins: Sequence[MarginRecord]) -> Iterator[str]:
     )
 
 
-def demand_of(margins: Sequence[MarginRecord], *names: str) -> float | None:
+def demand_of(margins: Sequence[Margin], *names: str) -> float | None:
     """Demand of the first margin with one of these names, SI; None: none is recorded."""
     return next((each.demand for each in margins if each.name in names), None)
 

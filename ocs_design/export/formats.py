@@ -16,7 +16,7 @@ from ocs_design.common.errors import MissingToolError, UsageError, extra_command
 if TYPE_CHECKING:
     from ocs_design.device.device import Device
     from ocs_design.device.records.design import OcsDesign
-    from ocs_design.device.records.device import Buildable, MarginRecord
+    from ocs_design.device.records.device import Buildable, Margin
     from ocs_design.robot.robot import Mount, Robot
 
 Notes: TypeAlias = tuple[str, ...]
@@ -55,7 +55,7 @@ class Subject:
     device: "Device"
     base: Base
     robot: "Robot | None"
-    margins: "tuple[MarginRecord, ...]" = ()
+    margins: "tuple[Margin, ...]" = ()
     fitting: tuple[str, ...] = ()
     refused: str = ""
 

@@ -29,40 +29,6 @@ _HALVINGS = 40
 """Of an interval of radii, to rounding."""
 
 
-@dataclass(frozen=True)
-class Margin:
-    """What is asked of one part against what it stands.
-
-    Attributes:
-        name: of the quantity; one name is one kind of margin.
-        demand: largest that is asked, never negative.
-        capacity: what the part stands; None: no limit, or none known, and `note` says which.
-        unit: of both, SI.
-        note: what the figures rest on, one sentence; empty if there is nothing to say.
-        scenario: name of the maneuver that asks it; empty if none does.
-        of_motion: whether a maneuver has any part in it.
-    """
-
-    name: str
-    demand: float
-    capacity: float | None
-    unit: str
-    note: str = ""
-    scenario: str = ""
-    of_motion: bool = True
-
-    @property
-    def factor(self) -> float | None:
-        """Capacity over demand: below 1 it is exceeded; None: no limit, or nothing asked."""
-        return None if self.capacity is None or self.demand == 0.0 else self.capacity / self.demand
-
-    @property
-    def strain(self) -> tuple[float, float]:
-        """Grows with what is asked, and with its share of the capacity first."""
-        factor = self.factor
-        return (0.0 if factor is None else 1.0 / factor, self.demand)
-
-
 # --- screws -----------------------------------------------------------------------------------
 
 PRELOAD_SHARE = 0.75

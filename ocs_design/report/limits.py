@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 from ocs_design.common.units import ceiled, floored, significant
 from ocs_design.device.records.design import OcsDesign
+from ocs_design.device.records.device import Margin
 from ocs_design.device.records.selection import SAVES_NOTHING, ReserveRecord
-from ocs_design.parts.joints import Margin
 from ocs_design.report.quantities import degrees, degrees_number, grams, inertia_number, quantity
 from ocs_design.report.selection import best_drives, drive_name
 from ocs_design.report.table import Cell, Rows, Table, Tone, Toned, columns, listed
@@ -99,14 +99,6 @@ def demand_table(design: OcsDesign) -> Table:
     return Table(heads, tuple(rows))
 
 
-def recorded_margins(design: OcsDesign) -> tuple[Margin, ...]:
-    """Every margin of a design."""
-    return tuple(
-        Margin(each.name, each.demand, each.capacity, each.unit, each.note, each.scenario)
-        for each in design.margins
-    )
-
-
 def margin_table(margins: tuple[Margin, ...]) -> Table:
     """Demand, capacity and factor of each margin, and the maneuver that sets it."""
     return Table(
@@ -121,7 +113,7 @@ def margin_table(margins: tuple[Margin, ...]) -> Table:
             )
             for margin in margins
             # What is shown as 1.00 is kept.
-            for factor in ("-" if margin.factor is None else floored(margin.factor, 2),)
+            for factor in ("-" if margin.margin is None else floored(margin.margin, 2),)
         ),
     )
 
@@ -134,9 +126,9 @@ def margin_notes(margins: tuple[Margin, ...]) -> tuple[str, ...]:
 def tightest(design: OcsDesign) -> Rows:
     """What is used of each limit, the most first: per cent, and which they are."""
     used: dict[tuple[int, str], list[Margin]] = {}
-    for margin in recorded_margins(design):
-        if margin.factor is not None and not _heats(margin):
-            percent = int(ceiled(100.0 / margin.factor, 0))
+    for margin in design.margins:
+        if margin.margin is not None and not _heats(margin):
+            percent = int(ceiled(100.0 / margin.margin, 0))
             used.setdefault((percent, margin.scenario), []).append(margin)
     rows = []
     for (percent, scenario), found in sorted(used.items(), key=lambda item: -item[0][0]):
@@ -150,12 +142,12 @@ def tightest(design: OcsDesign) -> Rows:
 
 def _heats(margin: Margin) -> bool:
     """Whether it is a current above the rating for hours, for which a pause is stated."""
-    return margin.name == RMS_CURRENT and margin.factor is not None and margin.factor < 1.0
+    return margin.name == RMS_CURRENT and margin.margin is not None and margin.margin < 1.0
 
 
 def heat(design: OcsDesign) -> str:
     """The current above what the motor bears for hours, and the pause after it; empty if none."""
-    hot = [each for each in recorded_margins(design) if _heats(each)]
+    hot = [each for each in design.margins if _heats(each)]
     return "; ".join(
         f"{quantity(each.demand, each.unit)} rms in {each.scenario} "
         f"(continuous rating {quantity(each.capacity or 0.0, each.unit)}), {each.note}"
@@ -260,7 +252,7 @@ def saving_table(design: OcsDesign) -> Table:
     if selection is None or not selection.prices:
         # Room of the rim, from the margins; then every active limit that is none of them.
         active = {}
-        for margin in recorded_margins(design):
+        for margin in design.margins:
             name = _ROOM.get(margin.name)
             if name is not None and margin.capacity is not None:
                 used, allowed = (

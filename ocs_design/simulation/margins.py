@@ -5,11 +5,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ocs_design.common.records import recorded
 from ocs_design.common.units import rpm
 from ocs_design.device.joints import SHAFT_JOINT, joints_of
-from ocs_design.device.records.device import MarginRecord
-from ocs_design.parts.joints import SERVICE, Margin
+from ocs_design.device.records.device import Margin
+from ocs_design.parts.joints import SERVICE
 from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.simulation.run import Run
@@ -34,7 +33,7 @@ def record_margins(
     designed: Designed,
     runs: Sequence[Run],
     plans: Mapping[str, "Reference"],
-) -> tuple[MarginRecord, ...]:
+) -> tuple[Margin, ...]:
     """Worst of each margin over all maneuvers, as planned and as flown until the run ends.
 
     Args:
@@ -59,7 +58,7 @@ def record_margins(
         Margin("height", made.height, envelope.height_max, "m"),
         Margin("rim mass", made.rim_mass, envelope.mass_max, "kg"),
     )
-    return tuple(recorded(MarginRecord, each, margin=each.factor) for each in (*found, *room))
+    return (*found, *room)
 
 
 def _motions(plans: Mapping[str, "Reference"], runs: Sequence[Run]) -> Iterator[tuple[str, Motion]]:
@@ -113,11 +112,13 @@ def _brake_margins(
         wheel = device.flywheel.spin_inertia * slowed
         rotor = SERVICE * (abs(drive.rotor_inertia) + drive.armature) * slowed
         rows = [
-            Margin(BRAKE_TORQUE, wheel, None, "N m", f"on each wheel and what holds it, {where}"),
+            Margin(
+                BRAKE_TORQUE, wheel, None, "N m", note=f"on each wheel and what holds it, {where}"
+            ),
         ]
         if shaft is not None:
             note = f"{SERVICE:g} x what stops the rotor, {where}, by a brake that grips the wheel"
-            rows.append(Margin(BRAKED_SHAFT, rotor, shaft.capacity, "N m", note))
+            rows.append(Margin(BRAKED_SHAFT, rotor, shaft.capacity, "N m", note=note))
         yield maneuver.name, tuple(rows)
 
 
@@ -137,10 +138,12 @@ def _margins_without_motor(
         speed, torque = int(np.argmax(speeds)), int(np.argmax(torques))
         capacity, at = resolved.requirement.wheel_speed_max, "at the wheel"
         names = [run.scenario for run in driven]
-        yield Margin(WHEEL_SPEED, speeds[speed], capacity, "rad/s", "", names[speed])
-        yield Margin(MOTOR_TORQUE, torques[torque], limit, "N m", at, names[torque])
+        yield Margin(WHEEL_SPEED, speeds[speed], capacity, "rad/s", scenario=names[speed])
+        yield Margin(MOTOR_TORQUE, torques[torque], limit, "N m", note=at, scenario=names[torque])
     elif least > 0.0:
-        yield Margin(MOTOR_TORQUE, least, limit, "N m", "the least that does the maneuvers in time")
+        yield Margin(
+            MOTOR_TORQUE, least, limit, "N m", note="the least that does the maneuvers in time"
+        )
     if wheel.hoop_stress is not None:
         strength = resolved.material.yield_strength
         yield Margin(HOOP_STRESS, wheel.hoop_stress, strength, "Pa")

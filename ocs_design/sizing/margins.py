@@ -14,7 +14,8 @@ import numpy as np
 from ocs_design.actuation.drive import speed_limit
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.joints import BEARING_MOMENT
-from ocs_design.parts.joints import OVERSPEED, Margin
+from ocs_design.device.records.device import Margin
+from ocs_design.parts.joints import OVERSPEED
 from ocs_design.sizing.driven_wheel import DrivenWheel
 from ocs_design.sizing.trajectory.motion import Trajectory
 
@@ -206,7 +207,9 @@ def worst(by_scenario: Iterable[tuple[str, Iterable[Margin]]]) -> tuple[Margin, 
         for margin in margins:
             kept = found.get(margin.name)
             if kept is None or margin.strain > kept.strain:
-                found[margin.name] = replace(margin, scenario=name if margin.of_motion else "")
+                # A rim's stress is that of the drive's highest speed, whatever is done with it.
+                scenario = "" if margin.name == HOOP_STRESS else name
+                found[margin.name] = replace(margin, scenario=scenario)
     return tuple(found.values())
 
 
@@ -259,15 +262,15 @@ def margins(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> tuple[Margi
     if stress is not None:
         strength = wheel.material.yield_strength
         note = f"at {OVERSPEED:g} x the highest speed that the drive reaches"
-        found.append(Margin(HOOP_STRESS, stress, strength, "Pa", note, of_motion=False))
+        found.append(Margin(HOOP_STRESS, stress, strength, "Pa", note=note))
     moved = wheel.turned_inertia + wheel.armature
     energy = float((0.5 * moved * np.sum(motion.wheel_speed**2, axis=1)).max())
     # No motor of the catalogue states what its bearings stand, or how far apart they are.
     moment = float(bearing_moment(motion, axes, wheel).max())
     return (
         *found,
-        Margin("stored energy", energy, None, "J", "all wheels with their rotors"),
-        Margin(BEARING_MOMENT, moment, None, "N m", "gyroscopic, and of the trunk's turning"),
+        Margin("stored energy", energy, None, "J", note="all wheels with their rotors"),
+        Margin(BEARING_MOMENT, moment, None, "N m", note="gyroscopic, and of the trunk's turning"),
     )
 
 
@@ -278,7 +281,7 @@ def _drive_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
     yield Margin(WHEEL_SPEED, speed, _finite(line.speed_max), "rad/s")
     capacity = min(speed_limit(wheel.motor) or np.inf, gear.motor_speed_max)
     note = "" if wheel.motor.speed_max else "no limit stated: no-load speed at rated voltage"
-    yield Margin(MOTOR_SPEED, gear.ratio * speed, _finite(capacity), "rad/s", note)
+    yield Margin(MOTOR_SPEED, gear.ratio * speed, _finite(capacity), "rad/s", note=note)
     # The motor turns against its own friction whenever it is used.
     rubbed = wheel.friction
     asked = _peak(motion.wheel_torque)
@@ -287,7 +290,7 @@ def _drive_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
         asked + rubbed if asked else 0.0,
         _finite(line.torque_limit + rubbed),
         "N m",
-        f"at the wheel, {rubbed:.3g} N m of friction included" if rubbed else "at the wheel",
+        note=f"at the wheel, {rubbed:.3g} N m of friction included" if rubbed else "at the wheel",
     )
     friction = np.sign(motion.wheel_speed) * rubbed
     driven = (motion.wheel_torque + friction) / line.stall_torque
@@ -296,7 +299,8 @@ def _drive_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
         _peak(motion.wheel_speed / line.no_load_speed + driven),
         1.0,
         "",
-        f"of {wheel.supply.voltage:g} V: speed over no-load speed plus torque over stall torque",
+        note=f"of {wheel.supply.voltage:g} V: speed over no-load speed plus torque over stall "
+        "torque",
     )
 
 
@@ -310,30 +314,34 @@ def _electric_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin
     current_max, power_max = _finite(supply.power / supply.voltage), _finite(supply.power)
     for name, power in (("", taken.power_drawn), (FED_BACK, taken.power_fed_back)):
         note = "" if name else ALL_MOTORS
-        yield Margin(BUS_CURRENT + name, power / supply.voltage, current_max, "A", note)
+        yield Margin(BUS_CURRENT + name, power / supply.voltage, current_max, "A", note=note)
         yield Margin(BUS_POWER + name, power, power_max, "W")
     yield Margin(
         "energy from the bus",
         taken.drawn,
         None,
         "J",
-        f"heat in the windings {taken.heat_both:.3g} J",
+        note=f"heat in the windings {taken.heat_both:.3g} J",
     )
     yield Margin(
-        "energy fed back", taken.fed_back, None, "J", "braking, if the inverter lets it through"
+        "energy fed back",
+        taken.fed_back,
+        None,
+        "J",
+        note="braking, if the inverter lets it through",
     )
     note = "cold resistance; its heat capacity is not known"
-    yield Margin("winding heat", taken.heat, None, "J", note)
+    yield Margin("winding heat", taken.heat, None, "J", note=note)
     mean = float(np.sqrt(taken.current_squared_time / taken.duration))
     rating = wheel.motor.continuous_torque
     if rating is None:
-        yield Margin(RMS_CURRENT, mean, None, "A", "no continuous rating is stated")
+        yield Margin(RMS_CURRENT, mean, None, "A", note="no continuous rating is stated")
         return
     continuous = rating / wheel.torque_constant
     pause = taken.current_squared_time / continuous**2 - taken.duration
     note = f"a pause of {pause:.2g} s after each maneuver cools it"
     note = f"for {taken.duration:.2g} s; {note}" if pause > 0.0 else ""
-    yield Margin(RMS_CURRENT, mean, continuous, "A", note)
+    yield Margin(RMS_CURRENT, mean, continuous, "A", note=note)
 
 
 def _peak(values: FloatArray) -> float:

@@ -12,8 +12,8 @@ from ocs_design.device.joints import (
     SHAFT_JOINT,
     WHEEL_STRESS,
 )
-from ocs_design.device.records.device import Buildable, MarginRecord, OpenPoint
-from ocs_design.parts.joints import EPOXY, Margin
+from ocs_design.device.records.device import Buildable, Margin, OpenPoint
+from ocs_design.parts.joints import EPOXY
 from ocs_design.report.quantities import quantity
 from ocs_design.report.table import listed
 from ocs_design.robot.links import listed as some_of
@@ -69,7 +69,7 @@ the limit that its law keeps."""
 def buildable(
     motor: Motor | None,
     mounting: Mounting | None,
-    margins: Sequence[MarginRecord],
+    margins: Sequence[Margin],
     joints: Sequence[Margin] = (),
     robot: Robot | None = None,
 ) -> Buildable:
@@ -114,7 +114,7 @@ def buildable(
             cure = _BOND_CURE
         if joint.capacity is None:
             points.append(OpenPoint(what=f"{joint.name}: {joint.note}", cure=cure))
-        elif joint.factor is not None and joint.factor < 1.0 and joint.name not in _SPARE:
+        elif joint.margin is not None and joint.margin < 1.0 and joint.name not in _SPARE:
             asked, there = (quantity(each, joint.unit) for each in (joint.demand, joint.capacity))
             points.append(OpenPoint(what=f"{joint.name}: {asked} asked, {there} held", cure=cure))
     points += mounted

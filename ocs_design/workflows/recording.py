@@ -20,7 +20,7 @@ from ocs_design.device.layout import heading_drift
 from ocs_design.device.records.design import SCHEMA_VERSION, OcsDesign, Tool
 from ocs_design.device.records.device import (
     Buildable,
-    MarginRecord,
+    Margin,
     ModuleRecord,
     MountingRecord,
     OcsRecord,
@@ -190,7 +190,7 @@ def record_design(
 
 
 def buildable_of(
-    robot: Robot, designed: Designed, margins: Sequence[MarginRecord], mounting: Mounting | None
+    robot: Robot, designed: Designed, margins: Sequence[Margin], mounting: Mounting | None
 ) -> Buildable:
     """Whether a designed device can be built on its robot, and what is open."""
     motor = None if designed.choice is None else designed.choice.chosen.motor

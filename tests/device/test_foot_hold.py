@@ -11,7 +11,7 @@ from scipy.integrate import quad
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.device.joints import BEARING_MOMENT, FOOT_SHOCK, foot_hold, joints_of, unheld_moment
-from ocs_design.device.records.device import MarginRecord
+from ocs_design.device.records.device import Margin
 from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly.booklet import chapters, screw_rows
 from ocs_design.export.assembly.content import Assembly
@@ -96,9 +96,7 @@ def test_a_foot_that_its_wheel_would_turn_is_pinned(share):
     """Friction of 0.1 under two screws, at the least preload that a wrench leaves, 1 / 1.6."""
     device = weighing(0.3)
     holds = 0.1 * 2.0 * (23.5 * beside_a_slot(5.5)) / 1.6 * foot_of(device).slot_radius
-    asked = MarginRecord(
-        name=BEARING_MOMENT, demand=share * holds, capacity=None, unit="N m", margin=None
-    )
+    asked = Margin(name=BEARING_MOMENT, demand=share * holds, capacity=None, unit="N m")
     assert bool(unheld_moment(device, (asked,))) == (share > 1.0)
     steps = " ".join(
         text for each in chapters(Assembly("s", device, (asked,))) for text in each.texts

@@ -53,12 +53,12 @@ def test_one_piece_stands_its_largest_stress_at_over_speed():
     peaks = [turning.peak(ring) for ring in range(3)]
     assert joint.demand == pytest.approx(max(*peaks, turning.peak_at_hole(0, 0.006)))
     assert joint.capacity == STEEL.yield_strength
-    assert joint.factor == pytest.approx(joint.capacity / joint.demand)
+    assert joint.margin == pytest.approx(joint.capacity / joint.demand)
     assert joint.note.startswith("in the web at 1.2 x top speed, against yield; one piece")
     # With the square of the speed.
     where, factor = yield_margin(one, 1.05 * one.motor.top_speed)
     assert where == "the web"
-    assert factor == pytest.approx(joint.factor * (1.2 / 1.05) ** 2)
+    assert factor == pytest.approx(joint.margin * (1.2 / 1.05) ** 2)
     assert one.motor.top_speed == pytest.approx(min(650.4, 300.0 * pi))
 
 
@@ -78,7 +78,7 @@ def test_screws_of_a_plate_have_a_shock_too():
     (name,) = set(on_plate) - set(plain)
     assert name == "landing shock, screws in the trunk"
     assert on_plate[name].note.endswith("until one of 4 M3 of class 8.8 breaks")
-    assert on_plate[name].factor > 1.0
+    assert on_plate[name].margin > 1.0
 
 
 def test_a_cages_floor_breaks_at_the_shock_that_is_told():
@@ -91,7 +91,7 @@ def test_a_cages_floor_breaks_at_the_shock_that_is_told():
     ring = (cage.bore**2 - held**2) / (cage.bore**2 + held**2)
     stress = 3.0 * tilting * shock.capacity * ring / (pi * held * cage.floor**2)
     assert 2.0 * stress == pytest.approx(47e6)
-    assert shock.factor > 1.0
+    assert shock.margin > 1.0
 
 
 def test_heads_of_a_cage_s_screws_sink_in_where_its_floor_is_strong():
@@ -115,12 +115,12 @@ def test_a_rim_on_another_web_is_shrunk_on():
     fit = rim_fit(device(web=ALUMINIUM))
     joint = found["rim joint"]
     assert (joint.demand, joint.capacity) == (fit.needed, fit.held)
-    assert joint.factor == pytest.approx(1.5)
+    assert joint.margin == pytest.approx(1.5)
     # 1.5 x 0.9 N m on 2 pi 36^2 x 1 mm by a friction of 0.1.
     assert joint.demand == pytest.approx(1.35 / (2.0 * pi * 0.036**2 * WEB_THICKNESS * 0.1))
     assert rim_fit(device()) is None
     where, factor = yield_margin(device(web=ALUMINIUM), device().motor.top_speed)
-    both = {name: found[f"{name} of the shrink fit"].factor for name in ("web", "rim")}
+    both = {name: found[f"{name} of the shrink fit"].margin for name in ("web", "rim")}
     assert (where.removeprefix("the "), factor) == min(both.items(), key=lambda each: each[1])
 
 
@@ -146,7 +146,7 @@ def test_a_shaft_alone_is_bonded():
 )
 def test_what_is_not_in_the_catalogue_has_no_capacity(unknown):
     joint = named(unknown)["shaft joint"]
-    assert joint.capacity is joint.factor is None
+    assert joint.capacity is joint.margin is None
     assert "not in the catalogue" in joint.note
 
 

@@ -9,7 +9,7 @@ from wheels import EC45, EC45_BODY, PAPER_WHEEL, driven_device, geared, paper_de
 
 from ocs_design.actuation.motor import GearRoom
 from ocs_design.device.device import Web
-from ocs_design.device.records.device import MarginRecord
+from ocs_design.device.records.device import Margin
 from ocs_design.export.bill_of_materials import COLUMNS, bill_csv, bill_rows, plain
 from ocs_design.parts.module import Printed
 from ocs_design.parts.rim import Hub, WebHoles
@@ -136,7 +136,7 @@ def test_motor_controllers_are_listed_without_a_mass():
 
 
 def margin(name, demand, unit="A"):
-    return MarginRecord(name=name, demand=demand, capacity=None, unit=unit, margin=None)
+    return Margin(name=name, demand=demand, capacity=None, unit=unit)
 
 
 def test_the_battery_gives_and_takes_what_the_flights_asked():
@@ -197,7 +197,7 @@ def test_parts_of_the_wiring_are_bought_and_not_counted():
     drive = replace(DEVICES["caged"].motor, bus_voltage=24.0)
     device = replace(DEVICES["caged"], motor=drive)
     asked = tuple(
-        MarginRecord(name=f"bus current{way}", demand=current, capacity=None, unit="A", margin=None)
+        Margin(name=f"bus current{way}", demand=current, capacity=None, unit="A")
         for way, current in (("", 28.6), (", fed back", 41.2))
     )
     rows = {row.part: row for row in bill_rows(device, asked)}

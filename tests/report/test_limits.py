@@ -7,9 +7,8 @@ import pytest
 from rich.console import Console
 from stories import design
 
-from ocs_design.device.records.device import MarginRecord
+from ocs_design.device.records.device import Margin
 from ocs_design.device.records.selection import Alternative
-from ocs_design.parts.joints import Margin
 from ocs_design.report.limits import (
     alternatives_note,
     alternatives_table,
@@ -27,9 +26,9 @@ from ocs_design.report.table import Toned
 from ocs_design.report.text.layout import items, show
 
 MARGINS = (
-    Margin("motor torque", 0.4, 1.0, "N m", "", "drop"),
-    Margin("rms current", 10.84, 3.469, "A", "a pause of 8.8 s cools it", "drop"),
-    Margin("stored energy", 8.14, None, "J", "both wheels", "back-flip"),
+    Margin("motor torque", 0.4, 1.0, "N m", scenario="drop"),
+    Margin("rms current", 10.84, 3.469, "A", note="a pause of 8.8 s cools it", scenario="drop"),
+    Margin("stored energy", 8.14, None, "J", note="both wheels", scenario="back-flip"),
 )
 
 
@@ -73,15 +72,15 @@ def test_units_of_the_bench():
     ("factor", "shown"), [(0.996, "0.99"), (1.0 - 1e-9, "1.00"), (1.029, "1.02")]
 )
 def test_a_limit_that_is_exceeded_is_not_told_as_kept(factor, shown):
-    margin = Margin("torque", 1.0, factor, "N m", "", "drop")
+    margin = Margin("torque", 1.0, factor, "N m", scenario="drop")
     ((_, _, _, cell, _),) = margin_table((margin,)).rows
     assert (cell.text if isinstance(cell, Toned) else cell) == shown
 
 
 def test_what_is_used_most_comes_first_and_equals_stand_together():
     margins = tuple(
-        MarginRecord(
-            name=name, demand=demand, capacity=capacity, unit="", margin=None, note=note,
+        Margin(
+            name=name, demand=demand, capacity=capacity, unit="", note=note,
             scenario=scenario,
         )
         for name, demand, capacity, scenario, note in (

@@ -9,7 +9,7 @@ from designed import MOTOR
 from stories import design
 
 from ocs_design.device.records.design import read_design
-from ocs_design.device.records.device import MarginRecord
+from ocs_design.device.records.device import Margin
 from ocs_design.report.warnings import all_warnings, coupling_notes
 
 DESIGN = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
@@ -18,8 +18,8 @@ DESIGN = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
 def changed(*, asked=0.5, fitting=(), sha256="", **motor):
     """A design that asks a wheel for so much torque [N m]."""
     found = design(MOTOR)
-    torque = MarginRecord(
-        name="motor torque", demand=asked, capacity=1.0, unit="N m", margin=None,
+    torque = Margin(
+        name="motor torque", demand=asked, capacity=1.0, unit="N m",
         scenario="", note="",
     )  # fmt: skip
     ocs = replace(found.ocs, motor=replace(found.ocs.motor, **motor), fitting=fitting)

@@ -59,7 +59,7 @@ def test_it_is_around_the_bell_within_its_straight_part_and_its_joints_hold():
         "shaft joint",
         "landing shock, foot",
     ]
-    assert all(joint.factor >= 1.0 for joint in joints_of(designed.device))
+    assert all(joint.margin >= 1.0 for joint in joints_of(designed.device))
     assert balance_of(designed.device).off_centre > GLUE_GAP
     assert not balance_of(designed.device).shifted
 

@@ -8,8 +8,7 @@ import pytest
 
 from ocs_design.actuation.motor import build_gaps
 from ocs_design.catalogue.motors import motors
-from ocs_design.device.records.device import Clearance, MarginRecord
-from ocs_design.parts.joints import Margin
+from ocs_design.device.records.device import Clearance, Margin
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.footing.contact import FootContact
 from ocs_design.sizing.mounting import Mounting
@@ -19,12 +18,9 @@ WHOLE = next(motor for motor in motors().values() if not build_gaps(motor))
 FREE = Mounting(Clearance("trunk", 0.01), None, (), np.zeros(3), np.zeros(3))
 
 
-def margin(name, demand, capacity, factor="capacity over demand"):
+def margin(name, demand, capacity):
     """Of a quantity in W."""
-    value = capacity / demand if factor == "capacity over demand" else factor
-    return MarginRecord(
-        name=name, demand=demand, capacity=capacity, unit="W", margin=value, scenario="drop"
-    )
+    return Margin(name, demand, capacity, "W", scenario="drop")
 
 
 def test_a_device_with_nothing_open_can_be_built():
@@ -73,8 +69,11 @@ def test_what_only_asks_for_a_pause_or_gives_less_torque_is_not_open(name):
 @pytest.mark.parametrize(
     ("joint", "words"),
     [
-        (Margin("rim joint", 2e6, 1e6, "Pa", ""), "rim joint: 2.0 MPa asked, 1.0 MPa held"),
-        (Margin("shaft joint", 1.0, None, "N m", "not in the catalogue"), "not in the catalogue"),
+        (Margin("rim joint", 2e6, 1e6, "Pa"), "rim joint: 2.0 MPa asked, 1.0 MPa held"),
+        (
+            Margin("shaft joint", 1.0, None, "N m", note="not in the catalogue"),
+            "not in the catalogue",
+        ),
     ],
 )
 def test_a_joint_that_does_not_hold_or_is_not_known_is_open(joint, words):
@@ -85,7 +84,7 @@ def test_a_joint_that_does_not_hold_or_is_not_known_is_open(joint, words):
 
 @pytest.mark.parametrize("name", ["shaft joint, screws in shear", "landing shock, foot"])
 def test_what_friction_or_a_milled_foot_makes_up_for_is_a_reserve(name):
-    spare = Margin(name, 2.0, 1.0, "N m", "")
+    spare = Margin(name, 2.0, 1.0, "N m")
     assert buildable(WHOLE, FREE, (), (spare,)).yes is True
 
 

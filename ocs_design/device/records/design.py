@@ -16,7 +16,7 @@ from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import AnyPath, read_plain_file
 from ocs_design.common.units import format_quantity
-from ocs_design.device.records.device import Buildable, MarginRecord, OcsRecord
+from ocs_design.device.records.device import Buildable, Margin, OcsRecord
 from ocs_design.device.records.flights import (
     ControlRecord,
     ReliabilityRecord,
@@ -66,7 +66,7 @@ class OcsDesign:
     ocs: OcsRecord
     sizing: SizingRecord
     selection: SelectionRecord | None = None
-    margins: tuple[MarginRecord, ...]
+    margins: tuple[Margin, ...]
     supply: Supply | None = None
     alternatives: tuple[Alternative, ...] = ()
     owed: Owed | None = None

@@ -1,7 +1,7 @@
 """The device in its place, its margins and what keeps it from being built."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -118,20 +118,36 @@ class OcsRecord:
         return Layout(self.layout, tuple(axes) if self.layout is LayoutName.BY_HAND else ())
 
 
-@dataclass(frozen=True, kw_only=True)
-class MarginRecord:
-    """Demand against capacity; `margin` is capacity over demand, None where there is no limit.
+@dataclass(frozen=True)
+class Margin:
+    """What is asked of one part against what it stands.
 
-    `scenario` is the one that sets it, empty if none does; `note` is what the figures rest on.
+    Attributes:
+        name: of the quantity; one name is one kind of margin.
+        demand: largest that is asked, never negative.
+        capacity: what the part stands; None: no limit, or none known, and `note` says which.
+        unit: of both, SI.
+        margin: capacity over demand: below 1 it is exceeded; None: no limit, or nothing asked.
+        scenario: name of the maneuver that asks it; empty if none does.
+        note: what the figures rest on, one sentence; empty if there is nothing to say.
     """
 
     name: str
     demand: float
     capacity: float | None
     unit: str
-    margin: float | None
+    margin: float | None = field(default=None, init=False)
     scenario: str = ""
     note: str = ""
+
+    def __post_init__(self) -> None:
+        if self.capacity is not None and self.demand != 0.0:
+            object.__setattr__(self, "margin", self.capacity / self.demand)
+
+    @property
+    def strain(self) -> tuple[float, float]:
+        """Grows with what is asked, and with its share of the capacity first."""
+        return (0.0 if self.margin is None else 1.0 / self.margin, self.demand)
 
 
 @dataclass(frozen=True, kw_only=True)

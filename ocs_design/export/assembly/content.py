@@ -12,7 +12,7 @@ from math import pi, sqrt
 from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening
 from ocs_design.device.device import Device
 from ocs_design.device.joints import burst_of, foot_hold
-from ocs_design.device.records.device import MarginRecord
+from ocs_design.device.records.device import Margin
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.placed import Piece, bonding_pieces, holds_wheel, module_pieces
 from ocs_design.export.device_parts import places, trunk_holes
@@ -120,7 +120,7 @@ class Assembly:
 
     robot: str
     device: Device
-    margins: Sequence[MarginRecord] = ()
+    margins: Sequence[Margin] = ()
     notes: tuple[str, ...] = ()
     refused: str = ""
 

@@ -19,7 +19,6 @@ from ocs_design.report.html import sections
 from ocs_design.report.html.decimation import decimated
 from ocs_design.report.html.elements import Markup, data, element, joined
 from ocs_design.report.html.view import view, view_data
-from ocs_design.report.limits import recorded_margins
 from ocs_design.report.quantities import degrees, grams, inertia, tenths
 from ocs_design.report.story import Story
 from ocs_design.report.verdict import headline
@@ -132,9 +131,9 @@ def _tiles(design: OcsDesign) -> Markup:
     if ocs.motor.gear != DIRECT.name:
         drive += f", {ocs.motor.gear}"
     # As in the table of margins, else at the design's speed.
-    stress = next((each for each in recorded_margins(design) if each.name == HOOP_STRESS), None)
-    if stress is not None and stress.factor is not None:
-        bears = f"stress margin {stress.factor:.2f} {stress.note}"
+    stress = next((each for each in design.margins if each.name == HOOP_STRESS), None)
+    if stress is not None and stress.margin is not None:
+        bears = f"stress margin {stress.margin:.2f} {stress.note}"
     else:
         margin = wheel.stress_margin
         bears = "stress not checked" if margin is None else f"stress margin {margin:.2f}"

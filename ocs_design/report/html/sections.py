@@ -79,7 +79,7 @@ def robot_section(story: Story, view: Markup) -> Markup:
 
 def sizes_section(design: OcsDesign) -> Markup:
     """Sizes of the wheel with their tolerances, and the margins."""
-    wheel, margins = wheel_geometry(design.ocs.flywheel), limits.recorded_margins(design)
+    wheel, margins = wheel_geometry(design.ocs.flywheel), design.margins
     rows = [("outer diameter, 2 R", rim_diameter(wheel))]
     if wheel.rim.inner_radius > 0.0:
         rows.append(("bore of the rim, 2 r", bore_diameter(wheel)))

@@ -78,7 +78,7 @@ def print_design(console: Console, design: OcsDesign) -> None:
         show(console, limits.reserve_table(design.selection.kept))
         note(console, limits.reserve_note(design.selection.kept, design.ocs.mass_total))
     print_alternatives(console, design)
-    margins = limits.recorded_margins(design)
+    margins = design.margins
     heading(console, "Margins")
     show(console, limits.margin_table(margins))
     note(console, limits.MARGIN_NOTE)

@@ -17,7 +17,7 @@ from ocs_design.device.bodies import carrier_placement, wheel_placement
 from ocs_design.device.device import Module
 from ocs_design.device.joints import balance_of, burst_of, rim_fit, yield_margin
 from ocs_design.device.layout import Layout, LayoutName
-from ocs_design.device.records.device import MarginRecord
+from ocs_design.device.records.device import Margin
 from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly.booklet import assembly_pages, chapters, piece_rows, screw_rows
 from ocs_design.export.assembly.content import Assembly
@@ -334,7 +334,7 @@ def test_what_cannot_be_built_is_told_first_of_all():
 
 
 def test_the_flights_say_what_the_battery_gives():
-    asked = MarginRecord(name="bus current", demand=28.2, capacity=None, unit="A", margin=None)
+    asked = Margin(name="bus current", demand=28.2, capacity=None, unit="A")
     said = texts(Assembly("solo12", DEVICES["caged"], (asked,)), "Wiring")
     assert "gives at least 29 A (677 W)" in said
     assert "brake resistor" in said

@@ -7,7 +7,7 @@ import pytest
 from driven_wheels import BELT, EC45, STEEL, driven_wheel
 
 from ocs_design.device.layout import module_axes
-from ocs_design.parts.joints import Margin
+from ocs_design.device.records.device import Margin
 from ocs_design.sizing.margins import Motion, margins, worst
 
 AXES = module_axes(np.radians(30.0))
@@ -35,7 +35,7 @@ def by_name(motion, wheel):
 def test_the_drive():
     found = by_name(turn(), driven_wheel())
     torque = found["motor torque"]
-    assert (torque.demand, torque.capacity, torque.factor) == (0.4, 1.0, 2.5)
+    assert (torque.demand, torque.capacity, torque.margin) == (0.4, 1.0, 2.5)
     # At the end of the spin-up: 300 / 650.4 + 0.4 / 1.4566.
     assert found["voltage line"].demand == pytest.approx(0.73586, rel=1e-4)
     assert found["wheel speed"].capacity == 1047.2
@@ -108,7 +108,7 @@ def test_stored_energy_is_that_of_both_wheels_with_their_rotors():
     energy = by_name(turn(), driven_wheel())["stored energy"]
     assert energy.demand == pytest.approx(9.0446e-5 * 300.0**2, rel=1e-3)
     assert energy.capacity is None
-    assert energy.factor is None
+    assert energy.margin is None
 
 
 def test_heat_against_the_continuous_rating():
@@ -118,7 +118,7 @@ def test_heat_against_the_continuous_rating():
     assert current.capacity == pytest.approx(0.128 / 0.0369, rel=1e-12)
     assert "8.8 s" in current.note
     cool = by_name(turn(torque=0.1), driven_wheel())["rms current"]
-    assert cool.factor == pytest.approx(1.28)
+    assert cool.margin == pytest.approx(1.28)
     assert cool.note == ""
 
 
@@ -137,7 +137,7 @@ def test_nothing_is_asked_of_a_device_at_rest():
 def test_unlimited_drives_have_no_capacity():
     found = by_name(turn(), driven_wheel(replace(EC45, peak_torque=np.inf, speed_max=np.inf)))
     assert found["motor torque"].capacity is None
-    assert found["wheel speed"].factor is None
+    assert found["wheel speed"].margin is None
 
 
 def test_the_worst_of_each_kind_names_its_maneuver():
