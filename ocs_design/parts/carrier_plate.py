@@ -21,6 +21,7 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 
 from ocs_design.actuation.fasteners import Fastening, Screw, screw
+from ocs_design.catalogue.materials import material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import BACKWARDS, Placement
 from ocs_design.parts.dog_bone import DogBone, directions
@@ -29,12 +30,15 @@ from ocs_design.parts.shapes import Disc, Rectangle
 from ocs_design.parts.solids import Part, Prism, hollow_cylinder
 from ocs_design.robot.mass import MassProperties, combine
 
-MATERIAL, ALUMINIUM = "aluminium-6061-t6", Bulk(density=2710.0, strength=255e6, modulus=69e9)
-"""Name in the catalogue of materials, whose modulus this is; density and yield strength: Hibbeler,
-Mechanics of Materials, Appendix C."""
+MATERIAL = "aluminium-6061-t6"
+"""Name in the catalogue of materials."""
+
+_KIND = material(MATERIAL)
+assert _KIND.yield_strength is not None and _KIND.elastic_modulus is not None
+ALUMINIUM = Bulk(_KIND.density, _KIND.yield_strength, _KIND.elastic_modulus)
 
 SHEAR_MODULUS = 26e9
-"""Shear modulus of 6061 [Pa]: likewise."""
+"""Shear modulus of 6061 [Pa]: Hibbeler, Mechanics of Materials, Appendix C."""
 
 STOCK = (3.0e-3, 4.0e-3, 5.0e-3, 6.0e-3, 8.0e-3, 10.0e-3, 12.0e-3, 15.0e-3, 20.0e-3)
 """Thicknesses of rolled plate, EN 485-4 sizes that are kept in stock [m]."""

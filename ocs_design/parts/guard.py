@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from math import ceil, pi, sin, sqrt
 
 from ocs_design.actuation.fasteners import STEEL
+from ocs_design.catalogue.materials import material
 from ocs_design.parts.moments import cylinder_mass
 from ocs_design.parts.printed import CLEARANCE
 
@@ -39,9 +40,6 @@ BUILT = 1.25
 
 STEEL_STRENGTH, ALUMINIUM_STRENGTH = 360e6, 310e6
 """Tensile strengths [Pa]: least of S235 (EN 10025-2), typical of 6061-T6 (ASM)."""
-
-ALUMINIUM_DENSITY = 2700.0
-"""Density of 6061-T6 [kg/m^3]."""
 
 
 @dataclass(frozen=True)
@@ -135,7 +133,8 @@ class Containment:
     @property
     def masses(self) -> tuple[float, float]:
         """Mass of the ring of steel, and of that of aluminium, as thick as they are built [kg]."""
-        walls = (stepped(self.steel), STEEL), (stepped(self.aluminium), ALUMINIUM_DENSITY)
+        light = material("aluminium-6061-t6").density
+        walls = (stepped(self.steel), STEEL), (stepped(self.aluminium), light)
         steel, aluminium = (
             cylinder_mass(self.inner_radius, self.inner_radius + wall, self.height, density)
             for wall, density in walls
