@@ -23,6 +23,7 @@ from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.robot.meshes import size
 from ocs_design.robot.reader import read_robot
+from ocs_design.sizing.selection.device import with_demands
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.select import select
 from ocs_design.sizing.specified import selection_problem
@@ -82,7 +83,7 @@ def variants(problem: SelectionProblem) -> Iterator[tuple[str, SelectionProblem]
 
 def row(problem: SelectionProblem) -> str:
     try:
-        chosen = select(problem).best
+        chosen = with_demands(problem, select(problem).best)
     except Infeasible:
         return " | ".join(["none", *["–"] * 8])
     start = time.perf_counter()

@@ -14,8 +14,10 @@ from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.place import Place
+from ocs_design.sizing.selection.device import with_demands
 from ocs_design.sizing.selection.problem import SelectionProblem
 from ocs_design.sizing.selection.search import search
+from ocs_design.sizing.selection.select import select
 
 ALUMINIUM = Material("aluminium", 2700.0, 250e6, 300e6, 0.33, "for tests")
 NO_LIMIT = float("inf")
@@ -94,6 +96,11 @@ def lopsided(problem, seed):
     load *= rng.uniform(0.1, 0.4) * size / np.linalg.norm(load)
     own = robot.mass * (load @ load * np.eye(3) - np.outer(load, load))
     return replace(problem, robot=MassProperties(robot.mass, com, robot.inertia + own))
+
+
+def lightest(problem):
+    """The lightest device, with what each part of the requirement takes of it."""
+    return with_demands(problem, select(problem).best)
 
 
 def has_device(problem):

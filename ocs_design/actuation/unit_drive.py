@@ -143,11 +143,6 @@ class UnitDrive(Table):
         return np.where(finite & (current > 0.0), limited, np.inf)
 
     @cached_property
-    def feels_power(self) -> NDArray[np.bool_]:
-        """Whether the supply limits anything."""
-        return (self.power < self.knee) | (self.regenerating < 1.0)
-
-    @cached_property
     def entry(self) -> FloatArray:
         """w + e^w, w = 2u, where the limit of power takes over; 1 where none is felt."""
         first = np.arcsinh(self.end_of_limit / (2.0 * self.current))
@@ -331,7 +326,9 @@ def farthest_slew(drive: UnitDrive, time: FloatArray, final: FloatArray) -> Unit
     line = np.where(time + final > 2.0 * drive.end_of_limit, _line_phase(drive, time, final), 0.0)
     rise = Rise(ramp, np.zeros_like(ramp), line)
     beyond = np.isfinite(time) & (time + final > 2.0 * drive.end_of_limit)
-    felt = drive.feels_power & beyond
+    # What limits only the braking from a higher peak is not felt.
+    limited = (drive.power < drive.knee) | (risen_speed(drive, rise) > drive.regenerating)
+    felt = limited & beyond
     if felt.any():
         rise = _powered_rise(drive, time, final, felt, rise)
     rise = Rise(*(np.minimum(own, most) for own, most in zip(rise, capped, strict=True)))

@@ -431,15 +431,20 @@ class Selection:
 
     Attributes:
         ranking: the ten lightest that differ in motor, gear or material, and the lightest of each
-            of the five best motors, lightest first.
-        rejections: one for each motor that has no place in it, in the order of the problem.
+            of the five best motors, lightest first; without their demands.
         candidates: combinations of motor, gear, material and 5 deg of incidence that were decided;
             without those whose figures do not suffice.
+        reasons: of the `rejections`, which take some time to find.
     """
 
     ranking: tuple[Candidate, ...]
-    rejections: tuple[Rejection, ...]
     candidates: int
+    reasons: Callable[[], tuple[Rejection, ...]]
+
+    @cached_property
+    def rejections(self) -> tuple[Rejection, ...]:
+        """One for each motor that has no place in the ranking, in the order of the problem."""
+        return self.reasons()
 
     @property
     def best(self) -> Candidate:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from math import pi
 
 import numpy as np
@@ -10,7 +11,7 @@ from ocs_design.device.layout import Criterion, incidence_by_criterion
 from ocs_design.sizing.bound.device_problem import design_momenta
 from ocs_design.sizing.selection.bounds import cells_of
 from ocs_design.sizing.selection.candidates import Candidates, Guess, drives_of
-from ocs_design.sizing.selection.device import device_of, with_demands
+from ocs_design.sizing.selection.device import device_of
 from ocs_design.sizing.selection.fixed_point import FINE, Design, Solved, fixed_point
 from ocs_design.sizing.selection.problem import (
     Candidate,
@@ -46,14 +47,12 @@ def select(problem: SelectionProblem) -> Selection:
         UsageError: there is nothing to choose from or nothing to do, or a limit is no limit.
     """
     found = _found(problem, refined_search)
-    ranked = {rank.motor for rank in found.places}
-    best, *others = map(device_of, found.devices)
     return Selection(
-        ranking=(with_demands(problem, best), *others),
-        rejections=rejections(found, ranked),
+        ranking=tuple(map(device_of, found.devices)),
         candidates=int(found.known.sum())
         * len(problem.materials)
         * len(cells_of(problem.incidence)),
+        reasons=partial(rejections, found, {rank.motor for rank in found.places}),
     )
 
 
@@ -115,8 +114,7 @@ def select_by(
             near = [entry for entry in others if entry.mass < about]
             turned = _devices_at(problem, near, exact.incidence) if near else ()
             moved = [device or entry for device, entry in zip(turned, near, strict=True)]
-            best, *close = devices_by_mass((exact, *moved))
-            ranking = (with_demands(problem, best), *close, *others[len(near) :])
+            ranking = (*devices_by_mass((exact, *moved)), *others[len(near) :])
             return replace(selection, ranking=ranking)
         winners.append(winner)
         own += [] if settled is None else [settled]
@@ -129,8 +127,7 @@ def select_by(
     there = select(replace(problem, incidence=lightest.incidence))
     # It leads; motors that are lighter at this incidence, which is not their own, have fallen out.
     heavier = [entry for entry in there.ranking if entry.mass > lightest.mass]
-    after = (entry for entry in heavier if not same_parts(entry, lightest))
-    ranking = (with_demands(problem, lightest), *after)
+    ranking = (lightest, *(entry for entry in heavier if not same_parts(entry, lightest)))
     listed = {entry.motor.name for entry in ranking}
     lighter = {entry.motor.name: entry.mass for entry in reversed(there.ranking)}
     fallen = [
@@ -139,7 +136,7 @@ def select_by(
         if name not in listed
     ]
     rest = [rejection for rejection in there.rejections if rejection.motor not in listed]
-    return replace(there, ranking=ranking, rejections=(*fallen, *rest))
+    return replace(there, ranking=ranking, reasons=partial(tuple, (*fallen, *rest)))
 
 
 def lightest_by(problem: SelectionProblem, criterion: Criterion | None) -> Candidate | None:

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from selections import random_problem
+from selections import lightest, random_problem
 
 from ocs_design.common.errors import Infeasible
 from ocs_design.requirement.maneuver import Drop, Flip
@@ -30,7 +30,7 @@ def asking(share, *maneuvers):
 def test_a_little_drift_is_let_pass_and_lightens_the_pitch():
     """I_yy - I_xy^2 / I_xx is left of it, and no momentum about roll is asked for."""
     even, coupled = asking(0.0, WHOLE), asking(0.03, WHOLE)
-    before, after = select(even).best, select(coupled).best
+    before, after = lightest(even), lightest(coupled)
     inertia = after.total.inertia
     left = inertia[1, 1] - inertia[0, 1] ** 2 / inertia[0, 0]
     (demand,) = sized_selection(coupled, after, coupled.robot).demands

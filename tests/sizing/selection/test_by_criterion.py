@@ -36,7 +36,7 @@ def test_where_none_wins_at_its_own_incidence_the_lightest_at_its_own_leads(monk
         """All that are asked for, lightest first."""
         names = {motor.name for motor in asked.motors} & set(angles) or set(angles)
         found = sorted((device(name, asked.incidence) for name in names), key=lambda d: d.mass)
-        return replace(lightest, ranking=tuple(found), rejections=())
+        return replace(lightest, ranking=tuple(found), reasons=tuple)
 
     def settled(problem, winner, criterion):
         """As the criterion would have it; what wins first, neither of both, leads to a's."""

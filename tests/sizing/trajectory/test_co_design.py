@@ -7,11 +7,10 @@ import casadi as ca
 import numpy as np
 import pytest
 from naive_wheel import wheel_of
-from selections import random_problem
+from selections import lightest, random_problem
 
 from ocs_design.device.layout import module_axes
 from ocs_design.sizing.place import braked
-from ocs_design.sizing.selection.select import select
 from ocs_design.sizing.trajectory import program
 from ocs_design.sizing.trajectory.co_design import (
     LEAST_GAIN,
@@ -31,7 +30,7 @@ def question(seed, **changes):
     # Where a mount's holes bound the foot's plate its mass has kinks: see docs/parts.md.
     problem = random_problem(seed, mounted=False)
     problem = replace(problem, requirement=replace(problem.requirement, **changes))
-    return problem, select(problem).best
+    return problem, lightest(problem)
 
 
 @cache
@@ -211,5 +210,5 @@ def test_where_only_the_finer_mesh_fails_the_coarse_one_counts(monkeypatch):
 @pytest.mark.exhaustive
 def test_the_incidence_stays_where_it_is_stated():
     problem = replace(random_problem(ROLL_AND_PITCH, mounted=False), incidence=0.5)
-    selected = select(problem).best
+    selected = lightest(problem)
     assert co_design(problem, selected).device.incidence == 0.5
