@@ -354,6 +354,14 @@ VOLTAGE_SHARES = (1e-3, 3.0)
 """Voltage that the peak current takes at rest, over the rated one, beyond which a row is doubted;
 the catalogue's motors have 0.01 to 1."""
 
+SHAFT_SHARE = 3.0
+"""Length of a shaft over that of its motor's body, beyond which it is doubted; the catalogue's have
+up to 0.9."""
+
+TORQUE_SHARES = (3.2, 22.0)
+"""Peak torque over the mass to the power of 4/3 of the catalogue's motors [N m/kg^(4/3)]: both grow
+with the volume, and torque by another third with the lever. Ten times more or less are doubted."""
+
 
 def _density(sheet: MotorSheet) -> float | None:
     """Mass over the cylinder around the body [kg/m^3]; None: not known."""
@@ -400,9 +408,31 @@ def _impossible(sheet: MotorSheet) -> Iterator[str]:
         yield from _of_mass(sheet, POSSIBLE)
 
 
+def _of_torque(sheet: MotorSheet) -> Iterator[str]:
+    """Line on a mass that its torque is not that of, where no size says what it should be."""
+    mass, torque = sheet.mass_kg, sheet.motor().peak_torque
+    if mass is None or torque is None or _density(sheet) is not None:
+        return
+    least, most = TORQUE_SHARES
+    if not least / 10.0 <= torque / mass ** (4.0 / 3.0) <= 10.0 * most:
+        lightest, heaviest = ((torque / share) ** 0.75 for share in (most, least))
+        yield (
+            f"mass_kg is {mass:g} kg for {torque:.3g} N m, where motors weigh {lightest:.2g} to "
+            f"{heaviest:.2g} kg: {_meant(mass, 'kg', mass, (lightest / 3.0, 3.0 * heaviest))}"
+        )
+
+
 def _doubts(sheet: MotorSheet) -> Iterator[str]:
     """Figures that are possible and hardly meant, one line each with the likely slip."""
     yield from _of_mass(sheet, LIKELY)
+    yield from _of_torque(sheet)
+    shaft, body = sheet.shaft_length_m, sheet.length_m
+    if shaft is not None and body is not None and shaft > SHAFT_SHARE * body:
+        yield (
+            f"shaft_length_m is {shaft:g} m, {shaft / body:.2g} times its motor's body, and shafts "
+            f"stand out by less than {SHAFT_SHARE:g} times that: "
+            f"{_meant(shaft, 'm', shaft / body, (0.05, 1.0))}"
+        )
     k_t, (slow, fast) = sheet.torque_constant, SPEED_CONSTANTS
     kv = slow if k_t is None else 1.0 / (k_t * rad_s(1.0))
     if not slow / 10.0 <= kv <= 10.0 * fast:
@@ -507,8 +537,11 @@ def _sheets(path: Path) -> Mapping[str, MotorSheet]:
     return load_entries(path, "motor", MotorSheet, _faults, lacks)
 
 
-def motors_to_json(found: Iterable[Motor]) -> bytes:
-    """Motors as indented UTF-8 JSON, SI, each with what a direct drive and a builder lack of it."""
+def motors_to_json(found: Iterable[Motor], warnings: Iterable[str] = ()) -> bytes:
+    """Motors as indented UTF-8 JSON, SI, each with what a direct drive and a builder lack of it.
+
+    With them go warnings about a user's file, one sentence each.
+    """
     rows = [
         {
             **msgspec.to_builtins(motor),
@@ -517,4 +550,4 @@ def motors_to_json(found: Iterable[Motor]) -> bytes:
         }
         for motor in found
     ]
-    return to_json({"schema_version": 1, "motors": rows})
+    return to_json({"schema_version": 1, "motors": rows, "warnings": list(warnings)})

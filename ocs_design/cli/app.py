@@ -370,10 +370,11 @@ def catalogue(
     built with.
     """
     from ocs_design.report.text.catalogue import listing
-    from ocs_design.report.text.console import make_console
+    from ocs_design.report.text.layout import warn
 
-    listed = listing(what, {"motors": motors, "gears": gears})
+    listed, output = listing(what, {"motors": motors, "gears": gears}), Output(no_color=no_color)
     if as_json:
         sys.stdout.buffer.write(listed.json)
     else:
-        listed.show(make_console(color=not no_color), verbose=verbose)
+        warn(output.aside, listed.warnings)
+        listed.show(output.console, verbose=verbose)

@@ -105,3 +105,15 @@ def test_what_makes_no_sense_is_wrong_usage(arguments, words):
     result = run("catalogue", *arguments)
     assert result.code == 2
     assert words in result.said
+
+
+def test_doubts_about_a_users_file_are_told_before_its_table(tmp_path):
+    """On standard error, or in the document."""
+    path = tmp_path / "mine.toml"
+    path.write_text(MINE.replace("0.0205", "20.5"))
+    told = run("catalogue", "motors", "--motors", path)
+    assert "warning:" in told.stderr
+    assert "did you mean 0.0205 kg?" in told.stderr
+    (warning,) = run("catalogue", "motors", "--motors", path, "--json").document["warnings"]
+    assert "mass_kg is 20.5 kg" in warning
+    assert run("catalogue", "motors", "--json").document["warnings"] == []

@@ -197,6 +197,24 @@ DOUBTS = {
         {"kt_nm_per_a": 20.0},
         r"kt_nm_per_a is 20 N m/A, where .*: did you mean 0.02 N m/A\?",
     ),
+    "grams, and no size": (
+        {"mass_kg": 120.0, "peak_torque_nm": 1.0},
+        r"mass_kg is 120 kg for 1 N m, where motors weigh 0.098 to 0.42 kg: did you mean 0.12 kg",
+    ),
+    "a ton for a newton metre": (
+        {"mass_kg": 3000.0, "peak_torque_nm": 1.0},
+        r"mass_kg is 3000 kg for 1 N m, .* 0.42 kg: check its unit",
+    ),
+    "half a metre of shaft": (
+        {
+            "mass_kg": 0.106,
+            "diameter_m": 0.0556,
+            "length_m": 0.025,
+            "shaft_diameter_m": 0.004,
+            "shaft_length_m": 0.5,
+        },
+        r"shaft_length_m is 0.5 m, 20 times its motor's body, .* less than 3 times that: check its",
+    ),
 }
 
 

@@ -15,7 +15,7 @@ from ocs_design.actuation.drive import speed_limit
 from ocs_design.actuation.motor import Gear, Motor, Mounting, build_gaps
 from ocs_design.catalogue.gears import GearSheet, gears_to_json, known_gears
 from ocs_design.catalogue.materials import Material, materials, materials_to_json
-from ocs_design.catalogue.motors import known_motors, motors_to_json
+from ocs_design.catalogue.motors import known_motors, motor_doubts, motors_to_json
 from ocs_design.common.errors import UsageError
 from ocs_design.common.units import format_quantity, to_unit
 from ocs_design.report.table import Table, columns
@@ -41,11 +41,15 @@ Row: TypeAlias = Motor | GearSheet | Material
 
 @dataclass(frozen=True)
 class Listing:
-    """One catalogue, ready to be printed: every entry, all as one document, and for people."""
+    """One catalogue, ready to be printed: every entry, all as one document, and for people.
+
+    `warnings` are about a user's file, one sentence each.
+    """
 
     rows: Sequence[Row]
     json: bytes
     print_table: Callable[[Console], None]
+    warnings: tuple[str, ...] = ()
 
     def show(self, console: Console, *, verbose: bool) -> None:
         """Print the table and the sources, with `verbose` of each row."""
@@ -84,7 +88,9 @@ def listing(what: str, files: Mapping[str, str | None]) -> Listing:
     path = None if given is None else Path(given)
     if what == "motors":
         motors = tuple(known_motors(path).values())
-        return Listing(motors, motors_to_json(motors), partial(print_motors, found=motors))
+        doubts = () if path is None else motor_doubts(path)
+        written = motors_to_json(motors, doubts)
+        return Listing(motors, written, partial(print_motors, found=motors), doubts)
     if what == "gears":
         gears = tuple(known_gears(path).values())
         return Listing(gears, gears_to_json(gears), partial(print_gears, found=gears))
