@@ -24,8 +24,8 @@ from ocs_design.robot.collision import collision_model
 from ocs_design.robot.meshes import size
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.design import design_device
+from ocs_design.sizing.free_place import Sizes, place_free
 from ocs_design.sizing.mounting import mounting_of
-from ocs_design.sizing.placement import Sizes, place_free
 
 
 def main() -> None:

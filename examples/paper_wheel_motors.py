@@ -32,7 +32,7 @@ from ocs_design.simulation.verdict import Verdict, judge
 from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.assembly import assemble_driven
 from ocs_design.sizing.driven_wheel import DrivenWheel
-from ocs_design.sizing.placement import place_on_top
+from ocs_design.sizing.free_place import place_on_top
 
 ROBOT = Path(__file__).with_name("solo12.urdf")
 MANEUVERS = read_specification(ROBOT.with_suffix(".toml")).maneuvers  # the paper's

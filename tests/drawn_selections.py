@@ -22,7 +22,7 @@ from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.robot import Robot
-from ocs_design.sizing.placement import place_on_top
+from ocs_design.sizing.free_place import place_on_top
 from ocs_design.sizing.selection.problem import SelectionProblem
 
 ALUMINIUM = Material("aluminium", 2700.0, 250e6, 300e6, 0.33, "for tests")

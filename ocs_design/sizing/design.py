@@ -23,10 +23,10 @@ from ocs_design.sizing.bound.device_problem import DeviceProblem
 from ocs_design.sizing.bound.device_sizing import size_device
 from ocs_design.sizing.footing.feet import in_vain
 from ocs_design.sizing.footing.standing import stand_on_trunk
+from ocs_design.sizing.free_place import specified_place
 from ocs_design.sizing.limits import DEVICE_MASS, Progress
 from ocs_design.sizing.on_robot import in_rings, on_its_footing, with_plate
 from ocs_design.sizing.place import braked
-from ocs_design.sizing.placement import specified_place
 from ocs_design.sizing.reserve import Reality, Reserve, account
 from ocs_design.sizing.selection.device import with_demands
 from ocs_design.sizing.selection.problem import SelectionProblem

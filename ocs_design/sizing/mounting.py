@@ -37,7 +37,7 @@ from ocs_design.sizing.footing.contact import PROUD, FootContact, contacts_of
 from ocs_design.sizing.footing.feet import device_size, feet_of
 from ocs_design.sizing.footing.mast import Pads, pads_needed
 from ocs_design.sizing.footing.plate import SPREAD
-from ocs_design.sizing.placement import place_free
+from ocs_design.sizing.free_place import place_free
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,7 @@ from ocs_design.robot.manual import (
     person,
     robot_by_hand,
 )
-from ocs_design.sizing.placement import place_on_top
+from ocs_design.sizing.free_place import place_on_top
 
 SOLO12 = (0.0300029, 0.0514912, 0.0680453)
 

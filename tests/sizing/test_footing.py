@@ -43,9 +43,9 @@ from ocs_design.sizing.footing.contact import FLATNESS, contacts_of
 from ocs_design.sizing.footing.feet import device_size, feet_of
 from ocs_design.sizing.footing.on_top import ASIDE
 from ocs_design.sizing.footing.standing import footing_of, stand_on_trunk
+from ocs_design.sizing.free_place import place_free, place_on_top
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points
 from ocs_design.sizing.place import CLEARANCE
-from ocs_design.sizing.placement import place_free, place_on_top
 
 DEVICE = driven_device()
 FOOT = foot_of(DEVICE)

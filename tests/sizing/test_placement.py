@@ -6,8 +6,8 @@ import pytest
 from ocs_design.parts.foot import base_radius
 from ocs_design.parts.motor_mount import Behind
 from ocs_design.robot.manual import robot_by_hand
+from ocs_design.sizing.free_place import place_on_top
 from ocs_design.sizing.place import CLEARANCE, Place, module_size, place_at, wheel_size
-from ocs_design.sizing.placement import place_on_top
 
 PLACE = Place(
     origins=((0.01, 0.02, 0.1), (0.01, -0.02, 0.1)),

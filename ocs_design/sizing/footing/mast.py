@@ -39,8 +39,8 @@ from ocs_design.sizing.footing.plate import (
     blank_plate,
     thick_enough,
 )
+from ocs_design.sizing.free_place import Search
 from ocs_design.sizing.place import CLEARANCE, Place, Size
-from ocs_design.sizing.placement import Search
 
 MAST_SCREWS = tuple(map(screw, ("M4", "M5", "M6", "M8")))
 

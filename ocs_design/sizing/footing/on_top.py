@@ -33,8 +33,8 @@ from ocs_design.sizing.footing.feet import (
     ring_of,
 )
 from ocs_design.sizing.footing.plate import PLATE_SCREW, POST_SCREW, STRONG_SCREW, held_at, plate_of
+from ocs_design.sizing.free_place import Search, place_on_top
 from ocs_design.sizing.place import around, place_at
-from ocs_design.sizing.placement import Search, place_on_top
 
 ASIDE = (0.04, 0.08)
 """How much farther to both sides pairs are tried, where a limb lies over the trunk's middle [m]."""

@@ -26,8 +26,8 @@ from ocs_design.sizing.footing.feet import (
 from ocs_design.sizing.footing.mast import footing_behind
 from ocs_design.sizing.footing.on_top import footing_on_pedestals, footing_on_top
 from ocs_design.sizing.footing.plate import held_at, plate_of
+from ocs_design.sizing.free_place import Search, Sizes, place_free
 from ocs_design.sizing.place import place_at
-from ocs_design.sizing.placement import Search, Sizes, place_free
 
 MODULE_SHARE = 0.1
 """Mass of a module over its robot's, for the plate's estimate before one is chosen: Solo12's."""
