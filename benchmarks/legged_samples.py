@@ -31,8 +31,8 @@ from blocks import filled, table
 from certified import sources
 
 from ocs_design.actuation.motor import DIRECT
+from ocs_design.common.wording import grams
 from ocs_design.monte_carlo.outcomes import Outcomes
-from ocs_design.report.quantities import grams
 from ocs_design.requirement.vocabulary import RELIABILITY
 from ocs_design.robot.reader import read_robot
 

@@ -15,9 +15,9 @@ import mujoco
 import numpy as np
 from PIL import Image
 
+from ocs_design.common.wording import grams
 from ocs_design.device.records.design import OcsDesign, read_design
 from ocs_design.export.offscreen import shown_box
-from ocs_design.report.quantities import grams
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "benchmarks"))
 from legged_samples import place

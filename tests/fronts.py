@@ -6,7 +6,8 @@ from ocs_design.requirement.froude import SOLO12
 from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import sweep_of
-from ocs_design.workflows.pareto import draw_front, front_values, read_task
+from ocs_design.sizing.comparison import draw_front
+from ocs_design.workflows.pareto import read_task
 
 
 def by_hand():
@@ -51,4 +52,4 @@ def make_front(task, against="time", choose=made_up, **values):
     """A front over nine points, or over those of `values`."""
     sweep = sweep_of(against)
     wanted = {"low": None, "high": None, "points": 9, **values}
-    return draw_front(task, sweep, front_values(sweep, task, **wanted), choose)
+    return draw_front(task, sweep, sweep.values(task, **wanted), choose)

@@ -3,7 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
+from ocs_design.common.arrays import vector
 from ocs_design.common.errors import Infeasible
+from ocs_design.device.layout import Criterion, incidence_by_criterion
 from ocs_design.device.records.flights import (
     ReliabilityRecord,
     SurvivalRecord,
@@ -11,6 +15,10 @@ from ocs_design.device.records.flights import (
     falls_short,
 )
 from ocs_design.device.records.requirement import RobotRecord
+from ocs_design.robot.leg_geometry import axis_name, up_axis
+from ocs_design.robot.legs import ANKLED_JOINTS, is_wheel
+from ocs_design.robot.posture import posture_sensitivity
+from ocs_design.robot.robot import Robot
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,6 +91,19 @@ class PostureLine:
     incidence: float
 
 
+def posture_lines(robot: Robot) -> tuple[PostureLine, ...]:
+    """Inertia and alpha* over plausible postures; see `posture_sensitivity`."""
+    inertia_of = {row.label: row.mass_properties.inertia for row in posture_sensitivity(robot)}
+    return tuple(
+        PostureLine(
+            posture=posture,
+            inertia_diagonal=vector(np.diag(inertia)),
+            incidence=incidence_by_criterion(inertia)[Criterion.EQUAL_RATE],
+        )
+        for posture, inertia in inertia_of.items()
+    )
+
+
 @dataclass(frozen=True, kw_only=True)
 class LegLine:
     """A leg: link of its foot, what it ends in (`ball`, `sole`, `wheel`, `point`), its joints."""
@@ -126,6 +147,47 @@ class RecognitionRecord:
     speaks_for: tuple[str, ...]
     speaks_against: tuple[str, ...]
     likely: tuple[ReadingLine, ...]
+
+    @classmethod
+    def of(cls, robot: Robot) -> "RecognitionRecord | None":
+        """Record of a robot from a file; None for one by hand."""
+        recognition = robot.recognition
+        if recognition is None:
+            return None
+        reading = recognition.reading
+        turn = np.eye(3) if robot.mount is None else robot.mount.placement.rotation
+        up = up_axis(robot.tree, robot.trunk, robot.legs) if robot.legs else np.eye(3)[2]
+        legs = []
+        for leg in robot.legs:
+            end = "sole" if len(leg.joints) >= ANKLED_JOINTS else "point"
+            if is_wheel(robot.tree.bodies[leg.body]):
+                end = "wheel"
+            elif leg.foot_radius > 0.0:
+                end = "ball"
+            line = LegLine(foot=leg.name, ends_in=end, length=leg.length, joints=leg.joints)
+            legs.append(line)
+        return cls(
+            trunk=robot.trunk if robot.mount is None else robot.mount.link,
+            legs=tuple(legs),
+            forward=axis_name(turn[:, 0]),
+            left=axis_name(turn[:, 1]),
+            up=axis_name(turn @ up),
+            stated=tuple(sorted(recognition.stated)),
+            confidence=reading.confidence,
+            speaks_for=tuple(sign.what for sign in reading.signs if sign.holds),
+            speaks_against=(
+                *(sign.against for sign in reading.signs if sign.holds is False),
+                *(doubt.what for doubt in reading.doubts),
+            ),
+            likely=tuple(
+                ReadingLine(
+                    trunk=each.trunk,
+                    legs=tuple(leg.name for leg in each.legs),
+                    confidence=each.confidence,
+                )
+                for each in recognition.likely
+            ),
+        )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,21 +4,22 @@ from collections.abc import Iterator, Mapping
 
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.common.units import rpm
+from ocs_design.common.wording import (
+    degrees,
+    degrees_number,
+    grams,
+    inertia,
+    listed,
+    millimetres,
+    signed,
+    tenths,
+)
 from ocs_design.device.layout import PAIR
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.records.device import Clearance, OcsRecord
 from ocs_design.device.records.requirement import RobotRecord
 from ocs_design.parts.bell import GLUE_GAP
-from ocs_design.report.quantities import (
-    degrees,
-    degrees_number,
-    grams,
-    inertia,
-    millimetres,
-    signed,
-    tenths,
-)
-from ocs_design.report.table import Rows, Table, columns, listed
+from ocs_design.report.table import Rows, Table, columns
 from ocs_design.requirement.uncertainty import Entry, spreads, uncertainty_of_texts
 
 _NO_PRODUCT = 5e-5

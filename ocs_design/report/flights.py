@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import rpm, rpm_number
+from ocs_design.common.wording import degrees, degrees_number, grams, listed
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.records.flights import (
     SurvivalRecord,
@@ -16,8 +17,7 @@ from ocs_design.device.records.flights import (
     was_on_pivot,
 )
 from ocs_design.device.records.requirement import DemandRecord
-from ocs_design.report.quantities import degrees, degrees_number, grams
-from ocs_design.report.table import Cell, Table, Tone, Toned, columns, listed
+from ocs_design.report.table import Cell, Table, Tone, Toned, columns
 from ocs_design.simulation.run import LANDING_TOLERANCE, UPRIGHT_TILT
 
 WORSE = np.radians(1.0)

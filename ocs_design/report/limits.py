@@ -3,12 +3,19 @@
 from collections.abc import Sequence
 
 from ocs_design.common.units import ceiled, floored, significant
+from ocs_design.common.wording import (
+    degrees,
+    degrees_number,
+    grams,
+    inertia_number,
+    listed,
+    quantity,
+)
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.records.device import Margin
 from ocs_design.device.records.selection import SAVES_NOTHING, ReserveRecord
-from ocs_design.report.quantities import degrees, degrees_number, grams, inertia_number, quantity
 from ocs_design.report.selection import best_drives, drive_name
-from ocs_design.report.table import Cell, Rows, Table, Tone, Toned, columns, listed
+from ocs_design.report.table import Cell, Rows, Table, Tone, Toned, columns
 from ocs_design.sizing.lightest_module import (
     BELL,
     BOND,
@@ -56,6 +63,13 @@ MARGIN_NOTE = (
     "The worst over all maneuvers, as planned and as flown from push-off to the end, landing "
     "included. At a factor of 1 all of the capacity is used; a dash means that no limit is known."
 )
+
+BOUND_NOTE = (
+    "The paper prints I_r d / (d + gamma); from its own momentum follows I_r d / (gamma - d). "
+    "I_r is the robot's inertia, d the change of its rate, gamma the wheel's speed. The bound is "
+    "necessary, never sufficient: it does not ask for torque, angle or time."
+)
+"""Said wherever the paper's lower bound is shown."""
 
 _PRICE_NOTE = (
     "The mass of one rim changes by this much if an active limit is moved. Moving a limit that is "

@@ -5,10 +5,10 @@ from collections.abc import Iterable
 
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.common.units import rpm_number
+from ocs_design.common.wording import counted, degrees_number, grams, inertia_number, listed
 from ocs_design.device.records.requirement import ManeuverRecord
 from ocs_design.device.records.selection import RankedRecord, SelectionRecord
-from ocs_design.report.quantities import degrees_number, grams, inertia_number
-from ocs_design.report.table import Rows, Table, columns, counted, listed
+from ocs_design.report.table import Rows, Table, columns
 
 SHOWN = 5
 """Drives that the terminal shows; with -v it shows the whole ranking."""

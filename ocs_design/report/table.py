@@ -4,7 +4,6 @@ Each renderer has a look of its own for them.
 """
 
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import TypeAlias
@@ -67,16 +66,6 @@ class Table:
     def first(self, columns: int) -> "Table":
         """Table of the first columns alone."""
         return Table(self.columns[:columns], tuple(row[:columns] for row in self.rows))
-
-
-def counted(count: int, noun: str) -> str:
-    """Number and noun, as in `1 note` and `3 notes`."""
-    return f"{count:,} {noun}{'' if count == 1 else 's'}"
-
-
-def listed(texts: Sequence[str]) -> str:
-    """Texts in one sentence, as in `a, b and c`."""
-    return " and ".join(filter(None, [", ".join(texts[:-1]), *texts[-1:]]))
 
 
 _UNITS = "mm|um|m|kg|g|[mu]?N|s|ms|deg|rad|rpm|V|A|W|kW|J|MPa|ohm|Hz"

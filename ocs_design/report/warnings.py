@@ -7,13 +7,12 @@ import numpy as np
 from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import BY_CONVENTION, DIRECT
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
+from ocs_design.common.wording import counted, degrees, inertia
 from ocs_design.device.layout import PAIR
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.records.device import OcsRecord
 from ocs_design.export.electrics import controller_rating
 from ocs_design.report.flights import flight_remarks, hand_turn
-from ocs_design.report.quantities import degrees, inertia
-from ocs_design.report.table import counted
 from ocs_design.requirement.bound import AXES, authority
 from ocs_design.sizing.margins import MOTOR_TORQUE
 

@@ -40,6 +40,7 @@ from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.sections import RequirementSection, RobotSection, ValidationSection
 from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.turns import TurnTo
 from ocs_design.requirement.uncertainty import default_uncertainty
 from ocs_design.requirement.vocabulary import (
     ALUMINIUM_WEB,
@@ -62,7 +63,7 @@ from ocs_design.requirement.vocabulary import (
     RING,
     STEEL,
 )
-from ocs_design.requirement.worded_maneuvers import Worded, worded_maneuvers
+from ocs_design.requirement.worded_maneuvers import Worded, with_device, worded_maneuvers
 from ocs_design.robot.manual import person, robot_by_hand
 from ocs_design.robot.mass import impossible_size
 from ocs_design.robot.reader import read_robot
@@ -358,6 +359,25 @@ class Resolved:
     choice: MotorChoice | None
     assumptions: tuple[str, ...]
     reliability: float | None = None
+
+    def estimated(self, factors: Mapping[str, float]) -> "Resolved":
+        """The same with these factors on what turns are estimated to ask for, by their names."""
+        maneuvers = tuple(
+            replace(each, estimate=factors.get(each.name, 1.0))
+            if isinstance(each, TurnTo | Pivoted)
+            else each
+            for each in self.requirement.maneuvers
+        )
+        return replace(self, requirement=replace(self.requirement, maneuvers=maneuvers))
+
+    def carrying(self, requirement: Requirement) -> "Resolved":
+        """The same for the robot with its device; what kicks do to both is told too.
+
+        Args:
+            requirement: of robot and device.
+        """
+        told = tuple(with_device(each, requirement.maneuvers) for each in self.assumptions)
+        return replace(self, requirement=requirement, assumptions=told)
 
 
 def resolve(specification: Specification, robot: Robot, robot_size: float) -> Resolved:

@@ -7,8 +7,10 @@ from math import hypot
 from types import MappingProxyType
 from typing import Any
 
+import numpy as np
+
 from ocs_design.common.errors import UsageError
-from ocs_design.common.units import Dimension
+from ocs_design.common.units import Dimension, format_quantity, parse_positive
 from ocs_design.requirement.choices import default_bus_voltage
 from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.maneuver import Drop, Flip, Maneuver
@@ -78,6 +80,10 @@ class Task:
         return self.resolved.requirement.standing_height
 
 
+FEWEST, MOST = 2, 200
+"""Points of a front."""
+
+
 @dataclass(frozen=True)
 class Sweep(ABC):
     """A figure of a specification that is varied.
@@ -109,6 +115,35 @@ class Sweep(ABC):
         Raises:
             SpecificationError: nothing has this value.
         """
+
+    def values(
+        self, task: Task, *, low: str | None, high: str | None, points: int
+    ) -> tuple[float, ...]:
+        """Values of the figure that is varied, at equal distances [SI].
+
+        Args:
+            task: as it stands.
+            low, high: from and to, with units; None: around the specification's own value, which
+                is then one of the values if there are nine of them.
+            points: how many.
+
+        Raises:
+            QuantityError, UsageError: they cannot be read, or make no range.
+        """
+        if not FEWEST <= points <= MOST:
+            raise UsageError(f"--points {points}: must lie between {FEWEST} and {MOST}")
+        start, end = (
+            factor * self.own(task)
+            if text is None
+            else parse_positive(text, self.dimension, option)
+            for factor, text, option in zip(self.span, (low, high), ("--from", "--to"), strict=True)
+        )
+        if not start < end:
+            first, last = (format_quantity(value, self.unit) for value in (start, end))
+            raise UsageError(
+                f"--from {first} is not below --to {last}", hint="give both, the smaller one first"
+            )
+        return tuple(float(value) for value in np.linspace(start, end, points))
 
     def remarks(self, task: Task) -> tuple[str, ...]:
         """What else moves, and what does not."""

@@ -1,6 +1,6 @@
 """Maneuvers that are asked for by keys of `[requirement]`, and what was filled in for each."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import chain
 from math import sqrt
@@ -225,6 +225,24 @@ def _kicked(kick: Kick, jump: Disturbance, robot: Robot) -> tuple[Disturbance, s
         f"{heading if spin > _TURNS else ''}, which gets {moved:.3g} m/s; "
         f"{jump.onset:.3g} s after lift-off, for {jump.duration:.3g} s"
     )
+
+
+def with_device(assumption: str, maneuvers: Iterable[Maneuver]) -> str:
+    """An assumption; one about a kick also says what the kick does with the device on.
+
+    Args:
+        assumption: one sentence.
+        maneuvers: of robot and device.
+    """
+    for kick in maneuvers:
+        if not isinstance(kick, Disturbance) or not any(kick.impulse):
+            continue
+        if assumption.startswith(f"{kick.name}: "):
+            turned = ", ".join(f"{each * kick.duration:.3g}" for each in kick.torque)
+            moved = np.linalg.norm(kick.velocity_change)
+            told = f"with the device on, ({turned}) N m s and {moved:.3g} m/s"
+            return f"{assumption.removesuffix('.')}; {told}."
+    return assumption
 
 
 def _point(point: Vector3 | str, robot: Robot) -> Vector3:

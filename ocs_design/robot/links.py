@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 
 from ocs_design.common.errors import RobotError
 from ocs_design.common.frames import Placement
+from ocs_design.common.wording import some_of
 from ocs_design.robot.mass import MassProperties, combine, physical_defect, solid_defect
 from ocs_design.robot.tree import Body, Joint, Shape, Tree
 
@@ -26,15 +27,9 @@ class Warnings:
     def sentences(self) -> tuple[str, ...]:
         """One sentence each, with the names and, where there are many, their number."""
         return tuple(
-            f"{what}: {listed(subjects)}" if subjects[0] else what
+            f"{what}: {some_of(subjects)}" if subjects[0] else what
             for what, subjects in self._subjects.items()
         )
-
-
-def listed(names: Sequence[str], most: int = 4) -> str:
-    """Names with commas between them; beyond `most` only how many more there are."""
-    shown = ", ".join(names[:most])
-    return shown if len(names) <= most else f"{shown} and {len(names) - most} more"
 
 
 def unused_name(stem: str, suffix: str, taken: Container[str]) -> str:
@@ -205,7 +200,7 @@ def check_mass_properties(tree: Tree, warnings: Warnings) -> None:
     """
     base = tree.bodies[0]
     if base.mass_properties.mass == 0.0:
-        links = listed([repr(name) for name in base.links])
+        links = some_of([repr(name) for name in base.links])
         raise RobotError(
             f"the floating base has no mass: no <inertial> with a mass in {links}",
             hint=f"give link {base.name!r} its mass and inertia; if it only holds the robot in the "
@@ -236,7 +231,7 @@ def check_whole(weighed: MassProperties, tree: Tree) -> None:
     defect = solid_defect(weighed)
     if defect is not None:
         worst = [each.name for each in tree.bodies if physical_defect(each.mass_properties)]
-        first = f", first of {listed([repr(name) for name in worst])}" if worst else ""
+        first = f", first of {some_of([repr(name) for name in worst])}" if worst else ""
         raise RobotError(
             f"the robot as a whole {defect}",
             hint=f"correct the inertias in the file{first}: in kg m2, about each link's own centre "

@@ -17,14 +17,8 @@ import numpy as np
 
 from ocs_design.common.errors import RobotError
 from ocs_design.common.frames import Placement, rotation_from_quaternion
-from ocs_design.robot.links import (
-    Connection,
-    Link,
-    Warnings,
-    check_number_of_links,
-    listed,
-    make_tree,
-)
+from ocs_design.common.wording import some_of
+from ocs_design.robot.links import Connection, Link, Warnings, check_number_of_links, make_tree
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.mjcf_spec import Lost, mujoco_refusal, mujoco_warnings_to, parse_mjcf
 from ocs_design.robot.tree import (
@@ -83,7 +77,7 @@ def find_base(model: mujoco.MjModel, named: Sequence[str], warnings: Warnings) -
         names = [model.body(body).name for body in candidates]
         what = "move on their own" if moving else "are in the file"
         raise RobotError(
-            f"which one is the robot is not clear: {len(names)} things {what}: {listed(names)}",
+            f"which one is the robot is not clear: {len(names)} things {what}: {some_of(names)}",
             hint=f"say which: {'; or '.join(f'--trunk {name}' for name in names[:3])}. The others "
             "are left out; what is one robot must be one body of the world, with the rest below it",
         )

@@ -7,9 +7,9 @@ from difflib import get_close_matches
 import numpy as np
 
 from ocs_design.common.errors import RobotError
+from ocs_design.common.wording import some_of
 from ocs_design.robot.chain import neutral_posture
 from ocs_design.robot.leg_geometry import leg_geometries, sole_depths, up_axis
-from ocs_design.robot.links import listed
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Leg, Robot
 from ocs_design.robot.stance import SHARE_OF_LEG, stand
@@ -93,7 +93,7 @@ def resolve_posture(
         if not each.lower - _LIMIT_TOLERANCE <= values[joint] <= each.upper + _LIMIT_TOLERANCE
     ]
     if outside:
-        warnings += (f"{OUTSIDE} {listed(outside)}",)
+        warnings += (f"{OUTSIDE} {some_of(outside)}",)
     height = max(sole_depths(tree, trunk, legs, values)) if legs else None
     return Posture(values, f"{name} + joints" if joints else name, height, warnings)
 
@@ -105,7 +105,7 @@ def unknown_name(kind: str, name: str, known: Iterable[str]) -> RobotError:
         folded.setdefault(each.casefold(), []).append(each)
     close = get_close_matches(name.casefold(), folded, n=len(folded) or 1, cutoff=0.5)
     ordered = [each for key in dict.fromkeys([*close, *folded]) for each in folded[key]]
-    available = f"available: {listed(ordered, most=12) if ordered else 'none'}"
+    available = f"available: {some_of(ordered, most=12) if ordered else 'none'}"
     likely = f"did you mean '{ordered[0]}'? " if close else ""
     return RobotError(f"the robot has no {kind} '{name}'", hint=likely + available)
 

@@ -12,9 +12,10 @@ from pathlib import Path
 from ocs_design.common.errors import MissingToolError, RobotError
 from ocs_design.common.files import AnyPath
 from ocs_design.common.units import format_quantity
+from ocs_design.common.wording import some_of
 from ocs_design.robot.checks import plausibility_warnings
 from ocs_design.robot.leg_geometry import BASE_FRAME, convention_warnings, with_base_frame
-from ocs_design.robot.links import Warnings, check_whole, listed
+from ocs_design.robot.links import Warnings, check_whole
 from ocs_design.robot.meshes import MESHES, trunk_top, unmeasured, with_y_up
 from ocs_design.robot.packages import MeshFinder
 from ocs_design.robot.posture import resolve_posture, unknown_name
@@ -268,6 +269,6 @@ def _assumed_heights(
     if feet and standing_height is not None:
         height = format_quantity(standing_height, "mm")
         yield (
-            f"how far feet reach is not known without the meshes of {listed(feet)}: by their links "
-            f"the trunk stands at {height}"
+            f"how far feet reach is not known without the meshes of {some_of(feet)}: by their "
+            f"links the trunk stands at {height}"
         )

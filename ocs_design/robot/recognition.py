@@ -13,9 +13,9 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import RobotError
+from ocs_design.common.wording import some_of
 from ocs_design.robot.legs import frame_link, leg_of
 from ocs_design.robot.limbs import EVEN, Anatomy, Limb, bodies_of, reach_alike, sets_of
-from ocs_design.robot.links import listed
 from ocs_design.robot.robot import (
     CLOSED,
     JOINED,
@@ -121,7 +121,7 @@ def question_about(found: Recognition) -> RobotError:
         *(sign.against for sign in best.signs if sign.holds is False),
     ]
     told = (
-        f"{len(best.legs)} legs ({listed([leg.name for leg in best.legs], most=6)}) on "
+        f"{len(best.legs)} legs ({some_of([leg.name for leg in best.legs], most=6)}) on "
         f"'{best.trunk}'"
         if best.legs
         else f"no legs, and '{best.trunk}' as the trunk"
@@ -444,7 +444,7 @@ class _Readings(Anatomy):
             and self.names([limb]) is True
         ]
         if left_out and not self.share_hips(chosen, up):
-            what = f"limbs that reach less deep are named as legs too: {listed(left_out)}"
+            what = f"limbs that reach less deep are named as legs too: {some_of(left_out)}"
             doubts.append(Doubt(what, 0.75))
         rivals = [
             rival
@@ -456,7 +456,7 @@ class _Readings(Anatomy):
             and (self.names(rival) is not False or self.together((*chosen, *rival), up))
         ]
         if rivals:
-            names = listed([self.tree.bodies[limb.last].name for limb in rivals[0]])
+            names = some_of([self.tree.bodies[limb.last].name for limb in rivals[0]])
             doubts.append(Doubt(f"other limbs reach as deep: {names}", 0.65))
         carried = sum(self.masses[i].mass for i in outside)
         if carried < _LIGHT_TRUNK * self.robot.mass:

@@ -15,13 +15,13 @@ import numpy as np
 
 from ocs_design.common.errors import RobotError
 from ocs_design.common.frames import Placement, rotation_from_rpy
+from ocs_design.common.wording import some_of
 from ocs_design.robot.links import (
     Children,
     Connection,
     Link,
     Warnings,
     check_number_of_links,
-    listed,
     make_tree,
 )
 from ocs_design.robot.mass import NEGLIGIBLE_MOMENT, MassProperties
@@ -127,7 +127,7 @@ def find_base(links: Mapping[str, Link], children: Children) -> str:
 
 
 def _quoted(names: Iterable[str]) -> str:
-    return listed([repr(name) for name in names])
+    return some_of([repr(name) for name in names])
 
 
 FindMesh = Callable[[str], Path | None]

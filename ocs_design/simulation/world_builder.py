@@ -5,14 +5,25 @@ from dataclasses import dataclass, field, replace
 import mujoco
 import numpy as np
 
+from ocs_design.common.errors import SpecificationError
 from ocs_design.common.units import STANDARD_GRAVITY
 from ocs_design.device.bodies import flywheel_names, joint_names
 from ocs_design.device.device import Device
-from ocs_design.export.physics import STEADY_LEGS, leg_joints, set_gains, stand, standing_torques
+from ocs_design.device.records.flights import ControlRecord
+from ocs_design.export.physics import (
+    STEADY_LEGS,
+    STEP,
+    leg_joints,
+    set_gains,
+    stand,
+    standing_torques,
+)
 from ocs_design.jumping.jump import IN_FLIGHT, JumpPlan
 from ocs_design.requirement.froude import Scale
 from ocs_design.requirement.maneuver import Maneuver, Unforeseen
 from ocs_design.requirement.pivoted import Pivoted
+from ocs_design.requirement.sections import ValidationSection
+from ocs_design.requirement.vocabulary import CONTROL_PERIOD
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.desaturation import Desaturation
 from ocs_design.simulation.launch import (
@@ -68,6 +79,16 @@ class Options:
     threads: int | None = None
     pose_rate: float | None = None
     engine: Engine | None = None
+
+    @classmethod
+    def under(cls, control: ControlRecord) -> "Options":
+        """Options of flights under a wheel law that is recorded."""
+        return cls(
+            allocation=Allocation(control.projection),
+            gains=Gains(control.kp, control.kd),
+            hold=round(control.period / STEP),
+            desaturate=control.desaturate,
+        )
 
 
 class WorldBuilder:
@@ -234,3 +255,36 @@ def addresses(model: mujoco.MjModel, device: Device) -> Addresses:
         momentum=at[Sensor.MOMENTUM],
         height=at[Sensor.TRUNK] + 2,
     )
+
+
+def control_of(stated: ValidationSection, robot: Robot) -> ControlRecord:
+    """Wheel law as it is stated, with the defaults in place of the rest."""
+    gains = wheel_gains(robot)
+    default = ControlRecord(
+        projection=Allocation.PSEUDO_INVERSE,
+        kp=gains.stiffness,
+        kd=gains.damping,
+        period=round(CONTROL_PERIOD / STEP) * STEP,
+        ballistic=False,
+    )
+    return overridden(default, stated)
+
+
+def overridden(control: ControlRecord, stated: ValidationSection) -> ControlRecord:
+    """Wheel law as it was recorded, with everything that is stated in its place.
+
+    Raises:
+        SpecificationError: the control period is no whole number of the physics' steps.
+    """
+    period = control.period
+    if stated.control_period is not None:
+        steps = stated.control_period / STEP
+        period = round(steps) * STEP
+        if steps < 0.5 or abs(steps - round(steps)) > 1e-6:
+            raise SpecificationError(
+                f"validation.control_period: {steps * STEP:.4g} s is no whole number of "
+                f"milliseconds"
+            )
+    given = {name: getattr(stated, name) for name in vars(control).keys() & vars(stated).keys()}
+    changes = {name: value for name, value in given.items() if value is not None}
+    return replace(control, period=period, **changes)

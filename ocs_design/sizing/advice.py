@@ -18,12 +18,12 @@ from ocs_design.actuation.motor import DIRECT, Motor
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import Infeasible
 from ocs_design.common.units import round_outwards
+from ocs_design.common.wording import some_of
 from ocs_design.requirement.bound import per_wheel, spin_demands
 from ocs_design.requirement.kinds import change_text
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.pivoted import Balance
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.robot.links import listed
 from ocs_design.sizing.bound.rim_problem import largest_spin_inertia
 from ocs_design.sizing.limits import (
     TIME,
@@ -221,7 +221,7 @@ def advice_on(
             ]
             if fine:
                 how = " as it is" if len(fine) == 1 else ", each by itself"
-                hints.append(f"{listed(fine)} can be done{how}.")
+                hints.append(f"{some_of(fine)} can be done{how}.")
         hints += [
             *_caught(field),
             *([] if needed is None else [needed.text]),
@@ -255,7 +255,7 @@ def _caught(field: Field) -> Iterator[str]:
     if not asked or not does(least):
         return
     part, _ = narrowed(lambda each: not does(each), least, 1.0, PRECISION)
-    told = listed([f"{each.times(part).upset} for {each.name}" for each in asked])
+    told = some_of([f"{each.times(part).upset} for {each.name}" for each in asked])
     yield f"With {told} there is a device."
 
 
@@ -311,7 +311,7 @@ def _hints(
 
 def unasked(maneuvers: Sequence[Maneuver]) -> str:
     """Sentences that tell that these are the default, and how to ask for others."""
-    names = listed([each.name for each in maneuvers])
+    names = some_of([each.name for each in maneuvers])
     return (
         f"Nobody asked for {names}: they are the default. State what you need with --jump-height, "
         "--tilt, --fall or --kick, and only that is asked."

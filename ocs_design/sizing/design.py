@@ -6,16 +6,18 @@ from dataclasses import replace
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.errors import Infeasible
+from ocs_design.common.errors import Infeasible, UsageError
 from ocs_design.common.records import recorded
+from ocs_design.common.wording import some_of
+from ocs_design.device.answers import FrontDevice
 from ocs_design.device.layout import PAIR, Criterion
 from ocs_design.device.records.selection import CoDesignRecord
 from ocs_design.requirement.checks import contradictions
 from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.resolving import Resolved, resolve
 from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import CONTAINING, LIGHTEST, MORE_PAIRS, PYRAMID
-from ocs_design.robot.links import listed
 from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.assembly import assemble, assemble_selected
@@ -187,7 +189,7 @@ def survivors(specification: Specification, robot: Robot, progress: Progress) ->
             masses[layout] = designed.device.mass
     if not masses:
         return "No layout that survives it has a device either."
-    told = listed([f"`--layout {name}` {1e3 * mass:.0f} g" for name, mass in masses.items()])
+    told = some_of([f"`--layout {name}` {1e3 * mass:.0f} g" for name, mass in masses.items()])
     return (
         f"What survives it weighs: {told}. At which instants a device that need not survive lands "
         "all the same, `validate DESIGN --survives one` tells."
@@ -277,4 +279,31 @@ def _by_selection(
         choice=Choice(problem, selection, chosen, co_designed),
         reserve=reserve,
         account=lambda: account(reserve, reality, problem, chosen, resized, nominal=least.mass),
+    )
+
+
+def lightest_device(task: Task) -> FrontDevice:
+    """Lightest device that is selected for a task, before any co-design.
+
+    Raises:
+        Infeasible: there is none; does not say what would help. UsageError: no motor is wanted.
+    """
+    if task.resolved.choice is None:
+        raise UsageError(
+            "a front needs motors to choose from",
+            hint="leave out --motor none, or motor.name in the specification",
+        )
+    stated = task.specification
+    alone = replace(stated, ocs=replace(stated.ocs, co_design=False))
+    designed = design_device(alone, task.robot, task.resolved, ranked=False)
+    choice = designed.choice
+    assert choice is not None, "there are motors to choose from"
+    best = choice.chosen
+    return recorded(
+        FrontDevice,
+        best,
+        share=best.mass / task.robot.mass,
+        motor=best.motor.name,
+        gear=best.gear.name,
+        material=best.material.name,
     )

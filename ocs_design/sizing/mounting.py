@@ -10,6 +10,7 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
 from ocs_design.common.units import format_quantity
+from ocs_design.common.wording import some_of
 from ocs_design.device.bodies import flywheel_name
 from ocs_design.device.device import Device
 from ocs_design.device.layout import PAIR, SIDES
@@ -28,7 +29,6 @@ from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.clearance import Reach, descended, landing_poses, landing_ranges, reaches
 from ocs_design.robot.collision import CollisionModel, Nearest, collision_model
-from ocs_design.robot.links import listed
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_surface
@@ -89,7 +89,7 @@ def mounting_open_points(mounting: Mounting) -> tuple[OpenPoint, ...]:
         mass = format_quantity(sum(each.mass for each in mounting.pedestals), "g", digits=3)
         length, width, height = (format_quantity(size, "mm", digits=2) for size in largest.sizes)
         what = (
-            f"{listed(leaning, len(leaning))} cannot stand on the trunk: under a wheel whose axis "
+            f"{some_of(leaning, len(leaning))} cannot stand on the trunk: under a wheel whose axis "
             "is not horizontal goes a pedestal, and it is nowhere flat enough for all pedestals "
             f"and other feet. Pedestals would weigh {mass} together, the largest {length} long, "
             f"{width} wide and {height} high, and use {use:.0%} of their strength at 20 g; neither "
@@ -124,7 +124,7 @@ def _hanging(mounting: Mounting) -> Iterator[OpenPoint]:
     elif loose:
         gap = max(contact.gap or 0.0 for contact in loose)
         share = min(contact.share or 0.0 for contact in loose)
-        names = listed(list(dict.fromkeys(contact.name for contact in loose)))
+        names = some_of(list(dict.fromkeys(contact.name for contact in loose)))
         off = format_quantity(gap, "mm", digits=2) + " off it" if isfinite(gap) else "over nothing"
         what = (
             f"{names}: {share:.0%} of what stands is on the {loose[0].on}, and screws are {off}"

@@ -14,6 +14,7 @@ from ocs_design.catalogue.materials import material
 from ocs_design.common.arrays import FloatArray, vector
 from ocs_design.common.errors import Infeasible, SpecificationError, UsageError
 from ocs_design.common.units import format_quantity
+from ocs_design.common.wording import some_of
 from ocs_design.device.layout import PAIR, Criterion, Layout, LayoutName
 from ocs_design.parts.bell import bell_of
 from ocs_design.parts.joints import SERVICE, hub_joint
@@ -39,7 +40,6 @@ from ocs_design.requirement.vocabulary import (
     NO_WEB,
     RING,
 )
-from ocs_design.robot.links import listed
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.footing.standing import footing_of
 from ocs_design.sizing.selection.problem import SelectionProblem
@@ -279,7 +279,7 @@ def require_survival(problem: SelectionProblem) -> None:
         raise CannotSurvive(
             f"{layout.text[0].upper()}{layout.text[1:]} does not survive that any one drive stops: "
             f"without wheel {wheel!r} {rest} not hold the momentum about roll and pitch that "
-            f"{listed(names)} ask{'s' if len(names) == 1 else ''} for.",
+            f"{some_of(names)} ask{'s' if len(names) == 1 else ''} for.",
             binding=["survives"],
             required_spin_inertia=None,
             largest_spin_inertia=0.0,

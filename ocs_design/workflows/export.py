@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import AnyPath, safe_name, to_json
-from ocs_design.device.answers import Exported, PostureLine
+from ocs_design.device.answers import Exported, PostureLine, posture_lines
 from ocs_design.device.bodies import joint_names
 from ocs_design.device.records.design import (
     DESIGN_FILE,
@@ -29,7 +29,6 @@ from ocs_design.export.formats import (
     formats_named,
 )
 from ocs_design.report.text.console import Steps, Tell
-from ocs_design.workflows.inspect import posture_lines
 from ocs_design.workflows.restoring import (
     Whereabouts,
     read_designed,

@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from ocs_design.common.errors import OcsError, SpecificationError
+from ocs_design.common.errors import OcsError
 from ocs_design.common.files import AnyPath
 from ocs_design.device.device import Device
 from ocs_design.device.records.design import OcsDesign, design_file
 from ocs_design.device.records.flights import ControlRecord, SurvivalRecord, ValidationRecord
 from ocs_design.device.records.selection import ReserveRecord
-from ocs_design.export.physics import STEP
 from ocs_design.jumping.jump import JumpPlans
 from ocs_design.monte_carlo.campaign import Campaign, make_campaign
 from ocs_design.monte_carlo.uncertainty import Uncertainty
@@ -24,12 +23,10 @@ from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.sections import ValidationSection
 from ocs_design.requirement.specification import Specification, merge_section
 from ocs_design.requirement.uncertainty import UncertaintySection, entries, uncertainty_of_texts
-from ocs_design.requirement.vocabulary import CONTROL_PERIOD
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.run import Run
 from ocs_design.simulation.scenario import Flights, fly_stopped, run_scenarios
-from ocs_design.simulation.wheel_law import Allocation, Gains
-from ocs_design.simulation.world_builder import Options, wheel_gains
+from ocs_design.simulation.world_builder import Options, control_of, overridden
 from ocs_design.sizing.trajectory.motion import Trajectory
 from ocs_design.workflows.restoring import (
     Whereabouts,
@@ -40,49 +37,6 @@ from ocs_design.workflows.restoring import (
 
 if TYPE_CHECKING:
     from ocs_design.sizing.trajectory.plans import Reference
-
-
-def control_of(stated: ValidationSection, robot: Robot) -> ControlRecord:
-    """Wheel law as it is stated, with the defaults in place of the rest."""
-    gains = wheel_gains(robot)
-    default = ControlRecord(
-        projection=Allocation.PSEUDO_INVERSE,
-        kp=gains.stiffness,
-        kd=gains.damping,
-        period=round(CONTROL_PERIOD / STEP) * STEP,
-        ballistic=False,
-    )
-    return overridden(default, stated)
-
-
-def flight_options(control: ControlRecord) -> Options:
-    """Options of flights under a wheel law."""
-    return Options(
-        allocation=Allocation(control.projection),
-        gains=Gains(control.kp, control.kd),
-        hold=round(control.period / STEP),
-        desaturate=control.desaturate,
-    )
-
-
-def overridden(control: ControlRecord, stated: ValidationSection) -> ControlRecord:
-    """Wheel law as it was recorded, with everything that is stated in its place.
-
-    Raises:
-        SpecificationError: the control period is no whole number of the physics' steps.
-    """
-    period = control.period
-    if stated.control_period is not None:
-        steps = stated.control_period / STEP
-        period = round(steps) * STEP
-        if steps < 0.5 or abs(steps - round(steps)) > 1e-6:
-            raise SpecificationError(
-                f"validation.control_period: {steps * STEP:.4g} s is no whole number of "
-                f"milliseconds"
-            )
-    given = {name: getattr(stated, name) for name in vars(control).keys() & vars(stated).keys()}
-    changes = {name: value for name, value in given.items() if value is not None}
-    return replace(control, period=period, **changes)
 
 
 def planned(
@@ -231,7 +185,7 @@ def read_task(
         device=device,
         maneuvers=maneuvers,
         control=control,
-        options=flight_options(control),
+        options=Options.under(control),
         # A file takes the place of everything that the design was sized with.
         uncertainty=stated.reality
         if stated.reality.file is not None

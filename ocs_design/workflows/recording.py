@@ -15,12 +15,9 @@ from ocs_design.common.files import AnyPath
 from ocs_design.common.records import recorded
 from ocs_design.common.units import format_quantity
 from ocs_design.device.checks import device_warnings
-from ocs_design.device.joints import joints_of
 from ocs_design.device.layout import heading_drift
 from ocs_design.device.records.design import SCHEMA_VERSION, OcsDesign, Tool
 from ocs_design.device.records.device import (
-    Buildable,
-    Margin,
     ModuleRecord,
     MountingRecord,
     OcsRecord,
@@ -52,10 +49,10 @@ from ocs_design.requirement.resolving import Resolved
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.margins import record_margins
 from ocs_design.simulation.run import Run
+from ocs_design.sizing.buildable import buildable_of
 from ocs_design.sizing.mounting import Mounting
 from ocs_design.sizing.selection.refinement import mass_prices
 from ocs_design.sizing.sized import Choice, Designed, Sized
-from ocs_design.workflows.buildable import buildable
 
 if TYPE_CHECKING:
     from ocs_design.sizing.trajectory.plans import Reference
@@ -187,14 +184,6 @@ def record_design(
         reality=uncertainty or {},
         files=files,
     )
-
-
-def buildable_of(
-    robot: Robot, designed: Designed, margins: Sequence[Margin], mounting: Mounting | None
-) -> Buildable:
-    """Whether a designed device can be built on its robot, and what is open."""
-    motor = None if designed.choice is None else designed.choice.chosen.motor
-    return buildable(motor, mounting, margins, joints_of(designed.device), robot)
 
 
 def _requirement_record(resolved: Resolved, sized: Sized) -> RequirementRecord:

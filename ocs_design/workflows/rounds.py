@@ -9,8 +9,6 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from ocs_design.common.errors import Infeasible, SpecificationError
 from ocs_design.device.answers import MonteCarloRecord
 from ocs_design.device.checks import device_warnings
@@ -22,9 +20,8 @@ from ocs_design.monte_carlo.outcomes import Outcomes, blocks_of
 from ocs_design.monte_carlo.running import ThisMachine, run_campaign
 from ocs_design.monte_carlo.summary import summarised
 from ocs_design.report.text.console import Steps
-from ocs_design.requirement.maneuver import Disturbance, Maneuver
-from ocs_design.requirement.pivoted import Pivoted, StandUp
-from ocs_design.requirement.requirement import Requirement
+from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.resolving import Resolved, resolve
 from ocs_design.requirement.sections import ValidationSection
 from ocs_design.requirement.specification import Specification
@@ -36,6 +33,7 @@ from ocs_design.robot.robot import Robot
 from ocs_design.simulation.engine import POSE_RATE
 from ocs_design.simulation.run import Run
 from ocs_design.simulation.trotting import require_trot
+from ocs_design.simulation.world_builder import Options, control_of
 from ocs_design.sizing.advice import unasked
 from ocs_design.sizing.design import design_device, survivors
 from ocs_design.sizing.fallbacks import (
@@ -56,8 +54,6 @@ from ocs_design.sizing.sized import Designed
 from ocs_design.sizing.specified import CannotSurvive
 from ocs_design.workflows.flying import (
     Planned,
-    control_of,
-    flight_options,
     planned,
     trajectories,
 )
@@ -134,13 +130,7 @@ def size_on_robot(
     """
     resolved = resolve(specification, robot, size(robot.tree, robot.posture, robot.trunk))
     factors = estimates or {}
-    maneuvers = tuple(
-        replace(each, estimate=factors.get(each.name, 1.0))
-        if isinstance(each, TurnTo | Pivoted)
-        else each
-        for each in resolved.requirement.maneuvers
-    )
-    resolved = replace(resolved, requirement=replace(resolved.requirement, maneuvers=maneuvers))
+    resolved = resolved.estimated(factors)
     require_trot(resolved.requirement.maneuvers, robot)
     stated, jumping = specification.validation, None
     if stated.enabled is not False and not control_of(stated, robot).ballistic:
@@ -153,9 +143,7 @@ def size_on_robot(
         designed = design_device(specification, robot, resolved, reserve=reserve)
         device = designed.device
         if designed.requirement is not None:
-            own = designed.requirement
-            told = tuple(_kicked(each, own) for each in resolved.assumptions)
-            resolved = replace(resolved, requirement=own, assumptions=told)
+            resolved = resolved.carrying(designed.requirement)
         if jumping is not None:
             jumping.carry(device)
         mounting = mounting_of(robot, device, resolved.requirement.maneuvers, designed.sized.total)
@@ -346,7 +334,7 @@ def prove(placed: Placed, stated: ValidationSection, steps: Steps) -> Proof:
         placed.robot,
         placed.designed.device,
         requirement.maneuvers,
-        flight_options(control),
+        Options.under(control),
         control=control,
         references=trajectories(references),
         jumps=jumps,
@@ -410,16 +398,3 @@ def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tupl
         placed = again.telling(placed.taken)
         proof = prove(placed, stated, steps)
     return placed, proof
-
-
-def _kicked(assumption: str, requirement: Requirement) -> str:
-    """An assumption; one about a kick also says what the kick does with the device on."""
-    for kick in requirement.maneuvers:
-        if not isinstance(kick, Disturbance) or not any(kick.impulse):
-            continue
-        if assumption.startswith(f"{kick.name}: "):
-            turned = ", ".join(f"{each * kick.duration:.3g}" for each in kick.torque)
-            moved = np.linalg.norm(kick.velocity_change)
-            told = f"with the device on, ({turned}) N m s and {moved:.3g} m/s"
-            return f"{assumption.removesuffix('.')}; {told}."
-    return assumption

@@ -8,6 +8,7 @@ from pathlib import Path
 from ocs_design.common.beside import Beside
 from ocs_design.common.errors import UsageError
 from ocs_design.common.files import AnyPath, safe_name, to_json
+from ocs_design.device.answers import posture_lines
 from ocs_design.device.bodies import require_no_device
 from ocs_design.device.device import Device
 from ocs_design.device.records.design import DESIGN_FILE, OcsDesign
@@ -35,12 +36,13 @@ from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.margins import record_margins
 from ocs_design.simulation.run import Run
+from ocs_design.simulation.world_builder import control_of
 from ocs_design.sizing.alternatives import built_otherwise, lighter_by, lighter_otherwise
 from ocs_design.sizing.bound.rim_program import load_solver
+from ocs_design.sizing.buildable import buildable_of
 from ocs_design.sizing.design import mass_without_survival
-from ocs_design.workflows.flying import control_of, flown_hash
-from ocs_design.workflows.inspect import posture_lines
-from ocs_design.workflows.recording import buildable_of, record_design, write_runs
+from ocs_design.workflows.flying import flown_hash
+from ocs_design.workflows.recording import record_design, write_runs
 from ocs_design.workflows.rounds import (
     Placed,
     Proof,

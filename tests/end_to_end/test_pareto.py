@@ -7,7 +7,8 @@ import pytest
 from commands import SOLO12, everything_in, run
 
 from ocs_design.requirement.reading import read_specification
-from ocs_design.workflows.pareto import lightest_device, read_task
+from ocs_design.sizing.design import lightest_device
+from ocs_design.workflows.pareto import read_task
 
 ONE_MOTOR = (
     *("--motor", "Antigravity MN5008 KV400", "--gear", "direct"),

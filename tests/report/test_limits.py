@@ -7,6 +7,7 @@ import pytest
 from rich.console import Console
 from stories import design
 
+from ocs_design.common.wording import quantity
 from ocs_design.device.records.device import Margin
 from ocs_design.device.records.selection import Alternative
 from ocs_design.report.limits import (
@@ -21,7 +22,6 @@ from ocs_design.report.limits import (
     margin_table,
     tightest,
 )
-from ocs_design.report.quantities import quantity
 from ocs_design.report.table import Toned
 from ocs_design.report.text.layout import items, show
 

@@ -7,7 +7,8 @@ from ocs_design.common.errors import QuantityError, SpecificationError, UsageErr
 from ocs_design.requirement.sections import RequirementSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import SWEEPS
-from ocs_design.workflows.pareto import draw_front, front_values, read_task
+from ocs_design.sizing.comparison import draw_front
+from ocs_design.workflows.pareto import read_task
 
 
 @pytest.fixture(scope="module")
@@ -18,20 +19,20 @@ def task():
 @pytest.mark.parametrize("name", SWEEPS)
 def test_the_own_value_is_one_of_nine(task, name):
     sweep = SWEEPS[name]
-    values = front_values(sweep, task, low=None, high=None, points=9)
+    values = sweep.values(task, low=None, high=None, points=9)
     own = sweep.own(task)
     assert min(abs(value / own - 1.0) for value in values) < 1e-12
     assert values[0] < own < values[-1]
 
 
 def test_values_as_stated(task):
-    values = front_values(SWEEPS["time"], task, low="300ms", high="0.5", points=3)
+    values = SWEEPS["time"].values(task, low="300ms", high="0.5", points=3)
     assert values == pytest.approx((0.3, 0.4, 0.5))
 
 
 def test_one_end_may_be_left_to_its_default(task):
     own = SWEEPS["radius"].own(task)
-    values = front_values(SWEEPS["radius"], task, low=None, high="60mm", points=2)
+    values = SWEEPS["radius"].values(task, low=None, high="60mm", points=2)
     assert values == pytest.approx((0.6 * own, 0.06))
 
 
@@ -50,7 +51,7 @@ def test_one_end_may_be_left_to_its_default(task):
 def test_values_that_make_no_front(task, values, error, message):
     wanted = {"low": None, "high": None, "points": 9, **values}
     with pytest.raises(error, match=message):
-        front_values(SWEEPS["radius"], task, **wanted)
+        SWEEPS["radius"].values(task, **wanted)
 
 
 def test_a_point_without_a_device_says_why_and_the_others_stand(task):

@@ -6,8 +6,8 @@ import numpy as np
 
 from ocs_design.actuation.drive import RESERVE, Drive
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.wording import in_unit
 from ocs_design.report.charts.chart import SERIES, Area, Axis, Chart, Ink, Line, Mark, Rule
-from ocs_design.report.quantities import in_unit
 from ocs_design.report.story import RecordedFlight
 
 _SAMPLES = 121

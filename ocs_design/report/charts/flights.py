@@ -7,10 +7,10 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.files import safe_name
 from ocs_design.common.units import to_unit
+from ocs_design.common.wording import in_unit
 from ocs_design.device.answers import MonteCarloRecord, Spread
 from ocs_design.parts.module import part_name
 from ocs_design.report.charts.chart import SERIES, Area, Axis, Chart, Ink, Line, Mark, Rule
-from ocs_design.report.quantities import in_unit
 from ocs_design.report.story import RecordedFlight
 from ocs_design.simulation.run import LANDING_TOLERANCE
 

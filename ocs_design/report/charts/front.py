@@ -10,12 +10,12 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.files import to_json
+from ocs_design.common.wording import in_unit
 from ocs_design.device.answers import Front, FrontPoint
 from ocs_design.device.records.selection import SelectionRecord
 from ocs_design.export.folder import FRONT_FILE, staged_folder
 from ocs_design.report.charts.chart import SERIES, Axis, Chart, Ink, Line, Mark, Points, Rule
 from ocs_design.report.charts.svg import write_charts
-from ocs_design.report.quantities import in_unit
 
 _HEIGHT = 300.0
 """Height of the chart [px]."""

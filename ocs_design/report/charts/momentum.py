@@ -7,12 +7,12 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import rpm
+from ocs_design.common.wording import degrees, in_unit
 from ocs_design.device.answers import PostureLine
 from ocs_design.device.layout import PAIR
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.parts.module import part_name
 from ocs_design.report.charts.chart import SERIES, Area, Axis, Chart, Ink, Line, Mark, Points, Rule
-from ocs_design.report.quantities import degrees, in_unit
 from ocs_design.report.story import Story
 from ocs_design.requirement.bound import AXES, bound_curve
 

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from ocs_design.common.files import safe_name
 from ocs_design.common.units import format_quantity
+from ocs_design.common.wording import grams
 from ocs_design.device.answers import Front, Validated
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.export.raster import png_bytes
@@ -16,7 +17,6 @@ from ocs_design.report.device import device_title, first_facts, share_of_robot
 from ocs_design.report.flights import flights_title, verdict_table
 from ocs_design.report.html.elements import Markup, element, items, table, void
 from ocs_design.report.monte_carlo import campaign_title, certificate_line, success_table
-from ocs_design.report.quantities import grams
 from ocs_design.report.table import Table, columns
 from ocs_design.report.verdict import Headline, headline
 

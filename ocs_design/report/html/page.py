@@ -8,6 +8,7 @@ from pathlib import Path
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.common.files import to_json
 from ocs_design.common.units import rpm
+from ocs_design.common.wording import degrees, grams, inertia, tenths
 from ocs_design.device.layout import PAIR
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.export.folder import REPORT_FILE
@@ -19,7 +20,6 @@ from ocs_design.report.html import sections
 from ocs_design.report.html.decimation import decimated
 from ocs_design.report.html.elements import Markup, data, element, joined
 from ocs_design.report.html.view import view, view_data
-from ocs_design.report.quantities import degrees, grams, inertia, tenths
 from ocs_design.report.story import Story
 from ocs_design.report.verdict import headline
 from ocs_design.sizing.margins import HOOP_STRESS

@@ -8,6 +8,7 @@ from importlib.metadata import PackageNotFoundError, version
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.gears import known_gears
 from ocs_design.catalogue.materials import materials
+from ocs_design.common.wording import counted, grams
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.export.assembly.booklet import chapters, pictures, piece_rows, screw_rows
 from ocs_design.export.assembly.content import Assembly
@@ -40,9 +41,8 @@ from ocs_design.report.html.elements import (
     section,
     table,
 )
-from ocs_design.report.quantities import BOUND_NOTE, grams
 from ocs_design.report.story import Story
-from ocs_design.report.table import Table, columns, counted
+from ocs_design.report.table import Table, columns
 
 PAPER = (
     "F. Roscia, A. Cumerlotti, A. Del Prete, C. Semini, M. Focchi, “Orientation Control System: "
@@ -155,7 +155,7 @@ def bound_section(story: Story) -> Markup:
         "bound",
         "The lower bound, and where the design lies",
         figures(bound_charts(story)),
-        element("p", BOUND_NOTE, class_="note"),
+        element("p", limits.BOUND_NOTE, class_="note"),
     )
 
 

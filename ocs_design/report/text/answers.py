@@ -8,10 +8,11 @@ from rich.text import Text
 
 from ocs_design.common.errors import extra_command
 from ocs_design.common.units import rpm
+from ocs_design.common.wording import degrees, inertia, listed
 from ocs_design.device.answers import BoundAnswer, Exported, Initialized, LayoutsAnswer
 from ocs_design.device.findings import Examination, Finding, State
-from ocs_design.report.quantities import BOUND_NOTE, degrees, inertia
-from ocs_design.report.table import Table, Tone, Toned, columns, listed
+from ocs_design.report.limits import BOUND_NOTE
+from ocs_design.report.table import Table, Tone, Toned, columns
 from ocs_design.report.text.layout import facts, files_written, heading, items, note, show
 
 

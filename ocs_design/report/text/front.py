@@ -11,9 +11,9 @@ from rich.text import Text
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import format_quantity, to_unit
+from ocs_design.common.wording import grams, tenths
 from ocs_design.device.answers import Front
 from ocs_design.report.charts.chart import Axis
-from ocs_design.report.quantities import grams, tenths
 from ocs_design.report.table import Cell, Table, Tone, Toned, columns
 from ocs_design.report.text.console import breaks_lines
 from ocs_design.report.text.layout import INDENT, facts, heading, items, note, show

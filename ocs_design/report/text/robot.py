@@ -4,10 +4,10 @@ from collections.abc import Iterable, Iterator
 
 from rich.console import Console
 
+from ocs_design.common.wording import degrees_number
 from ocs_design.device.answers import Inspection, RecognitionRecord
 from ocs_design.device.records.requirement import RobotRecord
 from ocs_design.report.device import heading_drift, robot_facts
-from ocs_design.report.quantities import degrees_number
 from ocs_design.report.table import Table, columns
 from ocs_design.report.text.layout import facts, heading, note, show, warn
 

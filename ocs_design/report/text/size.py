@@ -8,6 +8,7 @@ from rich.console import Console
 from rich.text import Text
 
 from ocs_design.common.units import format_quantity, rpm
+from ocs_design.common.wording import degrees_number, grams, listed
 from ocs_design.device.records.design import DESIGN_FILE, OcsDesign
 from ocs_design.device.records.requirement import ManeuverRecord
 from ocs_design.device.records.selection import SelectionRecord
@@ -21,8 +22,7 @@ from ocs_design.report.device import (
     first_facts,
     share_of_robot,
 )
-from ocs_design.report.quantities import degrees_number, grams
-from ocs_design.report.table import Table, columns, listed
+from ocs_design.report.table import Table, columns
 from ocs_design.report.text.console import breaks_lines
 from ocs_design.report.text.layout import facts, files_written, heading, items, note, show, warn
 from ocs_design.report.text.robot import print_joints, print_robot

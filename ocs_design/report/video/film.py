@@ -9,11 +9,11 @@ import numpy as np
 from ocs_design.common.errors import MissingToolError, extra_command
 from ocs_design.common.files import safe_name
 from ocs_design.common.units import rpm
+from ocs_design.common.wording import degrees
 from ocs_design.device.device import Device
 from ocs_design.export.film import Frames, Take, film_model, render_takes
 from ocs_design.export.programs import FFMPEG_HINT
 from ocs_design.report.flights import off_level
-from ocs_design.report.quantities import degrees
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.run import Run

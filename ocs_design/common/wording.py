@@ -1,18 +1,12 @@
-"""SI numbers in the units of the workshop: mm, g, rpm, degrees."""
+"""Numbers in the units of the workshop (mm, g, degrees), counts and lists as people read them."""
 
+from collections.abc import Sequence
 from typing import TypeVar
 
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import rpm, significant, to_unit
-
-BOUND_NOTE = (
-    "The paper prints I_r d / (d + gamma); from its own momentum follows I_r d / (gamma - d). "
-    "I_r is the robot's inertia, d the change of its rate, gamma the wheel's speed. The bound is "
-    "necessary, never sufficient: it does not ask for torque, angle or time."
-)
-"""Said wherever the paper's lower bound is shown."""
 
 Amount = TypeVar("Amount", float, FloatArray)
 
@@ -83,6 +77,22 @@ def quantity(value: float, unit: str) -> str:
     if unit in _SHOWN:
         return _SHOWN[unit](value)
     return f"{value:,.0f} {unit}" if 1e3 <= value < 1e6 else f"{value:.3g} {unit}"
+
+
+def counted(count: int, noun: str) -> str:
+    """Number and noun, as in `1 note` and `3 notes`."""
+    return f"{count:,} {noun}{'' if count == 1 else 's'}"
+
+
+def listed(texts: Sequence[str]) -> str:
+    """Texts in one sentence, as in `a, b and c`."""
+    return " and ".join(filter(None, [", ".join(texts[:-1]), *texts[-1:]]))
+
+
+def some_of(names: Sequence[str], most: int = 4) -> str:
+    """Names with commas between them; beyond `most` only how many more there are."""
+    shown = ", ".join(names[:most])
+    return shown if len(names) <= most else f"{shown} and {len(names) - most} more"
 
 
 def _rounded(value: float, digits: int) -> float:

@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 from ocs_design.actuation.motor import Motor, build_gaps
+from ocs_design.common.wording import listed, quantity, some_of
 from ocs_design.device.joints import (
     BEARING_MOMENT,
     FLOOR_SHOCK,
@@ -11,12 +12,10 @@ from ocs_design.device.joints import (
     SCREWS_SHOCK,
     SHAFT_JOINT,
     WHEEL_STRESS,
+    joints_of,
 )
 from ocs_design.device.records.device import Buildable, Margin, OpenPoint
 from ocs_design.parts.joints import EPOXY
-from ocs_design.report.quantities import quantity
-from ocs_design.report.table import listed
-from ocs_design.robot.links import listed as some_of
 from ocs_design.robot.meshes import lacks_mesh, unmeasured
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.margins import (
@@ -30,6 +29,7 @@ from ocs_design.sizing.margins import (
     WHEEL_SPEED,
 )
 from ocs_design.sizing.mounting import Mounting, mounting_open_points
+from ocs_design.sizing.sized import Designed
 
 _SUPPLY = "give a supply that stands it with --bus-power and --bus-current, or more time"
 _DRIVE = "choose a motor that can do more (--motor), or give more time"
@@ -64,6 +64,14 @@ _SPARE = ("shaft joint, screws in shear", FOOT_SHOCK, FLOOR_SHOCK)
 TOLERANCE = 1e-3
 """Share by which a capacity may be exceeded: what a wheel gains within one control step, beyond
 the limit that its law keeps."""
+
+
+def buildable_of(
+    robot: Robot, designed: Designed, margins: Sequence[Margin], mounting: Mounting | None
+) -> Buildable:
+    """Whether a designed device can be built on its robot, and what is open."""
+    motor = None if designed.choice is None else designed.choice.chosen.motor
+    return buildable(motor, mounting, margins, joints_of(designed.device), robot)
 
 
 def buildable(

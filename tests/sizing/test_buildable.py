@@ -10,9 +10,9 @@ from ocs_design.actuation.motor import build_gaps
 from ocs_design.catalogue.motors import motors
 from ocs_design.device.records.device import Clearance, Margin
 from ocs_design.robot.reader import read_robot
+from ocs_design.sizing.buildable import buildable
 from ocs_design.sizing.footing.contact import FootContact
 from ocs_design.sizing.mounting import Mounting
-from ocs_design.workflows.buildable import buildable
 
 WHOLE = next(motor for motor in motors().values() if not build_gaps(motor))
 FREE = Mounting(Clearance("trunk", 0.01), None, (), np.zeros(3), np.zeros(3))
