@@ -361,7 +361,7 @@ class Resolved:
     reliability: float | None = None
 
     def estimated(self, factors: Mapping[str, float]) -> "Resolved":
-        """The same with these factors on what turns are estimated to ask for, by their names."""
+        """Requirement with these factors on what turns are estimated to ask for, by name."""
         maneuvers = tuple(
             replace(each, estimate=factors.get(each.name, 1.0))
             if isinstance(each, TurnTo | Pivoted)
@@ -371,7 +371,7 @@ class Resolved:
         return replace(self, requirement=replace(self.requirement, maneuvers=maneuvers))
 
     def carrying(self, requirement: Requirement) -> "Resolved":
-        """The same for the robot with its device; what kicks do to both is told too.
+        """Requirement of the robot with its device; what kicks do to both is told too.
 
         Args:
             requirement: of robot and device.

@@ -14,7 +14,7 @@ from ocs_design.common.errors import OcsError
 from ocs_design.common.files import to_json
 from ocs_design.device.device import NO_CARRIER
 from ocs_design.device.records.design import LARGEST, read_design
-from ocs_design.device.records.device import Buildable, OpenPoint
+from ocs_design.device.records.device import Buildable, Margin, OpenPoint
 from ocs_design.device.records.selection import Alternative
 
 OLD = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
@@ -77,6 +77,17 @@ def test_a_document_of_this_version_comes_back_as_it_was(tmp_path):
     )
     (tmp_path / "design.json").write_bytes(to_json(design))
     assert read_design(tmp_path / "design.json") == design
+
+
+@pytest.mark.parametrize(
+    ("demand", "capacity", "margin"), [(2.0, 3.0, 1.5), (2.0, None, None), (0.0, 3.0, None)]
+)
+def test_a_margin_is_written_with_its_factor_also_where_it_has_none(demand, capacity, margin):
+    found = Margin("bus power", demand, capacity, "W", note="n")
+    assert json.loads(to_json(found)) == {
+        "name": "bus power", "demand": demand, "capacity": capacity, "unit": "W",
+        "margin": margin, "scenario": "", "note": "n",
+    }  # fmt: skip
 
 
 @pytest.mark.parametrize("version", [0, 3, 99])

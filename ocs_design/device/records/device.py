@@ -141,8 +141,10 @@ class Margin:
     note: str = ""
 
     def __post_init__(self) -> None:
-        if self.capacity is not None and self.demand != 0.0:
-            object.__setattr__(self, "margin", self.capacity / self.demand)
+        capacity, asked = self.capacity, self.demand
+        # A figure that is set is written, also where it is none.
+        margin = None if capacity is None or asked == 0.0 else capacity / asked
+        object.__setattr__(self, "margin", margin)
 
     @property
     def strain(self) -> tuple[float, float]:
