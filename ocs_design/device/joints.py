@@ -58,8 +58,8 @@ RUN_OUT = 0.05e-3
 distance of their middles."""
 
 
-def burst_of(device: Device) -> Containment:
-    """What would hold a wheel that bursts at its top speed."""
+def burst_of(device: Device, speed: float | None = None) -> Containment:
+    """What would hold a wheel that bursts at a speed [rad/s]; None: at its top speed."""
     wheel = device.flywheel
     web = 0.0 if wheel.web is None else wheel.web.mass
     piece = fragment_of(
@@ -68,7 +68,7 @@ def burst_of(device: Device) -> Containment:
         height=wheel.height,
         rim_mass=wheel.rim_mass,
         web_mass=web,
-        wheel_speed=device.motor.top_speed,
+        wheel_speed=device.motor.top_speed if speed is None else speed,
     )
     return Containment.of(piece, wheel.outer_radius, housing_of(device).rim_height)
 

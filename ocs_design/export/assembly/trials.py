@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ocs_design.common.units import rpm, significant
-from ocs_design.device.joints import balance_of, yield_margin
+from ocs_design.device.joints import balance_of, burst_of, yield_margin
 from ocs_design.device.resonances import DAMPING, resonances_of
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.content import LEAST_DRILL, Assembly
@@ -205,6 +205,7 @@ def safety(assembly: Assembly) -> Iterator[str]:
             f"{1e3 * aluminium:.0f} g each. `size --guard containing` builds the one of "
             "steel in."
         )
+    yield from _runaway(assembly)
     if "cage" in assembly.numbers:
         yield (
             "Between the posts of the cage the motor's bell turns with the wheel and can be "
@@ -218,6 +219,26 @@ def safety(assembly: Assembly) -> Iterator[str]:
     yield (
         "After a crash, a fall on a wheel, or a touch of rim and housing: run-out, balance and "
         "spin test again before the next flight."
+    )
+
+
+def _runaway(assembly: Assembly) -> Iterator[str]:
+    """What keeps a wheel from its top speed, and what one has that nothing keeps from it."""
+    motor, built = assembly.device.motor, assembly.device.guard_wall
+    top = assembly.top_speed
+    if top is None or motor.bus_voltage is None or not math.isfinite(motor.no_load_speed):
+        return
+    speed = OVERSPEED * motor.no_load_speed
+    worst = burst_of(assembly.device, speed)
+    asked = f"the ring against that is {_at_least(worst.steel)} mm of mild steel"
+    if built:
+        asked += f", and the one built in is {'as thick' if built >= worst.steel else 'thinner'}"
+    yield (
+        f"The wheel law, which computes with {motor.bus_voltage:g} V, drives no wheel past "
+        f"{rpm(top)}, however full the battery is, and brakes one that is faster. A controller "
+        "that does not heed it may run away: on a battery with "
+        f"{OVERSPEED:.0%} of that voltage to {rpm(speed)}, where a third of the wheel has "
+        f"{_two(worst.fragment.energy)} J; {asked}."
     )
 
 

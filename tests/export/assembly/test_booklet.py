@@ -160,6 +160,25 @@ def test_the_guard_is_told_what_it_does_not_do():
     assert f"Each wheel stores {energy:.3g} J at 6,211 rpm, 2 of them {2 * energy:.3g} J" in said
 
 
+@pytest.mark.parametrize("wall", [0.0, 1.5e-3, 2.5e-3])
+def test_what_keeps_a_wheel_from_its_top_speed_is_told_beside_its_guard(wall):
+    """The law does, by its voltage; a full battery does not: 1.1^2 of the energy, 1.1^(4/3) of
+    the wall.
+    """
+    device = replace(DEVICES["in a guard ring"], guard_wall=wall)
+    said, burst = texts(Assembly("solo12", device), "Safety"), burst_of(device)
+    speed, volts = device.motor.no_load_speed, device.motor.bus_voltage
+    assert f"which computes with {volts:g} V, drives no wheel past 6,211 rpm" in said
+    found = re.search(r"battery with 110% .*? to ([\d,]+) rpm, .*? has (\d+) J; .*? is (\S+)", said)
+    rpm, energy, steel = (float(each.replace(",", "")) for each in found.groups())
+    assert rpm == pytest.approx(1.1 * speed * 30.0 / np.pi, abs=0.6)
+    assert energy == pytest.approx(1.21 * burst.fragment.energy, rel=0.02)
+    assert 0.0 <= steel - 1e3 * 1.1 ** (4.0 / 3.0) * burst.steel < 0.1
+    as_thick = "and the one built in is as thick" in said
+    assert as_thick == (1e3 * wall >= steel - 0.1 and wall > 0.0)
+    assert ("built in is thinner" in said) == (wall > 0.0 and not as_thick)
+
+
 def test_a_guard_ring_is_built_and_told_with_its_limits():
     device = DEVICES["in a guard ring"]
     assembly = Assembly("solo12", device)
