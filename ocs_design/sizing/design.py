@@ -31,7 +31,7 @@ from ocs_design.sizing.on_robot import in_rings, on_its_footing, with_plate
 from ocs_design.sizing.place import braked
 from ocs_design.sizing.reserve import Reality, Reserve, account
 from ocs_design.sizing.selection.device import with_demands
-from ocs_design.sizing.selection.problem import SelectionProblem
+from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
 from ocs_design.sizing.selection.select import device_at
 from ocs_design.sizing.sized import Choice, Designed, sized_by_bound, sized_selection
 from ocs_design.sizing.specified import require_survival, selection_problem, specified_criterion
@@ -52,6 +52,7 @@ def design_device(
     *,
     ranked: bool = True,
     reserve: Reserve | None = None,
+    parts: Candidate | None = None,
 ) -> Designed:
     """The lightest device that meets the specification.
 
@@ -63,6 +64,8 @@ def design_device(
         specification: what was stated. robot: that carries it. resolved: what was meant.
         ranked: whether the heavier devices are of interest too; to weigh them all takes longer.
         reserve: to keep for what is drawn; None: for the reliability that is specified.
+        parts: device whose motor, gear, material and web it has, and which it may be like; None:
+            whichever make it lightest.
 
     Raises:
         Infeasible: there is none.
@@ -75,7 +78,9 @@ def design_device(
     com = robot.com
     for _ in range(1 + KICK_ROUNDS):
         try:
-            designed = _designed(specification, robot, resolved, ranked=ranked, reserve=reserve)
+            designed = _designed(
+                specification, robot, resolved, ranked=ranked, reserve=reserve, parts=parts
+            )
         except Infeasible:
             if all(short > 0.0 for short, _, _ in tried):
                 asked = resolved.requirement
@@ -88,7 +93,9 @@ def design_device(
                 )
                 calm = replace(resolved, requirement=replace(asked, maneuvers=maneuvers))
                 with suppress(Infeasible):
-                    return design_device(specification, robot, calm, ranked=ranked, reserve=reserve)
+                    return design_device(
+                        specification, robot, calm, ranked=ranked, reserve=reserve, parts=parts
+                    )
                 raise
             break
         whole, asked = designed.sized.total, resolved.requirement
@@ -117,6 +124,7 @@ def _designed(
     *,
     ranked: bool,
     reserve: Reserve | None,
+    parts: Candidate | None,
 ) -> Designed:
     """The device for what is resolved; see `design_device`."""
     problem = selection_problem(specification, robot, resolved)
@@ -145,7 +153,7 @@ def _designed(
         assert resolved.reliability is not None, "there are motors to choose from"
         require_survival(problem)
         reserve = reserve or Reserve(resolved.reliability)
-        designed = _by_selection(specification, problem, robot, reserve, ranked=ranked)
+        designed = _by_selection(specification, problem, robot, reserve, ranked=ranked, parts=parts)
     device, most = designed.device, specification.ocs.mass_max
     # Nothing is lighter than the lightest: no search is needed.
     if most is None or device.mass <= most:
@@ -217,6 +225,7 @@ def _by_selection(
     reserve: Reserve,
     *,
     ranked: bool,
+    parts: Candidate | None,
 ) -> Designed:
     """Modules with a motor of the catalogue each, co-designed where that is asked for."""
     criterion = specified_criterion(specification)
@@ -228,12 +237,17 @@ def _by_selection(
     )
     asked = problem.requirement
     problem, selection, reserve, nominal = on_its_footing(
-        problem, criterion, robot, (reality, reserve), ranked=ranked
+        problem, criterion, robot, (reality, reserve), ranked=ranked, parts=parts
     )
     if specification.ocs.guard == CONTAINING:
         problem, selection = in_rings(problem, selection.best, criterion, robot)
         best = selection.best
-        nominal = device_at(replace(problem, requirement=asked), best, best.incidence) or best
+        ringed = device_at(replace(problem, requirement=asked), best, best.incidence) or best
+
+        def nominal() -> Candidate:
+            """It stands in rings as well."""
+            return ringed
+
     if criterion is not None:
         problem = replace(problem, incidence=selection.best.incidence)
     # The lightest on its plate need not be the one that led the search.
@@ -264,8 +278,11 @@ def _by_selection(
         found = device_at(replace(problem, requirement=asked), selection.best, chosen.incidence)
         return None if found is None else found.modules_mass + chosen.plate_mass
 
-    spends = any(each.demand > 1.0 for each in reserve.maneuvers.values())
-    least = with_plate(nominal, problem, robot) if spends else chosen
+    def least() -> float:
+        """Mass of the device without a reserve [kg]."""
+        spends = any(each.demand > 1.0 for each in reserve.maneuvers.values())
+        return (with_plate(nominal(), problem, robot) if spends else chosen).mass
+
     # A co-design makes the selected device smaller, and its plate with it.
     device = assemble_selected(chosen)
     device = stand_on_trunk(device, robot, stated=problem.place.stated)
@@ -278,7 +295,7 @@ def _by_selection(
         criterion=BY_HAND if stated else name,
         choice=Choice(problem, selection, chosen, co_designed),
         reserve=reserve,
-        account=lambda: account(reserve, reality, problem, chosen, resized, nominal=least.mass),
+        account=lambda: account(reserve, reality, problem, chosen, resized, nominal=least()),
     )
 
 

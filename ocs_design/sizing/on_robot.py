@@ -4,7 +4,9 @@ Plate, feet and rings follow from the device that they carry or hold, and add to
 both are found in turn until they stay.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 from ocs_design.common.errors import Infeasible
 from ocs_design.common.units import format_quantity
@@ -29,6 +31,7 @@ from ocs_design.sizing.selection.select import (
     at_own_incidence,
     device_at,
     lightest_by,
+    lightest_near,
     same_parts,
     select_by,
 )
@@ -111,10 +114,11 @@ def on_its_footing(
     kept: tuple[Reality, Reserve],
     *,
     ranked: bool,
-) -> tuple[SelectionProblem, Selection, Reserve, Candidate]:
+    parts: Candidate | None = None,
+) -> tuple[SelectionProblem, Selection, Reserve, Callable[[], Candidate]]:
     """The selection on the footing that its best device has, with the problem that this is.
 
-    Last come the reserve that it keeps and the lightest device without one.
+    Last come the reserve that it keeps and a function that looks for the lightest device without.
 
     The problem is for the plate and the place of the largest modules that there may be. The
     selection is for those of its lightest device, then only the best drive's for its own, until
@@ -124,6 +128,7 @@ def on_its_footing(
         problem: to solve. criterion: see `select_by`. robot: that carries it.
         ranked: see `with_plates`.
         kept: what is drawn and the reserve for it, which the lightest device without one settles.
+        parts: see `design_device`.
 
     Raises:
         Infeasible: see `select_by`; also where nothing can carry the mast or plate that it needs.
@@ -155,15 +160,14 @@ def on_its_footing(
                 raise NeverHeld(best, change)
         return at, best
 
-    first, widest = lightest_by(problem, criterion), problem
+    if parts is not None:
+        problem = of_parts(problem, parts)
+    first, widest = parts or lightest_by(problem, criterion), problem
     if first is not None:
         problem, first = settled(first)
     nominal = select_by(problem, criterion).best if first is None else first
     reality, reserve = kept
     reserve = reserve.settled(reality, problem, nominal)
-    if any(each.short for each in reserve.maneuvers.values()):
-        # What the reserve costs is told against a device that is refined as well.
-        nominal = select_by(of_parts(problem, nominal), criterion).best
     free, plain = problem.incidence is None and criterion is None, problem
     problem, widest = (
         replace(each, requirement=reserve.kept(each.requirement, free=free))
@@ -171,7 +175,7 @@ def on_its_footing(
     )
     first = device_at(problem, nominal, nominal.incidence)
     try:
-        selection = select_by(problem, criterion, winner=first)
+        selection = _selected(problem, criterion, first, alone=parts is not None)
     except Infeasible:
         problem = widest
         selection = select_by(problem, criterion)
@@ -183,11 +187,20 @@ def on_its_footing(
         own, device = settled(best)
         if own is problem:
             break
-        again = select_by(of_parts(own, device), criterion, winner=device)
-        again, problem = with_plates(again, own, criterion, robot), own
+        again, problem = with_plate(lightest_near(own, device, criterion), own, robot), own
         others = [entry for entry in selection.ranking[1:] if not same_parts(entry, best)]
-        selection = replace(selection, ranking=(again.best, *others))
-    return problem, selection, reserve, nominal
+        selection = replace(selection, ranking=(again, *others))
+    return problem, selection, reserve, partial(lightest_near, plain, nominal, criterion)
+
+
+def _selected(
+    problem: SelectionProblem, criterion: Criterion | None, first: Candidate | None, *, alone: bool
+) -> Selection:
+    """The selection; with the parts of the first device `alone`, the lightest near that one."""
+    if not alone or first is None:
+        return select_by(problem, criterion, winner=first)
+    best = lightest_near(problem, first, criterion)
+    return Selection(ranking=(best,), candidates=1, reasons=tuple)
 
 
 def _surer(

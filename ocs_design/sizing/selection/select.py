@@ -26,7 +26,8 @@ from ocs_design.sizing.selection.refinement import refine
 from ocs_design.sizing.selection.rejections import Refused, rejections
 from ocs_design.sizing.selection.search import Found, search, search_lightest
 
-_CONVERGED = 1e-10
+_CONVERGED = 1e-7
+"""Error of an incidence [rad], with which a mass is right to nine digits."""
 _ITERATIONS_MAX = 50
 _WINNERS_MAX = 8
 _ABOUT = 1e-4
@@ -201,6 +202,23 @@ def at_own_incidence(
     return angle, found
 
 
+def lightest_near(
+    problem: SelectionProblem, device: Candidate, criterion: Criterion | None
+) -> Candidate:
+    """The lightest device of the same parts for another problem, at its own incidence.
+
+    Args:
+        problem: that the device does. device: to begin with. criterion: see `select_by`.
+    """
+    free = problem.incidence is None and criterion is None
+    solved = _solved_at(problem, [device], None if free else device.incidence)
+    better = replace(solved, point=refine(solved.candidates, solved.point))
+    found = device_of(better) if better.mass[0] < solved.mass[0] else device
+    if problem.incidence is not None or criterion is None:
+        return found
+    return at_own_incidence(problem, found, criterion)[1] or found
+
+
 def device_at(problem: SelectionProblem, device: Candidate, incidence: float) -> Candidate | None:
     """The device of the same parts and radius for another problem, at an incidence [rad].
 
@@ -214,20 +232,28 @@ def _devices_at(
     problem: SelectionProblem, devices: Sequence[Candidate], incidence: float
 ) -> Iterator[Candidate | None]:
     """Each of these devices for another problem; see `device_at`."""
-    problem = replace(of_parts(problem, *devices), incidence=incidence)
-    rows = np.arange(len(devices))
-    drives = drives_of(problem, np.stack([rows, rows], axis=1), rows)
-    candidates, angle = Candidates(problem, drives, rows), np.full(rows.size, incidence)
-    nothing, radius = np.zeros(rows.size), np.array([device.outer_radius for device in devices])
-    start = np.array([device.spin_inertia for device in devices])
-    point = fixed_point(candidates, start, Design(radius, angle, nothing), FINE)
-    solved = Solved(candidates, Guess(start, nothing, angle, nothing), point)
-    for row in rows:
+    solved = _solved_at(problem, devices, incidence)
+    for row in range(len(devices)):
         one = solved.take(np.array([row]))
         if not one.point.feasible[0]:
             # The iteration runs away where a device can only just carry itself; a programme not.
             one = replace(one, point=refine(one.candidates, one.point))
         yield device_of(one) if one.point.feasible[0] else None
+
+
+def _solved_at(
+    problem: SelectionProblem, devices: Sequence[Candidate], incidence: float | None
+) -> Solved:
+    """Each of these devices for another problem, with the same radius; None: the incidence too."""
+    problem = replace(of_parts(problem, *devices), incidence=incidence)
+    rows = np.arange(len(devices))
+    drives = drives_of(problem, np.stack([rows, rows], axis=1), rows)
+    candidates, nothing = Candidates(problem, drives, rows), np.zeros(rows.size)
+    angles = [device.incidence if incidence is None else incidence for device in devices]
+    radius, angle = np.array([device.outer_radius for device in devices]), np.array(angles)
+    start = np.array([device.spin_inertia for device in devices])
+    point = fixed_point(candidates, start, Design(radius, angle, nothing), FINE)
+    return Solved(candidates, Guess(start, nothing, angle, nothing), point)
 
 
 def same_parts(one: Candidate, other: Candidate) -> bool:
