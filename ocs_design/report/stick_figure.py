@@ -14,6 +14,9 @@ _SIDE = 300.0
 """Width and height of one view [px]."""
 
 _EDGE = 34.0
+_NAMES, _LETTER, _LINE = 10, 7.0, 11.0
+"""Size of the names of feet, largest mean width of a letter, and height of a line [px]."""
+
 _COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8a6d00", "#6a3d9a")
 """Colours of the legs; they differ for most eyes (Okabe and Ito 2008), and each foot is named."""
 
@@ -104,6 +107,7 @@ def _drawn(
         if body.parent >= 0:
             width = 3.0 if index in color else 1.5
             yield _line(joints[body.parent], joints[index], color.get(index, "#999999"), width)
+    named: list[tuple[float, float, float]] = []
     for number, leg in enumerate(legs):
         foot, paint = origin + axes @ feet[leg.name], _COLORS[number % len(_COLORS)]
         radius = max(3.5, float(np.abs(axes).max()) * leg.foot_radius)
@@ -112,8 +116,15 @@ def _drawn(
             f'<circle cx="{foot[0]:.1f}" cy="{foot[1]:.1f}" r="{radius:.1f}" fill="{paint}" '
             f'fill-opacity="0.5" stroke="{paint}"/>'
         )
-        # From the front and above, feet one behind the other would be named on one spot.
-        yield _text(foot[0] + 5.0, foot[1] + 12.0 * (1 + number % 2), leg.name, size=10, fill=paint)
+        # Feet one behind the other would be named on one spot.
+        x, y, across = float(foot[0]) + 5.0, float(foot[1]) + 12.0, _LETTER * len(leg.name)
+        while any(
+            abs(y - other) < _LINE and start < x + across and x < start + wide
+            for start, other, wide in named
+        ):
+            y += _LINE
+        named.append((x, y, across))
+        yield _text(x, y, leg.name, size=_NAMES, fill=paint)
     # Arrows from the trunk's origin: forward, left and up.
     up = up_axis(robot.tree, robot.trunk, legs) if legs else np.array([0.0, 0.0, 1.0])
     for name, axis in {"forward": np.eye(3)[0], "left": np.eye(3)[1], "up": up}.items():
