@@ -63,7 +63,8 @@ def pareto_front(
     with steps.step(f"choose a device for each of {points} values") as step:
         front = draw_front(task, sweep, values, lightest_device, step.update)
     if out is not None:
-        steps.doubt(write_front(front, Path(out), force=force))
+        with steps.step("write the front") as step:
+            step.note = "; ".join(write_front(front, Path(out), force=force))
     return front
 
 

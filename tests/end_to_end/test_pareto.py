@@ -2,6 +2,7 @@
 
 import csv
 import json
+import sys
 
 import pytest
 from commands import SOLO12, everything_in, run
@@ -42,6 +43,16 @@ def test_the_document_and_the_folder_say_the_same(written):
     for row, point in zip(rows, result.document["points"], strict=True):
         assert float(row["time_s"]) == point["value"]
         assert float(row["mass_kg"]) == point["device"]["mass"]
+
+
+def test_a_tool_that_is_missing_is_no_doubt(folder, monkeypatch):
+    """It is told where the step ends that would have used it."""
+    monkeypatch.setitem(sys.modules, "resvg_py", None)
+    short = ("--from", "390ms", "--to", "400ms", "--points", "2")
+    result = run("pareto", SOLO12, *ONE_MOTOR, *short, "-o", "front")
+    assert result.code == 0
+    assert "doubt" not in result.stderr
+    assert "write the front figures are not written as PNG, because resvg-py" in result.said
 
 
 def test_a_point_s_specification_makes_that_very_device(written):
