@@ -348,7 +348,8 @@ class Resolved:
         material: of a rim.
         torque_max: of a wheel [N m]; None: not limited.
         choice: of motors, gears and materials; None: no motor is wanted, and `material` holds.
-        reliability: share of robots that shall pass as built; None: no motor is wanted.
+        reliability: share of robots that shall pass as built; None: no motor is wanted, and none is
+            stated.
         assumptions: what was not stated and what holds in its place, one sentence each.
     """
 
@@ -445,5 +446,5 @@ def resolve(specification: Specification, robot: Robot, robot_size: float) -> Re
                 worded=worded,
             )
         ),
-        reliability=None if choice is None else asked.reliability or RELIABILITY,
+        reliability=asked.reliability if choice is None else asked.reliability or RELIABILITY,
     )

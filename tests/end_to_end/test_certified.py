@@ -40,6 +40,18 @@ def test_a_certificate_is_in_the_design_in_its_report_and_can_be_flown_again(fol
     assert again["validation"][0]["metrics"] == metrics
 
 
+def test_wheels_without_a_motor_are_certified_for_what_is_asked(folder):
+    """0.9 takes a ninth of the flights that 0.99 does."""
+    result = certified(DROP, *BY_HAND, *BOUND, "--reliability", "0.9")
+    assert result.code == 0
+    found = result.document["reliability"]
+    assert (found["asked"], found["samples"]) == (0.9, 17)
+    assert "certified for 90 %" in Path("ocs/report.html").read_text()
+    # With nothing stated, as before.
+    again = run("validate", "ocs", "--certify", "--json").document["monte_carlo"]["certificate"]
+    assert again["asked"] == 0.9
+
+
 @pytest.mark.usefixtures("no_alternatives")
 @pytest.mark.parametrize(
     ("factor", "rounds", "robot"),
