@@ -14,13 +14,14 @@ import numpy as np
 
 from ocs_design import __version__
 from ocs_design.actuation.motor import DIRECT
+from ocs_design.catalogue.materials import materials
 from ocs_design.common.errors import OcsError
 from ocs_design.common.units import format_quantity
-from ocs_design.device.device import Device
+from ocs_design.device.device import Device, Flywheel
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.solids import foot_of
 from ocs_design.parts.module import standing
-from ocs_design.parts.rim import WebHoles, hub_of, stored_energy, wheel_body
+from ocs_design.parts.rim import WebHoles, hoop_stress, hub_of, stored_energy, wheel_body
 from ocs_design.parts.solids import Carrier
 from ocs_design.robot.mass import MassProperties, combine
 
@@ -106,6 +107,7 @@ def _figures(design: OcsDesign, device: Device) -> Iterator[_Figure]:
     """Figures that others of the design make again, the smallest part first."""
     yield from _of_choice(design)
     yield from _of_drive(device)
+    yield from _of_limits(design, device)
     yield from _of_wheel(device)
     # Another version may make what stands still otherwise; the bill tells what that comes to.
     if design.tool.version == __version__ and design.ocs.center_of_mass is not None:
@@ -162,8 +164,50 @@ def _of_drive(device: Device) -> Iterator[_Figure]:
         yield _Figure("ocs.motor.stall_torque", motor.stall_torque, torque, "N m", line)
 
 
+def _of_limits(design: OcsDesign, device: Device) -> Iterator[_Figure]:
+    """Limits of drive and supply, which the margins have as capacities where there are any.
+
+    Flights keep to the one, and are judged by the other.
+    """
+    motor, supply = device.motor, design.supply
+    allowed = {each.name: each.capacity for each in design.margins}
+    limits = {
+        "ocs.motor.torque_limit": ("motor torque", motor.torque_limit, motor.friction, "N m"),
+        "ocs.motor.speed_max": ("wheel speed", motor.speed_max, 0.0, "rad/s"),
+    }
+    if supply is not None:
+        limits |= {
+            f"supply.{key}": (f"bus {name}", getattr(supply, key), 0.0, unit)
+            for key, name, unit in (("current_max", "current", "A"), ("power_max", "power", "W"))
+        }
+    for key, (name, stated, friction, unit) in limits.items():
+        capacity = allowed.get(name)
+        if capacity is not None and stated is not None and motor.bus_voltage is not None:
+            others = f"the capacity of {name} in margins makes it"
+            yield _Figure(key, stated, capacity - friction, unit, others)
+
+
+def _of_stress(wheel: Flywheel, speed: float) -> Iterator[_Figure]:
+    """Stress of the rim at the drive's top speed [rad/s], and what its material leaves of it."""
+    found = materials().get(wheel.material)
+    if wheel.hoop_stress is None or found is None or found.poisson_ratio is None:
+        return
+    stress = hoop_stress(
+        wheel.inner_radius,
+        wheel.outer_radius,
+        density=wheel.density,
+        poisson_ratio=found.poisson_ratio,
+        wheel_speed=speed,
+    )
+    made = "dimensions, material and top speed make it"
+    yield _Figure("ocs.flywheel.hoop_stress", wheel.hoop_stress, stress, "Pa", made)
+    if wheel.stress_margin is not None and found.yield_strength is not None:
+        margin = found.yield_strength / stress
+        yield _Figure("ocs.flywheel.stress_margin", wheel.stress_margin, margin, "", made)
+
+
 def _of_wheel(device: Device) -> Iterator[_Figure]:
-    """Masses, inertias and energy of the wheel."""
+    """Masses, inertias, energy and stress of the wheel."""
     wheel, motor, sizes = device.flywheel, device.motor, "its dimensions make it"
     web, hub, of = wheel.web, None, wheel.density
     if web is not None:
@@ -182,6 +226,7 @@ def _of_wheel(device: Device) -> Iterator[_Figure]:
     yield _Figure("ocs.flywheel.transverse_inertia", wheel.transverse_inertia, across, unit, sizes)
     energy, speed = stored_energy(spin, motor.top_speed), "inertia and top speed make it"
     yield _Figure("ocs.flywheel.stored_energy", wheel.stored_energy, energy, "J", speed)
+    yield from _of_stress(wheel, motor.top_speed)
 
 
 def _sizes(holes: WebHoles | None) -> tuple[float, ...]:

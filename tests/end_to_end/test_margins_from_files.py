@@ -1,5 +1,6 @@
 """Every margin, and what the first screen shows, calculated once more from the files alone."""
 
+import json
 import math
 import re
 
@@ -160,6 +161,32 @@ def test_the_first_screen_shows_these_figures(sized):
             if re.search(rf"(^| and |, ){name}( and |, | \(|$)", names):
                 share = 100.0 * demands[name] / margins[name]["capacity"]
                 assert int(percent) == math.ceil(share - 2e-3), name
+
+
+@pytest.mark.parametrize(
+    ("key", "said"),
+    [
+        ("ocs.motor.torque_limit", "the capacity of motor torque in margins"),
+        ("ocs.motor.speed_max", "the capacity of wheel speed in margins"),
+        ("supply.power_max", "the capacity of bus power in margins"),
+        ("supply.current_max", "the capacity of bus current in margins"),
+        ("ocs.flywheel.hoop_stress", "dimensions, material and top speed make it"),
+        ("ocs.flywheel.stress_margin", "dimensions, material and top speed make it"),
+    ],
+)
+def test_a_limit_that_was_changed_by_hand_is_refused_with_its_key(sized, key, said, tmp_path):
+    """Flights would keep to it, and be judged by another."""
+    document = json.loads((sized[1].folder / "design.json").read_text())
+    *path, last = key.split(".")
+    place = document
+    for step in path:
+        place = place[step]
+    place[last] *= 1.01
+    (tmp_path / "design.json").write_text(json.dumps(document))
+    result = run("validate", tmp_path, "-o", tmp_path / "out")
+    assert result.code == 3
+    assert f"{key} is" in result.said
+    assert said in result.said
 
 
 @pytest.mark.parametrize("product", ["motor"], indirect=True)
