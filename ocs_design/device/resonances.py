@@ -41,6 +41,15 @@ class Resonance:
         """Acceleration of the module at that amplitude [m/s^2]."""
         return (2.0 * pi * self.frequency) ** 2 * self.amplitude
 
+    def acceleration_at(self, speed: float) -> float:
+        """Acceleration of the module where its wheel stays at a speed [rad/s], [m/s^2].
+
+        An unbalance shakes by r^2 / sqrt((1 - r^2)^2 + (2 zeta r)^2) of U / m, r = w / w_0.
+        """
+        square = (speed / (2.0 * pi * self.frequency)) ** 2
+        grown = square / sqrt((1.0 - square) ** 2 + 4.0 * DAMPING**2 * square)
+        return speed**2 * 2.0 * DAMPING * self.amplitude * grown
+
 
 def resonances_of(device: Device) -> tuple[Resonance, ...]:
     """First modes of what carries a module that a wheel passes on its way to top speed.

@@ -17,7 +17,7 @@ from ocs_design.device.device import Device
 from ocs_design.export.assembly.content import Assembly, assembly_of, short
 from ocs_design.export.assembly.placed import Piece
 from ocs_design.export.assembly.steps import module_steps, robot_steps, tools
-from ocs_design.export.assembly.trials import balance, safety, spin_test
+from ocs_design.export.assembly.trials import balance, safety, spin_test, sweep
 from ocs_design.export.assembly.views import BALLOON, exploded_view, section_view
 from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.bill_of_materials import BillRow, bill_rows
@@ -423,6 +423,7 @@ def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
         Chapter("Steps, once for the robot", once, numbered=True, first=len(each) + 1),
         Chapter("Balance", tuple(balance(assembly))),
         Chapter("Spin test, before anything goes on the robot", tuple(spin_test(assembly)), True),
+        Chapter("Sweep, on the robot before its first flight", tuple(sweep(assembly)), True),
         Chapter("Wiring", tuple(wiring(assembly.device, assembly.margins))),
         Chapter("Safety", tuple(safety(assembly))),
     )

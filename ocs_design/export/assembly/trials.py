@@ -1,17 +1,20 @@
 """Balance, spin test and safety of a module, sentence by sentence."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from ocs_design.common.units import rpm, significant
+from ocs_design.common.units import STANDARD_GRAVITY, rpm, significant
+from ocs_design.device.device import Device
 from ocs_design.device.joints import balance_of, burst_of, yield_margin
-from ocs_design.device.resonances import DAMPING, resonances_of
+from ocs_design.device.resonances import DAMPING, Resonance, resonances_of
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.content import LEAST_DRILL, Assembly
 from ocs_design.export.electrics import demand_of
+from ocs_design.parts.carrier_plate import STOCK, plate_part
 from ocs_design.parts.guard import stepped
 from ocs_design.parts.joints import GRADE
+from ocs_design.parts.plate_strength import plate_frequency
 from ocs_design.parts.printed import CLEARANCE
 from ocs_design.parts.rim import stored_energy
 
@@ -20,6 +23,12 @@ SPIN_STEPS = (0.1, 0.25, 0.5, 0.75, 1.0)
 
 OVERSPEED = 1.1
 """Speed of the spin test over the top speed, once, before the wheel goes on a robot."""
+
+NEAR = 0.15
+"""Distance of a mode from a speed that is reached, over that speed, within which it is told."""
+
+FINE_GRADE = 2.5
+"""Grade of balance of gas turbines and machine tools (ISO 21940-11), for what G 6.3 shakes."""
 
 _SOFT = 68.0
 """Heat deflection temperature of PETG at 0.45 MPa [deg C]: Prusament PETG, technical data sheet."""
@@ -161,6 +170,66 @@ def spin_test(assembly: Assembly) -> Iterator[str]:
     yield (
         "Brake from full speed with the battery that will be used, and watch the bus voltage: "
         "it must stay below what controllers and battery stand."
+    )
+
+
+def sweep(assembly: Assembly) -> Iterator[str]:
+    """How modes are looked for on the robot, and what is done about one near a speed of use."""
+    device, top = assembly.device, assembly.top_speed
+    modes = resonances_of(device)
+    if top is None or not modes:
+        return
+    reached = demand_of(assembly.margins, "wheel speed") or top
+    computed = ", ".join(
+        f"{mode.name} {60.0 * mode.frequency:,.0f} rpm"
+        for mode in sorted(modes, key=lambda each: each.frequency)
+    )
+    yield (
+        "Hold the robot by its trunk, lids on, nobody in the wheels' planes, an accelerometer "
+        "taped to one foot. Run that module's wheel alone from standstill to "
+        f"{rpm(reached)}, what the maneuvers reach at most, in about a minute; then the others. "
+        f"Write down where each shakes most. Computed are: {computed}; a trunk or screws that "
+        "give way make them lower, and damping is assumed."
+    )
+    for mode in modes:
+        off = reached / (2.0 * math.pi * mode.frequency) - 1.0
+        if 0.0 < abs(off) < NEAR:
+            yield (
+                f"The largest speed of the maneuvers, {rpm(reached)}, is {abs(off):.0%} "
+                f"{'above' if off > 0.0 else 'below'} that of the {mode.name}: there it shakes the "
+                f"module with {_two(mode.acceleration_at(reached) / STANDARD_GRAVITY)} times its "
+                f"weight, and with {_two(mode.acceleration / STANDARD_GRAVITY)} times if they meet."
+            )
+    cures = [
+        f"balance that wheel again, to G {FINE_GRADE:g}, which leaves "
+        f"{FINE_GRADE / GRADE:.0%} of what shakes",
+        "stick damping tape (butyl under aluminium foil) on the "
+        f"{'plate beside its feet' if device.plate is not None else 'stem of the foot'}",
+        *_stiffer(device, modes),
+    ]
+    yield (
+        "Where it shakes most within 5 % of a speed that a maneuver holds for longer than a tenth "
+        f"of a second (validation/*.csv), in this order: {'; '.join(cures)}. Then sweep again. "
+        "Passing through a mode quickly does no harm."
+    )
+
+
+def _stiffer(device: Device, modes: Sequence[Resonance]) -> Iterator[str]:
+    """The plate of the next thickness, where a plate's mode is near: it takes longer screws."""
+    plate = device.plate
+    if plate is None or plate.mast is not None or "plate" not in {mode.name for mode in modes}:
+        return
+    thick = next((each for each in STOCK if each > plate.thickness + 1e-6), None)
+    if thick is None:
+        return
+    stiff = replace(plate, thickness=thick)
+    frequency = plate_frequency(stiff, device.module_mass)
+    heavier = sum(plate_part(each).mass() for each in stiff.each)
+    heavier -= sum(plate_part(each).mass() for each in plate.each)
+    longer = 1e3 * (thick - plate.thickness)
+    yield (
+        f"make the plate {1e3 * thick:g} mm thick, all screws through it {longer:g} mm longer: "
+        f"{60.0 * frequency:,.0f} rpm, {1e3 * heavier:.0f} g heavier"
     )
 
 

@@ -13,11 +13,13 @@ from hypothesis import strategies as st
 from wheels import paper_device
 
 from ocs_design.catalogue.materials import materials
+from ocs_design.common.units import rpm
 from ocs_design.device.bodies import carrier_placement, wheel_placement
 from ocs_design.device.device import Module
 from ocs_design.device.joints import balance_of, burst_of, rim_fit, yield_margin
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.device.records.device import Margin
+from ocs_design.device.resonances import resonances_of
 from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly.booklet import assembly_pages, chapters, piece_rows, screw_rows
 from ocs_design.export.assembly.content import Assembly
@@ -85,6 +87,35 @@ def test_the_bench_is_told_what_the_foot_does_and_what_can_be_touched():
     assert "Between the posts" not in by_face
     hole = 2e3 * foot_of(DEVICES["caged"]).housing.mount.pilot_radius
     assert f"no supports but in the hole of {hole:.0f} mm" in caged
+
+
+def test_modes_are_swept_for_on_the_robot_and_what_is_near_one_is_told():
+    """An unbalance shakes by r^2 / |1 - r^2| of U / m off a mode; k goes with thickness^3."""
+    device = DEVICES["on a plate"]
+    device = replace(device, motor=replace(device.motor, no_load_speed=3e3, speed_max=None))
+    plate = next(mode for mode in resonances_of(device) if mode.name == "plate")
+    at = 1.07 * 2.0 * np.pi * plate.frequency
+    margins = (Margin("wheel speed", at, 3e3, "rad/s"),)
+    said = texts(Assembly("solo12", device, margins), "Sweep")
+    assert f"from standstill to {rpm(at)}" in said
+    for mode in resonances_of(device):
+        assert f"{mode.name} {60.0 * mode.frequency:,.0f} rpm" in said
+    told = re.search(r"is 7% above that of the plate: .* with ([\d.]+) times .* with (\S+) t", said)
+    near, met = map(float, told.groups())
+    square, mass = 1.07**2, device.module_mass
+    own = balance_of(device).unbalance / mass * square / (square - 1.0) * at**2 / 9.80665
+    assert near == pytest.approx(own, rel=0.06)
+    assert met == pytest.approx(plate.acceleration / 9.80665, rel=0.06)
+    thick = device.plate.thickness
+    stiffer = float(
+        re.search(r"make the plate 4 mm thick.*?: ([\d,]+) rpm", said)[1].replace(",", "")
+    )
+    assert stiffer == pytest.approx(60.0 * plate.frequency * (4e-3 / thick) ** 1.5, rel=1e-3)
+    # Far from all modes nothing of the kind is told, and without modes there is no sweep.
+    far = (Margin("wheel speed", 2.0 * at, 3e3, "rad/s"),)
+    assert "above that of" not in texts(Assembly("solo12", device, far), "Sweep")
+    slow = replace(device, motor=replace(device.motor, no_load_speed=10.0))
+    assert "Sweep" not in {each.title[:5] for each in chapters(Assembly("solo12", slow))}
 
 
 def test_every_screw_of_the_bill_is_numbered_and_has_a_torque(assembly):
