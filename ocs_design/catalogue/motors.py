@@ -398,16 +398,6 @@ def _of_mass(sheet: MotorSheet, limits: tuple[float, float]) -> Iterator[str]:
         )
 
 
-def _impossible(sheet: MotorSheet) -> Iterator[str]:
-    """Sizes and masses that no motor has, one line each with the likely slip."""
-    sizes = {name: size for name, size in vars(sheet).items() if name.endswith("_m") and size}
-    large = {name: size for name, size in sizes.items() if size >= LARGEST}
-    for name, size in large.items():
-        yield f"{name} is {size:g} m, and no motor is that large: did you mean {size / 1e3:g} m?"
-    if not large:
-        yield from _of_mass(sheet, POSSIBLE)
-
-
 def _of_torque(sheet: MotorSheet) -> Iterator[str]:
     """Line on a mass that its torque is not that of, where no size says what it should be."""
     mass, torque = sheet.mass_kg, sheet.motor().peak_torque
@@ -457,7 +447,12 @@ def _doubts(sheet: MotorSheet) -> Iterator[str]:
 
 def _faults(sheet: MotorSheet) -> Iterator[str]:
     """What is wrong with a row, one line each; a remark explains contradictions alone."""
-    yield from _impossible(sheet)
+    sizes = {name: size for name, size in vars(sheet).items() if name.endswith("_m") and size}
+    large = {name: size for name, size in sizes.items() if size >= LARGEST}
+    for name, size in large.items():
+        yield f"{name} is {size:g} m, and no motor is that large: did you mean {size / 1e3:g} m?"
+    if not large:
+        yield from _of_mass(sheet, POSSIBLE)
     if sheet.kt_nm_per_a is not None and sheet.kt_convention is None:
         yield f"kt_nm_per_a needs its kt_convention{_fitting(sheet)}"
     if sheet.resistance_ohm is not None and sheet.resistance_between is None:

@@ -198,7 +198,13 @@ def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
             name, 0.0, None, "Pa", note=f"elastic figures of {wheel.material} are not known"
         )
     elif web.material == wheel.material:
-        yield _one_piece(wheel.material, web, rings, OVERSPEED * device.motor.top_speed)
+        where, peak = _peak(web, rings, OVERSPEED * device.motor.top_speed)
+        note = (
+            f"in {where} at {OVERSPEED:g} x top speed, against yield; one piece, as a rotating "
+            "disc of three thicknesses"
+        )
+        strength = materials()[wheel.material].yield_strength
+        yield Margin(WHEEL_STRESS, peak, strength, "Pa", note=note)
     elif fit is None:
         yield Margin(RIM_JOINT, 0.0, None, "Pa", note="thermal expansions are not known")
     else:
@@ -217,16 +223,6 @@ def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
             yield Margin(name, stress, strength, "Pa", note=f"largest stress {note}")
         buckling, note = "web of the shrink fit, to buckling", "a full plate with its edge held"
         yield Margin(buckling, fit.squeezed, fit.buckling, "Pa", note=note)
-
-
-def _one_piece(material: str, web: Web, rings: tuple[Ring, ...], speed: float) -> Margin:
-    """Largest stress of a wheel of one piece, hub, web and rim."""
-    where, peak = _peak(web, rings, speed)
-    note = (
-        f"in {where} at {OVERSPEED:g} x top speed, against yield; one piece, as a rotating disc of "
-        "three thicknesses"
-    )
-    return Margin(WHEEL_STRESS, peak, materials()[material].yield_strength, "Pa", note=note)
 
 
 def _peak(web: Web, rings: tuple[Ring, ...], speed: float) -> tuple[str, float]:

@@ -179,6 +179,10 @@ class Node:
             _sparse(np.kron(np.diag(1.0 / each)[np.isfinite(each)], [[1.0], [-1.0]]))
             for each in limits
         )
+        # Forces beyond the pyramid inscribed into the friction cone, shape (4 legs, 3 legs).
+        side = FRICTION / np.sqrt(2.0)
+        sides = [[1.0, 0.0, -side], [-1.0, 0.0, -side], [0.0, 1.0, -side], [0.0, -1.0, -side]]
+        pyramids = _sparse(np.kron(np.eye(layout.legs), sides))
         root = ca.sqrt(duration / units.time)
         return cls(
             unknowns=z,
@@ -191,9 +195,7 @@ class Node:
                 Constraints(torque, efforts, -np.inf, 1.0, Limit.TORQUE),
                 Constraints(speed, velocities, -np.inf, 1.0, Limit.SPEED),
                 # At the end the feet let go.
-                Constraints(
-                    force, _pyramids(layout.legs), -np.inf, 0.0, Limit.FRICTION, stop=NODES - 1
-                ),
+                Constraints(force, pyramids, -np.inf, 0.0, Limit.FRICTION, stop=NODES - 1),
                 Constraints(reach, ca.DM.eye(layout.legs), REACH[0] ** 2, REACH[1] ** 2),
             ),
             end=end,
@@ -266,13 +268,6 @@ def _slips(body: LeggedBody, base: FloatingBase) -> ca.SX:
 def limit_or_inf(value: float) -> float:
     """Limit of a joint; files write 0 where the author left it open."""
     return value if value > 0.0 else np.inf
-
-
-def _pyramids(legs: int) -> ca.DM:
-    """Forces beyond the pyramid inscribed into the friction cone, shape (4 legs, 3 legs)."""
-    side = FRICTION / np.sqrt(2.0)
-    sides = [[1.0, 0.0, -side], [-1.0, 0.0, -side], [0.0, 1.0, -side], [0.0, -1.0, -side]]
-    return _sparse(np.kron(np.eye(legs), sides))
 
 
 def _sparse(matrix: FloatArray) -> ca.DM:

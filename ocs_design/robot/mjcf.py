@@ -265,7 +265,14 @@ def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) ->
             "the model's bodies are nested too deeply", hint="a thousand levels are too many"
         ) from error
     check_number_of_links(model.nbody)
-    _check_numbers(model)
+    # Numbers that MuJoCo compiles but that nothing can be computed from.
+    for kind, quantity in _NUMBERS:
+        numbers = np.asarray(getattr(model, f"{kind}_{quantity}"))
+        if not (np.abs(numbers) <= LARGEST_NUMBER).all():
+            raise RobotError(
+                f"the {quantity} of a {kind} is not finite or far too large",
+                hint="lengths are in metres, masses in kilograms, angles in radians or degrees",
+            )
     base = find_base(model, named, warnings)
     links: dict[str, Link] = {}
     children: dict[str, list[Connection]] = {}
@@ -323,14 +330,3 @@ _NUMBERS = (
     *(("jnt", "pos"), ("jnt", "axis"), ("key", "qpos")),
 )
 """Numbers of a compiled model that are computed with: the kind of element, and which of it."""
-
-
-def _check_numbers(model: mujoco.MjModel) -> None:
-    """Refuse numbers that MuJoCo compiles but that nothing can be computed from."""
-    for kind, quantity in _NUMBERS:
-        numbers = np.asarray(getattr(model, f"{kind}_{quantity}"))
-        if not (np.abs(numbers) <= LARGEST_NUMBER).all():
-            raise RobotError(
-                f"the {quantity} of a {kind} is not finite or far too large",
-                hint="lengths are in metres, masses in kilograms, angles in radians or degrees",
-            )

@@ -48,7 +48,14 @@ def print_front(console: Console, front: Front, folder: Path | None = None) -> N
         heading(console, "No device")
         reasons = (f"{_value(front, point.value)}: {point.reason}" for point in without)
         items(console, reasons, style="yellow")
-    _print_written(console, front, folder)
+    heading(console, "Any point as a whole design")
+    if folder is None:
+        note(console, "-o DIR writes the specification of each point for `ocs-design size --spec`")
+        return
+    names = ", ".join(sorted(path.name for path in folder.glob("front.*")))
+    chosen = min(front.feasible or front.points, key=lambda p: abs(p.value - front.own_value))
+    command = shlex.join(["ocs-design", "size", "--spec", str(folder / chosen.file)])
+    facts(console, [("front", f"{folder}/: {names}"), (_value(front, chosen.value), command)])
 
 
 def _same(front: Front) -> Mapping[str, str]:
@@ -109,18 +116,6 @@ def _print_plot(console: Console, front: Front) -> None:
     rows = frame(plot, x_ends=ends, y_ends=(grams(up.low), grams(up.high)), marks=marks)
     console.print(Padding(Text("\n".join(rows), no_wrap=True), INDENT))
     note(console, f"{OWN} as specified, {NONE} no device")
-
-
-def _print_written(console: Console, front: Front, folder: Path | None) -> None:
-    """Files of the front, and the command that makes a whole device of a point."""
-    heading(console, "Any point as a whole design")
-    if folder is None:
-        note(console, "-o DIR writes the specification of each point for `ocs-design size --spec`")
-        return
-    names = ", ".join(sorted(path.name for path in folder.glob("front.*")))
-    chosen = min(front.feasible or front.points, key=lambda p: abs(p.value - front.own_value))
-    command = shlex.join(["ocs-design", "size", "--spec", str(folder / chosen.file)])
-    facts(console, [("front", f"{folder}/: {names}"), (_value(front, chosen.value), command)])
 
 
 def _value(front: Front, value: float) -> str:
