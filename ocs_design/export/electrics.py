@@ -98,16 +98,22 @@ def wiring(device: Device, margins: Sequence[Margin]) -> Iterator[str]:
     )
     if rating:
         yield f"Controllers, {count}: {rating}. They take torque (current) commands."
+    yield from _settings(motor)
     yield (
-        "design.json has the wheel law's gains and period (`control`); validation/*.csv has "
-        "torque and speed of each wheel over time, to hold the first flights against."
+        "design.json has the wheel law's gains and period (`control`). `ocs-design export DESIGN "
+        "--formats controller` writes that law with its plans and limits in C, for the robot's "
+        "computer: it asks for the attitude and the rate of the trunk and for the wheels' speeds "
+        "in every period. validation/*.csv has torque and speed of each wheel over time, to hold "
+        "the first flights against."
     )
     yield (
         "Torque is asked for from standstill and through zero speed: each motor needs a sensor "
         "of its rotor's angle (an encoder at its back, or Hall sensors), or a controller that "
         "holds torque at low speed without one. No part here holds a sensor: see that the "
         "motor has one, or fit it before the motor is screwed in. Sensors and cables are not "
-        f"in the device's mass, controllers {counted}."
+        f"in the device's mass, controllers {counted}. No part here holds controllers either: tie "
+        "each to the stem of its foot, clear of what turns; fuse, switch and battery go where the "
+        "robot has room, and into its file with what they weigh."
     )
     if gives:
         yield f"The battery, for all motors together, {gives}. Cables and fuse stand as much."
@@ -126,6 +132,26 @@ def wiring(device: Device, margins: Sequence[Margin]) -> Iterator[str]:
         "protection opens; a bench supply does not, and the voltage then rises until something "
         "breaks. Put a brake resistor with its switch on the bus, set below the controllers' "
         "voltage limit, and never let the battery's protection cut the bus while wheels turn."
+    )
+
+
+def _settings(motor: Drive) -> Iterator[str]:
+    """What each controller is set to; nothing where the motor's data do not tell."""
+    current, k_t, resistance = motor_current(motor), motor.torque_constant, motor.resistance
+    if current is None or k_t is None or resistance is None:
+        return
+    per_amplitude = k_t * six_step_current(1.0, TorqueConstantConvention.FOC)
+    fastest, idle = motor.gear_ratio * motor.top_speed, motor.no_load_current
+    limits = [f"{_up(current)} A through two lines"]
+    if math.isfinite(fastest):
+        limits.append(rpm(fastest))
+    friction = "" if not idle else f" Its friction takes {idle:g} A on top, the way it turns."
+    yield (
+        "Set each controller to torque, zero where no command has come for two periods: "
+        f"{significant(k_t, 4)} N m/A through two lines ({significant(per_amplitude, 4)} of a "
+        f"phase's amplitude), {significant(resistance, 3)} ohm between two lines (half of it a "
+        f"phase), limits {' and '.join(limits)}. Inductance and poles are in no source: let the "
+        f"controller measure the one, and count the magnets.{friction}"
     )
 
 

@@ -139,7 +139,11 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
             f"Fix the motor{assembly.number('motor')} to plate and drum, its axis within "
             f"{1e3 * RUN_OUT:g} mm of the middle of their hole, as said above."
         )
-    yield from (assembly.screwed(name) for name in assembly.screws if name not in assembly.late)
+    for name in assembly.screws:
+        if name not in assembly.late:
+            caged = name.startswith("motor in its cage")
+            wires = " Its wires come out between two posts, tied to one." if caged else ""
+            yield f"{assembly.screwed(name)}{wires}"
     yield from _joint_steps(assembly)
     if "lid" in assembly.numbers:
         loose = " Nothing but its screws centres it: loosen them, shift it and tighten them again."
@@ -186,7 +190,8 @@ def _wheel_steps(assembly: Assembly) -> Iterator[str]:
     """How the wheel is turned, shrunk on its web, or bonded around the bell of its motor."""
     device = assembly.device
     yield (
-        f"Turn the wheel to cad/wheel.pdf. Rim to bore: run-out at most {1e3 * RUN_OUT:g} mm. "
+        "Turn the wheel to cad/wheel.pdf (`export --formats step,dxf` writes it for a shop's "
+        f"machines). Rim to bore: run-out at most {1e3 * RUN_OUT:g} mm. "
         f"Weigh it: {1e3 * device.flywheel.mass:.1f} g."
     )
     if shrunk_on(wheel_geometry(device.flywheel)):
@@ -361,7 +366,7 @@ def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
         f"The scale's 0 is the long mark square to the wheel's axis; marks are {long / 3.0:g} deg "
         f"apart, long ones {long:g}, and a degree is {degree:.2g} mm at their ends. Scribe a line "
         "forward through the middle of each foot, turn the foot until it meets the scale at "
-        f"{scale}, its lid looking {looks}, and tighten {held.count} x "
+        f"{scale}, within half a degree, its lid looking {looks}, and tighten {held.count} x "
         f"{held.designation}{assembly.number(screws)}{found.with_washers}, with {found.torque:.2g} "
         f"N m each, into {into}.{_under_motor(assembly, found)}{_pinned(assembly)}"
     )

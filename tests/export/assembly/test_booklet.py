@@ -390,6 +390,28 @@ def test_the_flights_say_what_the_battery_gives():
     assert "brake resistor" in said
 
 
+def test_a_controller_is_told_what_to_be_set_to():
+    """tau = k_t i of the current through two lines, which is sqrt(3)/2 of a phase's amplitude."""
+    device = DEVICES["caged"]
+    motor = replace(device.motor, resistance=0.46, no_load_current=0.4)
+    assembly = Assembly("solo12", replace(device, motor=motor))
+    said = texts(assembly, "Wiring")
+    k_t, amplitude, ohm, most, fastest = re.search(
+        r"([\d.]+) N m/A through two lines \(([\d.]+) of a .* ([\d.]+) ohm between .* "
+        r"limits (\d+) A through two lines and ([\d,]+) rpm",
+        said,
+    ).groups()
+    assert float(k_t) == pytest.approx(motor.torque_constant, rel=1e-3)
+    assert float(amplitude) == pytest.approx(3.0**0.5 / 2.0 * motor.torque_constant, rel=1e-3)
+    assert float(ohm) == pytest.approx(motor.resistance, rel=1e-2)
+    asked = motor.torque_limit / motor.torque_constant + 0.4
+    assert 0.0 <= int(most) - asked < 1.0
+    assert fastest == rpm(motor.top_speed).removesuffix(" rpm")
+    assert "--formats controller" in said
+    steps = " ".join(texts(assembly, "Steps").split("Its wires come out")[1:])
+    assert steps.startswith(" between two posts")
+
+
 def test_a_wheel_whose_speed_is_not_known_is_not_tested():
     device = paper_device()
     assert Assembly("solo12", device).top_speed is None
