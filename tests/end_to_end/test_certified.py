@@ -24,6 +24,7 @@ def certified(stated, *options):
     return run("size", *options, "--spec", "drop.toml", "--certify", "--json", "-o", "ocs")
 
 
+@pytest.mark.slow
 def test_a_certificate_is_in_the_design_in_its_report_and_can_be_flown_again(folder):
     result = certified(DROP, *BY_HAND, *BOUND, "--seed", "3")
     assert result.code == 0

@@ -19,6 +19,7 @@ def test_a_heavy_device_is_refused_where_warnings_are_errors(folder):
     assert everything_in(folder) == []
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("no_alternatives", "no_files")
 @pytest.mark.parametrize(
     ("voltage", "remarked"),

@@ -22,6 +22,7 @@ def test_one_format_alone(solo12, each):
     assert again.items() <= made_in(solo12).items()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("product", ["motor"], indirect=True)
 def test_what_is_written_on_request_alone(product, folder):
     """For the printer and for CAD."""

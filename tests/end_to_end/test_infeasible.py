@@ -81,6 +81,7 @@ def test_no_motor_reaches_an_axis_that_the_incidence_leaves_out(folder):
     assert "limit" not in error["hint"]
 
 
+@pytest.mark.slow
 def test_two_motors_that_are_both_too_weak(folder):
     """Four times Solo12, with motors of its size: more time would do, and so would a third one."""
     weak = ("--mass", "10", "--inertia", "0.3,0.45,0.5", "--motor", f"{TOO_WEAK}, MN4014 KV400")
@@ -94,18 +95,32 @@ def test_two_motors_that_are_both_too_weak(folder):
         assert key in error["hint"]
 
 
-def test_a_refusal_tells_what_is_doubted_what_was_assumed_and_what_nobody_asked_for(folder):
-    """Here limits of a joint that leave it no room."""
+WEAK = ("--motor", TOO_WEAK, "--layout", "pair", *ONE_KIND)
+
+
+@pytest.fixture
+def odd(folder):
+    """Limits of a joint leave it no room."""
     text = re.sub('upper="[^"]*"', 'upper="-99"', Path(SOLO12).read_text(), count=1)
     (folder / "odd.urdf").write_text(text)
-    weak = ("--motor", TOO_WEAK, "--layout", "pair", *ONE_KIND)
-    said = run("size", "odd.urdf", *weak)
+    return "odd.urdf"
+
+
+@pytest.mark.slow
+def test_doubts_are_told_before_the_search_and_assumptions_after_it(odd):
+    said = run("size", odd, *WEAK)
     doubt, search = said.stderr.index("doubt"), said.stderr.index("size the device")
     assert doubt < search < said.stderr.index("Assumed") < said.stderr.index("falls from 1 m")
     assert said.stdout == ""
-    front = run("pareto", "odd.urdf", *weak, "--points", "2").stderr
+    front = run("pareto", odd, *WEAK, "--points", "2").stderr
     assert front.index("doubt") < front.index("choose a device")
-    error = run("size", "odd.urdf", *weak, "--json").document["error"]
+    stated = run("size", SOLO12, *WEAK, "--fall", "1m", "--tilt", "30deg", "--json")
+    assert stated.document["error"]["warnings"] == []
+    assert "Nobody asked" not in stated.document["error"]["hint"]
+
+
+def test_a_refusal_tells_what_is_doubted_what_was_assumed_and_what_nobody_asked_for(odd):
+    error = run("size", odd, *WEAK, "--json").document["error"]
     assert error["warnings"]
     assert "drop: falls from 1 m at roll 0 deg and pitch 30 deg." in error["assumptions"]
     assert error["hint"].startswith("Nobody asked for disturbance, drop, back-flip: they are the d")
@@ -115,6 +130,3 @@ def test_a_refusal_tells_what_is_doubted_what_was_assumed_and_what_nobody_asked_
     given = float(re.search(r"([\d.]+) s given", error["message"])[1]) + 0.0005
     longer = (error["relaxations"]["time"] ** 2 - 1.0) * 9.81 / 2.0 * given**2
     assert 1.0 + longer <= float(slower[0]) <= 1.01 * (1.0 + longer), "rounded to the safe side"
-    stated = run("size", SOLO12, *weak, "--fall", "1m", "--tilt", "30deg", "--json")
-    assert stated.document["error"]["warnings"] == []
-    assert "Nobody asked" not in stated.document["error"]["hint"]

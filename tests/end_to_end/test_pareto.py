@@ -63,6 +63,7 @@ def test_a_point_s_specification_makes_that_very_device(written):
         assert vars(again) == point["device"]
 
 
+@pytest.mark.slow
 def test_size_makes_the_device_of_a_point(written, no_alternatives, no_files, tmp_path):
     result, folder = written
     point = result.document["points"][1]

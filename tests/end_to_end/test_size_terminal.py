@@ -15,6 +15,9 @@ from ocs_design.device.records.design import read_design
 from ocs_design.report.text.size import print_design, print_outcome, print_solution
 
 SGR = re.compile(r"\x1b\[[0-9;]*m")
+SIZED_AGAIN = pytest.mark.parametrize(
+    "product", [pytest.param("motor", marks=pytest.mark.slow), "no motor"], indirect=True
+)
 
 
 @pytest.fixture(scope="session")
@@ -34,12 +37,22 @@ def wide(product, tmp_path_factory):
     return Product(product.case, said, parent / "solo12-ocs")
 
 
+@SIZED_AGAIN
 def test_the_same_run_writes_the_same_bytes_on_any_number_of_threads(product, wide):
     for name in ("design.json", *FILES):
         assert (product.folder / name).read_bytes() == (wide.folder / name).read_bytes(), name
 
 
-@pytest.mark.parametrize(("width", "which"), [(80, "product"), (120, "wide")])
+@pytest.mark.parametrize(
+    ("product", "width", "which"),
+    [
+        ("motor", 80, "product"),
+        ("no motor", 80, "product"),
+        pytest.param("motor", 120, "wide", marks=pytest.mark.slow),
+        ("no motor", 120, "wide"),
+    ],
+    indirect=["product"],
+)
 def test_the_report_fits_its_terminal(request, width, which, product):
     said, case = request.getfixturevalue(which).said, product.case
     assert "\x1b" not in said.stdout + said.stderr
@@ -56,10 +69,9 @@ def test_the_report_fits_its_terminal(request, width, which, product):
     assert lines[0] in last
 
 
-def test_the_story_takes_little_more_than_one_screen(product, wide):
+def test_the_story_takes_little_more_than_one_screen(product):
     """Of 45 lines, on a terminal of 80 columns."""
-    for said in (product.said, wide.said):
-        assert len(said.stdout.splitlines()) <= 58
+    assert len(product.said.stdout.splitlines()) <= 58
 
 
 @pytest.mark.parametrize("width", [60, 80, 120])
@@ -80,6 +92,7 @@ def test_the_whole_report_fits_its_terminal(width, product):
         assert note in " ".join(text.split()).replace(" - ", " ")
 
 
+@SIZED_AGAIN
 def test_a_wider_terminal_breaks_no_more_lines(product, wide):
     assert len(wide.said.stdout.splitlines()) <= len(product.said.stdout.splitlines())
 

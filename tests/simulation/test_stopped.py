@@ -65,6 +65,7 @@ def test_the_others_know_after_the_detection_and_not_before(recorded):
     assert after > 2.0 * before
 
 
+@pytest.mark.slow
 def test_every_drive_stops_at_every_instant_of_each_maneuver(solo12):
     """Wheels that are twice as large as the paper's hold what one of them leaves."""
     device = layout_device(TRIAD)

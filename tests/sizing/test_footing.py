@@ -575,6 +575,7 @@ def falling(height, robot):
     return resolved, design_device(specification, robot, resolved)
 
 
+@pytest.mark.slow
 def test_what_cannot_carry_its_mast_is_refused(column):
     """And what is sized turns its mast as well in the time that it has."""
     robot = column()

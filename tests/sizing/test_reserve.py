@@ -198,6 +198,7 @@ def test_what_has_the_larger_share_saves_more_when_known():
     np.testing.assert_allclose(saved, sorted(saved, reverse=True), atol=2e-4)
 
 
+@pytest.mark.slow
 def test_an_angle_without_roll_authority_is_not_chosen_where_roll_is_disturbed():
     more = f'{LIGHTEST_OF_THREE}{ONLY_FLIP}\n[ocs]\nalpha_criterion = "lightest"\n'
     nominal, sure = solo12(more, 0.5), solo12(more)
@@ -207,6 +208,7 @@ def test_an_angle_without_roll_authority_is_not_chosen_where_roll_is_disturbed()
     assert sure.kept.predicted >= 0.99 - 2.0 / 2048
 
 
+@pytest.mark.slow
 def test_wheels_grow_or_turn_for_a_roll_at_lift_off():
     """Room for 2.6 deviations of 0.5 rad/s: 99 % of a normal rate's two sides."""
     more = f'{ONLY_FLIP}\n[reality]\ntakeoff_rate = "normal(0, 0.5rad/s)"\n'

@@ -207,7 +207,7 @@ def test_what_does_not_go_with_a_stopped_drive(option):
     assert not [*contradictions(specification_from_options({"requirement.survives": "none"}))]
 
 
-@pytest.mark.parametrize("layout", ["single", "double-pair"])
+@pytest.mark.parametrize("layout", ["single", pytest.param("double-pair", marks=pytest.mark.slow)])
 def test_wheels_share_the_supply_when_sized_as_when_planned(layout):
     """Four wheels that were promised the half of it each found no plan of the drop."""
     drop = {"requirement.fall": "1m", "requirement.tilt": "30deg", "supply.power_max": "600 W"}

@@ -90,6 +90,7 @@ def test_the_others_can_take_over_a_plan_whichever_drive_stops_at_its_start(layo
         assert (found.share <= PLANNED) == follow
 
 
+@pytest.mark.slow
 def test_the_supply_is_enough_for_the_others_whenever_a_drive_stops():
     """The satellite of docs/machines.md, 45 deg of pitch in 10 s with 62 W that friction leaves.
 
