@@ -220,20 +220,20 @@ def trunk_notes(device: Device, robot: Robot) -> tuple[str, ...]:
         return ()
     surface = trunk_surface(robot)
     if surface is None:
-        return (_trunk_holes(device),)
+        return (trunk_threads(device),)
     half, last = surface.step / 2.0, surface.y + surface.step * (surface.heights.shape[1] - 1)
     ends = " and ".join(
         f"{axis} = {1e3 * (low - half):.1f} to {1e3 * (high + half):.1f}"
         for axis, (low, high) in (("x", surface.x_range), ("y", (surface.y, last)))
     )
     return (
-        f"{_trunk_holes(device)}; to find that frame on the robot: in its file the trunk, with all "
-        f"that is fixed to it, reaches from about {ends}, and up to "
+        f"{trunk_threads(device)}; to find that frame on the robot: in its file the trunk, with "
+        f"all that is fixed to it, reaches from about {ends}, and up to "
         f"z = {1e3 * surface.heights.max():.1f} mm",
     )
 
 
-def _trunk_holes(device: Device) -> str:
+def trunk_threads(device: Device) -> str:
     """Holes that the trunk needs for the plate, or for the feet themselves."""
     plate = device.plate
     if device.pedestals:

@@ -19,7 +19,7 @@ from ocs_design.export.assembly.placed import Piece
 from ocs_design.export.assembly.steps import module_steps, robot_steps, tools
 from ocs_design.export.assembly.trials import balance, safety, spin_test, sweep
 from ocs_design.export.assembly.views import BALLOON, exploded_view, section_view
-from ocs_design.export.assembly_notes import drive_notes
+from ocs_design.export.assembly_notes import drive_notes, trunk_threads
 from ocs_design.export.bill_of_materials import BillRow, bill_rows
 from ocs_design.export.drawing.sheet import (
     FRAME_BOX,
@@ -409,7 +409,12 @@ def _motor_threads(assembly: Assembly) -> Iterator[str]:
 def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
     """All text, in the order of the work."""
     notes = dict.fromkeys((*drive_notes(assembly.device), *assembly.notes))
-    before = [assembly.refused] if assembly.refused else []
+    before = []
+    if assembly.refused:
+        # No hole is asked of the trunk before it is known where it comes.
+        threads = trunk_threads(assembly.device)
+        notes = dict.fromkeys(note for note in notes if not note.startswith(threads))
+        before.append(assembly.refused)
     before += [
         "Read the safety notes at the end before anything turns.",
         *(f"{note[:1].upper()}{note[1:]}." for note in notes),

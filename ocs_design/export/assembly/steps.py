@@ -91,22 +91,26 @@ def tools(assembly: Assembly) -> Iterator[str]:
 
 
 def _cutters(assembly: Assembly) -> Iterator[str]:
-    """Drills and taps of prints, plate and trunk, by what they cut."""
+    """Drills and taps of prints, plate and trunk, by what they cut.
+
+    Where the device cannot be built as it stands, nothing is cut but prints.
+    """
     plate, printed = assembly.device.plate, "drum" in assembly.numbers
+    settled = not assembly.refused
     into = {LID_SCREW.name: ["the prints' ears"]} if printed else {}
     if assembly.device.pedestals:
         into.setdefault(TRUNK_SCREW.name, []).append("the pedestals' seats")
-    if plate is not None:
+    if plate is not None and settled:
         into.setdefault(plate.foot_thread, []).append("the plate")
-    if printed:
+    if printed and settled:
         thread = TRUNK_SCREW.name if plate is None else plate.thread
         into.setdefault(thread, []).append("the trunk")
     for name, where in into.items():
         drill = 1e3 * screw(name).tapping_drill
         yield f"drill of {drill:g} mm and tap {name} for {' and '.join(where)}"
-    if plate is not None:
+    if plate is not None and settled:
         yield f"drill of {1e3 * plate.screw.clearance_hole:g} mm for the plate's screws"
-    if unheld_moment(assembly.device, assembly.margins):
+    if settled and unheld_moment(assembly.device, assembly.margins):
         yield "drill of 3 mm for the feet's pins"
 
 

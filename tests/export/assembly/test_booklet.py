@@ -24,6 +24,7 @@ from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly.booklet import assembly_pages, chapters, piece_rows, screw_rows
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.assembly.views import pulled_apart, spread
+from ocs_design.export.assembly_notes import trunk_threads
 from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.export.drawing.sheet import Circle, Line, Polyline, Text
 from ocs_design.parts.pedestal import Pedestal
@@ -368,11 +369,20 @@ def test_what_cannot_be_built_is_told_first_of_all():
     """On the first sheet above the pieces, in the title of each, and before all steps."""
     refused = "NOT buildable as it stands. The feet hang in the air; give a place."
     for device in (DEVICES["caged"], DEVICES["on a plate"]):
-        assembly = Assembly("solo12", device, refused=refused)
+        threads = f"{trunk_threads(device)}; to find that frame on the robot"
+        assembly = Assembly("solo12", device, notes=(threads, "of the motor"), refused=refused)
         assert all_texts(assembly)[0] == refused
         said = texts(assembly, "Steps")
         assert "Drill no hole into the trunk" in said
         assert "cad/drilling.pdf" not in said
+        # Nor is a thread in it or a tool for it, which a device that is settled has.
+        before = texts(assembly, "Before")
+        assert "Of the motor." in before
+        assert "tap M2 for the prints' ears" in before
+        settled = texts(replace(assembly, refused=""), "Before")
+        for words in ("trunk needs threads", "the trunk,", "for the plate"):
+            assert words not in before
+            assert words in settled or device.plate is None
         for page in assembly_pages(assembly):
             check_words(page)
             title, *_ = (each.text for each in page if isinstance(each, Text) and each.height > 3.0)
