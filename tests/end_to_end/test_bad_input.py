@@ -71,13 +71,15 @@ def test_what_is_only_odd_works_with_a_warning(folder, content, warning):
     assert sorted(path.name for path in folder.iterdir()) == ["rover.urdf", "test-ocs"]
 
 
-def test_a_process_of_its_own_says_the_same(folder):
+@pytest.mark.parametrize(
+    "typed", [pytest.param("size rover.urdf --json", marks=pytest.mark.slow), "siez"]
+)
+def test_a_process_of_its_own_says_the_same(folder, typed):
     """All else here runs inside the tests' own process."""
-    for typed in ("size rover.urdf --json", "siez"):
-        own = run_process(*typed.split(), env=environment(COLUMNS="80"))
-        here = run(*typed.split())
-        assert (own.code, without_times(own.said)) == (here.code, without_times(here.said))
-        assert own.stdout == here.stdout
+    own = run_process(*typed.split(), env=environment(COLUMNS="80"))
+    here = run(*typed.split())
+    assert (own.code, without_times(own.said)) == (here.code, without_times(here.said))
+    assert own.stdout == here.stdout
     assert everything_in(folder) == []
 
 

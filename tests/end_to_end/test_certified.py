@@ -53,10 +53,11 @@ def test_wheels_without_a_motor_are_certified_for_what_is_asked(folder):
     assert again["asked"] == 0.9
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("no_alternatives")
 @pytest.mark.parametrize(
     ("factor", "rounds", "robot"),
-    [(1.0, 1, BY_HAND), pytest.param(1.05, 3, (SOLO12,), marks=pytest.mark.slow)],
+    [(1.0, 1, BY_HAND), (1.05, 3, (SOLO12,))],
 )
 def test_what_falls_short_is_sized_anew_and_sees_other_samples(
     folder, monkeypatch, factor, rounds, robot

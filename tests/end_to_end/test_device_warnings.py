@@ -10,6 +10,7 @@ BULKY = ("size", "--mass", "1.2", "--inertia", "0.1,0.15,0.18", "--no-validate")
 ONE_KIND = ("--gear", "direct", "--material", "stainless-304")
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("no_alternatives", "no_files")
 def test_a_heavy_device_is_refused_where_warnings_are_errors(folder):
     result = run(*BULKY, "--motor", "Antigravity MN5006 KV450", *ONE_KIND, "--strict", "--json")

@@ -48,7 +48,11 @@ def refused(*typed):
 @pytest.mark.parametrize(
     "limits",
     [
-        pytest.param(limits, id=name, marks=[pytest.mark.exhaustive] if index % 2 else [])
+        pytest.param(
+            limits,
+            id=name,
+            marks=[pytest.mark.exhaustive] * (index % 2) + [pytest.mark.slow] * (name == "height"),
+        )
         for index, (name, limits) in enumerate(TOO_TIGHT.items())
     ],
 )
@@ -72,6 +76,7 @@ def test_a_missing_authority_is_no_matter_of_size(folder):
     assert "roll momentum" in error["message"]
 
 
+@pytest.mark.slow
 def test_no_motor_reaches_an_axis_that_the_incidence_leaves_out(folder):
     error = refused(SOLO12, "--alpha", "0", "--motor", "R80 KV110", *ONE_KIND)
     assert (error["relaxations"], error["required_spin_inertia"]) == ({}, None)

@@ -11,7 +11,7 @@ import pytest
 from commands import BOUND, PROGRAM, SOLO12, everything_in
 
 
-@pytest.mark.parametrize("typed", ["inspect --json", "size"])
+@pytest.mark.parametrize("typed", ["inspect --json", pytest.param("size", marks=pytest.mark.slow)])
 def test_the_reader_of_the_output_may_leave(folder, typed):
     """As `head` does: no complaint, and nothing half done is left."""
     command, *options = typed.split()
@@ -98,6 +98,7 @@ def test_an_interrupt_leaves_nothing(folder, interrupted, moment, signals):
     assert everything_in(folder) == []
 
 
+@pytest.mark.slow
 def test_an_interrupt_keeps_what_was_to_be_replaced(folder, interrupted):
     (folder / "solo12-ocs").mkdir()
     (folder / "solo12-ocs" / "design.json").write_bytes(b"{}")

@@ -25,9 +25,11 @@ ABOUT = 0.05
 TAKES_LONG = {
     "Can it turn to face the other way in the air?",
     "I have only 12 V and these two motors: does one do?",
+    "It falls off a table of 1 m, rolled by 20 degrees: does it land on its feet?",
     "It is kicked under the nose or under a side, and both must be survived.",
     "Steel, and a lathe up to 120 mm: what do I turn?",
     "Tilted by 3 degrees on the line of its feet, does it get back upright?",
+    "What does more time save?",
     "What if it flips on Mars?",
 }
 

@@ -97,7 +97,7 @@ ANSWERS = [
     (("init", "-y", "-o", "task.toml", "--force"), "next"),
     ((*UNSIZED, "--force"), "no flight was simulated"),
     (("export", "DESIGN", "-o", "again", "--force", "--formats", "snippets"), "snippets/"),
-    (("validate", "DESIGN"), "level 3 of 3"),
+    pytest.param(("validate", "DESIGN"), "level 3 of 3", marks=SLOW),
     pytest.param(("pareto", SOLO12, "--points", "2", *ONE_MOTOR), "mass", marks=SLOW),
     pytest.param(("doctor",), "numpy", marks=SLOW),
 ]
