@@ -6,8 +6,12 @@ underside.
 """
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
 
 from ocs_design.actuation.fasteners import screw
+from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device
 from ocs_design.export.drawing.sheet import (
     ARROW,
@@ -59,6 +63,12 @@ _MAST_VIEW: Box = (LEFT + 34.0, TOP + 8.0, RIGHT - 60.0, 118.0)
 
 _ROW = 5.0
 """Height of a row of the table of holes [mm]."""
+
+_WINDOW = 5.0
+"""Radius on the sheet beyond which a hole's name stands in it [mm]."""
+
+_NEAR = 0.25
+"""Distance of names of holes from lines [mm]."""
 
 _BETWEEN = 40.0
 """Distance between two views [mm]."""
@@ -138,13 +148,20 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
 
     ring = [place(float(x), float(y)) for x, y in corners]
     items: list[Item] = [Polyline((*ring, ring[0]), OUTLINE)]
-    for name, (_, size, places) in zip("ABC", _kinds(plate), strict=False):
-        for number, (x, y) in enumerate(places, start=1):
-            at, radius = place(x, y), scale(size) / 2.0
-            items += [Circle(at, radius), *cross(at, radius + 2.0)]
-            # The name of a window stands in it, that of a hole beside it.
-            aside = 1.0 if radius > 5.0 else radius + 0.8
-            items.append(Text((at[0] + aside, at[1] - aside), f"{name}{number}", 1.8))
+    holes = [
+        (f"{name}{number}", place(x, y), scale(size) / 2.0)
+        for name, (_, size, places) in zip("ABC", _kinds(plate), strict=False)
+        for number, (x, y) in enumerate(places, start=1)
+    ]
+    lines = _along([*ring, ring[0]])
+    turn = np.linspace(0.0, 2.0 * np.pi, 721)
+    circles = [
+        np.array(at) + radius * np.column_stack([np.cos(turn), np.sin(turn)])
+        for _, at, radius in holes
+    ]
+    for name, at, radius in holes:
+        items += [Circle(at, radius), *cross(at, radius + 2.0)]
+        items.append(_named(name, at, radius, np.concatenate([lines, *circles])))
     edge_left, edge_right = (place(0.0, float(each))[0] for each in (high[1], low[1]))
     upper, lower = place(float(high[0]), 0.0)[1], place(float(low[0]), 0.0)[1]
     items += [
@@ -165,6 +182,31 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
     items += [extension(x, below, y) for x in (edge_left, edge_right)]
     items += level_dimension(plain(wide), left=edge_left, right=edge_right, y=y)
     return scale, [*items, *_hole_table(plate)]
+
+
+def _along(corners: Sequence[Point]) -> FloatArray:
+    """Points along a polyline, so near that none of its lines passes a word between them [mm]."""
+    ends = np.array(corners)
+    steps = np.maximum(1, np.ceil(np.hypot(*np.diff(ends, axis=0).T) / _NEAR)).astype(int)
+    sides = zip(ends, ends[1:], steps.tolist(), strict=False)
+    return np.concatenate([np.linspace(start, end, count + 1) for start, end, count in sides])
+
+
+def _named(name: str, at: Point, radius: float, lines: FloatArray) -> Text:
+    """The name of a hole on that side of it where it stands on no line; of a window within it.
+
+    Args:
+        name, at, radius: of the hole [mm]. lines: points of all lines [mm], shape (n, 2).
+    """
+    aside, high = (1.0 if radius > _WINDOW else radius + 0.8), 1.8
+    found = Text((at[0] + aside, at[1] - aside), name, high)
+    for right, up in ((1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)):
+        x = at[0] + aside if right > 0.0 else at[0] - aside - found.width
+        y = at[1] - aside if up > 0.0 else at[1] + aside + high
+        low, top = np.array([x, y - high]) - _NEAR, np.array([x + found.width, y]) + _NEAR
+        if not ((lines >= low) & (lines <= top)).all(axis=1).any():
+            return replace(found, place=(x, y))
+    return found
 
 
 def _hole_table(plate: CarrierPlate) -> Iterator[Item]:

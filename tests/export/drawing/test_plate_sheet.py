@@ -2,14 +2,15 @@
 
 import re
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
 from built import DEVICES
-from drawn_wheels import REFUSED, assert_refused, check_words, texts
+from drawn_wheels import REFUSED, assert_refused, box_of, check_words, covers, texts
 
 from ocs_design.export.drawing.plate_sheet import plate_sheets
-from ocs_design.export.drawing.sheet import OUTLINE, Circle, Polyline
+from ocs_design.export.drawing.sheet import OUTLINE, Circle, Line, Polyline
 from ocs_design.export.meshes import part_manifold
 from ocs_design.parts.carrier_plate import Mast, plate_part
 
@@ -59,6 +60,33 @@ def test_the_table_has_every_hole_of_one_plate_where_it_is(plate):
     for y in (own.across, -own.across) if own.window > 0.0 else ():
         wanted.add((f"Ø{2e3 * own.window:.4g}", 0.0, round(1e3 * y, 2)))
     assert found == wanted
+
+
+GO2 = replace(
+    PLATE,
+    radius=0.03816,
+    half_length=0.12709,
+    neck=0.0201,
+    across=0.08893,
+    window=0.02916,
+    feet=((0.0238, 0.11273), (-0.0238, 0.06513), (0.0238, -0.11273), (-0.0238, -0.06513)),
+    trunk=tuple((x, y) for x in (0.015, -0.015) for y in (0.0383, -0.0383)),
+)
+"""The plate of Unitree's Go2, drawn at half its size: holes are near its edges."""
+
+
+@pytest.mark.parametrize("plate", [PLATE, GO2], ids=["large", "at half its size"])
+def test_no_name_of_a_hole_stands_on_an_outline(plate):
+    page = sheets_of(plate)[0]
+    (ring,) = (item for item in page if isinstance(item, Polyline) and item.pen is OUTLINE)
+    sides = [Line(*ends) for ends in pairwise(ring.points)]
+    circles = [item for item in page if isinstance(item, Circle) and item.center[1] < 140.0]
+    named = [item for item in texts(page) if re.fullmatch(r"[ABC]\d", item.text)]
+    names = [item for item in named if item.height == 1.8]
+    assert len(names) == 10
+    for name in names:
+        box = box_of(name)
+        assert not [line for line in (*sides, *circles) if covers(line, box)], name
 
 
 def test_the_outline_drawn_is_that_of_the_plate(plate):
