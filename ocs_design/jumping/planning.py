@@ -15,11 +15,10 @@ from ocs_design.jumping.floating_base import POSE, FloatingBase, Load
 from ocs_design.jumping.jump import Jump, JumpPlan, JumpPlans, LegTrajectory, jump_of
 from ocs_design.jumping.legged_body import LeggedBody, obstacle_to_jumping
 from ocs_design.jumping.push_off import PushOff, PushOffs
-from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Robot
-from ocs_design.sizing.place import braked
+from ocs_design.sizing.place import with_device
 
 _BRAKE = 0.15
 _SWING = 1.5
@@ -80,7 +79,8 @@ class JumpPlanning:
         """Begin with the plans of the robot that carries a device."""
         if self._bare:
             for maneuver, jump in self._jumps:
-                trunk = with_device(self._body.trunk, device.as_flown(maneuver))
+                # Nothing drives the wheels until lift-off.
+                trunk = with_device(self._body.trunk, device.as_flown(maneuver), free=True)
                 similar = self._bare[jump]
                 self._carrying[maneuver.name] = self._threads.submit(
                     self._plan, jump, trunk, similar
@@ -118,19 +118,6 @@ class JumpPlanning:
 def _both(note: str) -> JumpPlans:
     """Robots with and without the device that start in flight, for one reason."""
     return JumpPlans(JumpPlan(None, note), JumpPlan(None, note))
-
-
-def with_device(trunk: MassProperties, device: Device) -> MassProperties:
-    """A trunk that carries a device whose wheels spin freely: nothing drives them until lift-off.
-
-    The momentum of wheel and rotor about their axis does not turn with the trunk (docs/theory.md,
-    The robot with its wheels: a gyrostat); the carrier's inertia has the rotor's in it.
-    """
-    wheel, motor = device.flywheel, device.motor
-    free = Carrier(wheel.mass, -motor.rotor_inertia, wheel.transverse_inertia)
-    centers = np.stack([module.position for module in device.modules])
-    bodies = free, device.carrier
-    return braked(device.plated(trunk), bodies, centers, device.incidence, device.layout)
 
 
 class Planned(NamedTuple):

@@ -6,6 +6,7 @@ from typing import Generic, NamedTuple, TypeVar
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray, frozen, vector
+from ocs_design.device.device import Device
 from ocs_design.device.layout import PAIR, Direction, Layout
 from ocs_design.parts.foot import base_radius, larger, wheel_height
 from ocs_design.parts.housing import housing_outer_radius
@@ -138,3 +139,21 @@ def braked(
     for center, attitude in zip(centers, layout.frames(incidence), strict=True):
         parts += [body.mass_properties().moved(attitude, center) for body in bodies]
     return combine(parts)
+
+
+def with_device(robot: MassProperties, device: Device, *, free: bool = False) -> MassProperties:
+    """Robot and device as one rigid body in B, wheels braked.
+
+    Wheels that spin freely keep the momentum of wheel and rotor about their axis, whatever the
+    trunk does (docs/theory.md, The robot with its wheels: a gyrostat); the carrier's inertia has
+    the rotor's in it.
+
+    Args:
+        robot: without the device. device: on it.
+        free: whether the wheels spin freely.
+    """
+    wheel = device.flywheel
+    turning = (0.0 if free else wheel.spin_inertia) - device.motor.rotor_inertia
+    bodies = Carrier(wheel.mass, turning, wheel.transverse_inertia), device.carrier
+    centers = np.stack([module.position for module in device.modules])
+    return braked(device.plated(robot), bodies, centers, device.incidence, device.layout)

@@ -13,7 +13,8 @@ from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world_builder import WorldBuilder
-from ocs_design.sizing.trajectory.plans import gyrostat_of, plan, with_device
+from ocs_design.sizing.place import with_device
+from ocs_design.sizing.trajectory.plans import gyrostat_of, plan
 
 ROBOT = robot_by_hand(2.5, (0.02, 0.025, 0.02))
 ROLL, PITCH = {"edge": (1.0, 0.0, 0.0)}, {"edge": (0.0, 1.0, 0.0)}

@@ -9,12 +9,11 @@ import numpy as np
 
 from ocs_design.actuation.drive import PLANNED, DriveLine, power_less_friction
 from ocs_design.common.units import format_quantity, rpm
-from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.maneuver import End, Maneuver, Unforeseen
 from ocs_design.requirement.pivoted import Balance, Pivoted
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.robot.mass import MassProperties
-from ocs_design.sizing.place import braked
+from ocs_design.sizing.place import with_device
 from ocs_design.sizing.trajectory.boundary import (
     HELD_ON,
     Boundary,
@@ -379,19 +378,6 @@ def gyrostat_of(
         own = maneuver.on(whole)
         return Gyrostat(own.inertia, *figures, device.motor.armature, own.pull, own.axis)
     return Gyrostat(whole.inertia, *figures, device.motor.armature)
-
-
-def with_device(robot: MassProperties, device: "Device") -> MassProperties:
-    """Robot and device as one rigid body in B, wheels braked."""
-    wheel = device.flywheel
-    rim = Carrier(
-        wheel.mass,
-        wheel.spin_inertia - device.motor.rotor_inertia,
-        wheel.transverse_inertia,
-    )
-    centers = np.stack([module.position for module in device.modules])
-    bodies = rim, device.carrier
-    return braked(device.plated(robot), bodies, centers, device.incidence, device.layout)
 
 
 def drive_line_of(device: "Device") -> DriveLine:
