@@ -5,11 +5,11 @@ the command line, its help and `--formats all` follow. Importing this loads no w
 """
 
 from collections.abc import Collection
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Self, TypeAlias
 
 from ocs_design.common.errors import MissingToolError, UsageError, extra_command
 
@@ -37,14 +37,12 @@ class Base:
 
 
 @dataclass(frozen=True, eq=False)
-class Subject:
-    """The device to write, and the robot that carries it.
+class Documented:
+    """A device, and what is known of it besides.
 
     Attributes:
-        name: of the robot, fit for the names of files.
+        name: of the robot.
         device: on the robot.
-        base: frame that the device is in.
-        robot: that carries it; None where only its parts and its snippets are wanted.
         margins: of its recorded flights; empty: none are known.
         fitting: what the design leaves to do by hand, one sentence each.
         refused: that the device cannot be built as it stands, why, and what can be done; empty:
@@ -53,19 +51,12 @@ class Subject:
 
     name: str
     device: "Device"
-    base: Base
-    robot: "Robot | None"
     margins: "tuple[Margin, ...]" = ()
     fitting: tuple[str, ...] = ()
     refused: str = ""
 
-    @classmethod
-    def of(cls, robot: "Robot", device: "Device", name: str) -> "Subject":
-        """Device on a robot that was read."""
-        return cls(name, device, Base(robot.trunk, robot.mount), robot)
-
-    def recorded(self, design: "OcsDesign") -> "Subject":
-        """The subject with what its design records besides the device."""
+    def recorded(self, design: "OcsDesign") -> Self:
+        """The device with what its design records besides it."""
         return replace(
             self,
             device=replace(self.device, supply=design.supply),
@@ -73,6 +64,24 @@ class Subject:
             fitting=design.ocs.fitting,
             refused=refusal(design.buildable),
         )
+
+
+@dataclass(frozen=True, eq=False)
+class Subject(Documented):
+    """The device to write, and the robot that carries it; `name` is fit for the names of files.
+
+    Attributes:
+        base: frame that the device is in.
+        robot: that carries it; None where only its parts and its snippets are wanted.
+    """
+
+    base: Base = field(kw_only=True)
+    robot: "Robot | None" = field(default=None, kw_only=True)
+
+    @classmethod
+    def of(cls, robot: "Robot", device: "Device", name: str) -> "Subject":
+        """Device on a robot that was read."""
+        return cls(name, device, base=Base(robot.trunk, robot.mount), robot=robot)
 
     @property
     def carrier(self) -> "Robot":

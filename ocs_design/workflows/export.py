@@ -87,7 +87,7 @@ def export_design(
         known, device = read_designed(path)
         name = safe_name(known.robot.name)
         where = Whereabouts(path, robot_file, package_paths or {}, _WHERE)
-        subject = Subject(name, device, seat_of(known.robot), None)
+        subject = Subject(name, device, base=seat_of(known.robot))
         warnings: tuple[str, ...] = ()
         if any(each.needs_robot for each in chosen):
             robot, warnings = read_recorded_robot(known.robot, where, strict=strict)

@@ -19,7 +19,7 @@ from ocs_design.export.formats import Subject
 
 def subject(device, refused=""):
     seat = SimpleNamespace(trunk="trunk", mount=None)
-    return Subject("dog", device, seat, None, refused=refused)
+    return Subject("dog", device, base=seat, refused=refused)
 
 
 TRIAD = around(Layout(LayoutName.TRIAD))

@@ -125,7 +125,7 @@ class Chapter:
 def write(subject: Subject, folder: Path) -> Notes:
     """Write `assembly.pdf`."""
     assembly = assembly_of(subject)
-    title = f"Assembly of the orientation control system for {assembly.robot}"
+    title = f"Assembly of the orientation control system for {assembly.name}"
     content = pdf_of_pages(assembly_pages(assembly), title, compressed=True)
     (folder / "assembly.pdf").write_bytes(content)
     return ()
@@ -150,7 +150,7 @@ def assembly_pages(assembly: Assembly) -> list[list[Item]]:
     bodies = [first, *_text_pages(assembly, chapters(assembly))]
     identity = f"design {device_hash(assembly.device)} · ocs-design {__version__}"
     verdict = ": NOT buildable as it stands" if assembly.refused else ""
-    title, y = fitted(f"Assembly, {assembly.robot}{verdict}", 150.0, _TITLE), TOP + 7.0
+    title, y = fitted(f"Assembly, {assembly.name}{verdict}", 150.0, _TITLE), TOP + 7.0
     pages: list[list[Item]] = []
     for number, body in enumerate(bodies, start=1):
         sheet = f"{identity} · sheet {number} / {len(bodies)}"
@@ -408,7 +408,7 @@ def _motor_threads(assembly: Assembly) -> Iterator[str]:
 
 def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
     """All text, in the order of the work."""
-    notes = dict.fromkeys((*drive_notes(assembly.device), *assembly.notes))
+    notes = dict.fromkeys((*drive_notes(assembly.device), *assembly.fitting))
     before = []
     if assembly.refused:
         # No hole is asked of the trunk before it is known where it comes.

@@ -4,19 +4,16 @@
 """
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property, lru_cache
 from math import pi, sqrt
 
 from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening
-from ocs_design.device.device import Device
 from ocs_design.device.joints import burst_of, foot_hold
-from ocs_design.device.records.device import Margin
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.placed import Piece, bonding_pieces, holds_wheel, module_pieces
 from ocs_design.export.device_parts import places, trunk_holes
-from ocs_design.export.formats import Subject
+from ocs_design.export.formats import Documented, Subject
 from ocs_design.parts.foot import FootHold
 from ocs_design.parts.guard import Containment
 from ocs_design.parts.joints import preload as joint_preload
@@ -107,22 +104,8 @@ def tightened(
 
 
 @dataclass(frozen=True, eq=False)
-class Assembly:
-    """Everything that the pages and the report's section are made of.
-
-    Attributes:
-        robot: its name.
-        device: to build.
-        margins: of the recorded flights; empty where none are known.
-        notes: what the design leaves to do by hand, one sentence each.
-        refused: that it cannot be built, why, and what can be done; empty: nothing is known.
-    """
-
-    robot: str
-    device: Device
-    margins: Sequence[Margin] = ()
-    notes: tuple[str, ...] = ()
-    refused: str = ""
+class Assembly(Documented):
+    """Everything that the pages and the report's section are made of."""
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
@@ -214,7 +197,8 @@ class Assembly:
 @lru_cache(maxsize=1)
 def assembly_of(subject: Subject) -> Assembly:
     """Assembly of the subject's device, for the booklet and for the report."""
-    return Assembly(subject.name, subject.device, subject.margins, subject.fitting, subject.refused)
+    own = {each.name: getattr(subject, each.name) for each in fields(Assembly)}
+    return Assembly(**own)
 
 
 def short(purpose: str) -> str:

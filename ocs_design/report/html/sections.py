@@ -21,7 +21,6 @@ from ocs_design.export.drawing.wheel import (
     rim_inertia_error,
     toleranced,
 )
-from ocs_design.export.formats import refusal
 from ocs_design.parts.joints import Grade
 from ocs_design.report import flights, limits, monte_carlo, selection, warnings
 from ocs_design.report.charts.chart import Chart
@@ -263,13 +262,9 @@ def assembly_section(story: Story) -> Markup:
     """Pictures, pieces, screws and all instructions."""
     design, ocs = story.design, story.design.ocs
     # Its exploded view takes a second to draw: what is written on paper too is drawn once.
-    assembly = story.assembly or Assembly(
-        design.robot.name,
-        ocs.device(design.supply),
-        design.margins,
-        ocs.fitting,
-        refusal(design.buildable),
-    )
+    assembly = story.assembly
+    if assembly is None:
+        assembly = Assembly(design.robot.name, ocs.device(design.supply)).recorded(design)
     pieces, screws = (
         tuple(tuple(map(str, row)) for row in rows)
         for rows in (piece_rows(assembly), screw_rows(assembly))
