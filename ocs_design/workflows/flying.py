@@ -30,7 +30,6 @@ from ocs_design.simulation.world_builder import Options, control_of, overridden
 from ocs_design.sizing.trajectory.motion import Trajectory
 from ocs_design.workflows.restoring import (
     Whereabouts,
-    maneuver_of,
     read_designed,
     read_recorded_robot,
 )
@@ -155,7 +154,7 @@ def read_task(
     if stated.reality.file is not None:
         # Whoever names a file is told that it cannot be read, whether or not anything is drawn.
         entries(Path(stated.reality.file))
-    maneuvers = tuple(map(maneuver_of, design.requirement.maneuvers))
+    maneuvers = tuple(each.maneuver() for each in design.requirement.maneuvers)
     if not maneuvers:
         raise OcsError(
             f"{path}: the design was sized for no maneuver, so there is nothing to fly",

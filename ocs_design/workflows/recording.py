@@ -2,11 +2,9 @@
 
 import csv
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, fields
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from ocs_design import __version__
 from ocs_design.actuation.drive import RESERVE
@@ -43,8 +41,6 @@ from ocs_design.device.records.selection import (
 from ocs_design.export.assembly_notes import device_notes, trunk_notes
 from ocs_design.parts.printed import CLEARANCE, PANEL, WALL
 from ocs_design.report.story import export_time_series, series_file
-from ocs_design.requirement.kinds import kind_of
-from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.margins import record_margins
@@ -188,26 +184,12 @@ def record_design(
 
 def _requirement_record(resolved: Resolved, sized: Sized) -> RequirementRecord:
     requirement, speed = resolved.requirement, sized.wheel_speed_max
-    roll, pitch = np.max([demand.momentum for demand in sized.demands], axis=0, initial=0.0) / speed
     housing = () if resolved.choice is None else (HOUSING_ASSUMED,)
-    common = {field.name for field in fields(Maneuver)}
     return RequirementRecord(
-        maneuvers=tuple(
-            recorded(
-                ManeuverRecord,
-                maneuver,
-                kind=kind_of(maneuver)[0],
-                parameters={
-                    name: value
-                    for name, value in asdict(maneuver).items()
-                    if name in kind_of(maneuver)[1] and name not in common
-                },
-            )
-            for maneuver in requirement.maneuvers
-        ),
+        maneuvers=tuple(map(ManeuverRecord.of, requirement.maneuvers)),
         rate_change=requirement.rate_change,
         wheel_speed_max=speed,
-        required_inertia=AxisInertia(pitch=float(pitch), roll=float(roll)),
+        required_inertia=AxisInertia.of([each.momentum for each in sized.demands], speed),
         spin_inertia_by_hand=requirement.spin_inertia,
         demands=tuple(
             recorded(

@@ -18,20 +18,14 @@ from ocs_design.device.checks import check_device
 from ocs_design.device.device import Device
 from ocs_design.device.records.design import OcsDesign, design_file, read_design
 from ocs_design.device.records.device import OcsRecord
-from ocs_design.device.records.requirement import ManeuverRecord, RobotRecord
+from ocs_design.device.records.requirement import RobotRecord
 from ocs_design.export.formats import Base
-from ocs_design.requirement.kinds import MANEUVER_KINDS
-from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.requirement.values import Choice, Quantities
 from ocs_design.robot.leg_geometry import BASE_FRAME
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.posture import OUTSIDE
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Format, Mount, Robot
 from ocs_design.robot.source import STANDARD_INPUT, read_source
-
-# Figures of a maneuver that its record has by themselves.
-_APART = {"name", "gravity", "incidence"}
 
 
 def device_of(record: OcsRecord, supply: Supply | None = None) -> Device:
@@ -67,31 +61,6 @@ def seat_of(record: RobotRecord) -> Base:
         return Base(record.trunk, None)
     placement = Placement(np.array(mount.rotation), np.array(mount.position))
     return Base(record.trunk, Mount(mount.link, placement))
-
-
-def maneuver_of(record: ManeuverRecord) -> Maneuver:
-    """The maneuver that was asked for.
-
-    Raises:
-        OcsError: it is of no known kind, or not with these figures.
-    """
-    kind, stated = MANEUVER_KINDS.get(record.kind), set(record.parameters)
-    if kind is None or not set(kind.required) - _APART <= stated <= set(kind.values) - _APART:
-        raise OcsError(f"maneuver {record.name!r}: no {record.kind} with these figures is known")
-    for name, value in record.parameters.items():
-        # One figure, or as many as it must be.
-        read, count = kind.values[name], len(value) if isinstance(value, tuple) else None
-        words = read.words if isinstance(read, Choice) else ()
-        if count not in (read.counts if isinstance(read, Quantities) else (None,)) or (
-            (words or isinstance(value, str)) and value not in words
-        ):
-            raise OcsError(f"maneuver {record.name!r}: {name} of a {record.kind} is not {value!r}")
-    return kind.maneuver(
-        name=record.name,
-        gravity=record.gravity,
-        incidence=record.incidence,
-        **record.parameters,
-    )
 
 
 def robot_of(record: RobotRecord, path: AnyPath, package_paths: Mapping[str, AnyPath]) -> Robot:

@@ -17,7 +17,7 @@ from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.posture import OUTSIDE
 from ocs_design.robot.reader import read_robot
 from ocs_design.workflows.recording import record_design
-from ocs_design.workflows.restoring import device_of, maneuver_of, robot_of, seat_of
+from ocs_design.workflows.restoring import device_of, robot_of, seat_of
 
 HUMAN = next(ROBOTS.rglob("human.urdf"))
 MIMIC = """<robot name="gripper">
@@ -132,7 +132,7 @@ def drop(**changes):
 
 
 def test_a_maneuver_comes_back():
-    found = maneuver_of(drop())
+    found = drop().maneuver()
     assert (found.name, found.height, found.pitch) == ("it", 1.0, 0.5)
 
 
@@ -143,21 +143,21 @@ def test_a_maneuver_comes_back():
 )
 def test_a_maneuver_with_other_figures_is_refused(changes):
     with pytest.raises(OcsError, match=r"maneuver 'it': .*drop"):
-        maneuver_of(drop(**changes))
+        drop(**changes).maneuver()
 
 
 def test_a_row_of_the_wrong_length_is_refused():
     figures = {"takeoff_velocity": (0.5, 2.4), "torque": (0.2, 0.8), "onset": 0.1, "duration": 0.05}
     with pytest.raises(OcsError, match="torque of a disturbance is not"):
-        maneuver_of(recorded("disturbance", figures))
+        recorded("disturbance", figures).maneuver()
 
 
 def test_a_turn_comes_back_with_the_word_for_its_end():
     figures = {"jump_height": 1.9, "duration": 2.9, "yaw": 1.57, "rate": (0.1, 0.0, 0.0)}
-    found = maneuver_of(recorded("turn", figures | {"end": "at rest"}))
+    found = recorded("turn", figures | {"end": "at rest"}).maneuver()
     assert (found.yaw, found.rate, found.end) == (1.57, (0.1, 0.0, 0.0), "at rest")
     for end in ("upright", 1.0):
         with pytest.raises(OcsError, match="end of a turn is not"):
-            maneuver_of(recorded("turn", figures | {"end": end}))
+            recorded("turn", figures | {"end": end}).maneuver()
     with pytest.raises(OcsError, match="yaw of a turn is not 'far'"):
-        maneuver_of(recorded("turn", figures | {"yaw": "far"}))
+        recorded("turn", figures | {"yaw": "far"}).maneuver()

@@ -1,11 +1,17 @@
 """The robot and what is asked of its device, as `design.json` has them."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field, fields
 
-from ocs_design.common.arrays import Matrix, Vector, matrix, vector
+import numpy as np
+
+from ocs_design.common.arrays import FloatArray, Matrix, Vector, matrix, vector
+from ocs_design.common.errors import OcsError
 from ocs_design.common.files import AnyPath
 from ocs_design.common.records import recorded
+from ocs_design.requirement.kinds import MANEUVER_KINDS, kind_of
+from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.values import Choice, Quantities
 from ocs_design.robot.robot import Mount, Robot
 
 
@@ -76,6 +82,40 @@ class ManeuverRecord:
     incidence: float | None
     parameters: Mapping[str, float | str | tuple[float, ...]]
 
+    @classmethod
+    def of(cls, maneuver: Maneuver) -> "ManeuverRecord":
+        """The record of a maneuver that is asked for."""
+        kind, values = kind_of(maneuver)
+        common = {each.name for each in fields(Maneuver)}
+        parameters = {
+            name: value
+            for name, value in asdict(maneuver).items()
+            if name in values and name not in common
+        }
+        return recorded(cls, maneuver, kind=kind, parameters=parameters)
+
+    def maneuver(self) -> Maneuver:
+        """The maneuver that was asked for.
+
+        Raises:
+            OcsError: it is of no known kind, or not with these figures.
+        """
+        kind, stated = MANEUVER_KINDS.get(self.kind), set(self.parameters)
+        apart = {each.name for each in fields(Maneuver)}
+        if kind is None or not set(kind.required) - apart <= stated <= set(kind.values) - apart:
+            raise OcsError(f"maneuver {self.name!r}: no {self.kind} with these figures is known")
+        for name, value in self.parameters.items():
+            # One figure, or as many as it must be.
+            read, count = kind.values[name], len(value) if isinstance(value, tuple) else None
+            words = read.words if isinstance(read, Choice) else ()
+            if count not in (read.counts if isinstance(read, Quantities) else (None,)) or (
+                (words or isinstance(value, str)) and value not in words
+            ):
+                raise OcsError(f"maneuver {self.name!r}: {name} of a {self.kind} is not {value!r}")
+        return kind.maneuver(
+            name=self.name, gravity=self.gravity, incidence=self.incidence, **self.parameters
+        )
+
 
 @dataclass(frozen=True, kw_only=True)
 class DemandRecord:
@@ -95,6 +135,12 @@ class AxisInertia:
 
     pitch: float
     roll: float
+
+    @classmethod
+    def of(cls, momenta: Sequence[FloatArray], wheel_speed_max: float) -> "AxisInertia":
+        """Largest momenta of roll and pitch [N m s] over the highest speed [rad/s]."""
+        roll, pitch = np.max(momenta, axis=0, initial=0.0) / wheel_speed_max
+        return cls(pitch=float(pitch), roll=float(roll))
 
 
 @dataclass(frozen=True, kw_only=True)
