@@ -370,7 +370,7 @@ def test_what_cannot_be_built_is_told_first_of_all():
     refused = "NOT buildable as it stands. The feet hang in the air; give a place."
     for device in (DEVICES["caged"], DEVICES["on a plate"]):
         threads = f"{trunk_threads(device)}; to find that frame on the robot"
-        assembly = Assembly("solo12", device, notes=(threads, "of the motor"), refused=refused)
+        assembly = Assembly("solo12", device, fitting=(threads, "of the motor"), refused=refused)
         assert all_texts(assembly)[0] == refused
         said = texts(assembly, "Steps")
         assert "Drill no hole into the trunk" in said
