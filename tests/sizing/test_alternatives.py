@@ -112,6 +112,7 @@ def test_more_time():
     assert asked < designed.device.mass
 
 
+@pytest.mark.slow
 def test_rings_on_a_robot_are_weighed_on_feet_and_a_plate_of_their_own(monkeypatch):
     """Solo12's rings would stand on a heavier plate than its discs."""
     motor = MotorSection(name="Antigravity MN5008 KV400")
