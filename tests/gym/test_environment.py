@@ -52,7 +52,13 @@ def test_it_keeps_the_promises_of_gymnasium(folder):
     check_env(env.unwrapped, skip_render_check=True)
 
 
-@pytest.mark.parametrize("maneuver", ["disturbance", "drop", "back-flip"])
+@pytest.mark.parametrize(
+    "maneuver",
+    [
+        "drop",
+        *(pytest.param(each, marks=pytest.mark.slow) for each in ("disturbance", "back-flip")),
+    ],
+)
 def test_under_the_law_an_episode_is_the_flight_of_that_sample(flight, maneuver):
     campaign = flight._campaign
     outcomes = fly_samples(campaign, [5])

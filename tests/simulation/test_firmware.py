@@ -70,7 +70,12 @@ CASES = {
 }
 
 
-@pytest.fixture(scope="module", params=CASES)
+@pytest.fixture(
+    scope="module",
+    params=[
+        pytest.param(name, marks=[pytest.mark.slow] * (name == "ideal wheels")) for name in CASES
+    ],
+)
 def written(request, solo12, tmp_path_factory):
     """Worlds by name, and the folder of their controller."""
     device, desaturate = CASES[request.param]

@@ -161,7 +161,7 @@ PYRAMID = np.array(
         pytest.param(ORTHOGONAL, 30.0, 0.0, 1.773e-4, marks=pytest.mark.exhaustive),
         pytest.param(ORTHOGONAL, 20.0, 20.0, 7.84e-5, marks=pytest.mark.exhaustive),
         pytest.param(PYRAMID, 30.0, 0.0, 5.52e-5, marks=pytest.mark.exhaustive),
-        (PYRAMID, 20.0, 20.0, 5.58e-5),
+        pytest.param(PYRAMID, 20.0, 20.0, 5.58e-5, marks=pytest.mark.slow),
     ],
 )
 def test_one_program_sizes_any_layout_of_wheels(axes, pitch, roll, stated):
