@@ -125,8 +125,9 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
             supports += f" but in the hole of {2e3 * hole:.0f} mm of the standing foot"
         yield (
             f"Print drum, lid{', foot and cage' if caged else ' and foot'} in PETG as they lie "
-            f"in cad/housing.3mf: 0.2 mm layers, 100 % infill, for strength and masses are those "
-            f"of solid parts, {supports}. Tap the ears of "
+            "in cad/housing.3mf, one of each, arranged on your bed by the slicer: 0.2 mm layers, "
+            f"100 % infill, for strength and masses are those of solid parts, {supports}. Tap the "
+            "ears of "
             f"{'drum and cage' if caged else 'the drum'} {LID_SCREW.name}."
         )
     yield from _wheel_steps(assembly)
