@@ -115,6 +115,23 @@ def undrilled(housing: Housing[Real]) -> tuple[Part[Real], Part[Real]]:
     )
 
 
+FINGER = 10.0
+"""Force of the test finger of IEC 60529 [N]."""
+
+PETG_POISSON = 0.38
+"""Of PETG, as of PET (MatWeb, overview of polyesters: 0.37 to 0.40)."""
+
+
+def lid_sag(housing: Housing[float]) -> float:
+    """How far `FINGER` presses the middle of a lid in, its edge held [m].
+
+    W a^2 / (16 pi D), D = E t^3 / (12 (1 - nu^2)): Roark's Formulas for Stress and Strain, 7th
+    edition, table 11.2, case 17.
+    """
+    stiffness = PETG.modulus * PANEL**3 / (12.0 * (1.0 - PETG_POISSON**2))
+    return FINGER * housing.inner_radius**2 / (16.0 * pi * stiffness)
+
+
 def guard_ring(housing: Housing[Real]) -> Part[Real]:
     """The ring of mild steel in the drum, from its floor to the lid, in the wheel's frame."""
     half, inside = housing.rim_height / 2.0 + CLEARANCE, housing.rim_radius + CLEARANCE

@@ -33,10 +33,18 @@ from ocs_design.export.drawing.wheel import shrunk_on
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.foot import LONG_MARKS
+from ocs_design.parts.housing import FINGER, lid_sag
 from ocs_design.parts.joints import EPOXY
 from ocs_design.parts.module import part_name
 from ocs_design.parts.pedestal import SEATED
-from ocs_design.parts.printed import CLEARANCE, LID_SCREW, TRUNK_SCREW, WALL, WASHER_HEIGHT
+from ocs_design.parts.printed import (
+    CLEARANCE,
+    LID_SCREW,
+    PANEL,
+    TRUNK_SCREW,
+    WALL,
+    WASHER_HEIGHT,
+)
 
 FREE_SPAN = 10.0e-3
 """Width that a printer bridges without supports [m]: an assumption. Of a round hole with its axis
@@ -155,7 +163,7 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
         yield (
             "Turn the wheel by hand: it is free all around, and a strip of "
             f"{1e3 * CLEARANCE - 0.5:g} mm passes between rim and housing. Check the rim's "
-            f"run-out on its motor: at most {2e3 * RUN_OUT:g} mm."
+            f"run-out on its motor: at most {2e3 * RUN_OUT:g} mm.{_near_lid(assembly)}"
             f"{loose if balance_of(device).shifted else ''}"
         )
         yield "Balance the wheel on its motor (below): lid off, behind the spin test's wall."
@@ -168,6 +176,22 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
             f"Weigh the module with all its screws, without its controller: {1e3 * mass:.0f} g. If "
             "it is 2 % off, weigh its parts against cad/bill_of_materials.csv."
         )
+
+
+def _near_lid(assembly: Assembly) -> str:
+    """How near the hub or its screws are to the lid, where a finger presses it that far in."""
+    device, housing = assembly.device, foot_of(assembly.device).housing
+    web = device.flywheel.web
+    if web is None or device.on_bell:
+        return ""
+    gap = housing.half_height - PANEL - web.hub.height / 2.0 - web.hub.bolt_head
+    if gap >= lid_sag(housing):
+        return ""
+    return (
+        f" With the lid on, what turns in its middle is {1e3 * gap:.1f} mm from it, and "
+        f"{FINGER:g} N on the lid press it in by {1e3 * lid_sag(housing):.1f} mm: nobody touches "
+        "it while the wheel turns."
+    )
 
 
 def robot_steps(assembly: Assembly) -> Iterator[str]:

@@ -452,6 +452,27 @@ def test_the_spin_test_keeps_to_the_speed_that_the_motor_is_allowed(allowed, say
     assert f"yield strength is then {factor:.1f} times the largest stress, in {where}." in said
 
 
+@pytest.mark.parametrize("apart", [0.3e-3, 1.5e-3])
+def test_a_hub_that_a_pressed_lid_touches_is_told(apart):
+    """W a^2 / (16 pi D) of PETG with 1.8 GPa and 0.38, 1.2 mm thick, under 10 N."""
+    device = DEVICES["caged"]
+    housing = foot_of(device).housing
+    sag = 10.0 * housing.inner_radius**2 / (16.0 * np.pi * 1.8e9 * 1.2e-3**3 / 12.0) * (1 - 0.38**2)
+    hub = replace(
+        device.flywheel.web.hub, bolt_head=0.0, height=2.0 * (housing.half_height - 1.2e-3 - apart)
+    )
+    web = replace(device.flywheel.web, hub=hub)
+    near = replace(device, flywheel=replace(device.flywheel, web=web))
+    said = texts(Assembly("solo12", near), "Steps, for each")
+    told = re.search(
+        r"is ([\d.]+) mm from it, and 10 N on the lid press it in by ([\d.]+) mm", said
+    )
+    assert bool(told) == (apart < sag)
+    if told:
+        assert float(told[1]) == pytest.approx(1e3 * apart, abs=0.05)
+        assert float(told[2]) == pytest.approx(1e3 * sag, abs=0.06)
+
+
 @pytest.mark.parametrize(("shaft", "told"), [(None, True), (0.004, False)])
 def test_a_wheel_that_only_its_screws_centre_is_shifted(shaft, told):
     """In clearance holes it may run out by more than the step allows."""
