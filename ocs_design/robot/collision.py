@@ -3,10 +3,12 @@
 MuJoCo measures them (`mj_geomDistance`), with everything placed in the trunk's frame B.
 """
 
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from types import MappingProxyType
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -37,7 +39,7 @@ def solid_model(robot: Robot, warnings: Warnings) -> mujoco.MjModel:
     """Compiled model of the robot with the probes on its trunk.
 
     A body collides with its collision shapes, or, where it has none, with what it shows; meshes
-    count as their convex hulls. Geoms of an MJCF model are all there: see `parts_of`.
+    count as their convex hulls.
 
     Args:
         robot: as read.
@@ -49,6 +51,17 @@ def solid_model(robot: Robot, warnings: Warnings) -> mujoco.MjModel:
         bodies.append(replace(body, shapes=shapes))
     solid = replace(robot, tree=replace(robot.tree, bodies=tuple(bodies)))
     spec = plain_spec(solid, warnings, visuals=False)
+    # An MJCF model has geoms that only show beside those that touch, or alone. MuJoCo makes no hull
+    # of a mesh that touches nothing, and a distance to it is then looked for over all its vertices.
+    index_of = _bodies_by_name(solid.tree)
+    shown: dict[int | None, list[Any]] = defaultdict(list)
+    for link in spec.bodies:
+        bounded = [geom for geom in link.geoms if geom.type not in UNBOUNDED]
+        shown[index_of.get(link.name)] += bounded
+    for geoms in shown.values():
+        if not any(geom.contype or geom.conaffinity for geom in geoms):
+            for geom in geoms:
+                geom.contype = 1
     trunk, base = trunk_body(spec, solid)
     trunk.add_site(name=BASE, pos=base.position, quat=quaternion(base.rotation))
     for name in PROBES:
@@ -82,8 +95,7 @@ def parts_of(robot: Robot, model: mujoco.MjModel) -> tuple[Part, ...]:
         model: of `solid_model`.
     """
     tree = robot.tree
-    index_of = {name: index for index, name in enumerate(body_names(tree))}
-    index_of |= tree.body_of_link
+    index_of = _bodies_by_name(tree)
     probes = {model.geom(name).id for name in PROBES}
     geoms_of: dict[int, list[int]] = {}
     for geom in range(model.ngeom):
@@ -100,10 +112,15 @@ def parts_of(robot: Robot, model: mujoco.MjModel) -> tuple[Part, ...]:
             if joint is not None:
                 joints[joint.name if joint.mimic is None else joint.mimic[0]] = None
         limb = tree.bodies[path[0]].name if path else ""
-        # An MJCF model has geoms that only show beside those that touch.
-        solid = [geom for geom in geoms if touching[geom]] or geoms
+        solid = [geom for geom in geoms if touching[geom]]
         parts.append(Part(tree.bodies[body].name, limb, tuple(joints), np.array(solid)))
     return tuple(parts)
+
+
+def _bodies_by_name(tree: Tree) -> dict[str, int]:
+    """Number of the body that each body of a model belongs to; fixed links are merged."""
+    own = {name: index for index, name in enumerate(body_names(tree))}
+    return {**own, **tree.body_of_link}
 
 
 def path_between(tree: Tree, trunk: int, body: int) -> list[int]:
