@@ -63,7 +63,7 @@ from ocs_design.requirement.vocabulary import (
     RING,
     STEEL,
 )
-from ocs_design.requirement.worded_maneuvers import Worded, with_device, worded_maneuvers
+from ocs_design.requirement.worded_maneuvers import Worded, told_with_device, worded_maneuvers
 from ocs_design.robot.manual import person, robot_by_hand
 from ocs_design.robot.mass import impossible_size
 from ocs_design.robot.reader import read_robot
@@ -377,7 +377,7 @@ class Resolved:
         Args:
             requirement: of robot and device.
         """
-        told = tuple(with_device(each, requirement.maneuvers) for each in self.assumptions)
+        told = tuple(told_with_device(each, requirement.maneuvers) for each in self.assumptions)
         return replace(self, requirement=requirement, assumptions=told)
 
 

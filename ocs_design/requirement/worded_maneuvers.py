@@ -227,7 +227,7 @@ def _kicked(kick: Kick, jump: Disturbance, robot: Robot) -> tuple[Disturbance, s
     )
 
 
-def with_device(assumption: str, maneuvers: Iterable[Maneuver]) -> str:
+def told_with_device(assumption: str, maneuvers: Iterable[Maneuver]) -> str:
     """An assumption; one about a kick also says what the kick does with the device on.
 
     Args:
