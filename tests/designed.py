@@ -12,8 +12,11 @@ from fronts import by_hand
 from ocs_design.requirement.device_sections import FlywheelSection, MotorSection, OcsSection
 from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification, specification_from_options
+from ocs_design.simulation.margins import record_margins
+from ocs_design.sizing.buildable import buildable_of
 from ocs_design.sizing.design import design_device
 from ocs_design.workflows.pareto import read_task
+from ocs_design.workflows.recording import record_design
 
 MOTOR = "EC 45 flat 70 W 411812"
 
@@ -52,3 +55,19 @@ def on_solo12(**options):
 def device_for(task, **options):
     """The design of a task."""
     return design_device(task.specification, task.robot, task.resolved, **options)
+
+
+def as_recorded(task, made, *, seed=0, files=None):
+    """The record of a design that is neither flown nor mounted."""
+    margins = record_margins(task.resolved, made, (), {})
+    return record_design(
+        task.robot,
+        task.resolved,
+        made,
+        (),
+        margins=margins,
+        built=buildable_of(task.robot, made, margins, None),
+        mounting=None,
+        seed=seed,
+        files=files or {},
+    )

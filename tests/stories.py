@@ -4,11 +4,10 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
-from designed import MOTOR, designed
+from designed import MOTOR, as_recorded, designed
 
 from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.report.story import RecordedFlight, Story
-from ocs_design.workflows.recording import record_design
 
 TOUCHDOWN = 0.4
 """[s]"""
@@ -22,9 +21,7 @@ def design(motor=MOTOR, layout=None):
 @cache
 def _recorded(motor, layout):
     task, made = designed(motor, layout=layout)
-    return record_design(
-        task.robot, task.resolved, made, (), plans={}, mounting=None, seed=7, files={"a.stl": "0"}
-    )
+    return as_recorded(task, made, seed=7, files={"a.stl": "0"})
 
 
 def flight(scenario="drop", *, ocs=True, limits=True):

@@ -4,7 +4,6 @@ import csv
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ocs_design import __version__
 from ocs_design.actuation.drive import RESERVE
@@ -16,6 +15,8 @@ from ocs_design.device.checks import device_warnings
 from ocs_design.device.layout import heading_drift
 from ocs_design.device.records.design import SCHEMA_VERSION, OcsDesign, Tool
 from ocs_design.device.records.device import (
+    Buildable,
+    Margin,
     ModuleRecord,
     MountingRecord,
     OcsRecord,
@@ -43,15 +44,10 @@ from ocs_design.parts.printed import CLEARANCE, PANEL, WALL
 from ocs_design.report.story import export_time_series, series_file
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.margins import record_margins
 from ocs_design.simulation.run import Run
-from ocs_design.sizing.buildable import buildable_of
 from ocs_design.sizing.mounting import Mounting
 from ocs_design.sizing.selection.refinement import mass_prices
 from ocs_design.sizing.sized import Choice, Designed, Sized
-
-if TYPE_CHECKING:
-    from ocs_design.sizing.trajectory.plans import Reference
 
 
 def record_selection(choice: Choice, kept: ReserveRecord | None = None) -> SelectionRecord:
@@ -144,7 +140,8 @@ def record_design(
     designed: Designed,
     runs: Sequence[Run],
     *,
-    plans: Mapping[str, "Reference"],
+    margins: tuple[Margin, ...],
+    built: Buildable,
     control: ControlRecord | None = None,
     uncertainty: Mapping[str, str] | None = None,
     mounting: Mounting | None,
@@ -157,7 +154,6 @@ def record_design(
     package_paths: Mapping[str, AnyPath] | None = None,
 ) -> OcsDesign:
     """Record of the whole design, which becomes `design.json`."""
-    margins = record_margins(resolved, designed, runs, plans)
     return OcsDesign(
         schema_version=SCHEMA_VERSION,
         tool=Tool(name="ocs-design", version=__version__),
@@ -174,7 +170,7 @@ def record_design(
         alternatives=alternatives,
         owed=owed,
         lighter=lighter,
-        buildable=buildable_of(robot, designed, margins, mounting),
+        buildable=built,
         validation=tuple(map(record_run, runs)),
         control=control,
         reality=uncertainty or {},

@@ -147,12 +147,8 @@ def design_ocs(
     with staged_folder(folder, force=force) as staging:
         with steps.step("export parts and robot files"):
             # The model that they are written from is let go of: nothing keeps the subject.
-            built = buildable_of(
-                robot,
-                placed.designed,
-                record_margins(placed.resolved, placed.designed, runs, proof.references),
-                placed.mounting,
-            )
+            margins = record_margins(placed.resolved, placed.designed, runs, proof.references)
+            built = buildable_of(robot, placed.designed, margins, placed.mounting)
             remarks = export_formats(
                 replace(Subject.of(robot, device, safe_name(robot.name)), refused=refusal(built)),
                 [each for each in USUAL_FORMATS if not each.needs_margins],
@@ -170,7 +166,8 @@ def design_ocs(
             placed.resolved,
             placed.designed,
             runs,
-            plans=proof.references,
+            margins=margins,
+            built=built,
             control=control,
             uncertainty=uncertainty_texts(
                 complete_uncertainty(specification.reality, standing_height(robot), device.motor)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from commands import run
-from designed import MOTOR, design_of
+from designed import MOTOR, as_recorded, design_of
 
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import to_json
@@ -15,7 +15,6 @@ from ocs_design.requirement.device_sections import FlywheelSection, MotorSection
 from ocs_design.requirement.sections import RequirementSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.workflows.export import export_design
-from ocs_design.workflows.recording import record_design
 from ocs_design.workflows.restoring import read_designed
 
 DATA = Path(__file__).parents[1] / "data"
@@ -39,11 +38,7 @@ KINDS = {
 @cache
 def written(kind):
     task, made = design_of(KINDS[kind])
-    return to_json(
-        record_design(
-            task.robot, task.resolved, made, (), plans={}, mounting=None, seed=0, files={}
-        )
-    )
+    return to_json(as_recorded(task, made))
 
 
 @pytest.mark.parametrize("kind", KINDS)

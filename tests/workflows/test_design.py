@@ -2,17 +2,15 @@
 
 import numpy as np
 import pytest
-from designed import MOTOR, designed
+from designed import MOTOR, as_recorded, designed
 
-from ocs_design.workflows.recording import HOUSING_ASSUMED, record_design
+from ocs_design.workflows.recording import HOUSING_ASSUMED
 
 
 @pytest.fixture(scope="module", params=["none", MOTOR])
 def recorded(request):
     task, found = designed(request.param)
-    design = record_design(
-        task.robot, task.resolved, found, (), plans={}, mounting=None, seed=3, files={}
-    )
+    design = as_recorded(task, found, seed=3)
     return task, found, design
 
 

@@ -5,7 +5,7 @@ import json
 import msgspec
 import numpy as np
 import pytest
-from designed import MOTOR, designed
+from designed import MOTOR, as_recorded, designed
 from exported import LEGGED, LEGGED_PATHS
 from robots import ROBOTS
 
@@ -16,7 +16,6 @@ from ocs_design.device.records.requirement import ManeuverRecord, RobotRecord
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.posture import OUTSIDE
 from ocs_design.robot.reader import read_robot
-from ocs_design.workflows.recording import record_design
 from ocs_design.workflows.restoring import device_of, robot_of, seat_of
 
 HUMAN = next(ROBOTS.rglob("human.urdf"))
@@ -98,9 +97,7 @@ def test_a_robot_that_lacks_a_joint_is_refused(tmp_path):
 @pytest.mark.parametrize("motor", [MOTOR, "none"])
 def test_a_device_comes_back_to_the_last_digit(tmp_path, motor):
     task, made = designed(motor)
-    design = record_design(
-        task.robot, task.resolved, made, (), plans={}, mounting=None, seed=0, files={}
-    )
+    design = as_recorded(task, made)
     (tmp_path / "design.json").write_bytes(to_json(design))
     read, device = read_design(tmp_path / "design.json"), made.device
     again = device_of(read.ocs, read.supply)
