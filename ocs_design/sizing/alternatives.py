@@ -185,7 +185,12 @@ class _Change:
             return None
         if quick and not self.turns:
             return with_plate(found, self.problem, robot)
-        return _whole(self.specification, self.resolved, robot, found)
+        parts = replace(offered, motors=(found.motor,), gears=(found.gear,))
+        stated = self.specification.flywheel.material
+        if len(self.problem.materials) > 1 or (self.turns and stated != AUTO):
+            # Steels make much the same device, and to weigh them all at every incidence takes long.
+            parts = replace(parts, materials=(found.material,))
+        return _whole(self.specification, replace(self.resolved, choice=parts), robot)
 
     def notes(self, found: Candidate, asked: SelectionProblem) -> Iterator[str]:
         """What to know of the device that is found, beside its mass and its motor."""
@@ -215,15 +220,10 @@ def _hangs(choice: Choice, robot: Robot) -> bool:
     return footing_under(device, robot, stated=choice.problem.place.stated) is None
 
 
-def _whole(
-    specification: Specification,
-    resolved: Resolved,
-    robot: Robot,
-    parts: Candidate | None = None,
-) -> Candidate | None:
+def _whole(specification: Specification, resolved: Resolved, robot: Robot) -> Candidate | None:
     """The lightest device, on its own footing with its own reserve; None: there is none."""
     try:
-        own = design_device(specification, robot, resolved, ranked=False, parts=parts)
+        own = design_device(specification, robot, resolved, ranked=False)
     except Infeasible:
         return None
     return None if own.choice is None else own.choice.chosen

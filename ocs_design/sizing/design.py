@@ -52,7 +52,6 @@ def design_device(
     *,
     ranked: bool = True,
     reserve: Reserve | None = None,
-    parts: Candidate | None = None,
 ) -> Designed:
     """The lightest device that meets the specification.
 
@@ -64,8 +63,6 @@ def design_device(
         specification: what was stated. robot: that carries it. resolved: what was meant.
         ranked: whether the heavier devices are of interest too; to weigh them all takes longer.
         reserve: to keep for what is drawn; None: for the reliability that is specified.
-        parts: device whose motor, gear, material and web it has, and which it may be like; None:
-            whichever make it lightest.
 
     Raises:
         Infeasible: there is none.
@@ -78,9 +75,7 @@ def design_device(
     com = robot.com
     for _ in range(1 + KICK_ROUNDS):
         try:
-            designed = _designed(
-                specification, robot, resolved, ranked=ranked, reserve=reserve, parts=parts
-            )
+            designed = _designed(specification, robot, resolved, ranked=ranked, reserve=reserve)
         except Infeasible:
             if all(short > 0.0 for short, _, _ in tried):
                 asked = resolved.requirement
@@ -93,9 +88,7 @@ def design_device(
                 )
                 calm = replace(resolved, requirement=replace(asked, maneuvers=maneuvers))
                 with suppress(Infeasible):
-                    return design_device(
-                        specification, robot, calm, ranked=ranked, reserve=reserve, parts=parts
-                    )
+                    return design_device(specification, robot, calm, ranked=ranked, reserve=reserve)
                 raise
             break
         whole, asked = designed.sized.total, resolved.requirement
@@ -124,7 +117,6 @@ def _designed(
     *,
     ranked: bool,
     reserve: Reserve | None,
-    parts: Candidate | None,
 ) -> Designed:
     """The device for what is resolved; see `design_device`."""
     problem = selection_problem(specification, robot, resolved)
@@ -153,7 +145,7 @@ def _designed(
         assert resolved.reliability is not None, "there are motors to choose from"
         require_survival(problem)
         reserve = reserve or Reserve(resolved.reliability)
-        designed = _by_selection(specification, problem, robot, reserve, ranked=ranked, parts=parts)
+        designed = _by_selection(specification, problem, robot, reserve, ranked=ranked)
     device, most = designed.device, specification.ocs.mass_max
     # Nothing is lighter than the lightest: no search is needed.
     if most is None or device.mass <= most:
@@ -225,7 +217,6 @@ def _by_selection(
     reserve: Reserve,
     *,
     ranked: bool,
-    parts: Candidate | None,
 ) -> Designed:
     """Modules with a motor of the catalogue each, co-designed where that is asked for."""
     criterion = specified_criterion(specification)
@@ -237,7 +228,7 @@ def _by_selection(
     )
     asked = problem.requirement
     problem, selection, reserve, nominal = on_its_footing(
-        problem, criterion, robot, (reality, reserve), ranked=ranked, parts=parts
+        problem, criterion, robot, (reality, reserve), ranked=ranked
     )
     if specification.ocs.guard == CONTAINING:
         problem, selection = in_rings(problem, selection.best, criterion, robot)

@@ -25,7 +25,6 @@ from ocs_design.sizing.selection.problem import (
     Selection,
     SelectionProblem,
     devices_by_mass,
-    of_parts,
 )
 from ocs_design.sizing.selection.select import (
     at_own_incidence,
@@ -114,7 +113,6 @@ def on_its_footing(
     kept: tuple[Reality, Reserve],
     *,
     ranked: bool,
-    parts: Candidate | None = None,
 ) -> tuple[SelectionProblem, Selection, Reserve, Callable[[], Candidate]]:
     """The selection on the footing that its best device has, with the problem that this is.
 
@@ -128,7 +126,6 @@ def on_its_footing(
         problem: to solve. criterion: see `select_by`. robot: that carries it.
         ranked: see `with_plates`.
         kept: what is drawn and the reserve for it, which the lightest device without one settles.
-        parts: see `design_device`.
 
     Raises:
         Infeasible: see `select_by`; also where nothing can carry the mast or plate that it needs.
@@ -160,9 +157,7 @@ def on_its_footing(
                 raise NeverHeld(best, change)
         return at, best
 
-    if parts is not None:
-        problem = of_parts(problem, parts)
-    first, widest = parts or lightest_by(problem, criterion), problem
+    first, widest = lightest_by(problem, criterion), problem
     if first is not None:
         problem, first = settled(first)
     nominal = select_by(problem, criterion).best if first is None else first
@@ -175,7 +170,7 @@ def on_its_footing(
     )
     first = device_at(problem, nominal, nominal.incidence)
     try:
-        selection = _selected(problem, criterion, first, alone=parts is not None)
+        selection = select_by(problem, criterion, winner=first)
     except Infeasible:
         problem = widest
         selection = select_by(problem, criterion)
@@ -191,16 +186,6 @@ def on_its_footing(
         others = [entry for entry in selection.ranking[1:] if not same_parts(entry, best)]
         selection = replace(selection, ranking=(again, *others))
     return problem, selection, reserve, partial(lightest_near, plain, nominal, criterion)
-
-
-def _selected(
-    problem: SelectionProblem, criterion: Criterion | None, first: Candidate | None, *, alone: bool
-) -> Selection:
-    """The selection; with the parts of the first device `alone`, the lightest near that one."""
-    if not alone or first is None:
-        return select_by(problem, criterion, winner=first)
-    best = lightest_near(problem, first, criterion)
-    return Selection(ranking=(best,), candidates=1, reasons=tuple)
 
 
 def _surer(
