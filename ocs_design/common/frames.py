@@ -69,6 +69,9 @@ def rpy_from_rotation(rotation: FloatArray) -> FloatArray:
 BACKWARDS = frozen([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])
 """Rotation of a frame whose z axis points backwards, y to the left and x up."""
 
+FORWARDS = frozen([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+"""Rotation of a frame whose z axis points forward, x to the left and y up."""
+
 
 @dataclass(frozen=True, eq=False)
 class Placement:

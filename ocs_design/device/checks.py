@@ -13,7 +13,7 @@ from ocs_design.actuation.fasteners import CLASSES, SCREW_NAMES
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.device.device import Device, Flywheel
-from ocs_design.parts.carrier_plate import CarrierPlate
+from ocs_design.parts.carrier_plate import CarrierPlate, Mast
 from ocs_design.parts.rim import LIGHTENED
 from ocs_design.robot.mass import MassProperties
 
@@ -62,6 +62,9 @@ _CHOICES: Mapping[str, Collection[str | int]] = {
 """Words and numbers that there are, by the name of the figure."""
 
 _UNIT_TOLERANCE = 1e-6
+
+_ROUNDED = 1e-4
+"""Difference of two thicknesses that are one [m]: milled to a tenth of a millimetre."""
 
 
 def check_device(device: Device) -> None:
@@ -133,6 +136,7 @@ def _plate_faults(plate: CarrierPlate) -> Iterator[str]:
         yield "plate.mast has no bore or no screws"
     if mast is not None and not (mast.low < mast.high and mast.back > 0.0 <= mast.spacer):
         yield "plate.mast has an end or an arm of no length"
+    yield from () if mast is None or not mast.formed else _form_faults(mast)
     if not 0.0 < plate.neck <= plate.radius:
         yield "plate.neck is not between 0 and plate.radius"
     for name in ("feet",) if mast is not None else ("feet", "trunk"):
@@ -142,6 +146,19 @@ def _plate_faults(plate: CarrierPlate) -> Iterator[str]:
     lengths = np.array([*plate.position, *plate.sleeves, *np.ravel([*plate.trunk, *plate.feet])])
     if not (np.abs(lengths) <= LARGEST_LENGTH).all() or min(plate.sleeves, default=0.0) < 0.0:
         yield "a place of the plate is beyond all measure"
+
+
+def _form_faults(mast: Mast) -> Iterator[str]:
+    """Faults of a block that has the trunk's form."""
+    columns = {len(row) for row in mast.formed}
+    if len(mast.formed) < 2 or len(columns) > 1 or min(columns) < 2:
+        yield "plate.mast.formed is no grid"
+        return
+    thin, thick = min(map(min, mast.formed)), max(map(max, mast.formed))
+    if not SMALLEST_LENGTH <= thin <= thick <= LARGEST_LENGTH:
+        yield "plate.mast.formed has a thickness beyond all measure"
+    elif abs(thin - mast.spacer) > _ROUNDED:
+        yield "plate.mast.spacer is not the least of plate.mast.formed"
 
 
 def _pedestal_faults(device: Device) -> Iterator[str]:

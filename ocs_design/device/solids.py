@@ -219,10 +219,10 @@ def mast_solids(plate: CarrierPlate | None) -> tuple[Drum, ...]:
         for aside in (quarter, -quarter)
         for off in (quarter, -quarter)
     ]
-    if mast.spacer > 0.0:
+    if mast.off > 0.0:
         low, high = plate.block
-        count = int(np.ceil(mast.spacer / (2.0 * quarter)))
-        half = mast.spacer / count / 2.0
+        count = int(np.ceil(mast.off / (2.0 * quarter)))
+        half = mast.off / count / 2.0
         drums += [
             Drum(
                 middle + np.array([mast.face + off, aside, (low + high) / 2.0]),

@@ -257,6 +257,8 @@ def trunk_threads(device: Device) -> str:
         if longest > 0.0
         else ""
     )
+    if plate.relief is not None:
+        sleeved = ", through a block that has the trunk's form"
     if plate.mast is not None:
         return (
             f"a mast behind the trunk carries the feet; the trunk's back needs threads "

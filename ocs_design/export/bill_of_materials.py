@@ -27,7 +27,7 @@ from ocs_design.export.device_parts import (
 )
 from ocs_design.export.electrics import battery, controllers, wiring_parts
 from ocs_design.export.formats import Notes, Subject
-from ocs_design.parts.carrier_plate import mast_part, plate_part, sleeve_part
+from ocs_design.parts.carrier_plate import block_part, mast_part, plate_part, sleeve_part
 from ocs_design.parts.housing import LID_SCREWS, guard_ring
 from ocs_design.parts.joints import BOND_STRENGTH, EPOXY
 from ocs_design.parts.printed import (
@@ -159,13 +159,23 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
         tube = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(plate.sleeve_wall)} wall"
         if mast is not None:
             stock, under = f"square tube {_mm(mast.side)} x {_mm(mast.wall)}", "mast"
-            spacer = f", a block of {_mm(mast.spacer)} before it" if mast.spacer > 0.0 else ""
+            flat = mast.spacer > 0.0 and not mast.formed
+            spacer = f", a block of {_mm(mast.spacer)} before it" if flat else ""
             made = (
                 f"upright of {_mm(mast.high - mast.low)}{spacer}, {len(plate.rows)} arms of "
                 f"{_mm(mast.back + plate.neck)}, welded, and a plate on each arm"
             )
             mass = mast_part(plate, mast).mass()
             yield BillRow("mast", 1, plate.material, stock, mass, made)
+            if plate.relief is not None:
+                low, high = plate.block
+                size = " x ".join(map(_mm, (mast.side, high - low, mast.off)))
+                made = (
+                    "milled to block.stl or block.step, its front has the trunk's form; welded "
+                    "before the upright and drilled with it"
+                )
+                mass = block_part(plate, plate.relief).mass()
+                yield BillRow("block of the mast", 1, plate.material, size, mass, made)
             made = f"cut to {_mm(mast.bore)}, in the upright around each screw"
             mass, count = sleeve_part(plate, mast.bore).mass(), len(plate.trunk)
             yield BillRow("sleeve in the mast", count, plate.material, tube, mass, made)

@@ -12,12 +12,15 @@ from ocs_design.device.device import Device, Flywheel
 from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.parts.bell import fixture_part
 from ocs_design.parts.cage import cage_part
-from ocs_design.parts.carrier_plate import CarrierPlate, mast_part, plate_part
+from ocs_design.parts.carrier_plate import CarrierPlate, block_part, mast_part, plate_part
 from ocs_design.parts.foot import foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
 from ocs_design.parts.pedestal import Pedestal, pedestal_part
 from ocs_design.parts.solids import Part
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre, wheel_parts
+
+BLOCK = "block"
+"""Name of the block that has the trunk's form, in files and pictures."""
 
 
 def wheel_geometry(flywheel: Flywheel) -> Wheel:
@@ -68,14 +71,15 @@ def wheel_pieces(flywheel: Flywheel) -> Mapping[str, Part]:
 
 
 def plate_pieces(device: Device) -> Mapping[str, Part]:
-    """The plate under the feet, and its mast, by the names of their files, where there are any."""
+    """The plate under the feet, its mast and that one's block, by the names of their files."""
     plate = device.plate
     if plate is None:
         return {}
     if plate.mast is None:
         return {"plate": plate_part(plate)}
     # One of the plates on its arms, which are alike.
-    return {"plate": plate_part(plate.each[0]), "mast": mast_part(plate, plate.mast)}
+    pieces = {"plate": plate_part(plate.each[0]), "mast": mast_part(plate, plate.mast)}
+    return pieces if plate.relief is None else {**pieces, BLOCK: block_part(plate, plate.relief)}
 
 
 def ring_fixture(device: Device) -> Part | None:

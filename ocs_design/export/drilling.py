@@ -36,6 +36,7 @@ from ocs_design.export.drawing.sheet import (
     wrapped,
 )
 from ocs_design.export.formats import Subject
+from ocs_design.parts.carrier_plate import steepest
 from ocs_design.parts.module import part_name
 from ocs_design.parts.outline import flat_outline
 from ocs_design.parts.printed import TRUNK_SCREW
@@ -70,6 +71,8 @@ class Drilling:
         upwards: whether it is the trunk's back, coordinates up and to the left; else its top,
             forward and to the left.
         refused: that the device cannot be built, and why: no hole is to be drilled.
+        tilt: largest angle of the holes off square to a round trunk, which is drilled through a
+            block that has its form [rad]; 0: it is flat there.
     """
 
     robot: str
@@ -82,6 +85,7 @@ class Drilling:
     standing: str = ""
     upwards: bool = False
     refused: str = ""
+    tilt: float = 0.0
 
     @property
     def items(self) -> tuple[Item, ...]:
@@ -105,9 +109,17 @@ class Drilling:
         deep, blind = (
             format_quantity(each, "mm", digits=2) for each in (thread, thread + self.screw.diameter)
         )
+        jig = []
+        if self.tilt > 0.0:
+            jig.append(
+                "Drill through the mast's block, held where it fits, in bushes: along the screws, "
+                f"up to {format_quantity(self.tilt, 'deg', digits=2)} off square. Paper is out on "
+                "what is round."
+            )
         return (
             f"{self.robot}: drill {len(self.holes)} holes of {MILLIMETRES * self.drill:.3g} mm at "
             f"the crosses, and tap {self.screw.name}; {frame}.",
+            *jig,
             f"The screws go {' to '.join(ends)} mm into the trunk: thread at least {deep} deep, "
             f"the hole through the wall or {blind} deep. Look first what is behind the wall.",
             f"In a wall thinner than {MILLIMETRES * self.screw.diameter:.3g} mm, a print or "
@@ -154,8 +166,8 @@ def drilling_of(subject: Subject) -> Drilling | None:
         own = trunk_holes(plate)
         holes = _millimetres(own if mast is None else [(z, y) for y, z in own])
         thread = plate.screw
-        held = zip(plate.screw_lengths, plate.sleeves, strict=True)
-        reach = [length - plate.clamped - sleeve for length, sleeve in held]
+        held = zip(plate.screw_lengths, plate.gaps, strict=True)
+        reach = [length - plate.clamped - gap for length, gap in held]
     radius = MILLIMETRES * thread.tapping_drill / 2.0
     marks: list[Item] = [*cross((0.0, 0.0), 3.0 * CROSS), arrow((3.0 * CROSS, 0.0), (1.0, 0.0))]
     marks.append(Text((3.0 * CROSS, -1.0), "forward" if mast is None else "up", 2.5))
@@ -207,6 +219,7 @@ def drilling_of(subject: Subject) -> Drilling | None:
         " and ".join(stands),
         upwards=mast is not None,
         refused=subject.refused,
+        tilt=0.0 if plate is None or plate.relief is None else steepest(plate),
     )
 
 

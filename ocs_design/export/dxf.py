@@ -15,12 +15,12 @@ from ezdxf.filemanagement import new
 from ezdxf.layouts.layout import Modelspace
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.export.device_parts import plate_pieces, wheel_pieces
+from ocs_design.export.device_parts import BLOCK, plate_pieces, wheel_pieces
 from ocs_design.export.drawing import sheet
 from ocs_design.export.drawing.sheet import Area, Circle, Line, Polyline, Text
 from ocs_design.export.drilling import CHECK, Drilling, bounds, drilling_of
 from ocs_design.export.formats import Notes, Subject
-from ocs_design.parts.solids import Part, Prism
+from ocs_design.parts.solids import Part, Prism, Revolution
 
 MILLIMETRES = 1000.0
 
@@ -41,7 +41,7 @@ def write(subject: Subject, folder: Path) -> Notes:
     """Write `flywheel.dxf`, or one for each of the wheel's pieces, `plate.dxf`, `drilling.dxf`."""
     pieces = {**wheel_pieces(subject.device.flywheel), **plate_pieces(subject.device)}
     for name, piece in pieces.items():
-        if name == "mast":
+        if name in ("mast", BLOCK):
             continue
         (folder / f"{name}.dxf").write_text(dxf_text(piece), encoding="utf-8", newline="\n")
     if drilling := drilling_of(subject):
@@ -66,7 +66,7 @@ def dxf_text(piece: Part) -> str:
         if isinstance(body, Prism):
             edges.append(body.outline.points)
             _add_outline(space, MILLIMETRES * edges[-1], body.outline.bulges, OUTLINE)
-        else:
+        elif isinstance(body, Revolution):
             # Its circles, and half its section beside them, with their centre lines.
             radii, heights = MILLIMETRES * body.profile.T
             inner, outer = float(radii.min()), float(radii.max())

@@ -1,7 +1,7 @@
 """Triangle meshes: closed ones of parts, and those of MuJoCo's primitive shapes."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import accumulate, product
 from math import pi
 from typing import TYPE_CHECKING, TypeAlias
@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import Placement
 from ocs_design.parts.outline import SECTIONS, circle_radius_factor, flat_outline, ring_points
-from ocs_design.parts.solids import Part, Prism, Revolution, Solid
+from ocs_design.parts.shapes import Disc
+from ocs_design.parts.solids import Part, Prism, Relief, Revolution, Solid
 
 if TYPE_CHECKING:
     from manifold3d import Manifold
@@ -116,6 +117,37 @@ def solid_mesh(solid: Solid, sections: int = SECTIONS) -> Mesh:
             corners = np.concatenate([sides, low[ends[:, ::-1]], high[ends]])
             place = solid.placement
             return Mesh.of_corners(np.asarray(corners @ place.rotation.T + place.position))
+        case Relief():
+            if not solid.holes:
+                return _relief_mesh(solid).placed(solid.placement)
+            beyond = 0.1 * float(solid.heights.max())
+            cut = tuple(
+                Prism(Disc(radius, (x, y)), -beyond, 11.0 * beyond, solid.placement)
+                for x, y, radius in solid.holes
+            )
+            block = Part("block", 1.0, (replace(solid, holes=()),), cut)
+            return part_mesh(block, sections)
+
+
+def _relief_mesh(relief: Relief) -> Mesh:
+    """A relief without its holes, in its own frame."""
+    x, y = np.meshgrid(relief.x, relief.y, indexing="ij")
+    upper = np.stack([x, y, relief.heights], axis=-1)
+    lower = upper * [1.0, 1.0, 0.0]
+    corners = []
+    for face, order in ((upper, (0, 1, 2)), (lower, (0, 2, 1))):
+        a, b, c, d = face[:-1, :-1], face[1:, :-1], face[1:, 1:], face[:-1, 1:]
+        corners += [
+            np.stack([three[each] for each in order], axis=2).reshape(-1, 3, 3)
+            for three in ((a, b, c), (a, c, d))
+        ]
+    # Counter-clockwise from above, as rings of both faces.
+    rim = [
+        np.concatenate([face[:-1, 0], face[-1, :-1], face[:0:-1, -1], face[0, :0:-1]])
+        for face in (lower, upper)
+    ]
+    corners.append(_sides(rim[0][None], rim[1][None]))
+    return Mesh.of_corners(np.concatenate(corners))
 
 
 def _revolved(profile: FloatArray, sections: int) -> FloatArray:

@@ -18,8 +18,10 @@ from OCP.BRepBuilderAPI import (
     BRepBuilderAPI_MakeWire,
     BRepBuilderAPI_Transform,
 )
-from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism, BRepPrimAPI_MakeRevol
+from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox, BRepPrimAPI_MakePrism, BRepPrimAPI_MakeRevol
+from OCP.collections import Array1_double, Array1_int, Array2_gp_Pnt
 from OCP.GC import GC_MakeArcOfCircle
+from OCP.Geom import Geom_BSplineSurface
 from OCP.gp import gp_Ax1, gp_Dir, gp_Pnt, gp_Trsf, gp_Vec
 from OCP.Interface import Interface_Static
 from OCP.Message import Message, Message_PrinterOStream
@@ -38,6 +40,7 @@ from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS_Edge, TopoDS_Face, TopoDS_Shape
 from OCP.XCAFApp import XCAFApp_Application
 from OCP.XCAFDoc import XCAFDoc_DocumentTool
+from scipy.interpolate import make_interp_spline
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import Placement
@@ -48,9 +51,10 @@ from ocs_design.export.device_parts import metal_pieces, pedestal_kinds, printed
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Color
 from ocs_design.export.visuals import ALUMINIUM, PRINT, piece_color
-from ocs_design.parts.carrier_plate import mast_part, plate_part
+from ocs_design.parts.carrier_plate import block_part, mast_part, plate_part
 from ocs_design.parts.outline import Arc
-from ocs_design.parts.solids import Part, Prism, Revolution, Solid
+from ocs_design.parts.shapes import Disc
+from ocs_design.parts.solids import Part, Prism, Relief, Revolution, Solid
 
 MILLIMETRES = 1000.0
 """Units per metre: Open CASCADE's tolerances are made for millimetres."""
@@ -104,6 +108,8 @@ def device_bytes(device: Device) -> bytes:
         bodies = [(plate_part(each), each.position) for each in plate.each]
         if mast is not None:
             bodies.append((mast_part(plate, mast), plate.position))
+        if plate.relief is not None:
+            bodies.append((block_part(plate, plate.relief), plate.position))
         for part, position in bodies:
             label = assembly.add_part(part.name, part, ALUMINIUM)
             assembly.put(label, whole, Placement(np.eye(3), np.array(position)), part.name)
@@ -278,6 +284,52 @@ def _shape(solid: Solid) -> TopoDS_Shape:
             shape = BRepPrimAPI_MakePrism(face, gp_Vec(0.0, 0.0, length)).Shape()
             place = _transformation(solid.placement)
             return BRepBuilderAPI_Transform(shape, place, True).Shape()
+        case Relief():
+            place = _transformation(solid.placement)
+            return BRepBuilderAPI_Transform(_relief(solid), place, True).Shape()
+
+
+def _relief(relief: Relief) -> TopoDS_Shape:
+    """A relief in its own frame, whose face is one smooth surface through the corners of its cells.
+
+    That bulges between them by hundredths of a millimetre where the form bends.
+    """
+    heights = np.round(MILLIMETRES * relief.heights, DECIMALS)
+    splines, poles = [], heights
+    for axis, places in enumerate((relief.x, relief.y)):
+        at = np.round(MILLIMETRES * places, DECIMALS)
+        spline = make_interp_spline(at, poles, k=min(3, len(at) - 1), axis=axis)
+        splines.append(spline)
+        poles = np.moveaxis(spline.c, 0, axis) if axis else spline.c
+    # Where poles stand over the plane: along a line they are the means of their own knots.
+    across = [
+        np.array([spline.t[i + 1 : i + 1 + spline.k].mean() for i in range(count)])
+        for spline, count in zip(splines, poles.shape, strict=True)
+    ]
+    control = Array2_gp_Pnt(1, poles.shape[0], 1, poles.shape[1])
+    for row, column in np.ndindex(*poles.shape):
+        place = across[0][row], across[1][column], poles[row, column]
+        control.SetValue(row + 1, column + 1, gp_Pnt(*map(float, place)))
+    knots, counts = [], []
+    for spline in splines:
+        values, often = np.unique(spline.t, return_counts=True)
+        knots.append(Array1_double(1, len(values)))
+        counts.append(Array1_int(1, len(values)))
+        for index, (value, many) in enumerate(zip(values.tolist(), often.tolist(), strict=True)):
+            knots[-1].SetValue(index + 1, value)
+            counts[-1].SetValue(index + 1, many)
+    degrees = (spline.k for spline in splines)
+    surface = Geom_BSplineSurface(control, *knots, *counts, *degrees)
+    face, deep = BRepBuilderAPI_MakeFace(surface, 1e-6).Face(), float(heights.max()) + 1.0
+    block = BRepPrimAPI_MakePrism(face, gp_Vec(0.0, 0.0, -deep)).Shape()
+    corner = across[0][0] - 1.0, across[1][0] - 1.0, -2.0 * deep
+    other = across[0][-1] + 1.0, across[1][-1] + 1.0, 0.0
+    below = BRepPrimAPI_MakeBox(*(gp_Pnt(*map(float, each)) for each in (corner, other))).Shape()
+    block = BRepAlgoAPI_Cut(block, below).Shape()
+    for x, y, radius in relief.holes:
+        drill = Prism(Disc(radius, (x, y)), -1e-3, (deep + 1.0) / MILLIMETRES)
+        block = BRepAlgoAPI_Cut(block, _shape(drill)).Shape()
+    return block
 
 
 def _transformation(place: Placement) -> gp_Trsf:

@@ -168,6 +168,10 @@ def _plain_plate(plate: CarrierPlate) -> Iterator[Visual]:
         wide, tall, long = mast.side / 2.0, (mast.high - mast.low) / 2.0, mast.back + plate.neck
         upright = _shifted(mast.face - wide, 0.0, mast.low + tall)
         yield _box("plate", (wide, wide, tall), upright)
+        if plate.relief is not None:
+            (low, high), thick = plate.block, float(plate.relief.heights.mean()) / 2.0
+            middle = _shifted(mast.face + thick, 0.0, (low + high) / 2.0)
+            yield _box("plate", (thick, wide, (high - low) / 2.0), middle)
         for level in plate.heights:
             place = _shifted(mast.back - long / 2.0, 0.0, level - wide)
             yield _box("plate", (long / 2.0, wide, wide), place)

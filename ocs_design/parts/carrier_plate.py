@@ -9,8 +9,9 @@ height, each with screws of its own; together they are one body.
 
 Where nothing stands on top of the trunk, a mast carries the plates behind it, one above the other:
 a square tube upright on its back, with an arm of the same tube under each plate. Four screws
-through the tube hold it, each in a sleeve that keeps the walls apart. What all this bears is in
-`plate_strength`.
+through the tube hold it, each in a sleeve that keeps the walls apart. A block before the upright
+keeps it off what stands out; where the trunk is nowhere flat, its front has the trunk's own form.
+What all this bears is in `plate_strength`.
 """
 
 from collections.abc import Iterator
@@ -23,11 +24,11 @@ import numpy as np
 from ocs_design.actuation.fasteners import Fastening, Screw, screw
 from ocs_design.catalogue.materials import material
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.frames import BACKWARDS, Placement
+from ocs_design.common.frames import BACKWARDS, FORWARDS, Placement
 from ocs_design.parts.dog_bone import DogBone, directions
 from ocs_design.parts.printed import AROUND_SLOT, TRUNK_SCREW, Bulk
 from ocs_design.parts.shapes import Disc, Rectangle
-from ocs_design.parts.solids import Part, Prism, hollow_cylinder
+from ocs_design.parts.solids import Part, Prism, Relief, hollow_cylinder
 from ocs_design.robot.mass import MassProperties, combine
 
 MATERIAL = "aluminium-6061-t6"
@@ -80,6 +81,12 @@ TUBES = (
 )
 """Sides and walls of square tube that is kept in stock [m]; tolerances: EN 755-8."""
 
+TOUCH = 0.5e-3
+"""Farthest that a formed block is off the trunk anywhere [m]: filled epoxy beds it there."""
+
+_AROUND = 24
+"""Places around a screw at which the thickness of a formed block is looked at."""
+
 Point: TypeAlias = tuple[float, float]
 
 Hole = TypeVar("Hole", Point, float)
@@ -95,6 +102,9 @@ class Mast:
         below, high: how far its ends are below and above the origin, likewise [m].
         overhang: farthest that an arm is above or below the trunk's screws [m].
         spacer: thickness of the block between the upright and the trunk, around the screws [m].
+        formed: thickness of a block that has the trunk's form, at the corners of even cells all
+            over its front, the rows to the left and upwards [m]; `spacer` is then about the least.
+            Empty: it is flat.
     """
 
     side: float
@@ -104,6 +114,12 @@ class Mast:
     high: float
     overhang: float
     spacer: float = 0.0
+    formed: tuple[tuple[float, ...], ...] = ()
+
+    @property
+    def off(self) -> float:
+        """How far the upright is from the trunk where the block is thickest [m]."""
+        return max(map(max, self.formed), default=self.spacer)
 
     @property
     def low(self) -> float:
@@ -238,6 +254,44 @@ class CarrierPlate:
         edge = EDGE * self.screw.clearance_hole
         return min(z for _, z in self.trunk) - edge, max(z for _, z in self.trunk) + edge
 
+    @property
+    def relief(self) -> Relief | None:
+        """The mast's block that has the trunk's form, drilled, in its own frame; None: it has none.
+
+        Its z axis points forward, from the upright.
+        """
+        mast = self.mast
+        if mast is None or not mast.formed:
+            return None
+        half, radius = mast.side / 2.0, self.screw.clearance_hole / 2.0
+        place = Placement(FORWARDS, np.array([mast.face, 0.0, 0.0]))
+        holes = tuple((*hole, radius) for hole in self.trunk)
+        heights = np.array(mast.formed)
+        return Relief(-half, half, *self.block, heights, holes, place)
+
+    @property
+    def gaps(self) -> tuple[float, ...]:
+        """How far the trunk is from block or plate at each of its screws, all around it [m]."""
+        mast, relief = self.mast, self.relief
+        if mast is None or relief is None:
+            return self.sleeves
+        around = self.screw.clearance_hole / 2.0 * directions(_AROUND)
+        thick = (float(relief.height(*(around + hole).T).max()) for hole in self.trunk)
+        return tuple(max(0.0, each - mast.spacer) for each in thick)
+
+    @property
+    def slopes(self) -> FloatArray:
+        """Slope of the block's front under each of the trunk's screws, left and up, shape (n, 2).
+
+        That of a plane through what is under the screw's head; 0 without a block that is formed.
+        """
+        relief = self.relief
+        if relief is None:
+            return np.zeros((len(self.trunk), 2))
+        around, radius = directions(_AROUND), self.screw.head_diameter / 2.0
+        thick = [relief.height(*(radius * around + hole).T) for hole in self.trunk]
+        return np.asarray(2.0 / radius * np.array(thick) @ around / _AROUND)
+
     def own(self, holes: tuple[Hole, ...], index: int) -> tuple[Hole, ...]:
         """What of the holes of all plates is of one."""
         count = len(holes) // len(self.rows)
@@ -269,8 +323,7 @@ class CarrierPlate:
     def screw_lengths(self) -> tuple[float, ...]:
         """Length of each of the trunk's screws under its head [m]."""
         return tuple(
-            self.screw.length_through(self.clamped + each, self.thread_depth)
-            for each in self.sleeves
+            self.screw.length_through(self.clamped + each, self.thread_depth) for each in self.gaps
         )
 
     @property
@@ -281,7 +334,7 @@ class CarrierPlate:
     @property
     def fastenings(self) -> tuple[Fastening, ...]:
         """The trunk's screws, those of one length together; each through its longest sleeve."""
-        longest = dict(sorted(zip(self.screw_lengths, self.sleeves, strict=True)))
+        longest = dict(sorted(zip(self.screw_lengths, self.gaps, strict=True)))
         return tuple(
             Fastening(
                 self.screw,
@@ -339,17 +392,24 @@ class CarrierPlate:
         return combine(bodies)
 
 
+def steepest(plate: CarrierPlate) -> float:
+    """Largest angle of the trunk under a screw's head off square to it [rad], by its block."""
+    return float(np.arctan(np.linalg.norm(plate.slopes, axis=1).max(initial=0.0)))
+
+
 def _chord(radius: float, off: FloatArray) -> FloatArray:
     """Half the chord of a circle so far off its middle [m]."""
     return np.asarray(np.sqrt(np.maximum(0.0, radius**2 - off**2)))
 
 
 def plate_bodies(plate: CarrierPlate) -> Iterator[tuple[Part[float], Placement]]:
-    """Plates, mast and sleeves, each with its place in the plate's own frame."""
+    """Plates, mast, formed block and sleeves, each with its place in the plate's own frame."""
     here = Placement.identity()
     yield plate_part(plate), here
     if plate.mast is not None:
         yield mast_part(plate, plate.mast), here
+    if plate.relief is not None:
+        yield block_part(plate, plate.relief), here
     for place, length in zip(plate.screw_places, plate.sleeves, strict=True):
         if length > 0.0:
             yield sleeve_part(plate, length), place
@@ -396,11 +456,12 @@ def mast_part(plate: CarrierPlate, mast: Mast) -> Part[float]:
     solids += [Prism(tube, 0.0, arm, level) for level in levels]
     holes = [Prism(within, mast.low, mast.high)]
     holes += [Prism(inside, 0.0, arm, level) for level in levels]
-    walls = (-mast.spacer, mast.wall), (far, mast.side)
-    if mast.spacer > 0.0:
+    flat = 0.0 if mast.formed else mast.spacer
+    walls = (-flat, mast.wall), (far, mast.side)
+    if flat > 0.0:
         block = Rectangle(*plate.block, -half, half)
         front = Placement(BACKWARDS, np.array([face, 0.0, 0.0]))
-        solids.append(Prism(block, -mast.spacer, 0.0, front))
+        solids.append(Prism(block, -flat, 0.0, front))
     drilled = Disc(plate.screw.clearance_hole / 2.0)
     holes += [
         Prism(drilled, low, high, Placement(BACKWARDS, np.array([face, y, z])))
@@ -408,6 +469,11 @@ def mast_part(plate: CarrierPlate, mast: Mast) -> Part[float]:
         for low, high in walls
     ]
     return Part("mast", plate.density, tuple(solids), tuple(holes))
+
+
+def block_part(plate: CarrierPlate, relief: Relief) -> Part[float]:
+    """The block that has the trunk's form, in the plate's frame."""
+    return Part("block", plate.density, (relief,))
 
 
 def sleeve_part(plate: CarrierPlate, length: float) -> Part[float]:

@@ -89,7 +89,11 @@ def screw_use(held: Screw, tension: FloatArray, shear: FloatArray) -> FloatArray
 
 
 def pattern_use(
-    held: Screw, force: float, arms: tuple[float, FloatArray], half: tuple[FloatArray, FloatArray]
+    held: Screw,
+    force: float,
+    arms: tuple[float, FloatArray],
+    half: tuple[FloatArray, FloatArray],
+    sheared: float | FloatArray = 0.0,
 ) -> FloatArray:
     """Largest share of strength that a force along any one axis takes of four screws.
 
@@ -99,11 +103,12 @@ def pattern_use(
     Args:
         held: the screws. force: on all that they hold [N].
         arms: of the force, off what they are in and above their middle [m]. half: p and q [m].
+        sheared: what shears each besides, whatever the force [N].
     """
     (off, up), (p, q), share = arms, half, force / 4.0
-    down = screw_use(held, share * off / p, np.asarray(share))
-    forward = screw_use(held, share * (1.0 + up / p), np.asarray(0.0))
-    sideways = screw_use(held, share * off / q, share * (1.0 + up / np.hypot(p, q)))
+    down = screw_use(held, share * off / p, np.asarray(share + sheared))
+    forward = screw_use(held, share * (1.0 + up / p), np.asarray(sheared))
+    sideways = screw_use(held, share * off / q, share * (1.0 + up / np.hypot(p, q)) + sheared)
     return np.maximum(np.maximum(down, forward), sideways)
 
 

@@ -125,7 +125,8 @@ def mast_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
     """Largest share of strength that `SHOCK` along any one axis takes of a mast's screws.
 
     See `pattern_use`; a push sideways bends sleeves between trunk and block by half of their
-    length as well.
+    length as well. On a slope the preload pushes a formed block downhill. It is one piece: what the
+    slopes under its screws leave of each other shears all alike, and friction is not counted.
     """
     if plate.mast is None:
         return 0.0
@@ -134,9 +135,10 @@ def mast_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
     p, q = np.ptp(z) / 2.0, np.ptp(y) / 2.0
     up = abs(float(np.mean(plate.heights)) + plate.thickness + height - float(z.mean()))
     gap, (_, section, _) = max(plate.sleeves), plate.sleeve_section
-    off = plate.mast.face + plate.mast.spacer + gap
+    off = plate.mast.face + plate.mast.spacer + max(plate.gaps)
     bent = force / 4.0 * (1.0 + up / hypot(p, q)) * gap / 2.0 / section
-    used = float(pattern_use(plate.screw, force, (off, np.asarray(up)), (p, q)))
+    downhill = plate.screw.preload * float(np.linalg.norm(plate.slopes.mean(axis=0)))
+    used = float(pattern_use(plate.screw, force, (off, np.asarray(up)), (p, q), downhill))
     return max(used, bent / (ALUMINIUM.strength / SAFETY))
 
 

@@ -1,4 +1,4 @@
-"""Solids with exact moments, prisms of flat shapes and bodies of revolution, and parts of them."""
+"""Solids with exact moments: prisms, bodies of revolution, reliefs; and parts of them."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -134,7 +134,117 @@ class Prism(Generic[Real]):
         return turned.moved(*self.placement.position.tolist())
 
 
-Solid: TypeAlias = Revolution | Prism
+@dataclass(frozen=True, eq=False)
+class Relief:
+    """A block over a rectangle whose upper face goes up and down, drilled through.
+
+    Each cell of the grid is two triangles, on both sides of the diagonal from its first corner.
+
+    Attributes:
+        left, right, bottom, top: ends of the rectangle along x and y [m].
+        heights: of that face, above 0, at the corners of even cells, along x and y [m], shape (m,
+            n).
+        holes: x, y and radius of each, along z right through [m].
+        placement: of its frame in the part's.
+    """
+
+    left: float
+    right: float
+    bottom: float
+    top: float
+    heights: FloatArray
+    holes: tuple[tuple[float, float, float], ...] = ()
+    placement: Placement = HERE
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "heights", frozen(self.heights))
+
+    def each(self) -> Iterator["Relief"]:
+        """The solid itself, as a ring of prisms gives each of them."""
+        yield self
+
+    @property
+    def x(self) -> FloatArray:
+        """Places of the corners along x [m], shape (m,)."""
+        return np.linspace(self.left, self.right, self.heights.shape[0])
+
+    @property
+    def y(self) -> FloatArray:
+        """Places of the corners along y [m], shape (n,)."""
+        return np.linspace(self.bottom, self.top, self.heights.shape[1])
+
+    def height(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """Heights of the face at places of the rectangle [m]."""
+        (m, n), found = self.heights.shape, []
+        for of, low, high, count in ((x, self.left, self.right, m), (y, self.bottom, self.top, n)):
+            cell = (np.asarray(of) - low) / (high - low) * (count - 1)
+            index = np.clip(np.floor(cell), 0, count - 2).astype(np.intp)
+            found.append((index, cell - index))
+        (i, u), (j, v) = found
+        h = self.heights
+        first, last = h[i, j], h[i + 1, j + 1]
+        corner = np.where(u >= v, h[i + 1, j], h[i, j + 1])
+        most, least = np.maximum(u, v), np.minimum(u, v)
+        return np.asarray(first + most * (corner - first) + least * (last - corner))
+
+    def volume(self) -> float:
+        """Volume [m^3]."""
+        return self.moments().mass
+
+    def moments(self) -> MassMoments[float]:
+        """Moments in the part's frame, of unit density, exact but for what the holes take.
+
+        Over each triangle integrals over z leave polynomials of degree 3 at most, which four points
+        integrate exactly (Strang and Fix). Over the holes many points do.
+        """
+        x, y, area = self._points()
+        h = self.height(x, y)
+        # The four points of a triangle are inside it, so that rounding leads to no other.
+        first, second, third = area * h, area * h**2 / 2.0, area * h**3 / 3.0
+        own = MassMoments(
+            mass=float(first.sum()),
+            x=float((first * x).sum()),
+            y=float((first * y).sum()),
+            z=float(second.sum()),
+            xx=float((first * x**2).sum()),
+            yy=float((first * y**2).sum()),
+            zz=float(third.sum()),
+            xy=float((first * x * y).sum()),
+            xz=float((second * x).sum()),
+            yz=float((second * y).sum()),
+        )
+        turned = own.turned(self.placement.rotation)
+        return turned.moved(*self.placement.position.tolist())
+
+    def _points(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Places that stand for shares of the face less its holes [m], and their areas [m^2]."""
+        xs, ys = self.x, self.y
+        wide, tall = float(xs[1] - xs[0]), float(ys[1] - ys[0])
+        share = np.array([[1.0, 1.0, 1.0], [1.8, 0.6, 0.6], [0.6, 1.8, 0.6], [0.6, 0.6, 1.8]]) / 3.0
+        weight = np.array([-27.0, 25.0, 25.0, 25.0]) / 48.0 * wide * tall / 2.0
+        x, y, area = [], [], []
+        for corners in (((0, 0), (1, 0), (1, 1)), ((0, 0), (0, 1), (1, 1))):
+            u, v = (share @ np.array(corners)).T
+            one, other = np.broadcast_arrays(
+                xs[:-1, None, None] + wide * u, ys[None, :-1, None] + tall * v
+            )
+            x.append(one.ravel())
+            y.append(other.ravel())
+            area.append(np.broadcast_to(weight, one.shape).ravel())
+        angles = (np.arange(64) + 0.5) * 2.0 * pi / 64
+        radii = np.sqrt((np.arange(16) + 0.5) / 16)
+        around = (radii[:, None, None] * np.stack([np.cos(angles), np.sin(angles)], 1)).reshape(
+            -1, 2
+        )
+        for middle_x, middle_y, radius in self.holes:
+            places = radius * around + [middle_x, middle_y]
+            x.append(places[:, 0])
+            y.append(places[:, 1])
+            area.append(np.full(len(places), -pi * radius**2 / len(places)))
+        return np.concatenate(x), np.concatenate(y), np.concatenate(area)
+
+
+Solid: TypeAlias = Revolution | Prism | Relief
 
 
 def hollow_cylinder(inner: float, outer: float, low: float, high: float) -> Revolution:
@@ -168,7 +278,7 @@ class Part(Generic[Real]):
 
     name: str
     density: float
-    solids: tuple[Revolution | Prism[Real], ...]
+    solids: tuple[Revolution | Prism[Real] | Relief, ...]
     holes: tuple[Prism[Real] | Revolution, ...] = ()
 
     @property
@@ -177,7 +287,7 @@ class Part(Generic[Real]):
         return tuple(one for solid in self.solids for one in solid.each())
 
     @property
-    def cut(self) -> tuple[Solid, ...]:
+    def cut(self) -> tuple[Revolution | Prism, ...]:
         """What is cut out of a drawn part, one by one."""
         return tuple(one for solid in self.holes for one in solid.each())
 

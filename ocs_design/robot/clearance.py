@@ -6,6 +6,7 @@ from functools import lru_cache
 from itertools import product
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ocs_design.robot.collision import CollisionModel, Nearest, Part, Poses, Posture, Probe
 from ocs_design.robot.leg_geometry import leg_geometries
@@ -78,10 +79,71 @@ def drawn(ranges: Ranges, count: int = SAMPLES) -> Sequence[Posture]:
     return [dict(zip(ranges, map(float, row), strict=True)) for row in values]
 
 
+LEVEL = np.pi / 36.0
+"""Farthest that a robot lands off level [rad]: 5 degrees are allowed."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Standing:
+    """A leg that stands on its foot.
+
+    Attributes:
+        joints: that move it alone. foot: its last part.
+        above: all others on the way to it, the trunk among them.
+    """
+
+    joints: tuple[str, ...]
+    foot: Part
+    above: tuple[Part, ...]
+
+    def holds(self, collision: CollisionModel, poses: Poses) -> NDArray[np.bool_]:
+        """Whether in each posture nothing of leg or trunk is lower than its foot, shape (n,).
+
+        On a robot that is off level by `LEVEL`, as well.
+        """
+        foot, found = collision.lowest(poses, self.foot), np.ones(len(poses.postures), dtype=bool)
+        for part in self.above:
+            off = foot - collision.lowest(poses, part)
+            found &= off[:, 2] <= np.tan(LEVEL) * np.hypot(off[:, 0], off[:, 1])
+        return found
+
+
 @lru_cache(maxsize=1)
-def landing_poses(collision: CollisionModel) -> Poses:
-    """The nominal posture, and postures drawn from `landing_ranges`."""
-    return collision.poses([{}, *drawn(landing_ranges(collision.robot))])
+def standing_legs(collision: CollisionModel) -> tuple[_Standing, ...]:
+    """Legs whose feet are known, and are what the robot stands on in the nominal posture."""
+    robot, found = collision.robot, []
+    for leg in robot.legs:
+        name = robot.tree.bodies[leg.body].name
+        for foot in (part for part in collision.parts if part.name == name):
+            before = [each for each in collision.parts if each is not foot]
+            above = (each for each in before if foot.joints[: len(each.joints)] == each.joints)
+            shared = {joint for each in robot.legs if each is not leg for joint in each.joints}
+            own = tuple(joint for joint in leg.joints if joint not in shared)
+            stands = _Standing(own, foot, tuple(above))
+            if stands.holds(collision, collision.nominal).all():
+                found.append(stands)
+    return tuple(found)
+
+
+@lru_cache(maxsize=2)
+def landing_poses(collision: CollisionModel, *, on_feet: bool = False) -> Poses:
+    """The nominal posture, and postures drawn from `landing_ranges`.
+
+    Args:
+        collision: of the robot.
+        on_feet: a leg that would no longer stand on its foot, as where its heel is kicked up
+            behind, is in the nominal posture instead.
+    """
+    postures = [{}, *map(dict, drawn(landing_ranges(collision.robot)))]
+    poses = collision.poses(postures)
+    if not on_feet:
+        return poses
+    for leg in standing_legs(collision):
+        for row in np.flatnonzero(~leg.holds(collision, poses)).tolist():
+            postures[row] = {
+                name: value for name, value in postures[row].items() if name not in leg.joints
+            }
+    return collision.poses(postures)
 
 
 _FIRST_STEP = 0.125
@@ -100,6 +162,7 @@ def descended(
     ranges: Ranges,
     *,
     enough: float = -np.inf,
+    on_feet: bool = False,
 ) -> Nearest:
     """Nearest that a part comes to a solid around a posture in which it is near already.
 
@@ -111,9 +174,13 @@ def descended(
         start: from there.
         ranges: of joints, which are kept.
         enough: distance below which it need not be nearer [m].
+        on_feet: whether legs stand on their feet: see `landing_poses`.
     """
     robot = collision.robot
     joints = [name for name in start.part.joints if name in ranges]
+    standing = standing_legs(collision) if on_feet else ()
+    legs = [leg for leg in standing if set(leg.joints) & set(joints)]
+    placed = [start.part, *(part for leg in legs for part in (leg.foot, *leg.above))]
     best, share = start, _FIRST_STEP
     for _ in range(_HALVINGS):
         while best.distance >= enough:
@@ -125,7 +192,9 @@ def descended(
                 value = min(max(here + step * (upper - lower), lower), upper)
                 if value != here:
                     around.append({name: value})
-            poses = collision.poses(around, [best.part], start=best.posture)
+            poses = collision.poses(around, list(dict.fromkeys(placed)), start=best.posture)
+            for leg in legs:
+                poses = poses.take(leg.holds(collision, poses))
             nearer = collision.nearest(probe, poses, [best.part], within=best.distance - _PROGRESS)
             if nearer is None:
                 break

@@ -7,6 +7,7 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
+from itertools import product
 from types import MappingProxyType
 from typing import Any
 
@@ -163,6 +164,11 @@ class Poses:
         """Least and largest coordinates of each geom's middle [m], each of shape (ngeom, 3)."""
         return self.positions.min(axis=0), self.positions.max(axis=0)
 
+    def take(self, which: NDArray[np.bool_]) -> "Poses":
+        """Those of the postures that are marked."""
+        postures = [self.postures[row] for row in np.flatnonzero(which).tolist()]
+        return Poses(postures, self.positions[which], self.axes[which])
+
     def __getitem__(self, index: int) -> "Poses":
         """The posture with this number alone."""
         one = slice(index, index + 1)
@@ -247,6 +253,17 @@ class CollisionModel:
         axes[:, geoms] = (into @ turned).reshape(count, len(geoms), 9)
         whole = [{**start, **posture} for posture in postures] if start else postures
         return Poses(whole, positions, axes)
+
+    def lowest(self, poses: Poses, part: Part) -> FloatArray:
+        """Lowest corner of the boxes around a part's shapes in each posture, in B, shape (n, 3)."""
+        box = self._model.geom_aabb[part.geoms]
+        signs = np.array(list(product((-1.0, 1.0), repeat=3)))
+        own = box[:, None, :3] + signs * box[:, None, 3:]
+        axes = poses.axes[:, part.geoms].reshape(-1, len(part.geoms), 3, 3)
+        corners = np.einsum("ngij,gcj->ngci", axes, own) + poses.positions[:, part.geoms, None]
+        corners = corners.reshape(len(corners), -1, 3)
+        least = corners[:, :, 2].argmin(axis=1)
+        return np.asarray(corners[np.arange(len(corners)), least])
 
     def _move(self, qpos: FloatArray, posture: Posture) -> None:
         """Put a posture's joints, and those that mimic them, into MuJoCo's coordinates."""

@@ -64,6 +64,18 @@ class Surface:
         )
         return np.asarray(self._bordered.ravel()[i * columns + j])
 
+    def between(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """Heights at places in B [m], each between the four places around it; nan: one has none."""
+        rows, columns = self._bordered.shape
+        (i, u), (j, v) = (
+            (np.clip(np.floor(at), 0.0, count - 2.0).astype(np.intp), at - np.floor(at))
+            for of, start, count in ((x, self.x, rows), (y, self.y, columns))
+            for at in (np.clip((of - start) / self.step + 1.0, 0.0, count - 1.0),)
+        )
+        known = np.where(np.isfinite(self._bordered), self._bordered, np.nan)
+        near, far = (known[i + side, j] * (1.0 - v) + known[i + side, j + 1] * v for side in (0, 1))
+        return np.asarray(near * (1.0 - u) + far * u)
+
     @cached_property
     def _bordered(self) -> FloatArray:
         """The heights with a border of places where there is nothing [m]."""

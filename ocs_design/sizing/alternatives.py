@@ -217,7 +217,8 @@ def _hangs(choice: Choice, robot: Robot) -> bool:
     if trunk_surface(robot) is None:
         return False
     device = assemble_selected(choice.chosen)
-    return footing_under(device, robot, stated=choice.problem.place.stated) is None
+    stated, formed = choice.problem.place.stated, choice.problem.formed
+    return footing_under(device, robot, stated=stated, formed=formed) is None
 
 
 def _whole(specification: Specification, resolved: Resolved, robot: Robot) -> Candidate | None:

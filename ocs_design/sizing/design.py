@@ -24,7 +24,7 @@ from ocs_design.sizing.assembly import assemble, assemble_selected
 from ocs_design.sizing.bound.device_problem import DeviceProblem
 from ocs_design.sizing.bound.device_sizing import size_device
 from ocs_design.sizing.footing.feet import in_vain
-from ocs_design.sizing.footing.standing import stand_on_trunk
+from ocs_design.sizing.footing.standing import footing_under, stand_on_trunk
 from ocs_design.sizing.free_place import specified_place
 from ocs_design.sizing.limits import DEVICE_MASS, Progress
 from ocs_design.sizing.on_robot import in_rings, on_its_footing, with_plate
@@ -146,6 +146,17 @@ def _designed(
         require_survival(problem)
         reserve = reserve or Reserve(resolved.reliability)
         designed = _by_selection(specification, problem, robot, reserve, ranked=ranked)
+        at, fixed = designed.device, problem.place.stated
+        # The last resort, after all that holds on what is flat.
+        if (
+            at.layout.pairs
+            and footing_under(at, robot, stated=fixed) is None
+            and footing_under(at, robot, stated=fixed, formed=True) is not None
+        ):
+            problem = replace(problem, formed=True)
+            with suppress(Infeasible):
+                again = _by_selection(specification, problem, robot, reserve, ranked=ranked)
+                designed = designed if again.device.plate is None else again
     device, most = designed.device, specification.ocs.mass_max
     # Nothing is lighter than the lightest: no search is needed.
     if most is None or device.mass <= most:
@@ -276,7 +287,7 @@ def _by_selection(
 
     # A co-design makes the selected device smaller, and its plate with it.
     device = assemble_selected(chosen)
-    device = stand_on_trunk(device, robot, stated=problem.place.stated)
+    device = stand_on_trunk(device, robot, stated=problem.place.stated, formed=problem.formed)
     carried, bodies = device.plated(robot.mass_properties), (chosen.wheel, chosen.carrier)
     centers = np.stack([module.position for module in device.modules])
     total = braked(carried, bodies, centers, device.incidence, device.layout)

@@ -228,17 +228,22 @@ def place_free(robot: Robot, envelope: Envelope, layout: Layout = PAIR) -> FreeP
 class Search:
     """Looks for places that no limb comes near.
 
-    Attributes: see `CollisionModel`, `Sizes` and `Layout`.
+    Attributes:
+        collision, sizes, layout: see `CollisionModel`, `Sizes` and `Layout`.
+        on_feet: whether legs that give way stand on their feet: see `landing_poses`.
     """
 
     collision: CollisionModel
     sizes: Sizes
     layout: Layout = PAIR
+    on_feet: bool = False
 
     @classmethod
-    def of(cls, robot: Robot, size: Size[float], layout: Layout) -> "Search":
+    def of(
+        cls, robot: Robot, size: Size[float], layout: Layout, *, on_feet: bool = False
+    ) -> "Search":
         """Search for modules of this size alone."""
-        return cls(collision_model(robot), Sizes(size, size), layout)
+        return cls(collision_model(robot), Sizes(size, size), layout, on_feet)
 
     def spots(self) -> list[tuple[Face, Spot]]:
         """Spots of all faces, the nearest first."""
@@ -284,10 +289,11 @@ class Search:
         """Whether a solid touches anything in landings, or between the postures that are drawn."""
         # Thin tubes are looked at as closely as the modules on them.
         gap = _NEAR * max(solid.radius, CLEARANCE * self.sizes.smallest.reach)
-        poses, enough = landing_poses(self.collision), -_ROUNDING
+        poses, enough = landing_poses(self.collision, on_feet=self.on_feet), -_ROUNDING
         near = self.collision.nearest(solid, poses, self._others, within=gap, enough=enough)
         if near is not None:
-            near = descended(self.collision, solid, near, self._ranges, enough=enough)
+            ranges, on_feet = self._ranges, self.on_feet
+            near = descended(self.collision, solid, near, ranges, enough=enough, on_feet=on_feet)
         return near is not None and near.distance < -_ROUNDING
 
     @cached_property

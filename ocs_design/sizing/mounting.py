@@ -184,10 +184,14 @@ def mounting_of(
     feet = contacts_of(robot, device)
     # The legs give way in a landing.
     limbs = [part for part in collision.parts if part.limb]
-    poses, ranges = landing_poses(collision), landing_ranges(collision.robot)
+    # A mast's formed block is the last resort, and no heel is kicked up against it.
+    on_feet = device.plate is not None and device.plate.relief is not None
+    poses, ranges = landing_poses(collision, on_feet=on_feet), landing_ranges(collision.robot)
     near = [(solid, collision.nearest(solid, poses, limbs)) for solid in solids]
     landing = [
-        descended(collision, solid, each, ranges) for solid, each in near if each is not None
+        descended(collision, solid, each, ranges, on_feet=on_feet)
+        for solid, each in near
+        if each is not None
     ]
     return Mounting(
         nearest=_nearest_part(collision, device, flown, surface),

@@ -74,7 +74,8 @@ def with_plate(candidate: Candidate, problem: SelectionProblem, robot: Robot) ->
         robot: that carries it.
     """
     device = assemble_selected(candidate)
-    device = stand_on_trunk(device, robot, stated=problem.place.stated)
+    stated, formed = problem.place.stated, problem.formed
+    device = stand_on_trunk(device, robot, stated=stated, formed=formed)
     return replace(candidate, plate=device.plate, pedestals=device.pedestals)
 
 
@@ -228,7 +229,8 @@ def _own_footing(problem: SelectionProblem, best: Candidate, robot: Robot) -> Se
     # Thicker feet are a little heavier, and ask for more.
     if not least <= feet <= least + _TOO_THICK:
         feet = least
-    footing = footing_under(device, robot, stated=stated) or Footing(problem.place, None)
+    found = footing_under(device, robot, stated=stated, formed=problem.formed)
+    footing = found or Footing(problem.place, None)
     carried = footing.carried(robot.mass_properties)
     place = problem.place if stated else footing.place
     return replace(problem, robot=carried, place=place, foot_plate=feet)

@@ -27,12 +27,13 @@ from OCP.TopoDS import TopoDS_Shape
 from OCP.XCAFApp import XCAFApp_Application
 from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 
-from ocs_design.common.frames import Placement
+from ocs_design.common.frames import FORWARDS, Placement
 from ocs_design.device.bodies import STEEL, carrier_placement, wheel_placement
 from ocs_design.export.assembly.placed import placed_parts
 from ocs_design.export.step import device_bytes, module_bytes, step_bytes
 from ocs_design.export.visuals import ALUMINIUM, MOTOR, PRINT
 from ocs_design.parts.carrier_plate import Mast, mast_part, plate_part
+from ocs_design.parts.solids import Part, Relief
 
 TOLERANCE = 1e-9
 
@@ -206,3 +207,18 @@ def test_the_device_has_every_module_in_its_place_and_its_plates(tmp_path, plate
     assert step_bytes(plate_part(plate)).count(b"MANIFOLD_SOLID_BREP(") == len(plate.each)
     wheels = [each.solid.com for each in found if each.path[-1] == "flywheel"]
     np.testing.assert_allclose(wheels, [module.position for module in device.modules], atol=1e-9)
+
+
+def test_a_formed_face_is_one_smooth_surface(tmp_path):
+    """It goes through the corners of its cells; the closed form has flat triangles between them."""
+    x, y = np.linspace(-1.0, 1.0, 31)[:, None], np.linspace(-1.0, 1.0, 41)
+    heights = 0.01 + 0.006 * (x**2 + 0.5 * y**2)
+    place = Placement(FORWARDS, np.array([0.01, 0.02, 0.03]))
+    holes = (0.015, 0.0, 0.0045), (-0.015, 0.02, 0.0045)
+    block = Part("block", 2710.0, (Relief(-0.03, 0.03, -0.03, 0.05, heights, holes, place),))
+    (tmp_path / "block.step").write_bytes(step_bytes(block))
+    shape = read(tmp_path / "block.step")
+    assert BRepCheck_Analyzer(shape).IsValid()
+    found, own = integrated(shape), block.mass_properties()
+    assert found.volume * block.density == pytest.approx(own.mass, rel=2e-3)
+    assert found.com == pytest.approx(own.com, abs=1e-5)

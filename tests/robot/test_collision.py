@@ -14,8 +14,9 @@ import trimesh
 from pinocchio_robots import configuration
 from robots import ROBOTS
 
-from ocs_design.robot.clearance import drawn, full_ranges, reaches
+from ocs_design.robot.clearance import drawn, full_ranges, landing_poses, reaches
 from ocs_design.robot.collision import CollisionModel
+from ocs_design.robot.meshes import trunk_extent
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.tree import Ball, Drum
 
@@ -210,3 +211,33 @@ def test_a_fine_mesh_that_only_shows_is_met_by_its_hull(tmp_path):
     probe = Ball(np.array([0.0, 0.0, 0.0]), 0.05)
     near = model.nearest(probe, model.nominal, [arm])
     assert near.distance == pytest.approx(0.5 - 0.1 - 0.05, abs=1e-3)
+
+
+def test_legs_that_give_way_on_their_feet_kick_no_heel_up():
+    """A foot's middle is below all of the trunk; what other legs do is as it was drawn."""
+    collision = collision_model("human_description/robots/human")
+    robot = collision.robot
+    low = -trunk_extent(robot.tree, robot.trunk, -np.eye(3)[2])
+    postures = {each: landing_poses(collision, on_feet=each).postures for each in (False, True)}
+
+    def heights(postures):
+        """Heights of the feet in B [m], a row for each posture."""
+        return np.array(
+            [
+                [
+                    (frames[leg.body].rotation @ leg.foot + frames[leg.body].position)[2]
+                    for leg in robot.legs
+                ]
+                for posture in postures
+                for frames in (
+                    robot.tree.placements_from(robot.trunk, {**robot.posture, **posture}),
+                )
+            ]
+        )
+
+    drawn_ones, standing = heights(postures[False]), heights(postures[True])
+    assert drawn_ones.max() > low
+    assert standing.max() < low
+    same = np.isclose(drawn_ones, standing)
+    assert 0.6 < same.mean() < 1.0
+    assert standing[~same] == pytest.approx(np.broadcast_to(standing[0], same.shape)[~same])

@@ -21,6 +21,7 @@ from ocs_design.export.assembly.trials import balance, safety, spin_test, sweep
 from ocs_design.export.assembly.views import BALLOON, exploded_view, section_view
 from ocs_design.export.assembly_notes import drive_notes, trunk_threads
 from ocs_design.export.bill_of_materials import BillRow, bill_rows
+from ocs_design.export.device_parts import BLOCK
 from ocs_design.export.drawing.sheet import (
     FRAME_BOX,
     THIN,
@@ -79,6 +80,7 @@ _LABELS = {
     "guard": "guard ring",
     "plate": "plate under the feet",
     "mast": "mast behind the trunk",
+    BLOCK: "block between mast and trunk",
     "sleeves": "sleeves around the trunk's screws",
     "ring_fixture": "fixture to bond a ring in",
 }
@@ -320,9 +322,10 @@ def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]
     if name == "guard":
         assert row is not None, "the bill has a row for the ring"
         return f"{row.material}, {row.stock}", "guard_ring.stl"
-    if name in ("plate", "mast", "sleeves"):
-        cut = "" if row is None else f" from {row.material}, {row.stock}"
-        return f"cut{cut}", "" if name == "sleeves" else "plate.pdf"
+    cut = {"plate": "plate.pdf", "mast": "plate.pdf", "sleeves": "", BLOCK: "block.stl"}
+    if name in cut:
+        stock = "" if row is None else f" from {row.material}, {row.stock}"
+        return f"{'milled' if name == BLOCK else 'cut'}{stock}", cut[name]
     made = "turned" if row is None else f"turned from {row.stock}, {row.material}"
     return made, "wheel.pdf"
 

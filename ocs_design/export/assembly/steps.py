@@ -23,6 +23,7 @@ from ocs_design.device.layout import PAIR
 from ocs_design.device.solids import drive_solids, foot_of, shaft_cut
 from ocs_design.export.assembly.content import LEAST_DRILL, Assembly, Tightened
 from ocs_design.export.device_parts import (
+    BLOCK,
     foot_holes,
     pedestal_kinds,
     places,
@@ -31,7 +32,7 @@ from ocs_design.export.device_parts import (
 )
 from ocs_design.export.drawing.wheel import shrunk_on
 from ocs_design.parts.bell import GLUE_GAP
-from ocs_design.parts.carrier_plate import CarrierPlate
+from ocs_design.parts.carrier_plate import TOUCH, CarrierPlate, steepest
 from ocs_design.parts.foot import LONG_MARKS
 from ocs_design.parts.housing import FINGER, lid_sag
 from ocs_design.parts.joints import EPOXY
@@ -351,6 +352,8 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
             f"Drill it {1e3 * plate.screw.clearance_hole:.1f} mm through both walls, with "
             f"a sleeve of {1e3 * mast.bore:.1f} mm between them around each screw."
         )
+        if plate.relief is not None:
+            yield _block_step(assembly, plate)
     own = zip(places(trunk_holes(plate)), plate.sleeves, strict=True)
     sleeves = [f"{1e3 * length:.2f} mm at {at}" for at, length in own if length > 0.0]
     if sleeves:
@@ -359,6 +362,23 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
         )
     yield from (
         assembly.screwed(each) for each in assembly.late if each.startswith(("plate on", "mast on"))
+    )
+
+
+def _block_step(assembly: Assembly, plate: CarrierPlate) -> str:
+    """How the block that has the trunk's form is made, and is the jig for the trunk's holes."""
+    mast, held = plate.mast, plate.screw
+    assert mast is not None, "a block of a mast"
+    thin, thick = 1e3 * min(map(min, mast.formed)), 1e3 * mast.off
+    tilt = format_quantity(steepest(plate), "deg", digits=2)
+    return (
+        f"Mill the block{assembly.number(BLOCK)} to cad/block.stl or block.step, {thin:.1f} to "
+        f"{thick:.1f} mm thick: its front has the trunk's form. Weld it before the upright, its "
+        "lower end level with the end of the block in cad/plate.pdf, and drill both together. Hold "
+        "the mast on the trunk where the block fits: it does in one place, and nowhere is more "
+        f"than {1e3 * TOUCH:g} mm between them. With bushes of {1e3 * held.clearance_hole:g} x "
+        f"{1e3 * held.tapping_drill:g} mm in its holes it is the jig for the trunk's, which go "
+        f"along the screws, up to {tilt} off square to the trunk. Bed it in filled epoxy."
     )
 
 

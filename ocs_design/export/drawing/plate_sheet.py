@@ -254,10 +254,10 @@ def _plate_notes(plate: CarrierPlate) -> Iterator[str]:
 def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[Scale, list[Item]]:
     """The mast from the left, forward to the left as first angle has it, and from behind."""
     half, end = mast.side / 2.0, -plate.neck
-    long, high = mast.face + mast.spacer - end, mast.high - mast.low
+    long, high = mast.face + mast.off - end, mast.high - mast.low
     left, top, right, bottom = _MAST_VIEW
     scale = largest_scale((long + mast.side, right - left - _BETWEEN), (high, bottom - top - 12.0))
-    start = left + scale(mast.face + mast.spacer)
+    start = left + scale(mast.face + mast.off)
     upper = top + 4.0
 
     def side(x: float, z: float) -> Point:
@@ -275,14 +275,20 @@ def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[Scale, list[Item]]:
     for level in plate.heights:
         items += _box(side(mast.back, level), side(end, level - mast.side))
         items += _box(back(half, level), back(-half, level - mast.side))
-    if mast.spacer > 0.0:
-        low, up = plate.block
+    low, up = plate.block
+    if plate.relief is not None:
+        # Its outline is what stands farthest forward.
+        outermost = zip(plate.relief.heights.max(axis=0).tolist(), plate.relief.y, strict=True)
+        form = [side(mast.face + thick, float(z)) for thick, z in outermost]
+        under, over = side(mast.face, low), side(mast.face, up)
+        items.append(Polyline((under, *form, over, under), OUTLINE))
+    elif mast.spacer > 0.0:
         items += _box(side(mast.face + mast.spacer, up), side(mast.face, low))
     radius = scale(plate.screw.clearance_hole) / 2.0
     for y, z in plate.trunk:
         items += [Circle(back(y, z), radius), *cross(back(y, z), radius + 2.0)]
     for z in sorted({z for _, z in plate.trunk}):
-        (near, along), (far, _) = side(mast.face + mast.spacer, z), side(mast.back, z)
+        (near, along), (far, _) = side(mast.face + mast.off, z), side(mast.back, z)
         items.append(Line((near - 3.0, along), (far + 3.0, along), CENTRE))
     # Heights of ends and holes from the plates' underside, level with the lowest.
     beside = back(-half, 0.0)[0]
@@ -329,8 +335,15 @@ def _mast_notes(plate: CarrierPlate, mast: Mast) -> Iterator[str]:
         f"each, between the walls, a sleeve Ø{plain(2.0 * plate.sleeve_radius)} × "
         f"{plain(plate.sleeve_wall)}, {plain(mast.bore)} long."
     )
-    if mast.spacer > 0.0:
-        low, high = plate.block
+    low, high = plate.block
+    if mast.formed:
+        thin, thick = plain(min(map(min, mast.formed))), plain(mast.off)
+        yield (
+            f"A block of {plain(mast.side)} × {plain(high - low)}, {thin} to {thick} thick, milled "
+            "to cad/block.stl or block.step, whose front has the trunk's form, is welded before "
+            f"the upright from z = {1e3 * low:.2f} up, and drilled with it."
+        )
+    elif mast.spacer > 0.0:
         yield (
             f"A block of {plain(mast.spacer)} × {plain(mast.side)} × {plain(high - low)} is welded "
             "before the upright, around the holes, and drilled with it."

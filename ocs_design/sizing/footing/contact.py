@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ocs_design.common.arrays import FloatArray, frozen, vector
 from ocs_design.device.device import Device, Module
 from ocs_design.device.solids import foot_of, pedestal_of
-from ocs_design.parts.carrier_plate import CarrierPlate, Point
+from ocs_design.parts.carrier_plate import TOUCH, CarrierPlate, Point, steepest
 from ocs_design.parts.dog_bone import DogBone, directions
 from ocs_design.parts.module import part_name
 from ocs_design.parts.pedestal import Pedestal
@@ -24,6 +24,7 @@ from ocs_design.parts.printed import AROUND_SLOT
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_back, trunk_surface
 from ocs_design.sizing.footing.feet import feet_of, leans
+from ocs_design.sizing.footing.formed import TILT_MAX, off_trunk
 
 FLATNESS = 1e-3
 """Largest depth of a trunk's surface below what stands on it [m]: a washer's thickness."""
@@ -181,7 +182,10 @@ def _over_plate(plate: CarrierPlate, points: FloatArray) -> NDArray[np.bool_]:
 
 
 def _plate_contacts(robot: Robot, plate: CarrierPlate) -> Iterator[FootContact]:
-    """Contact of each of a plate's screws, or of its sleeve, with the trunk."""
+    """Contact of each of a plate's screws, or of its sleeve, with the trunk.
+
+    Of a block that has the trunk's form, that of its front.
+    """
     (x, y, z), mast = plate.position, plate.mast
     if mast is None:
         surface, plane = trunk_surface(robot), z
@@ -196,6 +200,10 @@ def _plate_contacts(robot: Robot, plate: CarrierPlate) -> Iterator[FootContact]:
                 for low, high in (plate.block, (mast.low, mast.high))
             )
             outline = max(block, upright - mast.spacer)
+            off = off_trunk(surface, plate)
+            if off is not None:
+                yield _formed_contact(plate, off, upright - mast.spacer - plane)
+                return
     what = "plate" if mast is None else "mast"
     for number, (hole, sleeve) in enumerate(zip(plate.trunk, plate.sleeves, strict=True), start=1):
         along, across = hole if mast is None else hole[::-1]
@@ -204,6 +212,20 @@ def _plate_contacts(robot: Robot, plate: CarrierPlate) -> Iterator[FootContact]:
         found = contact_of(name, surface, middle, radius, plane=plane - sleeve, lands=(0.0, radius))
         proud = max(found.proud, outline - plane)
         yield replace(found, proud=proud, held=found.held and proud <= PROUD)
+
+
+def _formed_contact(plate: CarrierPlate, off: FloatArray, upright: float) -> FootContact:
+    """Contact of a formed block.
+
+    Args:
+        plate: whose block it is. off: how far it is off the trunk all over its front [m].
+        upright: height of the trunk over the upright's front [m].
+    """
+    known = np.nan_to_num(off, nan=inf)
+    gap, proud = max(0.0, float(known.max())), max(0.0, -float(known.min()), upright)
+    share = float((np.abs(known) <= TOUCH).mean())
+    held = gap <= TOUCH and proud <= PROUD and steepest(plate) <= TILT_MAX
+    return FootContact("mast's block", "trunk", share, gap, proud, held)
 
 
 def contact_of(

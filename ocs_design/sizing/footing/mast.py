@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import chain, product
-from math import inf, sqrt
+from math import inf, sqrt, tan
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,7 @@ from ocs_design.parts.carrier_plate import (
     Mast,
     Point,
     plate_part,
+    steepest,
 )
 from ocs_design.parts.joints import pattern_use
 from ocs_design.parts.plate_strength import arm_stress, mast_screws_use, mast_stress
@@ -31,6 +32,13 @@ from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_back
 from ocs_design.sizing.footing.contact import FLATNESS, PROUD, disc_points
 from ocs_design.sizing.footing.feet import SENSES, Feet, Footing, looked_for
+from ocs_design.sizing.footing.formed import (
+    DEPTH_MAX,
+    LEAST,
+    TILT_MAX,
+    front_of,
+    thicknesses,
+)
 from ocs_design.sizing.footing.plate import (
     HEAD_ROOM,
     PATTERN_STEP,
@@ -46,6 +54,9 @@ MAST_SCREWS = tuple(map(screw, ("M4", "M5", "M6", "M8")))
 
 SPACERS = (0.0, 0.02, 0.04, 0.06, 0.08)
 """Blocks between a mast and the trunk that are tried, where a limb is in its way [m]."""
+
+FORMED_SPACERS = (LEAST, *SPACERS[1:])
+"""The same of blocks that have the trunk's form, where they are thinnest [m]."""
 
 SPREAD_MAX = 0.15
 """Largest distance of a mast's screws, up and down [m]."""
@@ -65,23 +76,32 @@ class _Spot:
     Attributes:
         far: whether its arms are long. height: of its lowest plate in B [m].
         spacer: thickness of the block before its upright [m].
+        formed: whether that block has the trunk's form, which is nowhere flat.
         lowest: that the upright may reach, as seen to be free of limbs [m].
     """
 
     far: bool
     height: float
     spacer: float
+    formed: bool
     lowest: float = -inf
 
 
-def footing_behind(robot: Robot, feet: Feet, layout: Layout) -> Footing | None:
+def footing_behind(
+    robot: Robot, feet: Feet, layout: Layout, *, formed: bool = False
+) -> Footing | None:
     """The place behind the trunk nearest to the robot's middle where a mast carries pairs.
 
     They stand one above the other, on plates of one kind, by the lightest tube that bears them.
+    Where none does, a block that has the trunk's form may be before it (`formed`).
     """
     back = trunk_back(robot)
-    spot = None if back is None else looked_for(_mast_spot, robot, feet, layout)
-    if back is None or spot is None:
+    if back is None:
+        return None
+    searches = (_mast_spot, _formed_spot) if formed else (_mast_spot,)
+    spots = (looked_for(each, robot, feet, layout) for each in searches)
+    spot = next((each for each in spots if each is not None), None)
+    if spot is None:
         return None
     feet = _stacked(feet, layout)
     search, arms = Search.of(robot, feet.size, layout), _all_arms(feet, far=spot.far)
@@ -138,11 +158,23 @@ def _stacked(feet: Feet, layout: Layout) -> Feet:
 @lru_cache(maxsize=64)
 def _mast_spot(robot: Robot, feet: Feet, layout: Layout) -> _Spot | None:
     """Place of a mast whose modules no limb reaches while the legs give way; None: nowhere."""
+    return _spot_of(robot, feet, layout, is_formed=False)
+
+
+@lru_cache(maxsize=64)
+def _formed_spot(robot: Robot, feet: Feet, layout: Layout) -> _Spot | None:
+    """Place of a mast whose block has the trunk's form; None: nowhere."""
+    return _spot_of(robot, feet, layout, is_formed=True)
+
+
+def _spot_of(robot: Robot, feet: Feet, layout: Layout, *, is_formed: bool) -> _Spot | None:
+    """Place of a mast, with a block that has the trunk's form or without."""
     back = trunk_back(robot)
     if back is None or not layout.pairs:
         return None
     size = feet.size
-    search, feet = Search.of(robot, size, layout), _stacked(feet, layout)
+    search = Search.of(robot, size, layout, on_feet=is_formed)
+    feet = _stacked(feet, layout)
     down, up = back.x_range
     arms = {far: list(_all_arms(feet, far=far)) for far in (False, True)}
     if not all(arms.values()):
@@ -151,9 +183,10 @@ def _mast_spot(robot: Robot, feet: Feet, layout: Layout) -> _Spot | None:
 
     def spots(step: float) -> list[tuple[Place, bool, float, float]]:
         heights = np.arange(down - 2.0 * size.standing, up + size.standing, step).tolist()
+        spacers = FORMED_SPACERS if is_formed else SPACERS
         found = [
             (_placed(back, plates[0], size, height, face + spacer), far, height, spacer)
-            for (far, plates), height, spacer in product(arms.items(), heights, SPACERS)
+            for (far, plates), height, spacer in product(arms.items(), heights, spacers)
         ]
         # A block is heavier than a longer way up.
         return sorted(found, key=lambda each: (each[3], search.cost(each[0])))
@@ -172,7 +205,7 @@ def _mast_spot(robot: Robot, feet: Feet, layout: Layout) -> _Spot | None:
         )
         if not (search.is_off(tubes) and search.is_free(place)) or any(map(search.touches, tubes)):
             continue
-        spot = _Spot(far, height, spacer)
+        spot = _Spot(far, height, spacer, is_formed)
         masted = (_masted(back, feet, plate, search, spot) for plate in arms[far])
         for footing in (each for each in masted if each is not None):
             # A wider tube moves modules by less than what is kept free around them.
@@ -267,12 +300,18 @@ def _masted(
     # Where the strongest screws do not hold no others do, but they need the widest tube.
     for held in reversed(MAST_SCREWS):
         edge, blank, before = EDGE * held.clearance_hole, replace(plate, thread=held.name), best
-        for low, high, aside, pads in _patterns(back, feet, blank, (height, spacer, centers)):
+        for low, high, aside, pads in _patterns(back, feet, blank, spot, centers):
             bottom, top = min(low - edge, height - mast.side), max(high + edge, height + levels[-1])
             if bottom < spot.lowest:
                 continue
             # The block lies on what is farthest back beneath it.
             plane = round(back.farthest(low - edge, high + edge, half), 6)
+            front: tuple[tuple[float, ...], ...] = ()
+            if spot.formed:
+                its = front_of(back, half, round(low - edge, 9), round(high + edge, 9))
+                if its is None:
+                    continue
+                plane, front = thicknesses(its, spacer)
             face = plane + spacer
             if face < back.farthest(bottom, top, half) - PROUD:
                 continue
@@ -280,7 +319,8 @@ def _masted(
             x = float(place.centers(size)[0, 0])
             holes = [(y, z - height) for z in (low, high) for y in (aside, -aside)]
             gaps = [
-                0.0 if plane - deep <= FLATNESS else round(plane - top, 5) for deep, top in pads
+                0.0 if front or plane - deep <= FLATNESS else round(plane - top, 5)
+                for deep, top in pads
             ]
             arms = [height + level - half for level in levels]
             own = replace(
@@ -290,6 +330,7 @@ def _masted(
                 high=top - height,
                 overhang=max(0.0, *(max(arm - high, low - arm) for arm in arms)),
                 spacer=spacer,
+                formed=front,
             )
             masted = replace(
                 blank,
@@ -300,7 +341,8 @@ def _masted(
                 mast=own,
             )
             if (
-                mast_stress(masted, feet.mass, feet.height) <= MAST_YIELD
+                steepest(masted) <= TILT_MAX
+                and mast_stress(masted, feet.mass, feet.height) <= MAST_YIELD
                 and mast_screws_use(masted, feet.mass, feet.height) <= 1.0
                 and search.is_off(plate_solids(masted))
             ):
@@ -312,7 +354,7 @@ def _masted(
 
 
 def _patterns(
-    back: Surface, feet: Feet, plate: CarrierPlate, at: tuple[float, float, FloatArray]
+    back: Surface, feet: Feet, plate: CarrierPlate, spot: _Spot, centers: FloatArray
 ) -> list[tuple[float, float, float, tuple[Point, Point]]]:
     """Patterns of four screws that a trunk's back takes and that bear, of the shortest mast first.
 
@@ -321,26 +363,28 @@ def _patterns(
 
     Args:
         back: of the trunk. feet: of all modules. plate: on arms.
-        at: height of the lowest plate, thickness of the block, centers of the wheels, a row each.
+        spot: where it stands. centers: of the wheels [m], a row each.
     """
-    mast, held, (height, spacer, centers) = plate.mast, plate.screw, at
+    mast, held, height = plate.mast, plate.screw, spot.height
     assert mast is not None, "a plate on arms"
     least = held.head_diameter / 2.0 + HEAD_ROOM
     most = mast.bore / 2.0 - plate.sleeve_radius
     force = 2.0 * feet.mass * SHOCK * len(centers)
-    wheels, off, found = float(centers[:, 2].mean()), mast.face + spacer, []
+    wheels, off, found = float(centers[:, 2].mean()), mast.face + spot.spacer, []
     for aside in np.arange(least, most, PATTERN_STEP).tolist():
-        z, pads, (low, high) = _pads(back, plate.sleeve_radius, aside)
+        z, pads, (low, high) = _pads(back, plate.sleeve_radius, aside, is_formed=spot.formed)
         half = (z[high] - z[low]) / 2.0
         up = np.abs(wheels - (z[low] + z[high]) / 2.0)
-        used = pattern_use(held, force, (off, up), (half, np.asarray(aside)))
+        slope = pads[:, 2:] if spot.formed else np.zeros_like(pads[:, 2:])
+        downhill = held.preload * np.linalg.norm(slope[low] + slope[high], axis=1) / 2.0
+        used = pattern_use(held, force, (off, up), (half, np.asarray(aside)), downhill)
         if not (used <= 1.0).any():
             continue
         longer = np.maximum(0.0, height - z[low]) + np.maximum(0.0, z[high] - centers[-1, 2])
         longer = np.where(used <= 1.0, longer + 1e-3 * used, np.inf)
         for index in np.argsort(longer, kind="stable")[:_PATTERNS].tolist():
             one, two = low[index], high[index]
-            lower, upper = ((float(deep), float(far)) for deep, far in pads[[one, two]])
+            lower, upper = ((float(deep), float(far)) for deep, far in pads[[one, two], :2])
             pattern = float(z[one]), float(z[two]), aside, (lower, upper)
             if np.isfinite(longer[index]):
                 found.append((float(longer[index]), pattern))
@@ -349,26 +393,33 @@ def _patterns(
 
 @lru_cache(maxsize=256)
 def _pads(
-    back: Surface, radius: float, aside: float
+    back: Surface, radius: float, aside: float, *, is_formed: bool = False
 ) -> tuple[FloatArray, FloatArray, tuple[NDArray[np.int64], NDArray[np.int64]]]:
     """Heights at which a trunk's back is flat under a sleeve on either side, and how far back [m].
 
-    That is a row of two: at the least and at the most. Last come the numbers of lower and upper
-    heights that are as far apart as screws may be.
+    That is a row of four: at the least and at the most, and the mean slope of both sides upwards
+    and to the left. Last come the numbers of lower and upper heights that are as far apart as
+    screws may be.
 
     Args:
         back: of the trunk. radius: of the sleeves [m]. aside: of their middles to both sides [m].
+        is_formed: whether a block has the trunk's form there, so that it may be steep.
     """
     down, up = back.x_range
     z = np.arange(down, up, PATTERN_STEP)
     lands = np.concatenate([disc_points((0.0, side * aside), radius) for side in SENSES])
     behind = back.height(z[:, None] + lands[:, 0], lands[None, :, 1] + 0.0 * z[:, None])
     top, low = behind.max(axis=1), behind.min(axis=1)
+    around = disc_points((0.0, 0.0), radius)
     with np.errstate(invalid="ignore"):
-        flat = top - low <= FLATNESS
-    z, low, top = z[flat], low[flat], top[flat]
+        slope = behind @ np.tile(around, (len(SENSES), 1)) / (around**2).sum(axis=0) / len(SENSES)
+    # A map is out by its step on slopes; they are looked at again.
+    steep = 2.0 * (radius + back.step) * tan(TILT_MAX)
+    with np.errstate(invalid="ignore"):
+        flat = top - low <= (steep if is_formed else FLATNESS)
+    z, low, top, slope = z[flat], low[flat], top[flat], slope[flat]
     lower, upper = np.triu_indices(len(z), 1)
     half = (z[upper] - z[lower]) / 2.0
     near = (half >= SPREAD / 2.0) & (half <= SPREAD_MAX / 2.0)
-    near &= np.abs(top[upper] - top[lower]) <= SLEEVE_MAX
-    return frozen(z), frozen(np.stack([low, top], axis=1)), (lower[near], upper[near])
+    near &= np.abs(top[upper] - top[lower]) <= (DEPTH_MAX if is_formed else SLEEVE_MAX)
+    return frozen(z), frozen(np.column_stack([low, top, slope])), (lower[near], upper[near])

@@ -73,7 +73,7 @@ def footing_of(
     return Footing(place_free(robot, envelope, layout).place, None)
 
 
-def stand_on_trunk(device: Device, robot: Robot, *, stated: bool) -> Device:
+def stand_on_trunk(device: Device, robot: Robot, *, stated: bool, formed: bool = False) -> Device:
     """The device with its feet on the trunk, and a plate under them where they are not held.
 
     Modules whose place is not stated go to the height of what they stand on, and forward or back
@@ -83,8 +83,9 @@ def stand_on_trunk(device: Device, robot: Robot, *, stated: bool) -> Device:
     Args:
         device: as selected. robot: that carries it.
         stated: whether the modules' places are.
+        formed: whether a mast may stand by a block that has the trunk's form.
     """
-    found = footing_under(device, robot, stated=stated)
+    found = footing_under(device, robot, stated=stated, formed=formed)
     if found is None:
         return device
     centers = found.place.centers(device_size(device))
@@ -95,7 +96,9 @@ def stand_on_trunk(device: Device, robot: Robot, *, stated: bool) -> Device:
     return replace(device, modules=tuple(modules), plate=found.plate, pedestals=found.pedestals)
 
 
-def footing_under(device: Device, robot: Robot, *, stated: bool) -> Footing | None:
+def footing_under(
+    device: Device, robot: Robot, *, stated: bool, formed: bool = False
+) -> Footing | None:
     """Footing of a chosen device; see `stand_on_trunk`. None: where it is, on nothing known."""
     surface = trunk_surface(robot)
     if device.carrier.mass == 0.0:
@@ -113,4 +116,4 @@ def footing_under(device: Device, robot: Robot, *, stated: bool) -> Footing | No
         return Footing(place_at(tuple(places[0].tolist())), plate_of(held))
     feet = replace(feet, bases=ring_of(layout, feet.reach))
     found = footing_on_top(surface, feet, Search.of(robot, feet.size, layout))
-    return found or footing_behind(robot, feet, layout)
+    return found or footing_behind(robot, feet, layout, formed=formed)

@@ -63,6 +63,7 @@ class SelectionProblem:
         lightenings: numbers of holes in a web to choose from, 0 a solid one.
         guard_wall: of the steel rings in the housings [m]; 0: none.
         foot_plate: thickness of the feet's plates [m].
+        formed: whether a mast may stand by a block that has the trunk's form.
     """
 
     robot: MassProperties
@@ -83,6 +84,7 @@ class SelectionProblem:
     guard_wall: float = 0.0
     foot_plate: float = PLATE_THICKNESS
     layout: Layout = PAIR
+    formed: bool = False
 
     @property
     def web_densities(self) -> FloatArray:

@@ -1,0 +1,206 @@
+"""Blocks that have a round trunk's own form: contact by meshes, mass, strength, what is refused."""
+
+from dataclasses import replace
+from math import atan, degrees, pi
+
+import msgspec
+import numpy as np
+import pytest
+import trimesh
+from manifold3d import Manifold, Mesh64, OpType
+from wheels import driven_device
+
+from ocs_design.common.errors import OcsError
+from ocs_design.common.frames import BACKWARDS
+from ocs_design.device.checks import check_device
+from ocs_design.device.solids import foot_of
+from ocs_design.export.meshes import part_mesh
+from ocs_design.parts.carrier_plate import (
+    MAST_YIELD,
+    TOUCH,
+    block_part,
+    plate_bodies,
+    steepest,
+)
+from ocs_design.parts.joints import pattern_use
+from ocs_design.parts.plate_strength import mast_screws_use, mast_stress
+from ocs_design.robot.mass import combine
+from ocs_design.robot.reader import read_robot
+from ocs_design.robot.surface import surface_of, trunk_triangles
+from ocs_design.sizing.footing.formed import DEPTH_MAX, TILT_MAX, front_of
+from ocs_design.sizing.footing.standing import stand_on_trunk
+from ocs_design.sizing.mounting import mounting_of, mounting_open_points
+
+DEVICE = driven_device()
+
+ROUND = """<robot name="round">
+  <link name="base">
+    <inertial><mass value="20"/>
+      <inertia ixx="0.3" iyy="0.3" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>
+    <collision>{shape}</collision>
+  </link>
+  <link name="head">
+    <inertial><mass value="2"/>
+      <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>
+    <collision><geometry><box size="0.2 0.3 0.2"/></geometry></collision>
+  </link>
+  <joint name="neck" type="revolute">
+    <parent link="base"/><child link="head"/><origin xyz="0 0 0.2"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/>
+  </joint>
+</robot>"""
+
+RADIUS = 0.022
+CYLINDER = f'<geometry><cylinder radius="{RADIUS}" length="0.16"/></geometry>'
+RIDGE = '<origin rpy="0 0 0.785"/><geometry><box size="0.12 0.12 0.16"/></geometry>'
+
+
+def standing(folder, shape):
+    """A trunk of that shape with a head on top, where nothing else has room, and its device."""
+    path = folder / "round.urdf"
+    path.write_text(ROUND.format(shape=shape))
+    robot = read_robot(path, trunk="base")
+    return robot, stand_on_trunk(DEVICE, robot, stated=False, formed=True)
+
+
+@pytest.fixture(scope="module")
+def on_cylinder(tmp_path_factory):
+    return standing(tmp_path_factory.mktemp("round"), CYLINDER)
+
+
+def block_in_trunk(plate):
+    """The block as a mesh in B, of so many chords that its holes hardly weigh more."""
+    mesh = part_mesh(block_part(plate, plate.relief), 256)
+    return trimesh.Trimesh(mesh.vertices + plate.position, mesh.triangles)
+
+
+def test_a_round_trunk_carries_a_mast_by_a_block_of_its_form(on_cylinder):
+    robot, device = on_cylinder
+    plate = device.plate
+    assert plate.mast.formed
+    assert plate.relief is not None
+    mounting = mounting_of(robot, device, (), robot.mass_properties)
+    assert mounting_open_points(mounting) == ()
+    (block,) = (each for each in mounting.feet if each.name == "mast's block")
+    assert block.held
+    assert block.share == 1.0
+    assert 0.0 < steepest(plate) <= TILT_MAX
+    mass, height = device.module_mass, foot_of(device).wheel_height
+    assert mast_stress(plate, mass, height) <= MAST_YIELD
+    assert mast_screws_use(plate, mass, height) <= 1.0
+    assert msgspec.json.decode(msgspec.json.encode(plate), type=type(plate)) == plate
+    check_device(device)
+
+
+def test_the_block_touches_the_trunk_all_over_and_nowhere_cuts_into_it(on_cylinder):
+    """By what both have in common, and by the corners of the trunk's own mesh."""
+    robot, device = on_cylinder
+    plate, corners = device.plate, trunk_triangles(robot)
+    trunk = trimesh.Trimesh(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
+    trunk.merge_vertices()
+    trunk.update_faces(trunk.nondegenerate_faces())
+    assert trunk.is_watertight
+    block, mast = block_in_trunk(plate), plate.mast
+    assert block.is_watertight
+    solids = [
+        Manifold(Mesh64(np.array(each.vertices), np.array(each.faces, dtype=np.uint64)))
+        for each in (block, trunk)
+    ]
+    assert Manifold.batch_boolean(solids, OpType.Intersect).volume() == 0.0
+    # The trunk is a prism of as many sides as its map is made of.
+    behind = trunk.vertices[(trunk.vertices[:, 0] <= 1e-9) & (trunk.vertices[:, 2] > 0.0)]
+    behind = behind[np.hypot(*behind[:, :2].T) > 0.5 * RADIUS]
+    order = np.argsort(behind[:, 1])
+    random, half, (low, high) = np.random.default_rng(0), mast.side / 2.0, plate.block
+    y, z = random.uniform(-half, half, 2000), random.uniform(low, high, 2000)
+    face = plate.position[0] + mast.face + plate.relief.height(y, z)
+    off = np.interp(y, behind[order, 1], behind[order, 0]) - face
+    assert off.min() >= 0.0
+    assert off.max() <= TOUCH
+
+
+def test_block_and_device_weigh_what_their_meshes_do(on_cylinder):
+    _, device = on_cylinder
+    plate, block = device.plate, block_part(device.plate, device.plate.relief)
+    mesh = part_mesh(block, 256)
+    solid = trimesh.Trimesh(mesh.vertices, mesh.triangles)
+    own, volume = block.mass_properties(), solid.volume
+    assert own.mass == pytest.approx(plate.density * volume, rel=1e-4)
+    assert own.com == pytest.approx(solid.center_mass, abs=1e-6)
+    assert own.inertia == pytest.approx(plate.density * solid.moment_inertia, abs=1e-4 * own.mass)
+    bodies = [(part, at) for part, at in plate_bodies(plate)]
+    assert [part.name for part, _ in bodies].count("block") == 1
+    # All that is under the feet but for its screws, from the bodies' own meshes.
+    whole = combine(part.mass_properties().moved(at.rotation, at.position) for part, at in bodies)
+    screws = sum(plate.screw.mass(length) for length in plate.screw_lengths)
+    assert plate.mass == pytest.approx(whole.mass + screws)
+    assert device.mass > plate.mass
+
+
+def test_screws_reach_through_the_block_where_it_is_thickest(on_cylinder):
+    _, device = on_cylinder
+    plate, depth = device.plate, device.plate.screw.diameter
+    for (y, z), length in zip(plate.trunk, plate.screw_lengths, strict=True):
+        angles = np.linspace(0.0, 2.0 * pi, 90)
+        radius = plate.screw.clearance_hole / 2.0
+        deep = plate.relief.height(y + radius * np.cos(angles), z + radius * np.sin(angles)).max()
+        assert length >= plate.mast.side + deep + depth - 1e-4
+
+
+def test_slopes_are_those_of_the_trunk_and_shear_its_screws(on_cylinder):
+    """On a cylinder the slope to the side is y over the height; both sides cancel."""
+    _, device = on_cylinder
+    plate = device.plate
+    for (y, _), (left, up) in zip(plate.trunk, plate.slopes, strict=True):
+        # The block is thicker where the trunk is farther off.
+        assert left == pytest.approx(y / np.sqrt(RADIUS**2 - y**2), abs=0.05)
+        assert up == pytest.approx(0.0, abs=1e-6)
+    assert np.abs(plate.slopes.mean(axis=0)).max() < 0.02
+    held, force, arms = plate.screw, 1000.0, (0.1, np.asarray(0.05))
+    half = np.asarray(0.03), np.asarray(0.015)
+    plain = pattern_use(held, force, arms, half)
+    assert pattern_use(held, force, arms, half, 500.0) > plain
+
+
+def test_a_trunk_that_is_too_steep_is_refused(tmp_path):
+    """A box that turns an edge backwards slopes by 45 degrees."""
+    robot, device = standing(tmp_path, RIDGE)
+    assert device.plate is None
+    mounting = mounting_of(robot, device, (), robot.mass_properties)
+    assert any(each.held is False for each in mounting.feet)
+    assert mounting_open_points(mounting)
+
+
+def test_steps_and_holes_are_refused_and_gentle_forms_are_not():
+    def back(height):
+        """A trunk's back over a square of 0.2 m, of triangles."""
+        x, y = np.meshgrid(*2 * (np.linspace(-0.1, 0.1, 201),), indexing="ij")
+        points = np.stack([x, y, height(x, y)], axis=-1)
+        a, b, c, d = points[:-1, :-1], points[1:, :-1], points[1:, 1:], points[:-1, 1:]
+        return surface_of(
+            np.concatenate([np.stack(t, 2).reshape(-1, 3, 3) for t in ((a, b, c), (a, c, d))])
+        )
+
+    bowl = back(lambda x, y: 0.1 - 0.5 * (x**2 + y**2) / 0.15)
+    found = front_of(bowl, 0.02, -0.03, 0.03)
+    assert found is not None
+    assert np.ptp(found) < DEPTH_MAX
+    assert front_of(back(lambda x, _: np.where(x > 0.0, 0.1, 0.098)), 0.02, -0.03, 0.03) is None
+    assert front_of(back(lambda x, _: 0.1 - abs(x)), 0.02, -0.03, 0.03) is None
+    assert front_of(bowl, 0.02, 0.08, 0.14) is None
+
+
+@pytest.mark.parametrize(
+    "changed", [{"formed": ((0.01, 0.01),)}, {"formed": ((0.01, 0.01), (0.01,))}, {"spacer": 0.02}]
+)
+def test_a_block_that_contradicts_itself_is_refused(on_cylinder, changed):
+    _, device = on_cylinder
+    mast = replace(device.plate.mast, **changed)
+    with pytest.raises(OcsError, match=r"plate\.mast"):
+        check_device(replace(device, plate=replace(device.plate, mast=mast)))
+
+
+def test_limits_are_what_the_docs_say():
+    assert degrees(TILT_MAX) == pytest.approx(20.0)
+    assert atan(0.36) == pytest.approx(TILT_MAX, abs=0.01)
+    assert BACKWARDS[:, 2].tolist() == [-1.0, 0.0, 0.0]
