@@ -176,15 +176,14 @@ class _Change:
 
         Args:
             choice: the device as it stands. robot: that carries it.
-            quick: whether a device at the same incidence is told as the look finds it, with the
-                plate or the mast that it would stand on.
+            quick: whether a device at the same incidence is told as the look finds it, on nothing.
         """
         found = lightest_below(self.problem, (1.0 - _WORTH) * choice.chosen.modules_mass)
         offered = self.resolved.choice
         if found is None or offered is None:
             return None
         if quick and not self.turns:
-            return with_plate(found, self.problem, robot)
+            return found
         parts = replace(offered, motors=(found.motor,), gears=(found.gear,))
         stated = self.specification.flywheel.material
         if len(self.problem.materials) > 1 or (self.turns and stated != AUTO):
@@ -324,7 +323,7 @@ def owed_to(choice: Choice | None, robot: Robot) -> Owed | None:
         return None
     chosen, asked = choice.chosen, choice.problem.requirement
     problem = replace(choice.problem, incidence=chosen.incidence, materials=(chosen.material,))
-    best = (1.0 - _WORTH) * chosen.mass
+    best, hangs = (1.0 - _WORTH) * chosen.mass, _hangs(choice, robot)
     owed = Owed(maneuver="", mass_without=chosen.mass) if asked.maneuvers else None
     for maneuver in asked.maneuvers:
         rest = tuple(each for each in asked.maneuvers if each is not maneuver)
@@ -334,7 +333,7 @@ def owed_to(choice: Choice | None, robot: Robot) -> Owed | None:
         lighter = lightest_below(without, best)
         if lighter is None:
             continue
-        mass = with_plate(lighter, problem, robot).mass
+        mass = (lighter if hangs else with_plate(lighter, problem, robot)).mass
         if mass < best:
             best, owed = mass, Owed(maneuver=maneuver.name, mass_without=mass)
     return owed
