@@ -165,7 +165,7 @@ class Poses:
         return self.positions.min(axis=0), self.positions.max(axis=0)
 
     def take(self, which: NDArray[np.bool_]) -> "Poses":
-        """Those of the postures that are marked."""
+        """Marked ones of the postures."""
         postures = [self.postures[row] for row in np.flatnonzero(which).tolist()]
         return Poses(postures, self.positions[which], self.axes[which])
 

@@ -82,7 +82,7 @@ def _between(
 
 
 def thicknesses(front: FloatArray, spacer: float) -> tuple[float, tuple[tuple[float, ...], ...]]:
-    """Where a flat block of that thickness would begin, and the thickness of the formed one [m].
+    """Beginning of a flat block of that thickness, and the thickness of the formed one [m].
 
     Args:
         front: see `front_of`. spacer: thickness where it is thinnest [m].
