@@ -176,7 +176,8 @@ class _Change:
 
         Args:
             choice: the device as it stands. robot: that carries it.
-            quick: whether a device at the same incidence is told as the look finds it, on nothing.
+            quick: whether a device at the same incidence is told as the look finds it, with nothing
+                under it.
         """
         found = lightest_below(self.problem, (1.0 - _WORTH) * choice.chosen.modules_mass)
         offered = self.resolved.choice

@@ -8,6 +8,7 @@ from functools import lru_cache
 from math import pi
 
 import numpy as np
+from scipy.ndimage import maximum_filter
 
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.parts.carrier_plate import TOUCH, CarrierPlate
@@ -62,12 +63,8 @@ def front_of(back: Surface, half: float, low: float, high: float) -> FloatArray 
     corners = trunk[::_FINE, ::_FINE]
     # Between its corners a trunk that bulges is higher: they go back by as much as in any cell.
     over = trunk - _between(corners, half, (low, high), left, up)
-    raised, edge = np.zeros_like(corners), np.pad(over, _FINE, constant_values=0.0)
-    for one in range(2 * _FINE + 1):
-        for other in range(2 * _FINE + 1):
-            shifted = edge[one:, other:][::_FINE, ::_FINE]
-            raised = np.maximum(raised, shifted[: corners.shape[0], : corners.shape[1]])
-    front = corners + raised + BED
+    highest = maximum_filter(over, 2 * _FINE + 1, mode="constant")[::_FINE, ::_FINE]
+    front = corners + np.maximum(highest, 0.0) + BED
     off = _between(front, half, (low, high), left, up) - trunk
     if off.max() > TOUCH or np.ptp(front) > DEPTH_MAX:
         return None
