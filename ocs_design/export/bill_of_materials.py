@@ -201,7 +201,7 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
 def _screw_row(held: Fastening, modules: int) -> BillRow:
     """Equal screws of that many modules."""
     name, count = f"screw {held.designation}", modules * held.count
-    source = f"mass: steel of {STEEL:g} kg/m^3 of its ISO 4762 dimensions"
+    source = f"mass from its dimensions in ISO 4762, steel of {STEEL:g} kg/m^3"
     return BillRow(name, count, "steel", "", held.screw.mass(held.length), held.purpose, source)
 
 
