@@ -35,6 +35,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import wrightomega
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.arrays import FloatArray, Table
@@ -289,18 +290,12 @@ def rise_for(drive: UnitDrive, time: FloatArray) -> Rise:
     """Rise that takes all of `time` [T_0], without a cap."""
     begin, knee = drive.end_of_limit, positive(drive.knee)
     ramp = np.minimum(time, begin)
-    limited, c = drive.power < drive.knee, 2.0 * drive.current
-    # At the limit of power w + e^w = 2 t / l with w = 2u, from above.
+    limited = drive.power < drive.knee
+    # At the limit of power e^w + w = 2 t / l with w = 2u, so that e^w is Wright's omega of it.
     asked = drive.entry + np.where(limited, 2.0 * (time - ramp) / knee, 0.0)
-    asked = np.minimum(asked, _UNLIMITED)
-    w = np.where(asked > 1.0, np.log(np.maximum(asked, 1.0)), asked)
-    for _ in range(_POWER_STEPS):
-        grown = np.exp(w)
-        step = (grown + w - asked) / (1.0 + grown)
-        w = w - step
-        if (np.abs(step) <= _LAST_STEP * (1.0 + np.abs(w))).all():
-            break
-    gain = np.clip(c * np.sinh(w / 2.0) - begin, 0.0, np.maximum(1.0 - drive.spare - begin, 0.0))
+    grown = np.sqrt(wrightomega(np.minimum(asked, _UNLIMITED)))
+    gain = drive.current * (grown - 1.0 / grown) - begin
+    gain = np.clip(gain, 0.0, np.maximum(1.0 - drive.spare - begin, 0.0))
     gain = np.where(limited & (time > ramp), gain, 0.0)
     left = np.maximum(time - np.where(limited, drive.to_line, ramp), 0.0)
     return Rise(ramp, gain, np.where(drive.knee > 0.0, left / knee, 0.0))
