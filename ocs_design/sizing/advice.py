@@ -103,7 +103,7 @@ class Field:
     def of(cls, problem: SelectionProblem, drives: Drives | None = None) -> "Field":
         """All motors and gears whose figures are known, or these drives."""
         if drives is None:
-            pairs = np.argwhere(known_pairs(problem.motors, problem.gears))
+            pairs = np.argwhere(known_pairs(problem))
             drives = drives_of(problem, pairs)
         cells, nothing = cells_of(problem.incidence, _CELLS), np.zeros(len(drives))
         needed = least_spin_inertias(problem, drives, cells, nothing)
@@ -126,7 +126,8 @@ class Field:
         """Whether any of the most promising candidates has a device; others are not tried."""
         tried = 0
         for candidates, guess in self._bounded():
-            if any_solved(candidates, guess):
+            # The search ends at the first that has a device.
+            if any(each.point.feasible.any() for each in solve_stepwise(candidates, guess)):
                 return True
             tried += len(candidates)
             if tried >= _MOST_SOLVED:
@@ -178,11 +179,6 @@ class Field:
                 yield some.take(rows[:count]), guess.take(rows[:count])
                 rows = rows[count:]
             left, needed = left.take(np.arange(size, len(left))), needed[size:]
-
-
-def any_solved(candidates: Candidates, guess: Guess) -> bool:
-    """Whether any of the candidates has a device; the search ends at the first that has."""
-    return any(solved.point.feasible.any() for solved in solve_stepwise(candidates, guess))
 
 
 def advice_on(

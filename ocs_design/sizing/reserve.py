@@ -484,12 +484,8 @@ class _Flown:
         """The maneuver as designed, with these rates at its start."""
         reserves = {self.maneuver.name: ManeuverReserve(1.0, rate)}
         requirement = replace(self.requirement, reserves=reserves)
-        headed = self.maneuver.headed
-        axes = (self.designed if headed else self.designed[:2])[None, None]
-        upright = np.array([[self.upright]]) if headed else None
-        return wheel_task(
-            [self.maneuver], requirement, self.nominal, axes, begun=[True], upright=upright
-        )
+        upright, axes = np.array([[self.upright]]), self.designed[None, None]
+        return wheel_task([self.maneuver], requirement, self.nominal, upright, axes, begun=[True])
 
     def has(self, rate: tuple[float, float]) -> float:
         """What the device does over what is asked, by the selection's own formula."""

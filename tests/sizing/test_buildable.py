@@ -23,20 +23,20 @@ def margin(name, demand, capacity):
     return Margin(name, demand, capacity, "W", scenario="drop")
 
 
-def test_a_device_with_nothing_open_can_be_built():
-    found = buildable(WHOLE, FREE, (margin("bus power", 900.0, 1000.0),))
-    assert (found.yes, found.open) == (True, ())
-
-
-def test_without_a_motor_nothing_can_be_told():
-    found = buildable(None, FREE, (margin("bus power", 2000.0, 1000.0),))
-    assert (found.yes, found.open) == (None, ())
-
-
-def test_without_shapes_of_the_robot_it_cannot_be_told_but_what_is_open_is():
-    found = buildable(WHOLE, None, (margin("bus power", 2000.0, 1000.0),))
-    assert found.yes is None
-    assert len(found.open) == 1
+@pytest.mark.parametrize(
+    ("motor", "mounting", "demand", "yes", "open_points"),
+    [
+        (WHOLE, FREE, 900.0, True, 0),
+        # Without a motor, or shapes of the robot, nothing can be told but what is open.
+        (None, FREE, 2000.0, None, 0),
+        (WHOLE, None, 2000.0, None, 1),
+    ],
+)
+def test_whether_it_can_be_built_is_told_as_far_as_it_is_known(
+    motor, mounting, demand, yes, open_points
+):
+    found = buildable(motor, mounting, (margin("bus power", demand, 1000.0),))
+    assert (found.yes, len(found.open)) == (yes, open_points)
 
 
 def test_a_motor_that_lacks_figures_is_named_with_them():
@@ -56,14 +56,18 @@ def test_a_capacity_that_is_exceeded_is_open(name):
     assert found.open[0].what == f"{name}: 1,200 W asked by drop, 1,000 W is allowed"
 
 
-def test_what_is_used_up_to_the_last_is_not_exceeded():
-    assert buildable(WHOLE, FREE, (margin("wheel speed", 1000.5, 1000.0),)).yes is True
-    assert buildable(WHOLE, FREE, (margin("wheel speed", 1002.0, 1000.0),)).yes is False
-
-
-@pytest.mark.parametrize("name", ["rms current", "voltage line"])
-def test_what_only_asks_for_a_pause_or_gives_less_torque_is_not_open(name):
-    assert buildable(WHOLE, FREE, (margin(name, 2000.0, 1000.0),)).yes is True
+@pytest.mark.parametrize(
+    ("name", "demand", "yes"),
+    [
+        ("wheel speed", 1000.5, True),
+        ("wheel speed", 1002.0, False),
+        # What only asks for a pause, or gives less torque.
+        ("rms current", 2000.0, True),
+        ("voltage line", 2000.0, True),
+    ],
+)
+def test_what_is_used_up_to_the_last_is_not_exceeded(name, demand, yes):
+    assert buildable(WHOLE, FREE, (margin(name, demand, 1000.0),)).yes is yes
 
 
 @pytest.mark.parametrize(
@@ -89,8 +93,7 @@ def test_what_friction_or_a_milled_foot_makes_up_for_is_a_reserve(name):
 
 
 def test_a_collision_is_open():
-    hit = replace(FREE, nearest=Clearance("leg", -0.002))
-    found = buildable(WHOLE, hit, ())
+    found = buildable(WHOLE, replace(FREE, nearest=Clearance("leg", -0.002)), ())
     assert found.yes is False
     assert "leg" in found.open[0].what
 

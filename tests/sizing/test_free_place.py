@@ -1,7 +1,5 @@
 """Where modules are put, on robots made for the purpose and on all the legged ones."""
 
-from functools import cache
-
 import numpy as np
 import pytest
 from anatomy import LEGGED
@@ -17,21 +15,9 @@ from ocs_design.sizing.free_place import Sizes, place_free, place_on_top, specif
 from ocs_design.sizing.place import CLEARANCE, Size, place_at
 
 ON_TOP = {
-    "a1",
-    "anymal",
-    "anymal-kinova",
-    "b1",
-    "bolt",
-    "go1",
-    "go2",
-    "hyq_no_sensors",
-    "laikago",
-    "quadruped",
-    "simple_humanoid",
-    "simple_humanoid_classical",
-    "solo",
-    "solo12",
-}
+    "a1", "anymal", "anymal-kinova", "b1", "bolt", "go1", "go2", "hyq_no_sensors", "laikago",
+    "quadruped", "simple_humanoid", "simple_humanoid_classical", "solo", "solo12",
+}  # fmt: skip
 """Robots that have nothing over their trunk."""
 
 MAST = """<robot name="masted">
@@ -51,11 +37,6 @@ MAST = """<robot name="masted">
     <limit lower="-1" upper="1" effort="1" velocity="1"/>
   </joint>
 </robot>"""
-
-
-@cache
-def robot_of(name):
-    return read_robot(ROBOTS / f"{name}.urdf")
 
 
 @pytest.fixture
@@ -107,7 +88,7 @@ def test_a_stated_position_is_kept(masted):
 
 @pytest.mark.parametrize("name", every(20, LEGGED))
 def test_every_legged_robot_has_a_free_place(name):
-    robot = robot_of(name)
+    robot = read_robot(ROBOTS / f"{name}.urdf")
     envelope = default_envelope(robot)
     found = place_free(robot, envelope)
     assert found.free
@@ -118,7 +99,5 @@ def test_every_legged_robot_has_a_free_place(name):
     poses = collision.poses([{}, *drawn(landing_ranges(robot), 1500)[512:]])
     for side in (y, -y):
         # Postures that were not tried find no more than the room around the module.
-        assert (
-            collision.nearest(Ball(np.array([x, side, z]), size.reach), poses, others, within=0.0)
-            is None
-        )
+        ball = Ball(np.array([x, side, z]), size.reach)
+        assert collision.nearest(ball, poses, others, within=0.0) is None

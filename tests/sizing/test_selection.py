@@ -71,6 +71,7 @@ def test_the_winner_from_scratch(solved):
     motor, gear = found.motor, found.gear
     total = by_pinocchio(problem, found, found.incidence)
     assert found.total.mass == pytest.approx(total.mass, rel=1e-12)
+    np.testing.assert_allclose(found.total.com, total.lever, rtol=0, atol=1e-12)
     np.testing.assert_allclose(found.total.inertia, total.inertia, rtol=1e-9, atol=1e-12)
     mass = sum(part.mass for part in pieces(found))
     assert found.carrier.mass == pytest.approx(mass, rel=1e-12)

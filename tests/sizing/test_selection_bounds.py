@@ -68,7 +68,7 @@ def test_inertia_as_joined_body_by_body(layout):
     angles, place = np.linspace(0.0, np.pi / 2.0, 7), AROUND[layout]
     asked = np.tile(angles, (20, 1))
     composed = CompositeInertia(ROBOT, layout, whole, place.centers(size) - ROBOT.com)
-    found, upright = composed.at(asked), composed.upright(asked)
+    found, upright = composed.at(asked)
     for row in range(20):
         body = Carrier.of(whole.take(row))
         centers = place.centers(Size(*(float(values[row]) for values in size)))
@@ -99,7 +99,7 @@ def test_no_larger_or_heavier_module_has_less_inertia(layout):
     if layout.angle is not None:
         angles[:] = layout.angle
     centers = place.centers(grown) - ROBOT.com
-    whole = CompositeInertia(ROBOT, layout, modules[0], centers).at(angles)
+    whole, _ = CompositeInertia(ROBOT, layout, modules[0], centers).at(angles)
     assert (bound.inertia.diagonal <= whole.diagonal[:, 0] * (1.0 + 1e-12)).all()
     assert np.median(bound.inertia.diagonal / whole.diagonal[:, 0]) > 0.6
     assert (np.abs(whole.product[:, 0] - bound.inertia.product) <= bound.spread).all()
@@ -143,7 +143,7 @@ def test_more_inertia_and_smaller_shares_ask_for_no_less(layout, kept, seed, cou
         begins = 30.0 * (seed - 1)
         tasks = replace(bound_task(maneuver, required, least, cells, layout), begins=begins)
         bound = smallest_spin_inertia(tasks, columns(drives.line), drives.armature[:, None])
-        task = wheel_task([maneuver], required, whole, layout.axes(angle)[..., :2, :])
+        task = wheel_task([maneuver], required, whole, 0.0, layout.axes(angle))
         task = replace(task, begins=begins)
         asked = smallest_spin_inertia(task, line, drives.armature[:, None, None])[0]
         finite = np.isfinite(asked)

@@ -184,7 +184,7 @@ class PairBounds:
         direct = np.array([gear.room is None for gear in problem.gears])
         drives = motors[:, None] + np.where(direct, mounts[:, None], 0.0) + gears
         least = len(problem.layout) * (drives + floor.mass.min(initial=np.inf))
-        known = known_pairs(problem.motors, problem.gears)
+        known = known_pairs(problem)
         least = np.where(known, least, np.inf)
         return cls(problem, floor, known, least, np.zeros(known.shape))
 

@@ -1,6 +1,5 @@
 """Candidates as arrays: every motor behind every gear, on its robot, with a rim of any material."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import Any
@@ -16,7 +15,7 @@ from ocs_design.actuation.drive import (
     power_less_friction,
     rotor_share,
 )
-from ocs_design.actuation.motor import DIRECT, Gear, GearRoom, Motor
+from ocs_design.actuation.motor import DIRECT, GearRoom, Motor
 from ocs_design.common.arrays import FloatArray, Table, stacked
 from ocs_design.parts.joints import bell_bond_radius
 from ocs_design.parts.module import (
@@ -275,8 +274,9 @@ def rim_limits(
     )
 
 
-def known_pairs(motors: Sequence[Motor], gears: Sequence[Gear]) -> NDArray[np.bool_]:
+def known_pairs(problem: SelectionProblem) -> NDArray[np.bool_]:
     """Whether all figures are known that a motor behind a gear needs, shape (motors, gears)."""
+    motors, gears = problem.motors, problem.gears
     # Which figures are needed depends on no more of a gear than this.
     kinds = {(gear.ratio <= 1.0, gear.reverses): gear for gear in gears}
     known = {

@@ -29,25 +29,12 @@ class CompositeInertia:
     module: MassMoments[FloatArray]
     centers: FloatArray
 
-    def at(self, angle: FloatArray) -> TiltInertia:
-        """Inertia about roll and pitch; see `second_moments`."""
-        second = self.second_moments(angle)
-        x, y, z = (second[axis, axis] for axis in range(3))
-        diagonal = np.stack([y + z, x + z], axis=-1)
-        return TiltInertia(diagonal, -second[0, 1] - second[0, 2] * second[1, 2] / (x + y))
+    def at(self, angle: FloatArray) -> tuple[TiltInertia, FloatArray]:
+        """Inertia about roll and pitch with the modules at angles [rad], and I_zz [kg m^2].
 
-    def upright(self, angle: FloatArray) -> FloatArray:
-        """I_zz [kg m^2], of the shape of `angle`; see `second_moments`."""
-        second = self.second_moments(angle)
-        return second[0, 0] + second[1, 1]
-
-    def second_moments(self, angle: FloatArray) -> dict[tuple[int, int], FloatArray]:
-        """Sums of mass times two coordinates about the whole's centre of mass [kg m^2].
-
-        With the modules at angles [rad], of the shape of `angle`, (n, k) or (1, k).
-
-        By parallel axes of second moments, with a module's mass m, first moment f_i = R_i f and
-        second moments S about its wheel's centre c_i, all from the robot's centre of mass:
+        Of the shape of `angle`, (n, k) or (1, k). By parallel axes of second moments, with a
+        module's mass m, first moment f_i = R_i f and second moments S about its wheel's centre c_i,
+        all from the robot's centre of mass:
         S = S_robot + sum_i (m c_i c_i^T + c_i f_i^T + f_i c_i^T + R_i S R_i^T)
         - F F^T / (M + sum_i m), F = sum_i (m c_i + f_i).
         """
@@ -60,6 +47,7 @@ class CompositeInertia:
         whole = self.robot.mass + count * one.mass
         total = one.mass * place.sum(axis=1) + first.sum(axis=1)
         of_robot = np.trace(self.robot.inertia) / 2.0 * np.eye(3) - self.robot.inertia
+        # Sums of mass times two coordinates about the whole's centre of mass [kg m^2].
         second: dict[tuple[int, int], FloatArray] = {}
         for i, j in combinations_with_replacement(range(3), 2):
             # R_i S R_i^T = xx 1 + (yy - xx) y y^T + (zz - xx) z z^T + yz (y z^T + z y^T).
@@ -70,7 +58,9 @@ class CompositeInertia:
             apart = apart + (place[i] * first[j] + first[i] * place[j]).sum(axis=0)
             round_ = (i == j) * count * one.xx
             second[i, j] = of_robot[i, j] + own + round_ + apart - total[i] * total[j] / whole
-        return second
+        xx, yy, zz = (second[axis, axis] for axis in range(3))
+        product = -second[0, 1] - second[0, 2] * second[1, 2] / (xx + yy)
+        return TiltInertia(np.stack([yy + zz, xx + zz], axis=-1), product), xx + yy
 
 
 _Range: TypeAlias = tuple[FloatArray, FloatArray]

@@ -63,14 +63,11 @@ def margins_of(
         """Margins of each maneuver, and of each that begins with a rate if any shall."""
         if not maneuvers:
             return []
-        # A device that is turned by hand leaves the heading to itself.
-        headed = maneuvers[0].headed and maneuvers[0].incidence is None
-        axes = whole.layout.axes(at)[..., : 3 if headed else 2, :]
         # All at once, as a call of numpy costs more than its work on few.
         starts = [False] * len(maneuvers) + [True] * (len(maneuvers) * begun)
         every = [*maneuvers, *maneuvers] if begun else maneuvers
-        upright = whole.upright(at) if headed else None
-        task = wheel_task(every, requirement, whole.at(at), axes, begun=starts, upright=upright)
+        inertia, upright = whole.at(at)
+        task = wheel_task(every, requirement, inertia, upright, whole.layout.axes(at), begun=starts)
         demand = spin_demand(task, columns(drives.line), drives.armature[:, None])
         can = capability(demand, spin)
         following = newton_step(demand, spin, can)
@@ -85,7 +82,7 @@ def margins_of(
         by_design += tried(some, angle, begun=requirement.free and begun)
     if requirement.rate_change is not None:
         axes, one_stops = whole.layout.axes(angle)[..., :2, :], requirement.detection is not None
-        inertia = whole.at(angle)
+        inertia, _ = whole.at(angle)
         needed = needed_by_rate(requirement.rate_change, drives, inertia, axes, one_stops=one_stops)
         by_design.append(Margins(spin / needed, needed))
     for maneuver in requirement.maneuvers:
@@ -95,9 +92,8 @@ def margins_of(
             turned += tried([maneuver], own, begun=begun)
         kept = requirement.reserves.get(maneuver.name)
         if kept is not None and kept.roll > 0.0:
-            inertia, upright = whole.at(own), whole.upright(own)
-            at = whole.layout.axes(own)
-            most = held_in_roll(kept.roll, inertia, upright, at, requirement)
+            inertia, upright = whole.at(own)
+            most = held_in_roll(kept.roll, inertia, upright, whole.layout.axes(own), requirement)
             needed = most / drives.top_speed[:, None]
             with np.errstate(divide="ignore"):
                 part = Margins(spin / needed, needed)
@@ -118,21 +114,23 @@ def wheel_task(
     maneuvers: Sequence[Maneuver],
     requirement: Requirement,
     inertia: TiltInertia,
+    upright: ArrayLike,
     axes: FloatArray,
     *,
     begun: Sequence[bool] | None = None,
-    upright: FloatArray | None = None,
 ) -> WheelTask:
     """Maneuvers as what wheels must do, fields of shape (m, n, k, ...).
 
     Args:
-        maneuvers: m of them.
+        maneuvers: m of them, all headed or none.
         requirement: that they are part of.
         inertia: of what they turn, shapes that broadcast against (n, k, 2) and (n, k).
-        axes: of the wheels about roll and pitch, shape (n, k, 2, w); with yaw where all are headed.
+        upright: I_zz of what they turn, shapes likewise [kg m^2]; of account where it is headed.
+        axes: of the wheels, shape (n, k, 3, w).
         begun: see `Requirement.slew`, for each; None: no.
-        upright: I_zz of what they turn where all are headed, shapes likewise [kg m^2].
     """
+    headed = maneuvers[0].headed
+    axes = axes if headed else axes[..., :2, :]
     inertia, reach = inertia.times(axes.shape[:-2]), np.abs(axes[..., :2, :]).max(axis=-1)
     each = [maneuver.turned(inertia).within_reach(reach, maneuver.stray) for maneuver in maneuvers]
     starts = [False] * len(maneuvers) if begun is None else begun
@@ -142,7 +140,7 @@ def wheel_task(
     ]
     swept = np.stack([slew.swept for slew in slews])
     momentum = np.stack([slew.momentum for slew in slews])
-    if upright is not None:
+    if headed:
         kept = [requirement.reserves.get(maneuver.name) for maneuver in maneuvers]
         factors = [
             1.0 if one is None else one.begun if start else one.demand
@@ -162,7 +160,7 @@ def wheel_task(
         inertia=TiltInertia(*(np.stack(parts) for parts in zip(*each, strict=True))),
         axes=axes,
         one_stops=requirement.detection is not None,
-        upright=upright,
+        upright=np.asarray(upright) if headed else None,
         begins=np.array([slew.begins for slew in slews])[:, None, None],
     )
 

@@ -98,9 +98,8 @@ def _task_of(
     angle: float,
 ) -> WheelTask:
     """Task of the device's wheels in a maneuver, at an angle of the layout [rad]."""
-    rows, upright = (3, device.total.inertia[2:, 2]) if maneuver.headed else (2, None)
-    axes = device.layout.axes(np.array([[angle]]))[..., :rows, :]
-    return wheel_task([maneuver], requirement, inertia, axes, upright=upright)
+    axes = device.layout.axes(np.array([[angle]]))
+    return wheel_task([maneuver], requirement, inertia, device.total.inertia[2:, 2], axes)
 
 
 def survived(problem: SelectionProblem, device: Candidate, detection: float) -> tuple[str, ...]:

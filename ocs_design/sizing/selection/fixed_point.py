@@ -126,17 +126,12 @@ class Solved(Table):
         return np.where(self.point.feasible, self.mass, penalty)
 
 
-def solve(candidates: Candidates, guess: Guess) -> Solved:
+def solve_stepwise(candidates: Candidates, guess: Guess) -> Iterator[Solved]:
     """A device of each candidate that does what is required, if one is found.
 
-    It is up to some per cent heavier than it would have to be (`refinement`).
+    At the best radius so far, each time it is better known; rough but the last, which is up to some
+    per cent heavier than it would have to be (`refinement`).
     """
-    *_, solved = solve_stepwise(candidates, guess)
-    return solved
-
-
-def solve_stepwise(candidates: Candidates, guess: Guess) -> Iterator[Solved]:
-    """Candidates at the best radius so far, each time it is better known; rough but the last."""
     start = np.maximum(guess.spin_inertia, candidates.least_spin_inertia)
     # A larger wheel than that of the start may be needed, and may have a larger radius.
     rim = np.maximum(start - candidates.drives.beside_rim, smallest_spin_inertia(candidates.limits))

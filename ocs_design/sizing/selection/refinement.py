@@ -210,7 +210,7 @@ class Programme:
         axes, angle = self.candidates.problem.layout.axes(point[3]), point[None, 3:]
         _, whole = self._on_robot(self.candidates, self._shapes(point[None]))
         blind = np.abs(axes[:2]).max(axis=1) <= OUT_OF_REACH
-        alone = bool(blind.any() and whole.at(angle).product.any())
+        alone = bool(blind.any() and whole.at(angle)[0].product.any())
         return self.candidates.problem.incidence is not None or alone
 
     def fixed_point(self, point: FloatArray) -> FixedPoint:

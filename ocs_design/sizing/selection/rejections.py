@@ -204,13 +204,11 @@ def _parts(problem: SelectionProblem, drives: Drives, largest: FloatArray) -> It
     angles = np.array([(cell.low + cell.high) / 2.0 for cell in cells])
     inertia = column(least_inertia(problem, drives, np.zeros(len(drives))).inertia)
     line, armature, wheels = columns(drives.line), drives.armature[:, None], len(problem.layout)
-    shape = len(drives), len(cells)
+    shape, upright = (len(drives), len(cells)), problem.robot.inertia[2:, 2]
     for maneuver in requirement.maneuvers:
         at = angles if maneuver.incidence is None else np.full(angles.shape, maneuver.incidence)
-        rows, upright = (3, problem.robot.inertia[2:, 2]) if maneuver.headed else (2, None)
-        own = problem.layout.axes(at)[..., :rows, :]
-        axes = np.broadcast_to(own, (*shape, rows, wheels))
-        task = wheel_task([maneuver], requirement, inertia, axes, upright=upright)
+        axes = np.broadcast_to(problem.layout.axes(at), (*shape, 3, wheels))
+        task = wheel_task([maneuver], requirement, inertia, upright, axes)
         time = float(np.asarray(task.duration).item())
         needed = smallest_spin_inertia(task, line, armature)[0]
         taken = wheel_slew_time(task, largest[:, None], line, armature)[0]
@@ -228,7 +226,7 @@ def _parts(problem: SelectionProblem, drives: Drives, largest: FloatArray) -> It
         yield Part(maneuver.name, at, time, needed, late, slew_reason(task, line)[0])
         kept = requirement.reserves.get(maneuver.name)
         if kept is not None and kept.roll > 0.0:
-            axes, upright = problem.layout.axes(at), problem.robot.inertia[2:, 2]
+            axes = problem.layout.axes(at)
             most = held_in_roll(kept.roll, inertia, upright, axes, requirement)
             needed = most / drives.top_speed[:, None]
             late, reason = needed / largest[:, None], np.full(shape, SlewReason.SPEED)

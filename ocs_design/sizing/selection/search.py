@@ -21,7 +21,7 @@ from ocs_design.sizing.selection.bounds import (
 )
 from ocs_design.sizing.selection.candidates import Candidates, Guess, drives_of
 from ocs_design.sizing.selection.drives import Drives
-from ocs_design.sizing.selection.fixed_point import FixedPoint, Solved, solve
+from ocs_design.sizing.selection.fixed_point import FixedPoint, Solved, solve_stepwise
 from ocs_design.sizing.selection.problem import SelectionProblem, lightest_first
 
 RANKED = 10
@@ -130,7 +130,7 @@ class Found(PairBounds):
                 bounds = initial_guess(candidates.take(closer), guess.spin_inertia[closer])
                 guess = guess.put(closer, bounds)
                 continue
-            solved = solve(candidates.take(some), guess.take(some))
+            *_, solved = solve_stepwise(candidates.take(some), guess.take(some))
             self.add(solved)
             guess.mass[some] = solved.mass
             left = left[_BATCH:]
@@ -196,21 +196,16 @@ def _best_of_motors(ordered: Sequence[Rank]) -> list[Rank]:
     return list(best.values())[:MOTORS]
 
 
-def search_lightest(problem: SelectionProblem, below: float = np.inf) -> Found:
-    """The lightest device alone, not refined: at a stated incidence to 0.1 % of its mass.
-
-    Args:
-        problem: see `SelectionProblem`.
-        below: what is no lighter need not be found [kg].
-    """
-    return search(problem, below, ranks=False)
-
-
 def search(problem: SelectionProblem, below: float = np.inf, *, ranks: bool = True) -> Found:
     """The lightest devices, and for every motor and gear how light its lightest is at least.
 
     Every motor behind every gear is examined whose bound leaves it a place in the list. None is
-    refined yet (`Found.refine`).
+    refined yet (`Found.refine`): at a stated incidence the lightest is so to 0.1 % of its mass.
+
+    Args:
+        problem: see `SelectionProblem`.
+        below: what is no lighter need not be found [kg].
+        ranks: False: the lightest alone is looked for.
     """
     found = Found.of(problem)
     found.below, found.ranks = below, ranks

@@ -24,7 +24,7 @@ from ocs_design.sizing.selection.problem import (
 )
 from ocs_design.sizing.selection.refinement import refine
 from ocs_design.sizing.selection.rejections import Refused, rejections
-from ocs_design.sizing.selection.search import Found, search, search_lightest
+from ocs_design.sizing.selection.search import Found, search
 
 _CONVERGED = 1e-7
 """Error of an incidence [rad], with which a mass is right to nine digits."""
@@ -99,7 +99,7 @@ def select_by(
         return select(problem)
     if winner is None:
         # Only its winner is of use, and a refined one would be at the wrong incidence too.
-        found = _found(_at_robots(problem, criterion), search_lightest)
+        found = _found(_at_robots(problem, criterion), partial(search, ranks=False))
         winner = device_of(found.devices[0])
     winners: list[Candidate] = []
     own: list[Candidate] = []
@@ -147,18 +147,17 @@ def lightest_by(problem: SelectionProblem, criterion: Criterion | None) -> Candi
         problem, criterion: see `select_by`.
     """
     problem.check()
-    if problem.incidence is not None or criterion is None:
-        found = search_lightest(problem)
-        return device_of(found.devices[0]) if found.places else None
-    found = search_lightest(_at_robots(problem, criterion))
+    settled = problem.incidence is not None or criterion is None
+    found = search(problem if settled else _at_robots(problem, criterion), ranks=False)
     if not found.places:
         return None
-    return at_own_incidence(problem, device_of(found.devices[0]), criterion)[1]
+    device = device_of(found.devices[0])
+    return device if settled else at_own_incidence(problem, device, criterion)[1]
 
 
 def lightest_below(problem: SelectionProblem, below: float) -> Candidate | None:
     """The lightest device, if there is one that is lighter than this [kg]."""
-    found = search_lightest(problem, below)
+    found = search(problem, below, ranks=False)
     if not found.places:
         return None
     solved = found.devices[0]

@@ -32,71 +32,66 @@ def by_name(motion, wheel):
     return {margin.name: margin for margin in margins(motion, AXES, wheel)}
 
 
-def test_the_drive():
-    found = by_name(turn(), driven_wheel())
-    torque = found["motor torque"]
-    assert (torque.demand, torque.capacity, torque.margin) == (0.4, 1.0, 2.5)
-    # At the end of the spin-up: 300 / 650.4 + 0.4 / 1.4566.
-    assert found["voltage line"].demand == pytest.approx(0.73586, rel=1e-4)
-    assert found["wheel speed"].capacity == 1047.2
-    assert found["motor speed"].demand == 300.0
+SLOW_LINE = replace(driven_wheel(), line=replace(driven_wheel().line, speed_max=400.0))
+UNLIMITED = driven_wheel(replace(EC45, peak_torque=np.inf, speed_max=np.inf))
+
+
+def about(value, rel=1e-4):
+    return pytest.approx(value, rel=rel)
+
+
+@pytest.mark.parametrize(
+    ("wheel", "name", "demand", "capacity"),
+    [
+        (driven_wheel(), "motor torque", 0.4, 1.0),
+        (driven_wheel(), "motor speed", 300.0, 1047.2),
+        (driven_wheel(), "wheel speed", 300.0, 1047.2),
+        # At the end of the spin-up: 300 / 650.4 + 0.4 / 1.4566.
+        (driven_wheel(), "voltage line", about(0.73586), 1.0),
+        # Both wheels with their rotors.
+        (driven_wheel(), "stored energy", about(9.0446e-5 * 300.0**2, 1e-3), None),
+        # rho w^2 / 4 ((3 + nu) R^2 + (1 - nu) r^2) at 1.2 x 650.4 rad/s: 4.0262 MPa.
+        (driven_wheel(), "hoop stress", about(4.0262e6), 215e6),
+        # 0.4 N m against 0.128 N m.
+        (driven_wheel(), "rms current", about(0.4 / 0.0369, 1e-12), about(0.128 / 0.0369, 1e-12)),
+        # A gear turns the motor faster.
+        (driven_wheel(gear=BELT), "motor speed", 600.0, 900.0),
+        (driven_wheel(gear=BELT), "wheel speed", 300.0, 450.0),
+        # A stated wheel speed limits like a mechanical one, and stress goes with its square.
+        (SLOW_LINE, "wheel speed", 300.0, 400.0),
+        (SLOW_LINE, "hoop stress", about(4.0262e6 * (400.0 / 650.4) ** 2), 215e6),
+        (driven_wheel(replace(EC45, speed_max=325.2)), "hoop stress", about(4.0262e6 / 4.0), 215e6),
+        # Without a limit that is stated: the speed unloaded, and no rating.
+        (driven_wheel(replace(EC45, speed_max=None)), "motor speed", 300.0, 639.8),
+        (driven_wheel(replace(EC45, continuous_torque=None)), "rms current", about(10.8401), None),
+        (UNLIMITED, "motor torque", 0.4, None),
+        (UNLIMITED, "wheel speed", 300.0, None),
+    ],
+)
+def test_demand_and_capacity_by_hand(wheel, name, demand, capacity):
+    found = by_name(turn(), wheel)[name]
+    assert (found.demand, found.capacity) == (demand, capacity)
+    margin = None if capacity is None else found.capacity / found.demand
+    assert found.margin == margin
+
+
+@pytest.mark.parametrize(
+    ("change", "name", "note"),
+    [
+        ({"speed_max": None}, "motor speed", "no limit stated"),
+        ({"continuous_torque": None}, "rms current", "no continuous rating"),
+    ],
+)
+def test_what_no_source_states_is_noted(change, name, note):
+    assert note in by_name(turn(), driven_wheel(replace(EC45, **change)))[name].note
 
 
 def test_braking_takes_less_of_the_line_than_driving():
-    motion = turn()
-    half = {
-        "drive": replace_all(motion, slice(0, 2)),
-        "brake": replace_all(motion, slice(2, 4)),
-    }
-    shares = {
-        name: by_name(part, driven_wheel())["voltage line"].demand for name, part in half.items()
-    }
-    assert shares["drive"] == pytest.approx(0.73586, rel=1e-4)
-    # Braking ends at rest with tau alone; at full speed it is |300 / 650.4 - 0.4 / 1.4566|.
-    assert shares["brake"] == pytest.approx(0.4 / 1.4566, rel=1e-4)
-
-
-def replace_all(motion, part):
-    return Motion(**{name: values[part] for name, values in vars(motion).items()})
-
-
-def test_a_gear_turns_the_motor_faster():
-    found = by_name(turn(), driven_wheel(gear=BELT))
-    assert found["motor speed"].demand == 600.0
-    assert found["motor speed"].capacity == 900.0
-    assert found["wheel speed"].capacity == 450.0
-
-
-def test_a_stated_wheel_speed_limits_like_a_mechanical_one():
-    wheel = driven_wheel()
-    found = by_name(turn(), replace(wheel, line=replace(wheel.line, speed_max=400.0)))
-    assert found["wheel speed"].capacity == 400.0
-    full = by_name(turn(), driven_wheel())["hoop stress"]
-    slow = found["hoop stress"]
-    assert slow.demand / full.demand == pytest.approx((400.0 / (24.0 / 0.0369)) ** 2)
-
-
-def test_without_a_stated_limit_a_motor_turns_no_faster_than_it_does_unloaded():
-    wheel = driven_wheel(replace(EC45, speed_max=None))
-    speed = by_name(turn(), wheel)["motor speed"]
-    assert speed.capacity == 639.8
-    assert "no limit stated" in speed.note
-
-
-def test_hoop_stress_is_judged_above_the_speed_that_the_drive_reaches():
-    """rho w^2 / 4 ((3 + nu) R^2 + (1 - nu) r^2) at 1.2 x 650.4 rad/s: 4.0262 MPa."""
-    stress = by_name(turn(), driven_wheel())["hoop stress"]
-    assert stress.demand == pytest.approx(4.0262e6, rel=1e-4)
-    assert stress.capacity == 215e6
-
-
-def test_a_mechanical_limit_below_no_load_speed_limits_the_stress():
-    wheel = driven_wheel()
-    slow = driven_wheel(replace(EC45, speed_max=325.2))
-    ratio = (
-        by_name(turn(), slow)["hoop stress"].demand / by_name(turn(), wheel)["hoop stress"].demand
-    )
-    assert ratio == pytest.approx(0.25, rel=1e-4)
+    """It ends at rest with tau alone; at full speed it is |300 / 650.4 - 0.4 / 1.4566|."""
+    for part, share in ((slice(0, 2), 0.73586), (slice(2, 4), 0.4 / 1.4566)):
+        motion = Motion(**{name: values[part] for name, values in vars(turn()).items()})
+        found = by_name(motion, driven_wheel())["voltage line"]
+        assert found.demand == pytest.approx(share, rel=1e-4)
 
 
 def test_no_stress_without_a_poisson_ratio():
@@ -104,40 +99,17 @@ def test_no_stress_without_a_poisson_ratio():
     assert "hoop stress" not in by_name(turn(), wheel)
 
 
-def test_stored_energy_is_that_of_both_wheels_with_their_rotors():
-    energy = by_name(turn(), driven_wheel())["stored energy"]
-    assert energy.demand == pytest.approx(9.0446e-5 * 300.0**2, rel=1e-3)
-    assert energy.capacity is None
-    assert energy.margin is None
-
-
 def test_heat_against_the_continuous_rating():
     """0.4 N m against 0.128 N m: 9.77 of i^2 t, so a pause of 8.77 s after each second."""
-    current = by_name(turn(), driven_wheel())["rms current"]
-    assert current.demand == pytest.approx(0.4 / 0.0369, rel=1e-12)
-    assert current.capacity == pytest.approx(0.128 / 0.0369, rel=1e-12)
-    assert "8.8 s" in current.note
+    assert "8.8 s" in by_name(turn(), driven_wheel())["rms current"].note
     cool = by_name(turn(torque=0.1), driven_wheel())["rms current"]
     assert cool.margin == pytest.approx(1.28)
     assert cool.note == ""
 
 
-def test_a_motor_without_a_continuous_rating():
-    wheel = driven_wheel(replace(EC45, continuous_torque=None))
-    current = by_name(turn(), wheel)["rms current"]
-    assert current.capacity is None
-    assert "no continuous rating" in current.note
-
-
 def test_nothing_is_asked_of_a_device_at_rest():
     for margin in by_name(turn(torque=0.0, speed=0.0, rate=0.0), driven_wheel()).values():
         assert margin.demand == 0.0 or margin.name == "hoop stress"
-
-
-def test_unlimited_drives_have_no_capacity():
-    found = by_name(turn(), driven_wheel(replace(EC45, peak_torque=np.inf, speed_max=np.inf)))
-    assert found["motor torque"].capacity is None
-    assert found["wheel speed"].margin is None
 
 
 def test_the_worst_of_each_kind_names_its_maneuver():

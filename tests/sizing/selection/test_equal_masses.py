@@ -10,7 +10,7 @@ from selections import ALUMINIUM, random_problem
 from ocs_design.catalogue.materials import Material, material
 from ocs_design.device.layout import Criterion
 from ocs_design.sizing.selection.problem import SAME_MASS, devices_by_mass, lightest_first
-from ocs_design.sizing.selection.search import search_lightest
+from ocs_design.sizing.selection.search import search
 from ocs_design.sizing.selection.select import select, select_by
 
 STRONG = Material("strong", 7833.0, 621e6, 827e6, 0.32, "for tests")
@@ -49,7 +49,7 @@ def test_it_leads_at_the_incidence_of_a_criterion(steels):
 
 
 def test_it_is_found_where_only_the_lightest_is_looked_for(steels):
-    found = search_lightest(problem_of(steels, incidence=0.6))
+    found = search(problem_of(steels, incidence=0.6), ranks=False)
     assert steels[found.places[0].parts[2]].name == "strong"
 
 

@@ -1,5 +1,7 @@
 """Whether there is a device: against the selection, which looks at every candidate by its mass."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from selections import has_device, random_problem, with_radius
@@ -8,6 +10,7 @@ from ocs_design.sizing import advice
 from ocs_design.sizing.advice import PRECISION, Field, single_changes
 from ocs_design.sizing.limits import BUS_VOLTAGE, RIM_LIMITS, TIME
 from ocs_design.sizing.selection.problem import limits_of, with_limit
+from ocs_design.sizing.selection.search import search
 from ocs_design.sizing.selection.select import refined_search
 
 SEEDS = (9, *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (0, *range(10, 30))))
@@ -50,11 +53,11 @@ def test_after_so_many_of_the_most_promising_the_answer_is_no(monkeypatch):
 
     def none_solved(candidates, guess):
         tried.append(len(candidates))
-        return False
+        return ()
 
     field = Field.of(random_problem(9))
     assert field.possible
-    monkeypatch.setattr(advice, "any_solved", none_solved)
+    monkeypatch.setattr(advice, "solve_stepwise", none_solved)
     assert not field.possible
     everything = sum(tried)
     tried.clear()
@@ -84,3 +87,17 @@ def test_no_device_is_lighter_than_its_own_bound(seed):
         assert (settled.mass >= settled.guess.mass)[feasible].all()
         assert (settled.point.spin_inertia >= settled.guess.spin_inertia)[feasible].all()
     assert any(settled.point.feasible.any() for settled in found.batches)
+
+
+@pytest.mark.parametrize(
+    "seed", [0, 21, *(pytest.param(s, marks=pytest.mark.exhaustive) for s in (3, 9, 12, 17, 20))]
+)
+def test_the_lightest_alone_is_the_first_of_the_ranking(seed):
+    """To 0.1 % at a stated incidence; what is heavier than asked for is not looked for."""
+    problem = replace(random_problem(seed), incidence=0.6)
+    ranked, found = search(problem), search(problem, ranks=False)
+    assert bool(found.places) == bool(ranked.places)
+    assert found.lightest == pytest.approx(ranked.lightest, rel=1e-3)
+    assert not search(problem, 0.5 * found.lightest, ranks=False).places
+    near = search(problem, 1.01 * found.lightest, ranks=False)
+    assert near.lightest == pytest.approx(found.lightest, rel=1e-9)
