@@ -9,7 +9,7 @@ change that does.
 from bisect import bisect_left
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, lru_cache
 from itertools import combinations
 from math import inf, isfinite
 
@@ -208,6 +208,7 @@ class _Change:
             yield "not buildable: its threads or shaft do not hold the wheel or the motor"
 
 
+@lru_cache(maxsize=1)
 def _hangs(choice: Choice, robot: Robot) -> bool:
     """Whether nothing of the trunk's shapes holds the device.
 
@@ -430,7 +431,7 @@ class _Search:
         named = replace(changed, motor=motor, ocs=replace(changed.ocs, co_design=None))
         try:
             task = self.task.with_specification(named)
-            device = design_device(named, task.robot, task.resolved).device
+            device = design_device(named, task.robot, task.resolved, ranked=False).device
         except Infeasible:
             return None
         if device.mass > self.target:

@@ -11,6 +11,7 @@ from ocs_design.device.records.design import SCHEMA_VERSION
 from ocs_design.requirement.sweep import Sweep, Task
 from ocs_design.requirement.vocabulary import DETECTION
 from ocs_design.requirement.writing import specification_to_toml, with_absolute_files
+from ocs_design.sizing.limits import Progress, unseen
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points
 from ocs_design.sizing.selection.device import survived
 from ocs_design.sizing.sized import Designed
@@ -24,7 +25,7 @@ def draw_front(
     sweep: Sweep,
     values: Sequence[float],
     choose: Choose,
-    progress: Callable[[float], None] | None = None,
+    progress: Progress = unseen,
 ) -> Front:
     """Front of the lightest device at each value; where there is none, why.
 
@@ -32,7 +33,7 @@ def draw_front(
         task: as it stands.
         sweep: what is varied. values: of it [SI].
         choose: makes a device.
-        progress: told the part of the work that is done, 0..1.
+        progress: is told the share that is done.
     """
     points = []
     for index, value in enumerate(values):
@@ -51,8 +52,7 @@ def draw_front(
         points.append(
             FrontPoint(value=value, file=file, specification=text, device=device, reason=reason)
         )
-        if progress is not None:
-            progress((index + 1) / len(values))
+        progress((index + 1) / len(values))
     return Front(
         schema_version=SCHEMA_VERSION,
         robot=task.robot.name,

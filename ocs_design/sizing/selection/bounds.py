@@ -5,15 +5,13 @@ gives one on the mass, that one on the inertia, and that a better one on the spi
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import pairwise
-from typing import NamedTuple, Self
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ocs_design.actuation.motor import Motor
 from ocs_design.actuation.spin_root import smallest_roots
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.actuation.wheel_load import WheelBound, spin_demand
@@ -30,12 +28,7 @@ from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits
 from ocs_design.sizing.bound.rim_problem import smallest_spin_inertia as smallest_rim
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.module_radii import smallest_radius
-from ocs_design.sizing.selection.candidates import (
-    Candidates,
-    Guess,
-    known_pairs,
-    rim_limits,
-)
+from ocs_design.sizing.selection.candidates import Candidates, Guess, rim_limits
 from ocs_design.sizing.selection.composite_inertia import (
     Least,
     LeastInertia,
@@ -129,8 +122,7 @@ class RimFloor:
         slow, hub, mount = (np.full(kinds.size, value) for value in (1e-3, narrow, reach))
         share = np.repeat([LIGHTENED[count] for count in problem.lightenings], materials * _RIMS)
         # No ring around any bell is lighter than a plain rim of any bore.
-        anywhere = replace(problem, on_bell=False)
-        limits = rim_limits(anywhere, kinds, slow, hub, mount, lightened=share)
+        limits = rim_limits(problem, kinds, slow, hub, mount, lightened=share)
         room = problem.envelope
         disc = np.pi * limits.density * room.height_max * room.outer_radius_max**4 / 2.0
         steps = np.tile(np.linspace(0.0, 1.0, _RIMS), materials * webs)
@@ -154,46 +146,6 @@ class RimFloor:
         ]
         beyond = spin_inertia > self.spin_inertia[:, -1:]
         return np.where(beyond, np.inf, np.stack(rows))
-
-
-@dataclass(eq=False)
-class PairBounds:
-    """Lower bounds of every motor behind every gear, shape (motors, gears) each.
-
-    Attributes:
-        problem: that is searched. floor: of its rims.
-        known: whether the pair has all figures.
-        least: of the mass of any device of the pair [kg]; inf: there is none.
-        spin_inertia: of its wheels [kg m^2], as far as it was looked for.
-    """
-
-    problem: SelectionProblem
-    floor: RimFloor
-    known: NDArray[np.bool_]
-    least: FloatArray
-    spin_inertia: FloatArray
-
-    @classmethod
-    def of(cls, problem: SelectionProblem) -> Self:
-        """What motor, gear and the smallest wheel weigh."""
-        floor = RimFloor.of(problem)
-        motors = np.array([motor.mass or 0.0 for motor in problem.motors])
-        plate, on_bell = problem.foot_plate, problem.on_bell
-        mounts = np.array([_held_mass(motor, plate, on_bell) for motor in problem.motors])
-        gears = np.array([gear.mass for gear in problem.gears])
-        direct = np.array([gear.room is None for gear in problem.gears])
-        drives = motors[:, None] + np.where(direct, mounts[:, None], 0.0) + gears
-        least = len(problem.layout) * (drives + floor.mass.min(initial=np.inf))
-        known = known_pairs(problem)
-        least = np.where(known, least, np.inf)
-        return cls(problem, floor, known, least, np.zeros(known.shape))
-
-
-@lru_cache(maxsize=512)
-def _held_mass(motor: Motor, foot_plate: float, on_bell: bool) -> float:
-    """Mass of screws and cage at the least, less the holes [kg]."""
-    mount = mount_of(motor, None, foot_plate, on_bell=on_bell)
-    return mount.by_floor().mass + mount.by_wheel().mass
 
 
 def least_masses(floor: RimFloor, drives: Drives, spin_inertia: FloatArray) -> FloatArray:

@@ -108,7 +108,6 @@ class Candidates(Table):
             drives.overspeed,
             drives.hub_radius,
             drives.seat.reach,
-            bell=drives.seat.bell,
             rim_height=drives.rim_height,
             lightened=drives.lightened,
             lightened_bore=drives.lightened_bore,
@@ -116,6 +115,7 @@ class Candidates(Table):
                 drives.lightened_stress, self.problem.envelope.stress_safety
             ),
         )
+        limits = _around_bells(self, limits) if self.problem.on_bell else limits
         return replace(limits, height_max=np.minimum(limits.height_max, drives.seat.height_max))
 
     @property
@@ -196,7 +196,6 @@ def rim_limits(
     hub_radius: FloatArray,
     mount_reach: FloatArray,
     *,
-    bell: float | FloatArray = 0.0,
     rim_height: float | FloatArray = 0.0,
     lightened: float | FloatArray = 0.0,
     lightened_bore: float | FloatArray = 0.0,
@@ -208,7 +207,6 @@ def rim_limits(
         problem: room and materials.
         material: index of each. overspeed: at which its hoop stress is limited [rad/s].
         hub_radius: in its middle [m]. mount_reach: of the holes in its housing's floor [m].
-        bell: radius of the bores of rings around bells [m].
         rim_height: least one that leaves room for the hub's screws [m].
         lightened, lightened_bore, stretch_left: see `limits_with_web`.
     """
@@ -228,20 +226,24 @@ def rim_limits(
         # The housing's floor has a wall around the mount.
         outer_radius_min=np.maximum(np.asarray(mount_reach) + (WALL - CLEARANCE), 0.0),
     )
-    if problem.web:
-        return limits_with_web(
-            limits,
-            hub_radius,
-            cuts,
-            None if problem.web_material is None else problem.web_densities[material],
-            rim_height,
-            lightened=lightened,
-            lightened_bore=lightened_bore,
-            stretch_left=stretch_left,
-        )
-    if not problem.on_bell:
+    if not problem.web:
         return limits
-    bore = np.asarray(bell)
+    return limits_with_web(
+        limits,
+        hub_radius,
+        cuts,
+        None if problem.web_material is None else problem.web_densities[material],
+        rim_height,
+        lightened=lightened,
+        lightened_bore=lightened_bore,
+        stretch_left=stretch_left,
+    )
+
+
+def _around_bells(candidates: "Candidates", plain: RimLimits) -> RimLimits:
+    """Limits of rings around the bells of their motors, of those of plain rims."""
+    problem, material = candidates.problem, candidates.material
+    bore, cuts, room = candidates.drives.seat.bell, problem.cuts, problem.envelope
     # Without all of a material's figures the temperature is left out, and its joint is not known.
     warm = np.array(
         [
@@ -255,20 +257,20 @@ def rim_limits(
     widest = bell_bond_radius(
         np.maximum(bore, _LEAST_BELL),
         room.outer_radius_max,
-        density=density,
+        density=np.asarray(plain.density),
         elastic_modulus=modulus,
-        poisson_ratio=poisson_ratio,
+        poisson_ratio=np.asarray(plain.poisson_ratio),
         expansion=expansion,
-        speed=overspeed,
+        speed=candidates.drives.overspeed,
     )
     least = np.maximum(room.inner_radius_min, cuts.inner_radius_min)
     return replace(
-        limits,
+        plain,
         outer_radius_max=np.minimum(room.outer_radius_max, widest),
         inner_radius_min=bore,
         inner_radius_max=bore,
         height_max=np.where((bore >= least) & (bore > 0.0), room.height_max, _NO_HEIGHT),
-        height_min=np.maximum(limits.height_min, cuts.height_min),
+        height_min=np.maximum(plain.height_min, cuts.height_min),
         wall_min=np.maximum(room.wall_min, cuts.wall_min),
         cuts=cuts,
     )

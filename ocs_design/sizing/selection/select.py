@@ -1,6 +1,6 @@
 """The lightest device that does everything that is required, at the best or a stated incidence."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from math import pi
@@ -47,7 +47,7 @@ def select(problem: SelectionProblem) -> Selection:
         Refused: no motor can do it; says what is missing.
         UsageError: there is nothing to choose from or nothing to do, or a limit is no limit.
     """
-    found = _found(problem, refined_search)
+    found = _found(problem, refined=True)
     return Selection(
         ranking=tuple(map(device_of, found.devices)),
         candidates=int(found.known.sum())
@@ -57,17 +57,12 @@ def select(problem: SelectionProblem) -> Selection:
     )
 
 
-def refined_search(problem: SelectionProblem) -> Found:
-    """The lightest devices, refined, and how light that of every motor and gear is at least."""
-    found = search(problem)
-    found.refine(refine)
-    return found
-
-
-def _found(problem: SelectionProblem, look: Callable[[SelectionProblem], Found]) -> Found:
-    """Devices that a search finds, at least one (`select`)."""
+def _found(problem: SelectionProblem, *, refined: bool) -> Found:
+    """Devices that a search finds, at least one (`select`); not refined, the lightest alone."""
     problem.check()
-    found = look(problem)
+    found = search(problem, ranks=refined)
+    if refined:
+        found.refine(refine)
     if not found.places:
         raise Refused(problem, rejections(found, ()))
     return found
@@ -99,7 +94,7 @@ def select_by(
         return select(problem)
     if winner is None:
         # Only its winner is of use, and a refined one would be at the wrong incidence too.
-        found = _found(_at_robots(problem, criterion), partial(search, ranks=False))
+        found = _found(_at_robots(problem, criterion), refined=False)
         winner = device_of(found.devices[0])
     winners: list[Candidate] = []
     own: list[Candidate] = []
@@ -147,12 +142,15 @@ def lightest_by(problem: SelectionProblem, criterion: Criterion | None) -> Candi
         problem, criterion: see `select_by`.
     """
     problem.check()
-    settled = problem.incidence is not None or criterion is None
-    found = search(problem if settled else _at_robots(problem, criterion), ranks=False)
+    stated = problem.incidence is not None
+    at = problem if stated or criterion is None else _at_robots(problem, criterion)
+    found = search(at, ranks=False)
     if not found.places:
         return None
     device = device_of(found.devices[0])
-    return device if settled else at_own_incidence(problem, device, criterion)[1]
+    if stated or criterion is None:
+        return device
+    return at_own_incidence(problem, device, criterion)[1]
 
 
 def lightest_below(problem: SelectionProblem, below: float) -> Candidate | None:

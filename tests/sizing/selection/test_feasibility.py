@@ -10,8 +10,8 @@ from ocs_design.sizing import advice
 from ocs_design.sizing.advice import PRECISION, Field, single_changes
 from ocs_design.sizing.limits import BUS_VOLTAGE, RIM_LIMITS, TIME
 from ocs_design.sizing.selection.problem import limits_of, with_limit
+from ocs_design.sizing.selection.refinement import refine
 from ocs_design.sizing.selection.search import search
-from ocs_design.sizing.selection.select import refined_search
 
 SEEDS = (9, *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (0, *range(10, 30))))
 
@@ -81,7 +81,8 @@ def test_each_change_mends_and_hardly_less_does(seed):
 @pytest.mark.parametrize("seed", SEEDS)
 def test_no_device_is_lighter_than_its_own_bound(seed):
     """Nor are its wheels smaller: of all that the search settles."""
-    found = refined_search(random_problem(seed))
+    found = search(random_problem(seed))
+    found.refine(refine)
     for settled in found.batches:
         feasible = settled.point.feasible
         assert (settled.mass >= settled.guess.mass)[feasible].all()
