@@ -24,7 +24,7 @@ from ocs_design.parts.printed import half_height
 from ocs_design.parts.rim import LIGHTENED, hub_of
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits
+from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits, limits_with_web
 from ocs_design.sizing.bound.rim_problem import smallest_spin_inertia as smallest_rim
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.module_radii import smallest_radius
@@ -112,17 +112,23 @@ class RimFloor:
         geared = any(gear.room is not None for gear in problem.gears)
         # The holes of no motor's mount are nearer to the axis, and no wheel's hub is narrower.
         reach = 0.0 if geared else min(mount.holes.reach for mount in mounts)
-        narrow = 0.0
+        slow, mount = (np.full(kinds.size, value) for value in (1e-3, reach))
+        # No ring around any bell is lighter than a plain rim of any bore.
+        limits = rim_limits(problem, kinds, slow, mount)
         if problem.web:
             held = zip(problem.motors, mounts, strict=True)
             narrow = min(
                 *(max(hub_of(motor).radius, mount.head_reach) for motor, mount in held),
                 *(hub_of(motor, direct=False).radius for motor in problem.motors),
             )
-        slow, hub, mount = (np.full(kinds.size, value) for value in (1e-3, narrow, reach))
-        share = np.repeat([LIGHTENED[count] for count in problem.lightenings], materials * _RIMS)
-        # No ring around any bell is lighter than a plain rim of any bore.
-        limits = rim_limits(problem, kinds, slow, hub, mount, lightened=share)
+            share = [LIGHTENED[count] for count in problem.lightenings]
+            limits = limits_with_web(
+                limits,
+                narrow,
+                problem.cuts,
+                None if problem.web_material is None else problem.web_material.density,
+                lightened=np.repeat(share, materials * _RIMS),
+            )
         room = problem.envelope
         disc = np.pi * limits.density * room.height_max * room.outer_radius_max**4 / 2.0
         steps = np.tile(np.linspace(0.0, 1.0, _RIMS), materials * webs)

@@ -101,21 +101,22 @@ class Candidates(Table):
     @cached_property
     def limits(self) -> RimLimits:
         """Limits of their rims."""
-        drives = self.drives
-        limits = rim_limits(
-            self.problem,
-            self.material,
-            drives.overspeed,
-            drives.hub_radius,
-            drives.seat.reach,
-            rim_height=drives.rim_height,
-            lightened=drives.lightened,
-            lightened_bore=drives.lightened_bore,
-            stretch_left=stretch_beside_holes(
-                drives.lightened_stress, self.problem.envelope.stress_safety
-            ),
-        )
-        limits = _around_bells(self, limits) if self.problem.on_bell else limits
+        problem, drives = self.problem, self.drives
+        limits = rim_limits(problem, self.material, drives.overspeed, drives.seat.reach)
+        if problem.web:
+            stress = drives.lightened_stress
+            limits = limits_with_web(
+                limits,
+                drives.hub_radius,
+                problem.cuts,
+                None if problem.web_material is None else problem.web_material.density,
+                drives.rim_height,
+                lightened=drives.lightened,
+                lightened_bore=drives.lightened_bore,
+                stretch_left=stretch_beside_holes(stress, problem.envelope.stress_safety),
+            )
+        elif problem.on_bell:
+            limits = _around_bells(self, limits)
         return replace(limits, height_max=np.minimum(limits.height_max, drives.seat.height_max))
 
     @property
@@ -193,28 +194,20 @@ def rim_limits(
     problem: SelectionProblem,
     material: NDArray[np.intp],
     overspeed: FloatArray,
-    hub_radius: FloatArray,
     mount_reach: FloatArray,
-    *,
-    rim_height: float | FloatArray = 0.0,
-    lightened: float | FloatArray = 0.0,
-    lightened_bore: float | FloatArray = 0.0,
-    stretch_left: float | FloatArray = 1.0,
 ) -> RimLimits:
-    """Limits of rims, one per row.
+    """Limits of plain rims, one per row; see `limits_with_web` for those around a web.
 
     Args:
         problem: room and materials.
         material: index of each. overspeed: at which its hoop stress is limited [rad/s].
-        hub_radius: in its middle [m]. mount_reach: of the holes in its housing's floor [m].
-        rim_height: least one that leaves room for the hub's screws [m].
-        lightened, lightened_bore, stretch_left: see `limits_with_web`.
+        mount_reach: of the holes in its housing's floor [m].
     """
-    room, cuts = problem.envelope, problem.cuts
+    room = problem.envelope
     each = [RimProblem(0.0, room, kind, 1.0).limits for kind in problem.materials]
     figures = np.array([(one.density, one.stretch_max, one.poisson_ratio) for one in each])
     density, stretch, poisson_ratio = figures[material].T
-    limits = replace(
+    return replace(
         each[0],
         density=density,
         inner_radius_min=np.full_like(density, room.inner_radius_min),
@@ -224,19 +217,7 @@ def rim_limits(
         poisson_ratio=poisson_ratio,
         web=np.zeros_like(density),
         # The housing's floor has a wall around the mount.
-        outer_radius_min=np.maximum(np.asarray(mount_reach) + (WALL - CLEARANCE), 0.0),
-    )
-    if not problem.web:
-        return limits
-    return limits_with_web(
-        limits,
-        hub_radius,
-        cuts,
-        None if problem.web_material is None else problem.web_densities[material],
-        rim_height,
-        lightened=lightened,
-        lightened_bore=lightened_bore,
-        stretch_left=stretch_left,
+        outer_radius_min=np.maximum(mount_reach + (WALL - CLEARANCE), 0.0),
     )
 
 
