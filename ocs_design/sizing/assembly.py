@@ -61,11 +61,9 @@ def assemble_driven(
     """Modules with a motor of the catalogue each.
 
     Args:
-        wheel: rim, motor, gear and supply of each.
         carrier: what of each stands still.
         incidence: of the wheel axes, or the layout's angle [rad].
         centers: of the wheels in B [m], shape (n, 3).
-        layout: of the wheels.
     """
     motor = Drive.of(wheel.motor, wheel.gear, wheel.supply.voltage, wheel.line)
     flywheel = _flywheel(

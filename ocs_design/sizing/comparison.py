@@ -30,9 +30,7 @@ def draw_front(
     """Front of the lightest device at each value; where there is none, why.
 
     Args:
-        task: as it stands.
         sweep: what is varied. values: of it [SI].
-        choose: makes a device.
         progress: is told the share that is done.
     """
     points = []
@@ -68,11 +66,7 @@ def draw_front(
 
 
 def layout_answer(layout: str, task: Task, designed: Designed) -> LayoutAnswer:
-    """What a device of a layout weighs and takes, with all of its wheels and with one less.
-
-    Args:
-        layout: its name. task: that it was designed for. designed: the device.
-    """
+    """What a device of a layout weighs and takes, with all of its wheels and with one less."""
     device, sized, choice = designed.device, designed.sized, designed.choice
     mounting = mounting_of(task.robot, device, task.maneuvers, sized.total)
     each = device.flywheel.spin_inertia * sized.wheel_speed_max

@@ -122,12 +122,8 @@ def closest(tried: Sequence[Tried], robot_mass: float) -> Refused:
     """The refusal that advice is given on.
 
     Where a wheel lacks room, it is that of what was asked for; where the motors are too weak, that
-    of what came closest. An attempt that got as far as to what holds it on the trunk came closer
-    than one that no motor drives without.
-
-    Args:
-        tried: all attempts, in their order.
-        robot_mass: of the robot alone [kg].
+    of what came closest. An attempt that got as far as to what holds it on the trunk, so that its
+    robot is heavier than `robot_mass` [kg], came closer than one that no motor drives without.
 
     Raises:
         NeverHeld: of what was asked for, where every attempt failed at what holds it on the trunk.
@@ -145,13 +141,7 @@ def closest(tried: Sequence[Tried], robot_mass: float) -> Refused:
 def advised(
     refusal: Refused, specification: Specification, tried: Sequence[Tried], progress: Progress
 ) -> Infeasible:
-    """The error with the single changes that would do, where every attempt was refused.
-
-    Args:
-        refusal: that advice is given on (`closest`).
-        specification: what was stated. tried: all attempts.
-        progress: is told the share that is done.
-    """
+    """The error with the single changes that would do, where every attempt was refused."""
     incidences = [error.problem.incidence for _, error in tried if isinstance(error, Refused)]
     found = advice_on(
         refusal,

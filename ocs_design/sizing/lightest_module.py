@@ -80,7 +80,6 @@ def lightest_module(
     """The lightest wheel of each spin inertia [kg m^2] with its shell; see the module's text.
 
     Args:
-        spin_inertia, limits, shell: see `lightest_module_at`.
         digits: to which its radius and its bore are found.
     """
     inertia = np.asarray(spin_inertia, dtype=np.float64)
@@ -107,12 +106,7 @@ def lightest_module_at(
     limits: RimLimits,
     shell: Shell,
 ) -> ModuleShape:
-    """The lightest of each spin inertia [kg m^2] with an outer radius [m] or the nearest possible.
-
-    Args:
-        spin_inertia, outer_radius, limits: of the rims.
-        shell: around each.
-    """
+    """The lightest of each spin inertia [kg m^2] with an outer radius [m] near the one given."""
     inertia = np.asarray(spin_inertia, dtype=np.float64)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         low, high = _radii(inertia, limits)

@@ -67,12 +67,7 @@ class NeverHeld(Infeasible):
 
 
 def with_plate(candidate: Candidate, problem: SelectionProblem, robot: Robot) -> Candidate:
-    """A selected device with the plate or the pedestals that it stands on, where it needs any.
-
-    Args:
-        candidate: as selected; its plate is not looked at. problem: that it was selected for.
-        robot: that carries it.
-    """
+    """A selected device with the plate or the pedestals that it stands on, where it needs any."""
     device = assemble_selected(candidate)
     stated, formed = problem.place.stated, problem.formed
     device = stand_on_trunk(device, robot, stated=stated, formed=formed)

@@ -51,12 +51,7 @@ class Sized:
 
 
 def sized_by_bound(sizing: DeviceSizing, wheel_speed_max: float) -> Sized:
-    """Wheels without a motor.
-
-    Args:
-        sizing: of the wheels.
-        wheel_speed_max: stated or assumed [rad/s].
-    """
+    """Wheels without a motor."""
     rim = sizing.rim
     return Sized(
         wheel_speed_max=wheel_speed_max,

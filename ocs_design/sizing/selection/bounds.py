@@ -8,10 +8,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import pairwise
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ocs_design.actuation.motor import Motor
 from ocs_design.actuation.spin_root import smallest_roots
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.actuation.wheel_load import WheelBound, spin_demand
@@ -28,7 +30,7 @@ from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits, limits_wi
 from ocs_design.sizing.bound.rim_problem import smallest_spin_inertia as smallest_rim
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.module_radii import smallest_radius
-from ocs_design.sizing.selection.candidates import Candidates, Guess, rim_limits
+from ocs_design.sizing.selection.candidates import Candidates, Guess, known_pairs, rim_limits
 from ocs_design.sizing.selection.composite_inertia import (
     Least,
     LeastInertia,
@@ -154,6 +156,46 @@ class RimFloor:
         return np.where(beyond, np.inf, np.stack(rows))
 
 
+@dataclass(eq=False)
+class PairBounds:
+    """Lower bounds of every motor behind every gear, shape (motors, gears) each.
+
+    Attributes:
+        problem: that is searched. floor: of its rims.
+        known: whether the pair has all figures.
+        least: of the mass of any device of the pair [kg]; inf: there is none.
+        spin_inertia: of its wheels [kg m^2], as far as it was looked for.
+    """
+
+    problem: SelectionProblem
+    floor: RimFloor
+    known: NDArray[np.bool_]
+    least: FloatArray
+    spin_inertia: FloatArray
+
+    @classmethod
+    def of(cls, problem: SelectionProblem) -> Self:
+        """What motor, gear and the smallest wheel weigh."""
+        floor = RimFloor.of(problem)
+        motors = np.array([motor.mass or 0.0 for motor in problem.motors])
+        plate, on_bell = problem.foot_plate, problem.on_bell
+        mounts = np.array([_held_mass(motor, plate, on_bell) for motor in problem.motors])
+        gears = np.array([gear.mass for gear in problem.gears])
+        direct = np.array([gear.room is None for gear in problem.gears])
+        drives = motors[:, None] + np.where(direct, mounts[:, None], 0.0) + gears
+        least = len(problem.layout) * (drives + floor.mass.min(initial=np.inf))
+        known = known_pairs(problem)
+        least = np.where(known, least, np.inf)
+        return cls(problem, floor, known, least, np.zeros(known.shape))
+
+
+@lru_cache(maxsize=512)
+def _held_mass(motor: Motor, foot_plate: float, on_bell: bool) -> float:
+    """Mass of screws and cage at the least, less the holes [kg]."""
+    mount = mount_of(motor, None, foot_plate, on_bell=on_bell)
+    return mount.by_floor().mass + mount.by_wheel().mass
+
+
 def least_masses(floor: RimFloor, drives: Drives, spin_inertia: FloatArray) -> FloatArray:
     """Masses that no device is below [kg] in every material, shape (materials, n); inf: none."""
     on_webs = drives.of_webs(floor.web_density[:, None])
@@ -209,11 +251,8 @@ def bound_task(
     """A maneuver as what wheels must do at the least, fields of shape (n, k, ...).
 
     Args:
-        maneuver: to be done.
-        requirement: that it is part of.
         least: what they turn, n of them.
         cells: of the layout's angle, k of them.
-        layout: of the wheels.
     """
     inertia = column(least.inertia)
     slew = requirement.slew(maneuver, TiltInertia.uncoupled(inertia.diagonal))

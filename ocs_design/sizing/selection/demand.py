@@ -201,11 +201,7 @@ def held_by_rate(
 def rate_demands(
     requirement: Requirement, device: Candidate, inertia: TiltInertia
 ) -> Iterator[TaskDemand]:
-    """What a change of rate takes of the device, about roll and about pitch; none is none.
-
-    Args:
-        requirement: that has it. device: that makes it. inertia: of robot and device.
-    """
+    """What a change of rate takes of the device, about roll and about pitch; none is none."""
     if requirement.rate_change is None:
         return
     at, one_stops = device.incidence, requirement.detection is not None

@@ -183,8 +183,6 @@ def fixed_point(
     Args:
         candidates: n of them.
         start: lower bounds of their spin inertias [kg m^2], shape (n,).
-        design: of each.
-        tolerance: when to stop.
     """
     stated = candidates.problem.requirement.spin_inertia
     spin = start = np.maximum(start, candidates.least_spin_inertia)

@@ -351,8 +351,6 @@ def lightest_first(
     """Entries by mass; of those that are equally heavy, the preferred ones first.
 
     Args:
-        entries: any.
-        mass: of an entry [kg].
         preference: sorts entries whose masses differ by less than `SAME_MASS`, smallest first.
     """
     alike, ordered = list[Entry](), list[Entry]()

@@ -64,12 +64,7 @@ class Optimum(NamedTuple):
 
 
 def refine(candidates: Candidates, point: FixedPoint) -> FixedPoint:
-    """The lightest device of one candidate near a point; not feasible where none is found.
-
-    Args:
-        candidates: the candidate alone.
-        point: where to start, feasible or not.
-    """
+    """The lightest device of one candidate near a point; not feasible where none is found."""
     programme = Programme(candidates)
     shape = point.shapes.take(0)
     outer, height, inner = map(float, (shape.outer_radius, shape.height, shape.inner_radius))
@@ -287,12 +282,7 @@ _HOLDS, _MOVES = 1e-6, 1e-9
 
 
 def mass_prices(problem: SelectionProblem, chosen: Candidate) -> Iterator[PriceRecord]:
-    """Prices of all limits that are stated, with the same motor, gear and material.
-
-    Args:
-        problem: that was solved.
-        chosen: its lightest device, as it was selected.
-    """
+    """Prices of all limits that are stated, with the same motor, gear and material."""
     alone = of_parts(problem, chosen)
     sizes = chosen.outer_radius, chosen.height, chosen.inner_radius
     start = coordinates(*sizes, chosen.incidence)

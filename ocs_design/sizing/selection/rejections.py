@@ -27,7 +27,7 @@ from ocs_design.requirement.turns import TurnTo
 from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits
 from ocs_design.sizing.bound.rim_problem import smallest_spin_inertia as smallest_rim
 from ocs_design.sizing.lightest_module import lightest_module
-from ocs_design.sizing.selection.bounds import cells_of, least_inertia
+from ocs_design.sizing.selection.bounds import PairBounds, cells_of, least_inertia
 from ocs_design.sizing.selection.candidates import Candidates, drives_of
 from ocs_design.sizing.selection.demand import (
     column,
@@ -38,7 +38,6 @@ from ocs_design.sizing.selection.demand import (
 )
 from ocs_design.sizing.selection.drives import Drives
 from ocs_design.sizing.selection.problem import Reason, Rejection, SelectionProblem
-from ocs_design.sizing.selection.search import Found
 
 _NEVER = 1e9
 """Beyond any time that is finite."""
@@ -86,7 +85,7 @@ class Refused(Infeasible):
         return any(kept.short for kept in self.problem.requirement.reserves.values())
 
 
-def rejections(found: Found, ranked: Collection[int]) -> tuple[Rejection, ...]:
+def rejections(found: PairBounds, ranked: Collection[int]) -> tuple[Rejection, ...]:
     """Reasons of all motors but those of these indices, in the order of the problem."""
     reasons: dict[int, Rejection | None] = {}
     for index, motor in enumerate(found.problem.motors):
@@ -106,18 +105,18 @@ def rejections(found: Found, ranked: Collection[int]) -> tuple[Rejection, ...]:
     return tuple(reason or unable[index] for index, reason in reasons.items())
 
 
-def _at_least(found: Found, motor: int) -> str:
+def _at_least(found: PairBounds, motor: int) -> str:
     gear = int(np.argmin(found.least[motor]))
     return f"{1e3 * found.least[motor, gear]:.0f} g at least ({found.problem.gears[gear].name})"
 
 
-def _lightest_gear(found: Found, motor: int) -> int:
+def _lightest_gear(found: PairBounds, motor: int) -> int:
     """Index of the lightest whose figures are known with this motor; as a rule, direct drive."""
     mass = np.array([gear.mass for gear in found.problem.gears])
     return int(np.argmin(np.where(found.known[motor], mass, np.inf)))
 
 
-def promising_gears(found: Found, motor: int) -> Iterable[int]:
+def promising_gears(found: PairBounds, motor: int) -> Iterable[int]:
     """The lightest gear; if none will do, also that of the least wheel, and of most torque."""
     lightest = _lightest_gear(found, motor)
     if np.isfinite(found.least[motor]).any():
@@ -155,7 +154,7 @@ class Part(NamedTuple):
         return Part(self.name, incidence[angle], self.time, *(one[row, angle] for one in of_each))
 
 
-def _unable(found: Found, motors: Sequence[int]) -> dict[int, Rejection]:
+def _unable(found: PairBounds, motors: Sequence[int]) -> dict[int, Rejection]:
     """Reasons of motors that cannot do it with their lightest gear; another's mass is added."""
     if not motors:
         return {}

@@ -7,23 +7,19 @@ tightened step by step (`bounds`) and becomes the mass itself where the fixed po
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ocs_design.actuation.motor import Motor
 from ocs_design.common.arrays import FloatArray
-from ocs_design.parts.motor_mount import mount_of
 from ocs_design.sizing.selection.bounds import (
     CELLS,
-    RimFloor,
+    PairBounds,
     cells_of,
     initial_guess,
     least_masses,
     least_spin_inertias,
 )
-from ocs_design.sizing.selection.candidates import Candidates, Guess, drives_of, known_pairs
+from ocs_design.sizing.selection.candidates import Candidates, Guess, drives_of
 from ocs_design.sizing.selection.drives import Drives
 from ocs_design.sizing.selection.fixed_point import FixedPoint, Solved, solve_stepwise
 from ocs_design.sizing.selection.problem import SelectionProblem, lightest_first
@@ -71,44 +67,19 @@ class Rank:
 
 
 @dataclass(eq=False)
-class Found:
+class Found(PairBounds):
     """What a search has found so far.
 
     Attributes:
-        problem: that is searched. floor: of its rims.
-        known: whether a motor behind a gear has all figures, shape (motors, gears).
-        least: lower bound on the mass of any device of the pair [kg], of that shape; inf: there is
-            none.
-        spin_inertia: on that of its wheels [kg m^2], as far as it was looked for.
         batches: solved candidates. places: of the lightest, lightest first.
         below: mass of what is heavier than anybody asks for [kg].
         ranks: whether the next lightest are looked for too.
     """
 
-    problem: SelectionProblem
-    floor: RimFloor
-    known: NDArray[np.bool_]
-    least: FloatArray
-    spin_inertia: FloatArray
     batches: list[Solved] = field(default_factory=list)
     places: list[Rank] = field(default_factory=list)
     below: float = np.inf
     ranks: bool = True
-
-    @classmethod
-    def of(cls, problem: SelectionProblem, below: float, *, ranks: bool) -> "Found":
-        """Nothing yet: bounds by what motor, gear and the smallest wheel weigh."""
-        floor = RimFloor.of(problem)
-        motors = np.array([motor.mass or 0.0 for motor in problem.motors])
-        plate, on_bell = problem.foot_plate, problem.on_bell
-        mounts = np.array([_held_mass(motor, plate, on_bell) for motor in problem.motors])
-        gears = np.array([gear.mass for gear in problem.gears])
-        direct = np.array([gear.room is None for gear in problem.gears])
-        drives = motors[:, None] + np.where(direct, mounts[:, None], 0.0) + gears
-        least = len(problem.layout) * (drives + floor.mass.min(initial=np.inf))
-        known = known_pairs(problem)
-        least, spin = np.where(known, least, np.inf), np.zeros(known.shape)
-        return cls(problem, floor, known, least, spin, below=below, ranks=ranks)
 
     @property
     def lightest(self) -> float:
@@ -195,13 +166,6 @@ class Found:
         self.places = _ordered({*ordered[:RANKED], *_best_of_motors(ordered)})
 
 
-@lru_cache(maxsize=512)
-def _held_mass(motor: Motor, foot_plate: float, on_bell: bool) -> float:
-    """Mass of screws and cage at the least, less the holes [kg]."""
-    mount = mount_of(motor, None, foot_plate, on_bell=on_bell)
-    return mount.by_floor().mass + mount.by_wheel().mass
-
-
 def _ranks(batch: int, solved: Solved) -> Iterator[Rank]:
     candidates, mass = solved.candidates, solved.mass
     drives = candidates.drives
@@ -243,7 +207,8 @@ def search(problem: SelectionProblem, below: float = np.inf, *, ranks: bool = Tr
         below: what is no lighter need not be found [kg].
         ranks: False: the lightest alone is looked for.
     """
-    found = Found.of(problem, below, ranks=ranks)
+    found = Found.of(problem)
+    found.below, found.ranks = below, ranks
     least = np.where(found.known, found.least, np.nan)
     order = np.argsort(least, axis=None, kind="stable")[: int(found.known.sum())]
     pairs = np.stack(np.unravel_index(order, least.shape), axis=-1)

@@ -40,9 +40,6 @@ def select(problem: SelectionProblem) -> Selection:
     No device of these motors, gears and materials that does every maneuver in time is lighter by
     0.1 %, at any incidence, with any rim within the envelope (docs/theory.md, The selection).
 
-    Args:
-        problem: what to choose from, and for what.
-
     Raises:
         Refused: no motor can do it; says what is missing.
         UsageError: there is nothing to choose from or nothing to do, or a limit is no limit.
@@ -136,11 +133,7 @@ def select_by(
 
 
 def lightest_by(problem: SelectionProblem, criterion: Criterion | None) -> Candidate | None:
-    """The lightest device alone, not refined; None: only the whole selection can tell.
-
-    Args:
-        problem, criterion: see `select_by`.
-    """
+    """The lightest device alone, not refined; None: only the whole selection can tell."""
     problem.check()
     stated = problem.incidence is not None
     at = problem if stated or criterion is None else _at_robots(problem, criterion)
