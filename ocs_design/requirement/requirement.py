@@ -1,6 +1,6 @@
 """Everything that the flywheels must be able to do, and what is kept in reserve for it."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -56,9 +56,13 @@ class Requirement:
     free: bool = False
     detection: float | None = None
 
+    def changed(self, change: Callable[[Maneuver], Maneuver]) -> "Requirement":
+        """Requirement with what becomes of each maneuver."""
+        return replace(self, maneuvers=tuple(map(change, self.maneuvers)))
+
     def on(self, body: MassProperties) -> "Requirement":
         """Requirement of a body, which kicks and pivots depend on (`Maneuver.on`)."""
-        return replace(self, maneuvers=tuple(each.on(body) for each in self.maneuvers))
+        return self.changed(lambda each: each.on(body))
 
     @property
     def kicks(self) -> FloatArray:

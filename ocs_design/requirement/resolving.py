@@ -363,13 +363,14 @@ class Resolved:
 
     def estimated(self, factors: Mapping[str, float]) -> "Resolved":
         """Requirement with these factors on what turns are estimated to ask for, by name."""
-        maneuvers = tuple(
-            replace(each, estimate=factors.get(each.name, 1.0))
-            if isinstance(each, TurnTo | Pivoted)
-            else each
-            for each in self.requirement.maneuvers
+        estimated = self.requirement.changed(
+            lambda each: (
+                replace(each, estimate=factors.get(each.name, 1.0))
+                if isinstance(each, TurnTo | Pivoted)
+                else each
+            )
         )
-        return replace(self, requirement=replace(self.requirement, maneuvers=maneuvers))
+        return replace(self, requirement=estimated)
 
     def carrying(self, requirement: Requirement) -> "Resolved":
         """Requirement of the robot with its device; what kicks do to both is told too.

@@ -241,11 +241,8 @@ def _caught(field: Field) -> Iterator[str]:
     asked = [each for each in requirement.maneuvers if isinstance(each, Balance)]
 
     def does(part: float) -> bool:
-        maneuvers = tuple(
-            each.times(part) if isinstance(each, Balance) else each
-            for each in requirement.maneuvers
-        )
-        return field.with_requirement(replace(requirement, maneuvers=maneuvers)).possible
+        less = requirement.changed(lambda m: m.times(part) if isinstance(m, Balance) else m)
+        return field.with_requirement(less).possible
 
     least = 1.0 / MOST_CHANGE
     if not asked or not does(least):

@@ -284,20 +284,18 @@ def _changes(
             relaxed = replace(relaxed, motors=motors)
             yield _Change(each.text, stated, replace(resolved, choice=own), relaxed)
     asked = problem.requirement
-    turned = tuple(
-        replace(maneuver, incidence=0.0)
-        if isinstance(maneuver, Flip) and maneuver.incidence is None
-        else maneuver
-        for maneuver in asked.maneuvers
-    )
-    if problem.layout.pairs and turned != asked.maneuvers:
+    flips = [each for each in asked.maneuvers if isinstance(each, Flip)]
+    if problem.layout.pairs and any(flip.incidence is None for flip in flips):
+        turned = asked.changed(
+            lambda m: replace(m, incidence=m.incidence or 0.0) if isinstance(m, Flip) else m
+        )
         kept = dict(asked.reserves)
-        for flip in turned:
-            if isinstance(flip, Flip) and flip.incidence == 0.0 and flip.name in kept:
+        for flip in flips:
+            if not flip.incidence and flip.name in kept:
                 # At 0 deg no wheel takes up a rate of roll.
                 own_reserve = kept[flip.name]
                 kept[flip.name] = replace(own_reserve, rate=(0.0, own_reserve.rate[1]), roll=0.0)
-        by_hand = replace(asked, maneuvers=turned, reserves=kept)
+        by_hand = replace(turned, reserves=kept)
         text = "modules turned to 0 deg by hand for each flip"
         yield changed(text, replace(problem, requirement=by_hand))
     power = problem.supply.power

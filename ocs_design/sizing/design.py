@@ -83,10 +83,8 @@ def design_device(
                 if not any(each.slower == 1.0 for each in climbs):
                     raise
                 # Robots stand up with less torque and more momentum.
-                maneuvers = tuple(
-                    each.calmer() if isinstance(each, StandUp) else each for each in asked.maneuvers
-                )
-                calm = replace(resolved, requirement=replace(asked, maneuvers=maneuvers))
+                calmer = asked.changed(lambda m: m.calmer() if isinstance(m, StandUp) else m)
+                calm = replace(resolved, requirement=calmer)
                 with suppress(Infeasible):
                     return design_device(specification, robot, calm, ranked=ranked, reserve=reserve)
                 raise

@@ -56,13 +56,11 @@ def selection_problem(
     footing = footing_of(robot, resolved.envelope, stated.position, layout)
     angle = layout.angle if stated.alpha is None else stated.alpha
     direct = angle is not None and bool(np.linalg.matrix_rank(layout.axes(angle), _SPANS) == 3)
-    maneuvers = tuple(
-        replace(each, direct=direct) if isinstance(each, TurnTo) else each
-        for each in resolved.requirement.maneuvers
-    )
     problem = SelectionProblem(
         robot=footing.carried(robot.mass_properties),
-        requirement=replace(resolved.requirement, maneuvers=maneuvers),
+        requirement=resolved.requirement.changed(
+            lambda each: replace(each, direct=direct) if isinstance(each, TurnTo) else each
+        ),
         envelope=resolved.envelope,
         place=footing.place,
         motors=_held(specification, resolved, choice),

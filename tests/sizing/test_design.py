@@ -73,11 +73,6 @@ def test_what_was_minimised_is_the_device_or_one_rim():
 
 
 @pytest.mark.parametrize("motor", ["none", MOTOR])
-def test_without_a_word_the_incidence_is_that_of_equal_rates(motor):
-    assert designed(motor)[1].criterion == "equal-rate"
-
-
-@pytest.mark.parametrize("motor", ["none", MOTOR])
 def test_an_incidence_by_hand_is_kept(motor):
     _, found = designed(motor, alpha=0.4)
     assert (found.criterion, found.device.incidence) == ("by hand", 0.4)
@@ -85,7 +80,7 @@ def test_an_incidence_by_hand_is_kept(motor):
 
 @pytest.mark.parametrize("motor", ["none", MOTOR])
 def test_equal_rate_is_that_of_robot_and_device(motor):
-    """tan(alpha) = I_roll / I_pitch."""
+    """tan(alpha) = I_roll / I_pitch; it is the default."""
     task, found = designed(motor)
     roll, pitch, _ = np.diag(braked_inertia(task.robot, found.device).inertia)
     assert found.criterion == "equal-rate"

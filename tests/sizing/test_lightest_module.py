@@ -49,32 +49,6 @@ LIGHTENED_WEIGHT = 0.9
 """Mass over spin inertia of a web with holes in its middle, of a disc's."""
 
 
-@pytest.mark.parametrize(
-    ("web", "weight"),
-    [
-        (0.0, 1.0),
-        (0.6, LIGHTENED_WEIGHT),
-        pytest.param(0.3, 1.0, marks=pytest.mark.exhaustive),
-        pytest.param(0.3, LIGHTENED_WEIGHT, marks=pytest.mark.exhaustive),
-        pytest.param(0.9, 1.0, marks=pytest.mark.exhaustive),
-    ],
-)
-def test_never_heavier_than_on_a_grid(web, weight):
-    rng = np.random.default_rng(3)
-    gaps = []
-    for _ in range(30):
-        problem = random_problem(rng)
-        limits = with_web(problem.limits, web, weight)
-        shape = lightest_module(problem.spin_inertia, limits, SHELL)
-        grid = on_a_grid(problem.spin_inertia, limits)
-        if not np.isfinite(grid):
-            continue
-        gaps.append(float(grid / shape.mass) - 1.0)
-    assert len(gaps) > 10
-    assert min(gaps) > -1e-12
-    assert np.median(gaps) < 2e-3
-
-
 def meets(shape, inertia, limits):
     inner, outer, height = map(float, (shape.inner_radius, shape.outer_radius, shape.height))
     nu, slack = limits.poisson_ratio, 1.0 + 1e-9
@@ -128,20 +102,32 @@ def with_cuts(limits, share, holes):
     return replace(limits, wall_min=wall, height_min=height, cuts=cuts)
 
 
-@pytest.mark.parametrize(("web", "holes"), [(0.0, 0), (0.3, 6)])
-def test_what_is_cut_off_is_made_up_for(web, holes):
-    """No lighter wheel with its edges broken is on a grid, and all have the inertia asked for."""
-    rng = np.random.default_rng(11)
+@pytest.mark.parametrize(
+    ("web", "weight", "holes", "seed", "count"),
+    [
+        (0.0, 1.0, None, 3, 30),
+        (0.6, LIGHTENED_WEIGHT, None, 3, 30),
+        pytest.param(0.3, 1.0, None, 3, 30, marks=pytest.mark.exhaustive),
+        pytest.param(0.3, LIGHTENED_WEIGHT, None, 3, 30, marks=pytest.mark.exhaustive),
+        pytest.param(0.9, 1.0, None, 3, 30, marks=pytest.mark.exhaustive),
+        # With broken edges, and holes that balance: what is cut off is made up for.
+        (0.0, 1.0, 0, 11, 12),
+        (0.3, 1.0, 6, 11, 12),
+    ],
+)
+def test_none_lighter_is_on_a_grid_and_all_have_the_inertia(web, weight, holes, seed, count):
+    rng = np.random.default_rng(seed)
     gaps = []
-    for _ in range(12):
+    for _ in range(count):
         problem = random_problem(rng)
-        limits = with_cuts(with_web(problem.limits, web), 0.005, holes)
+        limits = with_web(problem.limits, web, weight)
+        limits = limits if holes is None else with_cuts(limits, 0.005, holes)
         shape = lightest_module(problem.spin_inertia, limits, SHELL)
         grid = on_a_grid(problem.spin_inertia, limits)
         if np.isfinite(grid):
             meets(shape, problem.spin_inertia, limits)
             gaps.append(float(grid / shape.mass) - 1.0)
-    assert len(gaps) > 5
+    assert len(gaps) > count / 3.0
     assert min(gaps) > -1e-12
     assert np.median(gaps) < 2e-3
 

@@ -176,14 +176,11 @@ def with_limit(problem: SelectionProblem, limit: Limit, value: float) -> Selecti
 
 def with_time(problem: SelectionProblem, factor: float, names: set[str]) -> SelectionProblem:
     """The problem with `factor` times the time for the maneuvers of these names."""
-    requirement = problem.requirement
-    maneuvers = tuple(
-        slower(maneuver, factor, requirement.standing_height)
-        if maneuver.name in names
-        else maneuver
-        for maneuver in requirement.maneuvers
+    requirement, height = problem.requirement, problem.requirement.standing_height
+    longer = requirement.changed(
+        lambda each: slower(each, factor, height) if each.name in names else each
     )
-    return replace(problem, requirement=replace(requirement, maneuvers=maneuvers))
+    return replace(problem, requirement=longer)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

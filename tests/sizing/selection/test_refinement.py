@@ -1,6 +1,7 @@
 """One candidate from anywhere near: the same device to all digits, or none."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -12,6 +13,13 @@ from ocs_design.sizing.selection.candidates import Candidates, drives_of
 from ocs_design.sizing.selection.fixed_point import FixedPoint
 from ocs_design.sizing.selection.refinement import refine
 from ocs_design.sizing.selection.select import select
+
+
+@cache
+def drawn(seed):
+    """A problem that is drawn, and its lightest device."""
+    problem = draw(seed).problem
+    return problem, select(problem).best
 
 
 def candidates_of(problem, chosen):
@@ -46,8 +54,7 @@ def beside(chosen, factors, turn):
     [((1.0, 1.0, 1.0), 0.0), ((0.97, 0.98, 0.95), 0.01), ((1.0, 1.02, 1.1), -0.02)],
 )
 def test_the_start_does_not_matter(seed, factors, turn):
-    problem = draw(seed).problem
-    chosen = select(problem).best
+    problem, chosen = drawn(seed)
     turn = turn if problem.incidence is None else 0.0
     candidates = candidates_of(problem, chosen)
     found = refine(candidates, beside(chosen, factors, turn))
@@ -61,8 +68,7 @@ def test_the_start_does_not_matter(seed, factors, turn):
 @pytest.mark.parametrize("seed", [3, 4])
 def test_the_number_of_threads_does_not_matter(seed):
     """To the last digit, though libraries round otherwise on another number of them."""
-    problem = draw(seed).problem
-    chosen = select(problem).best
+    problem, chosen = drawn(seed)
     candidates = candidates_of(problem, chosen)
     turn = 0.01 if problem.incidence is None else 0.0
     found = []
@@ -74,16 +80,14 @@ def test_the_number_of_threads_does_not_matter(seed):
 
 
 def test_what_cannot_be_is_not_possible():
-    problem = draw(2).problem
-    chosen = select(problem).best
+    problem, chosen = drawn(2)
     small = replace(problem.envelope, outer_radius_max=0.3 * problem.envelope.outer_radius_max)
     less = replace(problem, envelope=small)
     assert not refine(candidates_of(less, chosen), beside(chosen, (1.0, 1.0, 1.0), 0.0)).feasible
 
 
 def test_a_stated_incidence_and_spin_inertia_are_kept():
-    problem = draw(2).problem
-    chosen = select(problem).best
+    problem, chosen = drawn(2)
     more = replace(problem.requirement, spin_inertia=1.1 * chosen.spin_inertia)
     stated = replace(problem, incidence=chosen.incidence, requirement=more)
     found = refine(candidates_of(stated, chosen), beside(chosen, (0.99, 1.0, 1.0), 0.0))

@@ -28,11 +28,14 @@ def problem(request):
     return draw(request.param).problem
 
 
-@cache
+chosen = cache(select)
+"""The selection of a problem, made once."""
+
+
 def mass(problem):
     """Of the lightest device [kg]; inf where there is none."""
     try:
-        return select(problem).best.mass
+        return chosen(problem).best.mass
     except Infeasible:
         return inf
 
@@ -120,7 +123,7 @@ def check_each_by_itself(problem):
         for gear in problem.gears
         for material in problem.materials
     ]
-    ranked = [device.mass for device in select(problem).ranking]
+    ranked = [device.mass for device in chosen(problem).ranking]
     per_motor = np.array(alone).reshape(len(problem.motors), -1)
     leaders = sorted(each for each in per_motor.min(axis=1) if each < inf)[:5]
     ten = sorted(each for each in alone if each < inf)[:10]
@@ -157,7 +160,7 @@ def test_a_free_incidence_is_no_heavier_than_any(problem):
 
 
 def test_the_ranking_is_sorted_settled_and_adds_up(problem):
-    ranking = select(problem).ranking
+    ranking = chosen(problem).ranking
     masses = [device.mass for device in ranking]
     assert masses == sorted(masses)
     names = {(d.motor.name, d.gear.name, d.material.name) for d in ranking}
@@ -169,7 +172,7 @@ def test_the_ranking_is_sorted_settled_and_adds_up(problem):
 
 @pytest.mark.parametrize("times", [1.01, 1.05])
 def test_a_stated_spin_inertia_is_kept(problem, times):
-    best = select(problem).best
+    best = chosen(problem).best
     # Of the same drive: another one may have less momentum in the same wheel.
     alone = replace(problem, motors=[best.motor], gears=[best.gear], materials=[best.material])
     stated = times * best.spin_inertia
