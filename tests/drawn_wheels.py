@@ -11,7 +11,7 @@ from ocs_design.export.drawing.sheet import FRAME_BOX, Circle, Line, Text
 from ocs_design.export.drawing.wheel import WheelDrawing
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre
 
-MADE_FOR = {"robot": "solo12", "identity": "9f3c0a1b2d4e", "tool": "ocs-design 0.1.0"}
+MADE_FOR = {"robot": "solo12", "identity": "9f3c0a1b2d4e"}
 
 HUB = WheelCentre(0.0015, 0.012, 0.008, 0.004, "EN AW-6082", 2700.0, HoleRing(0.008, 4, 0.0017))
 
@@ -107,7 +107,6 @@ def drawings(draw):
         wheel=wheel,
         robot=draw(st.sampled_from(["solo12", "a" * 300, '<&">', "机器人", "R2-D2 \\)("])),
         identity="9f3c0a1b2d4e",
-        tool="ocs-design 0.1.0",
         speed=draw(st.none() | st.floats(1.0, 1e4)),
         refused=draw(st.sampled_from(["", REFUSED])),
     )

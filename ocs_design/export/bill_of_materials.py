@@ -20,11 +20,7 @@ from ocs_design.device.joints import (
 from ocs_design.device.records.device import Margin
 from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.export.assembly_notes import drive_notes
-from ocs_design.export.device_parts import (
-    pedestal_kinds,
-    printed_parts,
-    ring_fixture,
-)
+from ocs_design.export.device_parts import pedestal_kinds, printed_parts, ring_fixture
 from ocs_design.export.electrics import battery, controllers, wiring_parts
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.carrier_plate import block_part, mast_part, plate_part, sleeve_part
@@ -336,11 +332,12 @@ def _web_text(web: Web) -> str:
 
 def _stock(outer_radius: float, inner_radius: float, length: float) -> str:
     """Tube for a bore of more than half the diameter, else a bar; whole millimetres."""
-    outside = math.ceil(_rounded(1e3 * (2.0 * outer_radius + _ALLOWANCE)))
-    cut = math.ceil(_rounded(1e3 * (length + _ALLOWANCE)))
+    # What is a whole number but for rounding is whole.
+    outside = math.ceil(round(1e3 * (2.0 * outer_radius + _ALLOWANCE), 6))
+    cut = math.ceil(round(1e3 * (length + _ALLOWANCE), 6))
     if inner_radius <= 0.5 * outer_radius:
         return f"round bar {outside} x {cut}"
-    inside = math.floor(_rounded(1e3 * (2.0 * inner_radius - _ALLOWANCE)))
+    inside = math.floor(round(1e3 * (2.0 * inner_radius - _ALLOWANCE), 6))
     return f"tube {outside} x {inside} inside x {cut}"
 
 
@@ -350,8 +347,3 @@ def _grams(mass: float) -> str:
 
 def _mm(length: float) -> str:
     return f"{1e3 * length:.2f}"
-
-
-def _rounded(figure: float) -> float:
-    """Figure to six decimals: what is a whole number but for rounding is whole."""
-    return round(figure, 6)

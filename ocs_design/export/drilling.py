@@ -12,10 +12,7 @@ from ocs_design.actuation.fasteners import Screw
 from ocs_design.common.units import format_quantity, round_outwards
 from ocs_design.device.joints import foot_screws
 from ocs_design.device.solids import foot_of
-from ocs_design.export.device_parts import (
-    foot_holes,
-    trunk_holes,
-)
+from ocs_design.export.device_parts import foot_holes, trunk_holes
 from ocs_design.export.drawing.sheet import (
     HEIGHT,
     LEADING,

@@ -1,7 +1,8 @@
-"""Pixels: those that triangles cover, for pictures and for lines that are hidden; images as PNG."""
+"""Views, the pixels that triangles cover in them, for pictures and hidden lines; images as PNG."""
 
 import struct
 import zlib
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,14 @@ from ocs_design.common.arrays import FloatArray
 _PNG = b"\x89PNG\r\n\x1a\n"
 _SUB = b"\1"
 """Filter of PNG: rows are differences to the pixel on the left, zeros on even faces."""
+
+
+def view_of(camera: Sequence[float], up: Sequence[float]) -> FloatArray:
+    """Rotation into the picture's axes: right, up, and towards the eye, shape (3, 3)."""
+    eye = np.asarray(camera, dtype=np.float64) / np.linalg.norm(camera)
+    right = np.cross(up, eye)
+    right /= np.linalg.norm(right)
+    return np.array([right, np.cross(eye, right), eye])
 
 
 def covered_pixels(

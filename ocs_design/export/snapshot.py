@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.export.meshes import Color, Mesh, primitive_mesh
-from ocs_design.export.raster import covered_pixels
+from ocs_design.export.raster import covered_pixels, view_of
 from ocs_design.robot.mujoco_bodies import HIDDEN_GROUP
 
 WIDTH, HEIGHT = 800, 500
@@ -23,12 +23,10 @@ _OVERSAMPLING = 2
 _AZIMUTH, _ELEVATION = np.radians(-37.0), np.radians(22.0)
 """Direction of the camera, seen from the robot: in front of it, on its right, above [rad]."""
 
-_TOWARDS = np.array(
-    [
-        np.cos(_ELEVATION) * np.cos(_AZIMUTH),
-        np.cos(_ELEVATION) * np.sin(_AZIMUTH),
-        np.sin(_ELEVATION),
-    ]
+_TOWARDS = (
+    np.cos(_ELEVATION) * np.cos(_AZIMUTH),
+    np.cos(_ELEVATION) * np.sin(_AZIMUTH),
+    np.sin(_ELEVATION),
 )
 """Unit vector in B towards the viewer."""
 
@@ -95,10 +93,7 @@ def picture(shapes: Sequence[tuple[FloatArray, Color]]) -> NDArray[np.uint8]:
     corners = np.concatenate([np.empty((0, 3, 3)), *(each for each, _ in opaque)])
     tints = (np.tile(color, (len(each), 1)) for each, color in opaque)
     colors = np.concatenate([np.empty((0, 3)), *tints])
-    # To the right and up on the screen.
-    towards, right = _TOWARDS, np.cross([0.0, 0.0, 1.0], _TOWARDS)
-    right /= np.linalg.norm(right)
-    up = np.cross(towards, right)
+    right, up, towards = view_of(_TOWARDS, (0.0, 0.0, 1.0))
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normal, axis=1)
     seen = length > 0.0

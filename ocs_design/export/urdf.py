@@ -13,12 +13,7 @@ import numpy as np
 
 from ocs_design.common.errors import RobotError
 from ocs_design.common.frames import Placement, rpy_from_rotation
-from ocs_design.device.bodies import (
-    DeviceBody,
-    device_bodies,
-    largest_torque,
-    require_free,
-)
+from ocs_design.device.bodies import DeviceBody, device_bodies, largest_torque, require_free
 from ocs_design.device.device import Device
 from ocs_design.export.formats import Base, Notes, Subject
 from ocs_design.export.stl import device_meshes

@@ -10,7 +10,6 @@ from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
-from ocs_design import __version__
 from ocs_design.actuation.fasteners import IN_PLASTIC
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.device import Device
@@ -36,8 +35,7 @@ from ocs_design.export.drawing.sheet import (
     fitted,
     wrapped,
 )
-from ocs_design.export.drawing.title_block import frame
-from ocs_design.export.drawing.wheel_sheet import device_hash
+from ocs_design.export.drawing.title_block import TOOL, device_hash, frame
 from ocs_design.export.drawing.writers import pdf_of_pages, svg_text
 from ocs_design.export.electrics import wiring
 from ocs_design.export.formats import Notes, Subject
@@ -150,7 +148,7 @@ def assembly_pages(assembly: Assembly) -> list[list[Item]]:
         left = LEFT + _INSET + column * (width + _GUTTER)
         first += _table(header, part, widths, (left, top, left + width))[0]
     bodies = [first, *_text_pages(assembly, chapters(assembly))]
-    identity = f"design {device_hash(assembly.device)} · ocs-design {__version__}"
+    identity = f"design {device_hash(assembly.device)} · {TOOL}"
     verdict = ": NOT buildable as it stands" if assembly.refused else ""
     title, y = fitted(f"Assembly, {assembly.name}{verdict}", 150.0, _TITLE), TOP + 7.0
     pages: list[list[Item]] = []

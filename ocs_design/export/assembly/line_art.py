@@ -21,14 +21,6 @@ _CREASE = np.cos(np.radians(25.0))
 """Cosine between the normals of two faces whose common edge is drawn."""
 
 
-def view_of(camera: Sequence[float], up: Sequence[float]) -> FloatArray:
-    """Rotation into the picture's axes: right, up, and towards the eye, shape (3, 3)."""
-    eye = np.asarray(camera, dtype=np.float64) / np.linalg.norm(camera)
-    right = np.cross(up, eye)
-    right /= np.linalg.norm(right)
-    return np.array([right, np.cross(eye, right), eye])
-
-
 def visible_lines(meshes: Sequence[Mesh]) -> tuple[tuple[FloatArray, ...], ...]:
     """Visible creases and outlines of each mesh as chains of points, shape (k, 2) [m].
 
@@ -139,22 +131,17 @@ def _chains(segments: Iterable[FloatArray]) -> tuple[FloatArray, ...]:
         if number not in left:
             continue
         left.discard(number)
-        chain, ends = list(pieces[number]), list(keys[number])
-        for at_end in (True, False):
-            while True:
-                end = ends[1] if at_end else ends[0]
-                following = next((each for each in by_end[end] if each in left), None)
-                if following is None:
-                    break
+        chain = list(pieces[number])
+        # On from its end, then, turned round, from its start.
+        for end in reversed(keys[number]):
+            last = end
+            while found := [each for each in by_end[last] if each in left]:
+                following = found[0]
                 left.discard(following)
-                forwards = keys[following][0] == end
-                point, key = pieces[following][int(forwards)], keys[following][int(forwards)]
-                if at_end:
-                    chain.append(point)
-                    ends[1] = key
-                else:
-                    chain.insert(0, point)
-                    ends[0] = key
+                far = int(keys[following][0] == last)
+                chain.append(pieces[following][far])
+                last = keys[following][far]
+            chain.reverse()
         chains.append(np.array(chain))
     return tuple(chains)
 

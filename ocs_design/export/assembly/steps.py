@@ -411,13 +411,22 @@ def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
     long, degree = 360.0 / LONG_MARKS, 1e3 * np.radians(foot.base_radius - WALL)
     held, plate = found.fastening, assembly.device.plate
     into = "the threads of the plate" if plate else "threads, inserts or nuts of the trunk"
+    # Pins through the feet where friction does not keep them from turning.
+    asked, pinned = unheld_moment(assembly.device, assembly.margins), ""
+    if asked:
+        pinned = (
+            " Then drill 3 mm through the base of each foot, clear of its slots, into what it "
+            "stands on, and put a pin in: in a maneuver the wheel turns its foot with up to "
+            f"{asked:.2g} N m, and the friction of its screws holds "
+            f"{foot_hold(assembly.device).turning:.2g} N m."
+        )
     return (
         f"The scale's 0 is the long mark square to the wheel's axis; marks are {long / 3.0:g} deg "
         f"apart, long ones {long:g}, and a degree is {degree:.2g} mm at their ends. Scribe a line "
         "forward through the middle of each foot, turn the foot until it meets the scale at "
         f"{scale}, within half a degree, its lid looking {looks}, and tighten {held.count} x "
         f"{held.designation}{assembly.number(screws)}{found.with_washers}, with {found.torque:.2g} "
-        f"N m each, into {into}.{_under_motor(assembly, found)}{_pinned(assembly)}"
+        f"N m each, into {into}.{_under_motor(assembly, found)}{pinned}"
     )
 
 
@@ -458,19 +467,6 @@ def _under_motor(assembly: Assembly, found: Tightened) -> str:
         f" One of them is under the motor, with {1e3 * room:.0f} mm above its head: tighten it by "
         f"a hex key of {1e3 * driven.key:g} mm{cut} with "
         f"{found.torque / KEY_ARM:.1f} N at {1e3 * KEY_ARM:.0f} mm of its long leg."
-    )
-
-
-def _pinned(assembly: Assembly) -> str:
-    """Pins through the feet where friction does not keep them from turning; empty: it does."""
-    asked = unheld_moment(assembly.device, assembly.margins)
-    if not asked:
-        return ""
-    held = foot_hold(assembly.device).turning
-    return (
-        " Then drill 3 mm through the base of each foot, clear of its slots, into what it stands "
-        f"on, and put a pin in: in a maneuver the wheel turns its foot with up to {asked:.2g} N m, "
-        f"and the friction of its screws holds {held:.2g} N m."
     )
 
 

@@ -6,7 +6,7 @@ from itertools import cycle
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.export.assembly.line_art import section_lines, view_of, visible_lines
+from ocs_design.export.assembly.line_art import section_lines, visible_lines
 from ocs_design.export.assembly.placed import Piece
 from ocs_design.export.drawing.sheet import (
     CENTRE,
@@ -25,6 +25,7 @@ from ocs_design.export.drawing.sheet import (
     largest_scale,
 )
 from ocs_design.export.meshes import Mesh
+from ocs_design.export.raster import view_of
 
 _CAMERA, _UP = (0.80, -0.38, 0.55), (0.0, -1.0, 0.0)
 

@@ -7,6 +7,8 @@ underside.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -38,14 +40,7 @@ from ocs_design.export.drawing.sheet import (
     rectangle,
     upright_dimension,
 )
-from ocs_design.export.drawing.title_block import (
-    Entries,
-    frame,
-    numbered,
-    title_block,
-    verdict,
-    why,
-)
+from ocs_design.export.drawing.title_block import Entries, device_hash, whole_sheet
 from ocs_design.export.drawing.wheel import plain
 from ocs_design.parts.carrier_plate import CarrierPlate, Mast, mast_part, plate_part
 from ocs_design.parts.dog_bone import directions
@@ -74,62 +69,69 @@ _BETWEEN = 40.0
 """Distance between two views [mm]."""
 
 
-def plate_sheets(
-    device: Device, robot: str, identity: str, tool: str, refused: str = ""
-) -> list[list[Item]]:
-    """Sheets of the plate and of its mast, as `WheelDrawing`; none where the feet need no plate."""
+def plate_sheets(device: Device, robot: str, refused: str = "") -> list[list[Item]]:
+    """Sheets of the plate and of its mast; none where the feet need no plate.
+
+    `robot` is the robot's name, `refused` as of `WheelDrawing`.
+    """
     plate = device.plate
     if plate is None:
         return []
     count, one = (1 if plate.mast is None else 2), plate.each[0]
-    scale, view = _top_view(one)
-    many = "" if len(plate.rows) == 1 else f", {len(plate.rows)} of them"
-    entries = Entries(
-        f"Plate under the feet{many}",
-        robot,
-        scale,
-        plate.material,
-        plate_part(one).mass(),
-        ("Thickness", f"{plain(plate.thickness)} (EN 485-4)"),
-        "as rolled, edges Ra 6.3 (ISO 21920)",
-        tool,
-        identity,
-        f"1 / {count}",
+    entries_of = partial(
+        Entries, robot=robot, material=plate.material, identity=device_hash(device)
     )
-    words = [*verdict(refused), *numbered([*why(refused), *_plate_notes(plate)])]
-    sheets = [[*frame(), *view, *words, *title_block(entries)]]
-    if plate.mast is not None:
-        scale, view = _mast_views(plate, plate.mast)
-        entries = Entries(
-            "Mast behind the trunk",
-            robot,
-            scale,
-            plate.material,
-            mast_part(plate, plate.mast).mass(),
-            ("Square tube", f"{plain(plate.mast.side)} x {plain(plate.mast.wall)} (EN 755-8)"),
-            "as drawn (extruded)",
-            tool,
-            identity,
-            f"2 / {count}",
+    many = "" if len(plate.rows) == 1 else f", {len(plate.rows)} of them"
+    scale, view = _top_view(one)
+    entries = entries_of(
+        title=f"Plate under the feet{many}",
+        scale=scale,
+        mass=plate_part(one).mass(),
+        figure=("Thickness", f"{plain(plate.thickness)} (EN 485-4)"),
+        texture="as rolled, edges Ra 6.3 (ISO 21920)",
+        sheet=f"1 / {count}",
+    )
+    sheets = [whole_sheet(view, _plate_notes(plate), entries, refused)]
+    mast = plate.mast
+    if mast is not None:
+        scale, view = _mast_views(plate, mast)
+        entries = entries_of(
+            title="Mast behind the trunk",
+            scale=scale,
+            mass=mast_part(plate, mast).mass(),
+            figure=("Square tube", f"{plain(mast.side)} x {plain(mast.wall)} (EN 755-8)"),
+            texture="as drawn (extruded)",
+            sheet=f"2 / {count}",
         )
-        words = [*verdict(refused), *numbered([*why(refused), *_mast_notes(plate, plate.mast)])]
-        sheets.append([*frame(), *view, *words, *title_block(entries)])
+        sheets.append(whole_sheet(view, _mast_notes(plate, mast), entries, refused))
     return sheets
 
 
-def _kinds(plate: CarrierPlate) -> tuple[tuple[str, float, Sequence[Point]], ...]:
-    """Holes of one plate: what each is, its diameter [m], and the places [m]."""
-    windows = plate.across * directions(plate.arms)
+class Hole(NamedTuple):
+    """A hole of the plate: its name on the sheet, its size in words, diameter and place [m]."""
+
+    name: str
+    size: str
+    diameter: float
+    at: Point
+
+
+def _holes(plate: CarrierPlate) -> list[Hole]:
+    """Holes of one plate, the threads for the feet first: those are A."""
+    clearance, window = plate.screw.clearance_hole, 2.0 * plate.window
+    windows = (plate.across * directions(plate.arms)).tolist() if window > 0.0 else ()
     kinds = (
         (plate.foot_thread, screw(plate.foot_thread).tapping_drill, plate.feet),
-        (f"Ø{plain(plate.screw.clearance_hole)}", plate.screw.clearance_hole, plate.trunk),
-        (
-            f"Ø{plain(2.0 * plate.window)}",
-            2.0 * plate.window,
-            [(float(x), float(y)) for x, y in windows],
-        ),
+        (f"Ø{plain(clearance)}", clearance, plate.trunk),
+        (f"Ø{plain(window)}", window, windows),
     )
-    return tuple(kind for kind in kinds if kind[1] > 0.0 and kind[2])
+    return [
+        Hole(f"{letter}{number}", size, diameter, (x, y))
+        for letter, (size, diameter, places) in zip(
+            "ABC", (kind for kind in kinds if kind[2]), strict=False
+        )
+        for number, (x, y) in enumerate(places, start=1)
+    ]
 
 
 def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
@@ -148,11 +150,7 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
 
     ring = [place(float(x), float(y)) for x, y in corners]
     items: list[Item] = [Polyline((*ring, ring[0]), OUTLINE)]
-    holes = [
-        (f"{name}{number}", place(x, y), scale(size) / 2.0)
-        for name, (_, size, places) in zip("ABC", _kinds(plate), strict=False)
-        for number, (x, y) in enumerate(places, start=1)
-    ]
+    holes = [(hole.name, place(*hole.at), scale(hole.diameter) / 2.0) for hole in _holes(plate)]
     lines = _along([*ring, ring[0]])
     turn = np.linspace(0.0, 2.0 * np.pi, 721)
     circles = [
@@ -214,11 +212,10 @@ def _hole_table(plate: CarrierPlate) -> Iterator[Item]:
     x, y = RIGHT - _TABLE, TOP + 8.0
     columns = (x, x + 11.0, x + 27.0, x + 45.0)
     rows = [("Hole", "Size", "x", "y")]
-    for name, (what, _, places) in zip("ABC", _kinds(plate), strict=False):
-        rows += [
-            (f"{name}{number}", what, f"{1e3 * at[0]:.2f}", f"{1e3 * at[1]:.2f}")
-            for number, at in enumerate(places, start=1)
-        ]
+    rows += [
+        (hole.name, hole.size, f"{1e3 * hole.at[0]:.2f}", f"{1e3 * hole.at[1]:.2f}")
+        for hole in _holes(plate)
+    ]
     for row in rows:
         for column, cell in zip(columns, row, strict=True):
             yield Text((column, y), cell)
@@ -227,9 +224,8 @@ def _hole_table(plate: CarrierPlate) -> Iterator[Item]:
 
 
 def _plate_notes(plate: CarrierPlate) -> Iterator[str]:
-    names = dict(zip((kind[0] for kind in _kinds(plate)), "ABC", strict=False))
     yield (
-        f"Holes {names[plate.foot_thread]} are threads {plate.foot_thread} right through, for the "
+        f"Holes A are threads {plate.foot_thread} right through, for the "
         "feet's screws; places of holes ±0.1 from the axes, x forward and y to the left."
     )
     ends = f"Ends R~{plain(plate.radius)} around their windows' middles"

@@ -1,8 +1,13 @@
 """Frame, title block and numbered notes of a sheet (ISO 5457, ISO 7200)."""
 
-from collections.abc import Sequence
+import hashlib
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+import msgspec
+
+from ocs_design import __version__
+from ocs_design.device.device import Device
 from ocs_design.export.drawing.sheet import (
     CENTRE,
     FRAME,
@@ -40,6 +45,18 @@ NUMBER_WIDTH = 5.0
 _MOST_WORDS = 420
 """Letters of the note that says why nothing can be built: three lines across the sheet."""
 
+TOOL = f"ocs-design {__version__}"
+"""Program and version that drew a sheet."""
+
+DIGITS = 12
+"""Length of the hash that says which design a sheet belongs to."""
+
+
+def device_hash(device: Device) -> str:
+    """Hash of wheel, motor and carrier as `design.json` has them: the same for the same parts."""
+    parts = msgspec.json.encode((device.flywheel, device.motor, device.carrier))
+    return hashlib.sha256(parts).hexdigest()[:DIGITS]
+
 
 def frame() -> list[Item]:
     """Frame around the drawing, with a mark at the middle of each side."""
@@ -57,20 +74,6 @@ def frame() -> list[Item]:
     ]
 
 
-def verdict(refused: str) -> list[Item]:
-    """The line at the top of a sheet of what cannot be built; none where nothing is refused."""
-    words = "NOT buildable as it stands: make nothing of this sheet, note 1 says why"
-    return [Text((RIGHT - 4.0, TOP + 4.1), words, 3.0, Anchor.END)] if refused else []
-
-
-def why(refused: str) -> list[str]:
-    """First note of a sheet of what cannot be built, as much as there is room for; else none."""
-    if len(refused) <= _MOST_WORDS:
-        return [refused] if refused else []
-    points = refused[:_MOST_WORDS].rpartition(". ")[0]
-    return [f"{points}. All that is open is in cad/assembly.pdf."]
-
-
 @dataclass(frozen=True)
 class Entries:
     """What the title block of any part says.
@@ -78,7 +81,7 @@ class Entries:
     Attributes:
         title: of the part. robot: that it is made for. scale: of the views.
         material: name. mass: of one [kg]. figure: another of its figures, caption and value.
-        texture: of its surfaces. tool, identity: see `WheelDrawing`. sheet: number and count.
+        texture: of its surfaces. identity: see `WheelDrawing`. sheet: number and count.
     """
 
     title: str
@@ -88,12 +91,37 @@ class Entries:
     mass: float
     figure: tuple[str, str]
     texture: str
-    tool: str
     identity: str
     sheet: str = "1 / 1"
 
 
-def title_block(entries: Entries) -> list[Item]:
+def whole_sheet(
+    views: Iterable[Item],
+    notes: Iterable[str],
+    entries: Entries,
+    refused: str,
+    *,
+    parts: Sequence[Item] = (),
+) -> list[Item]:
+    """Frame, views, numbered notes, list of parts and title block.
+
+    `refused` says that the device cannot be built, and why, or is empty: it is told at the top of
+    the sheet, and its first note gives as much of the reason as there is room for.
+    """
+    items, sentences = [*frame(), *views], [*notes]
+    if refused:
+        words = "NOT buildable as it stands: make nothing of this sheet, note 1 says why"
+        items.append(Text((RIGHT - 4.0, TOP + 4.1), words, 3.0, Anchor.END))
+        if len(refused) > _MOST_WORDS:
+            points = refused[:_MOST_WORDS].rpartition(". ")[0]
+            refused = f"{points}. All that is open is in cad/assembly.pdf."
+        sentences.insert(0, refused)
+    # The notes above the title block and the list of parts are as wide as the sheet.
+    block = min([BLOCK_TOP, *(part.start[1] for part in parts if isinstance(part, Line))])
+    return [*items, *_numbered(sentences, block), *parts, *_title_block(entries)]
+
+
+def _title_block(entries: Entries) -> list[Item]:
     """Fields row by row, and the symbol of first-angle projection.
 
     Checker and date are written by hand.
@@ -114,7 +142,7 @@ def title_block(entries: Entries) -> list[Item]:
         (
             (40.0, "General tolerances", "ISO 2768-mK", 2.5),
             (64.0, "Surface texture", entries.texture, 2.5),
-            (50.0, "Drawn by", entries.tool, 2.5),
+            (50.0, "Drawn by", TOOL, 2.5),
             (26.0, "Sheet", f"{entries.sheet}, A4", 2.5),
         ),
         (
@@ -145,7 +173,7 @@ def title_block(entries: Entries) -> list[Item]:
     ]
 
 
-def numbered(sentences: Sequence[str], block: float = BLOCK_TOP) -> list[Item]:
+def _numbered(sentences: Sequence[str], block: float) -> list[Item]:
     """Numbered notes at the lower left, wrapped to the room; no line ends at a tilde.
 
     Those that end above `block`, the top of what stands beside them [mm], are as wide as the sheet.

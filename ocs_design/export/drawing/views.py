@@ -117,7 +117,17 @@ def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
         beyond = width + scale.length(2.0)
         start, end = _placed([(-beyond, ring.radius), (beyond, ring.radius)], layout, side)
         items.append(Line(start, end, CENTRE))
-    items += _diameters(wheel, layout)
+    # Diameters with room for their text, side by side, the smallest next to the outline.
+    left = x - half - FIRST_COLUMN
+    roomy = (each for each in diameters(wheel) if fits_inside(each[0], 2.0 * scale(each[1])))
+    for column, (label, radius, width) in enumerate(roomy):
+        items += upright_dimension(
+            label,
+            x=left - COLUMN * column,
+            middle=y,
+            half=scale(radius),
+            outline_x=x - scale(width) / 2.0,
+        )
     # Width of the rim above the view; those of web and hub between hub and rim, on either side of
     # the axis.
     label, top = toleranced(rim.height, Grade.IT11), y - edge
@@ -175,23 +185,6 @@ def _cut_rings(wheel: Wheel) -> Iterator[tuple[HoleRing, float, float]]:
         for side in (_ABOVE, _BELOW):
             if is_cut(ring, above=side == _ABOVE):
                 yield ring, width, side
-
-
-def _diameters(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
-    """Diameters with room for their text, side by side, the smallest next to the outline."""
-    (x, y), column = layout.section, 0
-    left = x - layout.scale(widest(wheel)) / 2.0 - FIRST_COLUMN
-    for label, radius, width in diameters(wheel):
-        half = layout.scale(radius)
-        if fits_inside(label, 2.0 * half):
-            yield from upright_dimension(
-                label,
-                x=left - COLUMN * column,
-                middle=y,
-                half=half,
-                outline_x=x - layout.scale(width) / 2.0,
-            )
-            column += 1
 
 
 def _width(

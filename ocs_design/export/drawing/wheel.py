@@ -29,7 +29,6 @@ class WheelDrawing:
         wheel: as it is made.
         robot: name of the robot that it is made for.
         identity: of the design, such as the beginning of its hash.
-        tool: program and version.
         speed: highest in service [rad/s]; None: not limited.
         interference: of a rim that is shrunk on, least and largest over the diameter [m]; None:
             there is none, or it is not known.
@@ -42,7 +41,6 @@ class WheelDrawing:
     wheel: Wheel
     robot: str
     identity: str
-    tool: str
     speed: float | None
     interference: tuple[float, float] | None = None
     bonded: bool = False

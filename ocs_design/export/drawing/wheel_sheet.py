@@ -1,14 +1,10 @@
 """Technical drawing of a design's wheel, as SVG and PDF."""
 
-import hashlib
 import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import msgspec
-
-from ocs_design import __version__
 from ocs_design.catalogue.materials import materials
 from ocs_design.device import joints
 from ocs_design.device.device import Device
@@ -20,7 +16,6 @@ from ocs_design.export.drawing.sheet import (
     THIN,
     WIDTH,
     Item,
-    Line,
     Text,
     fitted,
     outline,
@@ -31,11 +26,8 @@ from ocs_design.export.drawing.title_block import (
     BLOCK_TOP,
     BLOCK_WIDTH,
     Entries,
-    frame,
-    numbered,
-    title_block,
-    verdict,
-    why,
+    device_hash,
+    whole_sheet,
 )
 from ocs_design.export.drawing.views import front_view, lay_out, section_view
 from ocs_design.export.drawing.wheel import (
@@ -64,17 +56,13 @@ _PARTS_COLUMNS = (0.0, 12.0, 62.0, 150.0, BLOCK_WIDTH)
 RUN_OUT = 1e3 * joints.RUN_OUT
 """Permissible run-out of the rim to the bore [mm]."""
 
-DIGITS = 12
-"""Length of the hash that says which design a sheet belongs to."""
-
 
 def write(subject: "Subject", folder: Path) -> "Notes":
     """Write `wheel.svg` and `wheel.pdf`, which show the same, `plate.pdf` and `drilling.pdf`."""
     drawing = wheel_drawing(subject.device, subject.name, subject.refused)
     for suffix, content in draw_wheel(drawing).items():
         (folder / f"wheel.{suffix}").write_bytes(content)
-    identity = device_hash(subject.device), f"ocs-design {__version__}"
-    if sheets := plate_sheets(subject.device, subject.name, *identity, subject.refused):
+    if sheets := plate_sheets(subject.device, subject.name, subject.refused):
         title = f"Plate under the feet of {subject.name}"
         (folder / "plate.pdf").write_bytes(pdf_of_pages(sheets, title))
     if drilling := drilling_of(subject):
@@ -94,7 +82,6 @@ def wheel_drawing(device: Device, robot: str, refused: str = "") -> WheelDrawing
         wheel=wheel_geometry(device.flywheel),
         robot=robot,
         identity=device_hash(device),
-        tool=f"ocs-design {__version__}",
         speed=speed if math.isfinite(speed) else None,
         interference=None if fit is None else (2.0 * fit.least, 2.0 * fit.most),
         bonded=device.on_bell,
@@ -102,12 +89,6 @@ def wheel_drawing(device: Device, robot: str, refused: str = "") -> WheelDrawing
         yield_strength=None if material is None else material.yield_strength,
         refused=refused,
     )
-
-
-def device_hash(device: Device) -> str:
-    """Hash of wheel, motor and carrier as `design.json` has them: the same for the same parts."""
-    parts = msgspec.json.encode((device.flywheel, device.motor, device.carrier))
-    return hashlib.sha256(parts).hexdigest()[:DIGITS]
 
 
 def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
@@ -122,21 +103,11 @@ def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
         sum(drawing.masses),
         ("Spin inertia about the axis", inertia),
         "Ra 3.2, bore Ra 1.6 (ISO 21920)",
-        drawing.tool,
         drawing.identity,
     )
+    views = [*section_view(wheel, layout), *front_view(wheel, layout)]
     parts = parts_list(drawing)
-    # The notes above the title block and the list of parts are as wide as the sheet.
-    block = min([BLOCK_TOP, *(part.start[1] for part in parts if isinstance(part, Line))])
-    return [
-        *frame(),
-        *section_view(wheel, layout),
-        *front_view(wheel, layout),
-        *verdict(drawing.refused),
-        *numbered([*why(drawing.refused), *notes(drawing)], block),
-        *parts,
-        *title_block(entries),
-    ]
+    return whole_sheet(views, notes(drawing), entries, drawing.refused, parts=parts)
 
 
 def parts_list(drawing: WheelDrawing) -> list[Item]:

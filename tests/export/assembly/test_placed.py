@@ -9,12 +9,13 @@ from manifold3d import Manifold, Mesh64
 
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.device.solids import motor_mount
-from ocs_design.export.assembly.line_art import section_lines, view_of, visible_lines
+from ocs_design.export.assembly.line_art import section_lines, visible_lines
 from ocs_design.export.assembly.placed import module_pieces, placed_parts
 from ocs_design.export.assembly_notes import drive_notes
 from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.export.device_parts import foot_holes
 from ocs_design.export.meshes import Mesh, solid_mesh
+from ocs_design.export.raster import view_of
 from ocs_design.parts.housing import LID_SCREWS
 from ocs_design.parts.printed import CLEARANCE, trunk_screws
 from ocs_design.parts.shapes import Rectangle

@@ -35,7 +35,7 @@ def plate(request):
 
 
 def sheets_of(plate):
-    return plate_sheets(replace(DEVICES["on a plate"], plate=plate), "dog", "0123456789ab", "tool")
+    return plate_sheets(replace(DEVICES["on a plate"], plate=plate), "dog")
 
 
 def test_all_words_are_within_the_frame_and_none_on_another(plate):
@@ -119,13 +119,13 @@ def test_a_mast_has_the_lengths_that_it_is_cut_to():
 
 
 def test_without_a_plate_there_is_no_sheet():
-    assert plate_sheets(DEVICES["caged"], "dog", "0123456789ab", "tool") == []
+    assert plate_sheets(DEVICES["caged"], "dog") == []
 
 
 def test_a_plate_that_is_not_to_be_made_says_so_first(plate):
     """At the top of each sheet, and why in its first note."""
     device = replace(DEVICES["on a plate"], plate=plate)
-    for page in plate_sheets(device, "dog", "0123456789ab", "tool", REFUSED):
+    for page in plate_sheets(device, "dog", REFUSED):
         check_words(page)
         assert_refused(page)
 
@@ -133,7 +133,7 @@ def test_a_plate_that_is_not_to_be_made_says_so_first(plate):
 def test_a_long_refusal_leaves_the_other_notes_their_room(plate):
     many = " ".join(["NOT buildable as it stands."] + ["One thing; another that cures it."] * 40)
     device = replace(DEVICES["on a plate"], plate=plate)
-    for page in plate_sheets(device, "dog", "0123456789ab", "tool", many):
+    for page in plate_sheets(device, "dog", many):
         check_words(page)
         said = " ".join(item.text for item in texts(page))
         assert "cures it. All that is open is in cad/assembly.pdf." in said

@@ -27,13 +27,9 @@ from wheels import paper_device
 from ocs_design.device.device import Web
 from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.sheet import FRAME_BOX, OUTLINE, Circle, Line, Text
+from ocs_design.export.drawing.title_block import device_hash
 from ocs_design.export.drawing.wheel import inside_corners
-from ocs_design.export.drawing.wheel_sheet import (
-    device_hash,
-    draw_wheel,
-    wheel_drawing,
-    wheel_sheet,
-)
+from ocs_design.export.drawing.wheel_sheet import draw_wheel, wheel_drawing, wheel_sheet
 from ocs_design.export.drawing.writers import pdf_of_pages
 from ocs_design.parts.rim import WEB_MATERIAL, WEB_THICKNESS, Hub
 from ocs_design.parts.wheel import Wheel
