@@ -295,7 +295,20 @@ def tree_urdf(tree: Tree) -> str:
         for own in (body.links[body.name],)
     ]
     for name, body in zip(names, tree.bodies, strict=True):
-        root.append(_link(name, body))
+        link = ET.SubElement(root, "link", name=name)
+        mass = body.mass_properties
+        if mass.mass > 0.0:
+            inertial = ET.SubElement(link, "inertial")
+            inertial.append(_origin(Placement(np.eye(3), mass.com)))
+            ET.SubElement(inertial, "mass", value=numbers(mass.mass))
+            values = inertial_values(mass)
+            moments = {each: values[each] for each in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
+            ET.SubElement(inertial, "inertia", moments)
+        for shape in body.shapes:
+            for geometry, place in _geometries(shape):
+                element = ET.SubElement(link, "collision" if shape.collides else "visual")
+                element.append(_origin(place))
+                ET.SubElement(element, "geometry").append(geometry)
         if body.joint is not None:
             root.append(_joint(name, body, body.joint, names[body.parent]))
         for frame, place in body.links.items():
@@ -305,24 +318,6 @@ def tree_urdf(tree: Tree) -> str:
                 root.append(_connection(fixed, "fixed", name, frame, place))
     ET.indent(root)
     return '<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(root, encoding="unicode") + "\n"
-
-
-def _link(name: str, body: Body) -> ET.Element:
-    link = ET.Element("link", name=name)
-    mass = body.mass_properties
-    if mass.mass > 0.0:
-        inertial = ET.SubElement(link, "inertial")
-        inertial.append(_origin(Placement(np.eye(3), mass.com)))
-        ET.SubElement(inertial, "mass", value=numbers(mass.mass))
-        values = inertial_values(mass)
-        moments = {name: values[name] for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
-        ET.SubElement(inertial, "inertia", moments)
-    for shape in body.shapes:
-        for geometry, place in _geometries(shape):
-            element = ET.SubElement(link, "collision" if shape.collides else "visual")
-            element.append(_origin(place))
-            ET.SubElement(element, "geometry").append(geometry)
-    return link
 
 
 def _geometries(shape: Shape) -> Iterator[tuple[ET.Element, Placement]]:

@@ -130,14 +130,11 @@ def test_one_sheet_is_enough_where_it_has_room_for_the_holes():
     assert len(shown) == len(drilling.holes)
 
 
-def test_wheels_alone_have_none():
-    assert drilling_of(subject(paper_device())) is None
-
-
-def test_a_module_that_does_not_stand_has_no_screws_in_the_trunk():
-    holes = foot_holes(around(Layout(LayoutName.PYRAMID)))
-    assert holes == {}
-    assert drilling_of(subject(around(Layout(LayoutName.PYRAMID)))) is None
+def test_wheels_alone_and_modules_that_do_not_stand_have_no_holes_in_the_trunk():
+    leaning = around(Layout(LayoutName.PYRAMID))
+    assert foot_holes(leaning) == {}
+    for device in (paper_device(), leaning):
+        assert drilling_of(subject(device)) is None
 
 
 def test_dxf_has_the_holes_in_the_frame_of_the_trunk(device, tmp_path):

@@ -39,12 +39,9 @@ def test_the_holes_of_the_plate_are_told(robot, plated):
     assert "M3" in said
 
 
-def test_feet_on_the_trunk_need_threads_in_it(robot, plated):
+def test_feet_on_the_trunk_need_threads_in_it_and_wheels_without_feet_none(robot, plated):
     (said,) = trunk_notes(replace(plated, plate=None), robot)
     assert "threads M3" in said
-
-
-def test_wheels_without_feet_need_no_holes(robot, plated):
     bare = replace(plated, carrier=replace(plated.carrier, mass=0.0))
     assert trunk_notes(bare, robot) == ()
 

@@ -26,30 +26,21 @@ def weighed(part: Part, sections: int) -> trimesh.Trimesh:
     return found
 
 
-def errors(part: Part, sections: int) -> tuple[float, float]:
-    """Relative, of mass and of the largest entry of the inertia tensor."""
-    found, exact = weighed(part, sections), part.mass_properties()
-    inertia = np.abs(found.moment_inertia * 1e-6 - exact.inertia).max() / exact.inertia.max()
-    return abs(found.mass / exact.mass - 1.0), float(inertia)
-
-
 @pytest.mark.parametrize("part", PARTS.values(), ids=PARTS)
-def test_mesh_is_one_closed_body_about_the_same_centre(part):
-    found = weighed(part, 256)
-    assert found.is_watertight
-    assert found.is_winding_consistent
-    assert found.body_count == 1
-    assert found.area_faces.min() > 0.0
-    com = found.center_mass * 1e-3
-    np.testing.assert_allclose(com, part.mass_properties().com, atol=1e-8)
-
-
-@pytest.mark.parametrize("part", PARTS.values(), ids=PARTS)
-def test_mesh_converges_to_the_closed_form(part, record_property):
-    mass, inertia = np.transpose([errors(part, sections) for sections in SECTIONS])
-    record_property("inertia_errors", dict(zip(SECTIONS, inertia.tolist(), strict=True)))
+def test_mesh_is_one_closed_body_that_converges_to_the_closed_form(part, record_property):
+    meshes, exact = [weighed(part, sections) for sections in SECTIONS], part.mass_properties()
+    finest = meshes[-1]
+    assert finest.is_watertight
+    assert finest.is_winding_consistent
+    assert finest.body_count == 1
+    assert finest.area_faces.min() > 0.0
+    np.testing.assert_allclose(finest.center_mass * 1e-3, exact.com, atol=1e-8)
     # Every polygon has its arc's own area.
-    assert mass.max() < 1e-12
+    assert [mesh.mass for mesh in meshes] == pytest.approx([exact.mass] * 4, rel=1e-12)
+    # Relative errors of the largest entry of the inertia tensor.
+    off = [np.abs(mesh.moment_inertia * 1e-6 - exact.inertia).max() for mesh in meshes]
+    inertia = np.array(off) / exact.inertia.max()
+    record_property("inertia_errors", dict(zip(SECTIONS, inertia.tolist(), strict=True)))
     order = np.log2(inertia[0] / inertia[-1]) / np.log2(SECTIONS[-1] / SECTIONS[0])
     assert order > (ORDER_OF_ARCS if part.name in WITH_ARCS else ORDER_OF_CIRCLES)
     assert inertia[0] < 1e-3

@@ -37,30 +37,40 @@ def test_a_design_that_counts_no_screws_is_told_from_one_that_does():
     assert f"the design counts {1e3 * old.mass:.3f} g" in total
 
 
-def test_a_motor_that_is_not_known_has_no_screws():
-    assert screws(device_on(None)) == {}
+LIDS_AND_FEET = {
+    "lid on drum, which is tapped": ("screw ISO 4762 M2 x 6", 8),
+    "foot on trunk": ("screw ISO 4762 M3 x 6", 4),
+}
+"""4 ears and 1.6 mm of lid with twice the diameter in plastic; 2 slots and 3 mm of base."""
 
 
-def test_lids_and_feet_have_theirs():
-    """4 ears and 1.6 mm of lid with twice the diameter in plastic; 2 slots and 3 mm of base."""
-    assert screws(housed(None)) == {
-        "lid on drum, which is tapped": ("screw ISO 4762 M2 x 6", 8),
-        "foot on trunk": ("screw ISO 4762 M3 x 6", 4),
-    }
-
-
-def test_screws_of_a_motor_with_threads_beside_its_shaft_go_through_floor_and_foot():
-    """1.6 mm and 5 mm, and 3 mm of thread: 9.6 mm."""
-    assert screws(housed(FLAT))["motor on housing and foot"] == ("screw ISO 4762 M3 x 10", 8)
-
-
-def test_a_motor_with_threads_at_its_back_has_a_cage_on_the_plate():
-    """M2 through 1.6 and 5 mm with 4 mm of thread in the print, M3 through 3 mm of floor."""
-    found = screws(housed(CAGED.mounting))
-    assert found["cage on housing and foot, it is tapped"] == ("screw ISO 4762 M2 x 12", 8)
-    assert found["motor in its cage"] == ("screw ISO 4762 M3 x 6", 8)
-    assert found["wheel on rotor"] == ("screw ISO 4762 M3 x 6", 6)
-    assert "cage" in {part.name for part in printed_parts(housed(CAGED.mounting))}
+@pytest.mark.parametrize(
+    ("device", "held"),
+    [
+        (device_on(None), {}),
+        (housed(None), LIDS_AND_FEET),
+        # Through floor and foot, 1.6 mm and 5 mm, and 3 mm of thread: 9.6 mm.
+        (
+            housed(FLAT),
+            LIDS_AND_FEET | {"motor on housing and foot": ("screw ISO 4762 M3 x 10", 8)},
+        ),
+        # M2 through 1.6 and 5 mm with 4 mm of thread in the print, M3 through 3 mm of floor.
+        (
+            housed(CAGED.mounting),
+            LIDS_AND_FEET
+            | {
+                "cage on housing and foot, it is tapped": ("screw ISO 4762 M2 x 12", 8),
+                "motor in its cage": ("screw ISO 4762 M3 x 6", 8),
+                "wheel on rotor": ("screw ISO 4762 M3 x 6", 6),
+            },
+        ),
+    ],
+    ids=["nothing printed", "unknown threads", "beside its shaft", "at its back"],
+)
+def test_a_motor_is_held_by_its_threads(device, held):
+    assert screws(device) == held
+    printed = {part.name for part in printed_parts(device)}
+    assert ("cage" in printed) == ("motor in its cage" in held)
 
 
 def test_floor_and_foot_get_the_motor_s_holes():

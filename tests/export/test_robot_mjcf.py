@@ -42,6 +42,11 @@ EXACT = (
 )  # fmt: skip
 
 
+def written(robot, device, folder):
+    """The robot's file, read as `at_home` does."""
+    return at_home(export_robot_mjcf(robot_model(robot, device), folder / "robot.xml"))
+
+
 def at_home(path):
     """Model of a file and its data at `ocs_home`, as a viewer loads it."""
     model = mujoco.MjModel.from_xml_path(str(path))
@@ -105,7 +110,7 @@ def test_a_free_flight_keeps_its_angular_momentum_as_the_file_stands(path, tmp_p
     """The gate of the flights, `MOMENTUM_GATE`, for 2 s with fast wheels and a turning trunk."""
     robot = robot_at(path)
     device = scaled_device(robot)
-    model, data = at_home(export_robot_mjcf(robot_model(robot, device), tmp_path / "robot.xml"))
+    model, data = written(robot, device, tmp_path)
     data.qpos[2] += 40.0
     data.qvel[3:6] = 0.5, 2.0, 0.3
     for name, speed in zip(joint_names(device), (600.0, -300.0), strict=True):
@@ -147,7 +152,7 @@ def test_a_quadruped_stands_in_its_scene(path, tmp_path):
 
 def test_its_drives_and_options_are_those_of_the_flights(tmp_path):
     robot, device = robot_at(SOLO12), paper_device()
-    model, _ = at_home(export_robot_mjcf(robot_model(robot, device), tmp_path / "robot.xml"))
+    model, _ = written(robot, device, tmp_path)
     world = WorldBuilder(robot, device).flight(default_maneuvers(robot)[0], Wheels.ACTIVE)
     for name in leg_joints(robot):
         ours, flown = model.actuator(name), world.model.actuator(name)
@@ -162,9 +167,7 @@ def test_its_drives_and_options_are_those_of_the_flights(tmp_path):
 
 def test_joints_in_no_leg_are_held_until_they_are_released(tmp_path):
     robot = robot_at(LEGGED_PATHS[6])
-    model, data = at_home(
-        export_robot_mjcf(robot_model(robot, paper_device()), tmp_path / "robot.xml")
-    )
+    model, data = written(robot, paper_device(), tmp_path)
     others = sorted(set(robot.tree.joints) - set(leg_joints(robot)))
     assert [model.eq(f"ocs_hold_{name}").id for name in others]
     data.qpos[2] += 5.0
@@ -186,9 +189,7 @@ def test_links_meet_the_floor_and_not_each_other_unless_their_mjcf_says_so(tmp_p
 def test_actuators_of_the_robots_own_get_no_others_beside_them(tmp_path):
     (tmp_path / "in.xml").write_text(MJCF)
     robot = read_robot(tmp_path / "in.xml", posture="zero", joints={"swing": 0.3})
-    model, data = at_home(
-        export_robot_mjcf(robot_model(robot, paper_device()), tmp_path / "out.xml")
-    )
+    model, data = written(robot, paper_device(), tmp_path)
     assert [model.actuator(i).name for i in range(model.nu)] == ["swing", "ocs_left", "ocs_right"]
     # A position servo at rest gives no torque where it is told to be.
     assert data.joint("swing").qpos[0] == 0.3

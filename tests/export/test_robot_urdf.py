@@ -1,7 +1,6 @@
 """Whole robots with their device as URDF, read again by Pinocchio and by our own reader."""
 
 import numpy as np
-import pinocchio as pin
 import pytest
 from built import DEVICES
 from exported import (
@@ -26,15 +25,6 @@ HAND = robot_by_hand(2.5, (0.03, 0.05, 0.07, 0.001, 0.002, -0.003), com=(0.01, 0
 
 def exported_text(robot: Robot, device=None) -> str:
     return robot_urdf(robot, device or paper_device()).decode()
-
-
-@pytest.mark.parametrize("path", LEGGED_PATHS[6:], ids=LEGGED[6:])
-def test_pinocchio_reads_the_robot_and_its_wheels(path):
-    robot, device = robot_at(path), paper_device()
-    model = pinocchio_model(exported_text(robot, device))
-    total = robot.mass + 2.0 * device.flywheel.mass
-    assert pin.computeTotalMass(model) == pytest.approx(total, rel=1e-12)
-    check_wheels_in_pinocchio(model, device, robot.trunk)
 
 
 @pytest.mark.parametrize("path", LEGGED_PATHS, ids=LEGGED)

@@ -33,12 +33,9 @@ def fastenings(motor):
     return [each.fastening for each in mount_of(motor, None).screwed]
 
 
-def test_there_are_motors_to_look_at():
-    assert len(HELD) >= 9
-
-
 def test_every_screw_is_standard_and_holds():
     """As short as it may be: the next shorter standard length would not hold."""
+    assert len(HELD) >= 9
     for motor in HELD:
         for each in (*fastenings(motor), LID_SCREWS, trunk_screws(PLATE_THICKNESS)):
             least = 1e3 * max(each.depth * each.screw.diameter, each.least)

@@ -168,11 +168,11 @@ class Assembly(Documented):
             if name.startswith(("lid", "foot on", "plate on", "mast on", "pedestal"))
         )
 
-    def screwed(self, name: str, *, lid: bool = False) -> str:
+    def screwed(self, name: str) -> str:
         """The step that tightens equal screws."""
         found = self.screws[name]
         held = found.fastening
-        joint = "Lid on drum" if lid else short(name).capitalize()
+        joint = "Lid on drum" if name.startswith("lid") else short(name).capitalize()
         lock = "no threadlocker"
         if held.depth < IN_PLASTIC:
             lock = "threadlocker of medium strength"

@@ -168,9 +168,7 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
             f"{loose if balance_of(device).shifted else ''}"
         )
         yield "Balance the wheel on its motor (below): lid off, behind the spin test's wall."
-        yield assembly.screwed(
-            next(name for name in assembly.screws if name.startswith("lid")), lid=True
-        )
+        yield assembly.screwed(next(name for name in assembly.screws if name.startswith("lid")))
         yield "Run the spin test (below), lid on."
         mass = device.module_mass - device.motor.controller_mass
         yield (
@@ -353,7 +351,19 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
             f"a sleeve of {1e3 * mast.bore:.1f} mm between them around each screw."
         )
         if plate.relief is not None:
-            yield _block_step(assembly, plate)
+            # A block that has the trunk's form is the jig for the trunk's holes.
+            thin, thick = 1e3 * min(map(min, mast.formed)), 1e3 * mast.off
+            bush = f"{1e3 * plate.screw.clearance_hole:g} x {1e3 * plate.screw.tapping_drill:g}"
+            tilt = format_quantity(steepest(plate), "deg", digits=2)
+            yield (
+                f"Mill the block{assembly.number(BLOCK)} to cad/block.stl or block.step, {thin:.1f}"
+                f" to {thick:.1f} mm thick: its front has the trunk's form. Weld it before the "
+                "upright, its lower end level with the end of the block in cad/plate.pdf, and "
+                "drill both together. Hold the mast on the trunk where the block fits: it does in "
+                f"one place, and nowhere is more than {1e3 * TOUCH:g} mm between them. With bushes "
+                f"of {bush} mm in its holes it is the jig for the trunk's, which go along the "
+                f"screws, up to {tilt} off square to the trunk. Bed it in filled epoxy."
+            )
     own = zip(places(trunk_holes(plate)), plate.sleeves, strict=True)
     sleeves = [f"{1e3 * length:.2f} mm at {at}" for at, length in own if length > 0.0]
     if sleeves:
@@ -362,23 +372,6 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
         )
     yield from (
         assembly.screwed(each) for each in assembly.late if each.startswith(("plate on", "mast on"))
-    )
-
-
-def _block_step(assembly: Assembly, plate: CarrierPlate) -> str:
-    """How the block that has the trunk's form is made, and is the jig for the trunk's holes."""
-    mast, held = plate.mast, plate.screw
-    assert mast is not None, "a block of a mast"
-    thin, thick = 1e3 * min(map(min, mast.formed)), 1e3 * mast.off
-    tilt = format_quantity(steepest(plate), "deg", digits=2)
-    return (
-        f"Mill the block{assembly.number(BLOCK)} to cad/block.stl or block.step, {thin:.1f} to "
-        f"{thick:.1f} mm thick: its front has the trunk's form. Weld it before the upright, its "
-        "lower end level with the end of the block in cad/plate.pdf, and drill both together. Hold "
-        "the mast on the trunk where the block fits: it does in one place, and nowhere is more "
-        f"than {1e3 * TOUCH:g} mm between them. With bushes of {1e3 * held.clearance_hole:g} x "
-        f"{1e3 * held.tapping_drill:g} mm in its holes it is the jig for the trunk's, which go "
-        f"along the screws, up to {tilt} off square to the trunk. Bed it in filled epoxy."
     )
 
 

@@ -362,10 +362,10 @@ def viewing_arrow(*, x: float, edge: float, down: bool) -> list[Item]:
     It leaves the outline at the y `edge`, upward or `down`.
     """
     way = 1.0 if down else -1.0
-    y, thick = edge + 7.0 * way, Pen(OUTLINE.width)
+    y = edge + 7.0 * way
     return [
-        Line((x, edge + 3.5 * way), (x, edge + 9.0 * way), thick),
-        Line((x, y), (x + 10.0, y), thick),
+        Line((x, edge + 3.5 * way), (x, edge + 9.0 * way), OUTLINE),
+        Line((x, y), (x + 10.0, y), OUTLINE),
         arrow((x, y), (-1.0, 0.0)),
         # Leaders come in from the right.
         Text((x - 2.5, y + 1.75), "A", 3.5, Anchor.END),

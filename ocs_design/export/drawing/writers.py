@@ -41,39 +41,35 @@ def pdf_of_pages(pages: Iterable[Iterable[Item]], title: str, *, compressed: boo
     canvas.setSubject("")
     for items in pages:
         canvas.scale(POINTS_PER_MM, POINTS_PER_MM)
+        # PDF counts y upwards.
         for item in items:
-            _draw(canvas, item)
+            match item:
+                case Line((x1, y1), (x2, y2), pen):
+                    _take(canvas, pen)
+                    canvas.line(x1, HEIGHT - y1, x2, HEIGHT - y2)
+                case Polyline(points, pen):
+                    _take(canvas, pen)
+                    canvas.drawPath(_path(canvas, points))
+                case Circle((x, y), radius, pen):
+                    _take(canvas, pen)
+                    canvas.circle(x, HEIGHT - y, radius)
+                case Area(corners, white):
+                    canvas.setFillGray(1.0 if white else 0.0)
+                    path = _path(canvas, corners)
+                    path.close()
+                    canvas.drawPath(path, stroke=0, fill=1)
+                    canvas.setFillGray(0.0)
+                case Text():
+                    x, y = item.start
+                    text = canvas.beginText()
+                    text.setFont(FONT, item.size)
+                    turn = (0, 1, -1, 0) if item.upright else (1, 0, 0, 1)
+                    text.setTextTransform(*turn, x, HEIGHT - y)
+                    text.textOut(item.text)
+                    canvas.drawText(text)
         canvas.showPage()
     canvas.save()
     return buffer.getvalue()
-
-
-def _draw(canvas: Canvas, item: Item) -> None:
-    """Draw one item; PDF counts y upwards."""
-    match item:
-        case Line((x1, y1), (x2, y2), pen):
-            _take(canvas, pen)
-            canvas.line(x1, HEIGHT - y1, x2, HEIGHT - y2)
-        case Polyline(points, pen):
-            _take(canvas, pen)
-            canvas.drawPath(_path(canvas, points))
-        case Circle((x, y), radius, pen):
-            _take(canvas, pen)
-            canvas.circle(x, HEIGHT - y, radius)
-        case Area(corners, white):
-            canvas.setFillGray(1.0 if white else 0.0)
-            path = _path(canvas, corners)
-            path.close()
-            canvas.drawPath(path, stroke=0, fill=1)
-            canvas.setFillGray(0.0)
-        case Text():
-            x, y = item.start
-            text = canvas.beginText()
-            text.setFont(FONT, item.size)
-            turn = (0, 1, -1, 0) if item.upright else (1, 0, 0, 1)
-            text.setTextTransform(*turn, x, HEIGHT - y)
-            text.textOut(item.text)
-            canvas.drawText(text)
 
 
 def _path(canvas: Canvas, points: Sequence[Point]) -> PDFPathObject:

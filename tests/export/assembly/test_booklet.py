@@ -30,12 +30,14 @@ from ocs_design.export.drawing.sheet import Circle, Line, Polyline, Text
 from ocs_design.parts.pedestal import Pedestal
 
 
-@pytest.fixture(params=DEVICES, ids=str)
+@pytest.fixture(params=DEVICES, ids=str, scope="module")
 def assembly(request):
     return Assembly("solo12", DEVICES[request.param])
 
 
 def test_all_is_on_the_sheet_and_no_text_on_another(assembly):
+    """And large figures are written out."""
+    assert not re.search(r"\de[+]", " ".join(all_texts(assembly)))
     for page in assembly_pages(assembly):
         check_words(page)
         for item in page:
@@ -492,10 +494,6 @@ def test_each_foot_of_a_ring_is_turned_to_its_own_axis():
         (caged.at_incidence(np.pi / 6.0), "30 deg"),
     ):
         assert f"meets the scale at {angles}," in texts(Assembly("solo12", device), "Steps")
-
-
-def test_large_figures_are_written_out(assembly):
-    assert not re.search(r"\de[+]", " ".join(all_texts(assembly)))
 
 
 def test_pedestals_of_two_shapes_stand_beside_each_other():

@@ -123,17 +123,13 @@ def test_without_a_plate_there_is_no_sheet():
 
 
 def test_a_plate_that_is_not_to_be_made_says_so_first(plate):
-    """At the top of each sheet, and why in its first note."""
+    """At the top of each sheet, and why in its first note, which leaves the others their room."""
     device = replace(DEVICES["on a plate"], plate=plate)
-    for page in plate_sheets(device, "dog", REFUSED):
-        check_words(page)
-        assert_refused(page)
-
-
-def test_a_long_refusal_leaves_the_other_notes_their_room(plate):
     many = " ".join(["NOT buildable as it stands."] + ["One thing; another that cures it."] * 40)
-    device = replace(DEVICES["on a plate"], plate=plate)
-    for page in plate_sheets(device, "dog", many):
-        check_words(page)
-        said = " ".join(item.text for item in texts(page))
+    sheets = (plate_sheets(device, "dog", refused) for refused in (REFUSED, many))
+    for short, long in zip(*sheets, strict=True):
+        check_words(short)
+        assert_refused(short)
+        check_words(long)
+        said = " ".join(item.text for item in texts(long))
         assert "cures it. All that is open is in cad/assembly.pdf." in said

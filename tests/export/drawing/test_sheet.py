@@ -23,12 +23,9 @@ def test_a_capital_is_as_high_as_told_and_as_wide_as_the_font_has_it():
     assert Text((0.0, 0.0), "M", 7.18).width == pytest.approx(8.33)
 
 
-def test_every_code_that_can_be_encoded_is_printable():
+def test_what_can_be_encoded_is_printable_and_all_else_a_question_mark():
     for code in range(0xA0, 0x100):
         assert printable(chr(code)) == chr(code)
-
-
-def test_what_the_font_lacks_becomes_a_question_mark():
     assert printable("a机\n≤\x7f\x81?") == "a?????" + "?"
 
 
@@ -63,21 +60,13 @@ def test_neighbouring_faces_share_their_lines():
     assert parts == pytest.approx(sum(math.dist(a.start, a.end) for a in hatching(whole)))
 
 
-def test_a_length_on_paper_and_back():
-    assert Scale(2, 1)(0.01) == 20.0
-    assert Scale(1, 5)(0.1) == 20.0
-    assert Scale(1, 5).length(20.0) == 0.1
-
-
-def test_the_largest_scale_of_the_standard_at_which_all_fit():
+def test_the_largest_scale_of_the_standard_at_which_all_fit_and_the_smallest_if_none_does():
     assert str(largest_scale((0.3, 61.0))) == "1:5"
     assert str(largest_scale((0.3, 61.0), (0.001, 0.05))) == "1:20"
     assert str(largest_scale((0.001, 600.0))) == "500:1"
     assert str(largest_scale((0.3, 76.0), standard=False)) == "1:4"
-
-
-def test_the_smallest_if_nothing_fits():
     assert largest_scale((1.0, 0.0)).paper == 1
+    assert (Scale(2, 1)(0.01), Scale(1, 5)(0.1), Scale(1, 5).length(20.0)) == (20.0, 20.0, 0.1)
 
 
 STEPS = [3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500, 630, 800, 1000]
