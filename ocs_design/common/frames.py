@@ -95,9 +95,11 @@ class Placement:
         return cls(np.eye(3), np.zeros(3))
 
     def __matmul__(self, inner: "Placement") -> "Placement":
-        return Placement(
-            self.rotation @ inner.rotation, self.rotation @ inner.position + self.position
-        )
+        return Placement(self.rotation @ inner.rotation, self.point(inner.position))
+
+    def point(self, inner: ArrayLike) -> FloatArray:
+        """A point of the frame, seen from the other, shape (3,)."""
+        return np.asarray(self.rotation @ inner + self.position)
 
     def inverse(self) -> "Placement":
         """The other frame in this one."""

@@ -93,14 +93,13 @@ class PostureLine:
 
 def posture_lines(robot: Robot) -> tuple[PostureLine, ...]:
     """Inertia and alpha* over plausible postures; see `posture_sensitivity`."""
-    inertia_of = {row.label: row.mass_properties.inertia for row in posture_sensitivity(robot)}
     return tuple(
         PostureLine(
             posture=posture,
-            inertia_diagonal=vector(np.diag(inertia)),
-            incidence=incidence_by_criterion(inertia)[Criterion.EQUAL_RATE],
+            inertia_diagonal=vector(np.diag(found.inertia)),
+            incidence=incidence_by_criterion(found.inertia)[Criterion.EQUAL_RATE],
         )
-        for posture, inertia in inertia_of.items()
+        for posture, found in posture_sensitivity(robot).items()
     )
 
 

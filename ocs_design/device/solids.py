@@ -124,7 +124,7 @@ def pedestal_solids(pedestal: Pedestal) -> tuple[Drum, ...]:
         # So close that each bar is within them to half its thickness on either side.
         count = 1 + ceil(float(np.linalg.norm(stop - start)) / (sqrt(3.0) * thick))
         for share in np.linspace(0.0, 1.0, count):
-            middle = place.rotation @ (start + share * (stop - start)) + place.position
+            middle = place.point(start + share * (stop - start))
             found.append(Drum(middle, place.rotation[:, 0], thick, pedestal.width))
     return tuple(found)
 

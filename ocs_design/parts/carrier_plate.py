@@ -387,8 +387,8 @@ class CarrierPlate:
         # Screws as points.
         for place, length in zip(self.screw_places, self.screw_lengths, strict=True):
             up = np.array([0.0, 0.0, self.clamped - self.screw.centre(length)])
-            at = place.rotation @ up + place.position
-            bodies.append(MassProperties(self.screw.mass(length), at, np.zeros((3, 3))))
+            mass = self.screw.mass(length)
+            bodies.append(MassProperties(mass, place.point(up), np.zeros((3, 3))))
         return combine(bodies)
 
 

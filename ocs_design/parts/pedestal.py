@@ -149,9 +149,7 @@ class Pedestal:
 
     def in_base(self, places: Iterable[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
         """Places of its underside in B, x and y [m]."""
-        turned = [
-            self.placement.rotation @ [x, y, 0.0] + self.placement.position for x, y in places
-        ]
+        turned = (self.placement.point([x, y, 0.0]) for x, y in places)
         return tuple((float(x), float(y)) for x, y, _ in turned)
 
     @property

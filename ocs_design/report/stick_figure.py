@@ -35,9 +35,7 @@ def stick_figure(robot: Robot, legs: Sequence[Leg], words: Sequence[str]) -> str
     the likeliest, are in colour and their feet named.
     """
     places = robot.tree.placements_from(robot.trunk, robot.posture)
-    feet = {
-        leg.name: places[leg.body].rotation @ leg.foot + places[leg.body].position for leg in legs
-    }
+    feet = {leg.name: places[leg.body].point(leg.foot) for leg in legs}
     # Corners of the box around the trunk's shapes along B's axes; none without shapes.
     index = robot.tree.body_of_link[robot.trunk]
     place, shapes = places[index], solid_shapes(robot.tree.bodies[index])

@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import takewhile
-from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +14,6 @@ from numpy.typing import NDArray
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import Placement, cross, rotation_about
 from ocs_design.robot.tree import Body, Joint, JointKind, Tree
-
-BoolArray: TypeAlias = NDArray[np.bool_]
 
 _SWEEPS = 40
 
@@ -46,7 +43,7 @@ class ChainPose:
 
     def point(self, local: FloatArray) -> FloatArray:
         """A point of the last body, seen from the reference frame [m], shape (3,)."""
-        return self.end.rotation @ local + self.end.position
+        return self.end.point(local)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +100,7 @@ class Chain:
         return np.clip(np.zeros(len(self.driven)), self.lower, self.upper)
 
     @cached_property
-    def _slides(self) -> BoolArray:
+    def _slides(self) -> NDArray[np.bool_]:
         """Mask of the prismatic joints, shape (n,)."""
         return np.array([joint.kind is JointKind.PRISMATIC for joint in self.joints])
 

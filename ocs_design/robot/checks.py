@@ -13,19 +13,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.robot.chain import chain_of, neutral_posture
+from ocs_design.robot.chain import Chain, chain_of, neutral_posture
 from ocs_design.robot.leg_geometry import sole_depths
 from ocs_design.robot.legs import is_wheel
 from ocs_design.robot.links import Warnings
-from ocs_design.robot.mass import (
-    MassProperties,
-    ball_density,
-    gyration_radius,
-    physical_defect,
-)
+from ocs_design.robot.mass import MassProperties, ball_density, gyration_radius, physical_defect
 from ocs_design.robot.meshes import half_extents, mesh_bounds
 from ocs_design.robot.robot import Leg
-from ocs_design.robot.tree import Body, Joint, JointKind, ShapeKind, Tree
+from ocs_design.robot.tree import Body, JointKind, ShapeKind, Tree
 
 
 def plausibility_warnings(
@@ -319,13 +314,12 @@ class _Side:
     """One leg in B, joints at rest.
 
     Attributes:
-        leg: as found. bodies, joints: from hip to foot. origins: of the joints [m], shape (n, 3).
-        masses: of the bodies.
+        leg: as found. chain: from hip to foot. origins: of its joints [m], shape (n, 3).
+        masses: of its bodies.
     """
 
     leg: Leg
-    bodies: tuple[Body, ...]
-    joints: tuple[Joint, ...]
+    chain: Chain
     origins: FloatArray
     masses: tuple[MassProperties, ...]
 
@@ -343,17 +337,18 @@ def _judge_mirror_images(tree: Tree, trunk: str, legs: Sequence[Leg], warnings: 
             place = place @ body.placement
             origins.append(place.position)
             masses.append(body.mass_properties.moved(place.rotation, place.position))
-        sides.append(_Side(leg, chain.bodies, chain.joints, np.array(origins), tuple(masses)))
+        sides.append(_Side(leg, chain, np.array(origins), tuple(masses)))
     left = [side for side in sides if side.origins[0, 1] > 0.0]
     right = [side for side in sides if side.origins[0, 1] < 0.0]
     for one in left if len(left) == len(right) else ():
         # The leg whose hip is nearest to where the mirror image has it.
         other = min(right, key=lambda each: _shift(each.origins[0], one.origins[0]))
-        if len(one.bodies) != len(other.bodies):
+        if len(one.masses) != len(other.masses):
             names = f"{one.leg.name}, {other.leg.name}"
             warnings.add("legs left and right differ in their number of joints", names)
             continue
-        for index, (body, twin) in enumerate(zip(one.bodies, other.bodies, strict=True)):
+        bodies = zip(one.chain.bodies, other.chain.bodies, strict=True)
+        for index, (body, twin) in enumerate(bodies):
             for finding in _differences(one, other, index):
                 warnings.add(finding, f"{body.name}, {twin.name}")
 
@@ -379,7 +374,7 @@ def _differences(one: _Side, other: _Side, index: int) -> Iterator[str]:
         yield "links whose inertia does not mirror the other side's"
     ours, theirs = (
         (joint.upper - joint.lower, joint.effort, joint.velocity)
-        for joint in (one.joints[index], other.joints[index])
+        for joint in (one.chain.joints[index], other.chain.joints[index])
     )
     if not np.isclose(ours, theirs, rtol=LIMIT_SHARE, atol=0.0).all():
         yield "joints whose range, effort or speed differs from the other side's"

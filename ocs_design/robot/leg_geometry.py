@@ -26,13 +26,16 @@ class LegGeometry:
         leg: as found in the tree.
         chain: from the body where the legs branch to the foot, in B.
         plane: in which the leg bends, in B.
+        up: the same for all legs, see `up_axis`.
     """
 
     leg: Leg
     chain: Chain
     plane: LegPlane
+    up: FloatArray
 
-    def stepping_sideways(self, up: FloatArray) -> bool:
+    @property
+    def steps_sideways(self) -> bool:
         """Whether the knee turns about B's x axis while the leg bends to step.
 
         A hexapod's leg bends to reach out sideways, and steps as its hip swings about the vertical:
@@ -40,7 +43,7 @@ class LegGeometry:
         """
         driven, plane = self.chain.driven, self.plane
         axes = self.chain.pose(np.zeros(len(driven))).axes
-        swings = 0 not in plane.pitch and abs(axes[driven[0]] @ up) > SIDEWAYS
+        swings = 0 not in plane.pitch and abs(axes[driven[0]] @ self.up) > SIDEWAYS
         rolls = any(abs(axes[row] @ plane.forward) > SIDEWAYS for row in driven)
         return bool(abs(plane.axis[0]) > SIDEWAYS and (rolls or not swings))
 
@@ -50,7 +53,7 @@ def leg_geometries(tree: Tree, trunk: str, legs: Sequence[Leg]) -> tuple[LegGeom
     up, placements = up_axis(tree, trunk, legs), tree.placements_from(trunk, neutral_posture(tree))
     chains = [chain_of(tree, leg.base, leg.body, placements) for leg in legs]
     return tuple(
-        LegGeometry(leg, chain, leg_plane(chain, leg.foot, up))
+        LegGeometry(leg, chain, leg_plane(chain, leg.foot, up), up)
         for leg, chain in zip(legs, chains, strict=True)
     )
 
@@ -76,11 +79,7 @@ def sole_depths(
     """
     up = up_axis(tree, trunk, legs)
     placements = tree.placements_from(trunk, posture)
-    return [
-        leg.foot_radius
-        - float(up @ (placements[leg.body].rotation @ leg.foot + placements[leg.body].position))
-        for leg in legs
-    ]
+    return [leg.foot_radius - float(up @ placements[leg.body].point(leg.foot)) for leg in legs]
 
 
 def convention_warnings(tree: Tree, trunk: str, legs: Sequence[Leg]) -> list[str]:
@@ -88,20 +87,19 @@ def convention_warnings(tree: Tree, trunk: str, legs: Sequence[Leg]) -> list[str
     if not legs:
         return []
     cure = "fix a link with x forward and z up to the trunk and name it with --trunk"
-    up = up_axis(tree, trunk, legs)
+    geometries = leg_geometries(tree, trunk, legs)
+    up = geometries[0].up
     if up[2] < 1.0:
         return [
             f"the legs do not hang along -z of the trunk frame '{trunk}' but along "
             f"{axis_name(-up)}, so roll and pitch are about other axes than they should: {cure}"
         ]
-    geometries = leg_geometries(tree, trunk, legs)
-    planes = [geometry.plane for geometry in geometries]
-    if all(geometry.stepping_sideways(up) for geometry in geometries):
+    if all(geometry.steps_sideways for geometry in geometries):
         return [
             f"the knees turn about the x axis of the trunk frame '{trunk}', so x seems to point "
             f"sideways, and roll and pitch are swapped: {cure}"
         ]
-    if named_front(legs, [plane.hip for plane in planes])[0] < 0.0:
+    if named_front(legs, [geometry.plane.hip for geometry in geometries])[0] < 0.0:
         return [
             f"the legs that are named as front ones are behind the others: x of the trunk frame "
             f"'{trunk}' seems to point backwards, and flips go the other way round: {cure}"
@@ -162,9 +160,9 @@ def with_base_frame(
 
 def _base_rotation(tree: Tree, trunk: str, legs: Sequence[Leg]) -> FloatArray:
     """Axes of B in the trunk's frame, turned by right angles, as columns, shape (3, 3)."""
-    up = up_axis(tree, trunk, legs)
     geometries = leg_geometries(tree, trunk, legs)
-    if up[2] == 1.0 and not all(geometry.stepping_sideways(up) for geometry in geometries):
+    up = geometries[0].up
+    if up[2] == 1.0 and not all(geometry.steps_sideways for geometry in geometries):
         return np.eye(3)
     planes = [geometry.plane for geometry in geometries]
     knees = [plane.axis for plane in planes]

@@ -196,9 +196,8 @@ class Anatomy:
 
     def _fixed_frames(self, body: int) -> FloatArray:
         """Origins at rest of a body's links, but of that at its joint [m], shape (n, 3)."""
-        place = self.placements[body]
         places = [each.position for each in self.tree.bodies[body].links.values()]
-        found = [place.rotation @ each + place.position for each in places if each.any()]
+        found = [self.placements[body].point(each) for each in places if each.any()]
         return np.reshape(found, (-1, 3))
 
     def one_of_each_pair(self, chosen: Sequence[Limb], up: FloatArray) -> list[Limb]:
@@ -282,9 +281,8 @@ class Anatomy:
             placements = self.tree.placements(posture)
             tips, hips = [], []
             for limb in chosen:
-                end = placements[limb.last]
                 local = farthest_frame(self.tree.bodies[limb.last])
-                tips.append(float(up @ (end.rotation @ local + end.position)))
+                tips.append(float(up @ placements[limb.last].point(local)))
                 hips.append(float(up @ placements[limb.first].position))
             level = len(chosen) == 1 or np.ptp(tips) < EVEN * reach
             if level and min(hips) - max(tips) > 0.2 * reach:

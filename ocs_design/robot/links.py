@@ -104,13 +104,15 @@ def make_tree(
 ) -> Tree:
     """Tree of a robot whose base is the link `root`, with mass properties that can exist.
 
+    Its warnings are those of `warnings`, to which more are added here.
+
     Raises:
         RobotError: the robot as a whole cannot exist.
     """
     bodies = resolve_mimics(merge_fixed_links(root, links, children, warnings), warnings)
     tree = Tree(name, bodies)
     check_mass_properties(tree, warnings)
-    return tree
+    return replace(tree, warnings=warnings.sentences())
 
 
 def merge_fixed_links(
@@ -144,7 +146,7 @@ def merge_fixed_links(
         shapes = (
             replace(
                 shape,
-                position=frame.rotation @ shape.position + frame.position,
+                position=frame.point(shape.position),
                 rotation=frame.rotation @ shape.rotation,
             )
             for link, frame in joined

@@ -90,11 +90,6 @@ def find_base(model: mujoco.MjModel, named: Sequence[str], warnings: Warnings) -
     return base
 
 
-def bodies_of(model: mujoco.MjModel, base: int) -> Sequence[int]:
-    """The base and all bodies below it, parents first."""
-    return [int(body) for body in np.flatnonzero(model.body_rootid == base)]
-
-
 _ON_JOINT = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT))
 
 
@@ -276,7 +271,7 @@ def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) ->
     base = find_base(model, named, warnings)
     links: dict[str, Link] = {}
     children: dict[str, list[Connection]] = {}
-    for body in bodies_of(model, base):
+    for body in np.flatnonzero(model.body_rootid == base).tolist():
         name = model.body(body).name
         # Meshes that are not there.
         unseen = (
@@ -318,7 +313,6 @@ def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) ->
     return replace(
         tree,
         named_postures=keyframes,
-        warnings=warnings.sentences(),
         floats=bool(set(model.jnt_type[model.jnt_bodyid == base].tolist()) & _TRAVELS),
         loops=tuple(loops),
     )

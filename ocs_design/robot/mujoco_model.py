@@ -41,7 +41,7 @@ def add_missing_feet(spec: mujoco.MjSpec, model: mujoco.MjModel, robot: Robot) -
             name=foot_geom_name(leg),
             type=mujoco.mjtGeom.mjGEOM_SPHERE,
             size=[leg.foot_radius or _FOOT_SHARE * leg.length, 0.0, 0.0],
-            pos=link.rotation @ leg.foot + link.position,
+            pos=link.point(leg.foot),
         )
 
 

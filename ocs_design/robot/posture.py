@@ -9,7 +9,7 @@ import numpy as np
 from ocs_design.common.errors import RobotError
 from ocs_design.common.wording import some_of
 from ocs_design.robot.chain import neutral_posture
-from ocs_design.robot.leg_geometry import leg_geometries, sole_depths, up_axis
+from ocs_design.robot.leg_geometry import leg_geometries, sole_depths
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Leg, Robot
 from ocs_design.robot.stance import SHARE_OF_LEG, stand
@@ -114,21 +114,8 @@ _SHARES = (0.6, 0.7, 0.8, 0.9)
 _ABDUCTIONS = (0.25, 0.5, 0.75, 1.0)
 
 
-@dataclass(frozen=True, eq=False)
-class PostureRow:
-    """Mass properties of the robot in one posture.
-
-    Attributes:
-        label: what the posture is.
-        mass_properties: of the whole robot with its joints held, in B.
-    """
-
-    label: str
-    mass_properties: MassProperties
-
-
-def posture_sensitivity(robot: Robot) -> tuple[PostureRow, ...]:
-    """Locked mass properties of the robot in plausible postures.
+def posture_sensitivity(robot: Robot) -> Mapping[str, MassProperties]:
+    """Locked mass properties of the robot in B, by what the plausible posture is.
 
     They are the nominal one, all joints at zero, standing at 60 to 90 % of the stretched legs,
     standing with the legs spread sideways by 0.25 to 1 rad, and what the file names. Postures that
@@ -148,15 +135,11 @@ def posture_sensitivity(robot: Robot) -> tuple[PostureRow, ...]:
         if all(joints[name].lower <= value <= joints[name].upper for name, value in turned.items()):
             postures.append((f"legs spread by {angle:g} rad", {**usual, **turned}))
     postures += tree.named_postures.items()
-    return tuple(
-        PostureRow(label, tree.locked_mass_properties(values, robot.trunk))
-        for label, values in postures
-    )
+    return {label: tree.locked_mass_properties(values, robot.trunk) for label, values in postures}
 
 
 def _outward_joints(robot: Robot) -> Mapping[str, float]:
     """Abduction joint of each leg and the sign that turns it outwards; empty if a leg has none."""
-    up = up_axis(robot.tree, robot.trunk, robot.legs)
     geometries = leg_geometries(robot.tree, robot.trunk, robot.legs)
     middle = np.mean([each.plane.hip for each in geometries], axis=0)
     found = {}
@@ -171,5 +154,5 @@ def _outward_joints(robot: Robot) -> Mapping[str, float]:
         if first is None:
             return {}
         column, axis = first
-        found[chain.names[column]] = float(np.sign(np.cross(axis, -up) @ outwards))
+        found[chain.names[column]] = float(np.sign(np.cross(axis, -each.up) @ outwards))
     return found

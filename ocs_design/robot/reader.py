@@ -16,13 +16,13 @@ from ocs_design.common.wording import some_of
 from ocs_design.robot.checks import plausibility_warnings
 from ocs_design.robot.leg_geometry import BASE_FRAME, convention_warnings, with_base_frame
 from ocs_design.robot.links import Warnings, check_whole
-from ocs_design.robot.meshes import MESHES, trunk_top, unmeasured, with_y_up
+from ocs_design.robot.meshes import MESHES, lacks_mesh, trunk_top, unmeasured, with_y_up
 from ocs_design.robot.packages import MeshFinder
 from ocs_design.robot.posture import resolve_posture, unknown_name
 from ocs_design.robot.recognition import recognise
 from ocs_design.robot.robot import Format, Leg, Robot
 from ocs_design.robot.source import Source, read_source
-from ocs_design.robot.tree import ShapeKind, Tree
+from ocs_design.robot.tree import Tree
 from ocs_design.robot.urdf import is_xacro, read_urdf
 from ocs_design.robot.xacro import expand_xacro
 from ocs_design.robot.xml import number, parse_xml, text
@@ -170,11 +170,7 @@ def _load(read: Source, package_paths: Mapping[str, Path], named: Sequence[str])
         from ocs_design.robot.mjcf import read_mjcf  # noqa: PLC0415 - MuJoCo takes 0.3 s
 
         tree = read_mjcf(content, folder, named)
-        unseen = any(
-            shape.kind is ShapeKind.MESH and shape.mesh is None
-            for body in tree.bodies
-            for shape in body.shapes
-        )
+        unseen = any(map(lacks_mesh, tree.bodies))
         cure = f"put them where the model names them, below {folder}" if unseen else ""
         return Loaded(tree, Format.MJCF, content, read.sha256, read.path_text, cure)
     if root.tag == "robot" and is_xacro(root):

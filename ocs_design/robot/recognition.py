@@ -65,6 +65,8 @@ def recognise(
         RobotError: legs that were named cannot be legs.
     """
     anatomy = _Readings(tree)
+    given = (("trunk", trunk is not None), ("legs", legs is not None))
+    stated = frozenset(what for what, is_given in given if is_given)
     if legs is not None:
         unaided = recognise(tree, trunk=trunk)
         first = next((each.legs for each in (unaided.reading, *unaided.likely) if each.legs), ())
@@ -74,14 +76,14 @@ def recognise(
         elif {leg.name for leg in found} == set(legs):
             named = anatomy.stated(trunk, found)
         else:
-            named = anatomy.named(trunk, legs, anatomy.up_of(first))
+            named = anatomy.named(trunk, legs, anatomy.up_of(first[0]) if first else None)
         # With a spine the legs do not tell which of its ends carries the device.
         ends = {leg.base for leg in named.legs} if trunk is None else set()
         heaviest = sorted(ends, key=lambda body: -anatomy.masses[body].mass)
         spine = tuple(
             Reading(frame_link(tree.bodies[i]), named.legs, _STATED, _SPINE) for i in heaviest
         )
-        return Recognition(named, spine if len(spine) > 1 else (), _stated(trunk, legs))
+        return Recognition(named, spine if len(spine) > 1 else (), stated)
     readings = anatomy.readings()
     if trunk is not None:
         # With the trunk named, what spoke against it is answered.
@@ -95,9 +97,9 @@ def recognise(
     none = anatomy.without_legs(trunk, likely=not arms)
     best = _best(readings) if readings else none
     if best.confidence >= SURE and best.legs:
-        return Recognition(best, (), _stated(trunk, None))
+        return Recognition(best, (), stated)
     if none.confidence >= SURE and arms:
-        return Recognition(none, (), _stated(trunk, None))
+        return Recognition(none, (), stated)
     asked = sorted(
         {id(each): each for each in (best, *likely)}.values(),
         key=lambda each: (not each.legs, -each.confidence),
@@ -110,7 +112,7 @@ def recognise(
         asked.append(anatomy.without_legs(None, likely=not arms, body=root))
     # Who only looks, and does not have to be sure, is shown the likeliest.
     shown = asked[0] if asked[0].confidence >= _SHOWN else none
-    return Recognition(shown, tuple(asked), _stated(trunk, None))
+    return Recognition(shown, tuple(asked), stated)
 
 
 def question_about(found: Recognition) -> RobotError:
@@ -144,11 +146,6 @@ def _speaks(reading: Reading, what: str) -> bool | None:
     return next((sign.holds for sign in reading.signs if sign.what == what), None)
 
 
-def _stated(trunk: str | None, legs: Sequence[str] | None) -> frozenset[str]:
-    named = (("trunk", trunk is not None), ("legs", legs is not None))
-    return frozenset(what for what, given in named if given)
-
-
 def _best(readings: Sequence[Reading]) -> Reading:
     """The surest reading, or one that is as sure as needed and explains more legs."""
     best = max(readings, key=lambda each: each.confidence)
@@ -179,11 +176,9 @@ class _Readings(Anatomy):
         """Link of the heaviest body."""
         return frame_link(max(self.tree.bodies, key=lambda body: body.mass_properties.mass))
 
-    def up_of(self, legs: Sequence[Leg]) -> FloatArray | None:
-        """Up of legs in the root's frame, shape (3,); None if there are none."""
-        if not legs:
-            return None
-        return np.round(self.placements[legs[0].base].rotation @ legs[0].up, 9)
+    def up_of(self, leg: Leg) -> FloatArray:
+        """Up of a leg in the root's frame, shape (3,)."""
+        return np.round(self.placements[leg.base].rotation @ leg.up, 9)
 
     def readings(self) -> list[Reading]:
         """Every reading with legs, each set of feet once."""
@@ -319,12 +314,12 @@ class _Readings(Anatomy):
         up = max(_UPS, key=lambda axis: self._hang(bodies, bases, axis)) if up is None else up
         pairs = sorted(zip(bodies, bases, strict=True))
         legs = tuple(leg_of(self.tree, base, body, up, self.placements) for body, base in pairs)
-        if any(leg.length <= 0.0 for leg in legs):
-            worst = next(leg for leg in legs if leg.length <= 0.0)
-            raise RobotError(
-                f"'{worst.name}' cannot be a leg: it does not reach below its hip",
-                hint="name the feet with --legs; `inspect ROBOT --picture FILE.svg` draws all",
-            )
+        for leg in legs:
+            if leg.length <= 0.0:
+                raise RobotError(
+                    f"'{leg.name}' cannot be a leg: it does not reach below its hip",
+                    hint="name the feet with --legs; `inspect ROBOT --picture FILE.svg` draws all",
+                )
         return self.stated(trunk, legs)
 
     def closed(self, chosen: Sequence[Limb], up: FloatArray) -> str:
@@ -335,9 +330,8 @@ class _Readings(Anatomy):
 
     def stated(self, trunk: str | None, legs: Sequence[Leg]) -> Reading:
         """The reading with legs that the user stated."""
-        up = np.round(self.placements[legs[0].base].rotation @ legs[0].up, 9)
+        up, bases = self.up_of(legs[0]), [leg.base for leg in legs]
         limbs = [self.limb(leg.base, leg.body, up) for leg in legs]
-        bases = [leg.base for leg in legs]
         doubts = (
             *((Doubt(SPINE, 1.0),) if len(set(bases)) > 1 else ()),
             *((Doubt(how, 1.0),) if (how := self.closed(limbs, up)) else ()),

@@ -9,12 +9,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.robot.chain import Chain, ChainPose, neutral_posture
-from ocs_design.robot.leg_geometry import (
-    LegGeometry,
-    leg_geometries,
-    sole_depths,
-    up_axis,
-)
+from ocs_design.robot.leg_geometry import LegGeometry, leg_geometries, sole_depths
 from ocs_design.robot.legs import LegPlane
 from ocs_design.robot.robot import Leg
 from ocs_design.robot.tree import Tree
@@ -243,8 +238,7 @@ def stand(tree: Tree, trunk: str, legs: Sequence[Leg], share: float = SHARE_OF_L
     if not legs:
         return None
     geometries = leg_geometries(tree, trunk, legs)
-    up = up_axis(tree, trunk, legs)
-    stances = tuple(problem.solve() for problem in _problems(geometries, up, share))
+    stances = tuple(problem.solve() for problem in _problems(geometries, share))
     warnings = [
         f"leg '{each.leg.name}' cannot stand level below its hip within its joint limits: its foot "
         f"is {1e3 * stance.miss:.0f} mm off and tilted by {np.degrees(stance.tilt):.1f} deg"
@@ -253,7 +247,7 @@ def stand(tree: Tree, trunk: str, legs: Sequence[Leg], share: float = SHARE_OF_L
     ]
     for straighter in (each for each in _STRAIGHTER if warnings and each > share):
         found: list[Stance] = []
-        for problem in _problems(geometries, up, straighter):
+        for problem in _problems(geometries, straighter):
             found.append(problem.solve())
             # One leg that cannot is enough.
             if not found[-1].good:
@@ -277,20 +271,20 @@ def stand(tree: Tree, trunk: str, legs: Sequence[Leg], share: float = SHARE_OF_L
     )
 
 
-def _problems(
-    geometries: Sequence[LegGeometry], up: FloatArray, share: float
-) -> list[StanceProblem]:
+def _problems(geometries: Sequence[LegGeometry], share: float) -> list[StanceProblem]:
     """Each leg's stance, the ground being at `share` of the leg that reaches least."""
+    up = geometries[0].up
     ground = max(
         float(up @ each.plane.hip) - share * each.plane.length - each.leg.foot_radius
         for each in geometries
     )
     middle = np.mean([each.plane.hip for each in geometries], axis=0)
     problems = []
-    for leg, chain, plane in ((each.leg, each.chain, each.plane) for each in geometries):
+    for each in geometries:
+        leg, plane = each.leg, each.plane
         # Straight below the hip; the knees of a biped point forward, else inwards.
         target = plane.hip + up * (ground + leg.foot_radius - float(up @ plane.hip))
         inwards = np.sign(plane.forward @ (middle - plane.hip)) or 1.0
         side = plane.forward if len(geometries) == 2 else plane.forward * inwards
-        problems.append(StanceProblem(chain, plane, leg.foot, target, up, side))
+        problems.append(StanceProblem(each.chain, plane, leg.foot, target, up, side))
     return problems

@@ -6,7 +6,6 @@ MuJoCo's own URDF reader is no substitute: it fuses the root link to the world a
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TypeAlias
 from xml.etree import ElementTree as ET
@@ -349,8 +348,7 @@ def read_urdf(content: bytes, *, find_mesh: FindMesh) -> Tree:
         angles = [numbers(each, "rpy", name, (0.0, 0.0, 0.0)) for each in part.iter("origin")]
         if angles and np.abs(angles).max() > _MOST_TURNED:
             warnings.add("frames turned by more than two turns: angles in degrees?", name)
-    tree = make_tree(root.get("name") or base, base, links, children, warnings)
-    return replace(tree, warnings=warnings.sentences())
+    return make_tree(root.get("name") or base, base, links, children, warnings)
 
 
 def is_xacro(root: ET.Element) -> bool:

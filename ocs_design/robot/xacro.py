@@ -1,16 +1,27 @@
 """Expands xacro files through the optional package `xacro`, in a process that may do little.
 
-A xacro file holds Python expressions, so it is a program. `xacro_child` says what it may do.
+A xacro file holds Python expressions, so it is a program. xacro's own check for names with two
+underscores looks at an expression's outermost code only, `$(eval ...)` has all built-in functions,
+and both can read and write any file. So in that process each expression is parsed and refused if it
+reaches for what lies behind an object, there are limits of time and memory, and Python's audit
+events stop everything but reading below the folders that belong to the robot.
 """
 
+import ast
+import errno
+import io
 import json
+import os
 import subprocess
 import sys
 from collections.abc import Mapping
 from importlib.util import find_spec
 from pathlib import Path
+from types import ModuleType
+from typing import Any
 
 from ocs_design.common.errors import MissingToolError, RobotError, extra_command
+from ocs_design.robot.packages import MeshFinder, is_below, package_roots, roots_of
 
 SECONDS = 5.0
 """Longest processor time of an expansion, half of its longest duration; large robots take one."""
@@ -18,7 +29,7 @@ SECONDS = 5.0
 # Isolated: the current folder may hold a file named like a module.
 _START = (
     "import json, sys; job = json.load(sys.stdin); sys.path[:] = job.pop('path'); "
-    "from ocs_design.robot.xacro_child import expand_job; expand_job(**job)"
+    "from ocs_design.robot.xacro import expand_job; expand_job(**job)"
 )
 
 
@@ -76,3 +87,165 @@ def expand_xacro(content: bytes, path: Path, package_paths: Mapping[str, Path]) 
             "or say where they are with --package-path NAME=DIR",
         )
     return answer["urdf"].encode()
+
+
+MEMORY = 1 << 30
+"""Largest memory of the process [bytes]."""
+
+LARGEST = 64 << 20
+"""Largest URDF that it may make [bytes]."""
+
+_FUNCTIONS = (list, dict, map, str, float, int, bool, len, min, max, abs, round)
+
+_PYTHON = Path(os.__file__).parent
+"""Folder of Python's own modules, which are imported as they are needed."""
+
+# Behind these lie the code, the frames and the globals of what is running.
+_HIDDEN = ("_", "gi_", "cr_", "ag_", "f_", "tb_", "co_", "func_")
+_REFUSED_ATTRIBUTES = {"format", "format_map", "mro"}
+_REFUSED_FUNCTIONS = ("vars", "type")
+
+_SECRET = ("TOKEN", "SECRET", "PASSW", "CREDENTIAL", "KEY", "AUTH")
+
+# Importing modules of Python's own takes the first of these, includes with wildcards the last.
+_HARMLESS = {"import", "marshal.loads", "compile", "exec", "os.listdir", "os.scandir", "glob.glob"}
+_HARMLESS |= {"builtins.id"}
+
+
+def expand_job(*, content: str, file: str, packages: Mapping[str, str], seconds: float) -> None:
+    """Expand a file and print the answer, `urdf` or `error`, as JSON.
+
+    Args:
+        content: of the file, as Latin-1. file: its path. packages: folders by name.
+        seconds: of processor time.
+    """
+    _limit(seconds)
+    answer, path = {}, Path(file)
+    try:
+        import xacro  # noqa: PLC0415 - optional
+
+        finder = MeshFinder(path.parent, {name: Path(folder) for name, folder in packages.items()})
+        roots = [*roots_of(path), *finder.package_paths.values()]
+        _tame(xacro, finder, roots)
+        _guard(roots)
+        sys.stdout = io.StringIO()
+        xacro.init_stacks(str(path))
+        document = xacro.parse(io.BytesIO(content.encode("latin-1")), str(path))
+        xacro.process_doc(document)
+        expanded = str(document.toxml())
+        if len(expanded) <= LARGEST:
+            answer["urdf"] = expanded
+        else:
+            answer["error"] = f"it expands to more than {LARGEST >> 20} MiB"
+    except Exception as error:  # xacro evaluates expressions: whatever Python can raise
+        answer["error"] = " ".join(str(error).split()) or type(error).__name__
+    sys.__stdout__.write(json.dumps(answer))  # type: ignore[union-attr]  # a pipe of our own
+
+
+def _limit(seconds: float) -> None:
+    """Bound the time and memory of this process, and let it write no file."""
+    try:
+        import resource  # noqa: PLC0415 - not on Windows
+    except ImportError:
+        return
+    for limit, value in (
+        (resource.RLIMIT_CPU, int(seconds)),
+        (resource.RLIMIT_AS, MEMORY),
+        (resource.RLIMIT_FSIZE, LARGEST * 2),
+    ):
+        _, hard = resource.getrlimit(limit)
+        resource.setrlimit(limit, (value, hard))
+
+
+def _tame(xacro: ModuleType, finder: MeshFinder, roots: list[Path]) -> None:
+    """Put checked evaluation and the finding of packages in place of xacro's own."""
+    from xacro import substitution_args  # noqa: PLC0415 - optional
+
+    evaluate = xacro.safe_eval
+
+    def safe_eval(expression: str, symbols: Any, inner: Any = None) -> Any:  # noqa: ANN401 - xacro's
+        """Value of an expression that xacro would evaluate unchecked."""
+        check_expression(expression)
+        return evaluate(expression, symbols, inner)
+
+    def evaluate_argument(expression: str, _: object, names: Any) -> Any:  # noqa: ANN401 - xacro's
+        """Value of an expression in `$(eval ...)`, with a few harmless functions."""
+        check_expression(expression)
+        known = {each.__name__: each for each in _FUNCTIONS}
+        return eval(expression, {"__builtins__": known}, names)
+
+    def find(name: str) -> str:
+        """Folder of a package, which ROS 2's package index would tell."""
+        folder = finder.package_folder(name)
+        if folder is None:
+            raise LookupError(f"package {name!r} was not found")
+        if is_below(finder.folder, [folder]):
+            roots.append(folder)
+        roots.extend(package_roots(folder))
+        return str(folder)
+
+    def environment(name: str) -> str:
+        """Value of an environment variable that holds no secret."""
+        check_variable(name)
+        return os.environ[name]
+
+    def optional(name: str, default: str = "") -> str:
+        """Value of an environment variable that holds no secret, if there is one."""
+        check_variable(name)
+        return os.environ.get(name, default)
+
+    vars(xacro).update(safe_eval=safe_eval)
+    vars(substitution_args).update(eval=evaluate_argument, _eval_find=find, _eval_env=environment)
+    substitution_args._eval_dict.update(find=find, env=environment, optenv=optional)
+    substitution_args._eval_optenv = optional
+    for name in _REFUSED_FUNCTIONS:
+        xacro._global_symbols["python"].pop(name, None)
+
+
+def check_expression(expression: str) -> None:
+    """Refuse an expression that reaches for the inside of Python.
+
+    Raises:
+        ValueError: the expression does.
+    """
+    for node in ast.walk(ast.parse(expression.strip(), mode="eval")):
+        name = node.attr if isinstance(node, ast.Attribute) else ""
+        if isinstance(node, ast.Name) and node.id.startswith("__"):
+            name = node.id
+        if name.startswith(_HIDDEN) or name in _REFUSED_ATTRIBUTES:
+            raise ValueError(f"the expression {expression!r} is refused for its {name!r}")
+
+
+def check_variable(name: str) -> None:
+    """Refuse environment variables that may hold a secret.
+
+    Raises:
+        ValueError: its name says so.
+    """
+    if any(word in name.upper() for word in _SECRET):
+        raise ValueError(f"the environment variable {name} may be secret and is not read")
+
+
+def _guard(roots: list[Path]) -> None:
+    """Stop, for good, whatever this process would do beyond reading files below `roots`."""
+
+    def refuse(event: str, arguments: tuple[Any, ...]) -> None:
+        """Refuse an event of which Python tells before it happens."""
+        if event == "open":
+            path, mode, flags = arguments
+            writes = mode not in {"r", "rb", None} or (flags or 0) & (os.O_WRONLY | os.O_RDWR)
+            if not writes and isinstance(path, (str, bytes, os.PathLike)):
+                target = Path(os.fsdecode(path))
+                if is_below(target, (*roots, _PYTHON)):
+                    return
+                # xacro's own message takes the name of the file from the error.
+                raise PermissionError(
+                    errno.EACCES,
+                    "outside of the robot's folder and packages, to which --package-path NAME=DIR "
+                    "adds",
+                    str(target),
+                )
+        if event not in _HARMLESS:
+            raise PermissionError(f"{event!r} is refused to xacro files")
+
+    sys.addaudithook(refuse)

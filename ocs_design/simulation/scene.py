@@ -111,7 +111,7 @@ def _anchor(spec: mujoco.MjSpec, robot: Robot, maneuver: Pivoted) -> None:
         inertia[:2] *= ANCHORED / _LITTLE
     trunk.add_body(
         name=ANCHOR,
-        pos=base.position + base.rotation @ np.array(maneuver.pivot),
+        pos=base.point(maneuver.pivot),
         quat=quaternion(base.rotation @ frame),
         mass=mass,
         inertia=inertia,

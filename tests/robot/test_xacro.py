@@ -9,7 +9,7 @@ from ocs_design.common.errors import MissingToolError, RobotError
 from ocs_design.robot import xacro
 from ocs_design.robot.reader import load
 from ocs_design.robot.robot import Format
-from ocs_design.robot.xacro_child import check_expression, check_variable
+from ocs_design.robot.xacro import check_expression, check_variable
 
 XACRO = """<robot name="test" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:include filename="{include}"/>

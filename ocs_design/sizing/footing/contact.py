@@ -156,13 +156,12 @@ def under_pedestal(
     """Contact of a pedestal with the trunk, which also has to bear the foot where it is."""
     place = pedestal.placement
     lands = [
-        disc_points(vector(place.rotation @ [*hole, 0.0] + place.position)[:2], AROUND_SLOT)
-        for hole in pedestal.holes
+        disc_points(vector(place.point([*hole, 0.0]))[:2], AROUND_SLOT) for hole in pedestal.holes
     ]
     points = base_points(pedestal), np.concatenate(lands)
     name = part_name("pedestal", module.name)
     found = _contact(name, surface, points, pedestal.position[2])
-    wheel = place.rotation @ pedestal.wheel + place.position
+    wheel = place.point(pedestal.wheel)
     seated = (
         bool(np.allclose(wheel, module.position, rtol=0.0, atol=1e-6))
         and pedestal.middle >= pedestal_of(device, module).middle - 1e-6
