@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
+from ocs_design.actuation.motor import DIRECT
 from ocs_design.common.units import Dimension
 from ocs_design.requirement.keys import keyed
 from ocs_design.requirement.values import (
@@ -27,13 +28,21 @@ from ocs_design.requirement.values import (
 from ocs_design.requirement.vocabulary import (
     ALL_LAYOUTS,
     AUTO,
+    BALANCING_DEPTH,
+    BALANCING_DIAMETER,
+    CHAMFER,
     CONSTRUCTIONS,
     CRITERIA,
+    DISC,
+    EQUAL_RATE,
+    FINGERS,
     GUARDS,
     LARGEST_CHAMFER,
     LAYOUTS,
+    LIGHTENING,
     NO_CONTROLLERS,
     OF_WHEELS,
+    PAIR,
     STEEL,
     WEBS,
 )
@@ -51,6 +60,7 @@ class OcsSection:
         why="double-pair, triple-pair: four and six wheels at a pair's axes; single: on pitch; "
         "triad: three in the horizontal plane; orthogonal: x, y, z; pyramid: four. All but "
         "pairs and pyramid have no angle.",
+        assumed=PAIR,
     )
     axes: tuple[float, ...] | None = keyed(
         Quantities(Dimension.RATIO, OF_WHEELS),
@@ -70,6 +80,7 @@ class OcsSection:
         Choice(CRITERIA),
         "how the incidence is chosen",
         why="equal-rate is the paper's: the same change of rate about either axis; lightest: any.",
+        assumed=EQUAL_RATE,
     )
     position: tuple[float, ...] | None = keyed(
         Quantities(Dimension.LENGTH, OF_WHEELS),
@@ -96,18 +107,21 @@ class OcsSection:
         true_or_false,
         "whether to refine all dimensions by optimal control in 3-D",
         why="0 to 0.8 % lighter on the robots tried, and seconds slower to find.",
+        assumed=False,
     )
     guard: str | None = keyed(
         Choice(GUARDS),
         "what the housings hold: fingers out, or also a wheel that bursts",
         why="containing: a ring of mild steel in each housing that holds a third of the rim at "
         "top speed, by a formula that nobody has tested on such rings.",
+        assumed=FINGERS,
     )
     wheel: str | None = keyed(
         Choice(CONSTRUCTIONS),
         "a rim on a disc that sits on the motor, or a ring bonded around the motor's bell",
         why="ring: bonded around the bell of an outrunner, as Mini Wheelbot has it; a flat "
         "module, heavier where the wheel wants to be wide.",
+        assumed=DISC,
     )
 
 
@@ -149,12 +163,14 @@ class FlywheelSection:
         Text((STEEL, AUTO)),
         "material of a rim, from the catalogue; steel or auto: of many",
         why="steel: any; auto: any material; or one of `ocs-design catalogue materials`.",
+        assumed=STEEL,
     )
     web: str | None = keyed(
         Choice(WEBS),
         "what joins a rim to its motor: a disc of one piece with it, one of aluminium that "
         "it is shrunk on, or none: massless spokes",
         why="none is the paper's: spokes that weigh nothing.",
+        assumed=DISC,
     )
     stress_safety: float | None = keyed(
         positive_number,
@@ -165,26 +181,31 @@ class FlywheelSection:
         whole_number,
         "holes in a web that has room for them; 0: none",
         why="They take two fifths of the web, 3 mm of spoke is left; fewer parts to drill: 0.",
+        assumed=LIGHTENING,
     )
     chamfer: float | None = keyed(
         Quantity(Dimension.LENGTH, Sign.NOT_NEGATIVE, LARGEST_CHAMFER),
         "broken edges of a wheel with a web, at 45 deg",
         why="What your workshop breaks edges by; it is counted.",
+        assumed=CHAMFER,
     )
     balancing_holes: int | None = keyed(
         whole_number,
         "in each face of a rim with a web; 0: none",
         why="At least three, where weights are to balance the wheel; its wall grows to fit them.",
+        assumed=0,
     )
     balancing_hole_diameter: float | None = keyed(
         _LENGTH,
         "of each, on the rim's middle radius",
         why="1.6 mm is the core hole of M2.",
+        assumed=BALANCING_DIAMETER,
     )
     balancing_hole_depth: float | None = keyed(
         _LENGTH,
         "of each, from its face",
         why="A thread of M2 wants 2 mm; both faces have them, so that the rim grows too.",
+        assumed=BALANCING_DEPTH,
     )
 
 
@@ -232,17 +253,20 @@ class MotorSection:
         "motors to choose from, of the catalogue; auto, or none",
         option="motor",
         why="Those that you have: see `ocs-design catalogue motors`; none: the bound alone.",
+        assumed=AUTO,
     )
     gear: str | None = keyed(
-        Text((AUTO, "direct")),
+        Text((AUTO, DIRECT.name)),
         "gear from the catalogue, direct, or auto",
         why="auto: any of `ocs-design catalogue gears`; how they are held is not designed.",
+        assumed=DIRECT.name,
     )
     any: bool | None = keyed(
         true_or_false,
         "whether motors may lack what a builder needs",
         option="motors-any",
         why="true: what motors would do whose threads, say, no source gives; not to be built.",
+        assumed=False,
     )
     motors: str | None = keyed(
         Text(),
@@ -255,6 +279,7 @@ class MotorSection:
         true_or_false,
         "whether to choose from the catalogue too, beside that file",
         why="true: your file's motors and the catalogue's.",
+        assumed=False,
     )
     gears: str | None = keyed(
         Text(),
@@ -300,4 +325,5 @@ class SupplySection:
         WordOr((AUTO, NO_CONTROLLERS), _MASS),
         "mass of one motor controller; none: not counted",
         why="auto: by their current; a mass where you have some; none: not counted.",
+        assumed=AUTO,
     )

@@ -21,6 +21,7 @@ class Key:
         option: its name on the command line; empty: the key's own, with dashes.
         why: one line, when to state it, or what it changes.
         default: what holds where nothing is stated, in words; empty: the value says it all.
+        assumed: the value that holds then, whatever the robot; None: it depends, or is found.
         example: a value as it is written in TOML, where there is no default to show.
     """
 
@@ -29,6 +30,7 @@ class Key:
     option: str = ""
     why: str = ""
     default: str = ""
+    assumed: Any = None
     example: str = ""
 
 
@@ -39,10 +41,11 @@ def keyed(
     why: str,
     option: str = "",
     default: str = "",
+    assumed: T | None = None,
     example: str = "",
 ) -> T | None:
     """A field of a section that is a key, None where it is not stated (`Key`)."""
-    key = Key(value, summary, option, why, default, example)
+    key = Key(value, summary, option, why, default, assumed, example)
     return field(default=None, metadata={"key": key})
 
 
@@ -50,6 +53,11 @@ def keyed(
 def keys_of(section: type) -> Mapping[str, Key]:
     """Every key of a section by name, in order."""
     return {item.name: item.metadata["key"] for item in fields(section)}
+
+
+def assumed_section(section: type, **others: object) -> Any:  # noqa: ANN401 - of that type
+    """A section with what holds where nothing is stated; `others` depend on the robot."""
+    return section(**{name: key.assumed for name, key in keys_of(section).items()} | others)
 
 
 class Faults(list[str]):

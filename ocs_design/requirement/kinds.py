@@ -123,26 +123,25 @@ def slower(maneuver: Maneuver, factor: float, standing_height: float) -> Maneuve
             return maneuver
 
 
+_MILDER: Mapping[type[Maneuver], tuple[str, ...]] = MappingProxyType(
+    {
+        Drop: ("roll", "pitch"),
+        StandUp: ("roll", "pitch"),
+        Disturbance: ("torque", "velocity_change", "impulse"),
+        Shove: ("torque",),
+    }
+)
+"""Fields of which a maneuver may have a part."""
+
+
 def milder(maneuver: Maneuver, share: float) -> Maneuver:
     """Maneuver with a share of its tilt or of its push; others as they are: part of a flip is none.
 
     Args:
         maneuver: as it is. share: that is left, 0..1.
     """
-    match maneuver:
-        case Drop() | StandUp():
-            return replace(maneuver, roll=maneuver.roll * share, pitch=maneuver.pitch * share)
-        case Disturbance(torque=(x, y, z), velocity_change=(u, v, w), impulse=(a, b, c)):
-            return replace(
-                maneuver,
-                torque=(x * share, y * share, z * share),
-                velocity_change=(u * share, v * share, w * share),
-                impulse=(a * share, b * share, c * share),
-            )
-        case Shove(torque=(x, y, z)):
-            return replace(maneuver, torque=(x * share, y * share, z * share))
-        case _:
-            return maneuver
+    names = _MILDER.get(type(maneuver))
+    return maneuver.scaled(share, *names) if names else maneuver
 
 
 def change_text(before: Maneuver, after: Maneuver) -> str:

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import sqrt
-from typing import Annotated, Self, TypeAlias
+from typing import Annotated, Any, Self, TypeAlias
 
 import numpy as np
 
@@ -175,6 +175,15 @@ class Maneuver(ABC):
             inertia: of the robot with its device, wheels braked, or of many such.
             standing_height: of the trunk over the ground [m].
         """
+
+    def scaled(self, factor: float, *names: str) -> Self:
+        """The maneuver with so many times what these fields are, numbers or rows of them."""
+        changes: dict[str, Any] = {}
+        for name in names:
+            value = getattr(self, name)
+            row = isinstance(value, tuple)
+            changes[name] = tuple(factor * each for each in value) if row else factor * value
+        return replace(self, **changes)
 
     @property
     @abstractmethod

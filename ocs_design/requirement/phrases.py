@@ -66,6 +66,12 @@ FLIP = NamedQuantity(
 )
 
 
+def _placed(point: Vector3 | str, along: Vector3 | None) -> str:
+    """A point, or a link, and a direction if there is one, as they are read."""
+    at = point if isinstance(point, str) else ",".join(map(repr, point))
+    return at if along is None else f"{at} along {','.join(map(repr, along))}"
+
+
 @dataclass(frozen=True)
 class Kick:
     """An impulse at a point of the trunk.
@@ -81,9 +87,7 @@ class Kick:
     along: Vector3 | None = None
 
     def __str__(self) -> str:
-        at = self.point if isinstance(self.point, str) else ",".join(map(repr, self.point))
-        along = "" if self.along is None else f" along {','.join(map(repr, self.along))}"
-        return f"{self.impulse!r} N s at {at}{along}"
+        return f"{self.impulse!r} N s at {_placed(self.point, self.along)}"
 
 
 _KICK = re.compile(
@@ -341,8 +345,7 @@ class Pivot:
     along: Vector3 | None = None
 
     def __str__(self) -> str:
-        along = "" if self.along is None else f" along {','.join(map(repr, self.along))}"
-        return f"{','.join(map(repr, self.point))}{along}"
+        return _placed(self.point, self.along)
 
 
 @form("X,Y,Z, and for an edge along X,Y,Z or a word such as left")

@@ -11,6 +11,7 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
 from ocs_design.common.units import Dimension, format_quantity, rpm
+from ocs_design.common.wording import listed
 from ocs_design.requirement.maneuver import (
     End,
     Impulse,
@@ -310,13 +311,7 @@ class Balance(Pivoted):
 
     def times(self, factor: float) -> Self:
         """The maneuver with so many times the tilt, the rate and the impulse."""
-        return replace(
-            self,
-            roll=factor * self.roll,
-            pitch=factor * self.pitch,
-            rate=tuple((factor * np.array(self.rate)).tolist()),
-            impulse=tuple((factor * np.array(self.impulse)).tolist()),
-        )
+        return self.scaled(factor, "roll", "pitch", "rate", "impulse")
 
     @property
     def upset(self) -> str:
@@ -327,7 +322,7 @@ class Balance(Pivoted):
             told.append(f"a rate of {rates_text(self.rate)}")
         if any(self.impulse):
             told.append(f"an impulse of {row_text(self.impulse)} N s")
-        return " and ".join(filter(None, (", ".join(told[:-1]), *told[-1:])))
+        return listed(told)
 
     @property
     def summary(self) -> str:

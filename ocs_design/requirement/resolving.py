@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 
 from ocs_design.actuation.controllers import BASE_MASS, MASS_PER_CURRENT
 from ocs_design.actuation.drive import RESERVE
-from ocs_design.actuation.motor import DIRECT
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import DEFAULT_MATERIAL, Material, material
 from ocs_design.common.errors import RobotError, SpecificationError, UsageError
@@ -36,6 +35,7 @@ from ocs_design.requirement.froude import (
     default_maneuvers,
     standing_height,
 )
+from ocs_design.requirement.keys import assumed_section
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.sections import RequirementSection, RobotSection, ValidationSection
@@ -48,17 +48,10 @@ from ocs_design.requirement.vocabulary import (
     BALANCING_DEPTH,
     BALANCING_DIAMETER,
     CHAMFER,
-    CONTROL_PERIOD,
-    DETECTION,
-    DISC,
-    EQUAL_RATE,
-    FINGERS,
     LIGHTENING,
     MORE_PAIRS,
     NO_WEB,
-    NONE_STOPS,
     PAIR,
-    PROJECTIONS,
     RELIABILITY,
     RING,
     STEEL,
@@ -84,42 +77,15 @@ def default_specification(
         gravity: of the maneuvers on Earth [m/s^2].
     """
     envelope, supply = default_envelope(robot), default_supply(robot)
+    limits = {key: getattr(envelope, limit) for key, limit in LIMIT_OF_KEY.items()}
     return Specification(
         robot=RobotSection(posture=robot.posture_name),
-        requirement=RequirementSection(
-            gravity=STANDARD_GRAVITY,
-            maneuvers="paper",
-            reliability=RELIABILITY,
-            survives=NONE_STOPS,
-            detection=DETECTION,
-        ),
-        ocs=OcsSection(
-            layout=PAIR, alpha_criterion=EQUAL_RATE, co_design=False, guard=FINGERS, wheel=DISC
-        ),
-        flywheel=FlywheelSection(
-            material=STEEL,
-            web=DISC,
-            lightening=LIGHTENING,
-            chamfer=CHAMFER,
-            balancing_holes=0,
-            balancing_hole_diameter=BALANCING_DIAMETER,
-            balancing_hole_depth=BALANCING_DEPTH,
-            **{key: getattr(envelope, limit) for key, limit in LIMIT_OF_KEY.items()},
-        ),
-        motor=MotorSection(name=AUTO, gear=DIRECT.name, any=False, with_catalogue=False),
-        supply=SupplySection(voltage=supply.voltage, power_max=supply.power_max, controllers=AUTO),
-        validation=ValidationSection(
-            enabled=True,
-            projection=PROJECTIONS[0],
-            kp=kp,
-            kd=kd,
-            ballistic=False,
-            seed=0,
-            control_period=CONTROL_PERIOD,
-            desaturate=False,
-            video=False,
-            certify=False,
-        ),
+        requirement=assumed_section(RequirementSection),
+        ocs=assumed_section(OcsSection),
+        flywheel=assumed_section(FlywheelSection, **limits),
+        motor=assumed_section(MotorSection),
+        supply=assumed_section(SupplySection, voltage=supply.voltage, power_max=supply.power_max),
+        validation=assumed_section(ValidationSection, kp=kp, kd=kd),
         reality=default_uncertainty(standing_height(robot)),
         maneuvers=default_maneuvers(robot, gravity),
     )

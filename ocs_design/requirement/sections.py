@@ -7,7 +7,7 @@ read. None means that it was not stated and that a default holds.
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from ocs_design.common.units import Dimension
+from ocs_design.common.units import STANDARD_GRAVITY, Dimension
 from ocs_design.requirement.keys import keyed
 from ocs_design.requirement.phrases import (
     CATCH_TEXT,
@@ -43,7 +43,14 @@ from ocs_design.requirement.values import (
     true_or_false,
     whole_number,
 )
-from ocs_design.requirement.vocabulary import DETECTION, NONE_STOPS, PROJECTIONS, SURVIVED
+from ocs_design.requirement.vocabulary import (
+    CONTROL_PERIOD,
+    DETECTION,
+    NONE_STOPS,
+    PROJECTIONS,
+    RELIABILITY,
+    SURVIVED,
+)
 
 _LENGTH, _MASS = Quantity(Dimension.LENGTH), Quantity(Dimension.MASS)
 
@@ -172,6 +179,7 @@ class RequirementSection:
         GRAVITY,
         "where maneuvers state none",
         why="1.62 m/s2 is the Moon's; the paper's back-flip stays there.",
+        assumed=STANDARD_GRAVITY,
     )
     jump_height: tuple[float, ...] | None = keyed(
         Several(HEIGHT),
@@ -247,22 +255,26 @@ class RequirementSection:
         Choice(("paper", "none")),
         "the paper's three beside what else is asked, or none",
         why="paper: beside a rate_change or a spin_inertia; leave it out where you state your own.",
+        assumed="paper",
     )
     reliability: float | None = keyed(
         chance,
         "share of robots that shall pass as built (`[reality]`)",
         why="0.5: sized for a robot just as its file says; more keeps a reserve for [reality].",
+        assumed=RELIABILITY,
     )
     survives: str | None = keyed(
         Choice(SURVIVED),
         "whether it lands level though a drive stops in flight",
         why="any one motor, or one: sized and flown so that it lands level whichever drive stops, "
         "at any instant of a maneuver; its wheel runs on.",
+        assumed=NONE_STOPS,
     )
     detection: float | None = keyed(
         Quantity(Dimension.TIME),
         "time until it is known that a drive has stopped",
         why="Until then the other drives go on as before.",
+        assumed=DETECTION,
     )
 
     @property
@@ -290,11 +302,13 @@ class ValidationSection:
         "whether to simulate at all",
         option="validate",
         why="false: size and export only, in half the time.",
+        assumed=True,
     )
     projection: str | None = keyed(
         Choice(PROJECTIONS),
         "how the law's torque falls to the wheels",
         why="transpose is the paper's, which scales the gains.",
+        assumed=PROJECTIONS[0],
     )
     kp: float | None = keyed(
         positive_number,
@@ -310,29 +324,35 @@ class ValidationSection:
         true_or_false,
         "whether jumps start at lift-off, without a push-off",
         why="true: the legs need not make the jumps.",
+        assumed=False,
     )
     seed: int | None = keyed(
         whole_number,
         "seed of all random numbers",
         why="The same seed gives the same figures.",
+        assumed=0,
     )
     video: bool | None = keyed(
         true_or_false,
         "whether to film the flights",
         why="true: each maneuver as a film, with the device and without.",
+        assumed=False,
     )
     certify: bool | None = keyed(
         true_or_false,
         "whether to fly robots as they might be built, until it is sure",
         why="true: fly robots as they might be built until it is sure; it takes minutes.",
+        assumed=False,
     )
     control_period: float | None = keyed(
         Quantity(Dimension.TIME, most=0.1),
         "from one torque to the next, whole milliseconds",
         why="That of your controller; longer ones fly worse.",
+        assumed=CONTROL_PERIOD,
     )
     desaturate: bool | None = keyed(
         true_or_false,
         "whether the wheels are braked while the robot stands",
         why="true: wheels let go of their momentum after landing.",
+        assumed=False,
     )

@@ -240,8 +240,7 @@ def _time(maneuver: Maneuver, standing_height: float) -> float | None:
 def _in_time(maneuver: Maneuver, ratio: float, standing_height: float) -> Maneuver:
     """Maneuver that takes so many times as long: a fall from higher, a longer jump."""
     if isinstance(maneuver, Flip):
-        height = maneuver.jump_height * ratio**2
-        return replace(maneuver, duration=maneuver.duration * ratio, jump_height=height)
+        return maneuver.scaled(ratio, "duration").scaled(ratio**2, "jump_height")
     return slower(maneuver, ratio, standing_height)
 
 
@@ -255,7 +254,7 @@ def _angle(maneuver: Maneuver, _: float) -> float | None:
 def _by_angle(maneuver: Maneuver, ratio: float, _: float) -> Maneuver:
     """Maneuver by so many times the angle; roll and pitch of a tilt keep their proportion."""
     turned = ("angle",) if isinstance(maneuver, Flip) else ("roll", "pitch")
-    return replace(maneuver, **{name: getattr(maneuver, name) * ratio for name in turned})
+    return maneuver.scaled(ratio, *turned)
 
 
 _SWEEPS = (
