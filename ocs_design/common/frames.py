@@ -99,7 +99,7 @@ class Placement:
 
     def point(self, inner: ArrayLike) -> FloatArray:
         """A point of the frame, seen from the other, shape (3,)."""
-        return np.asarray(self.rotation @ inner + self.position)
+        return np.asarray(self.rotation @ np.asarray(inner, np.float64) + self.position)
 
     def inverse(self) -> "Placement":
         """The other frame in this one."""

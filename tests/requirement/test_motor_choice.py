@@ -12,12 +12,8 @@ from ocs_design.catalogue.materials import materials
 from ocs_design.catalogue.motors import motor, motors
 from ocs_design.common.errors import RobotError, SpecificationError
 from ocs_design.requirement.choices import motor_choice
-from ocs_design.requirement.device_sections import (
-    FlywheelSection,
-    MotorSection,
-    OcsSection,
-    SupplySection,
-)
+from ocs_design.requirement.device_sections import FlywheelSection, MotorSection, SupplySection
+from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.resolving import read_specified_robot, resolve
 from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
@@ -193,33 +189,22 @@ def test_where_no_motor_can_be_built_with_that_is_said_and_what_it_lacks(own):
 
 
 @pytest.mark.parametrize(
-    ("specification", "words"),
+    ("text", "words"),
     [
+        ("motor.name = 'R80'", ("motor.name", "Did you mean", "R80 KV110")),
+        ("motor.name = '%%%'", ("motor.name", "catalogue motors")),
+        ("motor.gear = 'no gear'", ("motor.gear", "no gear")),
+        ("motor.name = 'none'\nsupply.voltage = 24", ("supply.voltage", "has no effect")),
         (
-            Specification(motor=MotorSection(name="R80")),
-            ("motor.name", "Did you mean", "R80 KV110"),
-        ),
-        (Specification(motor=MotorSection(name="%%%")), ("motor.name", "catalogue motors")),
-        (Specification(motor=MotorSection(gear="no gear")), ("motor.gear", "no gear")),
-        (
-            Specification(motor=MotorSection(name="none"), supply=SupplySection(voltage=24.0)),
-            ("supply.voltage", "has no effect"),
-        ),
-        (
-            Specification(
-                motor=MotorSection(name="none"), ocs=OcsSection(alpha_criterion="lightest")
-            ),
+            "motor.name = 'none'\nocs.alpha_criterion = 'lightest'",
             ("ocs.alpha_criterion", "needs a motor"),
         ),
-        (
-            Specification(motor=MotorSection(name="none"), ocs=OcsSection(co_design=True)),
-            ("ocs.co_design", "needs a motor"),
-        ),
+        ("motor.name = 'none'\nocs.co_design = true", ("ocs.co_design", "needs a motor")),
     ],
 )
-def test_what_cannot_be_meant_is_said(specification, words):
+def test_what_cannot_be_meant_is_said(text, words):
     with pytest.raises(SpecificationError) as caught:
-        resolve(specification, LIGHT, 1.0)
+        resolve(parse_specification(text, "x"), LIGHT, 1.0)
     told = str(caught.value)
     assert all(word in told for word in words)
 

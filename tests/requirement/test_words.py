@@ -53,6 +53,11 @@ def asked(**words):
     return specification_from_options(options).requirement
 
 
+def maneuvers(robot, **words):
+    """What is asked of a robot in these words."""
+    return worded_maneuvers(asked(**words), robot).maneuvers
+
+
 @pytest.mark.parametrize(
     ("text", "kick"),
     [
@@ -209,12 +214,12 @@ def test_words_become_the_maneuvers_that_are_meant(solo12, words, names):
 
 def test_what_is_not_stated_is_the_papers(solo12):
     _, drop, flip = default_maneuvers(solo12)
-    (fall,) = worded_maneuvers(asked(fall=["0.9m"]), solo12).maneuvers
+    (fall,) = maneuvers(solo12, fall=["0.9m"])
     assert (fall.height, fall.pitch) == (0.9, drop.pitch)
-    (turn,) = worded_maneuvers(asked(flip=["back"], gravity="moon"), solo12).maneuvers
+    (turn,) = maneuvers(solo12, flip=["back"], gravity="moon")
     assert turn.duration == pytest.approx(flip.duration)
     assert (turn.jump_height, turn.gravity) == (flip.jump_height, flip.gravity)
-    (jump,) = worded_maneuvers(asked(jump_height=["0.4"]), solo12).maneuvers
+    (jump,) = maneuvers(solo12, jump_height=["0.4"])
     usual = default_maneuvers(solo12)[0]
     assert jump.takeoff_velocity == (0.0, pytest.approx(np.sqrt(2.0 * 9.81 * 0.4)))
     assert np.multiply(jump.torque, jump.duration) == pytest.approx(
@@ -236,8 +241,13 @@ def test_words_of_the_command_line_replace_what_a_file_asks_for():
 
 def test_the_papers_three_are_added_when_they_are_named(solo12):
     section = replace(asked(fall=["1m"]), maneuvers="paper")
-    maneuvers = resolve(Specification(requirement=section), solo12, SIZE).requirement.maneuvers
-    assert [each.name for each in maneuvers] == ["disturbance", "drop", "back-flip", "fall"]
+    resolved = resolve(Specification(requirement=section), solo12, SIZE)
+    assert [each.name for each in resolved.requirement.maneuvers] == [
+        "disturbance",
+        "drop",
+        "back-flip",
+        "fall",
+    ]
 
 
 def test_a_sweep_writes_worded_maneuvers_out(solo12):
@@ -265,12 +275,11 @@ def test_a_kick_without_a_direction_comes_from_its_side(solo12):
 
 
 def test_a_kick_at_a_link_hits_its_frame(real):
-    kick, same = worded_maneuvers(
-        asked(kick=["1 N s at FL_SHOULDER along up", "1 N s at 0.1946,0.0875,0 along up"]), real
-    ).maneuvers
+    both = ["1 N s at FL_SHOULDER along up", "1 N s at 0.1946,0.0875,0 along up"]
+    kick, same = maneuvers(real, kick=both)
     assert kick.torque == pytest.approx(same.torque, rel=1e-9)
     with pytest.raises(SpecificationError, match="no link 'FL_SHOLDER'") as told:
-        worded_maneuvers(asked(kick=["1 N s at FL_SHOLDER"]), real)
+        maneuvers(real, kick=["1 N s at FL_SHOLDER"])
     assert "FL_SHOULDER" in told.value.hint
 
 
@@ -279,9 +288,7 @@ def test_a_kick_at_a_link_hits_its_frame(real):
 def test_the_closed_form_of_a_kick_is_what_mujoco_does(real, along, carries):
     """One free body of the mass and inertia of all, and the force itself at that point."""
     whole = braked_inertia(real, paper_device()) if carries else real.mass_properties
-    (kick,) = worded_maneuvers(
-        asked(kick=[f"0.7 N s at 0.12,0.05,0.08 along {along}"]), real
-    ).maneuvers
+    (kick,) = maneuvers(real, kick=[f"0.7 N s at 0.12,0.05,0.08 along {along}"])
     kick = kick.on(whole)
     body = mujoco.MjSpec()
     body.option.gravity = (0.0, 0.0, 0.0)
@@ -325,7 +332,7 @@ def test_a_kick_up_or_down_moves_the_landing(gained, upward, onset):
 
 @pytest.mark.parametrize("gained", [-0.5, 0.0, 0.5])
 def test_more_time_for_a_kicked_jump_is_that_much_more(real, gained):
-    (kick,) = worded_maneuvers(asked(kick=["1 N s at 0.1,0,0.1"]), real).maneuvers
+    (kick,) = maneuvers(real, kick=["1 N s at 0.1,0,0.1"])
     kick = replace(kick, velocity_change=(0.0, 0.1, gained))
     assert slower(kick, 1.2, 0.27).time_left == pytest.approx(1.2 * kick.time_left)
 
@@ -361,8 +368,8 @@ def test_a_turn_that_is_not_clear_is_refused(text):
 
 def test_a_turn_of_a_stated_time_gets_the_jump_that_it_needs(solo12):
     """Nine tenths of the flight, as in the paper's back-flip."""
-    words = asked(turn=["yaw 90deg in 2.9s"], catch=["pitch 45deg/s"], gravity="moon")
-    turn, catch = worded_maneuvers(words, solo12).maneuvers
+    words = {"turn": ["yaw 90deg in 2.9s"], "catch": ["pitch 45deg/s"], "gravity": "moon"}
+    turn, catch = maneuvers(solo12, **words)
     assert turn.duration == 2.9
     assert turn.flight_time == pytest.approx(2.9 / 0.9)
     assert catch.rate == pytest.approx((0.0, pi / 4.0, 0.0))
@@ -371,7 +378,7 @@ def test_a_turn_of_a_stated_time_gets_the_jump_that_it_needs(solo12):
 
 
 def test_a_turn_in_orbit_has_no_jump_and_lasts_as_long_as_it_takes(solo12):
-    (turn,) = worded_maneuvers(asked(turn=["yaw 90deg in 60s"], gravity="orbit"), solo12).maneuvers
+    (turn,) = maneuvers(solo12, turn=["yaw 90deg in 60s"], gravity="orbit")
     assert (turn.gravity, turn.jump_height, turn.flight_time) == (0.0, 0.0, 60.0)
     assert turn.summary == "turns to yaw 90 deg in 60 s, in orbit"
 

@@ -11,60 +11,40 @@ from robots import ROBOTS, SOLO12
 from urdf_text import inertial, joint, link
 from urdf_text import robot as urdf_of
 
-from ocs_design.common.frames import Placement, rotation_about
-from ocs_design.robot.leg_geometry import BASE_FRAME, named_front, with_base_frame
-from ocs_design.robot.posture import resolve_posture
+from ocs_design.robot.leg_geometry import BASE_FRAME, named_front
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.recognition import recognise
-from ocs_design.robot.tree import Body, Tree
 
 RIGHT = np.pi / 2.0
 TURNS = {
-    "y up": rotation_about(np.array([1.0, 0.0, 0.0]), RIGHT),
-    "x sideways": rotation_about(np.array([0.0, 0.0, 1.0]), RIGHT),
-    "x up": rotation_about(np.array([0.0, 1.0, 0.0]), -RIGHT),
+    "y up": f"{-RIGHT} 0 0",
+    "x sideways": f"0 0 {-RIGHT}",
+    "x up": f"0 {RIGHT} 0",
 }
+"""Roll, pitch and yaw of a robot's root in one whose axes lie otherwise."""
 
 
-def turned(tree: Tree, rotation) -> Tree:
-    """The same robot, its root's frame turned by `rotation` in the robot."""
-    inverse = Placement(rotation.T, np.zeros(3))
-    root, *others = tree.bodies
-    weighed = root.mass_properties.moved(rotation.T, np.zeros(3))
-    links = {name: inverse @ place for name, place in root.links.items() if name != root.name}
-    links = {root.name: Placement.identity(), **links}
-    new = Body(root.name, -1, root.placement, None, weighed, links, root.link_masses)
-    moved = [
-        Body(
-            body.name,
-            body.parent,
-            inverse @ body.placement if body.parent == 0 else body.placement,
-            body.joint,
-            body.mass_properties,
-            body.links,
-            body.link_masses,
-            body.shapes,
-        )
-        for body in others
-    ]
-    return Tree(tree.name, (new, *moved))
+def turned(folder, path, first, rpy):
+    """The robot of a file, whose root `first` hangs on another one that is turned against it."""
+    root = (
+        f'<link name="turned_root"/><joint name="turned" type="fixed"><parent link="turned_root"/>'
+        f'<child link="{first}"/><origin rpy="{rpy}"/></joint></robot>'
+    )
+    file = folder / "turned.urdf"
+    file.write_text(path.read_text().replace("</robot>", root))
+    return read_robot(file, package_paths={"example-robot-data": ROBOTS.parent})
 
 
-@pytest.mark.parametrize("name", TURNS)
-def test_inertia_does_not_depend_on_the_trunks_frame(name):
-    robot = read_robot(SOLO12)
-    tree = turned(robot.tree, TURNS[name])
-    legs = recognise(tree).reading.legs
-    tree, mount, told = with_base_frame(tree, "base_link", legs)
-    assert mount is not None
-    assert len(told) == 1
-    posture = resolve_posture(tree, BASE_FRAME, legs, None, {})
-    assert posture.standing_height == pytest.approx(robot.standing_height, abs=1e-6)
-    inertia = tree.locked_mass_properties(posture.values, BASE_FRAME).inertia
+@pytest.mark.parametrize("rpy", TURNS.values(), ids=TURNS)
+def test_inertia_does_not_depend_on_the_trunks_frame(rpy, tmp_path):
+    robot, found = read_robot(SOLO12), turned(tmp_path, SOLO12, "base_link", rpy)
+    assert found.trunk == BASE_FRAME
+    assert found.mount.link == "turned_root"
+    assert sum(BASE_FRAME in text for text in found.warnings) == 1
+    assert found.standing_height == pytest.approx(robot.standing_height, abs=1e-6)
     # Front and back look alike, and are told by the legs' names.
-    np.testing.assert_allclose(inertia, robot.inertia, atol=1e-8)
-    placements = tree.placements_from(BASE_FRAME, posture.values)
-    ahead = {leg.name: placements[leg.body].position[0] > 0.0 for leg in legs}
+    np.testing.assert_allclose(found.inertia, robot.inertia, atol=1e-8)
+    placements = found.tree.placements_from(BASE_FRAME, found.posture)
+    ahead = {leg.name: placements[leg.body].position[0] > 0.0 for leg in found.legs}
     assert ahead == {"FL_FOOT": True, "FR_FOOT": True, "HL_FOOT": False, "HR_FOOT": False}
 
 
@@ -162,19 +142,13 @@ QUADRUPEDS = (
 )
 
 
-@pytest.mark.parametrize("rpy", ["-1.5707963267948966 0 0", "0 1.5707963267948966 0"], ids="yx")
+@pytest.mark.parametrize("rpy", [TURNS["y up"], TURNS["x up"]], ids="yx")
 @pytest.mark.parametrize("name", QUADRUPEDS, ids=lambda name: name.partition("_")[0])
 def test_all_legs_are_found_whichever_axis_is_up(name, rpy, tmp_path):
     """With z for up two legs of these hang by chance, which are as long as the other two."""
     robot = read_robot(ROBOTS / name)
     first = next(iter(robot.tree.bodies[0].links))
-    turned = (
-        f'<link name="turned_root"/><joint name="turned" type="fixed"><parent link="turned_root"/>'
-        f'<child link="{first}"/><origin rpy="{rpy}"/></joint></robot>'
-    )
-    path = tmp_path / "turned.urdf"
-    path.write_text((ROBOTS / name).read_text().replace("</robot>", turned))
-    again = read_robot(path)
+    again = turned(tmp_path, ROBOTS / name, first, rpy)
     assert [leg.name for leg in again.legs] == [leg.name for leg in robot.legs]
     inertia = np.linalg.eigvalsh(robot.inertia)
     np.testing.assert_allclose(np.linalg.eigvalsh(again.inertia), inertia, rtol=1e-6)

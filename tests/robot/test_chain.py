@@ -1,4 +1,4 @@
-"""A limb's kinematics against the whole tree's, finite differences and brute force."""
+"""A limb's kinematics against the whole tree's, finite differences and brute force; frames."""
 
 import numpy as np
 import pytest
@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from urdf_text import inertial, joint, link, robot
 
+from ocs_design.common.frames import Placement, rotation_from_quaternion
 from ocs_design.robot.chain import chain_of, nearest_turn, neutral_posture
 from ocs_design.robot.urdf import read_urdf
 
@@ -89,6 +90,32 @@ def test_a_mimic_moves_with_its_leader():
     tip, step = np.array([0.0, 0.0, -0.3]), 1e-6
     slope = (chain.pose(np.array([0.4 + step])).point(tip) - pose.point(tip)) / step
     assert chain.point_jacobian(pose, pose.point(tip))[:, 0] == pytest.approx(slope, abs=1e-5)
+
+
+def random_placement(rng):
+    return Placement(rotation_from_quaternion(rng.normal(size=4)), rng.normal(size=3))
+
+
+def assert_same(one, other):
+    np.testing.assert_allclose(one.rotation, other.rotation, atol=1e-13)
+    np.testing.assert_allclose(one.position, other.position, atol=1e-12)
+
+
+@given(st.integers(min_value=0, max_value=2**32 - 1))
+def test_placements_are_a_group(seed):
+    rng = np.random.default_rng(seed)
+    a, b, c = (random_placement(rng) for _ in range(3))
+    assert_same(a @ a.inverse(), Placement.identity())
+    assert_same(a @ Placement.identity(), a)
+    assert_same((a @ b) @ c, a @ (b @ c))
+    assert_same((a @ b).inverse(), b.inverse() @ a.inverse())
+    np.testing.assert_allclose((a @ b).point(c.position), a.point(b.point(c.position)), atol=1e-12)
+
+
+def test_missing_joints_stand_at_zero_and_unknown_ones_are_ignored():
+    tree = tree_of(SOLO12)
+    assert set(tree.complete({"nobody": 1.0})) == set(tree.joints)
+    assert set(tree.complete({}).values()) == {0.0}
 
 
 @given(angle=st.floats(-20.0, 20.0), middle=st.floats(-4.0, 4.0), half=st.floats(0.1, 3.0))

@@ -222,18 +222,10 @@ def test_legs_that_give_way_on_their_feet_kick_no_heel_up():
 
     def heights(postures):
         """Heights of the feet in B [m], a row for each posture."""
-        return np.array(
-            [
-                [
-                    (frames[leg.body].rotation @ leg.foot + frames[leg.body].position)[2]
-                    for leg in robot.legs
-                ]
-                for posture in postures
-                for frames in (
-                    robot.tree.placements_from(robot.trunk, {**robot.posture, **posture}),
-                )
-            ]
+        places = (
+            robot.tree.placements_from(robot.trunk, {**robot.posture, **each}) for each in postures
         )
+        return np.array([[at[leg.body].point(leg.foot)[2] for leg in robot.legs] for at in places])
 
     drawn_ones, standing = heights(postures[False]), heights(postures[True])
     assert drawn_ones.max() > low

@@ -1,18 +1,13 @@
-"""Legs and trunks of real robots, and of small ones made for what the real ones do not show."""
+"""Legs and trunks of real robots, and of a humanoid whose root is its chest."""
 
 import numpy as np
 import pytest
 from anatomy import ANATOMY, LEGGED, legs_of, reading_of, tree_of
 from pinocchio_robots import free_model
 from robots import ALL_URDFS, ROBOTS
-from urdf_text import inertial, joint, link, robot
 
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.recognition import recognise
-from ocs_design.robot.robot import Recognition
-from ocs_design.robot.urdf import read_urdf
 
-LIMIT = '<limit lower="-2" upper="2" effort="3" velocity="4"/>'
 # Foot links whose origin is the middle of the ball, in files that do not say so with a sphere.
 BARE_FOOT_RADIUS = {"solo_description/robots/solo12": 0.016, "go2_description/urdf/go2": 0.022}
 
@@ -31,11 +26,13 @@ def test_trunk_and_legs_are_found_and_nothing_else(name):
 
 
 @pytest.mark.parametrize("name", LEGGED)
-def test_base_frame_is_the_frame_of_the_free_flyer(name):
-    tree = tree_of(name)
-    root = tree.bodies[0]
+def test_the_trunk_is_the_free_flyer_and_legs_are_alike(name):
+    legs, root = legs_of(name), tree_of(name).bodies[0]
     assert reading_of(name).trunk == root.name
     assert (root.links[root.name].position == 0.0).all()
+    assert len({len(leg.joints) for leg in legs}) == 1
+    assert np.ptp([leg.length for leg in legs]) < 0.01 * legs[0].length
+    assert np.ptp([leg.foot_radius for leg in legs]) < 1e-3
 
 
 @pytest.mark.parametrize("name", LEGGED)
@@ -46,14 +43,6 @@ def test_leg_joints_lead_from_trunk_to_foot_in_pinocchio(name):
         assert support[-len(leg.joints) :] == list(leg.joints)
         foot = model.frames[model.getFrameId(leg.name)]
         assert model.names[foot.parentJoint] == leg.joints[-1]
-
-
-@pytest.mark.parametrize("name", LEGGED)
-def test_legs_of_one_robot_are_alike(name):
-    legs = legs_of(name)
-    assert len({len(leg.joints) for leg in legs}) == 1
-    assert np.ptp([leg.length for leg in legs]) < 0.01 * legs[0].length
-    assert np.ptp([leg.foot_radius for leg in legs]) < 1e-3
 
 
 @pytest.mark.parametrize(
@@ -94,78 +83,6 @@ def test_wheels_are_feet_with_the_radius_of_the_wheel():
         assert leg.joints[-1].startswith("j_wheel")
         assert leg.foot_radius == pytest.approx(0.124, abs=1e-3)
         assert leg.foot == pytest.approx(np.zeros(3), abs=1e-3)
-
-
-def limb(name: str, xyz: str, shank: float, parent: str = "trunk") -> tuple[str, ...]:
-    """Two hinges about y, a thigh of 0.2 m and a shank that end in a bare foot link."""
-    return (
-        link(f"{name}_thigh", inertial(0.1, "1e-4 1e-4 1e-4", "0 0 -0.1")),
-        link(f"{name}_shank", inertial(0.1, "1e-4 1e-4 1e-4", "0 0 -0.1")),
-        link(f"{name}_foot"),
-        hinge(f"{name}_hip", parent, f"{name}_thigh", xyz),
-        hinge(f"{name}_knee", f"{name}_thigh", f"{name}_shank", "0 0 -0.2"),
-        joint(
-            f"{name}_ankle",
-            f"{name}_shank",
-            f"{name}_foot",
-            f'<origin xyz="0 0 {-shank}"/>',
-            kind="fixed",
-        ),
-    )
-
-
-def hinge(name: str, parent: str, child: str, xyz: str) -> str:
-    axis = f'<origin xyz="{xyz}"/><axis xyz="0 1 0"/>'
-    return joint(name, parent, child, axis, LIMIT)
-
-
-def recognised(*elements: str) -> Recognition:
-    trunk = link("trunk", inertial(5.0))
-    return recognise(read_urdf(robot(trunk, *elements), find_mesh=lambda _: None))
-
-
-def feet_of(*elements: str) -> list[str]:
-    return [leg.name for leg in recognised(*elements).reading.legs]
-
-
-def test_three_legs_in_file_order():
-    limbs = [
-        *limb("c", "0.2 0 0", 0.2),
-        *limb("a", "-0.1 0.1 0", 0.2),
-        *limb("b", "-0.1 -0.1 0", 0.2),
-    ]
-    assert feet_of(*limbs) == ["c_foot", "a_foot", "b_foot"]
-
-
-def test_a_short_limb_beside_the_legs_is_none():
-    limbs = [*limb("a", "0 0.1 0", 0.2), *limb("b", "0 -0.1 0", 0.2), *limb("c", "0.1 0 0", 0.02)]
-    assert feet_of(*limbs) == ["a_foot", "b_foot"]
-
-
-def test_limbs_high_above_the_centre_of_mass_are_asked_about():
-    limbs = [*limb("a", "0 0.1 1", 0.2), *limb("b", "0 -0.1 1", 0.2)]
-    assert not recognised(*limbs).sure
-
-
-def test_slides_alone_are_no_legs():
-    def slides(name: str, y: float) -> list[str]:
-        at = f'<origin xyz="0 {y} 0"/><axis xyz="0 0 1"/>'
-        down = '<origin xyz="0 0 -0.3"/><axis xyz="0 0 1"/>'
-        return [
-            link(f"{name}_upper", inertial(0.1)),
-            link(f"{name}_lower", inertial(0.1, xyz="0 0 -0.3")),
-            joint(f"{name}_one", "trunk", f"{name}_upper", at, LIMIT, kind="prismatic"),
-            joint(f"{name}_two", f"{name}_upper", f"{name}_lower", down, LIMIT, kind="prismatic"),
-        ]
-
-    assert feet_of(*slides("a", 0.1), *slides("b", -0.1)) == []
-
-
-def test_a_second_pair_on_a_torso_is_arms():
-    torso = [link("torso", inertial(3.0)), hinge("waist", "trunk", "torso", "0 0 0.1")]
-    arms = [*limb("l", "0 0.2 0.3", 0.2, "torso"), *limb("r", "0 -0.2 0.3", 0.2, "torso")]
-    limbs = [*limb("a", "0 0.1 0", 0.2), *limb("b", "0 -0.1 0", 0.2)]
-    assert feet_of(*torso, *arms, *limbs) == ["a_foot", "b_foot"]
 
 
 def mjcf_leg(side: str, y: float) -> str:

@@ -61,6 +61,10 @@ def read(text: str, folder: Path | None = None) -> Tree:
     return read_mjcf(text.encode(), folder)
 
 
+def with_equality(inside: str) -> str:
+    return ZOO.replace("<actuator>", f"<equality>{inside}</equality><actuator>")
+
+
 def by_mujoco(text: str, base: str, posture: dict[str, float], pose: np.ndarray) -> MassProperties:
     """Of all bodies under `base`, in its frame, with the base at `pose`."""
     model = mujoco.MjModel.from_xml_string(text)
@@ -150,10 +154,7 @@ def test_shapes_stand_where_the_geoms_do():
 
 @pytest.mark.parametrize(("slope", "constant"), [(0.5, 0.1), (-2.0, 0.0)])
 def test_a_linear_joint_equality_is_a_mimic_as_mujoco_holds_it(slope, constant):
-    equality = (
-        f'<equality><joint joint1="a" joint2="s" polycoef="{constant} {slope} 0 0 0"/></equality>'
-    )
-    text = ZOO.replace("<actuator>", equality + "<actuator>")
+    text = with_equality(f'<joint joint1="a" joint2="s" polycoef="{constant} {slope} 0 0 0"/>')
     tree = read(text)
     posture = tree.complete({"s": 0.07, "b": 0.3})
     model = mujoco.MjModel.from_xml_string(text)
@@ -166,21 +167,16 @@ def test_a_linear_joint_equality_is_a_mimic_as_mujoco_holds_it(slope, constant):
 
 
 def test_a_curved_joint_equality_and_a_loop_are_told():
-    equality = (
-        '<equality><joint joint1="a" joint2="s" polycoef="0 1 2 0 0"/>'
-        '<connect name="rod" body1="toe" body2="trunk" anchor="0 0 0"/></equality>'
-    )
-    tree = read(ZOO.replace("<actuator>", equality + "<actuator>"))
+    curved = '<joint joint1="a" joint2="s" polycoef="0 1 2 0 0"/>'
+    loop = '<connect name="rod" body1="toe" body2="trunk" anchor="0 0 0"/>'
+    tree = read(with_equality(curved + loop))
     assert tree.joints["a"].mimic is None
     assert any("rod" in warning for warning in tree.warnings)
 
 
 def test_a_loop_without_a_name_is_told_by_the_bodies_that_it_connects():
-    equality = (
-        '<equality><connect body1="toe" body2="trunk" anchor="0 0 0"/>'
-        '<weld body1="trunk"/></equality>'
-    )
-    tree = read(ZOO.replace("<actuator>", equality + "<actuator>"))
+    ties = '<connect body1="toe" body2="trunk" anchor="0 0 0"/><weld body1="trunk"/>'
+    tree = read(with_equality(ties))
     assert tree.loops == (("toe", "trunk"),)
     assert any(each.startswith("closed") and "toe to trunk" in each for each in tree.warnings)
     assert any(each.endswith("left out: trunk to world") for each in tree.warnings)

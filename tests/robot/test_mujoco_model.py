@@ -80,10 +80,7 @@ def unposed_robot(path: Path) -> Robot:
     posture = tree.complete(posture)
     return replace(
         robot_by_hand(1.0, (1e-2, 1e-2, 1e-2), name=tree.name),
-        source=loaded.source,
-        format=loaded.format,
-        content=loaded.content,
-        tree=tree,
+        **{name: getattr(loaded, name) for name in ("source", "format", "content", "tree")},
         trunk=base,
         floating_base=base,
         posture=posture,
@@ -91,11 +88,17 @@ def unposed_robot(path: Path) -> Robot:
     )
 
 
-def locked_in_mujoco(model, robot):
-    """Mass, centre of mass and locked inertia about it in the root's frame, as MuJoCo has them."""
+def posed(robot, built=None):
+    """Model without visuals and its data in the robot's posture."""
+    model = (built or build_spec(robot, visuals=False)).spec.compile()
     data = mujoco.MjData(model)
     data.qpos[:] = posture_qpos(model, robot)
     mujoco.mj_forward(model, data)
+    return model, data
+
+
+def locked_in_mujoco(model, data):
+    """Mass, centre of mass and locked inertia about it in the root's frame, as MuJoCo has them."""
     full = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, full)
     rotation = data.xmat[1].reshape(3, 3)
@@ -115,7 +118,7 @@ def write(folder: Path, text: str) -> Path:
 def test_mass_and_inertia_are_the_trees(path):
     robot = unposed_robot(path)
     built = build_spec(robot, visuals=False)
-    mass, com, inertia = locked_in_mujoco(built.spec.compile(), robot)
+    mass, com, inertia = locked_in_mujoco(*posed(robot, built))
     if path.stem in MENDED:
         assert built.warnings
         assert mass == pytest.approx(robot.mass, rel=1e-7)
@@ -129,7 +132,7 @@ def test_mass_and_inertia_are_the_trees(path):
 
 def test_joints_are_those_of_the_file():
     robot = read_robot(SOLO12)
-    model = build_spec(robot, visuals=False).spec.compile()
+    model, _ = posed(robot)
     assert model.jnt_type[0] == mujoco.mjtJoint.mjJNT_FREE
     assert [model.joint(i).name for i in range(1, model.njnt)] == list(robot.tree.joints)
     for name, joint in robot.tree.joints.items():
@@ -141,7 +144,7 @@ def test_joints_are_those_of_the_file():
 
 def test_a_void_limit_is_no_limit():
     robot = read_robot(ROBOTS / "anymal_c_simple_description/urdf/anymal.urdf", posture="zero")
-    model = build_spec(robot, visuals=False).spec.compile()
+    model, _ = posed(robot)
     for name, joint in robot.tree.joints.items():
         assert bool(model.joint(name).limited[0]) == np.isfinite([joint.lower, joint.upper]).any()
 
@@ -150,10 +153,7 @@ def test_a_mimic_joint_follows_its_leader():
     robot = unposed_robot(ROBOTS / "panda_description/urdf/panda.urdf")
     leaders = {name: j.mimic for name, j in robot.tree.joints.items() if j.mimic is not None}
     assert leaders
-    model = build_spec(robot, visuals=False).spec.compile()
-    data = mujoco.MjData(model)
-    data.qpos[:] = posture_qpos(model, robot)
-    mujoco.mj_forward(model, data)
+    _, data = posed(robot)
     assert data.ne == len(leaders)
     np.testing.assert_allclose(data.efc_pos[: data.ne], 0.0, atol=1e-12)
 
@@ -169,12 +169,9 @@ def test_a_root_link_called_world_gets_another_name():
 
 def test_nothing_touches_in_the_nominal_posture():
     robot = read_robot(SOLO12)
-    spec = build_spec(robot, visuals=False).spec
-    assert spec.excludes
-    model = spec.compile()
-    data = mujoco.MjData(model)
-    data.qpos[:] = posture_qpos(model, robot)
-    mujoco.mj_forward(model, data)
+    built = build_spec(robot, visuals=False)
+    assert built.spec.excludes
+    _, data = posed(robot, built)
     assert data.ncon == 0
 
 

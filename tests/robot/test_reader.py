@@ -106,18 +106,13 @@ def test_reading_a_urdf_imports_nothing_slow():
     assert done.stdout == "[]\n"
 
 
-STATE = (
-    '<group_state name="{name}" group="{group}"><joint name="{joint}" value="{value}"/>'
-    "</group_state>"
-)
-
-
 def srdf(*states: str, name: str = "test") -> bytes:
     return f'<robot name="{name}">{"".join(states)}</robot>'.encode()
 
 
 def state(name: str, joint: str, value: str, group: str = "all") -> str:
-    return STATE.format(name=name, group=group, joint=joint, value=value)
+    inside = f'<joint name="{joint}" value="{value}"/>'
+    return f'<group_state name="{name}" group="{group}">{inside}</group_state>'
 
 
 def test_states_of_one_name_are_joined_over_their_groups():

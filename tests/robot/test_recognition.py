@@ -78,6 +78,49 @@ ZEROS = {
 }
 
 
+def hung(parent="trunk", **hips):
+    """Legs that hang straight down from these places, by their names."""
+    return [
+        part
+        for name, hip in hips.items()
+        for part in leg(name, hip, *ZEROS["hanging"], parent=parent)
+    ]
+
+
+PAIR = {"a": (0.0, 0.1, 0.0), "b": (0.0, -0.1, 0.0)}
+
+
+def test_three_legs_in_file_order():
+    legs = hung(c=(0.2, 0.0, 0.0), a=(-0.1, 0.1, 0.0), b=(-0.1, -0.1, 0.0))
+    assert feet(found([TRUNK, *legs])) == ["c_foot", "a_foot", "b_foot"]
+
+
+def test_a_short_limb_beside_the_legs_is_none():
+    short = leg("c", (0.1, 0.0, 0.0), (0.0, 0.0, -0.2), (0.0, 0.0, -0.02))
+    assert feet(found([TRUNK, *hung(**PAIR), *short])) == ["a_foot", "b_foot"]
+
+
+def test_limbs_high_above_the_centre_of_mass_are_asked_about():
+    assert not found([TRUNK, *hung(a=(0.0, 0.1, 1.0), b=(0.0, -0.1, 1.0))]).sure
+
+
+def test_a_second_pair_on_a_torso_is_arms():
+    torso = link("torso", inertial(3.0)), hinge("waist", "trunk", "torso", "0 0 0.1")
+    arms = hung("torso", l=(0.0, 0.2, 0.3), r=(0.0, -0.2, 0.3))
+    assert feet(found([TRUNK, *torso, *arms, *hung(**PAIR)])) == ["a_foot", "b_foot"]
+
+
+def test_slides_alone_are_no_legs():
+    elements = [TRUNK]
+    for name, y in (("a", 0.1), ("b", -0.1)):
+        at = ("trunk", f"{name}_upper", f"{name}_lower")
+        elements += [link(at[1], inertial(0.1)), link(at[2], inertial(0.1, xyz="0 0 -0.3"))]
+        for above, below, xyz in ((at[0], at[1], f"0 {y} 0"), (at[1], at[2], "0 0 -0.3")):
+            place = f'<origin xyz="{xyz}"/><axis xyz="0 0 1"/>'
+            elements += [joint(below, above, below, place, LIMIT, kind="prismatic")]
+    assert feet(found(elements)) == []
+
+
 @pytest.mark.parametrize("zero", ZEROS)
 def test_legs_are_found_whatever_they_are_like_at_zero(zero):
     recognition = found(quadruped(*ZEROS[zero]))
@@ -103,22 +146,25 @@ def test_meaningless_names_change_nothing(words):
     assert feet(recognition) == [f"{name}_{words[2]}" for name in CORNERS]
 
 
+def hexapod(zero, **scales):
+    """Pairs of legs from front to rear, so many times as long as at `zero`."""
+    elements = [TRUNK]
+    for (name, scale), x in zip(scales.items(), (0.2, 0.0, -0.2), strict=True):
+        parts = [tuple(scale * np.array(part)) for part in ZEROS[zero]]
+        for side, y in (("l", 0.1), ("r", -0.1)):
+            elements += leg(name + side, (x, y, 0.0), *parts)
+    return elements
+
+
 @pytest.mark.parametrize("zero", ["hanging", "level, knees outwards"])
 def test_hexapods_whose_middle_legs_are_longer(zero):
-    thigh, shank = ZEROS[zero]
-    elements = [TRUNK]
-    for name, x, scale in (("f", 0.2, 1.0), ("m", 0.0, 1.15), ("h", -0.2, 1.0)):
-        for side, y in (("l", 0.1), ("r", -0.1)):
-            parts = [tuple(scale * np.array(part)) for part in (thigh, shank)]
-            elements += leg(name + side, (x, y, 0.0), *parts)
-    recognition = found(elements)
+    recognition = found(hexapod(zero, f=1.0, m=1.15, h=1.0))
     assert recognition.sure
     assert feet(recognition) == [f"{end}{side}_foot" for end in "fmh" for side in "lr"]
 
 
 def dog():
     """Shoulders and pelvis, each with two legs, and a spine of two hinges between them."""
-    down = ((0.0, 0.0, -0.2), (0.0, 0.0, -0.2))
     elements = [
         link("chest", inertial(4.0, "0.02 0.03 0.03")),
         link("vertebra", inertial(0.3, "1e-4 1e-4 1e-4")),
@@ -128,7 +174,7 @@ def dog():
     ]
     for name, (_, y) in CORNERS.items():
         parent = "chest" if name[0] == "f" else "pelvis"
-        elements += leg(name, (0.0, y, 0.0), *down, parent=parent)
+        elements += hung(parent, **{name: (0.0, y, 0.0)})
     return elements
 
 
@@ -323,7 +369,7 @@ def test_no_legs_can_be_stated(tmp_path):
 
 
 def test_a_prosthesis_and_a_leg_are_asked_about():
-    sound = leg("l", (0.0, 0.1, 0.0), *ZEROS["hanging"])
+    sound = hung(l=(0.0, 0.1, 0.0))
     plain = leg("r", (0.0, -0.1, 0.0), (0.0, 0.0, -0.2), (0.0, 0.05, -0.2))
     ankle = link("r_toe", inertial(0.1)), hinge("r_d", "r_foot", "r_toe", "0 0 -0.1")
     recognition = found([TRUNK, *sound, *plain, *ankle])
@@ -332,12 +378,7 @@ def test_a_prosthesis_and_a_leg_are_asked_about():
 
 
 def test_an_insects_front_legs_that_reach_less_deep_are_not_left_out_without_asking():
-    elements = [TRUNK]
-    for name, x, scale in (("f", 0.2, 0.7), ("m", 0.0, 1.0), ("h", -0.2, 1.0)):
-        for side, y in (("l", 0.1), ("r", -0.1)):
-            parts = [tuple(scale * np.array(part)) for part in ZEROS["hanging"]]
-            elements += leg(name + side, (x, y, 0.0), *parts)
-    recognition = found(elements)
+    recognition = found(hexapod("hanging", f=0.7, m=1.0, h=1.0))
     assert not recognition.sure
     assert {len(each.legs) for each in recognition.likely} >= {4, 6}
     assert "fl_foot, fr_foot" in question_about(recognition).message
@@ -389,9 +430,8 @@ def test_a_hip_that_follows_the_other_legs_hip_is_a_joint_of_its_leg():
         hip = hinge(f"{side}_yaw", "trunk", f"{side}_hip", f"0 {y} 0", "0 0.7 0.7")
         if side == "right":
             hip = hip.replace("</joint>", '<mimic joint="left_yaw"/></joint>')
-        parts = ((0.0, 0.0, -0.2), (0.0, 0.0, -0.2))
         elements += [link(f"{side}_hip", inertial(0.1)), hip]
-        elements += leg(side, (0.0, 0.0, 0.0), *parts, parent=f"{side}_hip")
+        elements += hung(f"{side}_hip", **{side: (0.0, 0.0, 0.0)})
     recognition = found(elements)
     assert recognition.sure
     assert feet(recognition) == ["left_foot", "right_foot"]
@@ -400,7 +440,7 @@ def test_a_hip_that_follows_the_other_legs_hip_is_a_joint_of_its_leg():
 
 
 def test_one_leg_beside_arms_is_asked_about():
-    elements = [TRUNK, *leg("r", (0.0, -0.1, 0.0), *ZEROS["hanging"])]
+    elements = [TRUNK, *hung(r=(0.0, -0.1, 0.0))]
     for side, y in (("l", 0.2), ("r", -0.2)):
         words = ("upper_arm", "forearm", "hand")
         elements += leg(f"{side}a", (0.0, y, 0.1), *ZEROS["level, knees outwards"], words=words)

@@ -13,23 +13,15 @@ from ocs_design.robot import source
 from ocs_design.robot.source import read_source
 
 
-def test_a_file_is_read_with_its_folder_and_hash(tmp_path: Path):
-    path = tmp_path / "robot.urdf"
-    path.write_bytes(TWO_LINKS)
-    read = read_source(path)
-    assert read.content == TWO_LINKS
-    assert read.folder == tmp_path
-    assert read.path_text == str(path)
-    assert read.sha256 == hashlib.sha256(TWO_LINKS).hexdigest()
-
-
-def test_gzip_is_told_by_its_bytes_and_hashed_as_it_is(tmp_path: Path):
-    zipped = gzip.compress(TWO_LINKS)
-    path = tmp_path / "robot.urdf"
-    path.write_bytes(zipped)
-    read = read_source(str(path))
-    assert read.content == TWO_LINKS
-    assert read.sha256 == hashlib.sha256(zipped).hexdigest()
+@pytest.mark.parametrize("pack", [bytes, gzip.compress])
+def test_a_file_is_read_with_its_folder_and_the_hash_of_its_bytes(tmp_path: Path, pack):
+    path, packed = tmp_path / "robot.urdf", pack(TWO_LINKS)
+    path.write_bytes(packed)
+    for asked in (path, str(path)):
+        read = read_source(asked)
+        assert read.content == TWO_LINKS
+        assert (read.folder, read.path_text) == (tmp_path, str(path))
+        assert read.sha256 == hashlib.sha256(packed).hexdigest()
 
 
 class StandardInput(io.TextIOWrapper):
@@ -55,24 +47,19 @@ def test_a_terminal_is_not_waited_for(monkeypatch):
         read_source("-")
 
 
-def test_a_missing_file_suggests_its_neighbour(tmp_path: Path):
+@pytest.mark.parametrize(
+    ("asked", "says", "hint"),
+    [
+        ("sole12.urdf", "does not exist", "solo12.urdf"),
+        ("gone/solo12.urdf", "does not exist", "gone"),
+        ("", "is a folder", "solo12.urdf"),
+    ],
+)
+def test_what_is_no_file_suggests_another(tmp_path: Path, asked, says, hint):
     (tmp_path / "solo12.urdf").write_bytes(TWO_LINKS)
-    with pytest.raises(RobotError, match="does not exist") as caught:
-        read_source(tmp_path / "sole12.urdf")
-    assert "solo12.urdf" in caught.value.hint
-
-
-def test_a_missing_folder_is_named(tmp_path: Path):
-    with pytest.raises(RobotError, match="does not exist") as caught:
-        read_source(tmp_path / "gone" / "solo12.urdf")
-    assert "gone" in caught.value.hint
-
-
-def test_a_folder_suggests_a_file_in_it(tmp_path: Path):
-    (tmp_path / "solo12.urdf").write_bytes(TWO_LINKS)
-    with pytest.raises(RobotError, match="is a folder") as caught:
-        read_source(tmp_path)
-    assert "solo12.urdf" in caught.value.hint
+    with pytest.raises(RobotError, match=says) as caught:
+        read_source(tmp_path / asked)
+    assert hint in caught.value.hint
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may read every file")

@@ -238,16 +238,8 @@ def test_a_declaration_below_blank_lines_or_comments_is_overlooked_with_a_warnin
     assert "declaration is not the first" in warning
 
 
-ROBOT = """
-<robot name="r">
-  <material name="steel"><color rgba="0.5 0.5 0.6 1"/></material>
-  <link name="base">
-    <inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
-    <visual><geometry><sphere radius="1"/></geometry>{material}</visual>
-    <collision><geometry><sphere radius="1"/></geometry></collision>
-  </link>
-</robot>
-"""
+BALL = '<geometry><sphere radius="1"/></geometry>'
+STEEL = '<material name="steel"><color rgba="0.5 0.5 0.6 1"/></material>'
 
 
 @pytest.mark.parametrize(
@@ -263,7 +255,7 @@ ROBOT = """
     ],
 )
 def test_color_of_a_visual(material, color):
-    tree = read_urdf(ROBOT.format(material=material).encode(), find_mesh=lambda _: None)
-    visual, collision = tree.bodies[0].shapes
+    shapes = f"<visual>{BALL}{material}</visual><collision>{BALL}</collision>"
+    visual, collision = read(robot(STEEL, link("base", inertial(), shapes))).bodies[0].shapes
     assert visual.color == color
     assert collision.color is None
