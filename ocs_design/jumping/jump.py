@@ -5,7 +5,7 @@ from math import sqrt
 from typing import NamedTuple
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.requirement.maneuver import Disturbance, Flip, Maneuver
+from ocs_design.requirement.maneuver import Disturbance, Maneuver, TimedTurn
 from ocs_design.requirement.turns import TurnTo
 
 
@@ -90,7 +90,7 @@ def jump_of(maneuver: Maneuver) -> Jump | None:
         case TurnTo() if any(maneuver.rate) or maneuver.wheel_speed or not maneuver.gravity:
             # No push-off is planned that leaves these, and none is needed in orbit.
             return None
-        case Flip() | TurnTo():
+        case TimedTurn():
             upward = sqrt(2.0 * maneuver.gravity * maneuver.jump_height)
             return Jump(0.0, upward, maneuver.gravity)
         case _:

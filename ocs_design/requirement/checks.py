@@ -17,7 +17,14 @@ from ocs_design.requirement.device_sections import (
     FlywheelSection,
     OcsSection,
 )
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Unforeseen
+from ocs_design.requirement.maneuver import (
+    Disturbance,
+    Drop,
+    Flip,
+    Maneuver,
+    TimedTurn,
+    Unforeseen,
+)
 from ocs_design.requirement.pivoted import Balance, Pivoted, StandUp
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.sections import TURNS, WORDS
@@ -164,10 +171,10 @@ def _without_gravity(specification: Specification) -> Iterator[str]:
         if any(each.duration is None for word in TURNS for each in getattr(asked, word) or ()):
             yield "requirement: in orbit a turn needs its time: 'yaw 90deg in 60s'"
     for maneuver in specification.maneuvers:
-        turns = isinstance(maneuver, TurnTo)
-        if not maneuver.gravity and not turns:
-            yield f"maneuver.{maneuver.name}: nothing falls in orbit: ask for a turn or a catch"
-        if isinstance(maneuver, TurnTo) and bool(maneuver.gravity) != bool(maneuver.jump_height):
+        if not isinstance(maneuver, TurnTo):
+            if not maneuver.gravity:
+                yield f"maneuver.{maneuver.name}: nothing falls in orbit: ask for a turn or a catch"
+        elif bool(maneuver.gravity) != bool(maneuver.jump_height):
             told = "is missing" if maneuver.gravity else "there is no jump in orbit"
             yield f"maneuver.{maneuver.name}.jump_height: {told}"
 
@@ -180,7 +187,7 @@ def _too_short_flights(maneuvers: Iterable[Maneuver]) -> Iterator[str]:
                 continue
             case Disturbance(onset=needed):
                 what = "its torque starts"
-            case Flip(duration=needed) | TurnTo(duration=needed):
+            case TimedTurn(duration=needed):
                 what = "its turn ends"
             case _:
                 continue

@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 from ocs_design.common.units import round_outwards, si_unit
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove, TimedTurn
 from ocs_design.requirement.pivoted import Balance, Pivoted, StandUp
 from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.requirement.values import Quantities, Quantity, Value
@@ -103,22 +103,22 @@ def slower(maneuver: Maneuver, factor: float, standing_height: float) -> Maneuve
         case Drop():
             fall = (maneuver.height - standing_height) * factor**2
             return replace(maneuver, height=standing_height + fall)
-        case Flip() | TurnTo():
-            duration = maneuver.duration * factor
-            higher = max(_LONGER_THAN_ITS_TURN * duration / maneuver.flight_time, 1.0) ** 2
-            return replace(maneuver, duration=duration, jump_height=maneuver.jump_height * higher)
+        case TimedTurn():
+            longer = maneuver.scaled(factor, "duration")
+            higher = max(_LONGER_THAN_ITS_TURN * longer.duration / maneuver.flight_time, 1.0) ** 2
+            return longer.scaled(higher, "jump_height")
         case Disturbance():
-            longer = maneuver.flight_time + (factor - 1.0) * maneuver.time_left
+            time = maneuver.flight_time + (factor - 1.0) * maneuver.time_left
             forward, _ = maneuver.takeoff_velocity
             # The lift-off speed of `flight_time`, solved for.
-            left = longer - maneuver.onset - 0.5 * maneuver.duration
-            gained = maneuver.velocity_change[2] * left / longer
-            upward = longer * maneuver.gravity / 2.0 - gained
+            left = time - maneuver.onset - 0.5 * maneuver.duration
+            gained = maneuver.velocity_change[2] * left / time
+            upward = time * maneuver.gravity / 2.0 - gained
             return replace(maneuver, takeoff_velocity=(forward, upward))
         case Shove():
-            return replace(maneuver, settling=maneuver.settling * factor)
+            return maneuver.scaled(factor, "settling")
         case Pivoted():
-            return replace(maneuver, duration=maneuver.duration * factor)
+            return maneuver.scaled(factor, "duration")
         case _:
             return maneuver
 

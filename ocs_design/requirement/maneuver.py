@@ -435,13 +435,39 @@ class Drop(Reorientation):
         return f"falls from {self.height:.3g} m at roll {roll} and pitch {pitch}"
 
 
+class TimedTurn(Reorientation):
+    """A turn whose time is stated, in a vertical jump or in orbit.
+
+    Attributes:
+        jump_height: of the centre of mass over its height at lift-off [m]; 0 in orbit.
+        duration: from lift-off [s].
+    """
+
+    jump_height: float
+    duration: float
+
+    def time(self, standing_height: float) -> float:
+        """Time as specified [s]."""
+        del standing_height
+        return self.duration
+
+    @property
+    def lift_off(self) -> float:
+        """Upward speed of the jump [m/s]; 0 in orbit."""
+        return self.gravity * self.flight_time / 2.0
+
+    @property
+    def flight_time(self) -> float:
+        """Time until a rigid robot lands where it took off; in orbit, until the turn ends [s]."""
+        return sqrt(8.0 * self.jump_height / self.gravity) if self.gravity else self.duration
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Flip(Reorientation):
+class Flip(TimedTurn):
     """A full turn, or part of one, in a vertical jump (paper, section 4, third test).
 
     Attributes:
-        jump_height: of the centre of mass over its height at lift-off [m].
-        angle: of pitch [rad]; a back-flip is negative about y (left). duration: from lift-off [s].
+        angle: of pitch [rad]; a back-flip is negative about y (left).
     """
 
     jump_height: JumpHeight
@@ -452,21 +478,6 @@ class Flip(Reorientation):
     def turn(self) -> FloatArray:
         """Turn about pitch alone [rad], shape (2,)."""
         return np.array([0.0, self.angle])
-
-    def time(self, standing_height: float) -> float:
-        """Time as specified [s]."""
-        del standing_height
-        return self.duration
-
-    @property
-    def lift_off(self) -> float:
-        """Upward speed of the jump [m/s]."""
-        return self.gravity * self.flight_time / 2.0
-
-    @property
-    def flight_time(self) -> float:
-        """Time until a rigid robot lands where it took off [s]."""
-        return float(2.0 * np.sqrt(2.0 * self.jump_height / self.gravity))
 
     @property
     def summary(self) -> str:

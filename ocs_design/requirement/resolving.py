@@ -175,135 +175,6 @@ def read_specified_robot(
     return robot
 
 
-def _assumptions(
-    specification: Specification,
-    robot: Robot,
-    requirement: Requirement,
-    envelope: Envelope,
-    *,
-    materials: tuple[Material, ...],
-    choice: MotorChoice | None,
-    worded: Worded,
-) -> Iterator[str]:
-    """One sentence for everything that was not specified; the rest has its defaults filled in."""
-    flywheel, motor, scale = specification.flywheel, specification.motor, Scale.of(robot)
-
-    landing = (each.gravity for each in requirement.maneuvers if not isinstance(each, Pivoted))
-    if robot.standing_height is None and any(landing):
-        height = format_quantity(requirement.standing_height, "mm", 3)
-        yield f"No legs: the trunk stands {height} high, {SOLO12.name}'s scaled by gyration radius."
-    if specification.takes_default_maneuvers:
-        ratio = f"lengths x {scale.length:.3g}"
-        yield f"Maneuvers: the paper's three, scaled from {SOLO12.name} ({ratio})."
-        paper = requirement.maneuvers[: -len(worded.maneuvers) or None]
-        yield from (f"{item.name}: {item.summary}." for item in paper)
-    yield from worded.notes
-    stated = specification.ocs
-    pairs = stated.axes is None and stated.layout in {None, PAIR, *MORE_PAIRS}
-    if pairs and stated.alpha is None and stated.alpha_criterion is None:
-        yield "Incidence: alpha* = atan(Ixx/Iyy) of robot and device (equal-rate)."
-
-    lengths = [
-        f"{key} {to_unit(getattr(envelope, LIMIT_OF_KEY[key]), 'mm'):.3g}"
-        for key in ("r_max", "r_min", "h_max", "h_min", "wall_min")
-        if getattr(flywheel, key) is None
-    ]
-    if lengths:
-        yield f"Rim: {', '.join(lengths)} mm ({SOLO12.name} x {scale.rim:.3g})."
-    if flywheel.wheel_mass_max is None:
-        mass = format_quantity(envelope.mass_max, "g" if envelope.mass_max < 1.0 else "kg", 3)
-        yield f"Rim mass: at most {mass}, {RIM_MASS_SHARE:.0%} of the robot's."
-
-    if choice is not None:
-        yield from _assumed_supply(specification.supply, choice.supply)
-        if motor.name in {None, AUTO}:
-            which = "with enough figures" if motor.any else "that can be built with"
-            yield f"Motor: the lightest device of all motors {which}."
-        if motor.gear in {None, AUTO}:
-            stages = len(choice.gears) - 1
-            yield (
-                f"Gear: none, or one of {stages} stages in the catalogue."
-                if stages
-                else ("Gear: none, for how a gear and a motor are held together is not designed.")
-            )
-
-    ring = specification.ocs.wheel == RING
-    yield from _assumed_wheel(
-        flywheel, envelope, materials, any_motor=choice is not None, ring=ring
-    )
-    if choice is not None:
-        yield (
-            f"Reserve: a design uses {RESERVE:.0%} of voltage, current and speed limit; "
-            "the rest is the feedback's."
-        )
-        asked, noticed = specification.requirement, requirement.detection or 0.0
-        assumed = {
-            f"Reliability: {RELIABILITY:.0%} of robots shall pass with what is drawn "
-            "(`[reality]`).": asked.reliability is None,
-            f"Detection: that a drive has stopped is known {format_quantity(noticed, 'ms')} later."
-            "": asked.notices is not None and asked.detection is None,
-        }
-        yield from (text for text, holds in assumed.items() if holds)
-        return
-    if specification.requirement.wheel_speed_max is None:
-        speed = rpm(requirement.wheel_speed_max)
-        yield f"Wheel speed: at most {speed}, that of {SOLO12.name}'s own motor at 24 V."
-    if motor.torque_max is None:
-        yield "Motor torque: not limited."
-
-
-def _assumed_supply(stated: SupplySection, supply: Supply) -> Iterator[str]:
-    """What was not specified about the supply."""
-    assumed = []
-    if stated.voltage is None:
-        assumed.append(f"{supply.voltage:g} V")
-    if stated.power_max is None:
-        power = format_quantity(supply.power_max, "kW" if supply.power_max >= 1e3 else "W", 3)
-        assumed.append(f"at most {power} ({POWER_PER_MASS:g} W per kg of robot)")
-    if assumed:
-        yield f"Supply: {', '.join(assumed)}."
-    if stated.controllers in {None, AUTO}:
-        base, per_current = (
-            format_quantity(each, "g", 3) for each in (BASE_MASS, MASS_PER_CURRENT)
-        )
-        yield f"Controllers: {base} each and {per_current} for each ampere of peak phase current."
-
-
-def _assumed_wheel(
-    flywheel: FlywheelSection,
-    envelope: Envelope,
-    materials: tuple[Material, ...],
-    *,
-    any_motor: bool,
-    ring: bool,
-) -> Iterator[str]:
-    """One sentence for everything about the wheels that was not specified."""
-    chosen = materials[0]
-    if flywheel.web is None and not ring:
-        yield "Wheel: one piece; a thin disc with a hub joins the rim to its motor."
-    if any_motor and flywheel.web != NO_WEB:
-        if flywheel.lightening is None and flywheel.web != ALUMINIUM_WEB and not ring:
-            yield f"Web: {LIGHTENING} lightening holes where it has room for them."
-        if flywheel.chamfer is None:
-            yield f"Edges: broken by {format_quantity(CHAMFER, 'mm')}."
-        if flywheel.balancing_holes:
-            across = flywheel.balancing_hole_diameter or BALANCING_DIAMETER
-            deep = flywheel.balancing_hole_depth or BALANCING_DEPTH
-            size = f"{format_quantity(across, 'mm')} wide, {format_quantity(deep, 'mm')} deep"
-            yield f"Balancing holes: {flywheel.balancing_holes} in each face, {size}."
-    if flywheel.material in {None, STEEL, AUTO}:
-        kinds = "materials whose strength is known" if flywheel.material == AUTO else "steels"
-        yield (
-            f"Material: one of {len(materials)} {kinds}."
-            if any_motor
-            else f"Material: {chosen.name}, {chosen.density:g} kg/m3."
-        )
-    if chosen.yield_strength is None:
-        yield f"Stress: not checked, for no strength of {chosen.name} is known."
-    elif flywheel.stress_safety is None:
-        yield f"Stress: yield strength over hoop stress at least {envelope.stress_safety:g}."
-
-
 @dataclass(frozen=True, eq=False)
 class Resolved:
     """A specification with nothing left open.
@@ -346,6 +217,121 @@ class Resolved:
         """
         told = tuple(told_with_device(each, requirement.maneuvers) for each in self.assumptions)
         return replace(self, requirement=requirement, assumptions=told)
+
+
+def _assumptions(
+    specification: Specification, robot: Robot, resolved: Resolved, worded: Worded
+) -> Iterator[str]:
+    """One sentence for everything that was not specified and is in `resolved` all the same."""
+    flywheel, motor, scale = specification.flywheel, specification.motor, Scale.of(robot)
+    requirement, envelope, choice = resolved.requirement, resolved.envelope, resolved.choice
+    landing = (each.gravity for each in requirement.maneuvers if not isinstance(each, Pivoted))
+    if robot.standing_height is None and any(landing):
+        height = format_quantity(requirement.standing_height, "mm", 3)
+        yield f"No legs: the trunk stands {height} high, {SOLO12.name}'s scaled by gyration radius."
+    if specification.takes_default_maneuvers:
+        ratio = f"lengths x {scale.length:.3g}"
+        yield f"Maneuvers: the paper's three, scaled from {SOLO12.name} ({ratio})."
+        paper = requirement.maneuvers[: -len(worded.maneuvers) or None]
+        yield from (f"{item.name}: {item.summary}." for item in paper)
+    yield from worded.notes
+    stated = specification.ocs
+    pairs = stated.axes is None and stated.layout in {None, PAIR, *MORE_PAIRS}
+    if pairs and stated.alpha is None and stated.alpha_criterion is None:
+        yield "Incidence: alpha* = atan(Ixx/Iyy) of robot and device (equal-rate)."
+
+    lengths = [
+        f"{key} {to_unit(getattr(envelope, LIMIT_OF_KEY[key]), 'mm'):.3g}"
+        for key in ("r_max", "r_min", "h_max", "h_min", "wall_min")
+        if getattr(flywheel, key) is None
+    ]
+    if lengths:
+        yield f"Rim: {', '.join(lengths)} mm ({SOLO12.name} x {scale.rim:.3g})."
+    if flywheel.wheel_mass_max is None:
+        mass = format_quantity(envelope.mass_max, "g" if envelope.mass_max < 1.0 else "kg", 3)
+        yield f"Rim mass: at most {mass}, {RIM_MASS_SHARE:.0%} of the robot's."
+
+    if choice is not None:
+        yield from _assumed_supply(specification.supply, choice.supply)
+        if motor.name in {None, AUTO}:
+            which = "with enough figures" if motor.any else "that can be built with"
+            yield f"Motor: the lightest device of all motors {which}."
+        if motor.gear in {None, AUTO}:
+            stages = len(choice.gears) - 1
+            yield (
+                f"Gear: none, or one of {stages} stages in the catalogue."
+                if stages
+                else ("Gear: none, for how a gear and a motor are held together is not designed.")
+            )
+
+    yield from _assumed_wheel(flywheel, resolved, ring=specification.ocs.wheel == RING)
+    if choice is not None:
+        yield (
+            f"Reserve: a design uses {RESERVE:.0%} of voltage, current and speed limit; "
+            "the rest is the feedback's."
+        )
+        asked, noticed = specification.requirement, requirement.detection or 0.0
+        assumed = {
+            f"Reliability: {RELIABILITY:.0%} of robots shall pass with what is drawn "
+            "(`[reality]`).": asked.reliability is None,
+            f"Detection: that a drive has stopped is known {format_quantity(noticed, 'ms')} later."
+            "": asked.notices is not None and asked.detection is None,
+        }
+        yield from (text for text, holds in assumed.items() if holds)
+        return
+    if specification.requirement.wheel_speed_max is None:
+        speed = rpm(requirement.wheel_speed_max)
+        yield f"Wheel speed: at most {speed}, that of {SOLO12.name}'s own motor at 24 V."
+    if motor.torque_max is None:
+        yield "Motor torque: not limited."
+
+
+def _assumed_supply(stated: SupplySection, supply: Supply) -> Iterator[str]:
+    """What was not specified about the supply."""
+    assumed = []
+    if stated.voltage is None:
+        assumed.append(f"{supply.voltage:g} V")
+    if stated.power_max is None:
+        power = format_quantity(supply.power_max, "kW" if supply.power_max >= 1e3 else "W", 3)
+        assumed.append(f"at most {power} ({POWER_PER_MASS:g} W per kg of robot)")
+    if assumed:
+        yield f"Supply: {', '.join(assumed)}."
+    if stated.controllers in {None, AUTO}:
+        base, per_current = (
+            format_quantity(each, "g", 3) for each in (BASE_MASS, MASS_PER_CURRENT)
+        )
+        yield f"Controllers: {base} each and {per_current} for each ampere of peak phase current."
+
+
+def _assumed_wheel(flywheel: FlywheelSection, resolved: Resolved, *, ring: bool) -> Iterator[str]:
+    """One sentence for everything about the wheels that was not specified."""
+    choice = resolved.choice
+    # Without a motor only the rim has a mass, and one material is as good as chosen.
+    chosen = resolved.material if choice is None else choice.materials[0]
+    if flywheel.web is None and not ring:
+        yield "Wheel: one piece; a thin disc with a hub joins the rim to its motor."
+    if choice is not None and flywheel.web != NO_WEB:
+        if flywheel.lightening is None and flywheel.web != ALUMINIUM_WEB and not ring:
+            yield f"Web: {LIGHTENING} lightening holes where it has room for them."
+        if flywheel.chamfer is None:
+            yield f"Edges: broken by {format_quantity(CHAMFER, 'mm')}."
+        if flywheel.balancing_holes:
+            across = flywheel.balancing_hole_diameter or BALANCING_DIAMETER
+            deep = flywheel.balancing_hole_depth or BALANCING_DEPTH
+            size = f"{format_quantity(across, 'mm')} wide, {format_quantity(deep, 'mm')} deep"
+            yield f"Balancing holes: {flywheel.balancing_holes} in each face, {size}."
+    if flywheel.material in {None, STEEL, AUTO}:
+        kinds = "materials whose strength is known" if flywheel.material == AUTO else "steels"
+        yield (
+            f"Material: {chosen.name}, {chosen.density:g} kg/m3."
+            if choice is None
+            else f"Material: one of {len(choice.materials)} {kinds}."
+        )
+    if chosen.yield_strength is None:
+        yield f"Stress: not checked, for no strength of {chosen.name} is known."
+    elif flywheel.stress_safety is None:
+        safety = resolved.envelope.stress_safety
+        yield f"Stress: yield strength over hoop stress at least {safety:g}."
 
 
 def resolve(specification: Specification, robot: Robot, robot_size: float) -> Resolved:
@@ -392,26 +378,15 @@ def resolve(specification: Specification, robot: Robot, robot_size: float) -> Re
     # What is wrong with a file of distributions is told before anything is sized.
     default_uncertainty(requirement.standing_height, file=specification.reality.file)
     choice = motor_choice(specification, robot)
-    # Without a motor only the rim has a mass, and one material is as good as chosen.
     name = flywheel.material
-    chosen = material(DEFAULT_MATERIAL if name in {None, STEEL, AUTO} else name)
-    materials = (chosen,) if choice is None else choice.materials
-    return Resolved(
+    resolved = Resolved(
         requirement=requirement,
         envelope=envelope,
-        material=chosen,
+        material=material(DEFAULT_MATERIAL if name in {None, STEEL, AUTO} else name),
         torque_max=specification.motor.torque_max,
         choice=choice,
-        assumptions=tuple(
-            _assumptions(
-                specification,
-                robot,
-                requirement,
-                envelope,
-                materials=materials,
-                choice=choice,
-                worded=worded,
-            )
-        ),
+        assumptions=(),
         reliability=asked.reliability if choice is None else asked.reliability or RELIABILITY,
     )
+    assumptions = tuple(_assumptions(specification, robot, resolved, worded))
+    return replace(resolved, assumptions=assumptions)

@@ -14,10 +14,10 @@ from ocs_design.requirement.maneuver import (
     End,
     JumpHeight,
     Rate,
-    Reorientation,
     Slew,
     Spin,
     Time,
+    TimedTurn,
     Turn,
     TurnTime,
     angles_text,
@@ -54,14 +54,12 @@ def loop_length(heading: float) -> float:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class TurnTo(Reorientation):
+class TurnTo(TimedTurn):
     """A turn of the trunk in a vertical jump, from level to any attitude, heading included.
 
     Attributes:
-        jump_height: of the centre of mass over its height at lift-off [m]; 0 in orbit.
         roll, pitch, yaw: of the attitude at the end, reached from level by yaw, then pitch, then
             roll [rad].
-        duration: from lift-off [s].
         rate: of the trunk at lift-off, in B [rad/s], shape (3,).
         wheel_speed: of all wheels at lift-off [rad/s].
         end: see `End`.
@@ -115,21 +113,6 @@ class TurnTo(Reorientation):
     def _loop(self) -> float:
         """Share of a change of heading on roll and on pitch [rad]."""
         return 0.0 if self.direct else loop_length(remainder(self.yaw, 2.0 * pi)) * 2.0 / pi
-
-    @property
-    def lift_off(self) -> float:
-        """Upward speed of the jump [m/s]; 0 in orbit."""
-        return self.gravity * self.flight_time / 2.0
-
-    @property
-    def flight_time(self) -> float:
-        """Time until a rigid robot lands where it took off; in orbit, until the turn ends [s]."""
-        return sqrt(8.0 * self.jump_height / self.gravity) if self.gravity else self.duration
-
-    def time(self, standing_height: float) -> float:
-        """Time as specified [s]."""
-        del standing_height
-        return self.duration
 
     def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
         """Momentum of the tilt, half the time up and half down, of the loop and of the rate."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.robot.chain import Chain, ChainPose, neutral_posture
-from ocs_design.robot.leg_geometry import LegGeometry, leg_geometries, sole_depths
+from ocs_design.robot.leg_geometry import LegGeometry, leg_geometries
 from ocs_design.robot.legs import LegPlane
 from ocs_design.robot.robot import Leg
 from ocs_design.robot.tree import Tree
@@ -212,13 +212,11 @@ class Stand:
 
     Attributes:
         posture: value of every moving joint [rad or m].
-        standing_height: of the trunk frame's origin over the ground [m].
         share: distance from hip to foot over the stretched leg, of the most stretched leg.
         warnings: where limits forbid the posture that was wanted.
     """
 
     posture: Mapping[str, float]
-    standing_height: float
     share: float
     warnings: tuple[str, ...]
 
@@ -262,13 +260,7 @@ def stand(tree: Tree, trunk: str, legs: Sequence[Leg], share: float = SHARE_OF_L
     values = dict(neutral_posture(tree))
     for each, stance in zip(geometries, stances, strict=True):
         values.update(zip(each.chain.names, map(float, stance.values), strict=True))
-    posture = tree.complete(values)
-    return Stand(
-        posture,
-        max(sole_depths(tree, trunk, legs, posture)),
-        share,
-        tuple(warnings),
-    )
+    return Stand(tree.complete(values), share, tuple(warnings))
 
 
 def _problems(geometries: Sequence[LegGeometry], share: float) -> list[StanceProblem]:

@@ -19,9 +19,7 @@ from ocs_design.requirement.froude import (
     example_turns,
     standing_height,
 )
-from ocs_design.robot.reader import load
-from ocs_design.robot.recognition import recognise
-from ocs_design.robot.stance import stand
+from ocs_design.robot.reader import read_robot
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "solo12.urdf"
 RATIOS = st.floats(0.2, 20.0)
@@ -113,20 +111,11 @@ def maneuvers_of(scale: Scale, gravity: float = 9.81):
         return default_maneuvers(None, gravity)
 
 
-def standing(path):
-    """Height and mass properties of a robot file at its standing posture."""
-    tree = load(path).tree
-    reading = recognise(tree).reading
-    trunk, legs = reading.trunk, reading.legs
-    found = stand(tree, trunk, legs)
-    return found.standing_height, tree.locked_mass_properties(found.posture, trunk)
-
-
-def test_the_reference_is_solo12_as_the_tool_reads_it(make_robot):
-    height, properties = standing(EXAMPLE)
-    assert height == pytest.approx(SOLO12.standing_height, rel=1e-8)
-    assert properties.inertia[0, 0] == pytest.approx(SOLO12.roll_inertia, rel=1e-8)
-    assert properties.inertia[1, 1] == pytest.approx(SOLO12.pitch_inertia, rel=1e-8)
-    robot = make_robot(properties.mass, tuple(np.diag(properties.inertia)), height)
+def test_the_reference_is_solo12_as_the_tool_reads_it():
+    robot = read_robot(EXAMPLE)
+    assert robot.posture_name == "stand"
+    assert robot.standing_height == pytest.approx(SOLO12.standing_height, rel=1e-8)
+    assert robot.inertia[0, 0] == pytest.approx(SOLO12.roll_inertia, rel=1e-8)
+    assert robot.inertia[1, 1] == pytest.approx(SOLO12.pitch_inertia, rel=1e-8)
     assert robot.gyration_radius == pytest.approx(SOLO12.gyration_radius, rel=1e-8)
     assert Scale.of(robot) == Scale(1.0, 1.0, 1.0)
