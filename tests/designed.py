@@ -60,14 +60,8 @@ def device_for(task, **options):
 def as_recorded(task, made, *, seed=0, files=None):
     """The record of a design that is neither flown nor mounted."""
     margins = record_margins(task.resolved, made, (), {})
-    return record_design(
-        task.robot,
-        task.resolved,
-        made,
-        (),
-        margins=margins,
-        built=buildable_of(task.robot, made, margins, None),
-        mounting=None,
-        seed=seed,
-        files=files or {},
+    built = buildable_of(task.robot, made, margins, None)
+    found = record_design(
+        task.robot, task.resolved, made, margins=margins, built=built, mounting=None, seed=seed
     )
+    return replace(found, files=files or {})

@@ -9,9 +9,8 @@ power flows, so that braking is not counted stronger than it is:
 friction, where its source gives it.
 """
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from math import inf
-from typing import Any
 
 import numpy as np
 
@@ -19,6 +18,7 @@ from ocs_design.actuation.motor import DIRECT, Gear, GearRoom, Motor, Mounting
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import FloatArray, Table
 from ocs_design.common.errors import OcsError
+from ocs_design.common.records import recorded
 
 RESERVE = 0.95
 """Share of voltage, current and mechanical speed that a design may use; the rest is left to the
@@ -275,26 +275,26 @@ class Drive:
         """
         line = drive_line(motor, gear, bus_voltage) if line is None else line
         rotor, gain = motor.rotor_inertia or 0.0, gear.ratio * gear.efficiency
-        at_the_wheel: dict[str, Any] = {
-            "mass": motor.mass or 0.0,
-            "stall_torque": _finite(line.stall_torque),
-            "no_load_speed": float(line.no_load_speed),
-            "torque_limit": _finite(line.torque_limit),
-            "speed_max": _finite(line.speed_max),
-            "rotor_inertia": rotor_share(rotor, gear),
-            "armature": armature(rotor, gear),
-            "continuous_torque": _geared(motor.continuous_torque, gain),
-            "saturation_torque": _geared(motor.saturation_torque, gain),
-            "mounting": motor.mounting if gear.room is None else None,
-            "gear": gear.name,
-            "gear_ratio": gear.ratio,
-            "gear_efficiency": gear.efficiency,
-            "gear_mass": gear.mass,
-            "gear_room": gear.room,
-            "bus_voltage": bus_voltage,
-        }
-        names = {field.name for field in fields(cls)} & {field.name for field in fields(motor)}
-        return cls(**{name: getattr(motor, name) for name in names} | at_the_wheel)
+        return recorded(
+            cls,
+            motor,
+            mass=motor.mass or 0.0,
+            stall_torque=_finite(line.stall_torque),
+            no_load_speed=float(line.no_load_speed),
+            torque_limit=_finite(line.torque_limit),
+            speed_max=_finite(line.speed_max),
+            rotor_inertia=rotor_share(rotor, gear),
+            armature=armature(rotor, gear),
+            continuous_torque=_geared(motor.continuous_torque, gain),
+            saturation_torque=_geared(motor.saturation_torque, gain),
+            mounting=motor.mounting if gear.room is None else None,
+            gear=gear.name,
+            gear_ratio=gear.ratio,
+            gear_efficiency=gear.efficiency,
+            gear_mass=gear.mass,
+            gear_room=gear.room,
+            bus_voltage=bus_voltage,
+        )
 
     @property
     def top_speed(self) -> float:

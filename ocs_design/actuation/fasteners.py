@@ -70,7 +70,7 @@ class Screw:
         flank = self._pitch_diameter
         twist = 1.5 * flank / stressed * (self.pitch / (pi * flank) + 1.155 * MU)
         area = pi / 4.0 * stressed**2
-        return 0.9 * YIELD_8_8 * area / sqrt(1.0 + 3.0 * twist**2)
+        return 0.9 * CLASSES[USUAL_CLASS].yields * area / sqrt(1.0 + 3.0 * twist**2)
 
     def torque(self, preload: float) -> float:
         """Tightening torque [N m] for a preload [N], with `MU` in the thread and under the head.
@@ -185,9 +185,9 @@ IN_PLASTIC = 2.0
 STEEL = 7850.0
 """[kg/m^3]."""
 
-MU, YIELD_8_8 = 0.12, 640e6
+MU = 0.12
 """Friction of plain or zinc-plated screws, a little oil (VDI 2230-1, table A5, class B: 0.08 to
-0.16); least yield strength of class 8.8 up to M16 [Pa] (ISO 898-1, table 3)."""
+0.16)."""
 
 SHORT_LENGTHS = (4, 5, 6, 8, 10, 12, 16, 20)
 """[mm], ISO 4762:2004, table 1, which goes on in steps of 5 mm."""

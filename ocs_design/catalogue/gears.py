@@ -7,7 +7,7 @@ lighter.
 
 import itertools
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cache
@@ -230,7 +230,29 @@ class GearSheet:
             reverses=self.reverses,
             source=self.source,
         )
-        found = list(self._belts(shared)) if self.kind is GearKind.BELT else []
+        found = []
+        # Of every two different pulleys; two of a size would only add mass.
+        for pair in itertools.permutations(self.teeth, 2) if self.kind is GearKind.BELT else ():
+            belt = BeltStage(
+                *pair,
+                pitch=_stated(self.pitch_m),
+                width=_stated(self.width_m),
+                belt_density=_stated(self.belt_mass_kg_per_m),
+                pulley_density=_stated(self.pulley_density_kg_m3),
+                working_tension=_stated(self.working_tension_n),
+            )
+            mass = shared.mass + belt.mass
+            stage = replace(
+                shared,
+                name=f"{self.name} {belt.motor_teeth}:{belt.wheel_teeth}",
+                ratio=belt.ratio,
+                mass=mass,
+                inertia=belt.inertia,
+                wheel_speed_max=belt.wheel_speed_max(_stated(self.belt_speed_max_m_s)),
+                torque_max=belt.torque_max,
+                room=replace(belt.room, center=belt.room.center * belt.mass / mass),
+            )
+            found.append(stage)
         for ratio in self.ratios if self.kind is GearKind.FIXED else ():
             # Seen at the wheel, what turns with the motor counts with the square of the ratio.
             scale = ratio**2 if self.inertia_at is InertiaAt.MOTOR else 1.0
@@ -243,30 +265,6 @@ class GearSheet:
             )
             found.append(fixed)
         return tuple(sorted(found, key=lambda gear: (gear.ratio, gear.name)))
-
-    def _belts(self, shared: Gear) -> Iterator[Gear]:
-        """Stage of every two different pulleys; two of a size would only add mass."""
-        for motor_teeth, wheel_teeth in itertools.permutations(self.teeth, 2):
-            belt = BeltStage(
-                motor_teeth=motor_teeth,
-                wheel_teeth=wheel_teeth,
-                pitch=_stated(self.pitch_m),
-                width=_stated(self.width_m),
-                belt_density=_stated(self.belt_mass_kg_per_m),
-                pulley_density=_stated(self.pulley_density_kg_m3),
-                working_tension=_stated(self.working_tension_n),
-            )
-            mass = shared.mass + belt.mass
-            yield replace(
-                shared,
-                name=f"{self.name} {motor_teeth}:{wheel_teeth}",
-                ratio=belt.ratio,
-                mass=mass,
-                inertia=belt.inertia,
-                wheel_speed_max=belt.wheel_speed_max(_stated(self.belt_speed_max_m_s)),
-                torque_max=belt.torque_max,
-                room=replace(belt.room, center=belt.room.center * belt.mass / mass),
-            )
 
 
 def _stated(figure: float | None) -> float:

@@ -6,8 +6,7 @@ Heavy modules are imported inside the commands: that costs seconds, and `--help`
 import gc
 import os
 import sys
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -97,22 +96,6 @@ class _OnDesign(TyperCommand):
 def main() -> int:
     """Run what was typed; the exit code."""
     return errors.run(app, sys.argv[1:])
-
-
-@contextmanager
-def _quick_imports() -> Iterator[None]:
-    """Import without collecting garbage.
-
-    Importing makes some hundred thousand objects and hardly any garbage, and the collector goes
-    through all of them again and again. Afterwards it is needed: meshes leave much behind.
-    """
-    # Nothing is drawn; unless told so, MuJoCo starts processes to look for a window library.
-    os.environ.setdefault("MUJOCO_GL", "disabled")
-    gc.disable()
-    try:
-        yield
-    finally:
-        gc.enable()
 
 
 @app.callback(invoke_without_command=True)
@@ -231,16 +214,26 @@ def _design(
     chosen = specification.motor.name != NO_MOTOR
     # It imports while this process does.
     with Beside("ocs_design.sizing.alternatives" if chosen else None) as beside:
-        with steps.step("load the solver and the simulator"), _quick_imports():
-            from ocs_design.report.text.size import (
-                print_design,
-                print_outcome,
-                print_solution,
-                print_summary,
-            )
-            from ocs_design.workflows.size import design_ocs, load_solvers
+        with steps.step("load the solver and the simulator"):
+            # Nothing is drawn; unless told so, MuJoCo starts processes to look for a window
+            # library.
+            os.environ.setdefault("MUJOCO_GL", "disabled")
+            # Importing makes some hundred thousand objects and hardly any garbage, and the
+            # collector goes through all of them again and again. Afterwards it is needed: meshes
+            # leave much behind.
+            gc.disable()
+            try:
+                from ocs_design.report.text.size import (
+                    print_design,
+                    print_outcome,
+                    print_solution,
+                    print_summary,
+                )
+                from ocs_design.workflows.size import design_ocs, load_solvers
 
-            load_solvers(specification)
+                load_solvers(specification)
+            finally:
+                gc.enable()
         outcome = design_ocs(
             specification,
             out=out,
@@ -275,7 +268,12 @@ def inspect(
     context: typer.Context,
     as_json: opt.AsJson = False,
     strict: opt.Strict = False,
-    picture: opt.Picture = None,
+    picture: Annotated[
+        Path | None,
+        opt.option(
+            "--picture", "FILE", "Draw trunk, legs and feet from three sides (.svg or .png)."
+        ),
+    ] = None,
     verbose: Annotated[
         bool, typer.Option("-v", "--verbose", help="Also print each joint of the posture.")
     ] = False,

@@ -108,15 +108,6 @@ Detection: TypeAlias = Annotated[
         "--detection", "TIME", "Until a drive that stops is known to have stopped; 20ms by default."
     ),
 ]
-MotorsFile: TypeAlias = Annotated[
-    Text,
-    option(
-        "--motors",
-        "FILE",
-        "Choose among these motors instead, CSV or TOML.",
-        completion.files(".csv", ".toml"),
-    ),
-]
 GearsFile: TypeAlias = Annotated[
     Text,
     option("--gears", "FILE", "Gears of your own, CSV or TOML.", completion.files(".csv", ".toml")),
@@ -148,10 +139,6 @@ AsJson: TypeAlias = Annotated[
     bool, typer.Option("--json", help="Print one JSON document on standard output.")
 ]
 Strict: TypeAlias = Annotated[bool, typer.Option("--strict", help="Warnings are errors.")]
-Picture: TypeAlias = Annotated[
-    Path | None,
-    option("--picture", "FILE", "Draw trunk, legs and feet from three sides (.svg or .png)."),
-]
 Quiet: TypeAlias = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
 NoColor: TypeAlias = Annotated[bool, typer.Option("--no-color", help="No colour; as NO_COLOR.")]
 
@@ -306,7 +293,11 @@ TASK_OPTIONS: Mapping[str, object] = {
     "motors_any": _flag(
         "--motors-any", "Choose among motors that cannot be built with too: no threads known, say."
     ),
-    "motors": MotorsFile,
+    "motors": _text(
+        "FILE",
+        "Choose among these motors instead, CSV or TOML.",
+        completion.files(".csv", ".toml"),
+    ),
     "with_catalogue": _flag(
         "--with-catalogue", "With --motors: choose among the catalogue's motors too."
     ),

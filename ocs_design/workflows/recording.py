@@ -22,7 +22,7 @@ from ocs_design.device.records.device import (
     OcsRecord,
     ReachRecord,
 )
-from ocs_design.device.records.flights import ControlRecord, SurvivalRecord, ValidationRecord
+from ocs_design.device.records.flights import SurvivalRecord, ValidationRecord
 from ocs_design.device.records.requirement import (
     AxisInertia,
     DemandRecord,
@@ -31,9 +31,6 @@ from ocs_design.device.records.requirement import (
     RobotRecord,
 )
 from ocs_design.device.records.selection import (
-    Alternative,
-    Lighter,
-    Owed,
     RankedRecord,
     RejectionRecord,
     ReserveRecord,
@@ -138,22 +135,15 @@ def record_design(
     robot: Robot,
     resolved: Resolved,
     designed: Designed,
-    runs: Sequence[Run],
     *,
     margins: tuple[Margin, ...],
     built: Buildable,
-    control: ControlRecord | None = None,
-    uncertainty: Mapping[str, str] | None = None,
     mounting: Mounting | None,
     warnings: tuple[str, ...] = (),
-    alternatives: tuple[Alternative, ...] = (),
-    owed: Owed | None = None,
-    lighter: Lighter | None = None,
     seed: int,
-    files: Mapping[str, str],
     package_paths: Mapping[str, AnyPath] | None = None,
 ) -> OcsDesign:
-    """Record of the whole design, which becomes `design.json`."""
+    """Record of a design that is not flown, without what else would do and without files."""
     return OcsDesign(
         schema_version=SCHEMA_VERSION,
         tool=Tool(name="ocs-design", version=__version__),
@@ -167,14 +157,9 @@ def record_design(
         else record_selection(designed.choice, designed.kept),
         margins=margins,
         supply=designed.device.supply,
-        alternatives=alternatives,
-        owed=owed,
-        lighter=lighter,
         buildable=built,
-        validation=tuple(map(record_run, runs)),
-        control=control,
-        reality=uncertainty or {},
-        files=files,
+        validation=(),
+        files={},
     )
 
 

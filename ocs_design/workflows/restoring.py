@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 
-from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError, RobotError
 from ocs_design.common.files import AnyPath
 from ocs_design.common.frames import Placement
@@ -17,7 +16,6 @@ from ocs_design.device.agreement import check_agreement
 from ocs_design.device.checks import check_device
 from ocs_design.device.device import Device
 from ocs_design.device.records.design import OcsDesign, design_file, read_design
-from ocs_design.device.records.device import OcsRecord
 from ocs_design.device.records.requirement import RobotRecord
 from ocs_design.export.formats import Base
 from ocs_design.robot.leg_geometry import BASE_FRAME
@@ -28,17 +26,6 @@ from ocs_design.robot.robot import Format, Mount, Robot
 from ocs_design.robot.source import STANDARD_INPUT, read_source
 
 
-def device_of(record: OcsRecord, supply: Supply | None = None) -> Device:
-    """The device that was designed, to the last digit; `supply` is what feeds it.
-
-    Raises:
-        OcsError: no such device can be: the file was edited.
-    """
-    device = record.device(supply)
-    check_device(device)
-    return device
-
-
 def read_designed(path: AnyPath) -> tuple[OcsDesign, Device]:
     """A design, and its device.
 
@@ -47,7 +34,8 @@ def read_designed(path: AnyPath) -> tuple[OcsDesign, Device]:
     """
     design = read_design(path)
     try:
-        device = device_of(design.ocs, design.supply)
+        device = design.ocs.device(design.supply)
+        check_device(device)
         check_agreement(design, device)
     except OcsError as error:
         raise OcsError(f"{design_file(path)}: {error.message}", hint=error.hint) from error

@@ -42,7 +42,7 @@ from ocs_design.sizing.bound.rim_program import load_solver
 from ocs_design.sizing.buildable import buildable_of
 from ocs_design.sizing.design import mass_without_survival
 from ocs_design.workflows.flying import flown_hash
-from ocs_design.workflows.recording import record_design, write_runs
+from ocs_design.workflows.recording import record_design, record_run, write_runs
 from ocs_design.workflows.rounds import (
     Placed,
     Proof,
@@ -161,25 +161,26 @@ def design_ocs(
         conceded = _what_must_give(placed, owed, steps)
         forget_collision_model()
         control = control_of(stated, robot)
-        design = record_design(
-            robot,
-            placed.resolved,
-            placed.designed,
-            runs,
-            margins=margins,
-            built=built,
+        design = replace(
+            record_design(
+                robot,
+                placed.resolved,
+                placed.designed,
+                margins=margins,
+                built=built,
+                mounting=placed.mounting,
+                warnings=(*turns_not_made(placed, proof.references), *placed.warnings, *unfilmed),
+                seed=stated.seed or 0,
+                package_paths=package_paths,
+            ),
+            validation=tuple(map(record_run, runs)),
             control=control,
-            uncertainty=uncertainty_texts(
+            reality=uncertainty_texts(
                 complete_uncertainty(specification.reality, standing_height(robot), device.motor)
             ),
-            mounting=placed.mounting,
-            warnings=(*turns_not_made(placed, proof.references), *placed.warnings, *unfilmed),
             alternatives=lighter,
             owed=owed,
             lighter=conceded,
-            seed=stated.seed or 0,
-            files={},
-            package_paths=package_paths,
         )
         if proof.survival is not None:
             with steps.step("size a device that need not survive"):

@@ -11,10 +11,8 @@ from ocs_design.common.errors import OcsError
 from ocs_design.device.checks import check_device, device_warnings
 from ocs_design.device.records.design import read_design
 from ocs_design.robot.mass import MassProperties
-from ocs_design.workflows.restoring import device_of
 
-DESIGN = read_design(Path(__file__).parents[1] / "data" / "design_0_1_0.json")
-DEVICE = device_of(DESIGN.ocs)
+DEVICE = read_design(Path(__file__).parents[1] / "data" / "design_0_1_0.json").ocs.device()
 
 
 def test_a_device_that_was_designed_can_be_made():

@@ -16,7 +16,7 @@ from ocs_design.device.records.requirement import ManeuverRecord, RobotRecord
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.posture import OUTSIDE
 from ocs_design.robot.reader import read_robot
-from ocs_design.workflows.restoring import device_of, robot_of, seat_of
+from ocs_design.workflows.restoring import robot_of, seat_of
 
 HUMAN = next(ROBOTS.rglob("human.urdf"))
 MIMIC = """<robot name="gripper">
@@ -100,7 +100,7 @@ def test_a_device_comes_back_to_the_last_digit(tmp_path, motor):
     design = as_recorded(task, made)
     (tmp_path / "design.json").write_bytes(to_json(design))
     read, device = read_design(tmp_path / "design.json"), made.device
-    again = device_of(read.ocs, read.supply)
+    again = read.ocs.device(read.supply)
     for name in ("incidence", "flywheel", "motor", "carrier", "supply"):
         assert getattr(again, name) == getattr(device, name)
     for ours, theirs in zip(again.modules, device.modules, strict=True):

@@ -8,6 +8,7 @@ import numpy as np
 from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import Matrix, Vector
+from ocs_design.common.records import recorded
 from ocs_design.device.device import NO_CARRIER, Device, Flywheel, Module
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.parts.carrier_plate import CarrierPlate
@@ -96,20 +97,7 @@ class OcsRecord:
         modules = (
             Module(each.name, np.array(each.axis), np.array(each.position)) for each in self.modules
         )
-        return Device(
-            self.incidence,
-            tuple(modules),
-            self.flywheel,
-            self.motor,
-            self.carrier,
-            supply,
-            plate=self.plate,
-            guard_wall=self.guard_wall,
-            foot_plate=self.foot_plate,
-            layout=self.axes,
-            pedestals=self.pedestals,
-            on_bell=self.on_bell,
-        )
+        return recorded(Device, self, modules=tuple(modules), supply=supply, layout=self.axes)
 
     @property
     def axes(self) -> Layout:
