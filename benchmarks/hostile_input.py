@@ -25,14 +25,12 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
-from mutated import NUMBERS, mutated
-
 HANG, LONG_HANG, MEMORY, AT_ONCE = 10.0, 120.0, 2**30, 250
 
 
 def run_reader(name, seed, count):
     """Read `count` mutated files in this process; prints a line for each that does it harm."""
-    from hostile_readers import READERS, SLOW_READERS
+    from hostile_readers import READERS, SLOW_READERS, mutated
 
     from ocs_design.common.errors import OcsError
 
@@ -107,7 +105,7 @@ def guided(name, seconds):
     import atheris
 
     with atheris.instrument_imports(include=["ocs_design"]):
-        from hostile_readers import READERS
+        from hostile_readers import NUMBERS, READERS
 
         from ocs_design.common.errors import OcsError
     reader = READERS[name]

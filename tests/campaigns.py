@@ -1,17 +1,23 @@
-"""A campaign of short flights, for tests."""
+"""Campaigns of short flights, and what comes of flights, made up."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
+import numpy as np
 from wheels import driven_device
 
+from ocs_design.device.layout import PAIR
 from ocs_design.monte_carlo.campaign import make_campaign
-from ocs_design.monte_carlo.uncertainty import Uncertainty
+from ocs_design.monte_carlo.outcomes import METRICS, Outcomes
+from ocs_design.monte_carlo.uncertainty import Uncertainty, quantities
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.uncertainty import Constant, UncertaintySection, spreads
+from ocs_design.simulation.run import Metrics
 from ocs_design.simulation.scenario import Flights
 
 NOTHING = {name: Constant(1.0 if name == "contact_friction" else 0.0) for name in spreads()}
 """A world that is as designed."""
+
+NAMES = quantities(PAIR)
 
 
 def short_campaign(robot, stated=None, *, device=None, seed=7, until=0.6, drop_only=False):
@@ -27,3 +33,30 @@ def short_campaign(robot, stated=None, *, device=None, seed=7, until=0.6, drop_o
         replace(flight, world=replace(flight.world, duration=until)) for flight in campaign.flights
     ]
     return replace(campaign, flights=tuple(flights))
+
+
+def calm_metrics(**told):
+    """What is measured of a flight that nothing happens in.
+
+    Every figure is 0 and the robot ends upright, but for what is told.
+    """
+    nothing = {field.name: 0.0 for field in fields(Metrics)}
+    return Metrics(**nothing | {"upright_at_end": True} | told)
+
+
+def made_outcomes(samples, scenarios=1, *, fail_from=2.0, seed=0):
+    """Each sample by itself: the trunk is off level by what its first quantity says, in radians.
+
+    One that is off by more than `fail_from` fails.
+    """
+    values = np.array([np.random.default_rng([seed, n]).normal(size=len(NAMES)) for n in samples])
+    metrics = np.zeros((len(values), scenarios, len(METRICS)))
+    metrics[:, :, METRICS.index("touchdown_pitch")] = values[:, :1]
+    codes = np.where(np.abs(values[:, :1]) > fail_from, 3, 0).astype(np.int8)
+    codes = np.broadcast_to(codes, (len(values), scenarios)).copy()
+    return Outcomes(np.array(samples), values, metrics, codes, NAMES)
+
+
+def assert_same(one, other):
+    for field in fields(Outcomes):
+        np.testing.assert_array_equal(getattr(one, field.name), getattr(other, field.name))

@@ -21,6 +21,8 @@ PROGRAM = (sys.executable, "-m", "ocs_design")
 # Bound alone: the quickest way to size, where what is tested has nothing to do with motors.
 BOUND = ("--motor", "none")
 BY_HAND = ("--mass", "2.5", "--inertia", "0.032,0.055,0.07")
+MADE = ("cad", "robot", "snippets")
+"""Folders of a design that `export` answers for."""
 
 
 @dataclass(frozen=True)
@@ -84,3 +86,21 @@ def environment(**changes):
 def everything_in(folder):
     """Relative path of every file and folder, hidden ones too."""
     return sorted(str(path.relative_to(folder)) for path in Path(folder).rglob("*"))
+
+
+def files_in(folder):
+    """Content of every file below `folder`, by its path."""
+    paths = (path for path in Path(folder).rglob("*") if path.is_file())
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in paths}
+
+
+def made_in(folder):
+    """What `export` answers for."""
+    return {name: content for name, content in files_in(folder).items() if name.startswith(MADE)}
+
+
+def sized(*arguments, stdin=b""):
+    """A design in the folder `ocs` of the working directory, by the bound alone and not flown."""
+    result = run("size", *arguments, *BOUND, "--no-validate", "-q", "-o", "ocs", stdin=stdin)
+    assert result.code == 0, result.stderr
+    return Path("ocs")

@@ -10,8 +10,8 @@ from itertools import product
 from math import inf, pi, radians, sqrt
 
 import numpy as np
-from drawn_mounts import with_mounts
 from rims import PAPER_STEEL, STEEL
+from selections import ALUMINIUM, with_mounts
 
 from ocs_design.actuation.motor import DIRECT, Gear, Motor
 from ocs_design.actuation.supply import Supply
@@ -25,7 +25,6 @@ from ocs_design.robot.robot import Robot
 from ocs_design.sizing.free_place import place_on_top
 from ocs_design.sizing.selection.problem import SelectionProblem
 
-ALUMINIUM = Material("aluminium", 2700.0, 250e6, 300e6, 0.33, "for tests")
 BRASS = Material("brass", 8500.0, 180e6, 340e6, 0.34, "for tests")
 MATERIALS = (STEEL, ALUMINIUM, BRASS, PAPER_STEEL)
 

@@ -1,10 +1,10 @@
 """The exported controller, compiled."""
 
-import importlib.util
 import shutil
 import subprocess
 
 import pytest
+from scripts import script_at
 
 STRICT = ("-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror")
 
@@ -29,9 +29,7 @@ def compiled(folder, *options, out="harness", sources=("harness.c",)):
 def bound(folder):
     """The controller by its own Python binding, and that module."""
     (path,) = folder.glob("*_ocs_controller.py")
-    specification = importlib.util.spec_from_file_location(path.stem, path)
-    module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
+    module = script_at(path)
     with pytest.raises(FileNotFoundError, match="make"):
         module.Controller()
     compiled(folder, "-fPIC", "-shared", out=f"lib{path.stem}.so", sources=())

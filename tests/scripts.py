@@ -1,7 +1,10 @@
-"""Scripts that stand outside of the package, loaded as modules."""
+"""Scripts that stand outside of the package, loaded as modules; what an import brings with it."""
 
 import importlib.util
+import subprocess
 import sys
+
+HEAVY = ("numpy", "scipy", "mujoco", "cvxpy", "trimesh", "casadi", "matplotlib", "pydantic")
 
 
 def script_at(path):
@@ -12,3 +15,12 @@ def script_at(path):
     sys.modules[name] = module
     specification.loader.exec_module(module)
     return module
+
+
+def modules_loaded_by(statement):
+    """Top-level names in sys.modules of a fresh interpreter after `statement`."""
+    code = (
+        f"{statement}\nimport sys\nprint(*sorted({{name.split('.')[0] for name in sys.modules}}))"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return set(run.stdout.split())

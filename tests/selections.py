@@ -3,10 +3,9 @@
 from dataclasses import replace
 
 import numpy as np
-from drawn_mounts import with_mounts
 from rims import STEEL
 
-from ocs_design.actuation.motor import DIRECT, Gear, Motor
+from ocs_design.actuation.motor import DIRECT, BoltCircle, Face, Gear, GearRoom, Motor, Mounting
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material
 from ocs_design.requirement.device_sections import Envelope
@@ -130,3 +129,32 @@ def _maneuvers(rng, standing, fall, torque, time):
             name="flip", gravity=1.62, incidence=own, jump_height=1.0, angle=-np.pi,
             duration=float(3.0 * time),
         )  # fmt: skip
+
+
+def with_mounts(problem, seed):
+    """The same catalogue, each motor with threads before, behind or nowhere; gears with room."""
+    rng = np.random.default_rng([seed, 1])
+    return replace(
+        problem,
+        motors=tuple(replace(motor, mounting=_mounting(rng, motor)) for motor in problem.motors),
+        gears=tuple(
+            gear if gear.room is None else replace(gear, room=_room(rng)) for gear in problem.gears
+        ),
+    )
+
+
+def _mounting(rng, motor):
+    """As far as there is room on the motor."""
+    across = motor.diameter * rng.uniform(0.5, 0.65)
+    face = rng.choice([None, Face.OUTPUT, Face.BACK, Face.BACK])
+    shaft = rng.choice([None, 0.1 * motor.diameter])
+    if face is None or across < 0.012:
+        return rng.choice([None, Mounting(shaft)])
+    rotor = None if shaft is not None else BoltCircle(0.6 * across, 4, "M2")
+    stator = BoltCircle(across, int(rng.integers(3, 5)), "M2")
+    return Mounting(shaft, rotor, stator, Face(face))
+
+
+def _room(rng):
+    depth, offset = rng.uniform(0.005, 0.02), rng.choice([0.0, rng.uniform(0.02, 0.05)])
+    return GearRoom(depth, offset, 0.01, 0.01, center=0.4 * offset)

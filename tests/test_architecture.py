@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from loading import HEAVY, modules_loaded_by
+from scripts import HEAVY, modules_loaded_by
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "ocs_design"

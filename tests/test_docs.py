@@ -1,7 +1,6 @@
 """The docs say what the program says."""
 
 import ast
-import importlib.util
 import os
 import re
 import shlex
@@ -30,10 +29,7 @@ FENCE = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
 
 @pytest.fixture(scope="module")
 def generate():
-    spec = importlib.util.spec_from_file_location("docs_generate", DOCS / "generate.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return script_at(DOCS / "generate.py")
 
 
 def test_generated_pages_are_up_to_date(generate):

@@ -8,10 +8,9 @@ from dataclasses import asdict
 from pathlib import Path
 
 import pytest
-from commands import SOLO12, Result, environment, run_process
+from commands import SOLO12, Result, environment, run_process, sized
 from exported import pinocchio_model
 from products import CASES, Product, device_of
-from renewed import sized
 
 
 @pytest.fixture(scope="session", params=CASES)

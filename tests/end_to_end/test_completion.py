@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from commands import ROOT, environment, run_process
-from loading import modules_loaded_by
+from scripts import modules_loaded_by
 
 from ocs_design.cli.completion import PAPERS
 from ocs_design.requirement.froude import default_maneuvers

@@ -11,9 +11,18 @@ from unittest import mock
 import mujoco
 import pytest
 import trimesh
-from commands import BY_HAND, ROOT, SOLO12, everything_in, run
+from commands import (
+    BY_HAND,
+    MADE,
+    ROOT,
+    SOLO12,
+    everything_in,
+    files_in,
+    made_in,
+    run,
+    sized,
+)
 from exported import MJCF, pinocchio_model
-from renewed import MADE, files_in, made_in, sized
 from robots import ROBOTS
 
 HUMAN = next(ROBOTS.rglob("human.urdf"))

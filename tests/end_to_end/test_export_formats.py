@@ -4,8 +4,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from commands import run
-from renewed import files_in, made_in
+from commands import files_in, made_in, run
 
 from ocs_design.export import formats
 from ocs_design.export.formats import FORMATS, USUAL_FORMATS

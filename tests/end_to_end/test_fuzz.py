@@ -1,6 +1,5 @@
 """Any robot by hand, and files that were cut or altered."""
 
-import importlib.util
 import shutil
 import tempfile
 from pathlib import Path
@@ -10,6 +9,7 @@ import pytest
 from commands import everything_in, run
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
+from scripts import script_at
 
 from ocs_design.requirement.kinds import MANEUVER_KINDS
 from ocs_design.requirement.specification import all_keys
@@ -22,20 +22,7 @@ FUZZ = settings(
 )
 
 UNITS = [
-    "",
-    "mm",
-    " m",
-    "kg",
-    "g",
-    "deg",
-    "rad",
-    "rpm",
-    "rad/s",
-    "N m",
-    "kg m2",
-    "kg cm2",
-    "%",
-    "x",
+    *("", "mm", " m", "kg", "g", "deg", "rad", "rpm", "rad/s", "N m", "kg m2", "kg cm2", "%", "x"),
 ]
 MAGNITUDES = st.one_of(
     st.floats(1e-3, 1e3).map(lambda value: f"{value:.4g}"),
@@ -54,24 +41,9 @@ INERTIAS = st.one_of(
     st.text(max_size=12),
 )
 OPTIONS = [
-    "--rate-change",
-    "--wheel-speed-max",
-    "--torque-max",
-    "--alpha",
-    "--r-max",
-    "--r-min",
-    "--h-max",
-    "--h-min",
-    "--wall-min",
-    "--wheel-mass-max",
-    "--position",
-    "--material",
-    "--motor",
-    "--gear",
-    "--bus-voltage",
-    "--joint",
-    "--posture",
-    "--trunk",
+    *("--rate-change", "--wheel-speed-max", "--torque-max", "--alpha", "--r-max", "--r-min"),
+    *("--h-max", "--h-min", "--wall-min", "--wheel-mass-max", "--position", "--material"),
+    *("--motor", "--gear", "--bus-voltage", "--joint", "--posture", "--trunk"),
 ]
 # One drive: how the choice among all of them goes is no matter of what is typed, but of minutes.
 DRIVES = st.sampled_from(
@@ -225,9 +197,7 @@ SCRIPT = Path(__file__).parents[2] / "examples" / "level_in_mujoco.py"
 
 
 def test_what_falls_tilted_lands_level(product, capsys):
-    specification = importlib.util.spec_from_file_location(SCRIPT.stem, SCRIPT)
-    module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
+    module = script_at(SCRIPT)
     assert abs(module.main(product.folder)) < 0.2 * module.PITCH
     assert "touches down after 0.3" in capsys.readouterr().out
     module.KP = module.KD = 0.0

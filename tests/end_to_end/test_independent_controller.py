@@ -1,6 +1,5 @@
 """A controller written anew, and the exported one, fly elsewhere as in the batch engine."""
 
-import importlib.util
 import json
 import os
 import re
@@ -11,16 +10,10 @@ from pathlib import Path
 import pytest
 from commands import run
 from firmware import bound
+from scripts import script_at
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-SCRIPT = EXAMPLES / "independent_controller.py"
-
-
-def example():
-    specification = importlib.util.spec_from_file_location(SCRIPT.stem, SCRIPT)
-    module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
-    return module
+SCRIPT = script_at(EXAMPLES / "independent_controller.py")
 
 
 @pytest.mark.parametrize(
@@ -41,7 +34,7 @@ def test_one_written_anew_touches_down_alike(product, kinds, document):
             for run in document["validation"]
             if run["scenario"] == maneuver["name"]
         }
-        roll, pitch = example().touchdown(product.folder, document, maneuver)
+        roll, pitch = SCRIPT.touchdown(product.folder, document, maneuver)
         assert roll == pytest.approx(flown[True]["touchdown_roll"], abs=1e-9)
         assert pitch == pytest.approx(flown[True]["touchdown_pitch"], abs=1e-9)
         if maneuver["kind"] != "flip":  # which ends as level as one that does not turn
@@ -58,15 +51,14 @@ def controller(product, tmp_path_factory):
 
 def test_the_controller_one_flies_all_maneuvers(product, controller, document):
     """With a motor it follows plans, and keeps the limits of motors and supply."""
-    script = example()
     for index, maneuver in enumerate(document["requirement"]["maneuvers"]):
         (flown,) = (
             each["metrics"]
             for each in document["validation"]
             if each["scenario"] == maneuver["name"] and each["ocs"]
         )
-        law = script.Compiled(controller, index)
-        roll, pitch = script.touchdown(product.folder, document, maneuver, law)
+        law = SCRIPT.Compiled(controller, index)
+        roll, pitch = SCRIPT.touchdown(product.folder, document, maneuver, law)
         assert roll == pytest.approx(flown["touchdown_roll"], abs=1e-9)
         assert pitch == pytest.approx(flown["touchdown_pitch"], abs=1e-9)
 

@@ -4,8 +4,7 @@ import random
 from contextlib import suppress
 
 import pytest
-from hostile_readers import READERS
-from mutated import mutated
+from hostile_readers import READERS, mutated
 
 from ocs_design.common.errors import OcsError
 

@@ -7,8 +7,7 @@ from pathlib import Path
 
 import pytest
 from browser import browser
-from commands import run
-from renewed import files_in
+from commands import files_in, run
 
 from ocs_design.common.errors import OcsError
 from ocs_design.device.records.design import read_design

@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from campaigns import short_campaign
-from made_outcomes import assert_same
+from campaigns import assert_same, short_campaign
 from wheels import layout_device
 
 import ocs_design.monte_carlo.campaign

@@ -6,9 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from campaigns import short_campaign
+from campaigns import NAMES, made_outcomes, short_campaign
 from commands import SOLO12
-from made_outcomes import NAMES, made_outcomes
 from scipy import stats
 from wheels import layout_device
 

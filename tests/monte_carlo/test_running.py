@@ -12,8 +12,7 @@ from dataclasses import replace
 import numpy as np
 import pyarrow.parquet
 import pytest
-from campaigns import short_campaign
-from made_outcomes import assert_same, made_outcomes
+from campaigns import assert_same, made_outcomes, short_campaign
 
 from ocs_design.common.errors import MissingToolError, OcsError, OutputError
 from ocs_design.monte_carlo.campaign import fly_samples

@@ -5,7 +5,7 @@ from math import pi
 
 import numpy as np
 import pytest
-from made_outcomes import NAMES, made_outcomes
+from campaigns import NAMES, made_outcomes
 from scipy import stats
 
 from ocs_design.device.layout import module_axes

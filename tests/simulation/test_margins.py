@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from calm_flights import calm_metrics
+from campaigns import calm_metrics
 from designed import MOTOR, designed
 
 from ocs_design.requirement.pivoted import StandUp

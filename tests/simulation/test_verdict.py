@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from calm_flights import calm_metrics
+from campaigns import calm_metrics
 
 from ocs_design.requirement.maneuver import Drop, Flip, Shove
 from ocs_design.requirement.turns import TurnTo

@@ -7,8 +7,8 @@ from io import StringIO
 
 import pytest
 from commands import run
-from loading import HEAVY, modules_loaded_by
 from rich.console import Console
+from scripts import HEAVY, modules_loaded_by
 
 from ocs_design.common.errors import MissingToolError, extra_command
 from ocs_design.device.findings import Examination, Finding, State

@@ -11,8 +11,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from drawn_selections import draw
-from naive_device import Drive, device_mass, fits, holds, margin
-from naive_inertia import coupling_on, inertia_on
+from naive_device import Drive, coupling_on, device_mass, fits, holds, inertia_on, margin
 from naive_search import Device, refine, search
 from naive_wheel import Rims
 from selections import lopsided, random_problem

@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from drawn_selections import draw
-from naive_device import Drive, asked, chamfer_of
-from naive_inertia import coupling_on, inertia_on, let_go
+from naive_device import Drive, asked, chamfer_of, coupling_on, inertia_on, let_go
 from naive_wheel import Rims
 from rims import STEEL
 from scipy.optimize import minimize
