@@ -3,10 +3,11 @@
 import io
 import json
 import os
+import pty
 import re
 import subprocess
 import sys
-from contextlib import redirect_stderr, redirect_stdout
+from contextlib import redirect_stderr, redirect_stdout, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from unittest import mock
@@ -73,6 +74,21 @@ def run_process(*arguments, **options):
     return Result(done.returncode, done.stdout, done.stderr)
 
 
+def on_a_terminal(*arguments, answers=(), **variables):
+    """Exit code of a command that is typed at, and all that its terminal gets to see."""
+    child, terminal = pty.fork()
+    if child == 0:
+        os.execve(PROGRAM[0], [*PROGRAM, *map(str, arguments)], environment(**variables))
+    os.write(terminal, "".join(f"{answer}\n" for answer in answers).encode())
+    seen = bytearray()
+    # Linux says by an error that the other side has closed.
+    with suppress(OSError):
+        while chunk := os.read(terminal, 1 << 16):
+            seen += chunk
+    os.close(terminal)
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), seen.decode()
+
+
 def environment(**changes):
     """The environment without what decides on width and colour, with these changes."""
     kept = {
@@ -104,3 +120,13 @@ def sized(*arguments, stdin=b""):
     result = run("size", *arguments, *BOUND, "--no-validate", "-q", "-o", "ocs", stdin=stdin)
     assert result.code == 0, result.stderr
     return Path("ocs")
+
+
+def changed(document, key, value):
+    """A JSON document with another value at a key; a callable makes it of the one before."""
+    *path, last = (int(step) if step.isdigit() else step for step in key.split("."))
+    place = document
+    for step in path:
+        place = place[step]
+    place[last] = value(place[last]) if callable(value) else value
+    return document

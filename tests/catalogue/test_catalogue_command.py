@@ -4,7 +4,7 @@ import csv
 import re
 
 import pytest
-from commands import ROOT, environment, run, run_process
+from commands import ROOT, run
 
 MINE = """[[motor]]
 name = "my motor"
@@ -65,8 +65,9 @@ def test_gears_in_words():
 
 @pytest.mark.parametrize("width", [80, 120])
 @pytest.mark.parametrize("what", ["motors", "gears"])
-def test_no_row_of_the_table_wraps(what, width):
-    result = run_process("catalogue", what, env=environment(COLUMNS=str(width), NO_COLOR="1"))
+def test_no_row_of_the_table_wraps(what, width, monkeypatch):
+    monkeypatch.setenv("COLUMNS", str(width))
+    result = run("catalogue", what)
     assert (result.code, result.stderr) == (0, "")
     lines = result.stdout.splitlines()
     start = next(index for index, line in enumerate(lines) if "──" in line) + 1

@@ -3,10 +3,9 @@
 import re
 from importlib.resources import as_file, files
 
-import motor_rows
 import pytest
 
-from ocs_design.actuation.motor import build_gaps
+from ocs_design.actuation.motor import BoltCircle, Face, Mounting, build_gaps
 from ocs_design.catalogue.gears import known_gears, load_gears
 from ocs_design.catalogue.motors import known_motors, load_motors, motor_doubts, motors
 from ocs_design.common.errors import SpecificationError
@@ -26,19 +25,50 @@ SHEET = {
 }
 
 
-def toml(**changes):
-    return motor_rows.toml(SHEET | changes)
+MOUNTED = {
+    "name": "M",
+    "maker": "me",
+    "source": "bench",
+    "diameter_m": 0.05,
+    "shaft_diameter_m": 0.005,
+    "rotor_bolt_circle_m": 0.017,
+    "rotor_bolts": 3,
+    "rotor_thread": "M3",
+    "stator_bolt_circle_m": 0.025,
+    "stator_bolts": 4,
+    "stator_thread": "M2.5",
+    "stator_face": "output",
+}
+"""One whose shaft and threads alone are stated."""
+
+MOUNTING = Mounting(0.005, BoltCircle(0.017, 3, "M3"), BoltCircle(0.025, 4, "M2.5"), Face.OUTPUT)
 
 
-def csv(**changes):
-    return motor_rows.csv(SHEET | changes)
+def toml(sheet=SHEET, **changes):
+    """A row as a user writes it: what is None is not stated."""
+    stated = {key: value for key, value in (sheet | changes).items() if value is not None}
+    return "[[motor]]\n" + "\n".join(f"{key} = {value!r}" for key, value in stated.items())
 
 
-@pytest.mark.parametrize(("text", "suffix"), [(toml(), ".toml"), (csv(), ".csv")])
-def test_both_formats_say_the_same(load, text, suffix):
-    found = load(text, suffix)["M"]
+def csv(sheet=SHEET, **changes):
+    stated = {key: value for key, value in (sheet | changes).items() if value is not None}
+    texts = (f'"{value}"' if "," in str(value) else str(value) for value in stated.values())
+    return f"{','.join(stated)}\n{','.join(texts)}\n"
+
+
+@pytest.mark.parametrize(("write", "suffix"), [(toml, ".toml"), (csv, ".csv")])
+def test_both_formats_say_the_same(load, write, suffix):
+    found = load(write(), suffix)["M"]
     assert (found.mass, found.torque_constant, found.resistance) == (0.1, 0.02, 0.5)
     assert (found.rotor_inertia, found.speed_max) == (None, None)
+    assert load(write(MOUNTED), suffix)["M"].mounting == MOUNTING
+
+
+def test_each_part_of_a_mounting_may_stand_alone(load):
+    nothing = dict.fromkeys(key for key in MOUNTED if key.startswith(("shaft", "rotor", "stator")))
+    assert load(toml(MOUNTED | nothing))["M"].mounting is None
+    shaft = nothing | {"shaft_diameter_m": 0.005}
+    assert load(toml(MOUNTED | shaft))["M"].mounting == Mounting(0.005)
 
 
 def test_marks_of_order_and_line_ends_do_not_matter(load):
@@ -121,6 +151,55 @@ def test_faults_are_told_with_their_place(load, text, message):
 
 def matches(message, error):
     return any(re.search(message, problem) for problem in error.problems)
+
+
+UNMOUNTABLE = {
+    "no thread": ({"rotor_thread": None}, "rotor_bolt_circle_m.* belong together: no rotor_thread"),
+    "only a number": (
+        {"stator_bolt_circle_m": None, "stator_thread": None, "stator_face": None},
+        "no stator_bolt_circle_m, stator_thread",
+    ),
+    "two bolts": ({"rotor_bolts": 2}, "rotor_bolts is 2; it must be 3 or more"),
+    "one bolt": ({"stator_bolts": 1}, "stator_bolts is 1; it must be 2 or more"),
+    "half a bolt": ({"rotor_bolts": 3.5}, "rotor_bolts: 3.5 is not a whole number"),
+    "no bolts": ({"rotor_bolts": 0}, "rotor_bolts: 0 is not positive"),
+    "no class": ({"rotor_screws": "9.9"}, "rotor_screws is '9.9', which is none of 8.8, 10.9"),
+    "half a depth": ({"rotor_depth_m": 0.01}, "rotor_depth_m and rotor_depth_max_m belong to"),
+    "depth of nothing": (
+        {
+            "stator_bolt_circle_m": None,
+            "stator_bolts": None,
+            "stator_thread": None,
+            "stator_face": None,
+            "stator_depth_m": 0.01,
+            "stator_depth_max_m": 0.02,
+        },
+        "belong to each other and to stator_bolt_circle_m",
+    ),
+    "depths": ({"rotor_depth_m": 0.02, "rotor_depth_max_m": 0.01}, "0.02, above rotor_depth_max_m"),
+    "inch thread": ({"rotor_thread": "4-40"}, "rotor_thread is '4-40', which is none of M2, M2.5"),
+    "wide circle": ({"rotor_bolt_circle_m": 0.05}, "0.05, but the motor is only 0.05 m wide"),
+    "thick shaft": ({"shaft_diameter_m": 0.06}, "shaft_diameter_m is 0.06, but the motor is only"),
+    "shaft between": ({"shaft_diameter_m": 0.0117}, "leave less than 1 mm to the shaft"),
+    "many bolts": ({"rotor_bolts": 13}, "13 holes for M3 leave less than 1 mm between them"),
+    "no face": ({"stator_face": None}, "stator_face and the stator's bolt circle"),
+    "wrong face": ({"stator_face": "front"}, "'front' is none of output, back"),
+}
+
+
+@pytest.mark.parametrize(("changes", "message"), UNMOUNTABLE.values(), ids=UNMOUNTABLE)
+def test_a_mounting_that_cannot_be_is_refused_whatever_the_remark(load, changes, message):
+    with pytest.raises(SpecificationError, match=message) as caught:
+        load(toml(MOUNTED | changes, remark="so it is"))
+    assert "(M)" in str(caught.value)
+
+
+def test_the_edges_of_mountings_that_can_be_pass(load):
+    """Of M3 on 17 mm, 3.4 mm holes: 1 mm is left to a shaft of 11.6 mm, and between 11 screws."""
+    changes = {"shaft_diameter_m": 0.0116 - 1e-9, "rotor_bolts": 11}
+    edge = load(toml(MOUNTED | changes))["M"].mounting
+    assert edge.rotor.inside - edge.shaft_diameter / 2.0 == pytest.approx(1e-3, abs=1e-9)
+    assert 1e-3 < edge.rotor.spacing < 1.4e-3
 
 
 UNREADABLE = {

@@ -9,7 +9,9 @@ from pathlib import Path
 import pytest
 from commands import ROOT, environment, run_process
 from scripts import modules_loaded_by
+from typer.testing import CliRunner
 
+from ocs_design.cli.app import app
 from ocs_design.cli.completion import PAPERS
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.sweep import sweep_of
@@ -17,14 +19,11 @@ from ocs_design.requirement.vocabulary import CRITERIA, GUARDS
 from ocs_design.robot.manual import robot_by_hand
 
 
-def completed(words, **options):
+def completed(words):
     """What bash is offered for the last of `words`."""
-    asked = environment(
-        COMP_WORDS=words,
-        COMP_CWORD=str(words.count(" ")),
-        _OCS_DESIGN_COMPLETE="complete_bash",
-    )
-    return run_process(env=asked, **options).stdout.split()
+    place = {"COMP_WORDS": words, "COMP_CWORD": str(words.count(" "))}
+    asked = CliRunner().invoke(app, env={**place, "_OCS_DESIGN_COMPLETE": "complete_bash"})
+    return asked.stdout.split()
 
 
 SWEEPS = ["time", "angle", "radius", "height", "voltage"]
@@ -51,22 +50,21 @@ SWEEPS = ["time", "angle", "radius", "height", "voltage"]
         ("ocs-design size --spec examples/b", ["examples/by_hand.toml"]),
     ],
 )
-def test_bash_completes(words, offered):
-    assert completed(words, cwd=ROOT) == offered
+def test_bash_completes(words, offered, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    assert completed(words) == offered
 
 
-def test_folders_lead_to_the_files_in_them(tmp_path):
+def test_folders_lead_to_the_files_in_them(tmp_path, monkeypatch):
     """A folder alone would be taken for the whole word."""
+    monkeypatch.chdir(tmp_path)
     (tmp_path / "robots" / "dog").mkdir(parents=True)
     for name in ("dog.urdf", "dog.xml.gz", "dog.txt"):
         (tmp_path / "robots" / "dog" / name).touch()
-    assert completed("ocs-design size ro", cwd=tmp_path) == [
-        "robots/dog/dog.urdf",
-        "robots/dog/dog.xml.gz",
-    ]
+    assert completed("ocs-design size ro") == ["robots/dog/dog.urdf", "robots/dog/dog.xml.gz"]
     (tmp_path / "robots" / "cat and mouse").mkdir()
     # The shell quotes what it completes itself.
-    assert completed("ocs-design size robots/", cwd=tmp_path) == []
+    assert completed("ocs-design size robots/") == []
 
 
 def test_words_offered_are_those_that_are_taken():
@@ -110,9 +108,9 @@ def test_the_script_completes_in_bash(tmp_path):
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
-def test_the_script_of_a_shell_is_printed(shell):
+def test_the_script_of_a_shell_is_printed(shell, monkeypatch):
     # Typer otherwise looks at which shell called it.
-    env = environment(_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION="1")
-    done = run_process("--show-completion", shell, env=env)
-    assert done.code == 0
-    assert "_OCS_DESIGN_COMPLETE=complete_" + shell in done.stdout
+    monkeypatch.setenv("_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION", "1")
+    done = CliRunner().invoke(app, ["--show-completion", shell])
+    assert done.exit_code == 0
+    assert f"_OCS_DESIGN_COMPLETE=complete_{shell}" in done.stdout

@@ -25,8 +25,12 @@ from commands import (
 from exported import MJCF, pinocchio_model
 from robots import ROBOTS
 
+from ocs_design.export import formats
+from ocs_design.export.formats import FORMATS, USUAL_FORMATS
+from ocs_design.workflows.export import ON_DESIGN
+
 HUMAN = next(ROBOTS.rglob("human.urdf"))
-XACRO = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+MESHED = """<robot name="r">
   <link name="base"><inertial><mass value="2"/>
     <inertia ixx="0.03" iyy="0.05" izz="0.07" ixy="0" ixz="0" iyz="0"/></inertial>
     <visual><geometry><mesh filename="package://parts/cube.stl"/></geometry></visual></link>
@@ -61,7 +65,7 @@ def robot_with_meshes_elsewhere():
     """Their place is recorded, for it stands in no file of the robot's."""
     (Path("hidden") / "p").mkdir(parents=True)
     trimesh.creation.box((0.1, 0.1, 0.1)).export("hidden/p/cube.stl")
-    Path("r.urdf").write_text(XACRO.replace(' xmlns:xacro="http://www.ros.org/wiki/xacro"', ""))
+    Path("r.urdf").write_text(MESHED)
     return sized("r.urdf", "--rate-change", "1rad/s", "--package-path", "parts=hidden/p")
 
 
@@ -197,8 +201,7 @@ def test_the_default_folder_is_named_after_the_robot(solo12):
 
 def test_meshes_that_the_urdf_names_by_relative_paths_are_told_of_once(folder):
     trimesh.creation.box((0.1, 0.1, 0.1)).export("cube.stl")
-    text = XACRO.replace(' xmlns:xacro="http://www.ros.org/wiki/xacro"', "")
-    Path("r.urdf").write_text(text.replace("package://parts/", ""))
+    Path("r.urdf").write_text(MESHED.replace("package://parts/", ""))
     source = sized("r.urdf", "--rate-change", "1rad/s")
     warnings = json.loads((source / "design.json").read_text())["robot"]["warnings"]
     assert [w for w in warnings if "names 1 of its meshes relative" in w]
@@ -256,3 +259,70 @@ def test_the_folder_can_be_moved(solo12, folder):
     assert pinocchio_model(urdf).existJointName("ocs_left")
     assert 'filename="meshes/ocs_flywheel.stl"' in urdf
     assert (moved / "robot" / "meshes" / "ocs_flywheel.stl").is_file()
+
+
+@pytest.mark.parametrize("each", USUAL_FORMATS, ids=lambda each: each.name)
+def test_one_format_alone(solo12, each):
+    source = solo12 / "design.json"
+    assert run("export", source, "-o", "again", "-q", "--formats", each.name).code == 0
+    again = made_in("again")
+    assert again
+    assert again.items() <= made_in(solo12).items()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("product", ["motor"], indirect=True)
+def test_what_is_written_on_request_alone(product, folder):
+    """For the printer and for CAD."""
+    asked = ("--formats", "3mf,step,printed")
+    result = run("export", product.folder, "-o", "again", *asked)
+    assert result.code == 0, result.said
+    again = files_in("again")
+    case = product.case
+    parts = {*(f"cad/housing_{part}.stl" for part in ("drum", "lid", "foot")), *case.cages}
+    steps = {part.replace(".stl", ".step") for part in parts}
+    steps |= {f"cad/{piece}.step" for piece in (*case.pieces, *case.plates)}
+    whole = {
+        f"cad/{name}" for name in ("flywheel.3mf", "housing.3mf", "module.step", "device.step")
+    }
+    assert set(again) == {"design.json", *whole, *parts, *steps}
+
+
+@pytest.mark.parametrize("name", ["step", "dxf"])
+def test_a_format_without_its_extra_is_a_missing_tool(solo12, monkeypatch, name):
+    monkeypatch.setattr(formats, "find_spec", lambda _: None)
+    result = run("export", solo12, "-o", "again", "--formats", name)
+    assert result.code == 5
+    assert f"pip install 'ocs-design[{name}]'" in result.said
+    assert not Path("again").exists()
+
+
+@pytest.mark.parametrize("name", ["step", "dxf"])
+def test_a_library_that_does_not_load_is_a_missing_tool(solo12, monkeypatch, name):
+    """As where a shared library that it needs is not on the system."""
+    (each,) = (each for each in FORMATS if each.name == name)
+    monkeypatch.setitem(sys.modules, f"ocs_design.export.{each.module}", None)
+    result = run("export", solo12, "-o", "again", "--formats", name)
+    assert result.code == 5
+    assert "cannot be loaded" in result.said
+
+
+def test_dxf_of_each_piece(solo12):
+    assert run("export", solo12, "-o", "one", "-q", "--formats", "dxf").code == 0
+    pieces = {f"cad/{path.stem}.dxf" for path in (solo12 / "cad").glob("flywheel*.stl")}
+    assert set(files_in("one")) == {"design.json", *pieces}
+
+
+def test_formats_are_listed_with_commas_or_one_by_one(solo12):
+    run("export", solo12, "-o", "a", "-q", "--formats", "stl,bom")
+    run("export", solo12, "-o", "b", "-q", "--formats", "bom", "--formats", "stl")
+    assert files_in("a") == files_in("b")
+    assert set(files_in("a")) == {"design.json", "cad/flywheel.stl", "cad/bill_of_materials.csv"}
+
+
+def test_an_unknown_format_is_wrong_usage(solo12):
+    result = run("export", solo12, "-o", "again", "--formats", "stl,dwg", "--json")
+    assert result.code == 2
+    assert "dwg" in result.document["error"]["message"]
+    known = {*(each.name for each in FORMATS), *ON_DESIGN}
+    assert all(name in result.document["error"]["hint"] for name in known)

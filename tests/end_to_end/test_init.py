@@ -1,39 +1,16 @@
 """`ocs-design init`, as it is met: its file, its questions, and what `size` makes of it."""
 
-import os
-import pty
 import re
-import sys
 from dataclasses import replace
 from pathlib import Path
 
-from commands import BY_HAND, PROGRAM, SOLO12, environment, run
+from commands import BY_HAND, SOLO12, on_a_terminal, run
 
 from ocs_design.requirement.reading import read_specification
 from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
 
 SOLO12_SPECIFICATION = Specification(robot=RobotSection(file=SOLO12))
-
-
-def on_a_terminal(answers, *arguments):
-    """Everything that a command shows that is typed at; it ends well."""
-    process, terminal = pty.fork()
-    if process == 0:
-        os.execve(sys.executable, [*PROGRAM, *arguments], environment(COLUMNS="200"))
-    os.write(terminal, "".join(f"{answer}\n" for answer in answers).encode())
-    shown = b"".join(iter(lambda: read_or_nothing(terminal), b""))
-    os.close(terminal)
-    assert os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]) == 0, shown
-    return shown.decode()
-
-
-def read_or_nothing(terminal):
-    """Linux says that the other side has closed by an error."""
-    try:
-        return os.read(terminal, 1 << 16)
-    except OSError:
-        return b""
 
 
 def test_what_it_writes_means_what_was_stated(folder):
@@ -77,9 +54,16 @@ def test_a_file_stays_without_force(folder):
     assert read_specification(folder / "ocs.toml") == Specification()
 
 
+def asked(*arguments, answers=()):
+    """What a command shows that is typed at; it ends well."""
+    code, shown = on_a_terminal(*arguments, answers=answers, COLUMNS="200")
+    assert code == 0, shown
+    return shown
+
+
 def test_on_a_terminal_it_asks(folder):
     answers = ("nowhere.urdf", SOLO12, "jump", "drop, back-flip", "forty", "45", "", "22.2 V")
-    shown = on_a_terminal(answers, "init", "-o", "asked.toml")
+    shown = asked("init", "-o", "asked.toml", answers=answers)
     for question in ("Robot file", "Maneuvers", "radius", "height", "battery"):
         assert question in shown
     assert "nowhere.urdf does not exist" in shown
@@ -92,6 +76,6 @@ def test_on_a_terminal_it_asks(folder):
 
 
 def test_on_a_terminal_it_asks_nothing_if_told_so(folder):
-    shown = on_a_terminal((), "init", SOLO12, "--yes")
+    shown = asked("init", SOLO12, "--yes")
     assert "Robot file" not in shown
     assert (folder / "solo12.toml").exists()

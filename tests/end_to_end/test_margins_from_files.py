@@ -5,7 +5,7 @@ import math
 import re
 
 import pytest
-from commands import SOLO12, run
+from commands import SOLO12, changed, run
 from flown_margins import Flown, row_of
 
 MOTOR = "MN4014 KV400"
@@ -177,11 +177,7 @@ def test_the_first_screen_shows_these_figures(sized):
 def test_a_limit_that_was_changed_by_hand_is_refused_with_its_key(sized, key, said, tmp_path):
     """Flights would keep to it, and be judged by another."""
     document = json.loads((sized[1].folder / "design.json").read_text())
-    *path, last = key.split(".")
-    place = document
-    for step in path:
-        place = place[step]
-    place[last] *= 1.01
+    changed(document, key, lambda figure: 1.01 * figure)
     (tmp_path / "design.json").write_text(json.dumps(document))
     result = run("validate", tmp_path, "-o", tmp_path / "out")
     assert result.code == 3

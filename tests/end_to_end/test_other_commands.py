@@ -122,3 +122,24 @@ def test_the_report_is_opened_if_that_is_asked_for(asked, no_files, tmp_path, mo
     done = run("size", *BY_HAND, *BOUND, "--no-validate", "-q", "-o", tmp_path / "o", *flags)
     assert (done.code, done.said.strip()) == (0, "")
     assert opened == ([(tmp_path / "o" / "report.html").as_uri()] if asked else [])
+
+
+FALL = """[motor]
+name = "none"
+[validation]
+video = true
+[[maneuver]]
+kind = "drop"
+name = "fall"
+height = "0.4 m"
+pitch = "10 deg"
+"""
+
+
+@pytest.mark.slow
+def test_a_film_of_each_maneuver_or_the_reason_why_not(tmp_path):
+    (tmp_path / "fall.toml").write_text(FALL)
+    done = run("size", SOLO12, "--spec", tmp_path / "fall.toml", "-o", tmp_path / "out")
+    films = [path.name for path in (tmp_path / "out" / "validation").glob("fall.*")]
+    assert done.code in {0, 1}
+    assert films in (["fall.mp4"], ["fall.gif"]) or "no video, because" in done.said

@@ -1,12 +1,11 @@
 """`size` as it is read: in terminals and pipes, as JSON, on any number of threads."""
 
 import os
-import pty
 import re
 from io import StringIO
 
 import pytest
-from commands import PROGRAM, SOLO12, environment, run
+from commands import SOLO12, on_a_terminal, run
 from products import FILES, Product
 from rich.console import Console
 from threadpoolctl import threadpool_limits
@@ -110,22 +109,6 @@ def test_json_is_the_artefact_and_nothing_else(product, tmp_path, monkeypatch):
     assert result.stdout == (tmp_path / "solo12-ocs" / "design.json").read_text()
 
 
-def in_a_terminal(*arguments, **variables):
-    """What a terminal of 80 columns gets to see."""
-    child, screen = pty.fork()
-    if child == 0:
-        os.execvpe(PROGRAM[0], [*PROGRAM, *map(str, arguments)], environment(**variables))
-    seen = bytearray()
-    try:
-        while chunk := os.read(screen, 1 << 16):
-            seen += chunk
-    except OSError:  # The child has closed its end: Linux says EIO.
-        pass
-    os.close(screen)
-    code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
-    return code, seen.decode()
-
-
 WORDS, ERROR = ("inspect", SOLO12), ("inspect", "nowhere.urdf")
 
 
@@ -139,7 +122,7 @@ WORDS, ERROR = ("inspect", SOLO12), ("inspect", "nowhere.urdf")
     ],
 )
 def test_a_terminal_gets_colour_unless_it_is_declined(arguments, option, variables):
-    code, plain = in_a_terminal(*arguments)
+    code, plain = on_a_terminal(*arguments)
     assert SGR.search(plain)
-    declined = in_a_terminal(*arguments, *option, **variables)
+    declined = on_a_terminal(*arguments, *option, **variables)
     assert declined == (code, SGR.sub("", plain))

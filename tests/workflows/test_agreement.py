@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from commands import run
+from commands import changed, run
 from designed import MOTOR, as_recorded, design_of
 
 from ocs_design.common.errors import OcsError
@@ -56,14 +56,8 @@ def test_what_older_versions_wrote_is_read(name, tmp_path):
 
 
 def edited(folder, key, value, kind="disc"):
-    """A design with another value at a key; a callable makes it of the one before."""
-    document = json.loads(written(kind))
-    *path, last = key.split(".")
-    place = document
-    for step in path:
-        place = place[int(step) if step.isdigit() else step]
-    last = int(last) if last.isdigit() else last
-    place[last] = value(place[last]) if callable(value) else value
+    """A design with another value at a key."""
+    document = changed(json.loads(written(kind)), key, value)
     (folder / "design.json").write_text(json.dumps(document))
     return folder
 

@@ -28,60 +28,47 @@ Requires-Dist: pytest; extra == "dev"
 """
 
 
-@pytest.fixture
-def trial(tmp_path, monkeypatch):
-    """A distribution of our own making, and a package of its that cannot be imported."""
-    add_distribution(tmp_path, "ocs-trial", METADATA)
-    add_distribution(
-        tmp_path, "broken-one", "Metadata-Version: 2.4\nName: broken-one\nVersion: 3\n"
-    )
-    (tmp_path / "broken_one.py").write_text("raise RuntimeError('no luck\\ntoday')")
-    monkeypatch.syspath_prepend(tmp_path)
-    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
-    monkeypatch.setattr(doctor, "DISTRIBUTION", "ocs-trial")
-
-
-def add_distribution(folder, name, text):
-    info = folder / f"{name.replace('-', '_')}-1.0.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text(text)
-
-
-@pytest.fixture
-def found(trial):
-    return {each.name: each for each in package_findings(doctor.wanted_packages())}
+@pytest.fixture(scope="module")
+def found(tmp_path_factory):
+    """Findings about a distribution of our own making, a package of which cannot be imported."""
+    folder = tmp_path_factory.mktemp("trial")
+    broken = "Metadata-Version: 2.4\nName: broken-one\nVersion: 3\n"
+    for name, text in (("ocs_trial", METADATA), ("broken_one", broken)):
+        (folder / f"{name}-1.0.dist-info").mkdir()
+        (folder / f"{name}-1.0.dist-info" / "METADATA").write_text(text)
+    (folder / "broken_one.py").write_text("raise RuntimeError('no luck\\ntoday')")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(folder)
+        patch.setenv("PYTHONPATH", str(folder))
+        patch.setattr(doctor, "DISTRIBUTION", "ocs-trial")
+        return {each.name: each for each in package_findings(doctor.wanted_packages())}
 
 
 def test_those_for_developers_are_left_out(found):
     assert set(found) == {"rich", "typer", "broken-one", "no-such-package", "film-maker"}
 
 
-def test_what_works(found):
-    assert found["rich"].state is State.WORKS
-    assert (found["rich"].cure, found["rich"].reason) == ("", "")
-
-
-def test_a_version_that_is_not_allowed(found):
-    assert found["typer"].state is State.UNFIT
-    assert found["typer"].cure == "pip install 'typer>=99'"
-    assert found["typer"].stands_in_the_way
-
-
-def test_what_is_not_installed(found):
-    assert found["no-such-package"].state is State.MISSING
-    assert found["no-such-package"].cure == "pip install 'no-such-package<2'"
-
-
-def test_what_cannot_be_imported_says_why(found):
-    assert found["broken-one"].state is State.BROKEN
-    assert found["broken-one"].reason == "RuntimeError: no luck"
-    assert found["broken-one"].cure == "pip install --force-reinstall 'broken-one'"
-
-
-def test_an_extra_is_not_required_and_its_cure_names_it(found):
-    extra = found["film-maker"]
-    assert not extra.stands_in_the_way
-    assert extra.cure == "pip install 'ocs-trial[film]'"
+@pytest.mark.parametrize(
+    ("name", "state", "cure", "reason", "in_the_way"),
+    [
+        ("rich", State.WORKS, "", "", False),
+        ("typer", State.UNFIT, "pip install 'typer>=99'", "", True),
+        ("no-such-package", State.MISSING, "pip install 'no-such-package<2'", "", True),
+        (
+            "broken-one",
+            State.BROKEN,
+            "pip install --force-reinstall 'broken-one'",
+            "RuntimeError: no luck",
+            True,
+        ),
+        ("film-maker", State.MISSING, "pip install 'ocs-trial[film]'", "", False),
+    ],
+)
+def test_what_is_found_of_a_package(found, name, state, cure, reason, in_the_way):
+    """An extra is not required, and its cure names it."""
+    package = found[name]
+    assert (package.state, package.cure, package.reason) == (state, cure, reason)
+    assert package.stands_in_the_way is in_the_way
 
 
 def test_a_module_that_ends_the_process_is_only_told(tmp_path, monkeypatch):

@@ -51,6 +51,14 @@ def test_after_a_round_for_turns(placed, monkeypatch):
     assert found.warnings == ("four wheels are needed", "near")
 
 
+def weighing(placed, asked, mass, motor):
+    """What was placed for a specification, of that mass and with motors of that mass [kg]."""
+    device = placed.designed.device
+    carrier = replace(device.carrier, mass=mass / 2.0 - device.flywheel.mass)
+    made = replace(device, carrier=carrier, motor=replace(device.motor, mass=motor))
+    return replace(placed, specification=asked, designed=replace(placed.designed, device=made))
+
+
 TWO, FOUR, SIX = None, "double-pair", "triple-pair"
 AT_ALPHA, LIGHTEST = None, "lightest"
 
@@ -100,11 +108,7 @@ def test_heavy_motors_give_way_to_more_wheels_that_weigh_less(
         mass = weigh.get(key, weigh.get(key[0], 3.0))
         if mass is None:
             raise NeverHeld(placed.designed.choice.chosen, 1.0)
-        device = placed.designed.device
-        carrier = replace(device.carrier, mass=mass / 2.0 - device.flywheel.mass)
-        drive = replace(device.motor, mass=motor)
-        made = replace(device, carrier=carrier, motor=drive)
-        return replace(placed, specification=asked, designed=replace(placed.designed, device=made))
+        return weighing(placed, asked, mass, motor)
 
     monkeypatch.setattr(rounds, "size_on_robot", size_one)
     stated = replace(placed.specification, ocs=replace(placed.specification.ocs, layout=None))
@@ -117,14 +121,11 @@ def test_heavy_motors_give_way_to_more_wheels_that_weigh_less(
 
 def test_strict_looks_at_the_device_that_is_taken(placed, monkeypatch):
     """The pair of 120 % of the robot gives way to four of 20 %; alone it is refused."""
-    device = placed.designed.device
 
     def size_one(asked, _robot, *, strict):
         assert not strict
         mass = 3.0 if asked.ocs.layout is TWO or not lighter else 0.5
-        carrier = replace(device.carrier, mass=mass / 2.0 - device.flywheel.mass)
-        made = replace(device, carrier=carrier, motor=replace(device.motor, mass=0.26))
-        return replace(placed, specification=asked, designed=replace(placed.designed, device=made))
+        return weighing(placed, asked, mass, motor=0.26)
 
     monkeypatch.setattr(rounds, "size_on_robot", size_one)
     monkeypatch.setattr(rounds, "placement_warnings", lambda *_, **__: ())
