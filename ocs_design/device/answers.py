@@ -8,6 +8,7 @@ import numpy as np
 from ocs_design.common.arrays import vector
 from ocs_design.common.errors import Infeasible
 from ocs_design.device.layout import Criterion, incidence_by_criterion
+from ocs_design.device.records.design import SCHEMA_VERSION
 from ocs_design.device.records.flights import (
     ReliabilityRecord,
     SurvivalRecord,
@@ -35,7 +36,7 @@ class BoundAnswer:
         curve: required over robot's inertia, a row for each wheel speed.
     """
 
-    schema_version: int
+    schema_version: int = SCHEMA_VERSION
     axis: str
     inertia: float
     rate_change: float
@@ -77,7 +78,7 @@ class LayoutAnswer:
 class LayoutsAnswer:
     """Devices of all layouts for one robot and requirement."""
 
-    schema_version: int
+    schema_version: int = SCHEMA_VERSION
     robot: str
     layouts: tuple[LayoutAnswer, ...]
 
@@ -196,7 +197,7 @@ class Inspection:
     `recognition` is None for a robot by hand.
     """
 
-    schema_version: int
+    schema_version: int = SCHEMA_VERSION
     robot: RobotRecord
     joints: int
     links: int
@@ -263,7 +264,7 @@ class Front:
         points: by rising value.
     """
 
-    schema_version: int
+    schema_version: int = SCHEMA_VERSION
     robot: str
     against: str
     label: str
@@ -310,7 +311,7 @@ class Initialized:
         next: the command that designs by it.
     """
 
-    schema_version: int
+    schema_version: int = SCHEMA_VERSION
     file: str
     robot: str | None
     next: str
@@ -327,7 +328,7 @@ class Exported:
         notes: what else is to be known of the files.
     """
 
-    schema_version: int
+    schema_version: int = SCHEMA_VERSION
     folder: str
     files: Mapping[str, str]
     warnings: tuple[str, ...]
@@ -466,7 +467,7 @@ class Validated:
     `validation` has the flights as designed, or those of `sample` if that is given.
     """
 
-    schema_version: int
+    schema_version: int = SCHEMA_VERSION
     design: str
     robot: str
     warnings: tuple[str, ...]

@@ -269,10 +269,11 @@ def incidence_by_criterion(
     }
 
 
-def heading_drift(inertia: FloatArray) -> FloatArray:
-    """Yaw rate per roll rate and per pitch rate at zero momentum, shape (2,).
+def heading_drift(inertia: FloatArray) -> tuple[float, float]:
+    """Yaw rate per roll rate and per pitch rate at zero momentum.
 
     Args:
         inertia: of the robot with its device about the centre of mass in B [kg m^2], shape (3, 3).
     """
-    return frozen(-inertia[2, :2] / inertia[2, 2])
+    roll, pitch = -inertia[2, :2] / inertia[2, 2]
+    return float(roll), float(pitch)

@@ -7,7 +7,6 @@ from ocs_design.common.arrays import vector
 from ocs_design.common.errors import Infeasible, SpecificationError
 from ocs_design.common.units import format_quantity, si_unit
 from ocs_design.device.answers import Front, FrontDevice, FrontPoint, LayoutAnswer
-from ocs_design.device.records.design import SCHEMA_VERSION
 from ocs_design.requirement.sweep import Sweep, Task
 from ocs_design.requirement.vocabulary import DETECTION
 from ocs_design.requirement.writing import specification_to_toml, with_absolute_files
@@ -52,7 +51,6 @@ def draw_front(
         )
         progress((index + 1) / len(values))
     return Front(
-        schema_version=SCHEMA_VERSION,
         robot=task.robot.name,
         against=sweep.name,
         label=sweep.label,

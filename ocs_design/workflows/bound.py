@@ -5,7 +5,6 @@ import numpy as np
 from ocs_design.common.errors import UsageError
 from ocs_design.common.units import Dimension
 from ocs_design.device.answers import BoundAnswer
-from ocs_design.device.records.design import SCHEMA_VERSION
 from ocs_design.requirement.bound import AXES, authority, bound_curve, spin_bound
 from ocs_design.requirement.values import INCIDENCE, TRUNK_RATE, WHEEL_SPEED, Quantity
 
@@ -37,7 +36,6 @@ def bound_by_hand(
     rates = tuple(point * rate for point in CURVE_POINTS)
     speeds = tuple(point * speed for point in CURVE_POINTS)
     return BoundAnswer(
-        schema_version=SCHEMA_VERSION,
         axis=axis,
         inertia=moment,
         rate_change=rate,

@@ -8,12 +8,7 @@ from ocs_design.common.errors import OcsError
 from ocs_design.common.files import AnyPath, safe_name, to_json
 from ocs_design.device.answers import Exported, PostureLine, posture_lines
 from ocs_design.device.bodies import joint_names
-from ocs_design.device.records.design import (
-    DESIGN_FILE,
-    SCHEMA_VERSION,
-    OcsDesign,
-    design_file,
-)
+from ocs_design.device.records.design import DESIGN_FILE, OcsDesign, design_file
 from ocs_design.export.folder import (
     file_hashes,
     keep_others,
@@ -123,7 +118,6 @@ def export_design(
         (staging / DESIGN_FILE).write_bytes(to_json(again))
     told = known.robot.warnings
     return Exported(
-        schema_version=SCHEMA_VERSION,
         folder=str(folder),
         files=made,
         warnings=(*warnings, *(remark for remark in remarks if remark not in told)),

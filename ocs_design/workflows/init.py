@@ -8,7 +8,6 @@ from pathlib import Path
 from ocs_design.common.files import safe_name
 from ocs_design.common.units import STANDARD_GRAVITY
 from ocs_design.device.answers import Initialized
-from ocs_design.device.records.design import SCHEMA_VERSION
 from ocs_design.export.folder import write_whole
 from ocs_design.requirement.froude import SOLO12, example_pivots, example_shove, example_turns
 from ocs_design.requirement.maneuver import Maneuver
@@ -115,7 +114,6 @@ def write_start(
     )
     write_whole(file, text, force=force)
     return Initialized(
-        schema_version=SCHEMA_VERSION,
         file=str(file),
         robot=None if start.robot is None else start.robot.name,
         next=command,

@@ -6,7 +6,6 @@ from pathlib import Path
 from ocs_design.common.errors import UsageError
 from ocs_design.device.answers import Inspection, RecognitionRecord, posture_lines
 from ocs_design.device.layout import heading_drift, incidence_by_criterion
-from ocs_design.device.records.design import SCHEMA_VERSION
 from ocs_design.device.records.requirement import RobotRecord
 from ocs_design.export.folder import write_whole
 from ocs_design.report.charts.svg import png_of
@@ -56,16 +55,14 @@ def inspect_robot(
         drawn = stick_figure(robot, shown.legs, words)
         content = drawn if picture.suffix.lower() == ".svg" else png_of(drawn)
         write_whole(picture, content, force=True)
-    roll, pitch = heading_drift(robot.inertia)
     return Inspection(
-        schema_version=SCHEMA_VERSION,
         robot=RobotRecord.of(robot),
         joints=len(robot.tree.joints),
         links=len(robot.tree.body_of_link),
         incidence_by_criterion={
             str(name): angle for name, angle in incidence_by_criterion(robot.inertia).items()
         },
-        heading_drift=(float(roll), float(pitch)),
+        heading_drift=heading_drift(robot.inertia),
         incidence_by_posture=posture_lines(robot),
         recognition=RecognitionRecord.of(robot),
     )

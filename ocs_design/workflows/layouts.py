@@ -6,7 +6,6 @@ from dataclasses import replace
 from ocs_design.common.errors import Infeasible
 from ocs_design.common.files import AnyPath
 from ocs_design.device.answers import LayoutAnswer, LayoutsAnswer
-from ocs_design.device.records.design import SCHEMA_VERSION
 from ocs_design.report.text.console import Steps, Tell
 from ocs_design.requirement.reading import specification_of
 from ocs_design.requirement.specification import Specification
@@ -51,6 +50,4 @@ def compare_layouts(
                 continue
             answers.append(layout_answer(layout, task, designed))
             step.note = designed.device.motor.name
-    return LayoutsAnswer(
-        schema_version=SCHEMA_VERSION, robot=task.robot.name, layouts=tuple(answers)
-    )
+    return LayoutsAnswer(robot=task.robot.name, layouts=tuple(answers))

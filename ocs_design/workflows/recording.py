@@ -73,10 +73,7 @@ def record_selection(choice: Choice, kept: ReserveRecord | None = None) -> Selec
             )
             for entry in selection.ranking
         ),
-        rejections=tuple(
-            recorded(RejectionRecord, entry, reason=str(entry.reason))
-            for entry in selection.rejections
-        ),
+        rejections=tuple(recorded(RejectionRecord, each) for each in selection.rejections),
         co_design=choice.co_design,
         prices=tuple(mass_prices(problem, selection.best)),
         kept=kept,
@@ -191,7 +188,6 @@ def _ocs_record(
     robot: Robot, designed: Designed, mounting: Mounting | None, warnings: tuple[str, ...]
 ) -> OcsRecord:
     device, sized = designed.device, designed.sized
-    drift = heading_drift(sized.total.inertia)
     return recorded(
         OcsRecord,
         device,
@@ -202,7 +198,7 @@ def _ocs_record(
         incidence_by_criterion_robot_alone={
             str(name): angle for name, angle in sized.incidence_by_criterion_robot.items()
         },
-        heading_drift=(float(drift[0]), float(drift[1])),
+        heading_drift=heading_drift(sized.total.inertia),
         spin_inertia=device.flywheel.spin_inertia,
         mass_total=device.mass,
         total_mass=sized.total.mass,

@@ -10,7 +10,7 @@ from ocs_design import __version__
 from ocs_design.common.errors import OcsError, UsageError
 from ocs_design.common.files import AnyPath, to_json
 from ocs_design.device.answers import MonteCarloRecord, SampleRecord, Validated
-from ocs_design.device.records.design import DESIGN_FILE, SCHEMA_VERSION
+from ocs_design.device.records.design import DESIGN_FILE
 from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.export.film import Take, film_model
 from ocs_design.export.folder import check_target, file_hashes, staged_folder
@@ -234,7 +234,6 @@ def validate_design(
     pose_rate = POSE_RATE if view else None
     runs = task.fly(steps, pose_rate=pose_rate)
     found = Validated(
-        schema_version=SCHEMA_VERSION,
         design=str(task.path),
         robot=task.robot.name,
         warnings=task.warnings,

@@ -114,8 +114,6 @@ def test_values_out_of_reach_are_told_and_exit_with_4():
         (("--against", "speed"), 2, "none of time, angle, radius, height, voltage"),
         (("--maneuver", "somersault"), 2, "no such maneuver"),
         (("--against", "radius", "--maneuver", "drop"), 2, "not that of a maneuver"),
-        (("--points", "1"), 2, "between 2 and 200"),
-        (("--from", "30mm"), 2, "--from"),
         (("--from", "2s", "--to", "1s"), 2, "not below"),
         (("--motor", "none"), 2, "needs motors"),
         (("--motor", "no such motor"), 3, "no such motor"),

@@ -111,7 +111,6 @@ def test_reality_is_taken_from_the_specification(by_hand, folder):
         (("--engine", "warp"), "add --samples"),
         (("--certify", "--engine", "warp"), "exclude each other"),
         (("--samples", "2", "--scheduler", "tcp://no:1", "--engine", "warp"), "exclude each other"),
-        (("--replay", "nothing.json"), "cannot read the case"),
     ],
 )
 def test_what_makes_no_sense_is_refused(by_hand, folder, options, words):

@@ -87,9 +87,7 @@ def test_a_biped_that_lands_level_and_falls_is_told():
 
 
 def test_a_robot_without_legs_does_not_stand():
-    flown = Validated(
-        schema_version=2, design="", robot="", warnings=(), validation=(run(stands=None),)
-    )
+    flown = Validated(design="", robot="", warnings=(), validation=(run(stands=None),))
     assert headline(flown).text == "level 1 of 1"
 
 
