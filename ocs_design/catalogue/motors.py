@@ -398,24 +398,20 @@ def _of_mass(sheet: MotorSheet, limits: tuple[float, float]) -> Iterator[str]:
         )
 
 
-def _of_torque(sheet: MotorSheet) -> Iterator[str]:
-    """Line on a mass that its torque is not that of, where no size says what it should be."""
-    mass, torque = sheet.mass_kg, sheet.motor().peak_torque
-    if mass is None or torque is None or _density(sheet) is not None:
-        return
-    least, most = TORQUE_SHARES
-    if not least / 10.0 <= torque / mass ** (4.0 / 3.0) <= 10.0 * most:
-        lightest, heaviest = ((torque / share) ** 0.75 for share in (most, least))
-        yield (
-            f"mass_kg is {mass:g} kg for {torque:.3g} N m, where motors weigh {lightest:.2g} to "
-            f"{heaviest:.2g} kg: {_meant(mass, 'kg', mass, (lightest / 3.0, 3.0 * heaviest))}"
-        )
-
-
 def _doubts(sheet: MotorSheet) -> Iterator[str]:
     """Figures that are possible and hardly meant, one line each with the likely slip."""
     yield from _of_mass(sheet, LIKELY)
-    yield from _of_torque(sheet)
+    mass, torque = sheet.mass_kg, sheet.motor().peak_torque
+    # Where no size says what it should weigh, its torque does.
+    if mass is not None and torque is not None and _density(sheet) is None:
+        least, most = TORQUE_SHARES
+        if not least / 10.0 <= torque / mass ** (4.0 / 3.0) <= 10.0 * most:
+            lightest, heaviest = ((torque / share) ** 0.75 for share in (most, least))
+            yield (
+                f"mass_kg is {mass:g} kg for {torque:.3g} N m, where motors weigh {lightest:.2g} "
+                f"to {heaviest:.2g} kg: "
+                f"{_meant(mass, 'kg', mass, (lightest / 3.0, 3.0 * heaviest))}"
+            )
     shaft, body = sheet.shaft_length_m, sheet.length_m
     if shaft is not None and body is not None and shaft > SHAFT_SHARE * body:
         yield (

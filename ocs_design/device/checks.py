@@ -10,7 +10,6 @@ from math import hypot, inf, isfinite, pi
 import numpy as np
 
 from ocs_design.actuation.fasteners import CLASSES, SCREW_NAMES
-from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.device.device import Device, Flywheel
 from ocs_design.parts.carrier_plate import CarrierPlate, Mast
@@ -86,7 +85,11 @@ def check_device(device: Device) -> None:
     if not 0.0 < device.foot_plate <= LARGEST_LENGTH:
         faults.append(f"ocs.foot_plate is {device.foot_plate}")
     if device.supply is not None:
-        faults += _supply_faults(device.supply)
+        # A limit that it does not have is infinite.
+        for name, highest in (("voltage", LARGEST), ("current_max", inf), ("power_max", inf)):
+            value = getattr(device.supply, name)
+            if not 0.0 < value <= highest:
+                faults.append(f"supply.{name} is {value:g}, not positive")
     if not isfinite(device.incidence):
         faults.append(f"ocs.incidence is {device.incidence}")
     if tuple(module.name for module in device.modules) != device.layout.names:
@@ -113,14 +116,6 @@ def _wheel_faults(wheel: Flywheel) -> Iterator[str]:
         yield "flywheel.web.hub.radius is not below inner_radius"
     if wheel.web is not None and wheel.web.mass >= wheel.mass:
         yield "flywheel.web.mass is not below the wheel's mass"
-
-
-def _supply_faults(supply: Supply) -> Iterator[str]:
-    """Figures of a supply that gives nothing; a limit that it does not have is infinite."""
-    for name, highest in (("voltage", LARGEST), ("current_max", inf), ("power_max", inf)):
-        value = getattr(supply, name)
-        if not 0.0 < value <= highest:
-            yield f"supply.{name} is {value:g}, not positive"
 
 
 def _plate_faults(plate: CarrierPlate) -> Iterator[str]:

@@ -44,7 +44,7 @@ from ocs_design.robot.robot import Robot
 from ocs_design.simulation.run import Run
 from ocs_design.sizing.mounting import Mounting
 from ocs_design.sizing.selection.refinement import mass_prices
-from ocs_design.sizing.sized import Choice, Designed, Sized
+from ocs_design.sizing.sized import Choice, Designed
 
 
 def record_selection(choice: Choice, kept: ReserveRecord | None = None) -> SelectionRecord:
@@ -141,90 +141,79 @@ def record_design(
     package_paths: Mapping[str, AnyPath] | None = None,
 ) -> OcsDesign:
     """Record of a design that is not flown, without what else would do and without files."""
+    requirement, device, sized = resolved.requirement, designed.device, designed.sized
+    speed, total = sized.wheel_speed_max, sized.total
+    housing = () if resolved.choice is None else (HOUSING_ASSUMED,)
     return OcsDesign(
         schema_version=SCHEMA_VERSION,
         tool=Tool(name="ocs-design", version=__version__),
         seed=seed,
         robot=RobotRecord.of(robot, package_paths),
-        requirement=_requirement_record(resolved, designed.sized),
-        ocs=_ocs_record(robot, designed, mounting, warnings),
-        sizing=designed.sized.optimum,
+        requirement=RequirementRecord(
+            maneuvers=tuple(map(ManeuverRecord.of, requirement.maneuvers)),
+            rate_change=requirement.rate_change,
+            wheel_speed_max=speed,
+            required_inertia=AxisInertia.of([each.momentum for each in sized.demands], speed),
+            spin_inertia_by_hand=requirement.spin_inertia,
+            demands=tuple(
+                recorded(
+                    DemandRecord,
+                    demand,
+                    roll_momentum=float(demand.momentum[0]),
+                    pitch_momentum=float(demand.momentum[1]),
+                )
+                for demand in sized.demands
+            ),
+            assumptions=(*resolved.assumptions, *housing),
+            reliability=resolved.reliability,
+            detection=requirement.detection,
+        ),
+        ocs=recorded(
+            OcsRecord,
+            device,
+            incidence_criterion=designed.criterion,
+            incidence_by_criterion={
+                str(name): angle for name, angle in sized.incidence_by_criterion.items()
+            },
+            incidence_by_criterion_robot_alone={
+                str(name): angle for name, angle in sized.incidence_by_criterion_robot.items()
+            },
+            heading_drift=heading_drift(total.inertia),
+            spin_inertia=device.flywheel.spin_inertia,
+            mass_total=device.mass,
+            total_mass=total.mass,
+            total_inertia=matrix(total.inertia),
+            total_com=vector(total.com),
+            modules=tuple(
+                ModuleRecord(name=each.name, axis=vector(each.axis), position=vector(each.position))
+                for each in device.modules
+            ),
+            layout=device.layout.name,
+            clearance=None if mounting is None else mounting.nearest,
+            center_of_mass=vector(
+                (total.mass * total.com - robot.mass_properties.mass * robot.com) / device.mass
+            ),
+            warnings=(*device_warnings(device, robot.mass_properties), *warnings),
+            fitting=(*device_notes(device), *trunk_notes(device, robot)),
+            mounting=None
+            if mounting is None
+            else MountingRecord(
+                landing=mounting.landing,
+                reachable=tuple(
+                    ReachRecord(part=reach.part, joints=dict(reach.joints))
+                    for reach in mounting.reachable
+                ),
+                com_shift=vector(mounting.com_shift),
+                inertia_change=vector(mounting.inertia_change),
+            ),
+        ),
+        sizing=sized.optimum,
         selection=None
         if designed.choice is None
         else record_selection(designed.choice, designed.kept),
         margins=margins,
-        supply=designed.device.supply,
+        supply=device.supply,
         buildable=built,
         validation=(),
         files={},
-    )
-
-
-def _requirement_record(resolved: Resolved, sized: Sized) -> RequirementRecord:
-    requirement, speed = resolved.requirement, sized.wheel_speed_max
-    housing = () if resolved.choice is None else (HOUSING_ASSUMED,)
-    return RequirementRecord(
-        maneuvers=tuple(map(ManeuverRecord.of, requirement.maneuvers)),
-        rate_change=requirement.rate_change,
-        wheel_speed_max=speed,
-        required_inertia=AxisInertia.of([each.momentum for each in sized.demands], speed),
-        spin_inertia_by_hand=requirement.spin_inertia,
-        demands=tuple(
-            recorded(
-                DemandRecord,
-                demand,
-                roll_momentum=float(demand.momentum[0]),
-                pitch_momentum=float(demand.momentum[1]),
-            )
-            for demand in sized.demands
-        ),
-        assumptions=(*resolved.assumptions, *housing),
-        reliability=resolved.reliability,
-        detection=requirement.detection,
-    )
-
-
-def _ocs_record(
-    robot: Robot, designed: Designed, mounting: Mounting | None, warnings: tuple[str, ...]
-) -> OcsRecord:
-    device, sized = designed.device, designed.sized
-    return recorded(
-        OcsRecord,
-        device,
-        incidence_criterion=designed.criterion,
-        incidence_by_criterion={
-            str(name): angle for name, angle in sized.incidence_by_criterion.items()
-        },
-        incidence_by_criterion_robot_alone={
-            str(name): angle for name, angle in sized.incidence_by_criterion_robot.items()
-        },
-        heading_drift=heading_drift(sized.total.inertia),
-        spin_inertia=device.flywheel.spin_inertia,
-        mass_total=device.mass,
-        total_mass=sized.total.mass,
-        total_inertia=matrix(sized.total.inertia),
-        total_com=vector(sized.total.com),
-        modules=tuple(
-            ModuleRecord(name=each.name, axis=vector(each.axis), position=vector(each.position))
-            for each in device.modules
-        ),
-        layout=device.layout.name,
-        clearance=None if mounting is None else mounting.nearest,
-        center_of_mass=vector(
-            (sized.total.mass * sized.total.com - robot.mass_properties.mass * robot.com)
-            / device.mass
-        ),
-        warnings=(*device_warnings(device, robot.mass_properties), *warnings),
-        fitting=(*device_notes(device), *trunk_notes(device, robot)),
-        mounting=None
-        if mounting is None
-        else MountingRecord(
-            landing=mounting.landing,
-            reachable=tuple(
-                ReachRecord(part=reach.part, joints=dict(reach.joints))
-                for reach in mounting.reachable
-            ),
-            com_shift=vector(mounting.com_shift),
-            inertia_change=vector(mounting.inertia_change),
-        ),
     )

@@ -256,8 +256,18 @@ def validate_design(
         )
     else:
         found = replace(found, survival=task.fly_stopped(steps))
-    files = () if request.out is None else _write_flights(task, runs, found, request.out, force)
-    return Validation(found, request.out, files, task, runs)
+    if request.out is None:
+        return Validation(found, None, (), task, runs)
+    # The time series, and the design with these flights in place of its own.
+    with staged_folder(request.out, force=force) as staging:
+        write_runs(runs, staging, found.survival)
+        design = replace(task.design, validation=found.validation, files=file_hashes(staging))
+        if found.survival is not None:
+            before = task.design.survival
+            alone = None if before is None else before.mass_without
+            design = replace(design, survival=replace(found.survival, mass_without=alone))
+        (staging / DESIGN_FILE).write_bytes(to_json(design))
+    return Validation(found, request.out, tuple(design.files), task, runs)
 
 
 def watch(answer: Validation) -> None:
@@ -343,22 +353,3 @@ def campaign_of(
     if unclear := refusal(task.robot):
         raise OcsError(unclear, hint="name a link of the trunk whose z axis points up by --trunk")
     return task.campaign(runs, task.uncertainty, task.design.seed if seed is None else seed)
-
-
-def _write_flights(
-    task: Task, runs: tuple[Run, ...], found: Validated, folder: Path, force: bool
-) -> tuple[str, ...]:
-    """Write the time series, and the design with these flights in place of its own; the files.
-
-    Raises:
-        OutputError: the folder cannot be written, or exists already.
-    """
-    with staged_folder(folder, force=force) as staging:
-        write_runs(runs, staging, found.survival)
-        design = replace(task.design, validation=found.validation, files=file_hashes(staging))
-        if found.survival is not None:
-            before = task.design.survival
-            alone = None if before is None else before.mass_without
-            design = replace(design, survival=replace(found.survival, mass_without=alone))
-        (staging / DESIGN_FILE).write_bytes(to_json(design))
-    return tuple(design.files)
