@@ -261,13 +261,13 @@ def validate_design(
     # The time series, and the design with these flights in place of its own.
     with staged_folder(request.out, force=force) as staging:
         write_runs(runs, staging, found.survival)
-        design = replace(task.design, validation=found.validation, files=file_hashes(staging))
+        again = replace(task.design, validation=found.validation, files=file_hashes(staging))
         if found.survival is not None:
             before = task.design.survival
             alone = None if before is None else before.mass_without
-            design = replace(design, survival=replace(found.survival, mass_without=alone))
-        (staging / DESIGN_FILE).write_bytes(to_json(design))
-    return Validation(found, request.out, tuple(design.files), task, runs)
+            again = replace(again, survival=replace(found.survival, mass_without=alone))
+        (staging / DESIGN_FILE).write_bytes(to_json(again))
+    return Validation(found, request.out, tuple(again.files), task, runs)
 
 
 def watch(answer: Validation) -> None:
