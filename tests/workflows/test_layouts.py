@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from commands import SOLO12
-from designed import device_for, solo12
+from designed import device_for, on_solo12, solo12
 
 from ocs_design.actuation.wheel_load import reach, reach_without_one
 from ocs_design.common.errors import Infeasible, UsageError
@@ -14,7 +14,6 @@ from ocs_design.requirement.device_sections import OcsSection
 from ocs_design.requirement.reading import parse_specification, specification_of
 from ocs_design.requirement.specification import Specification, merge, specification_from_options
 from ocs_design.requirement.vocabulary import LAYOUTS
-from ocs_design.sizing.design import design_device
 from ocs_design.sizing.selection.bounds import RimFloor
 from ocs_design.sizing.specified import CannotSurvive, selection_problem, specified_layout
 from ocs_design.sizing.trajectory.plans import drive_line_of, plan
@@ -154,11 +153,7 @@ def test_fewer_robots_where_nothing_is_sure_for_99_of_100(tmp_path):
 
 @pytest.mark.slow
 def test_the_lightest_is_the_same_without_the_plates_of_the_others():
-    asked = specification_from_options({"robot.file": SOLO12})
-    task = solo12().with_specification(asked)
-    whole, alone = (
-        design_device(asked, task.robot, task.resolved, ranked=ranked) for ranked in (True, False)
-    )
+    whole, alone = (device_for(solo12(), ranked=ranked) for ranked in (True, False))
     assert alone.device.mass == whole.device.mass
     assert alone.device.motor == whole.device.motor
     assert len(alone.choice.selection.ranking) < len(whole.choice.selection.ranking)
@@ -180,7 +175,6 @@ def test_all_layouts_of_one_robot():
 
 
 SURVIVES = {
-    "robot.file": SOLO12,
     "requirement.survives": "one",
     "requirement.fall": "1m",
     "requirement.tilt": "20deg",
@@ -190,10 +184,8 @@ SURVIVES = {
 
 @pytest.mark.parametrize("layout", ["single", "pair", "orthogonal"])
 def test_layouts_that_cannot_do_without_any_one_wheel_are_refused(layout):
-    asked = specification_from_options({**SURVIVES, "ocs.layout": layout})
-    task = solo12().with_specification(asked)
     with pytest.raises(CannotSurvive, match=f"'{layout}' does not survive .* without wheel"):
-        device_for(task)
+        device_for(on_solo12(**SURVIVES, ocs__layout=layout))
 
 
 @pytest.mark.parametrize(
@@ -211,8 +203,7 @@ def test_what_does_not_go_with_a_stopped_drive(option):
 def test_wheels_share_the_supply_when_sized_as_when_planned(layout):
     """Four wheels that were promised the half of it each found no plan of the drop."""
     drop = {"requirement.fall": "1m", "requirement.tilt": "30deg", "supply.power_max": "600 W"}
-    asked = specification_from_options({"robot.file": SOLO12, "ocs.layout": layout, **drop})
-    task = solo12().with_specification(asked)
+    task = on_solo12(**drop, ocs__layout=layout)
     designed = device_for(task)
     promised = designed.choice.chosen.line.power_max
     assert drive_line_of(designed.device).power_max == pytest.approx(promised, rel=1e-9)
@@ -225,16 +216,10 @@ def test_wheels_share_the_supply_when_sized_as_when_planned(layout):
 @pytest.mark.parametrize(("layout", "direct"), [("pair", False), ("orthogonal", True)])
 def test_wheels_that_reach_yaw_are_sized_for_it_without_a_loop(layout, direct):
     """The wheels are what the closed form asks for, and a plan for them leaves something."""
-    asked = specification_from_options(
-        {
-            "robot.file": SOLO12,
-            "ocs.layout": layout,
-            "requirement.turn": "yaw 90deg in 2s",
-            "requirement.gravity": "1.62",
-        }
-    )
-    task = solo12().with_specification(asked)
-    (turn,) = selection_problem(asked, task.robot, task.resolved).requirement.maneuvers
+    turning = {"requirement.turn": "yaw 90deg in 2s", "requirement.gravity": "1.62"}
+    task = on_solo12(**turning, ocs__layout=layout)
+    problem = selection_problem(task.specification, task.robot, task.resolved)
+    (turn,) = problem.requirement.maneuvers
     assert turn.headed == direct
     assert (turn.turn == 0.0).all() == direct
     if direct:
@@ -286,8 +271,8 @@ def test_a_triad_for_solo12_can_be_built(tmp_path):
 @pytest.mark.parametrize("layout", ["triad", "pyramid"])
 def test_what_survives_lands_whichever_drive_stops(layout, tmp_path):
     """Every drive at every instant; what costs mass is told, and the table has each flight."""
-    asked = specification_from_options({**SURVIVES, "ocs.layout": layout})
-    outcome = design_ocs(asked, out=tmp_path / "a")
+    asked = {**SURVIVES, "robot.file": SOLO12, "ocs.layout": layout}
+    outcome = design_ocs(specification_from_options(asked), out=tmp_path / "a")
     survival = outcome.design.survival
     assert not survival.lost
     assert outcome.device.mass > survival.mass_without
@@ -300,6 +285,7 @@ def test_what_survives_lands_whichever_drive_stops(layout, tmp_path):
 @pytest.mark.slow
 def test_a_refusal_names_what_would_survive_with_its_mass(tmp_path):
     with pytest.raises(CannotSurvive) as refused:
-        design_ocs(specification_from_options(SURVIVES), out=tmp_path / "a")
+        asked = specification_from_options({**SURVIVES, "robot.file": SOLO12})
+        design_ocs(asked, out=tmp_path / "a")
     assert "`--layout triad`" in refused.value.hint
     assert not (tmp_path / "a").exists()
