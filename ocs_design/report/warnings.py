@@ -14,6 +14,7 @@ from ocs_design.device.records.device import OcsRecord
 from ocs_design.export.electrics import controller_rating
 from ocs_design.report.flights import flight_remarks, hand_turn
 from ocs_design.requirement.bound import AXES, authority
+from ocs_design.requirement.vocabulary import DRAWN
 from ocs_design.sizing.margins import MOTOR_TORQUE
 
 WORTH_TELLING = 0.02
@@ -45,6 +46,12 @@ def all_warnings(design: OcsDesign) -> Iterator[str]:
     if ocs.flywheel.stress_margin is None:
         yield unchecked_stress(ocs)
     yield from flight_remarks(design)
+    kept = None if design.selection is None else design.selection.kept
+    if kept is not None and kept.reliability > 1.0 - 1.0 / DRAWN:
+        yield (
+            f"a reserve for {100.0 * kept.reliability:.8g} % of robots is that for the worst of "
+            f"{DRAWN:,} that are drawn, which tell no more: fly more of them with --certify"
+        )
     yield from ocs.warnings
     yield from _overvoltage(ocs.motor)
     yield from design.robot.warnings[1:]

@@ -74,6 +74,9 @@ BALANCING_DIAMETER, BALANCING_DEPTH = 1.6e-3, 1.0e-3
 RELIABILITY = 0.99
 """Share of robots that shall pass, where nothing is stated."""
 
+DRAWN = 2048
+"""Robots that a reserve is worked out for, each quantity by strata (Latin hypercube)."""
+
 NONE_STOPS, ONE_STOPS = "none", "any one motor"
 SURVIVED = ("one", ONE_STOPS, NONE_STOPS)
 """Drives that may stop in flight, the last word short for the one before."""

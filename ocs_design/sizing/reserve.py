@@ -23,7 +23,7 @@ from ocs_design.requirement.bound import turned_roll
 from ocs_design.requirement.maneuver import Drop, Flip, Maneuver, Unforeseen
 from ocs_design.requirement.requirement import ManeuverReserve, Requirement
 from ocs_design.requirement.uncertainty import UncertaintySection, complete_uncertainty, parts_of
-from ocs_design.requirement.vocabulary import RELIABILITY
+from ocs_design.requirement.vocabulary import DRAWN, RELIABILITY
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.selection.demand import held_in_roll, wheel_task
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem, inertia_at
@@ -51,9 +51,6 @@ RELIABILITIES = (0.5, 0.8, 0.9, 0.95, 0.99, 0.999)
 
 NOMINAL = 0.5
 """Reliability of a device that is designed for the mean of all that is drawn, and keeps nothing."""
-
-DRAWN = 2048
-"""Robots that are drawn, each quantity by strata (Latin hypercube): the same ones every time."""
 
 _SEED = 0x5EED0F5E
 """Key of their generator, which no flight has: a device never sees what certifies it."""

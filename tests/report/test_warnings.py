@@ -10,6 +10,7 @@ from stories import design
 
 from ocs_design.device.records.design import read_design
 from ocs_design.device.records.device import Margin
+from ocs_design.device.records.selection import ReserveRecord
 from ocs_design.report.warnings import all_warnings, coupling_notes
 
 DESIGN = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
@@ -40,6 +41,17 @@ def test_a_motor_past_its_saturation_is_minded_where_it_is_used_so(asked, told):
 @pytest.mark.parametrize(("inertia", "told"), [(0.0, 1), (1e-6, 0)])
 def test_a_rotor_that_counts_as_nothing_is_minded(inertia, told):
     assert len(said(changed(rotor_inertia=inertia), "never faster")) == told
+
+
+@pytest.mark.parametrize(("reliability", "told"), [(0.9999, 1), (0.999, 0)])
+def test_a_reserve_for_more_than_the_robots_drawn_can_tell_is_minded(reliability, told):
+    found = design(MOTOR)
+    kept = ReserveRecord(
+        reliability=reliability, predicted=1.0, scale=1.0, nominal=0.5,
+        maneuvers=(), costs=(), curve=(),
+    )  # fmt: skip
+    surer = replace(found, selection=replace(found.selection, kept=kept))
+    assert len(said(surer, f"{100.0 * reliability:g} % of robots is that for the worst")) == told
 
 
 def test_controllers_are_not_in_the_mass():
