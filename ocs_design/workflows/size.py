@@ -23,7 +23,7 @@ from ocs_design.report.html.notebook import as_html
 from ocs_design.report.html.page import write_report
 from ocs_design.report.story import story_in
 from ocs_design.report.text.console import Steps, Tell
-from ocs_design.report.video.film import film_or_tell
+from ocs_design.report.video import film_or_tell
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.reading import specification_of
 from ocs_design.requirement.resolving import read_specified_robot

@@ -63,7 +63,7 @@ class Axis:
         """Label and unit as under an axis."""
         return f"{self.label} [{self.unit}]" if self.unit else self.label
 
-    def parts(self, values: FloatArray) -> FloatArray:
+    def parts(self, values: FloatArray | float) -> FloatArray:
         """Places along the axis, 0 at the low and 1 at the high end."""
         if self.log:
             low, high = log10(self.low), log10(self.high)

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping
 
-from ocs_design.common.files import safe_name
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.drive import drive_charts
 from ocs_design.report.charts.flights import distribution_charts, time_charts
@@ -18,10 +17,8 @@ def scenario_charts(story: Story) -> Mapping[str, tuple[Chart, ...]]:
     """Time series of each maneuver, by its name."""
     scenarios = dict.fromkeys(flight.scenario for flight in story.flights)
     return {
-        scenario: time_charts(
-            scenario,
-            safe_name(scenario),
-            [flight for flight in story.flights if flight.scenario == scenario],
+        scenario: tuple(
+            time_charts(scenario, [each for each in story.flights if each.scenario == scenario])
         )
         for scenario in scenarios
     }

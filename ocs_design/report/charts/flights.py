@@ -8,9 +8,9 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.files import safe_name
 from ocs_design.common.units import to_unit
 from ocs_design.common.wording import in_unit
-from ocs_design.device.answers import MonteCarloRecord, Spread
+from ocs_design.device.answers import MonteCarloRecord
 from ocs_design.parts.module import part_name
-from ocs_design.report.charts.chart import SERIES, Area, Axis, Chart, Ink, Line, Mark, Rule
+from ocs_design.report.charts.chart import SERIES, Area, Axis, Chart, Ink, Line, Rule
 from ocs_design.report.story import RecordedFlight
 from ocs_design.simulation.run import LANDING_TOLERANCE
 
@@ -20,10 +20,10 @@ _HEIGHT, _HISTOGRAM = 236.0, 200.0
 _AXES = (("pitch", "y", Ink.BLUE), ("roll", "x", Ink.VERMILION))
 
 
-def time_charts(scenario: str, name: str, flights: Sequence[RecordedFlight]) -> tuple[Chart, ...]:
+def time_charts(scenario: str, flights: Sequence[RecordedFlight]) -> Iterator[Chart]:
     """Attitude, rates, and speed and torque of the wheels over time, of flights of one maneuver.
 
-    `name` is that of the scenario, fit for files and elements. With the device comes first.
+    With the device comes first.
     """
     tolerance = to_unit(LANDING_TOLERANCE, "deg")
     on_pivot = any(flight.on_pivot for flight in flights)
@@ -47,7 +47,7 @@ def time_charts(scenario: str, name: str, flights: Sequence[RecordedFlight]) -> 
         end = max(float(flight.time[-1]) for flight in of) or 1.0
         reach = [(np.nanmin(curve.y), np.nanmax(curve.y), 0.0) for curve in curves]
         return Chart(
-            name=f"{kind}_{name}",
+            name=f"{kind}_{safe_name(scenario)}",
             title=f"{scenario}: {title}",
             description=description,
             x=Axis("time", "s", 0.0, end),
@@ -56,7 +56,7 @@ def time_charts(scenario: str, name: str, flights: Sequence[RecordedFlight]) -> 
             height=_HEIGHT,
         )
 
-    tilt = chart(
+    yield chart(
         "tilt",
         "attitude of the trunk",
         "Pitch and roll over time, solid with the device, dashed without it; rules "
@@ -66,16 +66,17 @@ def time_charts(scenario: str, name: str, flights: Sequence[RecordedFlight]) -> 
         rules=allowed,
         ends=[-2.0 * tolerance, 2.0 * tolerance],
     )
-    rates = chart(
+    yield chart(
         "rates",
         "rates of the trunk",
         "Pitch and roll rate over time, solid with the device, dashed without it.",
         ("rate", "deg/s"),
         _about_axes(flights, "rate_{letter}_rad_s", "deg/s", thin=True),
     )
-    driven = [flight for flight in flights if flight.ocs]
-    speeds = (
-        chart(
+    for flight in flights:
+        if not flight.ocs:
+            continue
+        yield chart(
             "wheel_speed",
             "speed of the wheels",
             "Speed of each wheel relative to the trunk over time.",
@@ -83,36 +84,25 @@ def time_charts(scenario: str, name: str, flights: Sequence[RecordedFlight]) -> 
             _of_wheels(flight, flight.wheel_speed, "rpm", "wheel", thin=False),
             of=[flight],
         )
-        for flight in driven
-    )
-    torques = (
-        chart(
+        # Torques that the first motor can give; none where they are not limited.
+        possible = []
+        lowest, highest = (
+            flight.columns.get(f"wheel_torque_{end}_{flight.wheels[0]}_nm")
+            for end in ("lowest", "highest")
+        )
+        if lowest is not None and highest is not None:
+            there_and_back = np.concatenate([flight.time, flight.time[::-1]])
+            outline = np.concatenate([highest, lowest[::-1]])
+            possible = [Area(there_and_back, outline, Ink.FAINT, "range of the motor")]
+        yield chart(
             "wheel_torque",
             "torque of the motors",
             "Torque of each motor on its wheel over time, within the shaded range that the first "
             "one can give at its speed.",
             ("torque", "N m"),
-            [
-                *_range_of_motor(flight),
-                *_of_wheels(flight, flight.wheel_torque, "N m", "motor", thin=True),
-            ],
+            [*possible, *_of_wheels(flight, flight.wheel_torque, "N m", "motor", thin=True)],
             of=[flight],
         )
-        for flight in driven
-    )
-    return (tilt, rates, *speeds, *torques)
-
-
-def _range_of_motor(flight: RecordedFlight) -> Iterator[Area]:
-    """Torques that the first motor can give over time; none where they are not limited."""
-    lowest, highest = (
-        flight.columns.get(f"wheel_torque_{end}_{flight.wheels[0]}_nm")
-        for end in ("lowest", "highest")
-    )
-    if lowest is not None and highest is not None:
-        there_and_back = np.concatenate([flight.time, flight.time[::-1]])
-        outline = np.concatenate([highest, lowest[::-1]])
-        yield Area(there_and_back, outline, Ink.FAINT, "range of the motor")
 
 
 def _about_axes(
@@ -174,36 +164,25 @@ def distribution_charts(record: MonteCarloRecord, pivots: Collection[str] = ()) 
             ("peak_torque", "highest torque", "N m", each.peak_wheel_torque, None),
         )
         for name, label, unit, spread, limit in spreads:
-            if spread is not None:
-                yield _histogram(each.scenario, name, label, unit, spread=spread, limit=limit)
-
-
-def _histogram(
-    scenario: str, name: str, label: str, unit: str, *, spread: Spread, limit: float | None
-) -> Chart:
-    low, high = in_unit(spread.quantiles[0], unit), in_unit(spread.quantiles[-1], unit)
-    # All flights alike: one narrow bin.
-    width = max(high - low, 1e-3 * max(abs(high), 1.0))
-    edges = np.linspace(low, low + width, len(spread.counts) + 1)
-    x = np.repeat(edges, 2)
-    y = np.concatenate([[0.0], np.repeat(spread.counts, 2), [0.0]]).astype(float)
-    median = in_unit(spread.quantiles[len(spread.quantiles) // 2], unit)
-    marks: list[Mark] = [
-        Area(x, y, Ink.BLUE),
-        Line(x, y, Ink.BLUE),
-        Rule(median, upright=True, label="median"),
-    ]
-    ends = [low, low + width]
-    if limit is not None:
-        allowed = in_unit(limit, unit)
-        marks.append(Rule(allowed, upright=True, label="allowed", ink=Ink.VERMILION))
-        ends.append(allowed)
-    return Chart(
-        name=f"{name}_{safe_name(scenario)}",
-        title=f"{scenario}: {label}",
-        description=f"Histogram over all samples of what was {label}, with its median.",
-        x=Axis.around(label, unit, ends),
-        y=Axis("flights", "", 0.0, 1.1 * max(spread.counts)),
-        marks=tuple(marks),
-        height=_HISTOGRAM,
-    )
+            if spread is None:
+                continue
+            quantiles, counts = in_unit(np.array(spread.quantiles), unit), spread.counts
+            low, median, high = quantiles[[0, len(quantiles) // 2, -1]].tolist()
+            # All flights alike: one narrow bin.
+            width = max(high - low, 1e-3 * max(abs(high), 1.0))
+            x = np.repeat(np.linspace(low, low + width, len(counts) + 1), 2)
+            y = np.concatenate([[0.0], np.repeat(counts, 2), [0.0]]).astype(float)
+            rules, ends = [Rule(median, upright=True, label="median")], [low, low + width]
+            if limit is not None:
+                allowed = in_unit(limit, unit)
+                rules.append(Rule(allowed, upright=True, label="allowed", ink=Ink.VERMILION))
+                ends.append(allowed)
+            yield Chart(
+                name=f"{name}_{safe_name(each.scenario)}",
+                title=f"{each.scenario}: {label}",
+                description=f"Histogram over all samples of what was {label}, with its median.",
+                x=Axis.around(label, unit, ends),
+                y=Axis("flights", "", 0.0, 1.1 * max(counts)),
+                marks=(Area(x, y, Ink.BLUE), Line(x, y, Ink.BLUE), *rules),
+                height=_HISTOGRAM,
+            )

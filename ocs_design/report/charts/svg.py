@@ -157,8 +157,8 @@ class _Drawing:
             f"{''.join(map(self._label_of, chart.marks))}{titles}</svg>"
         )
 
-    def _at(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """Pixels of points, shape (n, 2)."""
+    def _at(self, x: FloatArray | float, y: FloatArray | float) -> FloatArray:
+        """Pixels of points, shape (n, 2), or of one."""
         right, up = self._chart.x.parts(x), self._chart.y.parts(y)
         across = self._left + right * (self._right - self._left)
         return np.stack([across, self._bottom - up * (self._bottom - self._top)], axis=-1)
@@ -166,7 +166,7 @@ class _Drawing:
     def _grid(self) -> str:
         chart, parts = self._chart, []
         for value in chart.x.ticks():
-            x = self._at(np.array([value]), np.array([chart.y.low]))[0, 0]
+            x, _ = self._at(value, chart.y.low)
             parts.append(_straight("grid", x, self._top, x, self._bottom))
             parts.append(_word("tick", x, self._bottom + 14.0, tick_text(value), "middle"))
         if chart.rows:
@@ -177,12 +177,13 @@ class _Drawing:
         else:
             ticks = [(value, tick_text(value)) for value in chart.y.ticks(5)]
         for value, text in ticks:
-            y = self._at(np.array([chart.x.low]), np.array([value]))[0, 1]
+            _, y = self._at(chart.x.low, value)
             parts.append(_straight("grid", self._left, y, self._right, y))
             parts.append(_word("tick", self._left - 6.0, y + 3.5, text, "end"))
         return "".join(parts)
 
     def _shape_of(self, mark: Mark) -> str:
+        look = _look(mark)
         match mark:
             case Line():
                 broken = np.isnan(mark.x) | np.isnan(mark.y)
@@ -201,18 +202,14 @@ class _Drawing:
                     traced = [np.interp(along, nodes, each) for each in curve.T]
                     self._curves.append(np.stack(traced, axis=-1))
                 paths = "".join(map(_path, curves))
-                return f'<path class="{_line_look(mark)}" d="{paths}"/>' if paths else ""
+                return f'<path class="{look}" d="{paths}"/>' if paths else ""
             case Area():
                 path = _path(self._at(mark.x, mark.y), closed=True)
-                return f'<path class="area fill-{mark.ink}" d="{path}"/>'
+                return f'<path class="{look}" d="{path}"/>'
             case Points():
-                return "".join(
-                    f'<circle class="{_disc_look(mark)}" cx="{x:.1f}" cy="{y:.1f}" r="{_DOT:g}"/>'
-                    for x, y in self._at(mark.x, mark.y)
-                )
+                return "".join(_disc(look, x, y) for x, y in self._at(mark.x, mark.y).tolist())
             case Rule():
-                x1, y1, x2, y2 = self._rule(mark)
-                return _straight(f"rule dashed {mark.ink}", x1, y1, x2, y2)
+                return _straight(look, *self._rule(mark))
 
     def _label_of(self, mark: Mark) -> str:
         match mark:
@@ -255,11 +252,10 @@ class _Drawing:
         return _Box(near, y - 6.0, near + reach, y + 5.0)
 
     def _rule(self, mark: Rule) -> tuple[float, float, float, float]:
-        value = np.array([mark.value])
         if mark.upright:
-            x = self._at(value, np.array([self._chart.y.low]))[0, 0]
+            x, _ = self._at(mark.value, self._chart.y.low)
             return x, self._top, x, self._bottom
-        y = self._at(np.array([self._chart.x.low]), value)[0, 1]
+        _, y = self._at(self._chart.x.low, mark.value)
         return self._left, y, self._right, y
 
 
@@ -285,25 +281,26 @@ def _legend_places(named: Sequence[Mark], right: float) -> Iterator[tuple[Mark, 
 
 def _sample(mark: Mark, x: float, y: float) -> str:
     """A short piece of a mark for the legend."""
+    look = _look(mark)
+    if isinstance(mark, Points):
+        return _disc(look, x + _SAMPLE / 2.0, y)
+    if isinstance(mark, Area):
+        box = f'x="{x:.1f}" y="{y - 5.0:.1f}" width="{_SAMPLE:g}" height="10"'
+        return f'<rect class="{look}" {box}/>'
+    return f'<path class="{look}" d="M{x:.1f} {y:.1f}h{_SAMPLE:g}"/>'
+
+
+def _look(mark: Mark) -> str:
+    """Classes of a mark in the style sheet."""
     match mark:
         case Line():
-            return f'<path class="{_line_look(mark)}" d="M{x:.1f} {y:.1f}h{_SAMPLE:g}"/>'
-        case Points():
-            place = f'cx="{x + _SAMPLE / 2.0:.1f}" cy="{y:.1f}"'
-            return f'<circle class="{_disc_look(mark)}" {place} r="{_DOT:g}"/>'
+            return f"line {mark.ink}{' dashed' * mark.dashed}{' thin' * mark.thin}"
         case Area():
-            box = f'x="{x:.1f}" y="{y - 5.0:.1f}" width="{_SAMPLE:g}" height="10"'
-            return f'<rect class="area fill-{mark.ink}" {box}/>'
+            return f"area fill-{mark.ink}"
+        case Points():
+            return f"ring {mark.ink}" if mark.hollow else f"disc fill-{mark.ink}"
         case Rule():
-            return f'<path class="rule dashed {mark.ink}" d="M{x:.1f} {y:.1f}h{_SAMPLE:g}"/>'
-
-
-def _line_look(mark: Line) -> str:
-    return f"line {mark.ink}{' dashed' if mark.dashed else ''}{' thin' if mark.thin else ''}"
-
-
-def _disc_look(mark: Points) -> str:
-    return f"ring {mark.ink}" if mark.hollow else f"disc fill-{mark.ink}"
+            return f"rule dashed {mark.ink}"
 
 
 def _stretched(axis: Axis, span: float) -> Axis:
@@ -324,6 +321,10 @@ def _path(places: FloatArray, *, closed: bool = False) -> str:
 
 def _straight(look: str, x1: float, y1: float, x2: float, y2: float) -> str:
     return f'<path class="{look}" d="M{x1:.1f} {y1:.1f}L{x2:.1f} {y2:.1f}"/>'
+
+
+def _disc(look: str, x: float, y: float) -> str:
+    return f'<circle class="{look}" cx="{x:.1f}" cy="{y:.1f}" r="{_DOT:g}"/>'
 
 
 def _word(look: str, x: float, y: float, text: str, anchor: str) -> str:

@@ -1,7 +1,9 @@
 """Films of flights: what is on them, how long they last, and what is told where there are none."""
 
 import subprocess
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
 
 import imageio_ffmpeg
 import mujoco
@@ -12,9 +14,8 @@ from wheels import EC45, driven_device
 
 from ocs_design.common.errors import MissingToolError
 from ocs_design.export.film import Take, film_model, render_takes
-from ocs_design.report.video import film, pictures
-from ocs_design.report.video.film import film_or_tell
-from ocs_design.report.video.pictures import BAD, GOOD, captioned, encode
+from ocs_design.report import video
+from ocs_design.report.video import BAD, GOOD, captioned, encode, film_or_tell
 from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.manual import robot_by_hand
 
@@ -24,50 +25,20 @@ LOW = driven_device(drive=EC45)
 DEVICE = replace(LOW, modules=tuple(replace(m, position=m.position + UP) for m in LOW.modules))
 """Clear of the box that a robot by hand looks like."""
 
+DROP = Drop(name="drop", gravity=9.81, incidence=None, height=1.0, pitch=0.5)
 SHADES = [np.full((44, 96, 3), 20 * k, dtype=np.uint8) for k in range(12)]
 
 
-@dataclass(frozen=True)
-class FlownPoses:
-    time: np.ndarray
-    qpos: np.ndarray
-
-
-@dataclass(frozen=True)
-class FlownSeries:
-    time: np.ndarray
-    roll: np.ndarray
-    pitch: np.ndarray
-    wheel_speed: np.ndarray
-
-
-@dataclass(frozen=True)
-class Flown:
-    """A run, as much of it as a film needs."""
-
-    scenario: str
-    ocs: bool
-    passed: bool
-    poses: FlownPoses
-    series: FlownSeries
-
-
 def flown(ocs, frames):
+    """A run, as much of it as a film needs."""
     model = film_model(ROBOT, DEVICE, ocs=ocs)
     qpos = np.tile(model.qpos0, (frames, 1))
     qpos[:, 2] = np.linspace(0.5, 0.1, frames)
     time, dense = 0.015 * np.arange(frames), 0.005 * np.arange(3 * frames)
-    series = FlownSeries(
-        dense, 0.0 * dense, dense, np.column_stack([100.0 * dense, -100.0 * dense])
-    )
-    return Flown("drop", ocs, ocs, FlownPoses(time, qpos), series)
-
-
-def rendered(takes):
-    try:
-        return render_takes(takes)
-    except MissingToolError as error:
-        pytest.skip(str(error))
+    speeds = np.column_stack([100.0 * dense, -100.0 * dense])
+    series = SimpleNamespace(time=dense, roll=0.0 * dense, pitch=dense, wheel_speed=speeds)
+    poses = SimpleNamespace(time=time, qpos=qpos)
+    return SimpleNamespace(scenario="drop", ocs=ocs, passed=ocs, poses=poses, series=series)
 
 
 @pytest.fixture(scope="module")
@@ -79,7 +50,10 @@ def frames():
         low, high = np.tile(model.qpos0, (2, 1))
         low[2], high[2] = 0.3, 2.0
         takes.append(Take(model, np.array([low, high])))
-    return rendered(takes)
+    try:
+        return render_takes(takes)
+    except MissingToolError as error:
+        pytest.skip(str(error))
 
 
 def is_blue(frame):
@@ -127,16 +101,19 @@ def test_an_mp4_has_all_frames_in_real_time(tmp_path):
     assert seconds == pytest.approx(len(SHADES) * 0.03, abs=0.01)
 
 
-def fail(*arguments, **options):
-    return subprocess.CompletedProcess(arguments, 1, b"", b"no libx264")
+def fails(program, **options):
+    return subprocess.CompletedProcess(program, 1, b"", b"no libx264")
 
 
-@pytest.mark.parametrize("without", ["ffmpeg", "the encoder"])
-def test_a_gif_in_real_time_where_there_is_no_mp4(tmp_path, monkeypatch, without):
-    if without == "ffmpeg":
-        monkeypatch.setattr(pictures, "ffmpeg_program", lambda: None)
-    else:
-        monkeypatch.setattr(pictures.subprocess, "run", fail)
+def hangs(program, **options):
+    Path(program[-1]).write_bytes(b"half a film")
+    raise subprocess.TimeoutExpired(program, 300.0)
+
+
+@pytest.mark.parametrize("ffmpeg", [None, fails, hangs])
+def test_a_gif_in_real_time_where_there_is_no_mp4(tmp_path, monkeypatch, ffmpeg):
+    monkeypatch.setattr(video, "ffmpeg_program", lambda: ffmpeg and "ffmpeg")
+    monkeypatch.setattr(video.subprocess, "run", ffmpeg)
     path = encode(SHADES, 0.03, tmp_path / "film")
     assert [each.name for each in tmp_path.iterdir()] == ["film.gif"]
     with Image.open(path) as image:
@@ -157,10 +134,9 @@ def test_who_is_done_first_waits_for_the_other(tmp_path, monkeypatch):
     def blank(takes):
         return [np.zeros((len(take.qpos), 440, 480, 3), dtype=np.uint8) for take in takes]
 
-    monkeypatch.setattr(pictures, "encode", keep)
-    monkeypatch.setattr(film, "render_takes", blank)
-    drop = Drop(name="drop", gravity=9.81, incidence=None, height=1.0, pitch=0.5)
-    assert film_or_tell(ROBOT, DEVICE, [drop], runs, tmp_path) == ()
+    monkeypatch.setattr(video, "encode", keep)
+    monkeypatch.setattr(video, "render_takes", blank)
+    assert film_or_tell(ROBOT, DEVICE, [DROP], runs, tmp_path) == ()
     assert len(made["pictures"]) == 5
     assert made["pictures"][0].shape == (440, 960, 3)
     assert (made["seconds"], made["stem"]) == (pytest.approx(0.03), tmp_path / "drop")
@@ -170,18 +146,17 @@ def test_who_is_done_first_waits_for_the_other(tmp_path, monkeypatch):
 
 
 def test_without_opengl_or_pillow_the_cure_is_told(tmp_path, monkeypatch):
-    drop = Drop(name="drop", gravity=9.81, incidence=None, height=1.0, pitch=0.5)
     monkeypatch.setenv("MUJOCO_GL", "none such")
-    (told,) = film_or_tell(ROBOT, DEVICE, [drop], [flown(True, 3)], tmp_path)
+    (told,) = film_or_tell(ROBOT, DEVICE, [DROP], [flown(True, 3)], tmp_path)
     assert told.startswith("no video, because none such:")
     assert "apt install" in told
-    monkeypatch.setattr(film, "find_spec", lambda name: None)
-    (told,) = film_or_tell(ROBOT, DEVICE, [drop], [flown(True, 3)], tmp_path)
+    monkeypatch.setattr(video, "find_spec", lambda name: None)
+    (told,) = film_or_tell(ROBOT, DEVICE, [DROP], [flown(True, 3)], tmp_path)
     assert told == "no video, because Pillow is not installed; pip install 'ocs-design[video]'"
     assert not list(tmp_path.iterdir())
 
 
 def test_a_gif_is_told_of(tmp_path, monkeypatch):
-    monkeypatch.setattr(film, "film_flights", lambda *given: (tmp_path / "drop.gif",))
+    monkeypatch.setattr(video, "film_flights", lambda *given: (tmp_path / "drop.gif",))
     (told,) = film_or_tell(ROBOT, DEVICE, [], [], tmp_path)
     assert "pip install 'ocs-design[video]'" in told

@@ -1,0 +1,172 @@
+"""Each maneuver as a film: with the device and without it, side by side, in real time."""
+
+import subprocess
+from collections.abc import Sequence
+from contextlib import suppress
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ocs_design.common.errors import MissingToolError, extra_command
+from ocs_design.common.files import safe_name
+from ocs_design.common.units import rpm
+from ocs_design.common.wording import degrees
+from ocs_design.device.device import Device
+from ocs_design.export.film import Take, film_model, render_takes
+from ocs_design.export.programs import FFMPEG_HINT, ffmpeg_program
+from ocs_design.report.flights import off_level
+from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.robot.robot import Robot
+from ocs_design.simulation.run import Run
+
+STRIDE = 2
+"""Poses from one frame to the next: 33 frames a second of 67 poses."""
+
+Picture: TypeAlias = NDArray[np.uint8]
+"""Red, green and blue, shape (height, width, 3)."""
+
+SIZE = 18
+"""Height of letters [pixels]."""
+
+MARGIN = 10
+INK, GOOD, BAD = (30, 30, 35), (20, 120, 50), (170, 40, 40)
+_PAPER = (255, 255, 255)
+_HALO = 2
+"""Width of the paper around letters, so that they are read before anything [pixels]."""
+
+GIF_EVERY = 2
+"""Every so many frames one is in a GIF, which packs badly."""
+
+GIF_COLORS = 128
+
+_SAMPLES = 8
+"""Frames that a GIF's colours are chosen from."""
+
+_TIME_LIMIT = 300.0
+"""Longest time that ffmpeg may take [s]."""
+
+
+def film_or_tell(
+    robot: Robot, device: Device, maneuvers: Sequence[Maneuver], runs: Sequence[Run], folder: Path
+) -> tuple[str, ...]:
+    """Write the films of `film_flights` where they can be made, never failing; gives remarks."""
+    if find_spec("PIL") is None:
+        return (f"no video, because Pillow is not installed; {extra_command('video')}",)
+    try:
+        films = film_flights(robot, device, maneuvers, runs, folder)
+    except MissingToolError as error:
+        return (f"{error}; {error.hint}" if error.hint else str(error),)
+    if any(film.suffix == ".gif" for film in films):
+        return (f"the video is a GIF, because there is no ffmpeg that makes H.264; {FFMPEG_HINT}",)
+    return ()
+
+
+def film_flights(
+    robot: Robot, device: Device, maneuvers: Sequence[Maneuver], runs: Sequence[Run], folder: Path
+) -> tuple[Path, ...]:
+    """A film of each maneuver, `<name>.mp4` or `.gif`, of runs with their poses.
+
+    Raises:
+        MissingToolError: OpenGL does not work here.
+    """
+    films = []
+    for maneuver in maneuvers:
+        pair = [run for run in runs if run.scenario == maneuver.name and run.poses is not None]
+        if not pair:
+            continue
+        flown = device.as_flown(maneuver)
+        poses = [run.poses for run in pair if run.poses is not None]
+        takes = [
+            Take(film_model(robot, flown, ocs=run.ocs), pose.qpos[::STRIDE])
+            for run, pose in zip(pair, poses, strict=True)
+        ]
+        sides = []
+        for run, pose, frames in zip(pair, poses, render_takes(takes), strict=True):
+            title, side = f"{run.scenario}, {'with' if run.ocs else 'without'} the device", []
+            series = run.series
+            for frame, time in zip(frames, pose.time[::STRIDE], strict=True):
+                at = min(int(np.searchsorted(series.time, time - 1e-9)), len(series.time) - 1)
+                tilt = float(off_level(series.roll[at], series.pitch[at]))
+                lines = [f"{time:.2f} s   tilt {degrees(tilt, 0)}"]
+                if run.ocs:
+                    speeds = (rpm(float(speed)) for speed in series.wheel_speed[at])
+                    lines.append(f"wheels {', '.join(speeds)}")
+                side.append(captioned(frame, title, run.passed, lines))
+            sides.append(side)
+        # Who is done first stands still until the other is.
+        longest = max(map(len, sides))
+        film: list[Picture] = [
+            np.concatenate([side[min(k, len(side) - 1)] for side in sides], axis=1)
+            for k in range(longest)
+        ]
+        seconds = STRIDE * float(poses[0].time[1] - poses[0].time[0])
+        films.append(encode(film, seconds, folder / safe_name(maneuver.name)))
+    return tuple(films)
+
+
+def captioned(picture: Picture, title: str, good: bool | None, lines: Sequence[str]) -> Picture:
+    """The picture with a title, in a colour for how it went if that is known, and lines below."""
+    # Pillow is an extra.
+    from PIL import Image, ImageDraw, ImageFont  # noqa: PLC0415
+
+    image = Image.fromarray(picture)
+    draw = ImageDraw.Draw(image)
+    font = ImageFont.load_default(SIZE)
+    color = INK if good is None else GOOD if good else BAD
+    leading = SIZE + 6
+    top = image.height - MARGIN - leading * len(lines)
+    below = ((top + place * leading, line, INK) for place, line in enumerate(lines))
+    for height, text, ink in ((MARGIN, title, color), *below):
+        draw.text((MARGIN, height), text, ink, font, stroke_width=_HALO, stroke_fill=_PAPER)
+    return np.asarray(image)
+
+
+def encode(pictures: Sequence[Picture], seconds: float, stem: Path) -> Path:
+    """Write a film of pictures of one even size, one every so many seconds.
+
+    Its path is `stem` with the suffix of what could be made: MP4 where there is ffmpeg, else GIF.
+    """
+    from PIL import Image  # noqa: PLC0415 - as above
+
+    program = ffmpeg_program()
+    if program is not None:
+        path = stem.with_suffix(".mp4")
+        height, width, _ = pictures[0].shape
+        source = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}"]
+        # H.264, which all browsers play.
+        codec = ["-c:v", "libx264", "-crf", "23", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
+        with suppress(OSError, subprocess.TimeoutExpired):
+            done = subprocess.run(
+                [
+                    program,
+                    "-y",
+                    *source,
+                    "-r",
+                    f"{1.0 / seconds:.6f}",
+                    "-i",
+                    "-",
+                    *codec,
+                    str(path),
+                ],
+                input=b"".join(picture.tobytes() for picture in pictures),
+                capture_output=True,
+                check=False,
+                timeout=_TIME_LIMIT,
+            )
+            if done.returncode == 0:
+                return path
+        # What is there of it is no film.
+        path.unlink(missing_ok=True)
+    path, kept = stem.with_suffix(".gif"), pictures[::GIF_EVERY]
+    # All frames in the colours of some: one palette is small, and nothing flickers.
+    some = kept[:: max(1, len(kept) // _SAMPLES)]
+    palette = Image.fromarray(np.concatenate(some)).quantize(GIF_COLORS)
+    # Dithered colours pack badly: twice the size and more.
+    plain = Image.Dither.NONE
+    frames = [Image.fromarray(each).quantize(palette=palette, dither=plain) for each in kept]
+    duration = round(1e3 * GIF_EVERY * seconds)
+    frames[0].save(path, save_all=True, append_images=frames[1:], duration=duration, loop=0)
+    return path

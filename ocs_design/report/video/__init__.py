@@ -1,1 +1,0 @@
-"""Flights with and without the device, side by side, as MP4 or GIF."""
