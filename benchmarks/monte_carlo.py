@@ -17,6 +17,7 @@ import sys
 import time
 from contextlib import closing
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from batch import interleaved, open_loop_rate, paper_device, spread
@@ -24,7 +25,7 @@ from distributed import LocalCluster
 
 from ocs_design.monte_carlo.campaign import make_campaign
 from ocs_design.monte_carlo.outcomes import blocks_of
-from ocs_design.monte_carlo.running import AT_ONCE, Cluster, ThisMachine, run_campaign
+from ocs_design.monte_carlo.running import AT_ONCE, Cluster, fly_here, run_campaign
 from ocs_design.monte_carlo.uncertainty import Uncertainty
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.specification import Specification
@@ -85,7 +86,7 @@ def threads():
 
     def rate(count):
         start = time.perf_counter()
-        run_campaign(campaign, blocks, workers=ThisMachine(count, AT_ONCE))
+        run_campaign(campaign, blocks, fly=partial(fly_here, threads=count, at_once=AT_ONCE))
         return 128 / (time.perf_counter() - start)
 
     rates = interleaved({"one": lambda: rate(1), "two": lambda: rate(2)})
@@ -103,23 +104,21 @@ def workers():
         def rate(cluster):
             with closing(Cluster(cluster.scheduler_address)) as own:
                 start = time.perf_counter()
-                run_campaign(campaign, blocks, workers=own)
+                run_campaign(campaign, blocks, fly=own.fly)
                 return 128 / (time.perf_counter() - start)
 
         rates = interleaved({"one": lambda: rate(single), "two": lambda: rate(double)})
     print(f"two workers over one: {spread(rates['two'] / rates['one'])}")
 
 
-class Weighed(ThisMachine):
+def weighed(campaign, blocks, progress, threads=None):
     """Tells the peak of this process each time that twice as many samples are flown."""
-
-    def fly(self, campaign, blocks, progress):
-        told = 0
-        for block, outcomes in super().fly(campaign, blocks, progress):
-            if block.stop >= 2 * told:
-                told = block.stop
-                print(f"{told:9,} samples: {peak():7.1f} MiB", flush=True)
-            yield block, outcomes
+    told = 0
+    for block, outcomes in fly_here(campaign, blocks, progress, threads=threads):
+        if block.stop >= 2 * told:
+            told = block.stop
+            print(f"{told:9,} samples: {peak():7.1f} MiB", flush=True)
+        yield block, outcomes
 
 
 def peak():
@@ -130,7 +129,7 @@ def peak():
 def memory(until=None):
     """Whether the peak grows with the number of samples, and what it comes to."""
     start = time.perf_counter()
-    outcomes = run_campaign(drops(until), blocks_of(DROPS), workers=Weighed())
+    outcomes = run_campaign(drops(until), blocks_of(DROPS), fly=weighed)
     took, passed = time.perf_counter() - start, outcomes.passed.mean()
     print(f"{DROPS:,} drops in {took:.0f} s, {peak():.1f} MiB, {passed:.1%} pass")
 
@@ -151,7 +150,7 @@ def humanoid(design):
     )
     for count in (1, 2):
         start, clock = time.process_time(), time.perf_counter()
-        run_campaign(campaign, blocks_of(128), workers=Weighed(count))
+        run_campaign(campaign, blocks_of(128), fly=partial(weighed, threads=count))
         used, took = time.process_time() - start, time.perf_counter() - clock
         print(f"{count} threads: {used / 128:.2f} processor seconds a sample, {took:.0f} s in all")
 

@@ -5,8 +5,7 @@ difference. A worker that is lost costs the blocks that it was at, which others 
 """
 
 import pickle
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Generator, Mapping, Sequence
+from collections.abc import Callable, Generator, Sequence
 from contextlib import closing
 from importlib import import_module
 from typing import TypeAlias
@@ -29,19 +28,11 @@ def narrow(width: float) -> Enough:
     return lambda outcomes: all(share.width <= width for share in shares(outcomes))
 
 
-class Workers(ABC):
-    """Who flies blocks."""
+Fly: TypeAlias = Callable[[Campaign, Sequence[Block], Progress], Arrivals]
+"""Who flies blocks: each with its outcomes, in any order.
 
-    @abstractmethod
-    def fly(self, campaign: Campaign, blocks: Sequence[Block], progress: Progress) -> Arrivals:
-        """Each block with its outcomes, in any order.
-
-        Args:
-            campaign: what is flown.
-            blocks: to fly.
-            progress: told how much of all of them is done, 0..1, as often as that is known.
-        """
-
+Progress is told how much of all of them is done, 0..1, as often as that is known.
+"""
 
 AT_ONCE = 4
 """Blocks that are flown at once where all of them are wanted."""
@@ -50,33 +41,34 @@ AT_ONCE_ON_DEVICE = 64
 """The same where a GPU steps all worlds together; the memory of the worlds limits it, too."""
 
 
-class ThisMachine(Workers):
-    """One block after the other, or a few at once, on all processors."""
+def fly_here(
+    campaign: Campaign,
+    blocks: Sequence[Block],
+    progress: Progress,
+    *,
+    threads: int | None = None,
+    at_once: int = 1,
+) -> Arrivals:
+    """Fly one block after the other, or a few at once, on the processors of this machine (`Fly`).
 
-    def __init__(self, threads: int | None = None, at_once: int = 1) -> None:
-        """Take this many threads for the physics; None: one per processor.
-
-        What is computed between the steps of the physics takes about as long for few samples as
-        for many: where all are wanted, more blocks `at_once` are faster.
-        """
-        self._threads, self._at_once = threads, at_once
-
-    def fly(self, campaign: Campaign, blocks: Sequence[Block], progress: Progress) -> Arrivals:
-        """Fly these blocks (`Workers.fly`)."""
-        for start in range(0, len(blocks), self._at_once):
-            some = blocks[start : start + self._at_once]
-            tell = scaled(progress, start / len(blocks), (start + len(some)) / len(blocks))
-            indices = [index for block in some for index in block]
-            flown = fly_samples(campaign, indices, threads=self._threads, progress=tell)
-            for block in some:
-                yield block, flown.take(np.isin(flown.index, block))
+    What is computed between the steps of the physics takes about as long for few samples as for
+    many: where all are wanted, more blocks `at_once` are faster. `threads` are those of the
+    physics; None: one per processor.
+    """
+    for start in range(0, len(blocks), at_once):
+        some = blocks[start : start + at_once]
+        tell = scaled(progress, start / len(blocks), (start + len(some)) / len(blocks))
+        indices = [index for block in some for index in block]
+        flown = fly_samples(campaign, indices, threads=threads, progress=tell)
+        for block in some:
+            yield block, flown.take(np.isin(flown.index, block))
 
 
 def run_campaign(
     campaign: Campaign,
     blocks: Sequence[Block],
     *,
-    workers: Workers,
+    fly: Fly = fly_here,
     storage: Storage | None = None,
     enough: Enough | None = None,
     progress: Progress | None = None,
@@ -89,7 +81,7 @@ def run_campaign(
     Args:
         campaign: what is flown.
         blocks: of samples, in order.
-        workers: who fly them.
+        fly: who flies them.
         storage: where blocks are kept as they come, and found if they have been flown already.
         enough: whether the samples flown so far will do; None: all are flown.
         progress: told the part of the work that is done, 0..1.
@@ -97,28 +89,15 @@ def run_campaign(
     flown = {} if storage is None else dict(storage.found(blocks))
     missing = [block for block in blocks if block not in flown]
     tell = scaled(progress, len(flown) / len(blocks), 1.0)
-    outcomes = _counted(blocks, flown, enough)
-    with closing(workers.fly(campaign, missing, tell)) as arrivals:
-        while outcomes is None:
-            block, flown[block] = next(arrivals)
-            if storage is not None:
-                storage.keep(block, flown[block])
-            outcomes = _counted(blocks, flown, enough)
-    return outcomes
-
-
-def _counted(
-    blocks: Sequence[Block], flown: Mapping[Block, Outcomes], enough: Enough | None
-) -> Outcomes | None:
-    """What is counted; None as long as more must be flown."""
     counted: list[Outcomes] = []
-    for block in blocks:
-        if block not in flown:
-            return None
-        counted.append(flown[block])
-        if enough is not None:
-            so_far = Outcomes.joined(counted)
-            if enough(so_far):
+    with closing(fly(campaign, missing, tell)) as arrivals:
+        for wanted in blocks:
+            while wanted not in flown:
+                block, flown[block] = next(arrivals)
+                if storage is not None:
+                    storage.keep(block, flown[block])
+            counted.append(flown[wanted])
+            if enough is not None and enough(so_far := Outcomes.joined(counted)):
                 return so_far
     return Outcomes.joined(counted)
 
@@ -130,7 +109,7 @@ RETRIES = 10
 """How often a block is flown again whose worker was lost."""
 
 
-class Cluster(Workers):
+class Cluster:
     """The workers of a Dask scheduler, each thread of theirs at one block."""
 
     def __init__(self, address: str) -> None:
@@ -156,7 +135,7 @@ class Cluster(Workers):
             ) from error
 
     def fly(self, campaign: Campaign, blocks: Sequence[Block], progress: Progress) -> Arrivals:
-        """Fly these blocks (`Workers.fly`)."""
+        """Fly these blocks (`Fly`)."""
         # The scheduler keeps the bytes: what was sent to a worker that is lost is sent again.
         shared = self._client.submit(_Unpacked, pickle.dumps(campaign), pure=False)
         futures = [

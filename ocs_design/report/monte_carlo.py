@@ -9,7 +9,9 @@ from ocs_design.device.answers import MonteCarloRecord, Share
 from ocs_design.device.records.flights import ReliabilityRecord
 from ocs_design.report.table import Table, columns
 
-_BARS = " ▁▂▃▄▅▆▇█"
+BARS = " ▁▂▃▄▅▆▇█"
+"""Eighths of a character's height, and none."""
+
 _SPREAD = (
     ("off level deg", 180.0 / np.pi, ".2f"),
     ("wheel rpm", 30.0 / np.pi, ",.0f"),
@@ -95,7 +97,7 @@ def spread_table(record: MonteCarloRecord) -> Table:
                 values = (format(factor * value, form) for value in spread.quantiles[1:])
                 # Bins as bars, one character each; whatever is not empty shows.
                 parts = (count / max(spread.counts) for count in spread.counts)
-                bars = "".join(_BARS[int(np.ceil(part * (len(_BARS) - 1)))] for part in parts)
+                bars = "".join(BARS[int(np.ceil(part * (len(BARS) - 1)))] for part in parts)
                 rows.append((name, quantity, *values, bars))
                 name = ""
     heads = columns("<scenario", "<in flight", "5 %", "median", "95 %", "most", "least to most")

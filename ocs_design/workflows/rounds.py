@@ -17,7 +17,7 @@ from ocs_design.jumping.jump import JumpPlans
 from ocs_design.monte_carlo.campaign import Campaign, write_results
 from ocs_design.monte_carlo.certificate import ROUND, ROUNDS, SequentialTest, certificate, lesson
 from ocs_design.monte_carlo.outcomes import Outcomes, blocks_of
-from ocs_design.monte_carlo.running import ThisMachine, run_campaign
+from ocs_design.monte_carlo.running import run_campaign
 from ocs_design.monte_carlo.summary import summarised
 from ocs_design.report.text.console import Steps
 from ocs_design.requirement.maneuver import Maneuver
@@ -366,7 +366,6 @@ def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tupl
             flown = run_campaign(
                 campaign,
                 blocks_of(test.most, first=number * ROUND),
-                workers=ThisMachine(),
                 enough=test.decided,
                 progress=step.update,
             )

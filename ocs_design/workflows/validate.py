@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from contextlib import closing, nullcontext
 from dataclasses import dataclass, replace
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 
@@ -22,7 +23,7 @@ from ocs_design.monte_carlo.running import (
     AT_ONCE,
     AT_ONCE_ON_DEVICE,
     Cluster,
-    ThisMachine,
+    fly_here,
     narrow,
     run_campaign,
 )
@@ -321,7 +322,7 @@ def _fly_samples(
         outcomes = run_campaign(
             campaign,
             blocks_of(asked),
-            workers=cluster or ThisMachine(at_once=at_once),
+            fly=partial(fly_here, at_once=at_once) if cluster is None else cluster.fly,
             storage=storage,
             enough=enough,
             progress=step.update,

@@ -20,7 +20,7 @@ from ocs_design.monte_carlo.campaign import (
 )
 from ocs_design.monte_carlo.certificate import SequentialTest, certificate
 from ocs_design.monte_carlo.outcomes import FAULTS, METRICS, Outcomes, blocks_of
-from ocs_design.monte_carlo.running import ThisMachine
+from ocs_design.monte_carlo.running import fly_here
 from ocs_design.monte_carlo.summary import REMEDIES, standing_advice, summarised
 from ocs_design.simulation.verdict import MOMENTUM_GATE, Fault
 
@@ -43,7 +43,7 @@ def test_numbers_do_not_depend_on_company_or_threads(campaign, outcomes):
 
 def test_blocks_that_fly_at_once_come_back_as_they_are(campaign, outcomes):
     blocks = blocks_of(len(outcomes.index), 2)
-    flown = dict(ThisMachine(at_once=2).fly(campaign, blocks, lambda _done: None))
+    flown = dict(fly_here(campaign, blocks, lambda _done: None, at_once=2))
     assert list(flown) == list(blocks)
     assert_same(Outcomes.joined(list(flown.values())), outcomes)
 

@@ -17,7 +17,7 @@ from campaigns import assert_same, made_outcomes, short_campaign
 from ocs_design.common.errors import MissingToolError, OcsError, OutputError
 from ocs_design.monte_carlo.campaign import fly_samples
 from ocs_design.monte_carlo.outcomes import Identity, Storage, blocks_of, write_tables
-from ocs_design.monte_carlo.running import Cluster, Workers, narrow, run_campaign
+from ocs_design.monte_carlo.running import Cluster, narrow, run_campaign
 
 BLOCKS = blocks_of(100, 8)
 IDENTITY = Identity(
@@ -33,13 +33,13 @@ IDENTITY = Identity(
 )
 
 
-class Made(Workers):
+class Made:
     """Fly nothing; `order` is that in which blocks arrive, `most` after which all is cut short."""
 
     def __init__(self, order=1, most=1000):
         self.flown, self._order, self._most = [], order, most
 
-    def fly(self, campaign, blocks, progress):
+    def __call__(self, campaign, blocks, progress):
         for done, block in enumerate(blocks[:: self._order]):
             if done == self._most:
                 raise KeyboardInterrupt
@@ -53,16 +53,16 @@ def test_blocks_hold_every_sample_once():
 
 
 def test_the_order_of_arrival_does_not_matter():
-    whole = run_campaign(None, BLOCKS, workers=Made())
-    assert_same(whole, run_campaign(None, BLOCKS, workers=Made(-1)))
+    whole = run_campaign(None, BLOCKS, fly=Made())
+    assert_same(whole, run_campaign(None, BLOCKS, fly=Made(-1)))
     assert whole.index.tolist() == list(range(100))
 
 
 def test_it_stops_when_enough_is_known_at_the_same_sample_whoever_was_faster():
     forward, backward = Made(), Made(-1)
-    found = run_campaign(None, BLOCKS, workers=forward, enough=narrow(0.3))
+    found = run_campaign(None, BLOCKS, fly=forward, enough=narrow(0.3))
     assert len(found.index) == 8 * len(forward.flown) < 100
-    assert_same(found, run_campaign(None, BLOCKS, workers=backward, enough=narrow(0.3)))
+    assert_same(found, run_campaign(None, BLOCKS, fly=backward, enough=narrow(0.3)))
 
 
 @pytest.fixture
@@ -73,20 +73,20 @@ def stored(tmp_path):
 
 def test_a_run_that_was_cut_short_goes_on(stored):
     with pytest.raises(KeyboardInterrupt):
-        run_campaign(None, BLOCKS, workers=Made(most=5), storage=stored())
+        run_campaign(None, BLOCKS, fly=Made(most=5), storage=stored())
     told, rest = [], Made()
-    again = run_campaign(None, BLOCKS, workers=rest, storage=stored(), progress=told.append)
+    again = run_campaign(None, BLOCKS, fly=rest, storage=stored(), progress=told.append)
     assert rest.flown == list(BLOCKS[5:])
-    assert_same(again, run_campaign(None, BLOCKS, workers=Made()))
+    assert_same(again, run_campaign(None, BLOCKS, fly=Made()))
     assert told == sorted(told)
     assert told[0] > 5 / len(BLOCKS)
     assert told[-1] == pytest.approx(1.0)
 
 
 def test_more_samples_of_the_same_campaign_need_only_those(stored):
-    run_campaign(None, BLOCKS, workers=Made(), storage=stored())
+    run_campaign(None, BLOCKS, fly=Made(), storage=stored())
     more = Made()
-    run_campaign(None, blocks_of(120, 8), workers=more, storage=stored())
+    run_campaign(None, blocks_of(120, 8), fly=more, storage=stored())
     # The last block was not full.
     assert [block.start for block in more.flown] == [96, 104, 112]
 
@@ -94,11 +94,11 @@ def test_more_samples_of_the_same_campaign_need_only_those(stored):
 @pytest.mark.parametrize("spoil", [lambda text: b"", lambda text: text[: len(text) // 2]])
 def test_a_spoilt_block_is_flown_again(tmp_path, stored, spoil):
     storage = stored()
-    run_campaign(None, BLOCKS, workers=Made(), storage=storage)
+    run_campaign(None, BLOCKS, fly=Made(), storage=storage)
     path = sorted((tmp_path / "mc" / "samples").iterdir())[2]
     path.write_bytes(spoil(path.read_bytes()))
     again = Made()
-    run_campaign(None, BLOCKS, workers=again, storage=storage)
+    run_campaign(None, BLOCKS, fly=again, storage=storage)
     assert again.flown == [BLOCKS[2]]
 
 
@@ -176,7 +176,7 @@ def test_a_lost_worker_loses_nothing(solo12, two_workers):
     killer = threading.Thread(target=kill_one, args=(two_workers, flown, killed))
     killer.start()
     with closing(Cluster(two_workers.scheduler_address)) as cluster:
-        found = run_campaign(campaign, blocks, workers=cluster, progress=flown.append)
+        found = run_campaign(campaign, blocks, fly=cluster.fly, progress=flown.append)
     killer.join()
     assert killed
     alone = fly_samples(campaign, range(24), threads=2)

@@ -45,6 +45,11 @@ def joined(parts: Iterable[str]) -> Markup:
     return Markup("".join(map(_safe, parts)))
 
 
+def note(*content: str) -> Markup:
+    """A paragraph about what stands beside it."""
+    return element("p", *content, class_="note")
+
+
 def facts(rows: Iterable[tuple[str, str]]) -> Markup:
     """Names and values."""
     pairs = (joined((element("dt", name), element("dd", value))) for name, value in rows)

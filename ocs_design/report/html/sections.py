@@ -1,7 +1,7 @@
 """Sections of the page: the facts of the report beside its charts."""
 
 import platform
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from importlib.metadata import PackageNotFoundError, version
 
@@ -37,6 +37,7 @@ from ocs_design.report.html.elements import (
     figures,
     items,
     joined,
+    note,
     section,
     table,
 )
@@ -97,9 +98,9 @@ def sizes_section(design: OcsDesign) -> Markup:
         "sizes",
         "Sizes, tolerances and margins",
         table("Wheel, as on its drawing", Table(columns("<size", "mm"), tuple(rows))),
-        element("p", inertia_note, class_="note"),
+        note(inertia_note),
         table("Margins", limits.margin_table(margins)),
-        element("p", limits.MARGIN_NOTE, class_="note"),
+        note(limits.MARGIN_NOTE),
         items(limits.margin_notes(margins), look="note"),
     )
 
@@ -109,39 +110,33 @@ def limits_section(story: Story) -> Markup:
     design = story.design
     names, meaning = limits.active_limits(design)
     owed = limits.owed_to(design)
-    more = (
-        element(
-            "p",
-            "How the mass changes with room, voltage or time, drive and all, is drawn by ",
-            element("code", "ocs-design pareto --against radius|height|voltage|time|angle"),
-            ".",
-            class_="note",
-        )
-        if design.selection is not None
-        else Markup("")
-    )
     otherwise = limits.alternatives_table(design)
-    kept = None if design.selection is None else design.selection.kept
-    reserve = (
-        ()
-        if kept is None
-        else (
-            table("What is uncertain, and what it costs", limits.reserve_table(kept)),
-            figures(reserve_charts(design.selection)),
-            element("p", limits.reserve_note(kept, design.ocs.mass_total), class_="note"),
+    drive = []
+    if design.selection is not None:
+        drive.append(
+            note(
+                "How the mass changes with room, voltage or time, drive and all, is drawn by ",
+                element("code", "ocs-design pareto --against radius|height|voltage|time|angle"),
+                ".",
+            )
         )
-    )
+        if design.selection.kept is not None:
+            kept = design.selection.kept
+            drive += [
+                table("What is uncertain, and what it costs", limits.reserve_table(kept)),
+                figures(reserve_charts(design.selection)),
+                note(limits.reserve_note(kept, design.ocs.mass_total)),
+            ]
     return section(
         "limits",
         "Active limits, and what moving them saves",
         element("p", "The mass is set by: ", element("strong", names), ". ", meaning),
         element("p", f"It is owed to {owed}.") if owed else "",
         table("Each limit moved alone", limits.saving_table(design)),
-        element("p", limits.saving_notes(design), class_="note"),
-        more,
-        *reserve,
+        note(limits.saving_notes(design)),
+        *drive,
         table("What would be lighter otherwise", otherwise) if otherwise.rows else "",
-        element("p", limits.alternatives_note(design), class_="note"),
+        note(limits.alternatives_note(design)),
         table(f"What must give for {grams(design.lighter.by)} less", limits.lighter_table(design))
         if design.lighter is not None
         else "",
@@ -154,7 +149,7 @@ def bound_section(story: Story) -> Markup:
         "bound",
         "The lower bound, and where the design lies",
         figures(bound_charts(story)),
-        element("p", limits.BOUND_NOTE, class_="note"),
+        note(limits.BOUND_NOTE),
     )
 
 
@@ -179,7 +174,7 @@ def drive_section(story: Story) -> Markup:
     parts += [
         element("p", f"Chosen from {selection.choice_title(chosen)}."),
         table("What is asked of the drive", selection.task_table(chosen)),
-        element("p", selection.task_note(chosen, asked), class_="note"),
+        note(selection.task_note(chosen, asked)),
         table("The lightest drives", selection.drive_table(drives)),
     ]
     co_design = selection.co_design_facts(chosen)
@@ -213,7 +208,7 @@ def maneuvers_section(
                 "article",
                 element("h3", name, " ", again if number else ""),
                 table(f"{name}: outcome", flights.flight_table(runs, of_one=True)),
-                *(element("p", flights.run_sentence(run), class_="note") for run in runs),
+                *(note(flights.run_sentence(run)) for run in runs),
                 figures(charts[name], flight=number) if charts.get(name) else "",
             )
         )
@@ -227,7 +222,7 @@ def maneuvers_section(
                 "article",
                 element("h3", "A drive stops on the way"),
                 table(flights.SURVIVAL_TITLE, flights.survival_table(survival)),
-                *(element("p", each, class_="note") for each in told),
+                *(note(each) for each in told),
             )
         )
     remarks = items(flights.landing_remarks(story.design), look="warnings")
@@ -316,6 +311,18 @@ def record_section(story: Story) -> Markup:
         material = materials().get(name)
         if material is not None:
             sources.append(("material", f"{name}: {material.source}"))
+    libraries = []
+    for name in _LIBRARIES:
+        with suppress(PackageNotFoundError):
+            libraries.append(f"{name} {version(name)}")
+    provenance = [
+        ("robot", f"{design.robot.source}, SHA-256 {design.robot.sha256 or 'none: by hand'}"),
+        *([("made by", story.command)] if story.command else []),
+        ("program", f"{design.tool.name} {design.tool.version}"),
+        ("seed", str(design.seed)),
+        ("report with", f"Python {platform.python_version()}, {', '.join(libraries)}"),
+        ("machine", f"{platform.system()} {platform.machine()}"),
+    ]
     return section(
         "record",
         "Assumptions, sources and provenance",
@@ -326,31 +333,14 @@ def record_section(story: Story) -> Markup:
         element("h3", "Sources"),
         facts(sources),
         element("h3", "Provenance"),
-        facts(_provenance(story)),
+        facts(provenance),
         details(
             "Files of this design, SHA-256", element("div", table("Files", hashes), class_="sums")
         ),
-        element(
-            "p",
+        note(
             "All numbers are in this file too: the element ",
             element("code", 'script#design[type="application/json"]'),
             " holds the design.json that it was made from, in SI units and full precision.",
-            class_="note",
         ),
         element("div", *lines, class_="signature"),
     )
-
-
-def _provenance(story: Story) -> Iterator[tuple[str, str]]:
-    design = story.design
-    yield "robot", f"{design.robot.source}, SHA-256 {design.robot.sha256 or 'none: by hand'}"
-    if story.command:
-        yield "made by", story.command
-    yield "program", f"{design.tool.name} {design.tool.version}"
-    yield "seed", str(design.seed)
-    libraries = []
-    for name in _LIBRARIES:
-        with suppress(PackageNotFoundError):
-            libraries.append(f"{name} {version(name)}")
-    yield "report with", f"Python {platform.python_version()}, {', '.join(libraries)}"
-    yield "machine", f"{platform.system()} {platform.machine()}"

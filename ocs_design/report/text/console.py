@@ -135,6 +135,8 @@ class Steps:
     On a terminal a spinner or bar moves; in a pipe each finished step is one plain line.
     """
 
+    _all_doubts = ": `ocs-design inspect`"
+
     def __init__(self, console: Console | None = None, *, quiet: bool = False) -> None:
         """Progress on a console; None: nothing is printed."""
         self._console = console or make_console(stderr=True)
@@ -155,40 +157,41 @@ class Steps:
     def step(self, label: str) -> Iterator["Step"]:
         """One step; `Step.update` moves its bar."""
         start = time.perf_counter()
-        if self._quiet or not self._console.is_terminal:
-            current = Step()
+        with self._running(label) as current:
             yield current
-        else:
-            wide = self._console.width >= _WIDE
-            with Progress(
-                SpinnerColumn(),
-                TextColumn("{task.description}", markup=False),
-                BarColumn(bar_width=24 if wide else 8),
-                TimeElapsedColumn(),
-                *([_Left()] if wide else []),
-                console=self._console,
-                transient=True,
-            ) as progress:
-                task = progress.add_task(label, total=None)
-                current = Step(partial(progress.update, task, total=1.0))
-                yield current
-        if not self._quiet:
-            seconds = time.perf_counter() - start
-            note = f"  {current.note}" if current.note else ""
-            line = Text.assemble((f"{seconds:6.2f} s", "dim"), f"  {label}{note}")
-            self._console.print(line, soft_wrap=True)
+        note = f"  {current.note}" if current.note else ""
+        seconds = f"{time.perf_counter() - start:6.2f} s"
+        self._keep(Text.assemble((seconds, "dim"), f"  {label}{note}"))
 
     def doubt(self, warnings: Sequence[str]) -> None:
         """Say what is doubtful in the input, before it is worked with."""
-        if self._quiet or not warnings:
-            return
-        more = len(warnings) - MOST_DOUBTS
         for each in warnings[:MOST_DOUBTS]:
-            self._console.print(Text(f"   doubt  {each}", style="yellow"), soft_wrap=True)
-        if more > 0:
-            self._console.print(
-                Text(f"          {more} more: `ocs-design inspect`"), soft_wrap=True
-            )
+            self._keep(Text(f"   doubt  {each}", style="yellow"))
+        if len(warnings) > MOST_DOUBTS:
+            self._keep(Text(f"          {len(warnings) - MOST_DOUBTS} more{self._all_doubts}"))
+
+    @contextmanager
+    def _running(self, label: str) -> Iterator["Step"]:
+        """Show a step while it runs."""
+        if self._quiet or not self._console.is_terminal:
+            yield Step()
+            return
+        wide = self._console.width >= _WIDE
+        with Progress(
+            SpinnerColumn(),
+            TextColumn("{task.description}", markup=False),
+            BarColumn(bar_width=24 if wide else 8),
+            TimeElapsedColumn(),
+            *([_Left()] if wide else []),
+            console=self._console,
+            transient=True,
+        ) as progress:
+            yield Step(partial(progress.update, progress.add_task(label, total=None), total=1.0))
+
+    def _keep(self, line: Text) -> None:
+        """Print a line that stays."""
+        if not self._quiet:
+            self._console.print(line, soft_wrap=True)
 
 
 _WIDE = 80
@@ -223,8 +226,8 @@ class _ToldSteps(Steps):
         self._tell = tell
 
     @contextmanager
-    def step(self, label: str) -> Iterator[Step]:
-        """One step; told of at its start, as it moves, and at its end."""
+    def _running(self, label: str) -> Iterator[Step]:
+        """Told of at its start, as it moves, and at its end."""
         self._tell(label, 0.0)
         yield Step(lambda completed: self._tell(label, completed))
         self._tell(label, 1.0)
@@ -232,6 +235,8 @@ class _ToldSteps(Steps):
 
 class _NotebookSteps(Steps):
     """Progress below a notebook's cell: a line for each step, a bar for the one that runs."""
+
+    _all_doubts = " in `robot.warnings`"
 
     def __init__(self) -> None:
         super().__init__()
@@ -241,8 +246,8 @@ class _NotebookSteps(Steps):
         self._handle = display({"text/plain": ""}, raw=True, display_id=True)
 
     @contextmanager
-    def step(self, label: str) -> Iterator[Step]:
-        """One step; its bar moves twice a second at most."""
+    def _running(self, label: str) -> Iterator[Step]:
+        """A bar that moves twice a second at most."""
         start = time.perf_counter()
 
         def moved(completed: float) -> None:
@@ -252,17 +257,11 @@ class _NotebookSteps(Steps):
                 self._show(f"{now - start:6.2f} s  {label}  {'█' * round(24 * completed):<24}")
 
         self._show(f"           {label} ...")
-        current = Step(moved)
-        yield current
-        note = f"  {current.note}" if current.note else ""
-        self._lines.append(f"{time.perf_counter() - start:6.2f} s  {label}{note}")
-        self._show()
+        yield Step(moved)
 
-    def doubt(self, warnings: Sequence[str]) -> None:
-        """Say what is doubtful in the input, before it is worked with."""
-        self._lines += [f"   doubt  {each}" for each in warnings[:MOST_DOUBTS]]
-        if len(warnings) > MOST_DOUBTS:
-            self._lines.append(f"          {len(warnings) - MOST_DOUBTS} more in `robot.warnings`")
+    def _keep(self, line: Text) -> None:
+        self._lines.append(line.plain)
+        self._show()
 
     def _show(self, *running: str) -> None:
         self._handle.update({"text/plain": cleaned("\n".join([*self._lines, *running]))}, raw=True)

@@ -22,6 +22,7 @@ from ocs_design.report.device import (
     first_facts,
     share_of_robot,
 )
+from ocs_design.report.monte_carlo import BARS
 from ocs_design.report.table import Table, columns
 from ocs_design.report.text.console import breaks_lines
 from ocs_design.report.text.layout import facts, files_written, heading, items, note, show, warn
@@ -29,9 +30,6 @@ from ocs_design.report.text.robot import print_joints, print_robot
 from ocs_design.report.text.validation import print_headline, print_runs
 from ocs_design.report.verdict import headline
 from ocs_design.simulation.run import Run, Series
-
-BARS = " ▁▂▃▄▅▆▇█"
-"""Eighths of a character's height, and none."""
 
 LEAST_SPAN = np.radians(5.0)
 """Smallest angle of a full bar [rad]: what counts as level is drawn as level."""
