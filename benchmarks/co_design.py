@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from math import degrees, radians
 
-from legged_robots import ROBOTS
+from paired import ROBOTS
 
 from ocs_design.common.errors import Infeasible
 from ocs_design.requirement.maneuver import Drop, Flip

@@ -18,8 +18,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-
-SOLO12 = str(Path(__file__).parents[1] / "examples" / "solo12.urdf")
+from paired import SOLO12
 
 
 def drawn(draw: random.Random) -> list[str]:
@@ -34,7 +33,7 @@ def drawn(draw: random.Random) -> list[str]:
         inertia = draw.choice(["0.03,0.055,0.07", "0.05,0.09,0.12"])
         mass = f"{draw.uniform(2, 6):.2f}"
         return ["--mass", mass, "--inertia", inertia, "--ballistic", *options]
-    return [SOLO12, *options]
+    return [str(SOLO12), *options]
 
 
 def asked(folder: Path) -> dict[str, float]:

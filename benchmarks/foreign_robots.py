@@ -20,7 +20,6 @@ import argparse
 import json
 import signal
 import subprocess
-import sys
 import tempfile
 import time
 from pathlib import Path
@@ -28,6 +27,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pinocchio as pin
+from paired import PROGRAM
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import RobotError
@@ -362,19 +362,10 @@ def of_urdf(path: Path, robot: Robot) -> tuple[float, FloatArray]:
 
 def size(path: Path) -> tuple[int, str]:
     """Exit code of `ocs-design size`, and the device or the message; 124 if it took too long."""
-    program = str(Path(sys.executable).with_name("ocs-design"))
     with tempfile.TemporaryDirectory() as folder:
         options = ("--no-validate", "--json", "-q", "-o", str(Path(folder) / "out"))
-        command = [
-            "bash",
-            "-c",
-            'ulimit -t 120; exec "$@"',
-            "",
-            program,
-            "size",
-            str(path),
-            *options,
-        ]
+        limited = ["bash", "-c", 'ulimit -t 120; exec "$@"', ""]
+        command = [*limited, PROGRAM, "size", str(path), *options]
         done = subprocess.run(command, capture_output=True, check=False)
         if done.returncode in {-signal.SIGXCPU, -signal.SIGKILL}:
             return 124, "over 120 s of a processor"

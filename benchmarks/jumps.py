@@ -9,15 +9,14 @@ the jump. Nothing of the batch engine is used but the model and the references o
 """
 
 import sys
-import sysconfig
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 import mujoco
 import numpy as np
 from batch import paper_device
+from paired import ROBOTS
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.jumping.jump import JumpPlan, jump_of
@@ -32,7 +31,6 @@ from ocs_design.simulation.schedule import LegReferences
 from ocs_design.simulation.world import World
 from ocs_design.simulation.world_builder import WorldBuilder
 
-ROBOTS = Path(sysconfig.get_paths()["purelib"]) / "cmeel.prefix/share/example-robot-data/robots"
 JUMPING = (
     "solo_description/robots/solo12",
     "a1_description/urdf/a1",

@@ -8,17 +8,13 @@ Goals: below 10 s and 1 GiB for each. `legged_samples.py` flies the devices as t
 
 import argparse
 import json
-import os
-import subprocess
-import sys
-import sysconfig
 import tempfile
-import time
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-ROBOTS = Path(sysconfig.get_paths()["purelib"]) / "cmeel.prefix/share/example-robot-data/robots"
+from paired import PROGRAM, ROBOTS, Run, run_process
+
 LEGGED = (
     "a1_description/urdf/a1",
     "alex_description/urdf/alex_nub_hands",
@@ -59,12 +55,10 @@ LEGGED = (
 
 @dataclass(frozen=True)
 class Outcome:
-    """One process: exit code, its JSON document, wall time [s], peak and written [MiB]."""
+    """One process, its JSON document, and what it wrote [MiB]."""
 
-    code: int
+    run: Run
     document: dict[str, Any]
-    seconds: float
-    peak: float
     written: float
 
 
@@ -81,36 +75,20 @@ def main() -> None:
     )
     print("|---|--:|--:|--:|--:|--:|--:|---|")
     for name in wanted:
-        print(row(name, size(ROBOTS / f"{name}.urdf")), flush=True)
-
-
-def size(robot: Path) -> Outcome:
-    """What it writes is thrown away."""
-    with tempfile.TemporaryDirectory() as folder:
-        return run("size", str(robot), out=Path(folder) / "out")
+        with tempfile.TemporaryDirectory() as folder:
+            sized = run("size", str(ROBOTS / f"{name}.urdf"), out=Path(folder) / "out")
+        print(row(name, sized), flush=True)
 
 
 def run(command: str, *arguments: str, out: Path) -> Outcome:
     """A cold process."""
-    program = str(Path(sys.executable).with_name("ocs-design"))
-    with tempfile.TemporaryDirectory() as folder:
-        printed = Path(folder) / "stdout"
-        whole = [program, command, *arguments, "-o", str(out), "--json"]
-        start = time.perf_counter()
-        with printed.open("wb") as stdout:
-            process = subprocess.Popen(whole, stdout=stdout, stderr=subprocess.DEVNULL)
-            _, status, usage = os.wait4(process.pid, 0)
-        seconds = time.perf_counter() - start
-        # wait4 took the status that Popen would wait for.
-        process.returncode = os.waitstatus_to_exitcode(status)
-        text = printed.read_text()
-        return Outcome(
-            code=process.returncode,
-            document=json.loads(text) if text else {"error": {"message": "no JSON"}},
-            seconds=seconds,
-            peak=usage.ru_maxrss / 1024.0,
-            written=sum(f.stat().st_size for f in out.rglob("*") if f.is_file()) / 2.0**20,
-        )
+    with tempfile.TemporaryFile() as printed:
+        done = run_process([PROGRAM, command, *arguments, "-o", str(out), "--json"], printed)
+        printed.seek(0)
+        text = printed.read()
+    document = json.loads(text) if text else {"error": {"message": "no JSON"}}
+    written = sum(f.stat().st_size for f in out.rglob("*") if f.is_file()) / 2.0**20
+    return Outcome(done, document, written)
 
 
 def row(name: str, outcome: Outcome) -> str:
@@ -124,11 +102,11 @@ def row(name: str, outcome: Outcome) -> str:
         reason = first_reason(document)
     cells = (
         Path(name).name,
-        str(outcome.code),
+        str(outcome.run.code),
         share,
         passed,
-        f"{outcome.seconds:.1f}",
-        f"{outcome.peak:.0f}",
+        f"{outcome.run.seconds:.1f}",
+        f"{outcome.run.peak_memory:.0f}",
         f"{outcome.written:.1f}",
         reason.replace("\n", " ").replace("|", "/"),
     )

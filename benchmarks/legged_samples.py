@@ -23,12 +23,13 @@ from math import ceil, degrees, floor
 from pathlib import Path
 from typing import Any
 
-from legged_robots import LEGGED, ROBOTS, run
+from legged_robots import LEGGED, run
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "docs"))
 import numpy as np
 from blocks import filled, table
 from certified import sources
+from paired import ROBOTS
 
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.common.wording import grams

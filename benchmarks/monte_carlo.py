@@ -22,6 +22,7 @@ from pathlib import Path
 
 from batch import interleaved, open_loop_rate, paper_device, spread
 from distributed import LocalCluster
+from paired import SOLO12
 
 from ocs_design.monte_carlo.campaign import make_campaign
 from ocs_design.monte_carlo.outcomes import blocks_of
@@ -35,7 +36,6 @@ from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scenario import Flights
 from ocs_design.workflows.flying import read_task
 
-SOLO12 = Path(__file__).parents[1] / "examples" / "solo12.urdf"
 WORLDS, SECONDS = 1024, 0.2
 DROPS, SHORT = 10_000, 0.01
 

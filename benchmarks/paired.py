@@ -1,36 +1,50 @@
-"""Two commands timed in turn, A B A B, so that a machine that slows down slows both."""
+"""Cold processes, and two timed in turn, A B A B: a machine that slows down slows both."""
 
 import os
 import statistics
 import subprocess
+import sys
+import sysconfig
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
+from typing import IO
+
+PROGRAM = str(Path(sys.executable).with_name("ocs-design"))
+ROBOTS = Path(sysconfig.get_paths()["purelib"]) / "cmeel.prefix/share/example-robot-data/robots"
+SOLO12 = Path(__file__).resolve().parents[1] / "examples" / "solo12.urdf"
 
 
 @dataclass(frozen=True)
 class Run:
-    """One process: wall time [s] and largest resident memory [MiB]."""
+    """One process: exit code, wall time [s] and largest resident memory [MiB]."""
 
+    code: int
     seconds: float
     peak_memory: float
 
 
-def run_process(command: Sequence[str]) -> Run:
-    """Run to the end with its output thrown away; its children count towards the memory."""
+def run_process(command: Sequence[str], stdout: IO[bytes] | None = None) -> Run:
+    """Run to the end; its children count towards the memory.
+
+    Args:
+        command: that must end well, unless somebody reads what it prints.
+        stdout: where that goes; None: it is thrown away.
+    """
     # As pip installs them, packages have their byte code beside them.
     environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
     start = time.perf_counter()
     process = subprocess.Popen(
-        command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        command, env=environment, stdout=stdout or subprocess.DEVNULL, stderr=subprocess.DEVNULL
     )
     _, status, usage = os.wait4(process.pid, 0)
     seconds = time.perf_counter() - start
     # wait4 took the status that Popen would wait for.
     process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode:
+    if process.returncode and stdout is None:
         raise SystemExit(f"exit {process.returncode}: {' '.join(command)}")
-    return Run(seconds, usage.ru_maxrss / 1024.0)
+    return Run(process.returncode, seconds, usage.ru_maxrss / 1024.0)
 
 
 def alternate(

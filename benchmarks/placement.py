@@ -11,7 +11,8 @@ import sys
 import time
 
 import numpy as np
-from legged_robots import LEGGED, ROBOTS
+from legged_robots import LEGGED
+from paired import ROBOTS
 
 from ocs_design.common.errors import OcsError
 from ocs_design.device.records.device import Clearance

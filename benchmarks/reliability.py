@@ -14,8 +14,8 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from paired import SOLO12
 
-SOLO12 = Path(__file__).parents[1] / "examples" / "solo12.urdf"
 LEVELS = (0.8, 0.95, 0.99)
 SEED = 30_000
 

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import mujoco
 import numpy as np
-from paired import alternate, print_pairs, run_process
+from paired import PROGRAM, SOLO12, alternate, print_pairs, run_process
 
 from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.froude import default_maneuvers
@@ -29,8 +29,7 @@ from ocs_design.workflows.size import design_ocs
 LIMITS = {"auto": 1.5, "none": 1.2}
 """By what is said of the motor."""
 
-HERE = Path(__file__).resolve().parent
-ROBOT = HERE.parent / "examples" / "solo12.urdf"
+BARE = str(Path(__file__).with_name("bare.py"))
 
 
 def main() -> None:
@@ -45,7 +44,9 @@ def compare(motor: str, limit: float, folder: Path, pairs: int) -> None:
     out, models = folder / "solo12-ocs", folder / "models"
     worlds = worlds_of_size(motor, out)
     write_models(worlds, models)
-    size, bare = size_command(motor, out), [sys.executable, str(HERE / "bare.py"), str(models)]
+    # The folder is replaced each time.
+    size = [PROGRAM, "size", str(SOLO12), "--motor", motor, "-o", str(out), "--force"]
+    bare = [sys.executable, BARE, str(models)]
     print(f"--motor {motor}: {len(worlds)} runs, {sum(map(steps_of, worlds))} steps")
     measured = alternate(lambda: run_process(size), lambda: run_process(bare), pairs)
     print_pairs(measured, ("ocs-design size", "bare script"), limit)
@@ -53,7 +54,7 @@ def compare(motor: str, limit: float, folder: Path, pairs: int) -> None:
 
 def worlds_of_size(motor: str, out: Path) -> list[World]:
     """What `size` simulates for the device that it finds."""
-    asked = Specification(robot=RobotSection(file=str(ROBOT)), motor=MotorSection(name=motor))
+    asked = Specification(robot=RobotSection(file=str(SOLO12)), motor=MotorSection(name=motor))
     outcome = design_ocs(asked, out=out)
     builder = WorldBuilder(outcome.robot, outcome.device)
     return [
@@ -81,12 +82,6 @@ def write_models(worlds: Sequence[World], folder: Path) -> None:
 def steps_of(world: World) -> int:
     """Steps of one run."""
     return int(np.ceil(world.duration / world.model.opt.timestep))
-
-
-def size_command(motor: str, out: Path) -> list[str]:
-    """The command that is measured; the folder is replaced each time."""
-    program = str(Path(sys.executable).with_name("ocs-design"))
-    return [program, "size", str(ROBOT), "--motor", motor, "-o", str(out), "--force"]
 
 
 if __name__ == "__main__":

@@ -6,19 +6,17 @@ Goal: `ocs-design --help` takes at most 1.5 times `python -c "import typer"`.
 """
 
 import sys
-from pathlib import Path
 
-from paired import alternate, print_pairs, run_process
+from paired import PROGRAM, alternate, print_pairs, run_process
 
 LIMIT = 1.5
 
 
 def main() -> None:
     pairs = int(sys.argv[1]) if len(sys.argv) > 1 else 15
-    program = str(Path(sys.executable).with_name("ocs-design"))
     print_pairs(
         alternate(
-            lambda: run_process([program, "--help"]),
+            lambda: run_process([PROGRAM, "--help"]),
             lambda: run_process([sys.executable, "-c", "import typer"]),
             pairs,
         ),

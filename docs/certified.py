@@ -61,17 +61,9 @@ class _Bare(ast.NodeTransformer):
 def flown(robot: Path, seed: int = 0) -> dict[str, Any]:
     """Certificate of the device of a robot that is sized without options."""
     with tempfile.TemporaryDirectory() as folder:
-        command = [
-            "size",
-            str(robot),
-            "--certify",
-            "--seed",
-            str(seed),
-            "-q",
-            "-o",
-            f"{folder}/ocs",
-        ]
-        subprocess.run([sys.executable, "-m", "ocs_design", *command], check=False)
+        options = ("--certify", "--seed", str(seed), "-q", "-o", f"{folder}/ocs")
+        command = [sys.executable, "-m", "ocs_design", "size", str(robot), *options]
+        subprocess.run(command, check=False)
         return said(Path(folder) / "ocs")
 
 

@@ -53,20 +53,23 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         outcome = design_ocs(specification, out=Path(folder) / "solo12-ocs")
         spec = mujoco.MjSpec.from_file(str(outcome.folder / "robot" / "solo12_ocs.xml"))
-        light(spec)
+        light(spec, (WIDTH, HEIGHT))
         model = spec.compile()
     data = mujoco.MjData(model)
     pose(data, outcome.design)
     mujoco.mj_forward(model, data)
-    draw(model, data).save(PICTURE, optimize=True)
+    camera = mujoco.MjvCamera()
+    camera.lookat = np.array([0.0, 0.0, 0.175])
+    camera.distance, camera.azimuth, camera.elevation = 0.82, 143.0, -24.0
+    draw(model, data, camera, (WIDTH, HEIGHT)).save(PICTURE, optimize=True)
     DRAWING.write_bytes(draw_wheel(WHEEL)["svg"])
     print(f"wrote {PICTURE.relative_to(ROOT)} and {DRAWING.relative_to(ROOT)}")
 
 
-def light(spec: mujoco.MjSpec) -> None:
-    """A white studio with a floor that only takes shadows."""
+def light(spec: mujoco.MjSpec, size: tuple[int, int]) -> None:
+    """A white studio with a floor that only takes shadows, for pictures so wide and high."""
     view = spec.visual
-    view.global_.offwidth, view.global_.offheight = WIDTH * OVERSAMPLING, HEIGHT * OVERSAMPLING
+    view.global_.offwidth, view.global_.offheight = (OVERSAMPLING * side for side in size)
     view.headlight.ambient, view.headlight.diffuse = [0.5] * 3, [0.3] * 3
     view.quality.shadowsize = 8192
     spec.add_texture(
@@ -94,16 +97,16 @@ def pose(data: mujoco.MjData, design: OcsDesign) -> None:
     data.qpos[2] = design.robot.standing_height
 
 
-def draw(model: mujoco.MjModel, data: mujoco.MjData) -> Image.Image:
-    """From the front left and above, drawn larger and reduced so that edges are smooth."""
-    camera = mujoco.MjvCamera()
-    camera.lookat = np.array([0.0, 0.0, 0.175])
-    camera.distance, camera.azimuth, camera.elevation = 0.82, 143.0, -24.0
-    renderer = mujoco.Renderer(model, HEIGHT * OVERSAMPLING, WIDTH * OVERSAMPLING)
+def draw(
+    model: mujoco.MjModel, data: mujoco.MjData, camera: mujoco.MjvCamera, size: tuple[int, int]
+) -> Image.Image:
+    """Drawn larger and reduced, so that edges are smooth."""
+    width, height = size
+    renderer = mujoco.Renderer(model, height * OVERSAMPLING, width * OVERSAMPLING)
     renderer.update_scene(data, camera)
     image = Image.fromarray(renderer.render())
     renderer.close()
-    return image.resize((WIDTH, HEIGHT), Image.Resampling.LANCZOS)
+    return image.resize(size, Image.Resampling.LANCZOS)
 
 
 if __name__ == "__main__":

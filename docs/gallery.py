@@ -13,7 +13,6 @@ import blocks
 import draw
 import mujoco
 import numpy as np
-from PIL import Image
 
 from ocs_design.common.wording import grams
 from ocs_design.device.records.design import OcsDesign, read_design
@@ -24,7 +23,7 @@ from legged_samples import place
 
 PAGE = Path(__file__).with_name("gallery.md")
 PICTURES = PAGE.parent / "_static" / "gallery"
-WIDTH, HEIGHT, OVERSAMPLING = 480, 400, 2
+SIZE = (480, 400)
 QUALITY = 82
 
 DARKEST = 0.2
@@ -73,9 +72,7 @@ def cell(title: str, name: str, design: OcsDesign) -> str:
 def picture(design: OcsDesign, file: Path, out: Path) -> None:
     """The robot with its device, standing, as WebP."""
     spec = mujoco.MjSpec.from_file(str(file))
-    draw.light(spec)
-    spec.visual.global_.offwidth = WIDTH * OVERSAMPLING
-    spec.visual.global_.offheight = HEIGHT * OVERSAMPLING
+    draw.light(spec, SIZE)
     model = spec.compile()
     for colors in (model.geom_rgba, model.mat_rgba):
         # Black as the night, of files that state no color: nothing would be seen of its shape.
@@ -83,12 +80,7 @@ def picture(design: OcsDesign, file: Path, out: Path) -> None:
     data = mujoco.MjData(model)
     draw.pose(data, design)
     mujoco.mj_forward(model, data)
-    image = snapshot(model, data).resize((WIDTH, HEIGHT), Image.Resampling.LANCZOS)
-    image.save(out, quality=QUALITY, method=6)
-
-
-def snapshot(model: mujoco.MjModel, data: mujoco.MjData) -> Image.Image:
-    """From the front left and above, all of it."""
+    # From the front left and above, all of it but the floor.
     planes = model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE
     groups = model.geom_group[planes].copy()
     model.geom_group[planes] = mujoco.mjNGROUP - 1
@@ -98,11 +90,7 @@ def snapshot(model: mujoco.MjModel, data: mujoco.MjData) -> Image.Image:
     camera.lookat = (low + high) / 2.0
     camera.distance = 1.25 * float(np.linalg.norm(high - low))
     camera.azimuth, camera.elevation = 143.0, -22.0
-    renderer = mujoco.Renderer(model, HEIGHT * OVERSAMPLING, WIDTH * OVERSAMPLING)
-    renderer.update_scene(data, camera)
-    image = Image.fromarray(renderer.render())
-    renderer.close()
-    return image
+    draw.draw(model, data, camera, SIZE).save(out, quality=QUALITY, method=6)
 
 
 if __name__ == "__main__":

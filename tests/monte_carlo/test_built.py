@@ -39,20 +39,18 @@ def accelerations(model):
     return data.qacc.copy()
 
 
-def recompiled(robot, change):
-    """The scene with one change before it is compiled."""
+def assert_moves_as_compiled(robot, built, designed, device, change=lambda scene: None, least=1e-4):
+    """As the scene with this device and this change, and otherwise than as designed."""
     scene = robot_scene(robot)
     change(scene)
-    return compile_scene(scene, robot, driven_device(), Wheels.ACTIVE, 9.81)
-
-
-def with_gains_of(model, world):
-    """Of the legs, which follow from the masses as designed."""
-    model.actuator_gainprm[:] = world.model.actuator_gainprm
-    model.actuator_biasprm[:] = world.model.actuator_biasprm
-    model.dof_damping[:] = world.model.dof_damping
+    model = compile_scene(scene, robot, device, Wheels.ACTIVE, 9.81)
+    # Gains of the legs follow from the masses as designed.
+    for gains in ("actuator_gainprm", "actuator_biasprm", "dof_damping"):
+        getattr(model, gains)[:] = getattr(designed.model, gains)
     mujoco.mj_setConst(model, mujoco.MjData(model))
-    return model
+    expected = accelerations(model)
+    assert np.abs(expected - accelerations(designed.model)).max() > least
+    np.testing.assert_allclose(accelerations(built.model), expected, rtol=1e-9, atol=1e-9)
 
 
 def scale_all(scene):
@@ -71,9 +69,7 @@ def shift_trunk(scene):
 )
 def test_it_moves_as_one_that_is_compiled_so(solo12, stated, change):
     world, robot = drawn(solo12, **stated)
-    expected = accelerations(with_gains_of(recompiled(solo12, change), world))
-    assert np.abs(expected - accelerations(world.model)).max() > 1e-3
-    np.testing.assert_allclose(accelerations(robot.model), expected, rtol=1e-9, atol=1e-9)
+    assert_moves_as_compiled(solo12, robot, world, driven_device(), change, least=1e-3)
 
 
 def test_wheels_that_are_both_off_are_a_device_at_another_incidence(solo12):
@@ -81,9 +77,7 @@ def test_wheels_that_are_both_off_are_a_device_at_another_incidence(solo12):
     device = paper_device()
     world, robot = drawn(solo12, device, incidence_error=error)
     turned = device.at_incidence(device.incidence + error)
-    model = compile_scene(robot_scene(solo12), solo12, turned, Wheels.ACTIVE, 9.81)
-    expected = accelerations(with_gains_of(model, world))
-    np.testing.assert_allclose(accelerations(robot.model), expected, rtol=1e-9, atol=1e-9)
+    assert_moves_as_compiled(solo12, robot, world, turned)
 
 
 @pytest.mark.parametrize(
@@ -106,10 +100,7 @@ def test_modules_that_are_off_are_turned_on_their_feet(solo12, name, feet):
         for module, turn in zip(device.modules, turns, strict=True)
     ]
     turned = replace(device, modules=tuple(modules))
-    model = compile_scene(robot_scene(solo12), solo12, turned, Wheels.ACTIVE, 9.81)
-    expected = accelerations(with_gains_of(model, world))
-    assert np.abs(expected - accelerations(world.model)).max() > 1e-4
-    np.testing.assert_allclose(accelerations(robot.model), expected, rtol=1e-9, atol=1e-9)
+    assert_moves_as_compiled(solo12, robot, world, turned)
 
 
 def test_second_moments_of_mass_grow_by_what_is_drawn(solo12):

@@ -48,10 +48,6 @@ class Made:
             yield block, made_outcomes(block, 2, fail_from=1.5)
 
 
-def test_blocks_hold_every_sample_once():
-    assert [n for block in BLOCKS for n in block] == list(range(100))
-
-
 def test_the_order_of_arrival_does_not_matter():
     whole = run_campaign(None, BLOCKS, fly=Made())
     assert_same(whole, run_campaign(None, BLOCKS, fly=Made(-1)))
@@ -137,14 +133,11 @@ def test_csv_and_parquet_hold_the_same_rows(tmp_path):
         assert other["mass_error"] == other["touchdown_pitch"]
 
 
-def test_nobody_at_the_address_is_an_error_with_its_cure(monkeypatch):
+def test_without_a_scheduler_or_dask_the_cure_is_named(monkeypatch):
     monkeypatch.setattr("ocs_design.monte_carlo.running.PATIENCE", 0.2)
     with pytest.raises(OcsError, match="no Dask scheduler answers") as error:
         Cluster("tcp://127.0.0.1:1")
     assert "dask scheduler" in error.value.hint
-
-
-def test_without_dask_the_command_that_installs_it_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(MissingToolError) as error:
         Cluster("tcp://127.0.0.1:1")

@@ -78,20 +78,14 @@ def test_a_limit_that_is_exceeded_is_not_told_as_kept(factor, shown):
 
 
 def test_what_is_used_most_comes_first_and_equals_stand_together():
-    margins = tuple(
-        Margin(
-            name=name, demand=demand, capacity=capacity, unit="", note=note,
-            scenario=scenario,
-        )
-        for name, demand, capacity, scenario, note in (
-            ("power", 0.68, 1.0, "flip", "of the battery"),
-            ("rms current", 2.4, 1.0, "drop", "a pause cools it"),
-            ("torque", 0.999, 1.0, "flip", ""),
-            ("voltage", 0.998, 1.0, "flip", ""),
-            ("heat", 3.0, None, "flip", "not known"),
-            ("height", 0.5, 1.0, "", ""),
-        )
-    )  # fmt: skip
+    margins = (
+        Margin("power", 0.68, 1.0, "", scenario="flip", note="of the battery"),
+        Margin("rms current", 2.4, 1.0, "", scenario="drop", note="a pause cools it"),
+        Margin("torque", 0.999, 1.0, "", scenario="flip"),
+        Margin("voltage", 0.998, 1.0, "", scenario="flip"),
+        Margin("heat", 3.0, None, "", scenario="flip", note="not known"),
+        Margin("height", 0.5, 1.0, ""),
+    )
     found = replace(design(), margins=margins)
     # What a pause cools is no limit that is exceeded.
     assert heat(found) == "240% rms in drop (continuous rating 100%), a pause cools it"
@@ -119,11 +113,11 @@ def test_changes_that_save_come_by_what_they_save():
             ("any material", now - 0.02, motor, "titanium"),
         )
     )
-    assert lighter(replace(found, alternatives=changes)) == (
+    told = replace(found, alternatives=changes)
+    assert lighter(told) == (
         ("-20.0 g", "any material; titanium"),
         ("-10.0 g", "more time; Other"),
     )
-    told = replace(found, alternatives=changes)
     assert [row[0] for row in alternatives_table(told).rows] == [
         "more time", "no device", "any material"
     ]  # fmt: skip

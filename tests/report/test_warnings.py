@@ -19,10 +19,7 @@ DESIGN = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
 def changed(*, asked=0.5, fitting=(), sha256="", **motor):
     """A design that asks a wheel for so much torque [N m]."""
     found = design(MOTOR)
-    torque = Margin(
-        name="motor torque", demand=asked, capacity=1.0, unit="N m",
-        scenario="", note="",
-    )  # fmt: skip
+    torque = Margin("motor torque", asked, 1.0, "N m")
     ocs = replace(found.ocs, motor=replace(found.ocs.motor, **motor), fitting=fitting)
     robot = replace(found.robot, sha256=sha256)
     return replace(found, ocs=ocs, robot=robot, margins=(torque,))
@@ -32,15 +29,23 @@ def said(design, words):
     return [each for each in all_warnings(design) if words in each]
 
 
-@pytest.mark.parametrize(("asked", "told"), [(1.7, 1), (0.69, 0)])
-def test_a_motor_past_its_saturation_is_minded_where_it_is_used_so(asked, told):
-    found = said(changed(asked=asked, saturation_torque=0.7), "saturates from 0.7 N m")
-    assert len(found) == told
+MINDED = {
+    "a motor past its saturation": (
+        *("saturates from 0.7 N m", {"asked": 1.7, "saturation_torque": 0.7}, {"asked": 0.69}),
+    ),
+    "a rotor that counts as nothing": (
+        *("never faster", {"rotor_inertia": 0.0}, {"rotor_inertia": 1e-6}),
+    ),
+    "a clearance not checked of a robot from a file": (
+        *("clearance NOT checked", {"sha256": "12ab"}, {"sha256": ""}),
+    ),
+}
 
 
-@pytest.mark.parametrize(("inertia", "told"), [(0.0, 1), (1e-6, 0)])
-def test_a_rotor_that_counts_as_nothing_is_minded(inertia, told):
-    assert len(said(changed(rotor_inertia=inertia), "never faster")) == told
+@pytest.mark.parametrize(("words", "odd", "usual"), MINDED.values(), ids=MINDED)
+def test_what_is_odd_is_minded_and_what_is_not_is_not(words, odd, usual):
+    assert len(said(changed(**odd), words)) == 1
+    assert not said(changed(**odd | usual), words)
 
 
 @pytest.mark.parametrize(("reliability", "told"), [(0.9999, 1), (0.999, 0)])
@@ -58,15 +63,15 @@ def test_controllers_are_not_in_the_mass():
     """45 A: 1.8 N m behind a gear of 2 with an efficiency of 0.8 and k_t of 0.025."""
     drive = {
         "torque_limit": 1.8, "gear_ratio": 2.0, "gear_efficiency": 0.8, "no_load_current": None,
+        "torque_constant": 0.025,
     }  # fmt: skip
-    (found,) = said(changed(torque_constant=0.025, **drive), "motor controllers")
-    assert "each for 45 A at 24 V" in found
-    (found,) = said(
-        changed(torque_constant=0.025, **drive | {"no_load_current": 2.0}), "controllers"
-    )
-    assert "each for 47 A at 24 V" in found
-    saturating = changed(torque_constant=0.025, saturation_torque=1.0, **drive)
-    assert said(saturating, "each for more than 45 A at 24 V")
+    for more, current in (
+        ({}, "45"),
+        ({"no_load_current": 2.0}, "47"),
+        ({"saturation_torque": 1.0}, "more than 45"),
+    ):
+        (found,) = said(changed(**drive | more), "motor controllers")
+        assert f"each for {current} A at 24 V" in found
 
 
 def test_all_work_by_hand_is_minded_and_parts_that_are_left_to_design_first():
@@ -74,11 +79,6 @@ def test_all_work_by_hand_is_minded_and_parts_that_are_left_to_design_first():
     fitting = ("break the edges", held, "cut 14 mm off the shaft")
     *_, first, second, third = all_warnings(changed(fitting=fitting))
     assert (first, second, third) == (held, "break the edges", "cut 14 mm off the shaft")
-
-
-@pytest.mark.parametrize(("sha256", "told"), [("12ab", 1), ("", 0)])
-def test_a_clearance_that_was_not_checked_is_minded_of_a_robot_from_a_file(sha256, told):
-    assert len(said(changed(sha256=sha256), "clearance NOT checked")) == told
 
 
 def lopsided(share, incidence, name="drop"):

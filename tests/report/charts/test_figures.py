@@ -35,7 +35,7 @@ def test_the_momentum_taken_is_that_of_both_wheels_up_to_touchdown():
     assert found.largest(1) == pytest.approx(spin * np.cos(alpha) * 500.0, rel=1e-4)
 
 
-def test_a_device_that_was_not_flown_and_has_a_motor_says_nothing_of_its_momentum():
+def test_only_flights_say_what_momentum_a_device_with_a_motor_takes():
     assert taken(replace(story(), flights=())) == ()
     assert taken(replace(story(motor="none"), flights=()))
 
@@ -85,14 +85,11 @@ def test_the_plane_holds_what_the_drive_can_give():
     np.testing.assert_allclose(edge.y[forwards], expected[forwards], atol=1e-12)
 
 
-def test_paths_in_the_plane_end_at_touchdown():
+def test_paths_in_the_plane_end_at_touchdown_and_are_of_wheels_that_flew():
     (chart,) = drive_charts(design().ocs.motor, [flight(), flight(ocs=False)])
     paths = [mark for mark in chart.marks if isinstance(mark, Line) and mark.ink is not Ink.FAINT]
     time = flight().time
     assert [len(path.x) for path in paths] == [np.count_nonzero(time < TOUCHDOWN)] * 2
-
-
-def test_nothing_is_drawn_of_wheels_that_never_flew():
     assert not list(drive_charts(design().ocs.motor, [flight(ocs=False)]))
 
 
@@ -157,18 +154,13 @@ def test_flights_that_are_all_alike_have_a_bin_too():
     assert chart.x.low < 0.0 < chart.x.high
 
 
-def test_the_section_is_there_only_if_samples_were_flown():
+def test_the_section_is_there_only_if_samples_were_flown_with_advice_where_there_is_any():
     assert monte_carlo_section(story()) == ""
-    section = monte_carlo_section(replace(story(), monte_carlo=record(VALUES)))
+    found = record(VALUES)
+    section = monte_carlo_section(replace(story(), monte_carlo=found))
     for text in ("500 robots", "99.8 %", "torque delay", "5 ms"):
         assert text in section
-
-
-def test_advice_is_told_where_there_is_any():
-    plain = record(VALUES)
-    advised = replace(plain.scenarios[0], advice="turn the modules")
-    section = monte_carlo_section(
-        replace(story(), monte_carlo=replace(plain, scenarios=(advised,)))
-    )
+    assert "drop: ." not in section
+    advised = replace(found, scenarios=(replace(found.scenarios[0], advice="turn the modules"),))
+    section = monte_carlo_section(replace(story(), monte_carlo=advised))
     assert "drop: turn the modules." in section
-    assert "drop: ." not in monte_carlo_section(replace(story(), monte_carlo=plain))

@@ -31,9 +31,14 @@ SVG = "{http://www.w3.org/2000/svg}"
 HOSTILE = "<script>alert('&')</script>\""
 
 
-def chart(*marks, **options):
+def chart(*marks, title="title", **options):
     axis = Axis("value", "m", 0.0, 10.0)
-    return Chart("name", "title", "seen", axis, axis, marks, **options)
+    return Chart("name", title, "seen", axis, axis, marks, **options)
+
+
+def path_of(look, svg):
+    """Path with these classes."""
+    return ET.fromstring(svg).find(f".//{SVG}path[@class='{look}']").get("d")
 
 
 def notes(svg):
@@ -72,7 +77,7 @@ def test_every_text_is_escaped_and_read_out():
         Rule(3.0, upright=False),
     )
     axis = Axis(HOSTILE, "m", 0.0, 10.0)
-    drawn = Chart("name", HOSTILE, HOSTILE, axis, axis, marks)
+    drawn = replace(chart(*marks, title=HOSTILE), description=HOSTILE, x=axis, y=axis)
     for content in (inline_svg(drawn), svg_file(drawn).decode()):
         root = ET.fromstring(content)
         assert not list(root.iter(f"{SVG}script"))
@@ -89,10 +94,7 @@ def test_a_file_has_its_own_colours_and_a_page_has_none():
 def test_a_line_is_broken_where_its_values_are():
     x = np.arange(6.0)
     y = np.array([1.0, 2.0, np.nan, 3.0, 4.0, 5.0])
-    path = ET.fromstring(inline_svg(chart(Line(x, y, Ink.BLUE)))).find(
-        f".//{SVG}path[@class='line blue']"
-    )
-    assert path.get("d").count("M") == 2
+    assert path_of("line blue", inline_svg(chart(Line(x, y, Ink.BLUE)))).count("M") == 2
 
 
 def test_thinning_keeps_ends_and_peaks():
@@ -153,10 +155,7 @@ def test_a_rule_with_a_name_is_in_the_legend_once():
 def test_a_level_stretch_is_drawn_by_its_ends():
     x = np.linspace(0.0, 10.0, 300)
     shape = np.concatenate([x, x[::-1]]), np.concatenate([np.full(300, 8.0), np.full(300, 2.0)])
-    area = ET.fromstring(inline_svg(chart(Area(*shape, Ink.FAINT)))).find(
-        f".//{SVG}path[@class='area fill-faint']"
-    )
-    assert area.get("d").count("L") == 3
+    assert path_of("area fill-faint", inline_svg(chart(Area(*shape, Ink.FAINT)))).count("L") == 3
 
 
 ENDS = st.tuples(st.floats(-1e6, 1e6), st.floats(1e-6, 1e7))
@@ -183,9 +182,7 @@ def test_a_logarithmic_axis_has_equal_ratios_at_equal_distances():
     axis = Axis("I", "kg m2", 1e-6, 1e-2, log=True)
     np.testing.assert_allclose(axis.parts(np.array([1e-6, 1e-4, 1e-2])), [0.0, 0.5, 1.0])
     np.testing.assert_allclose(axis.ticks(), [1e-6, 1e-5, 1e-4, 1e-3, 1e-2])
-
-
-def test_a_narrow_logarithmic_axis_has_ticks_between_the_powers():
+    # A narrow one has ticks between the powers.
     np.testing.assert_allclose(Axis("I", "", 1.1e-5, 8e-5, log=True).ticks(), [2e-5, 5e-5])
 
 
@@ -217,46 +214,35 @@ def test_what_is_beyond_measure_stretches_no_axis(odd):
     assert parts[1] == pytest.approx(0.5)
 
 
-def png(chart):
-    return png_of(svg_file(chart).decode())
-
-
 def picture(chart):
-    return np.asarray(Image.open(BytesIO(png(chart))).convert("RGB")).astype(int)
+    content = png_of(svg_file(chart).decode())
+    return np.asarray(Image.open(BytesIO(content)).convert("RGB")).astype(int)
 
 
-def chart_titled(title):
-    axis = Axis("value", "m", 0.0, 10.0)
-    return Chart("name", title, "seen", axis, axis, ())
-
-
-def test_a_chart_is_drawn_twice_as_large_as_in_svg():
-    charts = {chart.name: chart for chart in all_charts(story())}
-    image = picture(charts["bound_pitch"])
-    assert image.shape == (2 * charts["bound_pitch"].height, 880, 3)
+def test_a_chart_is_drawn_twice_as_large_as_in_svg_and_always_to_the_same_bytes():
+    drawn = next(each for each in all_charts(story()) if each.name == "bound_pitch")
+    image = picture(drawn)
+    assert image.shape == (2 * drawn.height, 880, 3)
     assert len(np.unique(image.reshape(-1, 3), axis=0)) > 20
-
-
-def test_twice_the_same_chart_gives_the_same_bytes():
-    for chart in all_charts(story()):
-        assert png(chart) == png(replace(chart))
+    assert png_of(svg_file(drawn).decode()) == png_of(svg_file(replace(drawn)).decode())
 
 
 @pytest.mark.parametrize("letters", ["Maß α*", "10⁻⁴ m²", "−1 …", "Ж", "A"])
 def test_every_letter_has_a_shape_in_our_font(letters):
     """Only the title differs, and each letter leaves ink of its own on it."""
-    blank = picture(chart_titled(""))
+    blank = picture(chart(title=""))
+    # What the font does not have would be drawn as the same box for all.
+    unknown = picture(chart(title="\ue000"))
     for letter in letters.replace(" ", ""):
-        drawn = picture(chart_titled(letter))
+        drawn = picture(chart(title=letter))
         assert (drawn != blank).any(axis=2).sum() > 4
-        # What the font does not have would be drawn as the same box for all.
-        assert (drawn != picture(chart_titled("\ue000"))).any()
+        assert (drawn != unknown).any()
 
 
 def test_words_that_would_run_into_their_neighbours_are_narrower_than_the_layout_says():
     """The layout of the SVG takes letters for 6.2 px wide in the mean."""
-    drawn = picture(chart_titled("an ordinary title of a chart"))
-    blank = picture(chart_titled(""))
+    drawn = picture(chart(title="an ordinary title of a chart"))
+    blank = picture(chart(title=""))
     columns = np.flatnonzero((drawn != blank).any(axis=(0, 2)))
     assert columns.max() - 8 < 2 * 28 * 6.2 * 13 / 11
 
@@ -264,8 +250,8 @@ def test_words_that_would_run_into_their_neighbours_are_narrower_than_the_layout
 def test_without_resvg_the_svg_is_written_and_it_is_told_how_to_get_the_rest(monkeypatch, tmp_path):
     monkeypatch.setitem(sys.modules, "resvg_py", None)
     with pytest.raises(MissingToolError) as caught:
-        picture(next(all_charts(story())))
+        picture(chart())
     assert "ocs-design[plot]" in caught.value.hint
-    (told,) = write_charts([chart_titled("one")], tmp_path)
+    (told,) = write_charts([chart()], tmp_path)
     assert "resvg-py is not installed: pip install 'ocs-design[plot]'" in told
     assert [path.name for path in tmp_path.iterdir()] == ["name.svg"]

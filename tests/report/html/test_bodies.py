@@ -76,6 +76,7 @@ def triangles_of(bodies):
     return sum(len(surface.faces) for each in bodies for surface in each.surfaces)
 
 
+@pytest.fixture(scope="module")
 def box():
     mesh = trimesh.creation.box(extents=(0.3, 0.2, 0.1))
     for _ in range(5):
@@ -83,14 +84,13 @@ def box():
     return mesh
 
 
-def test_a_box_keeps_its_edges_and_its_volume():
-    fine = box()
-    (coarse,) = decimated([body(fine)], 1500)
-    assert len(fine.faces) > 12_000
+def test_a_box_keeps_its_edges_and_its_volume(box):
+    (coarse,) = decimated([body(box)], 1500)
+    assert len(box.faces) > 12_000
     assert triangles_of([coarse]) <= 1500
     found = mesh_of(coarse)
-    np.testing.assert_allclose(found.bounds, fine.bounds, atol=1e-9)
-    assert found.volume == pytest.approx(fine.volume, rel=5e-3)
+    np.testing.assert_allclose(found.bounds, box.bounds, atol=1e-9)
+    assert found.volume == pytest.approx(box.volume, rel=5e-3)
 
 
 def test_a_ball_stays_round():
@@ -117,8 +117,8 @@ def test_the_device_is_drawn_finer_than_its_robot():
     assert triangles_of([device]) > 3 * triangles_of([robot])
 
 
-def test_no_triangle_is_without_area_or_there_twice():
-    found = clustered(body(box()).surfaces[0], 0.013)
+def test_no_triangle_is_without_area_or_there_twice(box):
+    found = clustered(body(box).surfaces[0], 0.013)
     assert (mesh_of(ShownBody("x", Placement.identity(), (found,))).area_faces > 0.0).all()
     assert len(np.unique(np.sort(found.faces, axis=1), axis=0)) == len(found.faces)
 
@@ -163,15 +163,10 @@ def test_data_comes_back_and_cannot_end_its_element(value):
     assert json.loads("".join(page.texts)) == value
 
 
-def test_markup_stands_as_it_is_and_what_is_not_does_not():
+def test_markup_stands_as_it_is_and_units_get_their_powers():
     assert element("p", Markup("<b>x</b>"), "<b>") == "<p><b>x</b>&lt;b&gt;</p>"
-
-
-def test_units_get_their_powers():
-    assert (
-        element("p", "4 kg m2, 5 kg m^2, robot_m2, 3 rad/s2")
-        == "<p>4 kg m², 5 kg m², robot_m2, 3 rad/s²</p>"
-    )
+    raised = element("p", "4 kg m2, 5 kg m^2, robot_m2, 3 rad/s2")
+    assert raised == "<p>4 kg m², 5 kg m², robot_m2, 3 rad/s²</p>"
 
 
 def test_lists_without_anything_are_not_there():
@@ -252,18 +247,13 @@ def test_curves_are_told_apart(look, eyes):
 
 
 @pytest.mark.parametrize("look", ["light", "dark"])
-def test_words_stand_out_from_what_is_behind_them(look):
+def test_words_and_curves_stand_out_from_what_is_behind_them(look):
     palette = palettes()[look]
     for ink in ("text", "soft", "accent"):
         for back in ("paper", "page"):
             assert contrast(palette[ink], palette[back]) >= 4.5, (ink, back)
     for state in ("good", "bad", "open"):
         assert contrast(palette[state], palette[f"{state}-back"]) >= 4.5, state
-
-
-@pytest.mark.parametrize("look", ["light", "dark"])
-def test_curves_stand_out_from_the_paper(look):
-    palette = palettes()[look]
-    # The last two are only for a fifth and a sixth curve, which the legend names.
+    # Curves; the last two are only for a fifth and a sixth curve, which the legend names.
     for ink in SERIES[:4]:
         assert contrast(palette[ink], palette["paper"]) >= 3.0, ink
