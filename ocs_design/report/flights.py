@@ -189,13 +189,14 @@ def survival_sentence(survival: SurvivalRecord) -> str:
     )
 
 
-def survival_cost(design: OcsDesign) -> str:
-    """What the device weighs more than one that need not survive; empty where that is unknown."""
+def survival_words(design: OcsDesign) -> Iterator[str]:
+    """Sentence on a drive that stops, and what the device weighs more for it if that is known."""
     found = design.survival
-    if found is None or found.mass_without is None:
-        return ""
-    more = design.ocs.mass_total - found.mass_without
-    return f"{grams(more)} more than without ({grams(found.mass_without)})"
+    if found is not None:
+        yield survival_sentence(found)
+        if found.mass_without is not None:
+            more = design.ocs.mass_total - found.mass_without
+            yield f"{grams(more)} more than without ({grams(found.mass_without)})"
 
 
 def survival_table(survival: SurvivalRecord) -> Table:

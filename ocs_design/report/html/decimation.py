@@ -90,8 +90,16 @@ def clustered(surface: Surface, cell: float) -> Surface:
     count = int(cluster.max()) + 1
     weight = np.bincount(cluster, minlength=count)[:, None]
     middle = _summed(surface.vertices, cluster, count) / weight
-    quadric, vector = _quadrics(surface, cluster, middle)
-    values, axes = np.linalg.eigh(quadric)
+    # Sums of n n^T and n d over the triangles at each cluster, areas as weights, from `middle`.
+    corners = surface.vertices[surface.faces]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    outer = np.einsum("ni,nj->nij", normal, normal).reshape(-1, 9)
+    quadric, vector = np.zeros((count, 9)), np.zeros((count, 3))
+    for at in cluster[surface.faces.T]:
+        offset = np.einsum("ni,ni->n", normal, corners[:, 0] - middle[at])
+        quadric += _summed(outer, at, count)
+        vector += _summed(normal * offset[:, None], at, count)
+    values, axes = np.linalg.eigh(quadric.reshape(-1, 3, 3))
     says = values > _FLAT * values[:, -1:]
     inverse = np.divide(1.0, values, out=np.zeros_like(values), where=says)
     step = np.einsum("nij,nj,nkj,nk->ni", axes, inverse, axes, vector)
@@ -115,22 +123,6 @@ def _keyed(
     a, b, c = a[kept], b[kept], c[kept]
     low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
     return kept, (low << 2 * _BITS) | ((a + b + c - low - high) << _BITS) | high
-
-
-def _quadrics(
-    surface: Surface, cluster: NDArray[np.intp], middle: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Sums of n n^T and n d over the triangles at each cluster, areas as weights, from `middle`."""
-    corners = surface.vertices[surface.faces]
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    quadric, vector = np.zeros((len(middle), 9)), np.zeros((len(middle), 3))
-    outer = np.einsum("ni,nj->nij", normal, normal).reshape(-1, 9)
-    for corner in range(3):
-        at = cluster[surface.faces[:, corner]]
-        offset = np.einsum("ni,ni->n", normal, corners[:, 0] - middle[at])
-        quadric += _summed(outer, at, len(middle))
-        vector += _summed(normal * offset[:, None], at, len(middle))
-    return quadric.reshape(-1, 3, 3), vector
 
 
 def _summed(values: FloatArray, at: NDArray[np.intp], count: int) -> FloatArray:

@@ -214,15 +214,12 @@ def maneuvers_section(
         )
     survival = story.design.survival
     if survival is not None:
-        told = filter(
-            None, (flights.survival_sentence(survival), flights.survival_cost(story.design))
-        )
         parts.append(
             element(
                 "article",
                 element("h3", "A drive stops on the way"),
                 table(flights.SURVIVAL_TITLE, flights.survival_table(survival)),
-                *(note(each) for each in told),
+                *map(note, flights.survival_words(story.design)),
             )
         )
     remarks = items(flights.landing_remarks(story.design), look="warnings")

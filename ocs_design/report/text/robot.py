@@ -1,11 +1,11 @@
 """The robot in the terminal: what was read of it, as `inspect` and `size` show it."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 
 from rich.console import Console
 
 from ocs_design.common.wording import degrees_number
-from ocs_design.device.answers import Inspection, RecognitionRecord
+from ocs_design.device.answers import Inspection
 from ocs_design.device.records.requirement import RobotRecord
 from ocs_design.report.device import heading_drift, robot_facts
 from ocs_design.report.table import Table, columns
@@ -25,12 +25,20 @@ SAME_RATE = (
 def print_inspection(console: Console, inspection: Inspection, *, verbose: bool = False) -> None:
     """Mass, posture, inertia, incidence angles and how they change with the posture."""
     robot, found = inspection.robot, inspection.recognition
-    legs = ", ".join(robot.legs) or "none found"
-    if found is not None and found.legs:
-        # Feet with what they are.
-        feet = ", ".join(leg.foot for leg in found.legs)
-        ends = " and ".join(f"{kind}s" for kind in sorted({leg.ends_in for leg in found.legs}))
-        legs = f"{feet} ({len(found.legs)}, ending in {ends})"
+    legs, recognised = ", ".join(robot.legs) or "none found", []
+    if found is not None:
+        if found.legs:
+            # Feet with what they are.
+            feet = ", ".join(leg.foot for leg in found.legs)
+            ends = " and ".join(f"{kind}s" for kind in sorted({leg.ends_in for leg in found.legs}))
+            legs = f"{feet} ({len(found.legs)}, ending in {ends})"
+        directions = f"forward {found.forward}, left {found.left}, up {found.up}"
+        sure = "as stated"
+        if not {"trunk", "legs"} <= set(found.stated):
+            stated = "".join(f", {name} as stated" for name in found.stated)
+            against = "; ".join(found.speaks_against)
+            sure = f"{found.confidence:.0%} confidence{stated}{against and f': but {against}'}"
+        recognised = [("directions", f"{directions} of '{found.trunk}'"), ("trunk, legs", sure)]
     print_robot(
         console,
         robot,
@@ -38,7 +46,7 @@ def print_inspection(console: Console, inspection: Inspection, *, verbose: bool 
             (f"read from {robot.format}", robot.source),
             ("links, joints", f"{inspection.links}, {inspection.joints} moving"),
             ("legs", legs),
-            *_recognised(found),
+            *recognised,
             ("heading drift", heading_drift(inspection.heading_drift)),
         ],
     )
@@ -81,26 +89,6 @@ def print_inspection(console: Console, inspection: Inspection, *, verbose: bool 
         note(console, PAPER_ANGLE)
     if robot.posture and verbose:
         print_joints(console, robot)
-
-
-def _recognised(recognition: RecognitionRecord | None) -> Iterator[tuple[str, str]]:
-    """Which way is forward, and how sure trunk and legs are."""
-    if recognition is None:
-        return
-    yield (
-        "directions",
-        f"forward {recognition.forward}, left {recognition.left}, up {recognition.up} of "
-        f"'{recognition.trunk}'",
-    )
-    if {"trunk", "legs"} <= set(recognition.stated):
-        yield "trunk, legs", "as stated"
-        return
-    stated = "".join(f", {name} as stated" for name in recognition.stated)
-    against = "; ".join(recognition.speaks_against)
-    yield (
-        "trunk, legs",
-        f"{recognition.confidence:.0%} confidence{stated}{f': but {against}' if against else ''}",
-    )
 
 
 def print_joints(console: Console, robot: RobotRecord) -> None:

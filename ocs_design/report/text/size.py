@@ -1,6 +1,6 @@
 """A design in the terminal: its story on one screen, and with `-v` all of it."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
 
 import numpy as np
@@ -163,7 +163,20 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
         items(console, design.reliability.rounds)
     mass = f"{grams(design.ocs.mass_total)}, {share_of_robot(design)}"
     heading(console, f"{device_title(design)}, {mass}")
-    facts(console, _device(design))
+    robot = design.robot
+    rows = [("robot", f"{robot.name}, {robot.mass:.4g} kg, posture {robot.posture_name}")]
+    rows += first_facts(design)
+    owed = limits.owed_to(design)
+    why = [listed(limits.holding_up(design)), f"owed to {owed}" if owed else ""]
+    if any(why):
+        rows.append(("set by", "; ".join(filter(None, why))))
+    for index, (share, names) in enumerate(limits.tightest(design)[:MOST_MARGINS]):
+        rows.append(("" if index else "used", f"{share} {names}"))
+    if limits.heat(design):
+        rows.append(("heat", limits.heat(design)))
+    if design.survival is not None:
+        rows.append(("survives", "; ".join(flights.survival_words(design))))
+    facts(console, rows)
     if runs:
         _print_flights(console, design, runs)
     # The verdict names flights already.
@@ -188,24 +201,6 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
     written = ", ".join([REPORT_FILE, DESIGN_FILE, *beside, *folders])
     console.print(Text(f"{folder}/: {written}"))
     print_headline(console, line, Text("(-v: all figures)", "dim"))
-
-
-def _device(design: OcsDesign) -> Iterator[tuple[str, str]]:
-    """The robot that it is for, what is to be built, and what sets its mass."""
-    robot = design.robot
-    yield "robot", f"{robot.name}, {robot.mass:.4g} kg, posture {robot.posture_name}"
-    yield from first_facts(design)
-    owed = limits.owed_to(design)
-    why = [listed(limits.holding_up(design)), f"owed to {owed}" if owed else ""]
-    if any(why):
-        yield "set by", "; ".join(filter(None, why))
-    for index, (share, names) in enumerate(limits.tightest(design)[:MOST_MARGINS]):
-        yield "" if index else "used", f"{share} {names}"
-    if limits.heat(design):
-        yield "heat", limits.heat(design)
-    if design.survival is not None:
-        told = (flights.survival_sentence(design.survival), flights.survival_cost(design))
-        yield "survives", "; ".join(filter(None, told))
 
 
 def _print_flights(console: Console, design: OcsDesign, runs: Sequence[Run]) -> None:
