@@ -91,21 +91,14 @@ def spread(ratios):
 
 
 def main():
-    """Prints the ratios."""
+    """Prints the ratios: closed loop against open loop, and `size` against its bare physics."""
     parser = argparse.ArgumentParser()
     parser.add_argument("robot")
     parser.add_argument("--threads", type=int, default=2)
     arguments = parser.parse_args()
-    robot = read_robot(arguments.robot)
-    builder = WorldBuilder(robot, paper_device())
-    maneuvers = default_maneuvers(robot)
-    print_batch(builder, maneuvers[2], arguments.threads)
-    print_six_runs(builder, maneuvers, arguments.threads)
-
-
-def print_batch(builder, flip, threads):
-    """Closed loop against open loop."""
-    batch = [replace(builder.flight(flip, Wheels.ACTIVE), duration=SECONDS)] * WORLDS
+    robot, threads = read_robot(arguments.robot), arguments.threads
+    builder, maneuvers = WorldBuilder(robot, paper_device()), default_maneuvers(robot)
+    batch = [replace(builder.flight(maneuvers[2], Wheels.ACTIVE), duration=SECONDS)] * WORLDS
     rates = interleaved(
         {
             "open loop": lambda: open_loop_rate(batch, threads),
@@ -116,10 +109,6 @@ def print_batch(builder, flip, threads):
     print(f"{WORLDS} worlds, {threads} threads, {ROUNDS} interleaved rounds")
     for name, rate in rates.items():
         print(f"{name:14s}{rate.max():9.0f} steps/s, ratio {spread(rate / rates['open loop'])}")
-
-
-def print_six_runs(builder, maneuvers, threads):
-    """What `size` simulates, against its bare physics."""
     six = [
         builder.flight(maneuver, wheels)
         for maneuver in maneuvers

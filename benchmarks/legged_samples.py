@@ -17,7 +17,7 @@ import json
 import re
 import shutil
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from math import ceil, degrees, floor
 from pathlib import Path
@@ -248,22 +248,20 @@ def rate(robot: Found, scenario: dict[str, Any]) -> str:
 
 def failures(found: list[Found]) -> str:
     """A row for each maneuver of a robot that does not pass every time."""
-    header = ("robot", "maneuver", "passes", "what came of the others", "goes with", "as designed")
-    return table(header, (row for robot in found for row in failing_rows(robot)))
-
-
-def failing_rows(robot: Found) -> Iterator[tuple[str, ...]]:
-    for scenario in robot.scenarios:
-        success = scenario["success"]
+    rows = []
+    for robot, scenario in [(of, each) for of in found for each in of.scenarios]:
+        success, name = scenario["success"], scenario["scenario"]
         if success["passed"] < success["flown"]:
             share = f"{success['passed']} of {success['flown']}"
             faults = ", ".join(f"{n} {fault}" for fault, n in scenario["faults"].items())
             causes = ", ".join(
                 f"`{cause['quantity']}` {cause['correlation']:+.2f}" for cause in scenario["causes"]
             )
-            designed = robot.designed[scenario["scenario"]]
+            designed = robot.designed[name]
             said = "passes" if designed["passed"] else designed["reason"]
-            yield robot.name, scenario["scenario"], share, faults, causes or "-", said
+            rows.append((robot.name, name, share, faults, causes or "-", said))
+    header = ("robot", "maneuver", "passes", "what came of the others", "goes with", "as designed")
+    return table(header, rows)
 
 
 def starts(found: list[Found]) -> str:
@@ -271,16 +269,12 @@ def starts(found: list[Found]) -> str:
     robots: dict[tuple[str, str], list[str]] = {}
     for robot in found:
         for name, flight in robot.designed.items():
-            if "starts at lift-off" in flight["note"]:
-                robots.setdefault((robot.name, reason(flight["note"])), []).append(name)
+            for told in flight["note"].split("; "):
+                # What comes after the announcement.
+                if "starts at lift-off" in told:
+                    robots.setdefault((robot.name, told.split(": ", 1)[1]), []).append(name)
     rows = ((name, ", ".join(which), why) for (name, why), which in robots.items())
     return table(("robot", "starts at lift-off", "because"), rows)
-
-
-def reason(note: str) -> str:
-    """What comes after the announcement."""
-    told = next(part for part in note.split("; ") if "starts at lift-off" in part)
-    return told.split(": ", 1)[1]
 
 
 def refusals(found: list[Found]) -> str:

@@ -28,6 +28,12 @@ class Toned:
 
 Cell: TypeAlias = str | Toned
 
+
+def plain(cell: Cell) -> str:
+    """The text of a cell."""
+    return cell.text if isinstance(cell, Toned) else cell
+
+
 Rows: TypeAlias = tuple[tuple[str, str], ...]
 """Names and their values, in the order in which they are shown."""
 

@@ -3,8 +3,7 @@
 from collections.abc import Iterator, Mapping
 
 from ocs_design.report.charts.chart import Chart
-from ocs_design.report.charts.drive import drive_charts
-from ocs_design.report.charts.flights import distribution_charts, time_charts
+from ocs_design.report.charts.flights import distribution_charts, drive_charts, time_charts
 from ocs_design.report.charts.front import reserve_charts
 from ocs_design.report.charts.momentum import bound_charts, incidence_charts
 from ocs_design.report.story import Story

@@ -6,7 +6,7 @@ from html import escape
 
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.svg import inline_svg
-from ocs_design.report.table import Table, Toned, tied
+from ocs_design.report.table import Table, Toned, plain, tied
 
 _ESCAPED = {
     "<": "\\u003c",
@@ -68,8 +68,7 @@ def table(caption: str, content: Table) -> Markup:
     for index, column in enumerate(content.columns):
         name = column.name.replace("\n", " ").strip()
         head = f"{name} [{column.unit.strip()}]" if column.unit else name
-        cells = (row[index] for row in content.rows)
-        texts = (cell.text if isinstance(cell, Toned) else cell for cell in cells)
+        texts = (plain(row[index]) for row in content.rows)
         # A long text keeps some width on a narrow screen.
         long = column.words and max(map(len, texts), default=0) > _LONG
         looks.append("word long" if long else "word" if column.words else "number")

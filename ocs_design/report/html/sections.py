@@ -24,8 +24,7 @@ from ocs_design.export.drawing.wheel import (
 from ocs_design.parts.joints import Grade
 from ocs_design.report import flights, limits, monte_carlo, selection, warnings
 from ocs_design.report.charts.chart import Chart
-from ocs_design.report.charts.drive import drive_charts
-from ocs_design.report.charts.flights import distribution_charts
+from ocs_design.report.charts.flights import distribution_charts, drive_charts
 from ocs_design.report.charts.front import reserve_charts
 from ocs_design.report.charts.momentum import bound_charts, incidence_charts
 from ocs_design.report.device import device_facts, drawn_facts, robot_facts

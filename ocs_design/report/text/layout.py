@@ -14,7 +14,7 @@ from rich.text import Text
 
 from ocs_design.device.records.design import DESIGN_FILE
 from ocs_design.export.folder import REPORT_FILE
-from ocs_design.report.table import Cell, Table, Tone, Toned, tied
+from ocs_design.report.table import Table, Tone, Toned, plain, tied
 from ocs_design.report.text.console import breaks_lines
 
 INDENT = (0, 0, 0, 2)
@@ -126,7 +126,7 @@ def _narrower(table: Table, excess: int) -> Table:
     """Table by so many characters narrower: the longest words are broken, none in itself."""
     wordy = {
         index: max(
-            [*map(len, column.name.split("\n")), *(len(_text(row[index])) for row in table.rows)]
+            [*map(len, column.name.split("\n")), *(len(plain(row[index])) for row in table.rows)]
         )
         for index, column in enumerate(table.columns)
         if column.words
@@ -138,17 +138,13 @@ def _narrower(table: Table, excess: int) -> Table:
     for row in table.rows:
         cells = list(row)
         for index, width in wordy.items():
-            text = _text(row[index])
+            text = plain(row[index])
             # A cell of several lines, as plots have them, stays.
             if len(text) > width and "\n" not in text:
                 lines, cell = wrapped(text, width), row[index]
                 cells[index] = replace(cell, text=lines) if isinstance(cell, Toned) else lines
         rows.append(tuple(cells))
     return replace(table, rows=tuple(rows))
-
-
-def _text(cell: Cell) -> str:
-    return cell.text if isinstance(cell, Toned) else cell
 
 
 def _width(console: Console, drawn: rich_table.Table) -> int:

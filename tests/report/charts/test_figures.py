@@ -16,9 +16,8 @@ from ocs_design.device.answers import (
 )
 from ocs_design.monte_carlo.outcomes import share
 from ocs_design.report.charts.chart import Area, Ink, Line, Points, Rule
-from ocs_design.report.charts.drive import drive_charts
 from ocs_design.report.charts.figures import all_charts
-from ocs_design.report.charts.flights import distribution_charts
+from ocs_design.report.charts.flights import distribution_charts, drive_charts
 from ocs_design.report.charts.front import reserve_charts
 from ocs_design.report.charts.momentum import bound_charts, posture_chart, taken
 from ocs_design.report.charts.svg import write_svgs

@@ -78,11 +78,8 @@ def test_off_level_is_the_angle_between_the_verticals(roll, pitch, yaw):
     assert np.cos(off_level(roll, pitch)) == pytest.approx(up[2], abs=1e-12)
 
 
-def test_level_is_a_line_at_the_foot():
+def test_bars_are_to_the_scale_of_the_largest_tilt_of_all_and_level_is_a_line_at_the_foot():
     assert tilt_plots([flight([0.0, 0.0, 0.0, 0.0])], 4) == (["▁▁▁▁"], LEAST_SPAN)
-
-
-def test_bars_are_to_the_scale_of_the_largest_tilt_of_all():
     (low, high), top = tilt_plots([flight([0.0, 0.1, 0.2]), flight([-0.4, -0.4, -0.4])], 3)
     assert top == pytest.approx(0.4)
     assert (low, high) == ("▁▂▄", "███")
