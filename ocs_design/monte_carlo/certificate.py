@@ -154,8 +154,12 @@ def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Less
     tilt = tilts[axis, :, number]
     known = np.isfinite(tilt)
     tilt, values = tilt[known], outcomes.values[known]
-    reached = abs(tilt.mean()) + NormalDist().inv_cdf(0.5 * (1.0 + test.asked)) * tilt.std()
+    maneuver = campaign.flights[number].maneuver.name
+    landings = f"{maneuver}: {off[axis, number]} of {len(tilt)} land off level in {names[axis]}"
     varied = np.flatnonzero(np.ptp(values, axis=0) > 0.0)
+    if not varied.size or not np.ptp(tilt):
+        return Lesson(1.0, f"{landings}, all alike: no reserve for what is drawn helps")
+    reached = abs(tilt.mean()) + NormalDist().inv_cdf(0.5 * (1.0 + test.asked)) * tilt.std()
     shares = np.corrcoef(values[:, varied], tilt, rowvar=False)[-1, :-1] ** 2
     part, cause = max(zip(shares.tolist(), (outcomes.names[i] for i in varied), strict=True))
     factor = float(min(max(reached / LANDING_TOLERANCE, LEAST), LARGEST))
@@ -168,8 +172,7 @@ def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Less
     quantity = cause.replace("_", " ").replace(".", " ")
     return Lesson(
         factor,
-        f"{campaign.flights[number].maneuver.name}: {off[axis, number]} of {len(tilt)} land off "
-        f"level in {names[axis]}, which {test.asked:.4g} of them keep within "
+        f"{landings}, which {test.asked:.4g} of them keep within "
         f"{np.degrees(reached):.1f} deg ({np.degrees(LANDING_TOLERANCE):.0f} are allowed); "
         f"{part:.0%} of its variance goes with {quantity}: {ending}",
     )

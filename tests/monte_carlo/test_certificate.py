@@ -141,6 +141,20 @@ def test_no_reserve_is_raised_where_it_does_not_help(solo12, metric, cause, word
     assert words in learnt.told
 
 
+@pytest.mark.parametrize("change", ["one lands", "nothing varies"])
+def test_landings_that_are_all_alike_teach_nothing_of_the_reserve(campaign, change):
+    outcomes = made_outcomes(range(8))
+    tilt = outcomes.metrics[:, 0, METRICS.index("touchdown_pitch")]
+    tilt[:] = 0.3
+    if change == "one lands":
+        tilt[1:] = np.nan
+    else:
+        outcomes.values[:] = 1.0
+    learnt = lesson(SequentialTest(0.9), campaign, outcomes)
+    assert learnt.factor == 1.0
+    assert "land off level in pitch, all alike" in learnt.told
+
+
 @pytest.mark.exhaustive  # `test_the_notebook_runs` flies it too, as `validate` does.
 def test_what_the_docs_quote_is_what_flies():
     """Single flights may end otherwise on another machine: intervals overlap, the verdict stays."""

@@ -184,7 +184,7 @@ def drive_charts(motor: Drive, flights: Sequence[RecordedFlight]) -> Iterator[Ch
     ]
     reach = max(float(np.nanmax(np.abs(path.x))) for path in paths)
     torque = max(float(np.nanmax(np.abs(path.y))) for path in paths)
-    widest = max(reach, in_unit(min(motor.no_load_speed, 3.0 * np.pi / 30.0 * reach), "rpm"))
+    widest = max(reach, in_unit(min(motor.no_load_speed, 3.0 * np.pi / 30.0 * reach), "rpm")) or 1.0
     tallest = 1.15 * max(torque, motor.torque_limit or 0.0) or 1.0
     fastest = np.inf if motor.speed_max is None else in_unit(motor.speed_max, "rpm")
     top = min(widest, fastest)

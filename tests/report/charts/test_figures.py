@@ -20,7 +20,7 @@ from ocs_design.report.charts.figures import all_charts
 from ocs_design.report.charts.flights import distribution_charts, drive_charts
 from ocs_design.report.charts.front import reserve_charts
 from ocs_design.report.charts.momentum import bound_charts, posture_chart, taken
-from ocs_design.report.charts.svg import write_svgs
+from ocs_design.report.charts.svg import inline_svg, write_svgs
 from ocs_design.report.html.sections import monte_carlo_section
 from ocs_design.report.limits import reserve_note
 
@@ -90,6 +90,13 @@ def test_paths_in_the_plane_end_at_touchdown_and_are_of_wheels_that_flew():
     time = flight().time
     assert [len(path.x) for path in paths] == [np.count_nonzero(time < TOUCHDOWN)] * 2
     assert not list(drive_charts(design().ocs.motor, [flight(ocs=False)]))
+
+
+def test_wheels_that_never_turned_have_a_plane_too():
+    still = {name: 0.0 * values for name, values in flight().columns.items()}
+    still["time_s"] = flight().time
+    (chart,) = drive_charts(design().ocs.motor, [replace(flight(), columns=still)])
+    assert "<svg" in inline_svg(chart)
 
 
 def test_postures_are_rows_from_the_top():
