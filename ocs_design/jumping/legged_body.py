@@ -7,10 +7,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.robot.chain import Chain
-from ocs_design.robot.leg_geometry import (
-    leg_geometries,
-    up_axis,
-)
+from ocs_design.robot.leg_geometry import leg_geometries, up_axis
 from ocs_design.robot.legs import is_wheel
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.robot import Robot
@@ -125,20 +122,15 @@ def obstacle_to_jumping(robot: Robot) -> str:
     if up_axis(robot.tree, robot.trunk, robot.legs)[2] != 1.0:
         return "the legs do not hang along -z of the trunk frame"
     for each in leg_geometries(robot.tree, robot.trunk, robot.legs):
-        name, joints = each.leg.name, each.chain.joints
-        obstacles = (
-            (is_wheel(each.chain.bodies[-1]), f"the leg '{name}' ends in a wheel"),
-            (each.plane.flat, f"the leg '{name}' stands on a sole, not on a point"),
-            (
-                any(joint.mimic is not None for joint in joints),
-                f"joints of the leg '{name}' follow each other",
-            ),
-            (
-                len(joints) < _FEWEST_JOINTS,
-                f"the leg '{name}' has fewer than {_FEWEST_JOINTS} joints",
-            ),
-        )
-        for found, obstacle in obstacles:
-            if found:
-                return obstacle
+        leg, joints, obstacle = f"the leg '{each.leg.name}'", each.chain.joints, ""
+        if is_wheel(each.chain.bodies[-1]):
+            obstacle = f"{leg} ends in a wheel"
+        elif each.plane.flat:
+            obstacle = f"{leg} stands on a sole, not on a point"
+        elif any(joint.mimic is not None for joint in joints):
+            obstacle = f"joints of {leg} follow each other"
+        elif len(joints) < _FEWEST_JOINTS:
+            obstacle = f"{leg} has fewer than {_FEWEST_JOINTS} joints"
+        if obstacle:
+            return obstacle
     return ""

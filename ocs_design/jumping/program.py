@@ -39,22 +39,6 @@ _WARM: dict[str, Any] = {
 
 
 @dataclass(frozen=True, eq=False)
-class Bounds:
-    """What one jump may do.
-
-    Attributes:
-        lower, upper: of the nodes' unknowns, shape (size, nodes).
-        end: what `Node.end` must be, shape (6,).
-        load: gravity and trunk, see `floating_base.Load.values`.
-    """
-
-    lower: FloatArray
-    upper: FloatArray
-    end: FloatArray
-    load: FloatArray
-
-
-@dataclass(frozen=True, eq=False)
 class Found:
     """What IPOPT found.
 
@@ -63,7 +47,7 @@ class Found:
         torque: of the joints [N m or N], shape (n, nodes).
         excess: share by which each `Limit` had to be overdrawn, shape (3,).
         x, on_bounds, on_rows: the whole answer and its multipliers, to begin a similar search at.
-        solved: whether it is a local optimum. iterations: taken.
+        solved: whether it is a local optimum.
     """
 
     nodes: FloatArray
@@ -73,7 +57,6 @@ class Found:
     on_bounds: FloatArray
     on_rows: FloatArray
     solved: bool
-    iterations: int
 
 
 class Program:
@@ -82,21 +65,21 @@ class Program:
     def __init__(self, node: Node) -> None:
         self._rows = _Rows.of(node)
         self._torque = ca.Function("torque", [node.unknowns, node.load], [node.torque]).map(NODES)
-        pieces, size, rows = _Pieces.of(node), node.layout.size, self._rows
+        pieces, size, rows = _pieces(node), node.layout.size, self._rows
         weights = ca.DM(np.array(WEIGHTS)).T
         flat, load = ca.MX.sym("x", size * NODES + _EXCESS), ca.MX.sym("load", node.load.numel())
         z, excess = ca.reshape(flat[:-_EXCESS], size, NODES), flat[-_EXCESS:]
         last = z[:, -1]
 
-        goal = ca.dot(weights, pieces.cost.map(NODES)(z, load)) + _PENALTY * ca.sum1(excess)
-        climbs = pieces.cost_slope.map(NODES)(z, load) * ca.repmat(weights, size, 1)
+        goal = ca.dot(weights, pieces["cost"].map(NODES)(z, load)) + _PENALTY * ca.sum1(excess)
+        climbs = pieces["cost_slope"].map(NODES)(z, load) * ca.repmat(weights, size, 1)
         # IPOPT takes the gradient as dense, whatever its sparsity.
         gradient = ca.densify(ca.vertcat(ca.vec(climbs), _PENALTY * ca.DM.ones(_EXCESS)))
 
-        kept = rows.selection @ ca.vec(pieces.rows.map(NODES)(z, load)) + rows.overdrawn @ excess
-        constraints = ca.vertcat(rows.defects @ flat, kept, pieces.end(last, load))
-        slopes = ca.diagcat(*ca.horzsplit(pieces.slope.map(NODES)(z, load), size))
-        end_slope = pieces.end_slope(last, load)
+        kept = rows.selection @ ca.vec(pieces["rows"].map(NODES)(z, load)) + rows.overdrawn @ excess
+        constraints = ca.vertcat(rows.defects @ flat, kept, pieces["end"](last, load))
+        slopes = ca.diagcat(*ca.horzsplit(pieces["slope"].map(NODES)(z, load), size))
+        end_slope = pieces["end_slope"](last, load)
         before, after = (ca.MX(end_slope.size1(), count) for count in (size * (NODES - 1), _EXCESS))
         jacobian = ca.vertcat(
             rows.defects,
@@ -109,9 +92,9 @@ class Program:
             on_rows, [0, rows.defects.size1(), len(rows.lower), constraints.numel()]
         )
         on_nodes = ca.reshape(rows.selection.T @ on_kept, -1, NODES)
-        bent = pieces.curvature.map(NODES)(z, load, on_nodes, on_goal * weights)
+        bent = pieces["curvature"].map(NODES)(z, load, on_nodes, on_goal * weights)
         blocks = ca.horzsplit(bent, size)
-        blocks[-1] += pieces.end_curvature(last, load, on_end)
+        blocks[-1] += pieces["end_curvature"](last, load, on_end)
         hessian = ca.diagcat(*blocks, ca.MX(_EXCESS, _EXCESS))
         self._options: dict[str, Any] = {
             **IPOPT_OPTIONS,
@@ -124,12 +107,21 @@ class Program:
         }
         self._nlp = {"x": flat, "p": load, "f": goal, "g": constraints}
 
-    def solve(self, start: FloatArray | Found, bounds: Bounds) -> Found:
+    def solve(
+        self,
+        start: FloatArray | Found,
+        lower: FloatArray,
+        upper: FloatArray,
+        end: FloatArray,
+        load: FloatArray,
+    ) -> Found:
         """The push-off of least cost; several threads may search at once.
 
         Args:
             start: unknowns to begin at, shape (size, nodes), or the answer for a similar jump.
-            bounds: of the jump.
+            lower, upper: bounds of the nodes' unknowns, shape (size, nodes).
+            end: what `Node.end` must be, shape (6,).
+            load: gravity and trunk, see `floating_base.Load.values`.
         """
         rows, options = self._rows, self._options
         if isinstance(start, Found):
@@ -141,23 +133,22 @@ class Program:
         solver = ca.nlpsol("push_off", "ipopt", self._nlp, options)
         found = solver(
             **begin,
-            lbx=np.append(bounds.lower.ravel("F"), np.zeros(_EXCESS)),
-            ubx=np.append(bounds.upper.ravel("F"), np.full(_EXCESS, np.inf)),
-            lbg=np.concatenate([rows.lower, bounds.end]),
-            ubg=np.concatenate([rows.upper, bounds.end]),
-            p=bounds.load,
+            lbx=np.append(lower.ravel("F"), np.zeros(_EXCESS)),
+            ubx=np.append(upper.ravel("F"), np.full(_EXCESS, np.inf)),
+            lbg=np.concatenate([rows.lower, end]),
+            ubg=np.concatenate([rows.upper, end]),
+            p=load,
         )
-        stats, x = solver.stats(), np.asarray(found["x"]).ravel()
-        nodes = x[:-_EXCESS].reshape(bounds.lower.shape, order="F")
+        x = np.asarray(found["x"]).ravel()
+        nodes = x[:-_EXCESS].reshape(lower.shape, order="F")
         return Found(
             nodes=nodes,
-            torque=np.asarray(self._torque(nodes, bounds.load)),
+            torque=np.asarray(self._torque(nodes, load)),
             excess=x[-_EXCESS:],
             x=x,
             on_bounds=np.asarray(found["lam_x"]).ravel(),
             on_rows=np.asarray(found["lam_g"]).ravel(),
-            solved=bool(stats["success"]),
-            iterations=int(stats["iter_count"]),
+            solved=bool(solver.stats()["success"]),
         )
 
 
@@ -216,62 +207,47 @@ class _Rows:
         )
 
 
-@dataclass(frozen=True, eq=False)
-class _Pieces:
+def _pieces(node: Node) -> dict[str, ca.Function]:
     """Functions of one node's unknowns and the load.
 
-    Attributes:
-        rows, slope: constraints of any node, and their Jacobian.
-        cost, cost_slope: per share of the time, and its gradient.
-        curvature: upper triangle of the Hessian of rows and cost, weighed by multipliers.
-        end, end_slope, end_curvature: likewise of the rows that only the last node has.
+    Of a sum of squares r^2 the Hessian is 2 J^T J and that of 2 r as multipliers: a third of the
+    operations that differentiating the sum twice takes. CasADi chooses between forward and reverse
+    mode by the shape of a Jacobian, so each block has its own.
+
+    Returns:
+        `rows` and `slope`: constraints of any node, and their Jacobian. `cost` and `cost_slope`:
+        per share of the time, and its gradient. `curvature`: upper triangle of the Hessian of rows
+        and cost, weighed by multipliers. `end`, `end_slope` and `end_curvature`: likewise of the
+        rows that only the last node has.
     """
-
-    rows: ca.Function
-    slope: ca.Function
-    cost: ca.Function
-    cost_slope: ca.Function
-    curvature: ca.Function
-    end: ca.Function
-    end_slope: ca.Function
-    end_curvature: ca.Function
-
-    @classmethod
-    def of(cls, node: Node) -> "_Pieces":
-        """Differentiate one node.
-
-        Of a sum of squares r^2 the Hessian is 2 J^T J and that of 2 r as multipliers: a third of
-        the operations that differentiating the sum twice takes. CasADi chooses between forward and
-        reverse mode by the shape of a Jacobian, so each block has its own.
-        """
-        z, given = node.unknowns, [node.unknowns, node.load]
-        rows = [block.fold @ block.values for block in node.blocks]
-        slopes = [block.fold @ ca.jacobian(block.values, z) for block in node.blocks]
-        residuals = ca.vertcat(*node.residuals)
-        steep = ca.vertcat(*(ca.jacobian(each, z) for each in node.residuals))
-        cost = ca.sumsqr(residuals)
-        on_rows = [ca.SX.sym("on_rows", block.fold.size1()) for block in node.blocks]
-        on_residuals, on_cost = ca.SX.sym("on_residuals", residuals.numel()), ca.SX.sym("on_cost")
-        linear = ca.dot(on_residuals, residuals)
-        for block, on in zip(node.blocks, on_rows, strict=True):
-            linear += ca.dot(block.fold.T @ on, block.values)
-        bent = ca.substitute(ca.hessian(linear, z)[0], on_residuals, 2.0 * on_cost * residuals)
-        on_end = ca.SX.sym("on_end", node.end.numel())
-        end_bent = ca.hessian(ca.dot(on_end, node.end), z)[0]
-        functions = {
-            "rows": (given, ca.vertcat(*rows)),
-            "slope": (given, ca.vertcat(*slopes)),
-            "cost": (given, cost),
-            "cost_slope": (given, ca.gradient(cost, z)),
-            "curvature": (
-                [*given, ca.vertcat(*on_rows), on_cost],
-                ca.triu(bent + 2.0 * on_cost * (steep.T @ steep)),
-            ),
-            "end": (given, node.end),
-            "end_slope": (given, ca.jacobian(node.end, z)),
-            "end_curvature": ([*given, on_end], ca.triu(end_bent)),
-        }
-        return cls(**{name: ca.Function(name, i, [o]) for name, (i, o) in functions.items()})
+    z, given = node.unknowns, [node.unknowns, node.load]
+    rows = [block.fold @ block.values for block in node.blocks]
+    slopes = [block.fold @ ca.jacobian(block.values, z) for block in node.blocks]
+    residuals = ca.vertcat(*node.residuals)
+    steep = ca.vertcat(*(ca.jacobian(each, z) for each in node.residuals))
+    cost = ca.sumsqr(residuals)
+    on_rows = [ca.SX.sym("on_rows", block.fold.size1()) for block in node.blocks]
+    on_residuals, on_cost = ca.SX.sym("on_residuals", residuals.numel()), ca.SX.sym("on_cost")
+    linear = ca.dot(on_residuals, residuals)
+    for block, on in zip(node.blocks, on_rows, strict=True):
+        linear += ca.dot(block.fold.T @ on, block.values)
+    bent = ca.substitute(ca.hessian(linear, z)[0], on_residuals, 2.0 * on_cost * residuals)
+    on_end = ca.SX.sym("on_end", node.end.numel())
+    end_bent = ca.hessian(ca.dot(on_end, node.end), z)[0]
+    functions = {
+        "rows": (given, ca.vertcat(*rows)),
+        "slope": (given, ca.vertcat(*slopes)),
+        "cost": (given, cost),
+        "cost_slope": (given, ca.gradient(cost, z)),
+        "curvature": (
+            [*given, ca.vertcat(*on_rows), on_cost],
+            ca.triu(bent + 2.0 * on_cost * (steep.T @ steep)),
+        ),
+        "end": (given, node.end),
+        "end_slope": (given, ca.jacobian(node.end, z)),
+        "end_curvature": ([*given, on_end], ca.triu(end_bent)),
+    }
+    return {name: ca.Function(name, i, [o]) for name, (i, o) in functions.items()}
 
 
 def _ones(rows: NDArray[Any], columns: NDArray[Any], shape: tuple[int, int]) -> ca.DM:

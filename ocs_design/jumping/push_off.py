@@ -19,7 +19,7 @@ from ocs_design.jumping.node import (
     limit_or_inf,
     spline_slopes,
 )
-from ocs_design.jumping.program import Bounds, Found, Program
+from ocs_design.jumping.program import Found, Program
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.stance import lifted
 from ocs_design.robot.tree import JointKind
@@ -50,7 +50,6 @@ class PushOff:
         torque: of the joints [N m or N], shape (k, n).
         force: of the ground on each foot, in the world [N], shape (k, legs, 3).
         forbidden: which limit forbids it, as a sentence; empty if none does.
-        iterations: that it took.
         answer: of the program, to begin the search for a similar push-off at.
     """
 
@@ -61,7 +60,6 @@ class PushOff:
     torque: FloatArray
     force: FloatArray
     forbidden: str
-    iterations: int
     answer: Found
 
     def joints_at(self, times: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -112,12 +110,11 @@ class PushOffs:
         velocity = np.array([jump.forward, 0.0, jump.upward]) / unit
         turning = np.zeros(3) if spin is None else spin / (mass * unit * body.length)
         end = np.concatenate([velocity, turning])
-        load = Load.values(jump.gravity, trunk)
-        bounds = Bounds(lower, upper, end, load)
-        found = None if similar is None else self._program.solve(similar.answer, bounds)
+        bounds = lower, upper, end, Load.values(jump.gravity, trunk)
+        found = None if similar is None else self._program.solve(similar.answer, *bounds)
         if found is None or not found.solved:
             begin = np.clip(_initial_guess(body, jump, crouch), lower, upper)
-            found = self._program.solve(begin, bounds)
+            found = self._program.solve(begin, *bounds)
         z = found.nodes
         duration = z[layout.duration, -1]
         return PushOff(
@@ -128,7 +125,6 @@ class PushOffs:
             torque=found.torque.T,
             force=z[layout.f].T.reshape(NODES, -1, 3) * (mass * jump.gravity),
             forbidden=_exceeded_limits(body, layout, found),
-            iterations=found.iterations,
             answer=found,
         )
 
@@ -221,46 +217,27 @@ def _bounds_of_unknowns(
 
 def _exceeded_limits(body: LeggedBody, layout: NodeLayout, found: Found) -> str:
     """Limits that the push-off exceeds, and by how much, as text; empty if none."""
-    duration = found.nodes[layout.duration, -1]
+    duration, sentences = found.nodes[layout.duration, -1], []
     speed = found.nodes[layout.v][-layout.joints :] / duration
-    sentences = []
-    if found.excess[Limit.TORQUE] > _OVERDRAWN:
-        limits = [limit_or_inf(joint.effort) for joint in body.joints]
+    # Units are those of hinges and of slides.
+    for limit, quantity, name, units, values in (
+        (Limit.TORQUE, "torque", "effort", ("N m", "N"), found.torque),
+        (Limit.SPEED, "speed", "velocity", ("rad/s", "m/s"), speed),
+    ):
+        if found.excess[limit] <= _OVERDRAWN:
+            continue
+        limits = np.array([limit_or_inf(getattr(joint, name)) for joint in body.joints])
+        # The joint that needs the largest share of its limit, and when; of equals the last.
+        share = np.abs(values) / limits[:, None]
+        row, instant = np.argwhere(share >= (1.0 - _OVERDRAWN) * share.max())[-1]
+        joint, time = body.joints[row], duration * float(SHARES[instant])
+        unit = units[joint.kind is JointKind.PRISMATIC]
         sentences.append(
-            _Asked("torque", ("N m", "N"), found.torque, np.array(limits)).worst(body, duration)
-        )
-    if found.excess[Limit.SPEED] > _OVERDRAWN:
-        limits = [limit_or_inf(joint.velocity) for joint in body.joints]
-        sentences.append(
-            _Asked("speed", ("rad/s", "m/s"), speed, np.array(limits)).worst(body, duration)
+            f"the {quantity} of joint '{joint.name}' would be {abs(values[row, instant]):.3g} "
+            f"{unit} at {time:.3g} s, more than its {limits[row]:.3g} {unit}"
         )
     if found.excess[Limit.FRICTION] > _OVERDRAWN:
         sentences.append(f"the feet would need a coefficient of friction above {FRICTION}")
     if not sentences and not found.solved:
         return "no push-off was found within the legs' reach"
     return "; ".join(sentences)
-
-
-@dataclass(frozen=True, eq=False)
-class _Asked:
-    """What a push-off asks of the joints: values of shape (n, nodes), limits of shape (n,).
-
-    Its units are those of hinges and of slides.
-    """
-
-    quantity: str
-    units: tuple[str, str]
-    values: FloatArray
-    limits: FloatArray
-
-    def worst(self, body: LeggedBody, duration: float) -> str:
-        """The joint that needs the largest share of its limit, and when; of equals the last."""
-        share = np.abs(self.values) / self.limits[:, None]
-        largest = share >= (1.0 - _OVERDRAWN) * share.max()
-        joint, instant = np.argwhere(largest)[-1]
-        needed, time = abs(self.values[joint, instant]), duration * float(SHARES[instant])
-        unit = self.units[body.joints[joint].kind is JointKind.PRISMATIC]
-        return (
-            f"the {self.quantity} of joint '{body.joints[joint].name}' would be {needed:.3g} "
-            f"{unit} at {time:.3g} s, more than its {self.limits[joint]:.3g} {unit}"
-        )
