@@ -4,10 +4,11 @@ from dataclasses import dataclass, replace
 
 import casadi as ca
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.device.layout import module_axes
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.maneuver import Disturbance, Drop, End, Flip
 from ocs_design.sizing.trajectory.boundary import boundary
 from ocs_design.sizing.trajectory.flight import Flight, fly
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
@@ -41,6 +42,23 @@ def drop(pitch, roll=0.0):
 
 def asked(maneuver):
     return boundary(maneuver, STANDING)
+
+
+def missed(asked, path):
+    """Angle of the end to the attitude asked for [rad], or of the verticals if the heading is free.
+
+    By SciPy's rotations, the scalar first.
+    """
+    ended, wanted = Rotation.from_quat([path.attitude[-1], asked.final_attitude], scalar_first=True)
+    if asked.end == End.ATTITUDE:
+        return (wanted.inv() * ended).magnitude()
+    up, level = (each.inv().apply([0.0, 0.0, 1.0]) for each in (ended, wanted))
+    return np.arctan2(np.linalg.norm(np.cross(up, level)), up @ level)
+
+
+def end_rate(gyrostat, path):
+    """Rate at the end about the axes that the wheels reach [rad/s]."""
+    return np.linalg.norm(gyrostat.turns_about @ path.rate[-1])
 
 
 @dataclass(frozen=True, eq=False)

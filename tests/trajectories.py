@@ -23,8 +23,7 @@ def from_rest(body: Gyrostat, turn: Turn, *, samples: int = 4001) -> Trajectory:
     spin_up = np.gradient(speed, time, axis=0, edge_order=2)
     torque = body.spin_inertia * acceleration @ body.axes
     torque += (body.spin_inertia + body.armature) * spin_up
-    turned = turn.angle(time) - turn.angle(time[:1])
-    return Trajectory(time, vertical, rate, acceleration, speed, torque, turned, "by hand")
+    return Trajectory(time, vertical, rate, acceleration, speed, torque, "by hand")
 
 
 def _vertical(turn: Turn, time: FloatArray) -> FloatArray:

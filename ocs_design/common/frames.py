@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray, frozen
 
 
@@ -43,14 +44,7 @@ def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> FloatArray:
 def rotation_from_quaternion(wxyz: ArrayLike) -> FloatArray:
     """Rotation of the quaternion (w, x, y, z), of any length but zero, shape (3, 3)."""
     quaternion = np.asarray(wxyz, dtype=np.float64)
-    w, x, y, z = quaternion / np.linalg.norm(quaternion)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    return quaternions.matrix(quaternion / np.linalg.norm(quaternion))
 
 
 def rpy_from_rotation(rotation: FloatArray) -> FloatArray:

@@ -8,6 +8,7 @@ from functools import cached_property
 import mujoco
 import numpy as np
 
+from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray, stacked_columns
 from ocs_design.device.bodies import PREFIX
 from ocs_design.device.device import Device
@@ -22,7 +23,6 @@ from ocs_design.requirement.uncertainty import (
 )
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation import quaternions
 from ocs_design.simulation.imperfections import AirDrag, Imperfections
 from ocs_design.simulation.launch import Push
 from ocs_design.simulation.motor_limits import MotorLimits

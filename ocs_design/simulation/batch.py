@@ -1,6 +1,6 @@
 """Worlds that run in step: physics in MuJoCo's `rollout`, the vectorised law in between."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, fields, replace
 from threading import Event
@@ -10,8 +10,8 @@ import numpy as np
 from mujoco.rollout import Rollout
 from numpy.typing import NDArray
 
+from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray
-from ocs_design.simulation import quaternions
 from ocs_design.simulation.desaturation import WheelBrake
 from ocs_design.simulation.imperfections import Drives, Sensing
 from ocs_design.simulation.physics import Engine, Physics
@@ -23,7 +23,6 @@ from ocs_design.simulation.schedule import (
     References,
     StoppedDrives,
 )
-from ocs_design.simulation.target import Target
 from ocs_design.simulation.wheel_law import WheelLaw
 from ocs_design.simulation.world import World, start_states
 
@@ -110,16 +109,6 @@ def empty_recording(
     )
 
 
-def pose_stride(rate: float | None, period: float) -> int:
-    """Control steps from one pose to the next; 0 where none are wanted.
-
-    Args:
-        rate: of the poses [1/s].
-        period: of the control steps [s].
-    """
-    return 0 if rate is None else max(1, round(1.0 / (rate * period)))
-
-
 def joined(parts: Sequence[Recording], places: Sequence[NDArray[np.intp]]) -> Recording:
     """Several recordings as one.
 
@@ -184,7 +173,7 @@ class Batch:
             times,
             self._lengths,
             wheels=len(worlds[0].wheels),
-            pose_stride=pose_stride(pose_rate, self._period),
+            pose_stride=max(1, round(1.0 / (pose_rate * self._period))) if pose_rate else 0,
             nq=first.nq,
         )
         self._references = References(worlds, times, self._period)
@@ -218,8 +207,9 @@ class Batch:
         n, ctrl = len(worlds), np.stack([world.ctrl for world in worlds])
         self._states = np.empty((n, hold, self._state.shape[1]))
         self._sensors = np.empty((n, hold, first.nsensordata))
-        self._control = _held(ctrl, hold)
-        self._pushed_control = _held(np.hstack([ctrl, np.zeros((n, 6 * first.nbody))]), hold)
+        self._control = np.repeat(ctrl[:, None], hold, axis=1)
+        unpushed = np.zeros((n, hold, 6 * first.nbody))
+        self._pushed_control = np.concatenate([self._control, unpushed], axis=2)
         self._push_address = first.nu + 6 * self._addresses.trunk + 3
         self._body_mass = np.stack([world.model.body_mass for world in worlds])
         # Weight times lever as built, in B; those on a pivot are a batch of their own.
@@ -239,12 +229,16 @@ class Batch:
         if self._engine is not None:
             physics = self._engine.physics()
         with physics as pool:
-            for k, running, law in self._control_steps():
+            law = self._law
+            for k in range(int(self._lengths[0])):
                 if stop.is_set():
                     break
                 if k % _TELLING == 0:
                     progress(float(np.minimum(self._lengths, k).sum() / self._lengths.sum()))
-                asked = self.observe_and_decide(k, running, law)
+                running = int(np.count_nonzero(self._lengths > k))
+                if running < len(law.stiffness):
+                    law = law.take(slice(running))
+                asked, _ = self.observe_and_decide(k, law)
                 self.advance(pool, data, k, self.driven(k, asked))
                 self.record_sensors(k, running)
         return self.recorded(data[0])
@@ -266,46 +260,41 @@ class Batch:
         self._record.lift_off[:] = self._clock.lift_off
         return self._record
 
-    def _control_steps(self) -> Iterator[tuple[int, int, WheelLaw | None]]:
-        """Each control instant, how many worlds run, and their law; None where all are off."""
-        begin = 0
-        for end in np.unique(self._lengths):
-            running = int(np.count_nonzero(self._lengths > begin))
-            law = self._law.take(slice(running))
-            for k in range(begin, end):
-                yield k, running, None if law.is_off else law
-            begin = end
+    def observe_and_decide(
+        self, k: int, law: WheelLaw
+    ) -> tuple[FloatArray, tuple[FloatArray, FloatArray, FloatArray]]:
+        """Record trunk and wheels at instant `k` of the first n worlds, which have this law.
 
-    def observe_and_decide(self, k: int, running: int, law: WheelLaw | None) -> FloatArray:
-        """Record trunk and wheels at instant `k`; torques asked of the motors, (n, wheels)."""
+        Returns:
+            Torques asked of the motors [N m], (n, wheels); vertical, rate and attitude as they were
+            measured, see `WheelLaw.torque`.
+        """
+        running = len(law.stiffness)
         record, qpos, qvel = self._record, self._qpos[:running], self._qvel[:running]
         attitude, rate = self._chain.attitude(qpos), self._chain.rate(qpos, qvel)
-        speed = qvel[:, self._wheels]
+        speed, vertical = qvel[:, self._wheels], quaternions.vertical(attitude)
         record.attitude[k, :running] = attitude
         record.rate[k, :running] = rate
         record.wheel_speed[k, :running] = speed
         if record.pose_stride and k % record.pose_stride == 0:
             record.qpos[k // record.pose_stride, :running] = qpos
-        if law is None:
-            asked = np.zeros((running, len(self._wheels)))
-        else:
-            steps = self._clock.steps(k, running)
-            vertical = quaternions.vertical(attitude)
-            contact = record.contact[k - 1, :running]
-            target = self._references.at(steps).landed(contact)
-            if self._brake is not None:
-                target = self._brake.added(target, speed, contact)
-            if self._sensing is not None:
-                vertical, rate = self._sensing.measured(k, vertical, rate)
-                attitude = self._sensing.attitude(k, attitude)
-            if self._stopped is not None:
-                target = replace(target, shared=self._stopped.shared(steps))
-            asked = self.decide(law, vertical, rate, speed, target, attitude=attitude)
-            # The wheels wait for lift-off.
-            asked[steps < 0] = 0.0
-            if self._stopped is not None:
-                asked = self._stopped.left(steps, asked)
-        return asked
+        if law.is_off:
+            return np.zeros((running, len(self._wheels))), (vertical, rate, attitude)
+        steps, contact = self._clock.steps(k, running), record.contact[k - 1, :running]
+        target = self._references.at(steps).landed(contact)
+        if self._brake is not None:
+            target = self._brake.added(target, speed, contact)
+        if self._sensing is not None:
+            vertical, rate = self._sensing.measured(k, vertical, rate)
+            attitude = self._sensing.attitude(k, attitude)
+        if self._stopped is not None:
+            target = replace(target, shared=self._stopped.shared(steps))
+        asked = law.torque(vertical, rate, speed, target, self._period, attitude=attitude)
+        # The wheels wait for lift-off.
+        asked[steps < 0] = 0.0
+        if self._stopped is not None:
+            asked = self._stopped.left(steps, asked)
+        return asked, (vertical, rate, attitude)
 
     def driven(self, k: int, torque: FloatArray) -> FloatArray:
         """Torques on the wheels from instant `k` on, which motors make of those asked for.
@@ -317,19 +306,6 @@ class Batch:
             torque, acting = self._drives.driven(k, torque, self._record.wheel_speed[k, :n])
         self._record.wheel_torque[k, :n] = torque
         return acting
-
-    def decide(
-        self,
-        law: WheelLaw,
-        vertical: FloatArray,
-        rate: FloatArray,
-        speed: FloatArray,
-        target: Target,
-        *,
-        attitude: FloatArray,
-    ) -> FloatArray:
-        """Torques that the law asks for; see `WheelLaw.torque`."""
-        return law.torque(vertical, rate, speed, target, self._period, attitude=attitude)
 
     def advance(self, pool: Physics, data: list[mujoco.MjData], k: int, torque: FloatArray) -> None:
         """Control step `k` of physics, with the outer torque of that step and its impulse."""
@@ -406,8 +382,3 @@ def _pull(world: World) -> FloatArray:
     lever = built.com - data.xpos[model.body(ANCHOR).id]
     to_world = quaternions.matrix(world.chain.attitude(world.qpos))
     return np.asarray(-built.mass * model.opt.gravity[2] * lever @ to_world)
-
-
-def _held(values: FloatArray, hold: int) -> FloatArray:
-    """Values repeated in each step of a control step, shape (n, hold, ...)."""
-    return np.ascontiguousarray(np.repeat(values[:, None], hold, axis=1))

@@ -18,9 +18,9 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
+from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray, stacked_columns
 from ocs_design.export.templates import fill
-from ocs_design.simulation import quaternions
 from ocs_design.simulation.desaturation import Desaturation
 from ocs_design.simulation.loop import LoopMargins, level_margins, plan_margins
 from ocs_design.simulation.schedule import References
@@ -192,7 +192,7 @@ def targets_of(worlds: Sequence[World], period: float) -> list[list[Target]]:
     for k in range(len(times)):
         now = references.at(np.full(len(worlds), k))
         for i, own in enumerate(found):
-            target = _with(now, {name: value[i : i + 1] for name, value in _arrays(now)})
+            target = now.take(slice(i, i + 1))
             plan = target.plan
             if plan is not None and not plan.holds.any():
                 # Numbers that do not count, and would be a row of their own at each instant.

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 import mujoco
 import numpy as np
 
+from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
 from ocs_design.common.frames import rotation_about
@@ -13,7 +14,6 @@ from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, S
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation import quaternions
 from ocs_design.simulation.reference import LEVEL, Profile, Quintic, Turn
 from ocs_design.sizing.trajectory.boundary import pivot_boundary
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
@@ -143,17 +143,6 @@ def on_pivot(maneuver: Pivoted, gyrostat: Gyrostat) -> Launch:
     height = -float((rotation @ np.array(maneuver.pivot))[2])
     speed = maneuver.wheel_speed
     return Launch(rotation, height, np.zeros(3), LEVEL, NO_PUSH, asked.rate, speed)
-
-
-def level_launch(maneuver: Maneuver, standing_height: float) -> Launch:
-    """Launch of the same flight, level and undisturbed: it shows what the legs can bear."""
-    start = launch(maneuver, standing_height, Quintic())
-    return Launch(np.eye(3), start.height, start.velocity, LEVEL, NO_PUSH)
-
-
-def on_the_ground(start: Launch, standing_height: float) -> Launch:
-    """Launch at rest with the feet on the ground: the legs make the flight."""
-    return replace(start, height=standing_height, velocity=np.zeros(3))
 
 
 def flight_time(maneuver: Maneuver, start: Launch, standing_height: float) -> float:

@@ -6,8 +6,8 @@ What shows in the figures of a run, momentum and wheels that are too fast, is fo
 import mujoco
 import numpy as np
 
+from ocs_design.common import quaternions
 from ocs_design.export.physics import lowest_point
-from ocs_design.simulation import quaternions
 from ocs_design.simulation.batch import Recording
 from ocs_design.simulation.run import UPRIGHT_TILT, Metrics, Series
 from ocs_design.simulation.world import World

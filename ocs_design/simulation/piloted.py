@@ -6,11 +6,9 @@ import mujoco
 import numpy as np
 from mujoco.rollout import Rollout
 
+from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray
-from ocs_design.simulation import quaternions
 from ocs_design.simulation.batch import Batch, Recording
-from ocs_design.simulation.target import Target
-from ocs_design.simulation.wheel_law import WheelLaw
 from ocs_design.simulation.world import World
 
 
@@ -94,25 +92,9 @@ class PilotedFlight(Batch):
         return self.recorded(self._physics[0])
 
     def _look(self) -> Seen:
-        self.observe_and_decide(self._instant, 1, self._law)
-        return self._found
-
-    def decide(
-        self,
-        law: WheelLaw,
-        vertical: FloatArray,
-        rate: FloatArray,
-        speed: FloatArray,
-        target: Target,
-        *,
-        attitude: FloatArray,
-    ) -> FloatArray:
-        """What the law would ask for, noted with what it saw."""
-        torque = super().decide(law, vertical, rate, speed, target, attitude=attitude)
-        most = np.full_like(speed, np.inf)
-        gain = (law.wheel_response * self._period)[:, None]
-        low, high = (law.limits.clipped(all_of, speed, gain) for all_of in (-most, most))
-        speed = speed[0].copy()
-        seen = vertical[0], quaternions.heading(attitude)[0], rate[0], speed
-        self._found = Seen(*seen, torque[0], low[0], high[0])
-        return torque
+        asked, (vertical, rate, attitude) = self.observe_and_decide(self._instant, self._law)
+        speed = self._record.wheel_speed[self._instant, :1].copy()
+        gain, most = (self._law.wheel_response * self._period)[:, None], np.full_like(speed, np.inf)
+        low, high = (self._law.limits.clipped(all_of, speed, gain)[0] for all_of in (-most, most))
+        heading = quaternions.heading(attitude)[0]
+        return Seen(vertical[0], heading, rate[0], speed[0], asked[0], low, high)

@@ -51,7 +51,7 @@ class Series:
 
     def columns(self) -> Mapping[str, FloatArray]:
         """Each scalar by name and unit, as in a CSV file."""
-        axes = "xyz"
+        axes, supply = "xyz", {"bus_power_w": self.bus_power, "bus_current_a": self.bus_current}
         return {
             "time_s": self.time,
             **{f"com_{axis}_m": self.com[:, i] for i, axis in enumerate(axes)},
@@ -63,8 +63,7 @@ class Series:
             **self._of_wheels("wheel_torque_{}_nm", self.wheel_torque),
             **self._of_wheels("wheel_torque_lowest_{}_nm", self.torque_lowest),
             **self._of_wheels("wheel_torque_highest_{}_nm", self.torque_highest),
-            **_known("bus_power_w", self.bus_power),
-            **_known("bus_current_a", self.bus_current),
+            **{name: values for name, values in supply.items() if values is not None},
             "contact": self.contact,
         }
 
@@ -73,11 +72,6 @@ class Series:
         if values is None:
             return {}
         return {name.format(wheel): values[:, i] for i, wheel in enumerate(self.wheels)}
-
-
-def _known(name: str, values: FloatArray | None) -> Mapping[str, FloatArray]:
-    """One column; none where there is nothing to tell."""
-    return {} if values is None else {name: values}
 
 
 @dataclass(frozen=True)

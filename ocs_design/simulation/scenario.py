@@ -142,7 +142,8 @@ def run_scenarios(flights: Flights, progress: Progress | None = None) -> tuple[R
         if lands and down and not any(stands(metrics) for metrics in down):
             doubtful.append(index)
     landings = [
-        builder.level_landing(maneuvers[i], flights.starts(maneuvers[i]).carrying) for i in doubtful
+        builder.flight(each, Wheels.BRAKED, None, flights.starts(each).carrying, level=True)
+        for each in [maneuvers[index] for index in doubtful]
     ]
     for index, flight in zip(doubtful, fly(landings, flights.options), strict=True):
         can_stand[index] = stands(flight.metrics)

@@ -6,15 +6,15 @@ sum. Unlike the wheels' law it needs no feedback from the batch, and changes at 
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TypeAlias
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray, interpolated
-from ocs_design.simulation import quaternions
 from ocs_design.simulation.target import RegulatedPlan, Target
 from ocs_design.simulation.wheel_law import WheelLaw
 from ocs_design.simulation.world import World
@@ -136,25 +136,11 @@ def _commands(world: World) -> FloatArray:
 _LEVEL = np.array([0.0, 0.0, 1.0])
 
 
-@dataclass(frozen=True, eq=False)
-class Track:
-    """What a trunk with m wheels should do at k control instants; after the end it is held.
+def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: float) -> Target:
+    """The trajectory as the law of one world follows it; after the end the trunk is held.
 
-    Attributes:
-        vertical: the world's upward direction in B, unit vectors (k, 3).
-        rate: in B [rad/s], (k, 3).
-        torque: what the motors give before any feedback [N m], (k, m); see `Target.torque`.
-        plan: of a trajectory with gains, its instants in place of worlds; None: it has none.
-    """
-
-    vertical: FloatArray
-    rate: FloatArray
-    torque: FloatArray
-    plan: RegulatedPlan | None = None
-
-
-def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: float) -> Track:
-    """The trajectory as the law of one world follows it.
+    Returns:
+        Its k instants in place of worlds. The acceleration is zero: the torque holds it.
 
     Args:
         law: of one world.
@@ -179,7 +165,7 @@ def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: floa
     given = np.diff(integral, axis=0) / period
 
     held = _LEVEL if trajectory.gains is None else trajectory.vertical[-1]
-    ends = np.where(flying, vertical, held)
+    ends, stands = np.where(flying, vertical, held), np.zeros(len(times), dtype=np.bool_)
     if trajectory.gains is not None and trajectory.attitude is not None:
         attitude = interpolated(times, trajectory.time, trajectory.attitude)
         gains = interpolated(times, trajectory.time, trajectory.gains.reshape(len(samples), -1))
@@ -191,11 +177,11 @@ def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: floa
             gains.reshape(len(times), *trajectory.gains.shape[1:]),
             flying[:, 0],
         )
-        return Track(ends, rate, np.zeros_like(given), plan)
+        return Target(ends, rate, np.zeros_like(rate), np.zeros_like(given), stands, plan)
     # The law adds the gyroscopic torque of the motion that it sees; that of the motion that was
     # planned is in the planned torque already.
     planned = law.gyroscopic(rate, speed) @ law.torque_map[0, :, 2:].T
-    return Track(ends, rate, given - planned)
+    return Target(ends, rate, np.zeros_like(rate), given - planned, stands)
 
 
 Steps: TypeAlias = NDArray[np.int64]
@@ -220,11 +206,10 @@ class References:
         self._first_row = np.full(len(worlds), NEVER)
         for index, world in enumerate(worlds):
             if world.trajectory is not None:
-                # Its torque holds its acceleration.
                 planned = track(world.trajectory, world.law, times, period)
                 self._vertical[:, index] = planned.vertical
                 self._rate[:, index] = planned.rate
-                self._acceleration[:, index] = 0.0
+                self._acceleration[:, index] = planned.acceleration
                 self._torque[:, index] = planned.torque
                 if planned.plan is not None:
                     plans[id(world.trajectory)] = planned.plan

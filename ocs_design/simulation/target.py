@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray, Table
-from ocs_design.simulation import quaternions
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +38,7 @@ class RegulatedPlan(Table):
 
 
 @dataclass(frozen=True, eq=False)
-class Target:
+class Target(Table):
     """Attitude and rate that n trunks should have at one instant.
 
     Attributes:

@@ -5,7 +5,6 @@ stand apart, and the device.
 """
 
 from collections.abc import Iterable
-from typing import NamedTuple
 
 import numpy as np
 
@@ -39,19 +38,15 @@ _SAMPLE = 2e-3
 _HEIGHTS = 21
 
 
-class Waiting(NamedTuple):
-    """What a robot does on the ground before it is shoved.
+def waiting(
+    maneuver: Maneuver, robot: Robot, weight: float, settling: float
+) -> tuple[float | None, LegTrajectory | None]:
+    """How long a robot waits on the ground until it is shoved [s], and what its legs track.
 
-    Attributes:
-        duration: [s]; None: it is not shoved. legs: what they track; None: their posture.
-    """
+    It stands until they have given way under its weight, or trots.
 
-    duration: float | None
-    legs: LegTrajectory | None
-
-
-def waiting(maneuver: Maneuver, robot: Robot, weight: float, settling: float) -> Waiting:
-    """It stands until its legs have given way under its weight, or trots.
+    Returns:
+        None: it is not shoved; None: the legs hold their posture.
 
     Args:
         robot: see `Robot`.
@@ -62,12 +57,11 @@ def waiting(maneuver: Maneuver, robot: Robot, weight: float, settling: float) ->
         SpecificationError: it is to trot and has no two diagonal pairs of point feet.
     """
     if not isinstance(maneuver, Shove):
-        return Waiting(None, None)
+        return None, None
     if not maneuver.stride:
-        return Waiting(settling, None)
+        return settling, None
     duration = shoved_at(maneuver.stride, TROTTED * settling)
-    legs = trot(robot, maneuver.stride, settling, duration + settling, weight)
-    return Waiting(duration, legs)
+    return duration, trot(robot, maneuver.stride, settling, duration + settling, weight)
 
 
 def require_trot(maneuvers: Iterable[Maneuver], robot: Robot) -> None:

@@ -6,12 +6,12 @@ from math import remainder, tau
 
 import numpy as np
 
+from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray
 from ocs_design.export.physics import STEADY_LEGS
 from ocs_design.requirement.maneuver import End, Flip, Maneuver, Shove
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.requirement.turns import TurnTo
-from ocs_design.simulation import quaternions
 from ocs_design.simulation.run import LANDING_TOLERANCE, UPRIGHT_TILT, Metrics
 from ocs_design.sizing.trajectory.boundary import boundary
 

@@ -7,9 +7,10 @@ world. States and commands follow at every control step, and the law stays where
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import fields
+from functools import partial
 from importlib import import_module
 from importlib.metadata import version
-from types import ModuleType, TracebackType
+from types import ModuleType
 from typing import Any
 
 import mujoco
@@ -58,11 +59,10 @@ def warp_engine(device: str | None = None) -> Engine:
                 "--engine warp needs a CUDA device; none was found", hint="leave --engine out"
             )
         device = "cuda:0"
-    chosen = device
     return Engine(
         name=f"mujoco-warp {version('mujoco-warp')}",
         gate=SINGLE_GATE,
-        physics=lambda: WarpPhysics(warp, simulator, chosen),
+        physics=partial(WarpPhysics, warp, simulator, device),
     )
 
 
@@ -79,12 +79,7 @@ class WarpPhysics:
     def __enter__(self) -> "WarpPhysics":
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_raised: object) -> None:
         self._model = self._data = None
 
     def rollout(

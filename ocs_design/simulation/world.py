@@ -10,12 +10,12 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
+from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray
 from ocs_design.jumping.jump import LegTrajectory
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import Body, JointKind
-from ocs_design.simulation import quaternions
 from ocs_design.simulation.desaturation import Desaturation
 from ocs_design.simulation.imperfections import Imperfections
 from ocs_design.simulation.launch import Push

@@ -27,16 +27,16 @@ from ocs_design.requirement.vocabulary import CONTROL_PERIOD
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.desaturation import Desaturation
 from ocs_design.simulation.launch import (
+    NO_PUSH,
+    Launch,
     flight_time,
     launch,
-    level_launch,
     on_pivot,
-    on_the_ground,
     place,
 )
 from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.physics import Engine
-from ocs_design.simulation.reference import Profile, Quintic, fit_turn
+from ocs_design.simulation.reference import LEVEL, Profile, Quintic, fit_turn
 from ocs_design.simulation.scene import (
     JUMP_STEP,
     Sensor,
@@ -107,6 +107,8 @@ class WorldBuilder:
         wheels: Wheels,
         trajectory: Trajectory | None = None,
         jump: JumpPlan = IN_FLIGHT,
+        *,
+        level: bool = False,
     ) -> World:
         """The maneuver with the wheels active, braked or absent.
 
@@ -114,24 +116,10 @@ class WorldBuilder:
             trajectory: that active wheels track; None: a smooth turn that suits them. A disturbance
                 is not known beforehand, and is met by feedback alone.
             jump: how the legs push the robot off the ground, if they do.
+            level: fly it level and undisturbed, which shows what the legs can bear.
         """
         if wheels is not Wheels.ACTIVE or isinstance(maneuver, Unforeseen):
             trajectory = None
-        return self._build(maneuver, wheels, trajectory, jump, level=False)
-
-    def level_landing(self, maneuver: Maneuver, jump: JumpPlan = IN_FLIGHT) -> World:
-        """World of the same flight, level, undisturbed, wheels braked: what the legs can bear."""
-        return self._build(maneuver, Wheels.BRAKED, None, jump, level=True)
-
-    def _build(
-        self,
-        maneuver: Maneuver,
-        wheels: Wheels,
-        trajectory: Trajectory | None,
-        jump: JumpPlan,
-        *,
-        level: bool,
-    ) -> World:
         device, legs = self._device.as_flown(maneuver), jump.legs
         pivoted = maneuver if isinstance(maneuver, Pivoted) else None
         model = compile_scene(
@@ -141,7 +129,9 @@ class WorldBuilder:
         standing = stand(self._robot, model, data)
         set_gains(model, data, self._robot)
         drives = [model.actuator(name).id for name in leg_joints(self._robot)]
-        support = np.zeros(model.nu)
+        # Every leg drive at the nominal posture, the motors at zero.
+        ctrl, support = np.zeros((2, model.nu))
+        ctrl[drives] = [self._robot.posture[name] for name in leg_joints(self._robot)]
         support[drives] = (
             standing_torques(model, data, self._robot) / model.actuator_gainprm[drives, 0]
         )
@@ -161,22 +151,23 @@ class WorldBuilder:
             if trajectory is None:
                 # No brake stops what cannot be spun up, or is not there.
                 start = replace(start, rate=pivoted.struck)
-        elif level:
-            start = level_launch(maneuver, standing)
         else:
             start = launch(maneuver, standing, self._options.drop_profile)
+            if level:
+                start = Launch(np.eye(3), start.height, start.velocity, LEVEL, NO_PUSH)
         flight = flight_time(maneuver, start, standing)
-        settling = settling_time(self._robot, maneuver.gravity or STANDARD_GRAVITY)
-        weight = float(model.body_mass.sum()) * maneuver.gravity
-        waits = waiting(maneuver, self._robot, weight, settling)
+        # For how long it is watched after touchdown: one second for Solo12 on Earth.
+        settling = Scale.of(self._robot).time(maneuver.gravity or STANDARD_GRAVITY)
+        stands, trot = waiting(
+            maneuver, self._robot, float(model.body_mass.sum()) * maneuver.gravity, settling
+        )
 
-        duration = (waits.duration or 0.0) + (0.0 if legs is None else legs.lift_off)
-        duration += flight + settling
+        lift_off = 0.0 if legs is None else legs.lift_off
+        duration = (stands or 0.0) + lift_off + (flight + settling)
         if pivoted is not None:
             standing, duration = -np.inf, (1.0 + HELD_ON) * pivoted.duration
 
-        active = wheels is Wheels.ACTIVE
-        turn = start.turn
+        active, turn = wheels is Wheels.ACTIVE, start.turn
         if active and trajectory is None:
             turn = fit_turn(turn, body, self._limits)
         changed = turn.note if trajectory is None else trajectory.note
@@ -192,13 +183,10 @@ class WorldBuilder:
                 self._robot, standing, body.spin_inertia, maneuver.gravity
             )
 
-        # Every leg drive at the nominal posture, the motors at zero.
-        ctrl = np.zeros(model.nu)
-        for name in leg_joints(self._robot):
-            ctrl[model.actuator(name).id] = self._robot.posture[name]
         takes_off = bool(start.velocity.any())
         if legs is not None:
-            start = on_the_ground(start, standing)
+            # At rest on its feet: the legs make the flight.
+            start = replace(start, height=standing, velocity=np.zeros(3))
         place(self._robot, model, data, start, standing)
         where = addresses(model, device)
         if active:
@@ -208,7 +196,7 @@ class WorldBuilder:
             qpos=data.qpos.copy(),
             qvel=data.qvel.copy(),
             ctrl=ctrl,
-            support=support if waits.legs is None else np.zeros(model.nu),
+            support=support if trot is None else np.zeros(model.nu),
             addresses=where,
             wheels=tuple(module.name for module in device.modules),
             chain=TrunkChain.of(self._robot, model),
@@ -217,10 +205,10 @@ class WorldBuilder:
             limits=self._limits if active and self._limits.is_finite else None,
             turn=turn,
             trajectory=trajectory,
-            legs=waits.legs or legs,
+            legs=trot or legs,
             pushes=(start.push,),
             standing_height=standing,
-            stands=waits.duration,
+            stands=stands,
             takes_off=takes_off,
             flight_time=flight,
             duration=duration,
@@ -234,11 +222,6 @@ def wheel_gains(robot: Robot) -> Gains:
     """The gains of Solo12 with times scaled by the Froude number: `K_p ~ 1/T^2`, `K_d ~ 1/T`."""
     time = Scale.of(robot).time(STANDARD_GRAVITY)
     return Gains(PAPER_GAINS.stiffness / time**2, PAPER_GAINS.damping / time)
-
-
-def settling_time(robot: Robot, gravity: float) -> float:
-    """How long a robot is watched after touchdown [s]: one second for Solo12 on Earth."""
-    return Scale.of(robot).time(gravity)
 
 
 def addresses(model: mujoco.MjModel, device: Device) -> Addresses:

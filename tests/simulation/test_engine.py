@@ -6,11 +6,13 @@ from dataclasses import fields, replace
 import mujoco
 import numpy as np
 import pytest
+from trajectories import from_rest
 from wheels import paper_device, paper_maneuvers
 
-from ocs_design.simulation.batch import Recording, pose_stride
+from ocs_design.simulation.batch import Recording
 from ocs_design.simulation.engine import poses_of, simulate
 from ocs_design.simulation.launch import Push
+from ocs_design.simulation.reference import Quintic
 from ocs_design.simulation.scenario import Flights, Options, run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.world_builder import WorldBuilder
@@ -24,10 +26,13 @@ def worlds(solo12):
         builder.flight(drop, Wheels.ACTIVE),
         builder.flight(jump, Wheels.ABSENT),
         builder.flight(flip, Wheels.ACTIVE),
-        builder.level_landing(drop),
+        builder.flight(drop, Wheels.BRAKED, level=True),
         builder.flight(jump, Wheels.ACTIVE),
     ]
-    durations = (0.5, 0.62, 0.31, 0.45, 0.62)
+    turn = replace(flights[0].turn, profile=Quintic())
+    plan = from_rest(flights[0].body, turn, samples=401)
+    flights.append(builder.flight(drop, Wheels.ACTIVE, plan))
+    durations = (0.5, 0.62, 0.31, 0.45, 0.62, 0.48)
     return [replace(world, duration=t) for world, t in zip(flights, durations, strict=True)]
 
 
@@ -36,15 +41,17 @@ def assert_same(one: Recording, other: Recording):
         np.testing.assert_array_equal(getattr(one, field.name), getattr(other, field.name))
 
 
-def test_numbers_do_not_depend_on_the_threads(worlds):
-    alone = simulate(worlds, threads=1)
-    assert_same(alone, simulate(worlds, threads=2))
-    assert_same(alone, simulate(worlds, threads=3))
-    assert_same(alone, simulate(worlds, threads=4))
+@pytest.fixture(scope="module")
+def together(worlds):
+    return simulate(worlds)
 
 
-def test_a_world_does_not_feel_the_others(worlds):
-    together = simulate(worlds)
+@pytest.mark.parametrize("threads", [1, 3, 4])
+def test_numbers_do_not_depend_on_the_threads(worlds, together, threads):
+    assert_same(together, simulate(worlds, threads=threads))
+
+
+def test_a_world_does_not_feel_the_others(worlds, together):
     for index, world in enumerate(worlds):
         alone = simulate([world])
         steps = alone.lengths[0]
@@ -56,12 +63,11 @@ def test_a_world_does_not_feel_the_others(worlds):
         assert np.isnan(together.com[steps:, index]).all()
 
 
-def test_centre_of_mass_falls_freely(worlds):
-    recording = simulate(worlds[:2])
-    flying = recording.time < 0.3
-    t = recording.time[flying]
+def test_centre_of_mass_falls_freely(worlds, together):
+    flying = together.time < 0.3
+    t = together.time[flying]
     for index, world in enumerate(worlds[:2]):
-        com = recording.com[flying, index]
+        com = together.com[flying, index]
         expected = com[0] + np.outer(t, world.qvel[:3]) - np.outer(4.905 * t**2, [0.0, 0.0, 1.0])
         np.testing.assert_allclose(com, expected, atol=1e-9)
 
@@ -72,14 +78,6 @@ def test_holding_the_torque_changes_little(worlds):
     before = coarse.time < 0.35
     tilt = [run.attitude[::step, 0, 2][: before.sum()] for run, step in ((fine, 5), (coarse, 1))]
     np.testing.assert_allclose(tilt[0], tilt[1], atol=np.radians(0.2))
-
-
-def test_progress_rises_to_one(worlds):
-    told: list[float] = []
-    simulate(worlds, progress=told.append)
-    assert told == sorted(told)
-    assert told[0] == 0.0
-    assert told[-1] == 1.0
 
 
 def test_who_stops_one_batch_stops_the_other(worlds):
@@ -150,20 +148,16 @@ def test_wheels_turn_as_fast_as_recorded(filmed, recording):
     np.testing.assert_allclose(mean, between, atol=0.05 * np.abs(speed).max())
 
 
-def test_nothing_is_recorded_unless_asked_for(filmed):
-    recording = simulate(filmed[1:])
-    assert recording.qpos.size == 0
-    assert poses_of(recording, 0, filmed[1]) is None
+def test_no_poses_are_recorded_unless_asked_for(worlds, together):
+    assert together.qpos.size == 0
+    assert poses_of(together, 0, worlds[0]) is None
 
 
-def test_a_pose_is_never_wanted_between_two_control_steps():
-    assert pose_stride(60.0, 0.005) == 3
-    assert pose_stride(1e6, 0.005) == 1
-
-
-def test_runs_carry_their_poses(solo12):
-    maneuver = paper_maneuvers(solo12)[1]
-    runs = run_scenarios(
-        Flights(solo12, paper_device(), [maneuver], options=Options(pose_rate=30.0))
+def test_runs_carry_their_poses_of_control_steps(solo12):
+    """However many are wanted in a second, none is between two control steps."""
+    flights = Flights(
+        solo12, paper_device(), paper_maneuvers(solo12)[1:2], options=Options(pose_rate=1e6)
     )
-    assert [len(run.poses.qpos) for run in runs] == [len(run.poses.time) for run in runs]
+    for run in run_scenarios(flights):
+        np.testing.assert_array_equal(run.poses.time, run.series.time)
+        assert len(run.poses.qpos) == len(run.poses.time)

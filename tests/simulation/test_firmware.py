@@ -2,7 +2,7 @@
 
 import re
 import subprocess
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,12 +11,12 @@ from trajectories import from_rest
 from wheels import EC45, driven_device, paper_device
 
 from ocs_design.actuation.supply import Supply
+from ocs_design.common import quaternions
 from ocs_design.device.bodies import joint_names
 from ocs_design.device.device import Module
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.maneuver import Flip
-from ocs_design.simulation import quaternions
 from ocs_design.simulation.desaturation import WheelBrake
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.firmware import targets_of, write_controller
@@ -103,27 +103,14 @@ def random_states(wheels, n=STATES):
     return attitude, rate, speed, ground
 
 
-def taken(table, rows):
-    """A table of the one row of another as many times over."""
-    arrays = {
-        field.name: getattr(table, field.name)[rows]
-        for field in fields(table)
-        if isinstance(getattr(table, field.name), np.ndarray)
-    }
-    if getattr(table, "plan", None) is not None:
-        arrays["plan"] = taken(table.plan, rows)
-    return replace(table, **arrays)
-
-
 def by_numpy(world, target, attitude, rate, speed, ground):
     """Torques of the batch's own law, and of its brake."""
-    rows = np.zeros(len(rate), dtype=int)
-    target = taken(target, rows).landed(ground > 0.0)
+    target = target.repeat(len(rate)).landed(ground > 0.0)
     if world.desaturation is not None:
         brake = WheelBrake([world.desaturation] * len(rate), PERIOD)
         brake._stood[:] = ground - PERIOD  # it counts the step that has just passed
         target = brake.added(target, speed, ground > 0.0)
-    return taken(world.law, rows).torque(
+    return world.law.repeat(len(rate)).torque(
         quaternions.vertical(attitude), rate, speed, target, PERIOD, attitude=attitude
     )
 

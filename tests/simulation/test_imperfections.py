@@ -7,6 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 from wheels import PAPER_WHEEL
 
+from ocs_design.common.arrays import stacked
 from ocs_design.simulation.imperfections import (
     AIR_DENSITY,
     AIR_VISCOSITY,
@@ -22,15 +23,7 @@ from ocs_design.simulation.motor_limits import MotorLimits
 
 NO_AIR = AirDrag(np.array([0.0, 1.0]), np.zeros(2))
 BOTH = np.ones(2)
-UNLIMITED = MotorLimits(
-    no_load_speed=np.inf * BOTH,
-    line_slope=0.0 * BOTH,
-    torque_limit=np.inf * BOTH,
-    speed_max=np.array([np.inf]),
-    copper=0.0 * BOTH,
-    efficiency=BOTH[:1],
-    power_max=np.array([np.inf]),
-)
+UNLIMITED = stacked([MotorLimits(np.inf, 0.0, np.inf)] * 2)
 PERFECT = Imperfections(
     attitude_bias=np.zeros(2),
     gyro_bias=np.zeros(3),

@@ -41,14 +41,7 @@ def planned(speed):
     turning = np.broadcast_to([speed, 0.0], (TIME.size, 2))
     still = np.zeros((TIME.size, 3))
     upright = np.broadcast_to([0.0, 0.0, 1.0], (TIME.size, 3))
-    return Reference(
-        Trajectory(
-            time=TIME, vertical=upright, rate=still, acceleration=still, wheel_speed=turning,
-            wheel_torque=0.0 * turning, turned=0.0 * TIME, note="",
-        ),
-        "",
-        None,
-    )  # fmt: skip
+    return Reference(Trajectory(TIME, upright, still, still, turning, 0.0 * turning, ""), "")
 
 
 def test_a_landing_is_asked_of_the_drive_too():
@@ -80,7 +73,7 @@ def test_the_bare_robot_has_no_wheels():
 
 
 def test_the_worst_is_over_plan_and_flight():
-    plans = {"drop": planned(1234.0), "disturbance": Reference(None, "unforeseen", None)}
+    plans = {"drop": planned(1234.0), "disturbance": Reference(None, "unforeseen")}
     assert recorded(plans=plans)["wheel speed"].demand == 1234.0
     assert recorded([run("drop")], plans)["wheel speed"].demand == 1234.0
     assert recorded([run("drop", speed=1300.0)], plans)["wheel speed"].demand == 1300.0

@@ -65,7 +65,7 @@ def test_a_brake_stands_a_robot_up_whose_motors_cannot():
     assert run.passed, run.reason
     assert not without.passed
     by_motor = replace(BRAKED, name="motor", actuation="motor")
-    assert found["braked"].planned.trajectory.rate[0, 0] > 0.0
+    assert found["braked"].trajectory.rate[0, 0] > 0.0
     refused = plan(ROBOT.mass_properties, heavy, [by_motor], 0.2)["motor"]
     assert refused.trajectory is None
     assert "do not make it stand up from 45 deg in 0.7 s: from" in refused.note

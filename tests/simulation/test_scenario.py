@@ -40,14 +40,14 @@ def test_a_robot_that_stands_is_flown_twice(solo12, batches):
 
 def test_a_robot_that_falls_is_flown_level_too(solo12, batches, monkeypatch):
     """Its drives let go of the joints."""
-    build = WorldBuilder._build
+    build = WorldBuilder.flight
 
     def limp(self, *arguments, **options):
         world = build(self, *arguments, **options)
         world.model.actuator_gainprm[:-2] = world.model.actuator_biasprm[:-2] = 0.0
         return world
 
-    monkeypatch.setattr(WorldBuilder, "_build", limp)
+    monkeypatch.setattr(WorldBuilder, "flight", limp)
     runs = run_scenarios(Flights(solo12, paper_device(), [GENTLE]))
     assert batches == [2, 1]
     assert "standing is not judged" in runs[0].reason

@@ -8,12 +8,12 @@ import pytest
 from robots import ROBOTS, SOLO12
 from wheels import EC45_BODY, braked_inertia, driven_device, geared, paper_device, paper_maneuvers
 
+from ocs_design.common import quaternions
 from ocs_design.common.errors import SpecificationError
 from ocs_design.export.physics import lowest_point, set_gains
 from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.mujoco_model import build_spec, trunk_body
 from ocs_design.robot.reader import read_robot
-from ocs_design.simulation import quaternions
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.metrics import measure
 from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
@@ -30,8 +30,13 @@ GEARED = driven_device(drive=geared(1.5))
 
 
 @pytest.fixture(scope="module", params=[paper_device(), GEARED], ids=["ideal", "geared"])
-def any_builder(request, solo12):
-    return WorldBuilder(solo12, request.param)
+def device(request):
+    return request.param
+
+
+@pytest.fixture(scope="module")
+def any_builder(device, solo12):
+    return WorldBuilder(solo12, device)
 
 
 @pytest.fixture(scope="module")
@@ -46,13 +51,11 @@ def placed(world):
     return data
 
 
-@pytest.mark.parametrize("device", [paper_device(), GEARED], ids=["ideal", "geared"])
-def test_the_law_believes_in_robot_rims_and_carriers(solo12, device, maneuvers):
+def test_the_law_believes_in_robot_rims_and_carriers(solo12, device, any_builder, maneuvers):
     """Those of a flip are turned by hand, and their carriers turn along."""
-    builder = WorldBuilder(solo12, device)
     spin = device.flywheel.spin_inertia
     for maneuver, placed_so in ((maneuvers[0], device), (maneuvers[2], device.at_incidence(0.0))):
-        body = builder.flight(maneuver, Wheels.ACTIVE).body
+        body = any_builder.flight(maneuver, Wheels.ACTIVE).body
         expected = braked_inertia(solo12, placed_so).inertia
         np.testing.assert_allclose(body.inertia, expected, rtol=0, atol=1e-9 * np.trace(expected))
         reacting = spin**2 / (spin + device.motor.armature)
@@ -159,7 +162,7 @@ def test_legs_that_are_told_their_load_stand_as_they_should(held):
     """A1 sinks by a quarter and leans by 12 deg where its drives hold the posture alone."""
     robot = read_robot(ROBOTS / "a1_description" / "urdf" / "a1.urdf")
     drop = Drop(name="drop", height=1.01 * robot.standing_height, pitch=0.0)
-    world = WorldBuilder(robot, paper_device()).level_landing(drop)
+    world = WorldBuilder(robot, paper_device()).flight(drop, Wheels.BRAKED, level=True)
     world = world if held else replace(world, support=0.0 * world.support)
     metrics = measure(simulate([world]), 0, world)
     leans = abs(metrics.final_pitch) > np.radians(5.0)

@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.quaternions import from_axis_angle
+from ocs_design.common.quaternions import product as hamilton
 from ocs_design.device.bodies import PREFIX, flywheels_among
 from ocs_design.export.raster import png_bytes
 from ocs_design.export.snapshot import HEIGHT, WIDTH
@@ -19,8 +21,6 @@ from ocs_design.report.bodies import ShownBody, still
 from ocs_design.report.html.elements import Markup, data, element, joined
 from ocs_design.report.story import RecordedFlight, Story
 from ocs_design.robot.mujoco_bodies import quaternion
-from ocs_design.simulation.quaternions import from_axis_angle
-from ocs_design.simulation.quaternions import product as hamilton
 from ocs_design.simulation.run import Poses
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
+from ocs_design.common.quaternions import conjugate, from_axis_angle, product
 from ocs_design.requirement.maneuver import Drop, End, Flip, Maneuver, Unforeseen
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.requirement.turns import TurnTo
@@ -58,15 +59,6 @@ class Boundary:
         """The world's upward direction in B at the end, shape (3,)."""
         return vertical_of(self.final_attitude)
 
-    def missed(self, attitude: FloatArray) -> float:
-        """Angle to the attitude asked for [rad], or to its vertical where the heading is free."""
-        if self.end == End.AT_REST:
-            return 0.0
-        if self.end == End.ATTITUDE:
-            return float(2.0 * np.arccos(np.clip(abs(attitude @ self.final_attitude), 0.0, 1.0)))
-        vertical, wanted = vertical_of(attitude), self.final_vertical
-        return float(np.arctan2(np.linalg.norm(np.cross(vertical, wanted)), vertical @ wanted))
-
 
 def boundary(maneuver: Maneuver, standing_height: float) -> Boundary:
     """The boundary value problem of a maneuver in the air.
@@ -81,7 +73,9 @@ def boundary(maneuver: Maneuver, standing_height: float) -> Boundary:
     x, _, z = np.eye(3)
     if isinstance(maneuver, Drop):
         # From rest, pitched about y and then rolled about x, to level within the fall.
-        attitude = product(about(_PITCH, maneuver.pitch), about(x, maneuver.roll))
+        attitude = product(
+            from_axis_angle(_PITCH, maneuver.pitch), from_axis_angle(x, maneuver.roll)
+        )
         vertical = vertical_of(attitude)
         # A rate w moves the vertical by -w x v.
         axis = np.cross([0.0, 0.0, 1.0], vertical)
@@ -90,7 +84,7 @@ def boundary(maneuver: Maneuver, standing_height: float) -> Boundary:
         angle, duration = float(np.arctan2(length, vertical[2])), maneuver.time(standing_height)
         return Boundary(maneuver.name, attitude, LEVEL, axis, angle, duration)
     if isinstance(maneuver, Flip):
-        angle, final = maneuver.angle, about(_PITCH, maneuver.angle)
+        angle, final = maneuver.angle, from_axis_angle(_PITCH, maneuver.angle)
         return Boundary(maneuver.name, LEVEL, final, _PITCH, angle, maneuver.duration)
     if isinstance(maneuver, Unforeseen):
         if maneuver.time_left <= 0.0:
@@ -113,7 +107,8 @@ def boundary(maneuver: Maneuver, standing_height: float) -> Boundary:
         raise TypeError(f"no boundary is known for a {type(maneuver).__name__}")
     angles = np.array([maneuver.roll, maneuver.pitch, maneuver.yaw])
     final = product(
-        about(z, maneuver.yaw), product(about(_PITCH, maneuver.pitch), about(x, maneuver.roll))
+        from_axis_angle(z, maneuver.yaw),
+        product(from_axis_angle(_PITCH, maneuver.pitch), from_axis_angle(x, maneuver.roll)),
     )
     if np.count_nonzero(angles) == 1:
         # About one axis: it may be more than half a turn.
@@ -149,7 +144,7 @@ def pivot_boundary(maneuver: Pivoted, gyrostat: Gyrostat) -> Boundary:
         axis = maneuver.begun / float(np.linalg.norm(maneuver.begun))
     return Boundary(
         name=maneuver.name,
-        attitude=product(about(axis, angle), gyrostat.upright),
+        attitude=product(from_axis_angle(axis, angle), gyrostat.upright),
         final_attitude=gyrostat.upright,
         axis=axis,
         angle=-angle,
@@ -161,37 +156,14 @@ def pivot_boundary(maneuver: Pivoted, gyrostat: Gyrostat) -> Boundary:
 
 
 def vertical_of(attitude: FloatArray) -> FloatArray:
-    """The world's upward direction in B, shape (3,) or (3, n) like the attitude's columns."""
-    w, x, y, z = attitude
-    return np.array([2.0 * (x * z - w * y), 2.0 * (y * z + w * x), w * w - x * x - y * y + z * z])
-
-
-def product(a: FloatArray, b: FloatArray) -> FloatArray:
-    """The turn `b`, seen in B, after the turn `a`; shape (4,) or (4, n)."""
-    aw, ax, ay, az = a
-    bw, bx, by, bz = b
-    return np.array(
-        [
-            aw * bw - ax * bx - ay * by - az * bz,
-            aw * bx + ax * bw + ay * bz - az * by,
-            aw * by - ax * bz + ay * bw + az * bx,
-            aw * bz + ax * by - ay * bx + az * bw,
-        ]
+    """The world's upward direction in B, shape (..., 3), where an integrator leaves no unit."""
+    w, x, y, z = np.moveaxis(attitude, -1, 0)
+    return np.stack(
+        [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), w * w - x * x - y * y + z * z], axis=-1
     )
 
 
-def conjugate(attitude: FloatArray) -> FloatArray:
-    """The turn back, shape (4,) or (4, n)."""
-    return np.concatenate([attitude[:1], -attitude[1:]])
-
-
 def turned_into_world(attitude: FloatArray, vectors: FloatArray) -> FloatArray:
-    """Vectors of B in the world, shape (3, n), for attitudes (4, n)."""
-    seen = np.concatenate([np.zeros_like(vectors[:1]), vectors])
-    return product(product(attitude, seen), conjugate(attitude))[1:]
-
-
-def about(axis: FloatArray, angle: FloatArray | float) -> FloatArray:
-    """A turn by `angle` [rad] about a unit vector, shape (4,) or (4, n) for n angles."""
-    half = np.asarray(angle) / 2.0
-    return np.concatenate([np.cos(half)[None], np.multiply.outer(axis, np.sin(half))])
+    """Vectors of B in the world, shape (..., 3), for attitudes (..., 4)."""
+    seen = np.concatenate([np.zeros_like(vectors[..., :1]), vectors], axis=-1)
+    return product(product(attitude, seen), conjugate(attitude))[..., 1:]

@@ -12,12 +12,8 @@ import numpy as np
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import cross
-from ocs_design.sizing.trajectory.boundary import (
-    conjugate,
-    product,
-    turned_into_world,
-    vertical_of,
-)
+from ocs_design.common.quaternions import conjugate, product
+from ocs_design.sizing.trajectory.boundary import turned_into_world, vertical_of
 from ocs_design.sizing.trajectory.motion import Motion, Trajectory
 from ocs_design.sizing.trajectory.transcription import Turn
 
@@ -38,15 +34,11 @@ class Flight:
     Attributes:
         trajectory: on the fine grid.
         violation: largest overstepping of the drive's limits, relative to each.
-        end_tilt: angle between the attitude at the end and the one asked for [rad].
-        end_rate: of the trunk at the end about the axes that the wheels reach [rad/s].
         defect: largest difference to the program's own rate, over the largest rate.
     """
 
     trajectory: Trajectory
     violation: float
-    end_tilt: float
-    end_rate: float
     defect: float
 
     @property
@@ -73,21 +65,21 @@ def fly(flown: Turn, line: DriveLine, motion: Motion) -> Flight:
     inverse, pull = gyrostat.inverse_mass_matrix, gyrostat.pull
 
     def slope(state: FloatArray, torque: FloatArray) -> FloatArray:
-        """Rates of change of attitude, rate, wheel speeds and turned angle, shape (8 + n,)."""
+        """Rates of change of attitude, rate and wheel speeds, shape (7 + n,)."""
         rate = state[4:7]
-        on_trunk = cross(mass_matrix[:3] @ state[4 : 7 + wheels], rate)
+        on_trunk = cross(mass_matrix[:3] @ state[4:], rate)
         if gyrostat.stands:
             on_trunk += cross(vertical_of(state[:4]), pull)
         accelerations = inverse @ np.concatenate([on_trunk, torque])
         turning = 0.5 * product(state[:4], np.append(0.0, rate))
-        return np.concatenate([turning, accelerations, [turn.axis @ rate]])
+        return np.concatenate([turning, accelerations])
 
     steps = np.repeat(motion.lengths / FINER, FINER)
     offsets = np.arange(FINER) / FINER
     first, middle, last = (motion.torque_within(offsets + part / FINER) for part in (0.0, 0.5, 1.0))
     rate = turn.rate * turn.axis
     speed = np.broadcast_to(np.asarray(asked.wheel_speed), (wheels,))
-    state = np.concatenate([turn.attitude, rate, speed, [0.0]])
+    state = np.concatenate([turn.attitude, rate, speed])
     states = [state]
     for h, before, halfway, after in zip(steps, first, middle, last, strict=True):
         k1 = slope(state, before)
@@ -100,23 +92,22 @@ def fly(flown: Turn, line: DriveLine, motion: Motion) -> Flight:
     torque = np.vstack([first[:1], (first[1:] + last[:-1]) / 2.0, last[-1:]])
     trajectory = Trajectory(
         time=np.append(0.0, np.cumsum(steps)),
-        vertical=vertical_of(passed[:, :4].T).T,
+        vertical=vertical_of(passed[:, :4]),
         rate=passed[:, 4:7],
         acceleration=np.array([slope(*row)[4:7] for row in zip(passed, torque, strict=True)]),
-        wheel_speed=passed[:, 7 : 7 + wheels],
+        wheel_speed=passed[:, 7:],
         wheel_torque=torque,
-        turned=passed[:, -1],
         note="",
         step_torque=np.stack([first, last], axis=1),
         attitude=passed[:, :4],
     )
     claimed = motion.state_at(trajectory.time)
-    momentum = mass_matrix[:3] @ np.append(rate, speed)
-    held = turned_into_world(turn.attitude[:, None], momentum[:, None])
+    held = turned_into_world(turn.attitude, mass_matrix[:3] @ np.append(rate, speed))
     if gyrostat.stands:
-        held = claimed[4 + wheels :]
-    seen = turned_into_world(conjugate(claimed[:4]), np.broadcast_to(held, claimed[1:4].shape))
-    left = seen - gyrostat.spin_inertia * gyrostat.axes @ claimed[4 : 4 + wheels]
+        held = claimed[4 + wheels :].T
+    attitude = claimed[:4].T
+    seen = turned_into_world(conjugate(attitude), np.broadcast_to(held, (len(attitude), 3)))
+    left = seen.T - gyrostat.spin_inertia * gyrostat.axes @ claimed[4 : 4 + wheels]
     claimed_rate = (gyrostat.mobility @ left).T
     largest = float(np.abs(claimed_rate).max())
     difference = float(np.abs(trajectory.rate - claimed_rate).max())
@@ -127,8 +118,6 @@ def fly(flown: Turn, line: DriveLine, motion: Motion) -> Flight:
             limit_violation(trajectory.wheel_speed[:-1], first, line),
             limit_violation(trajectory.wheel_speed[1:], last, line),
         ),
-        end_tilt=asked.missed(passed[-1, :4]),
-        end_rate=float(np.linalg.norm(gyrostat.turns_about @ trajectory.rate[-1])),
         defect=difference / largest if largest > 0.0 else 0.0,
     )
 

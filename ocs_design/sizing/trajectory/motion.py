@@ -6,12 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.quaternions import conjugate, from_axis_angle, product
 from ocs_design.requirement.turns import loop_length
 from ocs_design.sizing.trajectory.boundary import (
     Boundary,
-    about,
-    conjugate,
-    product,
     turned_into_world,
     vertical_of,
 )
@@ -165,7 +163,6 @@ class Trajectory:
         wheel_speed: relative to the trunk [rad/s], shape (m, n).
         wheel_torque: of the motors at the wheels [N m], shape (m, n); where it jumps, the mean of
             both sides.
-        turned: angle that the trunk has turned about the maneuver's axis [rad], shape (m,).
         note: what a reader should know of it; empty if nothing.
         step_torque: of the motors at start and end of each step, shape (m - 1, 2, n) [N m]; None:
             `wheel_torque` nowhere jumps.
@@ -181,7 +178,6 @@ class Trajectory:
     acceleration: FloatArray
     wheel_speed: FloatArray
     wheel_torque: FloatArray
-    turned: FloatArray
     note: str
     step_torque: FloatArray | None = None
     attitude: FloatArray | None = None
@@ -227,23 +223,18 @@ class FixedAxisTurn:
         lengths, nodes, ends = _even_mesh(self.duration, intervals)
         angle, rate, _ = self._profile(nodes)
         _, _, acceleration = self._profile(ends)
-        turned = np.vstack([np.cos(angle / 2.0), np.outer(self.axis, np.sin(angle / 2.0))])
         # Speeds of the wheels that take a momentum off the trunk, per momentum.
         taking = gyrostat.sharing * gyrostat.reaction / gyrostat.spin_inertia
         momentum = gyrostat.inertia @ self.axis
         speeds = taking @ np.outer(momentum, self.rate - rate)
         driven = gyrostat.spin_inertia + gyrostat.armature
         torques = -driven * taking @ np.outer(momentum, acceleration)
-        attitudes = product(self.attitude, turned)
-        states = [attitudes, speeds]
+        attitudes = product(self.attitude, from_axis_angle(self.axis, angle))
+        states = [attitudes.T, speeds]
         if gyrostat.stands:
             # The wheels of a motion without gravity, which a first guess is.
-            states.append(
-                turned_into_world(
-                    attitudes,
-                    np.outer(momentum, rate) + gyrostat.spin_inertia * gyrostat.axes @ speeds,
-                )
-            )
+            whole = np.outer(momentum, rate) + gyrostat.spin_inertia * gyrostat.axes @ speeds
+            states.append(turned_into_world(attitudes, whole.T).T)
         return Motion(lengths, np.vstack(states), torques)
 
     def _profile(self, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -287,11 +278,11 @@ class HeadingLoop:
         driven = gyrostat.spin_inertia + gyrostat.armature
         torques = driven * to_speeds @ change / self.duration
         return Motion(
-            lengths, np.vstack([self._path(nodes), to_speeds @ self._rate(nodes)]), torques
+            lengths, np.vstack([self._path(nodes).T, to_speeds @ self._rate(nodes)]), torques
         )
 
     def _path(self, s: FloatArray) -> FloatArray:
-        """Attitudes at s = 0..1, shape (4, len(s)).
+        """Attitudes at s = 0..1, shape (len(s), 4).
 
         Seen from B turned back by the direction of the path, the rate per length is constant: `(1,
         0, cot b)`.
@@ -302,14 +293,15 @@ class HeadingLoop:
         axis = np.array([1.0, 0.0, bend]) / np.hypot(1.0, bend)
         z = np.array([0.0, 0.0, 1.0])
         gone = loop_length(self.heading) * share
-        turned_back = about(z, -bend * gone - self.begins)
-        loop = product(about(axis, np.hypot(1.0, bend) * gone), turned_back)
+        turned_back = from_axis_angle(z, -bend * gone - self.begins)
+        loop = product(from_axis_angle(axis, np.hypot(1.0, bend) * gone), turned_back)
         angle = float(np.linalg.norm(self.swing))
-        swung = about(self.swing / angle if angle else z, angle * share)
-        return product(self.attitude, product(swung, product(about(z, self.begins), loop)))
+        swung = from_axis_angle(self.swing / angle if angle else z, angle * share)
+        begun = from_axis_angle(z, self.begins)
+        return product(self.attitude, product(swung, product(begun, loop)))
 
     def _rate(self, s: FloatArray) -> FloatArray:
         """Rate of the trunk in B [rad/s], shape (3, len(s)), by central differences."""
         step = 1e-4
         change = (self._path(s + step) - self._path(s - step)) / (2.0 * step * self.duration)
-        return 2.0 * product(conjugate(self._path(s)), change)[1:]
+        return 2.0 * product(conjugate(self._path(s)), change)[:, 1:].T

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ocs_design.actuation.drive import PLANNED, DriveLine, power_less_friction
+from ocs_design.common.quaternions import conjugate, from_axis_angle, product
 from ocs_design.common.units import format_quantity, rpm
 from ocs_design.requirement.maneuver import End, Maneuver, Unforeseen
 from ocs_design.requirement.pivoted import Balance, Pivoted
@@ -17,11 +18,8 @@ from ocs_design.sizing.place import with_device
 from ocs_design.sizing.trajectory.boundary import (
     HELD_ON,
     Boundary,
-    about,
     boundary,
-    conjugate,
     pivot_boundary,
-    product,
     vertical_of,
 )
 from ocs_design.sizing.trajectory.flight import Flight, fly
@@ -93,7 +91,6 @@ class Reference:
     Attributes:
         trajectory: its note says what `note` says; None: the validation makes do without.
         note: one sentence; empty if the trajectory leaves the feedback its reserve.
-        planned: the trajectory's program, or the last one that failed; None: not tried.
         needed: least time over the one asked for, of a turn that is not made in it; None: it is, or
             no time would do.
         share: of voltage, current and power that the trajectory keeps to; where a drive may stop,
@@ -105,7 +102,6 @@ class Reference:
 
     trajectory: Trajectory | None
     note: str
-    planned: Planned | None
     needed: float | None = None
     share: float = 1.0
     most: float = LEAST_SPARE
@@ -187,9 +183,9 @@ def reference(
         one_stops: whether the others shall follow it after any one drive has stopped.
     """
     if isinstance(maneuver, Unforeseen):
-        return Reference(None, _UNFORESEEN, None)
+        return Reference(None, _UNFORESEEN)
     if isinstance(maneuver, Balance):
-        return Reference(_balanced(gyrostat, line, maneuver), "", None)
+        return Reference(_balanced(gyrostat, line, maneuver), "")
     asked = (
         pivot_boundary(maneuver, gyrostat)
         if isinstance(maneuver, Pivoted)
@@ -205,7 +201,7 @@ def reference(
         if spun > most:
             told = " and ".join(map(rpm, (spun, most)))
             note = f"speed of the wheels that the brake takes, and that the motors reach: {told}"
-            return Reference(None, note, None, part=most / spun, spun=spun)
+            return Reference(None, note, part=most / spun, spun=spun)
     # Two axes turn the heading by a loop of the tilt; a tall body yaws more easily than it tilts.
     x, y, z = np.diag(gyrostat.inertia)
     tall = not gyrostat.stands and gyrostat.spanned == 2 and max(x, y) > _TALL * z
@@ -237,9 +233,7 @@ def reference(
     elif asked.end != End.LEVEL:
         # What holds the trunk level corrects no heading.
         trajectory = replace(trajectory, gains=tracking_gains(gyrostat, line, trajectory, share))
-    return Reference(
-        replace(trajectory, note=note), note, planned, share=share, most=most, spun=spun
-    )
+    return Reference(replace(trajectory, note=note), note, share=share, most=most, spun=spun)
 
 
 def _refused(
@@ -252,7 +246,7 @@ def _refused(
         if needed is not None:
             told = f"they need {needed * asked.duration:.3g} s"
         note = f"the wheels do not make this turn in {asked.duration:.3g} s: {told}"
-        return Reference(None, note, planned, needed)
+        return Reference(None, note, needed)
     if isinstance(maneuver, Pivoted):
         # Largest part of the tilt from which it stands up in the time, by bisection to 1/16.
         low, high = 0.0, 1.0
@@ -261,7 +255,9 @@ def _refused(
             smaller = np.sin(0.5 * part * asked.angle) / np.sin(0.5 * asked.angle)
             tried = replace(
                 asked,
-                attitude=product(about(asked.axis, -part * asked.angle), asked.final_attitude),
+                attitude=product(
+                    from_axis_angle(asked.axis, -part * asked.angle), asked.final_attitude
+                ),
                 angle=part * asked.angle,
                 rate=smaller * asked.rate,
             )
@@ -272,8 +268,8 @@ def _refused(
         note = (
             f"the wheels do not make it stand up from {all_of_it} in {asked.duration:.3g} s: {told}"
         )
-        return Reference(None, note, planned, part=part)
-    return Reference(None, f"no optimal turn was found ({planned.failure})", planned)
+        return Reference(None, note, part=part)
+    return Reference(None, f"no optimal turn was found ({planned.failure})")
 
 
 def _balanced(
@@ -287,12 +283,11 @@ def _balanced(
     none, upright = np.zeros((len(time), 3)), np.tile(gyrostat.upright, (len(time), 1))
     held = Trajectory(
         time=time,
-        vertical=vertical_of(upright.T).T,
+        vertical=vertical_of(upright),
         rate=none,
         acceleration=none,
         wheel_speed=np.zeros((len(time), wheels)),
         wheel_torque=np.zeros((len(time), wheels)),
-        turned=np.zeros(len(time)),
         note="",
         attitude=upright,
     )
@@ -332,7 +327,9 @@ def gentlest(
     loops = asked.end == End.ATTITUDE and gyrostat.spanned < len(gyrostat.inertia)
     if loops and abs(heading) >= _SAME:
         # Either way round; the turn is a swing without heading, and then a twist about z.
-        w, x, y, z = product(np.array([w, x, y, z]), about(np.array([0.0, 0.0, 1.0]), -heading))
+        w, x, y, z = product(
+            np.array([w, x, y, z]), from_axis_angle(np.array([0.0, 0.0, 1.0]), -heading)
+        )
         sine = np.hypot(x, y)
         swing = np.array([x, y, 0.0]) * (2.0 * np.arctan2(sine, w) / sine if sine > 0.0 else 0.0)
         guesses = [

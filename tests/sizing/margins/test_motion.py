@@ -16,7 +16,6 @@ def trajectory(n=4):
         acceleration=rng.normal(size=(n, 3)),
         wheel_speed=rng.normal(size=(n, 2)),
         wheel_torque=rng.normal(size=(n, 2)),
-        turned=np.zeros(n),
         note="",
     )
 

@@ -6,12 +6,14 @@ from functools import cache
 import casadi as ca
 import numpy as np
 import pytest
+from gyrostats import end_rate, missed
 from naive_wheel import wheel_of
 from selections import lightest, random_problem
 
 from ocs_design.device.layout import module_axes
 from ocs_design.sizing.place import braked
 from ocs_design.sizing.trajectory import program
+from ocs_design.sizing.trajectory.boundary import boundary
 from ocs_design.sizing.trajectory.co_design import (
     LEAST_GAIN,
     FreeDevice,
@@ -19,6 +21,7 @@ from ocs_design.sizing.trajectory.co_design import (
     with_wheels,
 )
 from ocs_design.sizing.trajectory.flight import DEFECT_MAX
+from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.motion import Motion
 
 ROLL_AND_PITCH, GEARED, FLIPPING, CHANGING_RATE = 0, 21, 8, 16
@@ -104,11 +107,13 @@ def test_it_is_never_heavier_and_says_what_it_did(answered):
 def test_its_maneuvers_hold_on_the_fine_grid(answered):
     problem, selected, found = answered
     assert len(found.flights) == len(problem.requirement.maneuvers)
-    line = selected.line.reserved()
-    for flight in found.flights:
+    line, standing = selected.line.reserved(), problem.requirement.standing_height
+    for maneuver, flight in zip(problem.requirement.maneuvers, found.flights, strict=True):
+        own = found.device.incidence if maneuver.incidence is None else maneuver.incidence
+        wheels = Gyrostat(np.eye(3), module_axes(own), 1.0)
         assert flight.violation < 1e-6
-        assert flight.end_tilt < 1e-4
-        assert flight.end_rate < 1e-4
+        assert missed(boundary(maneuver, standing), flight.trajectory) < 1e-4
+        assert end_rate(wheels, flight.trajectory) < 1e-4
         assert flight.defect < 1e-4
         assert np.abs(flight.trajectory.wheel_torque).max() <= line.torque_limit * (1.0 + 1e-6)
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from gyrostats import BACK_FLIP, DIAGONAL, EC_45_FLAT, FULL, asked, body, drop
 
+from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.sizing.trajectory.collocation import TORQUE_DEGREE
 from ocs_design.sizing.trajectory.flight import FINER
@@ -24,7 +25,7 @@ STEPS = 8
 FORTY = np.radians(40.0)
 YAW = TurnTo(name="yaw", jump_height=1.0, yaw=np.pi / 2.0, duration=2.4)
 CATCH = Catch(name="catch", jump_height=0.5, rate=(0.4, 0.8, 0.1), duration=0.48, wheel_speed=50.0)
-TRIAD = np.array([[np.cos(a), np.sin(a), 0.0] for a in np.radians([90.0, 210.0, 330.0])]).T
+TRIAD = Layout(LayoutName.TRIAD).axes(0.0)
 
 
 @pytest.mark.slow

@@ -59,8 +59,8 @@ def test_the_closed_form_is_near_the_smallest_wheel(time, rpm):
     low, high = 3e-4, 3e-3
     while high > 1.05 * low:
         middle = np.sqrt(low * high)
-        planned = reference(gyrostat(up, middle), LINE, up, 0.1).planned
-        low, high = (middle, high) if planned.failure else (low, middle)
+        planned = reference(gyrostat(up, middle), LINE, up, 0.1).trajectory
+        low, high = (middle, high) if planned is None else (low, middle)
     slew, inertia = up.slew(ABOUT_COM, 0.1), up.turned(ABOUT_COM)
     task = WheelTask(
         slew.swept,

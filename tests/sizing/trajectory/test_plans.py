@@ -15,22 +15,12 @@ from ocs_design.sizing.trajectory.plans import drive_line_of, gyrostat_of, plan
 
 ROBOT = robot_by_hand(2.5, (0.032, 0.055, 0.0696, 0.001, -0.002, 0.0005), (0.001, 0.002, -0.0276))
 STANDING = 0.272
-DEVICES = {
-    "direct": driven_device(),
-    "reducing": driven_device(drive=geared(3.0)),
-    "reversing": driven_device(drive=geared(0.5, reverses=True)),
-}
+DRIVES = {"direct": EC45, "reducing": geared(3.0), "reversing": geared(0.5, reverses=True)}
 
 
-def with_spin_inertia(device):
-    """The paper's rim with this drive's rotor."""
-    spin = PAPER_WHEEL.spin_inertia + device.motor.rotor_inertia
-    return replace(device, flywheel=replace(device.flywheel, spin_inertia=spin))
-
-
-@pytest.fixture(params=DEVICES)
+@pytest.fixture(params=DRIVES)
 def device(request):
-    return with_spin_inertia(DEVICES[request.param])
+    return driven_device(drive=DRIVES[request.param])
 
 
 def test_the_gyrostat_is_robot_and_device_braked(device):

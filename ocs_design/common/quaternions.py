@@ -9,7 +9,7 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 
 
-def from_axis_angle(axis: FloatArray, angle: FloatArray) -> FloatArray:
+def from_axis_angle(axis: FloatArray, angle: FloatArray | float) -> FloatArray:
     """Turn by `angle` [rad], shape (...), about the unit `axis`, shape (..., 3); shape (..., 4)."""
     half = 0.5 * np.asarray(angle)
     return np.concatenate([np.cos(half)[..., None], np.sin(half)[..., None] * axis], axis=-1)

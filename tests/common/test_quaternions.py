@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from ocs_design.simulation import quaternions
+from ocs_design.common import quaternions
 
 angles = st.floats(-3.0, 3.0)
 
