@@ -83,7 +83,7 @@ def judge(
         return _pivot_verdict(metrics, maneuver)
     shoved = isinstance(maneuver, Shove)
     verdict = (
-        _shove_verdict(metrics, can_stand)
+        _shove_verdict(metrics, maneuver, can_stand)
         if shoved
         else _landing_verdict(metrics, maneuver, can_stand, legs)
     )
@@ -127,7 +127,7 @@ def _landing_verdict(
     return Verdict(True, f"{landing}{ending}")
 
 
-def _shove_verdict(metrics: Metrics, can_stand: bool | None) -> Verdict:
+def _shove_verdict(metrics: Metrics, maneuver: Maneuver, can_stand: bool | None) -> Verdict:
     """Verdict on a robot that is shoved as it stands; see `judge`."""
     unjudged = ""
     if can_stand is None:
@@ -135,7 +135,7 @@ def _shove_verdict(metrics: Metrics, can_stand: bool | None) -> Verdict:
     elif not can_stand:
         unjudged = "the legs do not keep the robot up, not even unshoved"
     # What a shove has for touchdown is the instant that it begins.
-    elif _off_level(metrics):
+    elif off_at_touchdown(metrics, maneuver) > LANDING_TOLERANCE:
         unjudged = (
             f"the robot does not stand level by itself: it leans by {_tilt(metrics)} before the "
             "shove"
@@ -160,9 +160,11 @@ def _pivot_verdict(metrics: Metrics, maneuver: Pivoted) -> Verdict:
         f"is at {_tilt(metrics)} off balance after {maneuver.duration:.3g} s, turning at "
         f"{np.degrees(metrics.touchdown_rate):.1f} deg/s"
     )
-    in_time = not _off_level(metrics) and metrics.touchdown_rate <= REST_RATE
-    off = max(abs(metrics.final_roll), abs(metrics.final_pitch))
-    if not in_time or not metrics.upright_at_end or off > LANDING_TOLERANCE:
+    off = max(
+        off_at_touchdown(metrics, maneuver), abs(metrics.final_roll), abs(metrics.final_pitch)
+    )
+    at_rest = metrics.touchdown_rate <= REST_RATE
+    if off > LANDING_TOLERANCE or not at_rest or not metrics.upright_at_end:
         falls = f"{is_at}, and ends at {_final_tilt(metrics)} off balance"
         return Verdict(False, falls, Fault.BALANCE, stands=False)
     spin = f"{metrics.final_wheel_speed * 30.0 / np.pi:.0f} rpm"
@@ -251,11 +253,12 @@ def _landing_failure(metrics: Metrics, maneuver: Maneuver) -> str:
             return ""
         rate = np.degrees(metrics.touchdown_rate)
         return f"{_ends(maneuver)} at {_tilt(metrics)}, turning at {rate:.0f} deg/s"
-    roll, pitch, _ = landing_attitude(maneuver)
-    if roll == pitch == 0.0:
-        return _off_level(metrics)
     if off_at_touchdown(metrics, maneuver) <= LANDING_TOLERANCE:
         return ""
+    roll, pitch, _ = landing_attitude(maneuver)
+    if roll == pitch == 0.0:
+        allowed = np.degrees(LANDING_TOLERANCE)
+        return f"touches down at {_tilt(metrics)}, more than {allowed:.0f} deg off level"
     return f"{_ends(maneuver)} at {_tilt(metrics)}, not at {_angles(pitch, roll)}"
 
 
@@ -274,15 +277,6 @@ def off_at_touchdown(metrics: Metrics, maneuver: Maneuver) -> float:
         return max(abs(metrics.touchdown_roll), abs(metrics.touchdown_pitch))
     ended = _vertical(metrics.touchdown_roll, metrics.touchdown_pitch)
     return float(np.arccos(np.clip(ended @ _vertical(roll, pitch), -1.0, 1.0)))
-
-
-def _off_level(metrics: Metrics) -> str:
-    """What is wrong with the tilt at touchdown; empty if it is level."""
-    tilt = max(abs(metrics.touchdown_roll), abs(metrics.touchdown_pitch))
-    if tilt <= LANDING_TOLERANCE:
-        return ""
-    allowed = np.degrees(LANDING_TOLERANCE)
-    return f"touches down at {_tilt(metrics)}, more than {allowed:.0f} deg off level"
 
 
 def _ends(maneuver: Maneuver) -> str:

@@ -15,12 +15,10 @@ from ocs_design.simulation.launch import Push
 from ocs_design.simulation.reference import Quintic
 from ocs_design.simulation.scenario import Flights, Options, run_scenarios
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.world_builder import WorldBuilder
 
 
 @pytest.fixture(scope="module")
-def worlds(solo12):
-    builder = WorldBuilder(solo12, paper_device())
+def worlds(solo12, builder):
     jump, drop, flip = paper_maneuvers(solo12)
     flights = [
         builder.flight(drop, Wheels.ACTIVE),
@@ -100,8 +98,7 @@ def test_a_push_keeps_its_impulse_at_any_control_rate(period):
 
 
 @pytest.fixture(scope="module")
-def filmed(solo12):
-    builder = WorldBuilder(solo12, paper_device())
+def filmed(solo12, builder):
     _, drop, flip = paper_maneuvers(solo12)
     return [builder.flight(flip, Wheels.ABSENT), builder.flight(drop, Wheels.ACTIVE)]
 

@@ -19,7 +19,6 @@ from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import JUMP_STEP, Wheels
 from ocs_design.simulation.schedule import FlightClock, LegReferences
 from ocs_design.simulation.verdict import MOMENTUM_GATE
-from ocs_design.simulation.world_builder import WorldBuilder
 
 
 @pytest.fixture(scope="module")
@@ -30,11 +29,6 @@ def disturbance(solo12):
 @pytest.fixture(scope="module")
 def jumps(solo12, disturbance):
     return plan_jumps(solo12, paper_device(), [disturbance])
-
-
-@pytest.fixture(scope="module")
-def builder(solo12):
-    return WorldBuilder(solo12, paper_device())
 
 
 @pytest.fixture(scope="module")

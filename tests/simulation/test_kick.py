@@ -12,7 +12,6 @@ from ocs_design.requirement.maneuver import Disturbance
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
-from ocs_design.simulation.world_builder import WorldBuilder
 
 KICK = Disturbance(
     name="kick",
@@ -35,16 +34,16 @@ def check_gained(world, momentum, velocity):
     assert v2 - v1 + fallen == pytest.approx(velocity, abs=0.02)
 
 
-def test_a_kick_changes_velocity_and_momentum_by_its_impulses(solo12):
-    world = WorldBuilder(solo12, paper_device()).flight(KICK, Wheels.ABSENT)
+def test_a_kick_changes_velocity_and_momentum_by_its_impulses(builder):
+    world = builder.flight(KICK, Wheels.ABSENT)
     check_gained(world, np.multiply(KICK.torque, KICK.duration), KICK.velocity_change)
 
 
 @pytest.mark.parametrize("wheels", [Wheels.ABSENT, Wheels.BRAKED])
-def test_a_force_at_a_point_does_what_mujoco_makes_of_it(solo12, wheels):
+def test_a_force_at_a_point_does_what_mujoco_makes_of_it(builder, wheels):
     """With the device on, about the centre of mass of both; the paper's moves it by 22 mm."""
     kick = replace(KICK, impulse=(-0.2, 0.6, 0.3), point=(0.1, 0.05, 0.0))
-    world = WorldBuilder(solo12, paper_device()).flight(kick, wheels)
+    world = builder.flight(kick, wheels)
     model = copy(world.model)
     data = mujoco.MjData(model)
     model.opt.timestep, model.opt.gravity[:], data.qpos[:] = 1e-6, 0.0, world.qpos

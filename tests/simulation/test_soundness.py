@@ -15,7 +15,6 @@ from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import judge
 from ocs_design.simulation.wheel_law import WheelLaw
-from ocs_design.simulation.world_builder import WorldBuilder
 
 
 @pytest.fixture(scope="module")
@@ -24,9 +23,9 @@ def drop(solo12):
 
 
 @pytest.fixture
-def world(solo12, drop):
+def world(builder, drop):
     """A fresh one each time: its model is spoilt."""
-    return WorldBuilder(solo12, paper_device()).flight(drop, Wheels.ABSENT)
+    return builder.flight(drop, Wheels.ABSENT)
 
 
 def stiffened(world, factor: float):
@@ -72,9 +71,9 @@ def test_growth_is_that_of_small_motions_in_mujoco(world, factor):
     assert sizes[-1] / sizes[-2] == pytest.approx(predicted, rel=0.15)
 
 
-def test_wheels_too_fast_for_the_step_are_not_judged(solo12, drop):
+def test_wheels_too_fast_for_the_step_are_not_judged(builder, drop):
     """A hundred times as fast as they were made for, left to themselves."""
-    world = WorldBuilder(solo12, paper_device()).flight(drop, Wheels.ACTIVE)
+    world = builder.flight(drop, Wheels.ACTIVE)
     world.qvel[list(world.addresses.wheels)] = 8e4
     world = replace(world, law=WheelLaw.off(2))
     found = measure(simulate([world]), 0, world)

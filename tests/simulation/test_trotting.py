@@ -15,7 +15,6 @@ from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.trotting import STEP_HEIGHT, require_trot, shoved_at, trot
-from ocs_design.simulation.world_builder import WorldBuilder
 
 STRIDE = 0.4
 WEIGHT = 27.0
@@ -23,8 +22,8 @@ SHOVE = Shove(name="shove", torque=(2.0, 8.0, 0.0), duration=0.05, settling=0.5,
 
 
 @pytest.fixture(scope="module")
-def world(solo12):
-    return WorldBuilder(solo12, paper_device()).flight(SHOVE, Wheels.ABSENT)
+def world(builder):
+    return builder.flight(SHOVE, Wheels.ABSENT)
 
 
 @pytest.fixture(scope="module")

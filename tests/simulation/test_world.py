@@ -20,12 +20,6 @@ from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
 from ocs_design.simulation.world import TrunkChain
 from ocs_design.simulation.world_builder import WorldBuilder, wheel_gains
 
-
-@pytest.fixture(scope="module")
-def builder(solo12):
-    return WorldBuilder(solo12, paper_device())
-
-
 GEARED = driven_device(drive=geared(1.5))
 
 

@@ -156,7 +156,7 @@ def pivot_boundary(maneuver: Pivoted, gyrostat: Gyrostat) -> Boundary:
 
 
 def vertical_of(attitude: FloatArray) -> FloatArray:
-    """The world's upward direction in B, shape (..., 3), where an integrator leaves no unit."""
+    """The world's upward direction in B times the attitude's squared length, shape (..., 3)."""
     w, x, y, z = np.moveaxis(attitude, -1, 0)
     return np.stack(
         [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), w * w - x * x - y * y + z * z], axis=-1
