@@ -11,6 +11,7 @@ its own copy of the duration, so that the program stays banded. All rows are fre
 
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import NamedTuple
 
 import casadi as ca
 import numpy as np
@@ -48,51 +49,34 @@ class Limit(IntEnum):
     FRICTION = 2
 
 
-@dataclass(frozen=True)
-class NodeLayout:
+class NodeLayout(NamedTuple):
     """Places of the unknowns in a node's column.
 
     Attributes:
         joints, legs: how many there are.
+        y, v, a: coordinates of trunk and joints [m, rad], their first and second derivatives.
+        f: forces on the feet over the weight.
+        duration: of the push-off [s].
+        size: number of unknowns per node.
     """
 
     joints: int
     legs: int
+    y: slice
+    v: slice
+    a: slice
+    f: slice
+    duration: int
+    size: int
 
-    @property
-    def coordinates(self) -> int:
-        """Number of coordinates of trunk and joints."""
-        return POSE + self.joints
-
-    @property
-    def y(self) -> slice:
-        """Coordinates [m, rad]."""
-        return slice(0, self.coordinates)
-
-    @property
-    def v(self) -> slice:
-        """First derivatives of the coordinates."""
-        return slice(self.coordinates, 2 * self.coordinates)
-
-    @property
-    def a(self) -> slice:
-        """Second derivatives of the coordinates."""
-        return slice(2 * self.coordinates, 3 * self.coordinates)
-
-    @property
-    def f(self) -> slice:
-        """Forces on the feet over the weight."""
-        return slice(3 * self.coordinates, 3 * self.coordinates + 3 * self.legs)
-
-    @property
-    def duration(self) -> int:
-        """Duration of the push-off [s]."""
-        return 3 * self.coordinates + 3 * self.legs
-
-    @property
-    def size(self) -> int:
-        """Number of unknowns per node."""
-        return self.duration + 1
+    @classmethod
+    def of(cls, body: LeggedBody) -> "NodeLayout":
+        """Places in the nodes of a robot."""
+        joints, legs = len(body.joints), len(body.legs)
+        count = POSE + joints
+        y, v, a = (slice(k * count, (k + 1) * count) for k in range(3))
+        last = a.stop + 3 * legs
+        return cls(joints, legs, y, v, a, slice(a.stop, last), last, last + 1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,7 +125,7 @@ class Node:
     @classmethod
     def of(cls, body: LeggedBody, base: FloatingBase) -> "Node":
         """The node of a robot; what differs between its jumps stays a symbol."""
-        layout = NodeLayout(len(body.joints), len(body.legs))
+        layout = NodeLayout.of(body)
         z, units = ca.SX.sym("z", layout.size), _Units.of(body, base)
         duration = z[layout.duration]
         # A node's unknowns in place of coordinates, rates and forces.

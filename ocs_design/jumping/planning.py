@@ -143,18 +143,17 @@ class JumpPlanner:
             trunk: of `LeggedBody`, with what it carries.
             similar: a push-off of this jump with another trunk, to begin the search at.
         """
-        push_off = self._push_offs.find(jump, trunk, similar=similar)
-        if push_off.forbidden:
-            return Planned(JumpPlan(None, push_off.forbidden), push_off)
-        flight = self._fly(push_off, jump, trunk)
-        if np.abs(flight.tilt).max() > _LEVEL:
+        spin = None
+        for corrected in (False, True):
+            push_off = self._push_offs.find(jump, trunk, spin=spin, similar=similar)
+            if push_off.forbidden:
+                return Planned(JumpPlan(None, push_off.forbidden), push_off)
+            flight = self._fly(push_off, jump, trunk)
+            if corrected or np.abs(flight.tilt).max() <= _LEVEL:
+                break
             # The legs turn the trunk as they go back: a spin at lift-off turns it as far again.
             inertia = self._free.inertia(push_off.y[-1], Load.values(jump.gravity, trunk))
-            spin = -inertia @ flight.tilt / jump.flight_time
-            push_off = self._push_offs.find(jump, trunk, spin=spin, similar=push_off)
-            flight = self._fly(push_off, jump, trunk)
-        if push_off.forbidden:
-            return Planned(JumpPlan(None, push_off.forbidden), push_off)
+            spin, similar = -inertia @ flight.tilt / jump.flight_time, push_off
         # Push-off and flight one after the other.
         lift_off = float(push_off.time[-1])
         pushing = np.arange(0.0, lift_off, _SAMPLE)

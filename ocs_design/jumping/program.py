@@ -183,7 +183,7 @@ class _Rows:
         )
         # Cubic splines: y'' is linear on each interval, y' and y its integrals.
         layout = node.layout
-        step = ca.repmat(ca.DM(np.array(STEPS)).T, layout.coordinates, 1)
+        step = ca.repmat(ca.DM(np.array(STEPS)).T, layout.y.stop, 1)
         flat = ca.MX.sym("x", layout.size * NODES + _EXCESS)
         z = ca.reshape(flat[:-_EXCESS], layout.size, NODES)
         y, v, a, duration = (z[part, :] for part in (layout.y, layout.v, layout.a, layout.duration))

@@ -103,8 +103,8 @@ class PushOffs:
             similar: another push-off of this jump, to begin the search at.
         """
         body, layout = self.body, self._node.layout
-        crouch = _Crouch.of(body, jump)
-        lower, upper = _bounds_of_unknowns(body, layout, crouch.duration)
+        duration, height = _crouch(body, jump)
+        lower, upper = _bounds_of_unknowns(body, layout, duration)
         mass = trunk.mass + body.leg_mass
         unit = np.sqrt(jump.gravity * body.length)
         velocity = np.array([jump.forward, 0.0, jump.upward]) / unit
@@ -113,7 +113,8 @@ class PushOffs:
         bounds = lower, upper, end, Load.values(jump.gravity, trunk)
         found = None if similar is None else self._program.solve(similar.answer, *bounds)
         if found is None or not found.solved:
-            begin = np.clip(_initial_guess(body, jump, crouch), lower, upper)
+            guess = _initial_guess(body, layout, jump.gravity, duration, height)
+            begin = np.clip(guess, lower, upper)
             found = self._program.solve(begin, *bounds)
         z = found.nodes
         duration = z[layout.duration, -1]
@@ -129,66 +130,45 @@ class PushOffs:
         )
 
 
-@dataclass(frozen=True, eq=False)
-class _Crouch:
+def _crouch(body: LeggedBody, jump: Jump) -> tuple[float, FloatArray]:
     """The trunk's way down and up again, where the search begins.
 
-    Attributes:
-        depth, rise: of the trunk below and above its height in stance [m].
-        down, up: how long each takes [s].
+    It falls at 0.6 g, and rises at constant acceleration to the speed asked for.
+
+    Returns:
+        How long it takes [s]; height of the trunk over its stance at the nodes [m].
     """
-
-    depth: float
-    rise: float
-    down: float
-    up: float
-
-    @classmethod
-    def of(cls, body: LeggedBody, jump: Jump) -> "_Crouch":
-        """Crouch that falls at 0.6 g, and rises at constant acceleration to the speed asked for."""
-        depth, stretched = _CROUCH * body.length, 0.0
-        for leg, where in body.joint_slices:
-            pose = leg.chain.pose(body.posture[where])
-            span, axis = pose.point(leg.foot) - pose.origins[leg.hip], pose.axes[leg.hip]
-            standing = float(np.linalg.norm(span - axis * (axis @ span)))
-            stretched = max(stretched, REACH[1] * leg.length - standing)
-        rise = max(0.9 * stretched, 0.02 * body.length)
-        return cls(
-            depth,
-            rise,
-            2.0 * float(np.sqrt(2.0 * depth / (0.6 * jump.gravity))),
-            2.0 * (depth + rise) / jump.upward,
-        )
-
-    @property
-    def duration(self) -> float:
-        """Duration of both [s]."""
-        return self.down + self.up
-
-    def height(self, share: FloatArray) -> FloatArray:
-        """Height of the trunk over its stance [m], at shares of the duration."""
-        bottom = self.down / self.duration
-        falling = share < bottom
-        first = np.clip(share / bottom, 0.0, 1.0)
-        second = np.clip((share - bottom) / (1.0 - bottom), 0.0, 1.0)
-        down = -0.5 * self.depth * (1.0 - np.cos(np.pi * first))
-        up = -self.depth + (self.depth + self.rise) * second**2
-        return np.where(falling, down, up)
+    depth, stretched = _CROUCH * body.length, 0.0
+    for leg, where in body.joint_slices:
+        pose = leg.chain.pose(body.posture[where])
+        span, axis = pose.point(leg.foot) - pose.origins[leg.hip], pose.axes[leg.hip]
+        standing = float(np.linalg.norm(span - axis * (axis @ span)))
+        stretched = max(stretched, REACH[1] * leg.length - standing)
+    rise = max(0.9 * stretched, 0.02 * body.length)
+    down = 2.0 * float(np.sqrt(2.0 * depth / (0.6 * jump.gravity)))
+    duration = down + 2.0 * (depth + rise) / jump.upward
+    bottom = down / duration
+    first = np.clip(SHARES / bottom, 0.0, 1.0)
+    second = np.clip((SHARES - bottom) / (1.0 - bottom), 0.0, 1.0)
+    falling = -0.5 * depth * (1.0 - np.cos(np.pi * first))
+    rising = -depth + (depth + rise) * second**2
+    return duration, np.where(bottom > SHARES, falling, rising)
 
 
-def _initial_guess(body: LeggedBody, jump: Jump, crouch: _Crouch) -> FloatArray:
+def _initial_guess(
+    body: LeggedBody, layout: NodeLayout, gravity: float, duration: float, height: FloatArray
+) -> FloatArray:
     """Unknowns where the search begins: level, over still feet, shape (size, nodes)."""
-    layout = NodeLayout(len(body.joints), len(body.legs))
     found = np.zeros((layout.size, NODES))
-    found[2] = body.height + crouch.height(SHARES)
+    found[2] = body.height + height
     for leg, where in body.joint_slices:
         rows = slice(POSE + where.start, POSE + where.stop)
         lifts = body.height - found[2]
         found[rows] = lifted(leg.chain, leg.foot, leg.length, body.posture[where], lifts).T
     found[layout.v], found[layout.a] = spline_slopes(found[layout.y])
-    rising = found[layout.a][2] / crouch.duration**2 / jump.gravity
+    rising = found[layout.a][2] / duration**2 / gravity
     found[layout.f][2::3] = np.maximum(1.0 + rising, 0.2) / len(body.legs)
-    found[layout.duration] = crouch.duration
+    found[layout.duration] = duration
     return found
 
 
@@ -201,7 +181,7 @@ def _bounds_of_unknowns(
     length, legs = body.length, len(body.legs)
     box = np.array([0.5 * length, 0.2 * length, 2.0 * body.height, _TILT, _TILT, _TILT])
     lower[: len(box)], upper[: len(box)] = -box[:, None], box[:, None]
-    joints = slice(len(box), layout.coordinates)
+    joints = slice(len(box), layout.y.stop)
     lower[joints] = np.array([max(j.lower, -_WINDING) for j in body.joints])[:, None]
     upper[joints] = np.array([min(j.upper, _WINDING) for j in body.joints])[:, None]
     lower[layout.f][2::3] = _LEAST_LOAD / legs
