@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 from wheels import motor
 
-from ocs_design.device.layout import module_axes
+from ocs_design.device.layout import Layout, LayoutName, module_axes
 from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.target import Target
 from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw, tilt_error
@@ -100,9 +100,7 @@ def test_the_trunk_gets_the_roll_and_pitch_acceleration_that_the_law_asks_for(no
 @given(vectors, vectors, st.tuples(spins, spins, spins, spins))
 def test_wheels_that_span_three_axes_turn_the_trunk_about_yaw_too(now, rate, spin):
     """A pyramid of four: what is asked about every axis comes about."""
-    tilt, turn = np.radians(35.0), np.radians([45.0, 135.0, 225.0, 315.0])
-    axes = np.array([np.cos(tilt) * np.cos(turn), np.cos(tilt) * np.sin(turn), np.full(4, 0.57)])
-    body = Gyrostat(INERTIA, axes / np.linalg.norm(axes, axis=0), 7.1e-5)
+    body = Gyrostat(INERTIA, Layout(LayoutName.PYRAMID).axes(np.radians(35.0)), 7.1e-5)
     target = level(rate=(0.3, -0.2, 0.5), acceleration=(1.0, -4.0, 2.0))
     torque = torque_of(law_of(body), now, rate, spin, target)
     tilt_off = tilt_error(seen_from(Rotation.from_rotvec(now)), target.vertical)[0]

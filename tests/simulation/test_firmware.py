@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 from firmware import bound, compiled
 from trajectories import from_rest
-from wheels import EC45, driven_device, paper_device
+from wheels import EC45, driven_device, layout_device, paper_device
 
 from ocs_design.actuation.supply import Supply
 from ocs_design.common import quaternions
 from ocs_design.device.bodies import joint_names
-from ocs_design.device.device import Module
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.maneuver import Flip
@@ -49,19 +48,9 @@ def worlds_of(solo12, device, *, desaturate):
     return worlds
 
 
-def laid_out(name):
-    """The motor's device with its wheels in another layout, next to each other."""
-    device, layout = driven_device(), Layout(LayoutName(name))
-    modules = tuple(
-        Module(each, axis, np.array([0.0, 0.12 * i, 0.1]))
-        for i, (each, axis) in enumerate(zip(layout.names, layout.axes(0.0).T, strict=True))
-    )
-    return replace(device, modules=modules, layout=layout, incidence=0.0)
-
-
 CASES = {
-    "one wheel": (laid_out("single"), False),
-    "wheels on all axes": (laid_out("orthogonal"), False),
+    "one wheel": (layout_device(Layout(LayoutName.SINGLE)), False),
+    "wheels on all axes": (layout_device(Layout(LayoutName.ORTHOGONAL)), False),
     "ideal wheels": (paper_device(), False),
     "motors on a weak supply, braked in stance": (
         replace(driven_device(drive=WOUND), supply=Supply(24.0, 2.0)),
