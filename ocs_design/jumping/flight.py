@@ -112,7 +112,6 @@ class FreeRobot:
 
         Args:
             y, v: pose and joints, and their rates, at lift-off.
-            legs: how the joints move.
             load: see `floating_base.Load.values`.
             duration: of the flight [s], no shorter than that of `legs`.
         """

@@ -257,8 +257,6 @@ def _leg_state(
     """Inverse dynamics of one leg.
 
     Args:
-        leg: its parameters.
-        base: motion of B.
         joints: positions, velocities and accelerations, shape (n, 1) each.
         force: of the ground on the foot, in B [N].
         up: the world's vertical in B.

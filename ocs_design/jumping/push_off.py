@@ -96,7 +96,6 @@ class PushOffs:
         """The push-off of least effort.
 
         Args:
-            jump: that is asked for.
             trunk: with all that it carries, in B.
             spin: angular momentum about the centre of mass at lift-off, in B [kg m^2/s], shape
                 (3,); None: none.

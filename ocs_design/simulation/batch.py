@@ -219,7 +219,6 @@ class Batch:
         """Run all worlds to their ends, once.
 
         Args:
-            threads: of the physics.
             stop: set from elsewhere to give up; the recording is then not complete.
             progress: told the part of the work that is done, 0..1.
         """

@@ -88,13 +88,7 @@ def scaled(progress: Progress | None, begin: float, end: float) -> Progress:
 
 
 def _run_beside(batches: Sequence[Batch], threads: int, progress: Progress) -> list[Recording]:
-    """Run the first batch here and the others each in a thread of its own.
-
-    Args:
-        batches: to run.
-        threads: of the physics of each.
-        progress: told how far the first one is; the others are much like it.
-    """
+    """Run the first batch here, whose progress is told, and the others each in its own thread."""
     stop = Event()
     with ThreadPoolExecutor(max(len(batches) - 1, 1)) as others:
         try:

@@ -244,7 +244,6 @@ def write_controller(
     Args:
         name: of the robot, fit for the names of files.
         worlds: of each maneuver with driven wheels, in flight from the start.
-        folder: that takes the files.
         joints: of the wheels, in their order.
         period: of the control steps [s].
         delay: from measurement to torque, the least and the largest that the design was sized

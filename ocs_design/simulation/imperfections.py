@@ -95,7 +95,6 @@ class Sensing:
         vertical v as v + v x e.
 
         Args:
-            k: control instant.
             vertical: the world's upward direction in B, shape (n, 3); its length is left alone.
             rate: of the trunk in B [rad/s], shape (n, 3).
         """
@@ -130,7 +129,6 @@ class Drives:
         """Drives of worlds whose commands are held for `hold` steps of the physics.
 
         Args:
-            imperfections: of each world.
             response: of a wheel's speed to its motor's torque, see `Gyrostat`, shape (n,).
             instants: control steps of the longest run.
             hold: steps of the physics from one command to the next. step: of the physics [s].
@@ -157,7 +155,6 @@ class Drives:
         """Torque of the motors, and what friction leaves of it for the wheels [N m].
 
         Args:
-            k: control instant.
             command: of the law to the motors of the first n worlds at that instant [N m], (n, m).
             speed: of the wheels then [rad/s], shape (n, m).
 

@@ -109,12 +109,7 @@ def level_margins(law: WheelLaw, body: Gyrostat, period: float) -> LoopMargins:
 
 
 def plan_margins(trajectory: Trajectory, body: Gyrostat, period: float) -> LoopMargins:
-    """Smallest margins along a trajectory, with its own gains, as if each instant lasted.
-
-    Args:
-        trajectory: with gains.
-        body: that flies it. period: of the control steps [s].
-    """
+    """Smallest margins along a trajectory with gains, as if each instant lasted; `period` [s]."""
     assert trajectory.gains is not None, "only gains have margins"
     size = trajectory.gains.shape[2]
     systems = linearised(body, trajectory.rate, trajectory.wheel_speed, trajectory.vertical)

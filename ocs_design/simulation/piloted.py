@@ -72,11 +72,7 @@ class PilotedFlight(Batch):
         return found
 
     def fly(self, torque: FloatArray) -> None:
-        """One control step with torques asked of the motors, cut to what motors and supply can do.
-
-        Args:
-            torque: [N m], shape (m,).
-        """
+        """One control step with these torques asked of the motors [N m], (m,), cut as the law's."""
         k, speed = self._instant, self.seen.wheel_speed[None]
         asked = self._law.possible(torque[None], speed, self._period)
         if self.flown < 0:

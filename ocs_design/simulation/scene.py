@@ -171,11 +171,7 @@ def compile_scene(
 
 
 def whole_mass(model: mujoco.MjModel, data: mujoco.MjData) -> MassProperties:
-    """Robot and device as one rigid body in the world, without the anchor of a pivot.
-
-    Args:
-        model: compiled. data: with kinematics computed.
-    """
+    """Robot and device, posed as in `data`, as one rigid body in the world, without an anchor."""
     names = (model.body(index).name for index in range(model.nbody))
     mass = np.array(
         [0.0 if n == ANCHOR else m for n, m in zip(names, model.body_mass, strict=True)]

@@ -59,7 +59,6 @@ class FlightClock:
         """Note which worlds were in the air throughout control step `k`.
 
         Args:
-            k: control step that has passed.
             touches: whether anything touches the floor in each of its physics steps, (n, hold).
         """
         left, in_air = self.lift_off[: len(touches)], self._in_air[: len(touches)]
@@ -105,7 +104,6 @@ class LegReferences:
         """Put the commands of control step `k` into `control`, shape (n, hold, nu and more).
 
         Args:
-            k: control step.
             control: of the first n worlds.
             bears: whether the legs of each are to bear its weight, shape (n,).
         """

@@ -49,7 +49,6 @@ def waiting(
         None: it is not shoved; None: the legs hold their posture.
 
     Args:
-        robot: see `Robot`.
         weight: of the robot with what it carries [N].
         settling: how long it stands, and is watched afterwards [s].
 

@@ -68,12 +68,10 @@ def judge(
 
     Args:
         metrics: of the run; None if it became unstable.
-        maneuver: that was flown.
         can_stand: whether the robot stays up on its joint drives after a level landing from this
             flight; None for a robot without legs, and in orbit. Where it does not, "upright at the
             end" says nothing about the device and is not judged.
         objection: to the run whatever its figures are, see `soundness`; empty if there is none.
-        legs: how many it has.
         gate: largest relative momentum error that is judged.
     """
     unsound = objection or _unsound(metrics, maneuver, gate)

@@ -124,7 +124,6 @@ class WheelLaw(Table):
             vertical: the world's upward direction in B, unit vectors (n, 3).
             rate: of the trunk in B [rad/s], (n, 3).
             wheel_speed: relative to the trunk [rad/s], (n, m).
-            target: where the trunk should be.
             period: for which the torque will be held [s].
             attitude: quaternions (n, 4), where the target has a regulated plan.
         """

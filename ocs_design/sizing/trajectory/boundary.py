@@ -64,7 +64,6 @@ def boundary(maneuver: Maneuver, standing_height: float) -> Boundary:
     """The boundary value problem of a maneuver in the air.
 
     Args:
-        maneuver: any kind that a specification knows.
         standing_height: of the trunk over the ground [m].
 
     Raises:

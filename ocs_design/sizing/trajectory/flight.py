@@ -52,12 +52,9 @@ class Flight:
 
 
 def fly(flown: Turn, line: DriveLine, motion: Motion) -> Flight:
-    """Apply the torques of a motion from the start of the turn.
+    """Apply the torques of a motion from the start of the turn, with robot and device as they are.
 
-    Args:
-        flown: the turn, with robot and device as they are.
-        line: what of the drives may be used.
-        motion: of the program.
+    `line`: what of the drives may be used.
     """
     asked, gyrostat, turn = flown.asked, flown.gyrostat, flown.outline
     wheels = gyrostat.axes.shape[1]

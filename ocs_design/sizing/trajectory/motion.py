@@ -204,7 +204,6 @@ class FixedAxisTurn:
         """The turn that a maneuver asks for.
 
         Args:
-            asked: boundary value problem of the maneuver.
             attitude: at the start of the turn, which is the end of a push, shape (4,).
             rate: of the trunk then, in B [rad/s], shape (3,).
         """

@@ -112,10 +112,7 @@ class Reference:
         """Factor on what the closed forms ask for a device that makes it; None: this one does.
 
         Momentum goes with the inverse of the time, torque with its square. What falls over from
-        most tilts tells little.
-
-        Args:
-            end: of the turn, see `End`.
+        most tilts tells little. `end`: of the turn, see `End`.
         """
         if self.trajectory is not None and (end == End.LEVEL or self.share <= self.most):
             return None

@@ -280,10 +280,6 @@ def _powers_left(
     The others then give `S tau`, see `shared_by_others`, and a wheel that stopped at the speed W_k
     leaves them at `S W + (1 - S) W(t_k)`. That is linear in the speed that it keeps, so that the
     extremes count: for a turn from rest to rest these are none and that half way.
-
-    Args:
-        shape: of the turn. numbers: of its equations. mapped: outputs of its intervals.
-        scaled: its states.
     """
     wheels, count, found = shape.wheels, shape.intervals, []
     by_interval = left_power(wheels)
