@@ -35,10 +35,9 @@ def _vertical(turn: Turn, time: FloatArray) -> FloatArray:
 
 
 def _rate(body: Gyrostat, vertical: FloatArray, change: FloatArray) -> FloatArray:
-    """From `v' = v x w` and `(I w)_z = 0`, state by state."""
-    found = []
-    for (x, y, z), slope in zip(vertical, change, strict=True):
-        cross = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]
-        equations = np.vstack([cross, body.inertia[2] / body.inertia[2, 2]])
-        found.append(np.linalg.lstsq(equations, [*slope, 0.0], rcond=None)[0])
-    return np.array(found)
+    """From `v' = v x w` and `(I w)_z = 0`: four equations, one of which the others hold."""
+    equations = np.empty((len(vertical), 4, 3))
+    equations[:, :3] = np.cross(vertical[:, None], np.eye(3)).swapaxes(1, 2)
+    equations[:, 3] = body.inertia[2] / body.inertia[2, 2]
+    given = np.column_stack([change, np.zeros(len(change))])
+    return np.einsum("nij,nj->ni", np.linalg.pinv(equations), given)

@@ -59,7 +59,9 @@ def test_a_turn_that_takes_longer_is_refused_with_its_time():
     assert 1.0 / 1.05 < 2.0 / float(told[1]) < 1.05
 
 
-@pytest.mark.parametrize("layout", [LayoutName.TRIAD, LayoutName.PYRAMID])
+@pytest.mark.parametrize(
+    "layout", [LayoutName.TRIAD, pytest.param(LayoutName.PYRAMID, marks=pytest.mark.slow)]
+)
 def test_the_others_can_take_over_a_plan_whichever_drive_stops_at_its_start(layout):
     """The wheels left give its torque on the trunk and hold its momentum within their limits.
 
