@@ -10,7 +10,7 @@ from math import pi, radians, sqrt
 
 from ocs_design.common.units import STANDARD_GRAVITY
 from ocs_design.requirement.device_sections import Envelope
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Shove
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove
 from ocs_design.requirement.pivoted import Actuation, Balance, StandUp
 from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.robot.robot import Robot
@@ -148,55 +148,40 @@ def jump_for(
     return duration, gravity * (duration / share) ** 2 / 8.0 if height is None else height
 
 
-def example_shove(robot: Robot, gravity: float = STANDARD_GRAVITY) -> Shove:
-    """The torque of the first test on the robot that stands, for twice as long.
+def example_maneuvers(robot: Robot, gravity: float = STANDARD_GRAVITY) -> tuple[Maneuver, ...]:
+    """One maneuver of each kind that is none of the paper's tests: figures to start from.
 
-    It is none of the paper's tests and not assumed: a figure to start from.
+    A shove: the torque of the first test on the robot that stands, for twice as long. A quarter of
+    a turn of the heading, on the Moon, and a stop. A catch and a climb on the line below the
+    trunk's middle.
 
     Args:
-        robot: to scale to. gravity: [m/s^2].
+        robot: to scale to. gravity: of all but the turn [m/s^2].
     """
     scale = Scale.of(robot)
     like, time = _disturbance(scale, gravity), scale.time(gravity)
-    return Shove(
-        name="shove",
-        gravity=gravity,
-        torque=like.torque,
-        duration=2.0 * like.duration,
-        settling=0.5 * time,
-    )
-
-
-def example_turns(robot: Robot, gravity: float = STANDARD_GRAVITY) -> tuple[TurnTo, Catch]:
-    """A quarter of a turn of the heading on the Moon, and a stop: figures to start from.
-
-    Args:
-        robot: to scale to. gravity: of the stop [m/s^2].
-    """
-    time, on_earth = (Scale.of(robot).time(each) for each in (gravity, STANDARD_GRAVITY))
-    quarter, jump = jump_for(3.0 * on_earth, None, 0.0, 0.9, LUNAR_GRAVITY)
+    quarter, jump = jump_for(3.0 * scale.time(STANDARD_GRAVITY), None, 0.0, 0.9, LUNAR_GRAVITY)
     stop, hop = jump_for(0.5 * time, None, 0.0, 0.9, gravity)
     rate = (0.2 / time, 0.5 / time, 0.0)
+    below, forward = (0.0, 0.0, -standing_height(robot)), (0.0, 1.0, 0.0)
     return (
+        Shove(
+            name="shove",
+            gravity=gravity,
+            torque=like.torque,
+            duration=2.0 * like.duration,
+            settling=0.5 * time,
+        ),
         TurnTo(
             name="turn", gravity=LUNAR_GRAVITY, yaw=pi / 2.0, duration=quarter, jump_height=jump
         ),
         Catch(name="catch", gravity=gravity, rate=rate, duration=stop, jump_height=hop),
-    )
-
-
-def example_pivots(robot: Robot, gravity: float = STANDARD_GRAVITY) -> tuple[Balance, StandUp]:
-    """A catch and a climb on the line below the trunk's middle: figures to start from."""
-    below, time = (0.0, 0.0, -standing_height(robot)), Scale.of(robot).time(gravity)
-    forward = (0.0, 1.0, 0.0)
-    tilt, lying = radians(5.0), radians(45.0)
-    return (
         Balance(
             name="balance",
             gravity=gravity,
             pivot=below,
             edge=forward,
-            pitch=tilt,
+            pitch=radians(5.0),
             duration=1.5 * time,
         ),
         StandUp(
@@ -204,7 +189,7 @@ def example_pivots(robot: Robot, gravity: float = STANDARD_GRAVITY) -> tuple[Bal
             gravity=gravity,
             pivot=below,
             edge=forward,
-            pitch=lying,
+            pitch=radians(45.0),
             duration=time,
             actuation=Actuation.BRAKE,
         ),

@@ -433,14 +433,8 @@ def uncertainty_of_texts(texts: Mapping[str, str], where: str) -> UncertaintySec
     Raises:
         OcsError: one is no distribution, or of no key.
     """
-    known, faults = spreads(), Faults()
-    for name in sorted(texts.keys() - known.keys()):
-        faults.unknown(f"{where}: reality.{name}", name, tuple(known))
-    read: dict[str, Any] = {
-        name: faults.read(known[name], text, f"{where}: reality.{name}")
-        for name, text in texts.items()
-        if name in known
-    }
+    faults = Faults()
+    read = faults.fields(texts, spreads(), f"{where}: reality")
     if faults:
         raise SpecificationError(f"{where} states what cannot be read:", problems=faults)
     return UncertaintySection(**read)

@@ -124,7 +124,7 @@ def _lowest_surface(body: Body, down: FloatArray) -> Foot:
     return Foot(links.pop() if len(links) == 1 else body.name, middle, 0.0)
 
 
-_PARALLEL = 0.97
+PARALLEL = 0.97
 """Joint axes whose unit vectors have at least this product count as parallel (14 degrees)."""
 
 
@@ -171,8 +171,8 @@ def leg_plane(chain: Chain, foot: FloatArray, up: FloatArray) -> LegPlane:
     hinges = [c for c in columns if chain.joints[rows[c]].kind is JointKind.REVOLUTE]
     for column in columns:
         axis = zero.axes[rows[column]]
-        alike = tuple(c for c in hinges if abs(zero.axes[rows[c]] @ axis) > _PARALLEL)
-        if alike and abs(axis @ up) < _PARALLEL:
+        alike = tuple(c for c in hinges if abs(zero.axes[rows[c]] @ axis) > PARALLEL)
+        if alike and abs(axis @ up) < PARALLEL:
             spread = np.ptp([up @ zero.origins[rows[c]] for c in alike])
             sets.append((len(alike), float(spread), alike))
     pitch = max(sets)[2] if sets else (columns[0],)

@@ -14,7 +14,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.robot.chain import Chain, chain_of, neutral_posture
-from ocs_design.robot.legs import WORLD, far_ends, farthest_frame, is_wheel
+from ocs_design.robot.legs import PARALLEL, WORLD, far_ends, farthest_frame, is_wheel
 from ocs_design.robot.mass import combine
 from ocs_design.robot.tree import Tree
 
@@ -60,8 +60,6 @@ _MIRRORED = 0.06
 """Largest distance of a hip from the mirror image of another, over the reach."""
 _COAXIAL = 0.05
 """Largest distance between the axes of limbs that share a hip, over the spread of all hips."""
-_PARALLEL = 0.97
-"""Least product of axes that count as parallel (14 degrees)."""
 _HANGS = 0.2
 """Least height of a hip over the tip of a limb that hangs at rest, over its reach."""
 _TWINS = 0.01
@@ -387,7 +385,7 @@ def _on_one_hip(one: Limb, other: Limb, hips: FloatArray) -> bool:
         and one.base == other.base
         and float(np.linalg.norm(between)) < _ONE_HIP * spread
         and any(
-            abs(axis @ twin) > _PARALLEL
+            abs(axis @ twin) > PARALLEL
             and float(np.linalg.norm(np.cross(axis, between))) < _COAXIAL * spread
             # The hips of a quadruped's left and right leg turn about one axis too.
             and axis @ (one.hip - middle) * (axis @ (other.hip - middle)) > 0.0

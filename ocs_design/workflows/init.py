@@ -9,7 +9,7 @@ from ocs_design.common.files import safe_name
 from ocs_design.common.units import STANDARD_GRAVITY
 from ocs_design.device.answers import Initialized
 from ocs_design.export.folder import write_whole
-from ocs_design.requirement.froude import SOLO12, example_pivots, example_shove, example_turns
+from ocs_design.requirement.froude import SOLO12, example_maneuvers
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.resolving import default_specification, read_specified_robot
 from ocs_design.requirement.specification import Specification
@@ -74,12 +74,7 @@ def read_start(
     default = default_specification(
         scaled_to, kp=gains.stiffness, kd=gains.damping, gravity=gravity
     )
-    examples = (
-        example_shove(scaled_to, gravity),
-        *example_turns(scaled_to, gravity),
-        *example_pivots(scaled_to, gravity),
-    )
-    return Start(stated, robot, default, examples)
+    return Start(stated, robot, default, example_maneuvers(scaled_to, gravity))
 
 
 def write_start(

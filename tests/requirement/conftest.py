@@ -9,7 +9,7 @@ from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.robot import Robot
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def make_robot() -> Callable[..., Robot]:
     """Makes a robot of one body from its mass, principal inertias and standing height."""
 
@@ -20,7 +20,7 @@ def make_robot() -> Callable[..., Robot]:
     return make
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def solo12(make_robot) -> Robot:
     """The reference itself."""
     from ocs_design.requirement.froude import SOLO12

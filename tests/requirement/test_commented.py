@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from specifications import FULL, same
 
 from ocs_design.requirement.device_sections import OcsSection
-from ocs_design.requirement.froude import example_pivots, example_shove, example_turns
+from ocs_design.requirement.froude import example_maneuvers
 from ocs_design.requirement.keys import keys_of
 from ocs_design.requirement.kinds import MANEUVER_KINDS
 from ocs_design.requirement.phrases import Person
@@ -32,24 +32,19 @@ KEY_LINE = re.compile(r"^(?:# )?(\w+) = ", re.MULTILINE)
 MANEUVER = re.compile(r"^# \[\[maneuver\]\]\n(?:# \w+ = .*\n)+", re.MULTILINE)
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def default(solo12):
     return default_specification(solo12, kp=60.0, kd=12.0)
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def empty(default):
     """With nothing stated."""
-    return commented_toml(Specification(), default, title="Anything", examples=examples())
+    return commented_toml(Specification(), default, title="Anything", examples=EXAMPLES)
 
 
-def shove():
-    return example_shove(robot_by_hand(2.5, (0.03, 0.05, 0.07)))
-
-
-def examples():
-    by_hand = robot_by_hand(2.5, (0.03, 0.05, 0.07))
-    return (shove(), *example_turns(by_hand), *example_pivots(by_hand))
+EXAMPLES = example_maneuvers(robot_by_hand(2.5, (0.03, 0.05, 0.07)))
+SHOVE, _, CATCH, *_ = EXAMPLES
 
 
 def read(text):
@@ -103,10 +98,10 @@ def test_all_maneuvers_stated_are_the_default_ones(empty, default):
     uncommented = re.sub(r"^# (?=kind = )", "", uncommented, flags=re.MULTILINE)
     *found, example, turn, catch, balance, stand_up = read(uncommented).maneuvers
     assert leaves(tuple(found)) == pytest.approx(leaves(default.maneuvers))
-    assert example.torque == pytest.approx(shove().torque, rel=1e-3)
-    assert example.settling == pytest.approx(shove().settling, rel=1e-3)
+    assert example.torque == pytest.approx(SHOVE.torque, rel=1e-3)
+    assert example.settling == pytest.approx(SHOVE.settling, rel=1e-3)
     assert turn.yaw == pytest.approx(np.pi / 2.0)
-    assert catch.rate == pytest.approx(examples()[2].rate, rel=1e-3)
+    assert catch.rate == pytest.approx(CATCH.rate, rel=1e-3)
     assert balance.pitch == pytest.approx(np.radians(5.0))
     assert stand_up.braked
 
@@ -118,9 +113,7 @@ def test_every_kind_of_maneuver_is_shown(empty):
 
 
 def test_an_example_is_not_shown_where_one_is_stated(default):
-    text = commented_toml(
-        Specification(maneuvers=(shove(),)), default, title="x", examples=(shove(),)
-    )
+    text = commented_toml(Specification(maneuvers=(SHOVE,)), default, title="x", examples=(SHOVE,))
     assert text.count('kind = "shove"') == 1
 
 

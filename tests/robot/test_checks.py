@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from commands import run
 from robots import SOLO12
+from urdf_text import inertial, joint, link, robot
 
 from ocs_design.common.errors import RobotError
 from ocs_design.robot.checks import plausibility_warnings
@@ -21,22 +22,14 @@ def box(name, mass, sides, centre=(0.0, 0.0, 0.0), shape=""):
     """A homogeneous box: I_x = m (b^2 + c^2) / 12."""
     moments = [mass * (sum(s * s for s in sides) - sides[i] ** 2) / 12 for i in range(3)]
     at = f'<origin xyz="{words(centre)}" rpy="0 0 0"/>'
-    diagonal = " ".join(f'i{a}{a}="{m}"' for a, m in zip("xyz", moments, strict=True))
-    return (
-        f'<link name="{name}"><inertial>{at}<mass value="{mass}"/>'
-        f'<inertia {diagonal} ixy="0" ixz="0" iyz="0"/></inertial>'
-        f'<collision>{at}<geometry><box size="{words(sides)}"/></geometry></collision>'
-        f"{shape}</link>"
-    )
+    filled = f'<collision>{at}<geometry><box size="{words(sides)}"/></geometry></collision>'
+    return link(name, inertial(mass, words(moments), words(centre)), filled, shape)
 
 
-def joint(name, parent, child, at, axis, limits='lower="-1.5" upper="1.5"'):
-    kind = "revolute" if limits else "continuous"
-    return (
-        f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
-        f'<origin xyz="{words(at)}" rpy="0 0 0"/><axis xyz="{words(axis)}"/>'
-        f'<limit {limits} effort="3" velocity="20"/></joint>'
-    )
+def hinge(name, parent, child, at, axis, limits='lower="-1.5" upper="1.5"'):
+    place = f'<origin xyz="{words(at)}" rpy="0 0 0"/><axis xyz="{words(axis)}"/>'
+    limit = f'<limit {limits} effort="3" velocity="20"/>'
+    return joint(name, parent, child, place, limit, kind="revolute" if limits else "continuous")
 
 
 def words(numbers):
@@ -51,35 +44,28 @@ def leg(name, x, y):
         box(f"{name}_hip", 0.3, (0.06, 0.05, 0.05), (0.0, 0.01 * side, 0.0))
         + box(f"{name}_thigh", 0.3, THIGH, (0.0, 0.0, -0.08))
         + box(f"{name}_shank", 0.1, SHANK, (0.0, 0.0, -0.08), foot)
-        + joint(f"{name}_roll", "trunk", f"{name}_hip", (x, y, 0), (1, 0, 0))
-        + joint(f"{name}_pitch", f"{name}_hip", f"{name}_thigh", (0, 0.05 * side, 0), (0, 1, 0))
-        + joint(f"{name}_knee", f"{name}_thigh", f"{name}_shank", (0, 0, -0.16), (0, 1, 0))
+        + hinge(f"{name}_roll", "trunk", f"{name}_hip", (x, y, 0), (1, 0, 0))
+        + hinge(f"{name}_pitch", f"{name}_hip", f"{name}_thigh", (0, 0.05 * side, 0), (0, 1, 0))
+        + hinge(f"{name}_knee", f"{name}_thigh", f"{name}_shank", (0, 0, -0.16), (0, 1, 0))
     )
 
 
-WHEEL = (
-    '<link name="lidar"><inertial><origin xyz="0 0 0" rpy="0 0 0"/><mass value="0.2"/>'
-    '<inertia ixx="5e-5" iyy="5e-5" izz="9e-5" ixy="0" ixz="0" iyz="0"/></inertial>'
-    '<visual><geometry><cylinder radius="0.03" length="0.02"/></geometry></visual></link>'
+WHEEL = link(
+    "lidar",
+    inertial(0.2, "5e-5 5e-5 9e-5"),
+    '<visual><geometry><cylinder radius="0.03" length="0.02"/></geometry></visual>',
 )
 
 
 def quadruped():
     """A robot that nothing is wrong with, as elements."""
+    spin = hinge("spin", "trunk", "lidar", (0, 0, 0.08), (0, 0, 1), "")
     legs = [
-        (f"{a}{b}", x, y)
+        leg(f"{a}{b}", x, y)
         for a, x in (("F", 0.2), ("H", -0.2))
         for b, y in (("L", 0.1), ("R", -0.1))
     ]
-    text = (
-        '<robot name="sound">'
-        + box("trunk", 3.0, TRUNK)
-        + "".join(leg(*each) for each in legs)
-        + WHEEL
-        + joint("spin", "trunk", "lidar", (0, 0, 0.08), (0, 0, 1), "")
-        + "</robot>"
-    )
-    return ET.fromstring(text)
+    return ET.fromstring(robot(box("trunk", 3.0, TRUNK), *legs, WHEEL, spin))
 
 
 def scaled(root, tag, factor, of=".*", attributes=None):
@@ -254,4 +240,4 @@ def test_numbers_at_the_edge_are_judged_without_a_warning_of_arithmetic(tmp_path
     root = quadruped()
     scaled(root, tag, factor)
     with suppress(RobotError):
-        assert read(root, tmp_path).name == "sound"
+        assert read(root, tmp_path).name == "test"
