@@ -12,6 +12,8 @@ from ocs_design.common.units import Dimension
 from ocs_design.requirement.keys import keyed
 from ocs_design.requirement.values import (
     INCIDENCE,
+    LENGTH,
+    MASS,
     SUPPLY,
     WHEEL_TORQUE,
     Choice,
@@ -46,8 +48,6 @@ from ocs_design.requirement.vocabulary import (
     STEEL,
     WEBS,
 )
-
-_LENGTH, _MASS = Quantity(Dimension.LENGTH), Quantity(Dimension.MASS)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,14 +90,14 @@ class OcsSection:
         example='["0 mm", "50 mm", "70 mm"]',
     )
     mass_max: float | None = keyed(
-        _MASS,
+        MASS,
         "largest mass of the device, all modules",
         why="What the robot may carry: if the lightest device is heavier, there is none.",
         default="not limited",
         example='"1 kg"',
     )
     lighter_by: float | None = keyed(
-        _MASS,
+        MASS,
         "to be told what must give for a device so much lighter",
         why="Each answer is sized as a whole: it takes a minute.",
         default="not asked",
@@ -130,32 +130,32 @@ class FlywheelSection:
     """`[flywheel]`: the room for a rim and what it is made of [m, kg]."""
 
     r_max: float | None = keyed(
-        _LENGTH,
+        LENGTH,
         "largest outer radius of a rim",
         why="Of the rim: its housing adds 3.6 mm all around. The wider the rim, the lighter.",
     )
     r_min: float | None = keyed(
-        _LENGTH,
+        LENGTH,
         "smallest bore radius of a rim",
         why="Room for the motor's shaft or can inside the rim.",
     )
     h_max: float | None = keyed(
-        _LENGTH,
+        LENGTH,
         "largest height of a rim",
         why="The room along the spin axis.",
     )
     h_min: float | None = keyed(
-        _LENGTH,
+        LENGTH,
         "smallest height of a rim",
         why="What your lathe or printer still makes well.",
     )
     wall_min: float | None = keyed(
-        _LENGTH,
+        LENGTH,
         "smallest wall, outer less bore radius",
         why="The same across the rim.",
     )
     wheel_mass_max: float | None = keyed(
-        _MASS,
+        MASS,
         "largest mass of a rim",
         why="What the trunk may carry on each side.",
     )
@@ -196,13 +196,13 @@ class FlywheelSection:
         assumed=0,
     )
     balancing_hole_diameter: float | None = keyed(
-        _LENGTH,
+        LENGTH,
         "of each, on the rim's middle radius",
         why="1.6 mm is the core hole of M2.",
         assumed=BALANCING_DIAMETER,
     )
     balancing_hole_depth: float | None = keyed(
-        _LENGTH,
+        LENGTH,
         "of each, from its face",
         why="A thread of M2 wants 2 mm; both faces have them, so that the rim grows too.",
         assumed=BALANCING_DEPTH,
@@ -322,7 +322,7 @@ class SupplySection:
         why="Less where the legs draw at the same time.",
     )
     controllers: float | str | None = keyed(
-        WordOr((AUTO, NO_CONTROLLERS), _MASS),
+        WordOr((AUTO, NO_CONTROLLERS), MASS),
         "mass of one motor controller; none: not counted",
         why="auto: by their current; a mass where you have some; none: not counted.",
         assumed=AUTO,

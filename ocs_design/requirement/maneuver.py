@@ -22,6 +22,7 @@ from ocs_design.requirement.values import (
     INCIDENCE,
     SPIN,
     TILT,
+    TIME,
     TURN,
     Quantities,
     Quantity,
@@ -65,7 +66,7 @@ class End(StrEnum):
     AT_REST = "at rest"
 
 
-Time: TypeAlias = Annotated[float, Quantity(Dimension.TIME)]
+Time: TypeAlias = Annotated[float, TIME]
 Height: TypeAlias = Annotated[float, HEIGHT]
 JumpHeight: TypeAlias = Annotated[Height, "of the centre of mass"]
 TurnTime: TypeAlias = Annotated[Time, "of the turn, from lift-off"]

@@ -10,9 +10,11 @@ from types import MappingProxyType
 from ocs_design.common.errors import SpecificationError
 from ocs_design.common.units import Dimension
 from ocs_design.requirement.values import (
+    MASS,
     MOST_TURNS,
     ONE_TURN,
     TILT,
+    TIME,
     TUMBLE,
     TURN,
     YAW,
@@ -159,11 +161,10 @@ def person_text(raw: object, where: str) -> Person:
             hint="Write '75kg 1.75m', or '75kg 1.75m with 10kg'.",
         )
     mass, height, payload = parts.groups()
-    of_mass = Quantity(Dimension.MASS)
     return Person(
-        of_mass.read(mass, f"{where}, mass"),
+        MASS.read(mass, f"{where}, mass"),
         Quantity(Dimension.LENGTH, most=3.0).read(height, f"{where}, height"),
-        of_mass.read(payload, f"{where}, payload") if payload else 0.0,
+        MASS.read(payload, f"{where}, payload") if payload else 0.0,
     )
 
 
@@ -278,7 +279,7 @@ class AboutText:
         }
         return About(
             **{axis: found.get(axis, 0.0) for axis in self.values},
-            duration=Quantity(Dimension.TIME).read(time, f"{where}, in") if time else None,
+            duration=TIME.read(time, f"{where}, in") if time else None,
             unit=self.unit,
         )
 

@@ -29,6 +29,8 @@ from ocs_design.requirement.phrases import (
 )
 from ocs_design.requirement.values import (
     HEIGHT,
+    MASS,
+    TIME,
     TRUNK_RATE,
     WHEEL_SPEED,
     Choice,
@@ -51,8 +53,6 @@ from ocs_design.requirement.vocabulary import (
     RELIABILITY,
     SURVIVED,
 )
-
-_LENGTH, _MASS = Quantity(Dimension.LENGTH), Quantity(Dimension.MASS)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,7 +103,7 @@ class RobotSection:
         example='{ "FL_HFE" = "45deg", "FL_KFE" = "-90deg" }',
     )
     mass: float | None = keyed(
-        _MASS,
+        MASS,
         "mass of the robot",
         why="In place of a file, with the inertia.",
         default="read",
@@ -124,7 +124,7 @@ class RobotSection:
         example='"75kg 1.75m with 10kg"',
     )
     weighed: float | None = keyed(
-        _MASS,
+        MASS,
         "what the robot weighs on scales, to check its file's parts",
         why="Tells when the parts in the file do not add up to it.",
         default="not checked",
@@ -271,7 +271,7 @@ class RequirementSection:
         assumed=NONE_STOPS,
     )
     detection: float | None = keyed(
-        Quantity(Dimension.TIME),
+        TIME,
         "time until it is known that a drive has stopped",
         why="Until then the other drives go on as before.",
         assumed=DETECTION,

@@ -431,6 +431,9 @@ HIGHEST_VOLTAGE = 1000.0
 MOST_TURNS = 10
 """Most turns of a flip; no animal and no machine comes near."""
 
+LENGTH, MASS = Quantity(Dimension.LENGTH), Quantity(Dimension.MASS)
+TIME = Quantity(Dimension.TIME)
+
 HEIGHT = Quantity(Dimension.LENGTH, most_bare=20.0, likely="mm")
 """Height of a jump or a fall: from higher than a house nothing with legs lands."""
 

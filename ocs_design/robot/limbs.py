@@ -175,7 +175,7 @@ class Anatomy:
 
         Where a URDF leaves a loop open, exporters write a frame on both sides of the cut.
         """
-        own, above = bodies_of(self.tree, limb), set(self.tree.ancestors(limb.base))
+        own, above = self.inside([limb]), set(self.tree.ancestors(limb.base))
         for pair in self.tree.loops:
             tied = [self.tree.body_of_link[name] for name in pair]
             for end, beyond in (tied, reversed(tied)):
@@ -211,8 +211,7 @@ class Anatomy:
 
     def may_stand(self, chosen: Sequence[Limb], up: FloatArray) -> bool:
         """Whether limbs with as many joints, or else mirror images, are a set worth judging."""
-        reach = max(limb.reach for limb in chosen)
-        return len({limb.hinges for limb in chosen}) == 1 or self.mirrored(chosen, up, reach)
+        return len({limb.hinges for limb in chosen}) == 1 or self.mirrored(chosen, up)
 
     def spines(self, sets: Sequence[Sequence[Limb]], up: FloatArray) -> Iterator[Sequence[Limb]]:
         """Sets of legs at both ends of a spine, such as shoulders and pelvis of a dog."""
@@ -221,13 +220,11 @@ class Anatomy:
             if ends[0] == ends[1] or {limb.last for limb in one} & {limb.last for limb in other}:
                 continue
             # The bodies between must be no part of either set's legs.
-            inside = {i for limb in (*one, *other) for i in bodies_of(self.tree, limb)}
-            mirrored = all(
-                self.mirrored(each, up, max(limb.reach for limb in each)) for each in (one, other)
-            )
-            if inside & set(ends) or not mirrored or not reach_alike((*one, *other), EVEN):
+            if self.inside((*one, *other)) & set(ends):
                 continue
-            yield (*one, *other)
+            mirrored = self.mirrored(one, up) and self.mirrored(other, up)
+            if mirrored and reach_alike((*one, *other), EVEN):
+                yield (*one, *other)
 
     def single(self, limbs: Sequence[Limb], up: FloatArray) -> Iterator[Sequence[Limb]]:
         """The one leg of a hopper: the only limb, hanging on the root."""
@@ -239,9 +236,9 @@ class Anatomy:
             if up @ (limb.hip - limb.tip) > 0.5 * limb.reach:
                 yield at_root
 
-    def mirrored(self, chosen: Sequence[Limb], up: FloatArray, reach: float) -> bool:
+    def mirrored(self, chosen: Sequence[Limb], up: FloatArray) -> bool:
         """Whether the hips are mirror images, or evenly spaced about an upright axis."""
-        hips = np.array([limb.hip for limb in chosen])
+        hips, reach = np.array([limb.hip for limb in chosen]), reach_of(chosen)
         kinds = [(limb.hinges, round(limb.reach / reach, 1)) for limb in chosen]
         middle = hips.mean(axis=0)
         same = all(kind[0] == kinds[0][0] and abs(kind[1] - 1.0) <= 0.1 for kind in kinds)
@@ -270,7 +267,7 @@ class Anatomy:
 
     def together(self, chosen: Sequence[Limb], up: FloatArray) -> bool:
         """Whether the tips are level and below the hips at rest or in a posture of the file."""
-        reach = max(limb.reach for limb in chosen)
+        reach = reach_of(chosen)
         postures: list[Mapping[str, float]] = [
             neutral_posture(self.tree),
             *self.tree.named_postures.values(),
@@ -311,12 +308,13 @@ class Anatomy:
                 best = even
         return best
 
-    def balanced(self, chosen: Sequence[Limb], up: FloatArray, reach: float) -> bool:
+    def balanced(self, chosen: Sequence[Limb], up: FloatArray) -> bool:
         """Whether the robot's centre of mass is over the hips' polygon, line or point, nearly."""
         level = np.eye(3)[up == 0.0]
         hips = np.array([limb.hip for limb in chosen]) @ level.T
         com = level @ self.robot.com
-        return _distance_outside(hips, com) < (0.4 if len(chosen) < 3 else 0.1) * reach
+        share = 0.4 if len(chosen) < 3 else 0.1
+        return _distance_outside(hips, com) < share * reach_of(chosen)
 
     def names(self, chosen: Sequence[Limb]) -> bool | None:
         """Whether links and joints are named as of legs rather than of arms; None: neither."""
@@ -335,19 +333,18 @@ class Anatomy:
                 arms += len(chosen)
         return None if legs == arms else legs > arms
 
+    def inside(self, limbs: Sequence[Limb]) -> set[int]:
+        """Bodies of limbs, with all that hangs on them."""
+        found = {limb.first for limb in limbs}
+        for index, body in enumerate(self.tree.bodies):
+            if body.parent in found:
+                found.add(index)
+        return found
+
     def floats(self) -> bool | None:
         """Whether the robot is free in its file; None where the file does not say."""
         root = self.tree.bodies[0]
         return False if WORLD in root.links else self.tree.floats
-
-
-def bodies_of(tree: Tree, limb: Limb) -> set[int]:
-    """Bodies of a limb, with all that hangs on them."""
-    found = {limb.first}
-    for index in range(limb.first + 1, len(tree.bodies)):
-        if tree.bodies[index].parent in found:
-            found.add(index)
-    return found
 
 
 def sets_of(limbs: Sequence[Limb]) -> Iterator[list[Limb]]:
@@ -372,8 +369,12 @@ def sets_of(limbs: Sequence[Limb]) -> Iterator[list[Limb]]:
 
 def reach_alike(limbs: Sequence[Limb], share: float) -> bool:
     """Whether limbs reach equally deep, to a share of their reach."""
-    reach = max(limb.reach for limb in limbs)
-    return float(np.ptp([limb.depth for limb in limbs])) < share * reach
+    return float(np.ptp([limb.depth for limb in limbs])) < share * reach_of(limbs)
+
+
+def reach_of(limbs: Sequence[Limb]) -> float:
+    """Reach of the limb that reaches farthest [m]."""
+    return max(limb.reach for limb in limbs)
 
 
 def _on_one_hip(one: Limb, other: Limb, hips: FloatArray) -> bool:

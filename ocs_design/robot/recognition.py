@@ -15,7 +15,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import RobotError
 from ocs_design.common.wording import some_of
 from ocs_design.robot.legs import frame_link, leg_of
-from ocs_design.robot.limbs import EVEN, Anatomy, Limb, bodies_of, reach_alike, sets_of
+from ocs_design.robot.limbs import EVEN, Anatomy, Limb, reach_alike, reach_of, sets_of
 from ocs_design.robot.robot import (
     CLOSED,
     JOINED,
@@ -195,7 +195,7 @@ class _Readings(Anatomy):
             # Legs that are not alike, such as a prosthesis, are told by their names alone.
             called = [limb for limb in limbs if self.names([limb])]
             bases = {each[0].base for each in sets}
-            called = [limb for limb in called if not bases & bodies_of(self.tree, limb)]
+            called = [limb for limb in called if not bases & self.inside([limb])]
             for base in sorted({limb.base for limb in called}):
                 unlike = [limb for limb in called if limb.base == base]
                 if unlike not in sets:
@@ -371,21 +371,20 @@ class _Readings(Anatomy):
     def _signs(
         self, chosen: Sequence[Limb], sets: Sequence[Sequence[Limb]], up: FloatArray
     ) -> tuple[tuple[Sign, ...], tuple[Doubt, ...]]:
-        reach = max(limb.reach for limb in chosen)
-        inside = {i for limb in chosen for i in bodies_of(self.tree, limb)}
+        inside = self.inside(chosen)
         outside = [i for i in range(len(self.tree.bodies)) if i not in inside]
         heavy = [i for i in outside if self.masses[i].mass > 0.0]
         # A root's origin is often on the ground below the robot.
         points = [self.masses[i].com for i in heavy]
         points += [self.placements[i].position for i in heavy if i > 0]
         lowest = min((float(up @ point) for point in points), default=0.0)
-        deep = min(limb.depth for limb in chosen) > -lowest + 0.1 * reach
+        deep = min(limb.depth for limb in chosen) > -lowest + 0.1 * reach_of(chosen)
         several = len(chosen) > 1
         signs = (
             Sign(
                 "the limbs are mirror images",
                 "the limbs are no mirror images",
-                self.mirrored(chosen, up, reach),
+                self.mirrored(chosen, up),
                 2.0,
             )
             if several
@@ -414,7 +413,7 @@ class _Readings(Anatomy):
             Sign(
                 "the centre of mass is between them",
                 "the centre of mass is not between them",
-                self.balanced(chosen, up, reach),
+                self.balanced(chosen, up),
             ),
             Sign(NAMES, "their names are rather those of arms", self.names(chosen), 1.5),
             Sign("the robot is free in its file", _FIXED, self.floats()),
@@ -443,10 +442,10 @@ class _Readings(Anatomy):
         rivals = [
             rival
             for rival in sets
-            if not {i for limb in rival for i in bodies_of(self.tree, limb)} & inside
+            if not self.inside(rival) & inside
             and not any(limb.base in inside for limb in rival)
             and reach_alike((*rival, *chosen), EVEN)
-            and self.mirrored(rival, up, max(limb.reach for limb in rival))
+            and self.mirrored(rival, up)
             and (self.names(rival) is not False or self.together((*chosen, *rival), up))
         ]
         if rivals:
