@@ -167,8 +167,8 @@ def _pivoted(
     for upset in asked.balance or ():
         caught = Balance(name="balance", gravity=gravity, duration=1.0, pivot=pivot, edge=edge)
         if isinstance(upset, Kick):
-            point = _point(upset.point, robot)
-            x, y, z = (upset.impulse * _along(upset, point)).tolist()
+            point, along = _hit(upset, robot)
+            x, y, z = (upset.impulse * along).tolist()
             yield lasting(replace(caught, impulse=(x, y, z), point=point), None, SETTLING)
         else:
             tilted = replace(caught, roll=upset.roll, pitch=upset.pitch)
@@ -187,28 +187,15 @@ def _pivoted(
         yield lasting(up, climb.tilt.duration, CLIMBING)
 
 
-def _along(kick: Kick, point: Vector3) -> FloatArray:
-    """Unit vector of a kick; sideways towards the middle where none is stated, shape (3,)."""
-    sideways = (0.0, -1.0 if point[1] > _MIDDLE else 1.0, 0.0)
-    along = np.array(sideways if kick.along is None else kick.along)
-    return np.asarray(along / np.linalg.norm(along))
-
-
 def _kicked(kick: Kick, jump: Disturbance, robot: Robot) -> tuple[Disturbance, str]:
     """A kick during this jump, and how it was understood.
 
     A force on a free robot turns it about its centre of mass with the angular impulse r x p, and
     moves that by p / m. Here both are those of the robot without the device, whose joints hold.
     """
-    point = np.array(_point(kick.point, robot))
-    along = _along(kick, _point(kick.point, robot))
-    impulse = kick.impulse * along
-    kicked = replace(
-        jump,
-        name="kick",
-        impulse=tuple(impulse.tolist()),
-        point=tuple(point.tolist()),
-    ).on(robot.mass_properties)
+    point, along = _hit(kick, robot)
+    impulse = tuple((kick.impulse * along).tolist())
+    kicked = replace(jump, name="kick", impulse=impulse, point=point).on(robot.mass_properties)
     turned = np.multiply(kicked.torque, kicked.duration)
     moved = np.linalg.norm(kicked.velocity_change)
     where = ", ".join(f"{1e3 * each:.3g}" for each in point)
@@ -245,26 +232,34 @@ def told_with_device(assumption: str, maneuvers: Iterable[Maneuver]) -> str:
     return assumption
 
 
-def _point(point: Vector3 | str, robot: Robot) -> Vector3:
-    """Point that a kick hits, in B [m].
+def _hit(kick: Kick, robot: Robot) -> tuple[Vector3, FloatArray]:
+    """Point that a kick hits, in B [m], and its unit vector, shape (3,).
+
+    Where no direction is stated, it is sideways towards the middle.
 
     Raises:
         SpecificationError: no link has this name.
     """
-    if not isinstance(point, str):
-        return point
-    index = robot.tree.body_of_link.get(point)
+    point = _frame_of(kick.point, robot) if isinstance(kick.point, str) else kick.point
+    sideways = (0.0, -1.0 if point[1] > _MIDDLE else 1.0, 0.0)
+    along = np.array(sideways if kick.along is None else kick.along)
+    return point, np.asarray(along / np.linalg.norm(along))
+
+
+def _frame_of(link: str, robot: Robot) -> Vector3:
+    """Origin of a link's frame in B [m]."""
+    index = robot.tree.body_of_link.get(link)
     if index is None:
         links = tuple(robot.tree.body_of_link)
-        moved = [each.name for each in robot.tree.bodies if each.joint and each.joint.name == point]
+        moved = [each.name for each in robot.tree.bodies if each.joint and each.joint.name == link]
         raise SpecificationError(
-            f"requirement.kick: the robot has no link {point!r}",
+            f"requirement.kick: the robot has no link {link!r}",
             hint=f"It is a joint: {moved[0]!r} is the link that it moves."
             if moved
-            else did_you_mean(point, links) or f"Links: {', '.join(links[:_MOST_LINKS])}",
+            else did_you_mean(link, links) or f"Links: {', '.join(links[:_MOST_LINKS])}",
         )
     placed = robot.tree.placements_from(robot.trunk, robot.posture)[index]
-    x, y, z = (placed @ robot.tree.bodies[index].links[point]).position.tolist()
+    x, y, z = (placed @ robot.tree.bodies[index].links[link]).position.tolist()
     return x, y, z
 
 

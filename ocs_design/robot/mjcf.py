@@ -21,10 +21,10 @@ from ocs_design.common.wording import some_of
 from ocs_design.robot.links import Connection, Link, Warnings, check_number_of_links, make_tree
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.mjcf_spec import Lost, mujoco_refusal, mujoco_warnings_to, parse_mjcf
+from ocs_design.robot.mujoco_bodies import GEOM_TYPES, JOINT_TYPES
 from ocs_design.robot.tree import (
     LARGEST_NUMBER,
     Joint,
-    JointKind,
     Shape,
     ShapeKind,
     Tree,
@@ -143,10 +143,7 @@ def _reference(model: mujoco.MjModel, joint: int) -> float:
     return float(model.qpos0[model.jnt_qposadr[joint]])
 
 
-_KINDS = {
-    int(mujoco.mjtJoint.mjJNT_HINGE): JointKind.REVOLUTE,
-    int(mujoco.mjtJoint.mjJNT_SLIDE): JointKind.PRISMATIC,
-}
+_KINDS = {int(theirs): kind for kind, theirs in JOINT_TYPES.items()}
 
 
 def connections_to(model: mujoco.MjModel, body: int, warnings: Warnings) -> Iterator[Connection]:
@@ -194,12 +191,8 @@ def connections_to(model: mujoco.MjModel, body: int, warnings: Warnings) -> Iter
         parent, place = child, Placement.identity()
 
 
-_PRIMITIVES = {
-    int(mujoco.mjtGeom.mjGEOM_BOX): (ShapeKind.BOX, 3),
-    int(mujoco.mjtGeom.mjGEOM_SPHERE): (ShapeKind.SPHERE, 1),
-    int(mujoco.mjtGeom.mjGEOM_CYLINDER): (ShapeKind.CYLINDER, 2),
-    int(mujoco.mjtGeom.mjGEOM_CAPSULE): (ShapeKind.CAPSULE, 2),
-}
+_MEASURES = {ShapeKind.BOX: 3, ShapeKind.SPHERE: 1, ShapeKind.CYLINDER: 2, ShapeKind.CAPSULE: 2}
+_PRIMITIVES = {int(GEOM_TYPES[kind]): kind for kind in _MEASURES}
 UNBOUNDED = (int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_HFIELD))
 """Geoms of the ground, which no link has."""
 
@@ -213,8 +206,8 @@ def shapes_of(model: mujoco.MjModel, body: int) -> Iterator[Shape]:
             continue
         place = Placement(rotation_from_quaternion(model.geom_quat[geom]), model.geom_pos[geom])
         if kind in _PRIMITIVES:
-            shape, count = _PRIMITIVES[kind]
-            size = model.geom_size[geom, :count]
+            shape = _PRIMITIVES[kind]
+            size = model.geom_size[geom, : _MEASURES[shape]]
         else:
             shape, size = ShapeKind.BOX, model.geom_aabb[geom, 3:]
             place = place @ Placement(np.eye(3), model.geom_aabb[geom, :3])

@@ -195,7 +195,7 @@ VISUAL_GROUP = 2
 HIDDEN_GROUP = 3
 """Group of the collision geoms of bodies with something better to look at; viewers hide it."""
 
-_JOINT_TYPES = {
+JOINT_TYPES = {
     JointKind.REVOLUTE: mujoco.mjtJoint.mjJNT_HINGE,
     JointKind.PRISMATIC: mujoco.mjtJoint.mjJNT_SLIDE,
 }
@@ -295,7 +295,7 @@ def _add_body(parent: mujoco.MjsBody, name: str, body: Body, warnings: Warnings)
     limited = bool(np.isfinite(limits).any())
     made.add_joint(
         name=joint.name,
-        type=_JOINT_TYPES[joint.kind],
+        type=JOINT_TYPES[joint.kind],
         axis=joint.axis,
         limited=limited,
         # MuJoCo has no one-sided limits.

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from wheels import braked_inertia, paper_device
 
-from ocs_design.common.errors import OcsError, SpecificationError, UsageError
+from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.maneuver import Disturbance
@@ -174,11 +174,6 @@ def test_options_and_keys_say_the_same():
     )
     assert from_file.requirement == from_options.requirement
     assert parse_specification(specification_to_toml(from_file), "y") == from_file
-
-
-def test_all_faults_of_options_are_told_at_once():
-    with pytest.raises(UsageError, match=r"(?s)--kick.*--tilt"):
-        asked(kick=["12"], tilt=["20"])
 
 
 @pytest.mark.parametrize(
