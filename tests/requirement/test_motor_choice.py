@@ -41,9 +41,17 @@ HEAVIEST = robot_by_hand(60.1, (0.3, 0.4, 0.5), name="heaviest")
 HEAVY = robot_by_hand(20.1, (0.3, 0.4, 0.5), name="heavy")
 
 
-def choice_of(robot=LIGHT, material=None, **motor):
-    flywheel = FlywheelSection(material=material)
-    return motor_choice(Specification(motor=MotorSection(**motor), flywheel=flywheel), robot)
+def choice_of(robot=LIGHT, material=None, supply=None, **motor):
+    specification = Specification(
+        motor=MotorSection(**motor),
+        flywheel=FlywheelSection(material=material),
+        supply=SupplySection(**supply or {}),
+    )
+    return motor_choice(specification, robot)
+
+
+def names_of(**motor):
+    return [each.name for each in choice_of(**motor).motors]
 
 
 @pytest.mark.parametrize("word", [None, "auto"])
@@ -59,12 +67,11 @@ def test_auto_is_all_that_can_be_built_with_at_the_supply_and_the_default(word):
 def test_a_motor_rated_for_less_than_the_supply_is_for_the_asking():
     weak = motor("AT2814 KV1050")
     assert weak.rated_voltage < 24.0
-    assert weak.name not in {each.name for each in choice_of().motors}
-    assert weak.name in {each.name for each in choice_of(any=True).motors}
-    assert [each.name for each in choice_of(name=weak.name).motors] == [weak.name]
-    high = Specification(supply=SupplySection(voltage=500.0))
+    assert weak.name not in names_of()
+    assert weak.name in names_of(any=True)
+    assert names_of(name=weak.name) == [weak.name]
     with pytest.raises(SpecificationError, match=r"is rated for 500 V: .*, at 160 V"):
-        motor_choice(high, LIGHT)
+        choice_of(supply={"voltage": 500.0})
 
 
 def test_gears_are_for_the_asking_or_of_the_users_own(tmp_path):
@@ -106,7 +113,7 @@ def test_any_motor_is_every_motor():
 
 def test_several_names_are_chosen_among_whatever_they_lack():
     names = "R80 KV110, MN5212 KV340"
-    assert [motor.name for motor in choice_of(name=names).motors] == names.split(", ")
+    assert names_of(name=names) == names.split(", ")
     assert build_gaps(motors()["R80 KV110"])
 
 
@@ -121,16 +128,13 @@ def test_names_are_taken_alone():
 
 def test_the_bus_goes_with_the_mass_unless_stated():
     assert [choice_of(robot).supply.voltage for robot in (LIGHT, HEAVY, HEAVIEST)] == [24, 48, 72]
-    stated = Specification(supply=SupplySection(voltage=12.0))
-    assert motor_choice(stated, HEAVY).supply.voltage == 12.0
+    assert choice_of(HEAVY, supply={"voltage": 12.0}).supply.voltage == 12.0
 
 
 def test_a_pack_gives_400_watts_per_kg_of_robot_unless_stated():
     assert choice_of(LIGHT).supply.power == 8000.0
-    stated = Specification(supply=SupplySection(power_max=100.0))
-    assert motor_choice(stated, LIGHT).supply.power == 100.0
-    stated = Specification(supply=SupplySection(current_max=10.0))
-    assert motor_choice(stated, LIGHT).supply.power == 240.0
+    assert choice_of(supply={"power_max": 100.0}).supply.power == 100.0
+    assert choice_of(supply={"current_max": 10.0}).supply.power == 240.0
 
 
 def test_a_stated_torque_limits_every_stage():
@@ -175,10 +179,9 @@ def own(tmp_path):
 
 
 def test_own_motors_stand_instead_of_the_catalogue_or_beside_it(own):
-    assert [motor.name for motor in choice_of(motors=own, any=True).motors] == ["Own 1"]
-    both = choice_of(motors=own, with_catalogue=True, any=True).motors
-    assert {motor.name for motor in both} == {"Own 1", *motors()}
-    assert [motor.name for motor in choice_of(motors=own, name="Own 1").motors] == ["Own 1"]
+    assert names_of(motors=own, any=True) == ["Own 1"]
+    assert set(names_of(motors=own, with_catalogue=True, any=True)) == {"Own 1", *motors()}
+    assert names_of(motors=own, name="Own 1") == ["Own 1"]
 
 
 def test_where_no_motor_can_be_built_with_that_is_said_and_what_it_lacks(own):
@@ -213,10 +216,8 @@ def test_controllers_weigh_what_the_rule_or_the_specification_says():
     auto = choice_of(name="R80 KV110").motors[0]
     assert auto.controller_mass == controller_mass_of(motors()["R80 KV110"]) > 0.008
     for stated, mass in ((0.035, 0.035), ("none", 0.0), ("auto", auto.controller_mass)):
-        specification = Specification(
-            motor=MotorSection(name="R80 KV110"), supply=SupplySection(controllers=stated)
-        )
-        assert motor_choice(specification, LIGHT).motors[0].controller_mass == mass
+        choice = choice_of(name="R80 KV110", supply={"controllers": stated})
+        assert choice.motors[0].controller_mass == mass
 
 
 def test_doubts_about_a_motor_stand_with_those_about_the_robot(tmp_path):
