@@ -53,7 +53,7 @@ def test_noise_differs_from_flight_to_flight(solo12):
     np.testing.assert_array_equal(first, sample.noise(0).generate_state(4))
 
 
-def test_friction_is_that_of_the_no_load_current(solo12):
+def test_friction_is_that_of_the_no_load_current_and_none_where_nothing_is_known(solo12):
     """Half of k_t I_0 whatever the speed, and the other half at the speed that it is stated at."""
     device = driven_device()
     motor = replace(device.motor, torque_constant=0.037, no_load_current=0.2, rated_voltage=24.0)
@@ -61,9 +61,7 @@ def test_friction_is_that_of_the_no_load_current(solo12):
     middle = {key: spread.spreads[key].at(0.5) for key in ("coulomb_friction", "viscous_friction")}
     whole = middle["coulomb_friction"] + middle["viscous_friction"] * motor.no_load_speed
     np.testing.assert_allclose(whole, 0.037 * 0.2, rtol=1e-12)
-
-
-def test_a_motor_of_which_nothing_is_known_has_no_friction(solo12):
+    # Of the paper's wheels no motor is known.
     spread = Uncertainty.of(UncertaintySection(), solo12, paper_device())
     assert spread.spreads["coulomb_friction"].at(1.0) == 0.0
     assert spread.spreads["viscous_friction"].at(1.0) == 0.0

@@ -36,8 +36,8 @@ def print_inspection(console: Console, inspection: Inspection, *, verbose: bool 
         sure = "as stated"
         if not {"trunk", "legs"} <= set(found.stated):
             stated = "".join(f", {name} as stated" for name in found.stated)
-            against = "; ".join(found.speaks_against)
-            sure = f"{found.confidence:.0%} confidence{stated}{against and f': but {against}'}"
+            but = f": but {'; '.join(found.speaks_against)}" if found.speaks_against else ""
+            sure = f"{found.confidence:.0%} confidence{stated}{but}"
         recognised = [("directions", f"{directions} of '{found.trunk}'"), ("trunk, legs", sure)]
     print_robot(
         console,

@@ -5,9 +5,9 @@ import hashlib
 import json
 import re
 from dataclasses import replace
-from html.parser import HTMLParser
 
 import pytest
+from pages import Page
 from stories import design, story
 
 from ocs_design.common.files import to_json
@@ -15,30 +15,6 @@ from ocs_design.report.html.page import report_page
 from ocs_design.report.html.sections import sizes_section
 
 HOSTILE = "</script><script>alert(1)</script>\"'<img src=x onerror=alert(2)>&"
-
-
-class Page(HTMLParser):
-    """Elements with their attributes, and the texts in scripts and styles."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.elements, self.inside, self._open = [], {}, None
-        self.feed(text)
-        self.close()
-
-    def handle_starttag(self, tag, attrs):
-        self.elements.append((tag, dict(attrs)))
-        self._open = dict(attrs).get("id", tag) if tag in {"script", "style"} else None
-
-    def handle_endtag(self, tag):
-        self._open = None
-
-    def handle_data(self, text):
-        if self._open is not None:
-            self.inside[self._open] = self.inside.get(self._open, "") + text
-
-    def named(self, tag):
-        return [attributes for name, attributes in self.elements if name == tag]
 
 
 @pytest.fixture(scope="module")
