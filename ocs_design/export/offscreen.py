@@ -103,9 +103,7 @@ def sheet_of_views(model: mujoco.MjModel, qpos: FloatArray) -> NDArray[np.uint8]
             image[1:][geoms[1:] != geoms[:-1]] = EDGE
             # Each pixel is the mean of those that it was drawn with.
             k = OVERSAMPLING
-            total = np.zeros((HEIGHT, WIDTH, 3), dtype=np.uint16)
-            for i, j in product(range(k), repeat=2):
-                total += image[i::k, j::k]
+            total = image.reshape(HEIGHT, k, WIDTH, k, 3).sum(axis=(1, 3), dtype=np.uint16)
             images.append(np.asarray(total // k**2, dtype=np.uint8))
         rows.append(np.concatenate(images, axis=1))
     renderer.close()

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Sequence
 
 import numpy as np
+from scipy.ndimage import minimum_filter
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.export.meshes import Mesh
@@ -32,19 +33,15 @@ def visible_lines(meshes: Sequence[Mesh]) -> tuple[tuple[FloatArray, ...], ...]:
 
 def section_lines(mesh: Mesh) -> tuple[FloatArray, ...]:
     """Section of a mesh in the plane x = 0, as chains of points (y, z), shape (k, 2) [m]."""
-    corners = mesh.corners
+    start = mesh.corners
     # No corner lies exactly in the plane.
-    side = corners[:, :, 0] - 1e-9
-    crossing = ~((side > 0.0).all(axis=1) | (side < 0.0).all(axis=1))
-    segments = []
-    for triangle, distance in zip(corners[crossing], side[crossing], strict=True):
-        ends = []
-        for a, b in ((0, 1), (1, 2), (2, 0)):
-            if (distance[a] > 0.0) != (distance[b] > 0.0):
-                share = distance[a] / (distance[a] - distance[b])
-                ends.append((triangle[a] + share * (triangle[b] - triangle[a]))[1:])
-        segments.append(np.array(ends))
-    return _chains(segments)
+    before = start[:, :, 0] - 1e-9
+    end, after = np.roll(start, -1, axis=1), np.roll(before, -1, axis=1)
+    # None or two sides of each triangle cross it.
+    crossing = (before > 0.0) != (after > 0.0)
+    share = before[crossing] / (before[crossing] - after[crossing])
+    points = start[crossing] + share[:, None] * (end[crossing] - start[crossing])
+    return _chains(points[:, 1:].reshape(-1, 2, 2))
 
 
 class _DepthMap:
@@ -68,11 +65,7 @@ class _DepthMap:
             _, rows, columns, depth = covered_pixels(points[front], 0.0)
             np.maximum.at(self._depth, (rows, columns), depth)
         # The farthest around each pixel: what lies at an edge of a face is not hidden by it.
-        farthest = self._depth
-        for axis in (0, 1):
-            least = np.minimum(farthest, np.roll(farthest, 1, axis))
-            farthest = np.minimum(least, np.roll(farthest, -1, axis), out=least)
-        self._farthest = farthest
+        self._farthest = minimum_filter(self._depth, 3, mode="wrap")
 
     def sees(self, points: FloatArray) -> FloatArray:
         """Whether nothing is in front of each point, shape (n,)."""

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from built import DEVICES, housed
+from built import DEVICES, around, housed
 from drawn_wheels import check_words
 from hypothesis import given
 from hypothesis import strategies as st
@@ -15,7 +15,6 @@ from wheels import paper_device
 from ocs_design.catalogue.materials import materials
 from ocs_design.common.units import rpm
 from ocs_design.device.bodies import carrier_placement, wheel_placement
-from ocs_design.device.device import Module
 from ocs_design.device.joints import balance_of, burst_of, rim_fit, yield_margin
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.device.records.device import Margin
@@ -28,6 +27,8 @@ from ocs_design.export.assembly_notes import trunk_threads
 from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.export.drawing.sheet import Circle, Line, Polyline, Text
 from ocs_design.parts.pedestal import Pedestal
+
+AT_30_DEGREES, TRIAD = DEVICES["caged"].at_incidence(np.pi / 6.0), around(Layout(LayoutName.TRIAD))
 
 
 @pytest.fixture(params=DEVICES, ids=str, scope="module")
@@ -485,14 +486,7 @@ def test_a_wheel_that_only_its_screws_centre_is_shifted(shaft, told):
 
 
 def test_each_foot_of_a_ring_is_turned_to_its_own_axis():
-    layout = Layout(LayoutName.TRIAD)
-    modules = map(Module, layout.names, layout.axes(layout.angle).T, np.eye(3))
-    caged = DEVICES["caged"]
-    ring = replace(caged, modules=tuple(modules), layout=layout, incidence=layout.angle)
-    for device, angles in (
-        (ring, "0 deg (1), 60 deg (2), 60 deg (3)"),
-        (caged.at_incidence(np.pi / 6.0), "30 deg"),
-    ):
+    for device, angles in ((TRIAD, "0 deg (1), 60 deg (2), 60 deg (3)"), (AT_30_DEGREES, "30 deg")):
         assert f"meets the scale at {angles}," in texts(Assembly("solo12", device), "Steps")
 
 
@@ -517,15 +511,11 @@ def test_pedestals_of_two_shapes_stand_beside_each_other():
     assert placed["pedestal_left"].aside == 0.0 > placed["pedestal_right"].aside
 
 
-@pytest.mark.parametrize("name", [LayoutName.PAIR, LayoutName.TRIAD])
-def test_lids_look_where_the_robot_files_have_them(name):
+@pytest.mark.parametrize("device", [AT_30_DEGREES, TRIAD], ids=["pair", "triad"])
+def test_lids_look_where_the_robot_files_have_them(device):
     """The lid is at the end of the carrier's axis that its wheel's motor is not at."""
-    layout, caged = Layout(name), DEVICES["caged"]
-    angle = np.pi / 6.0 if name is LayoutName.PAIR else layout.angle
-    modules = tuple(map(Module, layout.names, layout.axes(angle).T, np.eye(3)))
-    device = replace(caged, modules=modules, layout=layout, incidence=angle)
     said = texts(Assembly("solo12", device), "Steps")
-    for module in modules:
+    for module in device.modules:
         turn = wheel_placement(module).rotation @ carrier_placement(module).rotation
         x, y, _ = turn[:, 2]
         degrees = np.degrees(np.arctan2(abs(y), x))
