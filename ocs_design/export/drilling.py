@@ -79,10 +79,10 @@ class Drilling:
     reach: tuple[float, float]
     marks: tuple[Item, ...]
     around: tuple[Item, ...]
-    standing: str = ""
-    upwards: bool = False
-    refused: str = ""
-    tilt: float = 0.0
+    standing: str
+    upwards: bool
+    refused: str
+    tilt: float
 
     @property
     def items(self) -> tuple[Item, ...]:
@@ -102,7 +102,8 @@ class Drilling:
                 f"{frame}. Thin lines: {self.standing}.",
             )
         ends = dict.fromkeys(f"{MILLIMETRES * each:.1f}" for each in self.reach)
-        thread = round_outwards(self.thread, upwards=True, digits=2)
+        # A pitch more than the screws go in.
+        thread = round_outwards(self.reach[1] + self.screw.pitch, upwards=True, digits=2)
         deep, blind = (
             format_quantity(each, "mm", digits=2) for each in (thread, thread + self.screw.diameter)
         )
@@ -114,8 +115,9 @@ class Drilling:
                 "what is round."
             )
         return (
-            f"{self.robot}: drill {len(self.holes)} holes of {MILLIMETRES * self.drill:.3g} mm at "
-            f"the crosses, and tap {self.screw.name}; {frame}.",
+            f"{self.robot}: drill {len(self.holes)} holes of "
+            f"{MILLIMETRES * self.screw.tapping_drill:.3g} mm at the crosses, and tap "
+            f"{self.screw.name}; {frame}.",
             *jig,
             f"The screws go {' to '.join(ends)} mm into the trunk: thread at least {deep} deep, "
             f"the hole through the wall or {blind} deep. Look first what is behind the wall.",
@@ -130,16 +132,6 @@ class Drilling:
     def verdict(self) -> list[str]:
         """Why the device cannot be built, in lines across the sheet; empty: nothing is known."""
         return wrapped(self.refused, SHEET[2] - SHEET[0], _VERDICT)
-
-    @property
-    def thread(self) -> float:
-        """Least depth of the threads: a pitch more than the screws go in [m]."""
-        return self.reach[1] + self.screw.pitch
-
-    @property
-    def drill(self) -> float:
-        """Diameter of the holes, into which threads are cut [m]."""
-        return self.screw.tapping_drill
 
 
 def drilling_of(subject: Subject) -> Drilling | None:
@@ -195,16 +187,12 @@ def drilling_of(subject: Subject) -> Drilling | None:
             corners = _millimetres((flat_outline(shape.outline()) + plate.position[:2]).tolist())
             items.append(Polyline((*corners, corners[0]), THIN))
         items += [Circle(each, radius, THIN) for each in _millimetres(feet)]
-    stands = [
-        name
-        for name, there in (
-            ("feet", standing and mast is None),
-            ("pedestals", device.pedestals),
-            ("plate with its threads", plate is not None and mast is None),
-            ("mast", mast is not None),
-        )
-        if there
-    ]
+    stands = {
+        "feet": standing and mast is None,
+        "pedestals": device.pedestals,
+        "plate with its threads": plate is not None and mast is None,
+        "mast": mast is not None,
+    }
     return Drilling(
         subject.name,
         subject.base.trunk,
@@ -213,7 +201,7 @@ def drilling_of(subject: Subject) -> Drilling | None:
         (min(reach), max(reach)),
         tuple(marks),
         tuple(items),
-        " and ".join(stands),
+        " and ".join(name for name, there in stands.items() if there),
         upwards=mast is not None,
         refused=subject.refused,
         tilt=0.0 if plate is None or plate.relief is None else steepest(plate),
