@@ -201,11 +201,25 @@ def test_hidden_folders_of_others_stay(tmp_path):
     assert everything_in(tmp_path) == sorted(names)
 
 
-def test_a_failed_block_leaves_nothing(tmp_path):
-    with pytest.raises(RuntimeError), staged_folder(tmp_path / "x", force=False) as folder:
+@pytest.mark.parametrize("there", [False, True], ids=["new", "with force"])
+@pytest.mark.parametrize(
+    "error", [RuntimeError(), OSError(errno.ENOSPC, "No space left on device", "flywheel.stl")]
+)
+def test_a_block_that_fails_leaves_all_as_it_was_and_a_full_disk_has_a_cure(tmp_path, there, error):
+    target = tmp_path / "out"
+    if there:
+        make_output(target)
+    with (
+        pytest.raises((RuntimeError, OutputError)) as caught,
+        staged_folder(target, force=there) as folder,
+    ):
         (folder / DESIGN_FILE).write_text("half")
-        raise RuntimeError
-    assert everything_in(tmp_path) == []
+        raise error
+    assert everything_in(tmp_path) == (WHOLE if there else [])
+    assert not there or texts(target) == OLD
+    if isinstance(caught.value, OutputError):
+        assert "No space left" in caught.value.message
+        assert "free some space" in caught.value.hint
 
 
 def test_an_existing_folder_is_kept_without_force(tmp_path):
@@ -218,15 +232,6 @@ def test_an_existing_folder_is_kept_without_force(tmp_path):
         pass
     assert "--force" in caught.value.hint
     assert texts(target) == OLD
-
-
-def test_force_keeps_the_old_output_if_the_block_fails(tmp_path):
-    target = tmp_path / "robot-ocs"
-    make_output(target)
-    with pytest.raises(RuntimeError), staged_folder(target, force=True):
-        raise RuntimeError
-    assert texts(target) == OLD
-    assert everything_in(tmp_path) == ["robot-ocs", "robot-ocs/cad", f"robot-ocs/{DESIGN_FILE}"]
 
 
 @pytest.mark.parametrize(
@@ -248,17 +253,6 @@ def test_force_never_replaces_what_is_no_output(tmp_path, name, why):
     with pytest.raises(OutputError, match=why):
         check_target(tmp_path / name, force=True)
     assert everything_in(tmp_path) == before
-
-
-def test_a_full_disk_is_an_error_with_a_cure_and_leaves_nothing(tmp_path):
-    full = OSError(errno.ENOSPC, "No space left on device", "flywheel.stl")
-    with (
-        pytest.raises(OutputError, match="No space left") as caught,
-        staged_folder(tmp_path / "x", force=False),
-    ):
-        raise full
-    assert "free some space" in caught.value.hint
-    assert everything_in(tmp_path) == []
 
 
 def test_a_file_is_written_whole_and_replaced_with_force_alone(tmp_path):

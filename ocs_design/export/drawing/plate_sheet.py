@@ -151,15 +151,15 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
     ring = [place(float(x), float(y)) for x, y in corners]
     items: list[Item] = [Polyline((*ring, ring[0]), OUTLINE)]
     holes = [(hole.name, place(*hole.at), scale(hole.diameter) / 2.0) for hole in _holes(plate)]
-    lines = _along([*ring, ring[0]])
     turn = np.linspace(0.0, 2.0 * np.pi, 721)
     circles = [
         np.array(at) + radius * np.column_stack([np.cos(turn), np.sin(turn)])
         for _, at, radius in holes
     ]
+    lines = np.concatenate([_along([*ring, ring[0]]), *circles])
     for name, at, radius in holes:
         items += [Circle(at, radius), *cross(at, radius + 2.0)]
-        items.append(_named(name, at, radius, np.concatenate([lines, *circles])))
+        items.append(_named(name, at, radius, lines))
     edge_left, edge_right = (place(0.0, float(each))[0] for each in (high[1], low[1]))
     upper, lower = place(float(high[0]), 0.0)[1], place(float(low[0]), 0.0)[1]
     items += [
