@@ -33,7 +33,7 @@ class Finding:
 
     name: str
     state: State
-    required: bool
+    required: bool = False
     purpose: str
     found: str = ""
     wanted: str = ""

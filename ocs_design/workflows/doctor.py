@@ -226,7 +226,6 @@ def processors() -> Finding:
     return Finding(
         name="processors",
         state=State.WORKS,
-        required=False,
         found=str(usable()),
         purpose="flights, several at once",
     )
@@ -242,7 +241,6 @@ def opengl() -> Iterator[Finding]:
         yield Finding(
             name=f"OpenGL {way}".rstrip(),
             state=State.WORKS if failure is None else State.MISSING,
-            required=False,
             purpose="pictures, one way is enough",
             cure="" if one_works else OPENGL_HINT,
             reason=failure or "",
@@ -263,7 +261,6 @@ def film_maker() -> Finding:
     return Finding(
         name="ffmpeg",
         state=State.WORKS if found else State.MISSING,
-        required=False,
         found=found,
         purpose="videos",
         cure="" if found else FFMPEG_HINT,
@@ -276,7 +273,6 @@ def compiler() -> Finding:
     return Finding(
         name="C compiler",
         state=State.WORKS if found else State.MISSING,
-        required=False,
         found=found,
         purpose="the exported controller",
         cure="" if found else "install a C compiler, on Debian: apt install gcc",

@@ -1,16 +1,24 @@
 """What is tried in turn, and that what was taken is told however often a device is sized anew."""
 
 from dataclasses import replace
+from math import pi
 
 import pytest
 from designed import designed
+from robots import SOLO12
 
 from ocs_design.common.errors import SpecificationError
 from ocs_design.report.text.console import Steps
+from ocs_design.requirement import turns
+from ocs_design.requirement.device_sections import FlywheelSection, MotorSection
+from ocs_design.requirement.phrases import About
+from ocs_design.requirement.sections import RequirementSection, RobotSection, ValidationSection
+from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.sizing.on_robot import NeverHeld
 from ocs_design.workflows import rounds
 from ocs_design.workflows.rounds import Placed, size_for_turns, size_or_advise
+from ocs_design.workflows.size import design_ocs
 
 TURN = TurnTo(name="turn", jump_height=1.0, yaw=1.0, duration=1.0)
 
@@ -136,3 +144,31 @@ def test_strict_looks_at_the_device_that_is_taken(placed, monkeypatch):
     lighter = False
     with pytest.raises(SpecificationError, match="120% of the robot"):
         size_or_advise(stated, placed.robot, Steps(), strict=True)
+
+
+QUARTER = Specification(
+    robot=RobotSection(file=str(SOLO12)),
+    requirement=RequirementSection(
+        gravity=1.62, turn=(About(0.0, 0.0, pi / 2.0, 2.9, "rad"),), reliability=0.5
+    ),
+    flywheel=FlywheelSection(r_max=0.06),
+    motor=MotorSection(name="Antigravity MN5008 KV400"),
+    validation=ValidationSection(enabled=False),
+)
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("no_alternatives", "no_files")
+@pytest.mark.parametrize("most", [rounds.TURN_ROUNDS, 0])
+def test_a_closed_form_that_asks_too_little_is_made_good_by_the_plan(most, tmp_path, monkeypatch):
+    full = turns.loop_length
+    monkeypatch.setattr(turns, "loop_length", lambda heading: 0.6 * full(heading))
+    monkeypatch.setattr(rounds, "TURN_ROUNDS", most)
+    told = []
+    outcome = design_ocs(
+        QUARTER, out=tmp_path / "x", progress=lambda name, _part: told.append(name)
+    )
+    warnings = outcome.design.ocs.warnings
+    unmade = [each for each in warnings if "do not make this turn in 2.9 s: they need" in each]
+    assert ("size the device anew for its turns" in told) is (most > 0)
+    assert len(unmade) == (0 if most else 1)
