@@ -197,12 +197,10 @@ def record_design(
             fitting=(*device_notes(device), *trunk_notes(device, robot)),
             mounting=None
             if mounting is None
-            else MountingRecord(
-                landing=mounting.landing,
-                reachable=tuple(
-                    ReachRecord(part=reach.part, joints=dict(reach.joints))
-                    for reach in mounting.reachable
-                ),
+            else recorded(
+                MountingRecord,
+                mounting,
+                reachable=tuple(recorded(ReachRecord, each) for each in mounting.reachable),
                 com_shift=vector(mounting.com_shift),
                 inertia_change=vector(mounting.inertia_change),
             ),
