@@ -329,7 +329,12 @@ class CarrierPlate:
     @property
     def thread_depth(self) -> float:
         """Depth of the trunk's threads over their diameter, at least."""
-        return POST_DEPTH if self.sleeve_wall > SLEEVE_WALL else 1.0
+        return POST_DEPTH if self.on_posts else 1.0
+
+    @property
+    def on_posts(self) -> bool:
+        """Whether its sleeves are posts: with that wall they are clamped, however short."""
+        return self.sleeve_wall > SLEEVE_WALL
 
     @property
     def fastenings(self) -> tuple[Fastening, ...]:

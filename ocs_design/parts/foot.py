@@ -11,7 +11,7 @@ arrays that broadcast, or CasADi's symbols.
 
 from dataclasses import dataclass, replace
 from math import ceil, pi, sqrt
-from typing import Any, Generic
+from typing import Generic
 
 import numpy as np
 
@@ -36,7 +36,6 @@ from ocs_design.parts.printed import (
     UPRIGHT,
     WALL,
     WASHER_ACROSS,
-    MountHoles,
     base_thickness,
     screw_lever,
     trunk_screws,
@@ -78,23 +77,6 @@ STANDING = Placement(UPRIGHT, np.zeros(3))
 """The wheel's axes in the foot's frame: x forward in both, z along the wheel's axis, y down."""
 
 
-def wheel_height(outer_radius: Real, thickness: Real | float = PLATE_THICKNESS) -> Real:
-    """Height of the wheel's centre above the underside of a foot with such a plate [m]."""
-    base: Real = base_thickness(thickness)
-    return housing_outer_radius(outer_radius) + (base + CLEARANCE)
-
-
-def base_radius(
-    outer_radius: Real,
-    height: Real,
-    mount_reach: Real | float,
-    thickness: Real | float = PLATE_THICKNESS,
-) -> Real:
-    """Radius of the base of a foot for that rim, that reach of the mount's holes and plate [m]."""
-    reach: Any = mount_reach
-    return Foot(Housing(outer_radius, height, MountHoles(reach)), thickness).base_radius
-
-
 def larger(one: Real, other: Real | float) -> Real:
     """The larger of two, by operators alone."""
     return (one + other + abs(one - other)) / 2.0
@@ -125,7 +107,8 @@ class Foot(Generic[Real]):
     @property
     def wheel_height(self) -> Real:
         """Height of the wheel's centre above the underside [m]."""
-        return wheel_height(self.housing.rim_radius + self.housing.guard_wall, self.thickness)
+        rim = self.housing.rim_radius + self.housing.guard_wall
+        return housing_outer_radius(rim) + (self.base + CLEARANCE)
 
     @property
     def half_width(self) -> Real:

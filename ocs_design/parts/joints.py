@@ -40,7 +40,7 @@ TIGHTENING_FACTOR = 1.6
 FRICTION = 0.1
 """Least coefficient between dry, clean faces of steel and aluminium: VDI 2230-1, table A6."""
 
-_SHEAR_SHARE = 0.577
+SHEAR_SHARE = 0.577
 """Shear strength over yield strength by distortion energy: Shigley, equation 5-21."""
 
 
@@ -71,7 +71,7 @@ def friction_torque(held: Screw, count: int, radius: float, strength: str = USUA
 
 def shear_torque(held: Screw, count: int, radius: float, strength: str = USUAL_CLASS) -> float:
     """Torque at which their threads yield in shear, should the faces slip [N m]."""
-    return _SHEAR_SHARE * CLASSES[strength].yields * stress_area(held) * count * radius
+    return SHEAR_SHARE * CLASSES[strength].yields * stress_area(held) * count * radius
 
 
 SCREW_TENSION, SCREW_SHEAR = 0.9 * 800e6 / 1.25, 0.6 * 800e6 / 1.25

@@ -127,6 +127,17 @@ def flat_outline(outline: Outline, sections: int = SECTIONS) -> FloatArray:
     return np.concatenate(corners)
 
 
+def even_points(inner: float, outer: float, rings: int, around: int) -> FloatArray:
+    """Points that stand for equal shares of a ring about the origin [m], shape (rings * around, 2).
+
+    Args:
+        inner, outer: its radii [m]. rings, around: how many points there are along both.
+    """
+    radii = np.sqrt(inner**2 + (np.arange(rings) + 0.5) / rings * (outer**2 - inner**2))
+    angles = (np.arange(around) + 0.5) * 2.0 * pi / around
+    return np.asarray((radii[:, None, None] * ring_points(angles)).reshape(-1, 2))
+
+
 def ring_points(angles: FloatArray) -> FloatArray:
     """Points of the unit circle at these angles [rad], shape (n, 2)."""
     return np.column_stack([np.cos(angles), np.sin(angles)])

@@ -19,7 +19,7 @@ import numpy as np
 from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import Placement
-from ocs_design.parts.joints import pattern_use
+from ocs_design.parts.joints import SHEAR_SHARE, pattern_use
 from ocs_design.parts.printed import (
     AROUND_SLOT,
     BASE_THICKNESS,
@@ -40,9 +40,6 @@ LEAST_SEAT = IN_PLASTIC * TRUNK_SCREW.diameter
 
 SEATED = "foot on pedestal, which is tapped"
 """What the screws in a seat hold."""
-
-SHEAR = 0.577
-"""Shear strength over tensile strength: von Mises."""
 
 ON_ITS_SIDE = Placement(np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]), np.zeros(3))
 """Of the profile, y and z of the pedestal, pushed along x."""
@@ -305,5 +302,6 @@ def pedestal_use(pedestal: Pedestal, mass: float) -> float:
     seat = (_seat_needed(pedestal, mass) / pedestal.thickness) ** 2
     lever = screw_lever(pedestal.base_radius, pedestal.slot_radius)
     thread = pi * TRUNK_SCREW.diameter * IN_PLASTIC * TRUNK_SCREW.diameter
-    pulled_out = force * (pedestal.wheel_height / lever + 0.5) / (thread * SHEAR * STRENGTH_ACROSS)
+    pulls = force * (pedestal.wheel_height / lever + 0.5)
+    pulled_out = pulls / (thread * SHEAR_SHARE * STRENGTH_ACROSS)
     return float(max(screws, flange, seat, pulled_out))

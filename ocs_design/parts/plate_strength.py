@@ -14,7 +14,6 @@ from ocs_design.parts.carrier_plate import (
     ALUMINIUM,
     SAFETY,
     SHEAR_MODULUS,
-    SLEEVE_WALL,
     CarrierPlate,
 )
 from ocs_design.parts.joints import pattern_use, screw_use
@@ -56,21 +55,20 @@ def twisting_stress(mass: float, arm: float, width: float, thickness: Lengths) -
     return np.asarray(3.0 * mass * SHOCK * arm / (width * thickness**2) * series)
 
 
-def plate_stress(plate: CarrierPlate, mass: float, height: float) -> float:
+def plate_stresses(
+    plate: CarrierPlate, thicknesses: FloatArray, mass: float, height: float
+) -> FloatArray:
     """Largest stress of a plate under `SHOCK` along any one axis, of bending or twisting [Pa].
 
     Down, a module bends the plate between the trunk's outermost screws and itself; sideways it
     bends the neck by its height as an arm; forward it twists the neck. Shear counts sqrt(3)
     times (von Mises). The ring under a foot is bent by what is down alone: the foot's base
     spreads the rest.
+
+    Args:
+        plate: of any thickness. thicknesses: that it may have [m], shape (n,), as what is returned.
+        mass, height: of a module.
     """
-    return float(plate_stresses(plate, np.array([plate.thickness]), mass, height)[0])
-
-
-def plate_stresses(
-    plate: CarrierPlate, thicknesses: FloatArray, mass: float, height: float
-) -> FloatArray:
-    """Largest stress of plates of this outline of some thicknesses [m], both shape (n,) [Pa]."""
     if len(plate.rows) > 1:
         # On a mast they are alike.
         distinct = plate.each[:1] if plate.mast else plate.each
@@ -131,14 +129,15 @@ def mast_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
     if plate.mast is None:
         return 0.0
     force = 2.0 * mass * SHOCK * len(plate.rows)
-    y, z = np.array(plate.trunk).T
-    p, q = np.ptp(z) / 2.0, np.ptp(y) / 2.0
-    up = abs(float(np.mean(plate.heights)) + plate.thickness + height - float(z.mean()))
+    q, p = plate.half_pattern
+    middle = float(np.mean(plate.trunk, axis=0)[1])
+    up = abs(float(np.mean(plate.heights)) + plate.thickness + height - middle)
     gap, (_, section, _) = max(plate.sleeves), plate.sleeve_section
     off = plate.mast.face + plate.mast.spacer + max(plate.gaps)
     bent = force / 4.0 * (1.0 + up / hypot(p, q)) * gap / 2.0 / section
     downhill = plate.screw.preload * float(np.linalg.norm(plate.slopes.mean(axis=0)))
-    used = float(pattern_use(plate.screw, force, (off, np.asarray(up)), (p, q), downhill))
+    arms, half = (off, np.asarray(up)), (np.asarray(p), np.asarray(q))
+    used = float(pattern_use(plate.screw, force, arms, half, downhill))
     return max(used, bent / (ALUMINIUM.strength / SAFETY))
 
 
@@ -150,11 +149,10 @@ def plate_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
     """
     if plate.mast is not None:
         return mast_screws_use(plate, mass, height)
-    # Sleeves with the wall of posts are clamped as those are, however short.
-    if plate.sleeve_wall > SLEEVE_WALL:
-        return posts_use(plate, mass, height)
     if len(plate.rows) > 1:
         return max(plate_screws_use(each, mass, height) for each in plate.each)
+    if plate.on_posts:
+        return posts_use(plate, mass, height)
     places = np.array(plate.trunk) - np.mean(plate.trunk, axis=0)
     share = plate.arms * mass * SHOCK / len(places)
     arm, off = max(plate.sleeves) + plate.thickness + height, np.abs(places).max(axis=0)
@@ -164,15 +162,13 @@ def plate_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
 
 
 def posts_use(plate: CarrierPlate, mass: float, height: float) -> float:
-    """Largest share of strength that `SHOCK` along any one axis takes of a pair's long sleeves.
+    """Largest share of strength that `SHOCK` along any one axis takes of one pair's posts.
 
     The ends of four posts under a plate cannot turn: a push F sideways bends each by F / 4
     times half its length. Its moment about the middle of their length pulls at two and presses
     on two; see `pattern_use` for their screws. No joint opens: pull and bending are less than
     what the screw's preload presses.
     """
-    if len(plate.rows) > 1:
-        return max(posts_use(each, mass, height) for each in plate.each)
     force, gap, (p, q) = 2.0 * mass * SHOCK, max(plate.sleeves), plate.half_pattern
     arm, (area, section, _) = gap / 2.0 + plate.thickness + height, plate.sleeve_section
     arms, half = (arm, np.asarray(0.0)), (np.asarray(p), np.asarray(q))

@@ -12,7 +12,7 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.common.frames import Placement
 from ocs_design.parts.moments import MassMoments, Real, product
-from ocs_design.parts.outline import Outline
+from ocs_design.parts.outline import Outline, even_points
 from ocs_design.robot.mass import MassProperties, combine
 
 HERE = Placement.identity()
@@ -231,11 +231,7 @@ class Relief:
             x.append(one.ravel())
             y.append(other.ravel())
             area.append(np.broadcast_to(weight, one.shape).ravel())
-        angles = (np.arange(64) + 0.5) * 2.0 * pi / 64
-        radii = np.sqrt((np.arange(16) + 0.5) / 16)
-        around = (radii[:, None, None] * np.stack([np.cos(angles), np.sin(angles)], 1)).reshape(
-            -1, 2
-        )
+        around = even_points(0.0, 1.0, 16, 64)
         for middle_x, middle_y, radius in self.holes:
             places = radius * around + [middle_x, middle_y]
             x.append(places[:, 0])

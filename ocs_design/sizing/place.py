@@ -1,17 +1,17 @@
 """How much room a module takes, where modules stand as that grows, and all of them on the robot."""
 
 from dataclasses import dataclass
-from typing import Generic, NamedTuple, TypeVar
+from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray, frozen, vector
 from ocs_design.device.device import Device
 from ocs_design.device.layout import PAIR, Direction, Layout
-from ocs_design.parts.foot import base_radius, larger, wheel_height
-from ocs_design.parts.housing import housing_outer_radius
+from ocs_design.parts.foot import Foot, larger
+from ocs_design.parts.housing import Housing
 from ocs_design.parts.motor_mount import Behind
-from ocs_design.parts.printed import PLATE_THICKNESS, half_height
+from ocs_design.parts.printed import PLATE_THICKNESS, MountHoles
 from ocs_design.parts.solids import Carrier
 from ocs_design.robot.mass import MassProperties, combine
 
@@ -54,13 +54,13 @@ def module_size(
     foot's plate, motor, gear and cage, goes so far back and so far to both sides: how high it
     stands is no matter to a turn about the vertical.
     """
-    outer_radius = outer_radius + guard_wall
-    half = half_height(height)
-    housing = (housing_outer_radius(outer_radius) ** 2 + half**2) ** 0.5
-    depth = larger(half + foot_plate + behind.depth, behind.from_wheel)
+    reach: Any = mount_reach
+    housing: Housing[Real] = Housing(outer_radius + guard_wall, height, MountHoles(reach))
+    foot: Foot[Real] = Foot(housing, foot_plate)
+    around = (housing.radius**2 + housing.half_height**2) ** 0.5
+    depth = larger(foot.back + behind.depth, behind.from_wheel)
     motor = (depth**2 + behind.radius**2) ** 0.5
-    base = base_radius(outer_radius, height, mount_reach, foot_plate)
-    return Size(larger(larger(housing, motor), base), wheel_height(outer_radius, foot_plate))
+    return Size(larger(larger(around, motor), foot.base_radius), foot.wheel_height)
 
 
 @dataclass(frozen=True)

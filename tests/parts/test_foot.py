@@ -23,20 +23,10 @@ from ocs_design.parts.printed import BASE_THICKNESS, CLEARANCE, SHOCK, TRUNK_SCR
 from ocs_design.parts.solids import Prism
 
 
-def in_wheel_frame(foot: Foot):
-    where = foot.placement
-    return part_manifold(foot_part(foot)).transform(
-        np.column_stack([where.rotation, where.position])
-    )
-
-
-def slots(foot: Foot) -> list[Prism]:
-    return list(foot_part(foot).cut[:2])
-
-
 def test_plate_lies_on_the_drum_and_the_base_is_clear_of_both():
     drum, lid = (part_manifold(part) for part in housing_parts(HOUSING))
-    foot = in_wheel_frame(FOOT)
+    where = np.column_stack([FOOT.placement.rotation, FOOT.placement.position])
+    foot = part_manifold(foot_part(FOOT)).transform(where)
     assert (foot ^ drum).volume() < 1e-15
     assert foot.min_gap(drum, 0.01) == pytest.approx(0.0, abs=1e-9)
     # The band's lowest line is a corner of no polygon: up to a few um higher.
@@ -61,7 +51,7 @@ def test_trunk_screws_fit_the_slots_at_any_incidence(incidence, side):
         edge = centre + shank * 1.13 * np.column_stack(
             [np.cos(np.arange(0.0, 6.2, 0.1)), np.sin(np.arange(0.0, 6.2, 0.1))]
         )
-        assert any(contains(slot, edge) for slot in slots(FOOT))
+        assert any(contains(slot, edge) for slot in foot_part(FOOT).cut[:2])
 
 
 def contains(slot: Prism, points) -> bool:
@@ -92,23 +82,15 @@ def test_a_mark_every_ten_degrees_within_the_base():
     assert len(long) == 12
 
 
-def test_plate_grows_with_the_mount():
-    plain = replace(FOOT, housing=Housing(0.03, 0.01))
-    assert plain.half_width == pytest.approx(0.0168)
-    assert FOOT.half_width == pytest.approx(0.022)
-
-
-def test_the_plate_needs_no_support():
-    """Above the stem its disc leans out by 45 degrees at most, from the vertical."""
-    for foot in (FOOT, replace(FOOT, housing=Housing(0.03, 0.01))):
+def test_the_plate_grows_with_the_mount_and_needs_no_support():
+    """Above the stem its disc, which is over the base, leans out by 45 degrees at most."""
+    for foot, wide in ((FOOT, 0.022), (replace(FOOT, housing=Housing(0.03, 0.01)), 0.0168)):
+        assert foot.half_width == pytest.approx(wide)
+        assert foot.half_width >= foot.housing.mount.reach + 3e-3 - 1e-12
+        assert foot.wheel_height - foot.half_width > BASE_THICKNESS
         root = np.sqrt(foot.half_width**2 - foot.stem**2)
         assert foot.stem < foot.half_width
         assert np.degrees(np.arctan2(root, foot.stem)) <= 45.0 + 1e-9
-
-
-def test_holes_are_within_the_disc_and_the_disc_over_the_base():
-    assert FOOT.half_width >= HOUSING.mount.reach + 3e-3 - 1e-12
-    assert FOOT.wheel_height - FOOT.half_width > BASE_THICKNESS
 
 
 def test_a_stem_yields_where_a_cantilever_does():

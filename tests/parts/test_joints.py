@@ -80,10 +80,8 @@ def by_boundary_values(rings, speed, gaps):
     def ends(left, right):
         missing = [left[1], right[-1]]
         for k, gap in enumerate(gaps):
-            missing += [
-                left[2 * k + 2] - right[2 * k] - gap * 1e6,
-                left[2 * k + 3] - right[2 * k + 1],
-            ]
+            missing.append(left[2 * k + 2] - right[2 * k] - gap * 1e6)
+            missing.append(left[2 * k + 3] - right[2 * k + 1])
         return np.array(missing)
 
     x = np.linspace(0.0, 1.0, 60)
@@ -101,7 +99,7 @@ def test_ligaments_are_what_holes_leave_of_a_line_and_of_a_radius():
     assert (between, beside) == (pytest.approx(0.6), pytest.approx(0.52))
 
 
-def test_small_holes_have_the_stress_of_a_strip_with_a_hole():
+def test_small_holes_have_the_stress_of_a_strip_with_a_hole_and_larger_ones_more():
     """Three times what the web has there, as a small hole in a sheet that is pulled one way."""
     rings = [Ring(0.002, 0.005, 5e-3, *STEEL), Ring(0.005, 0.037, 1e-3, *STEEL)]
     rings.append(Ring(0.037, 0.04, 4e-3, *STEEL))
@@ -112,11 +110,6 @@ def test_small_holes_have_the_stress_of_a_strip_with_a_hole():
     hoops = solid.stresses(1, np.linspace(0.005, 0.037, 2001))[1]
     assert web == pytest.approx(3.0 * max(radial, float(hoops.mean())), rel=2e-2)
     assert rim == pytest.approx(TurningRings.of(rings[2:], FAST).peak(0))
-
-
-def test_larger_holes_have_more_stress():
-    rings = [Ring(0.002, 0.005, 5e-3, *STEEL), Ring(0.005, 0.037, 1e-3, *STEEL)]
-    rings.append(Ring(0.037, 0.04, 4e-3, *STEEL))
     peaks = [holed_peaks(rings, FAST, 6, 0.023, hole)[1] for hole in (6e-3, 8e-3, 9.5e-3)]
     assert peaks == sorted(peaks)
 
@@ -124,10 +117,8 @@ def test_larger_holes_have_more_stress():
 @pytest.mark.parametrize("gaps", [(0.0, 0.0), (0.0, 30e-6)], ids=["one piece", "shrunk on"])
 def test_a_disc_of_three_thicknesses_is_as_a_boundary_value_solver_has_it(gaps):
     rings = WHEEL if gaps[1] == 0.0 else (*WHEEL[:2], replace(TUNGSTEN, inner=0.0383, outer=0.0421))
-    turning, solution = (
-        TurningRings.of(rings, 1300.0, gaps),
-        by_boundary_values(rings, 1300.0, gaps),
-    )
+    turning = TurningRings.of(rings, 1300.0, gaps)
+    solution = by_boundary_values(rings, 1300.0, gaps)
     for at, ring in enumerate(rings):
         for x in (0.0, 0.3, 0.7, 1.0):
             r = ring.inner + x * (ring.outer - ring.inner)

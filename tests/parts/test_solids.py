@@ -5,7 +5,7 @@ import pytest
 import trimesh
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from scipy.integrate import quad, solve_bvp
+from scipy.integrate import solve_bvp
 
 from ocs_design.common.frames import Placement, rotation_from_rpy
 from ocs_design.export.meshes import solid_mesh
@@ -96,19 +96,6 @@ def test_theory_example():
     assert cylinder_mass(*PAPER) == pytest.approx(0.10273, abs=1e-5)
     assert cylinder_spin_inertia(*PAPER) == pytest.approx(7.108e-5, abs=5e-9)
     assert cylinder_transverse_inertia(*PAPER) == pytest.approx(3.640e-5, abs=5e-9)
-
-
-def test_against_quadrature():
-    inner, outer, height, density = 0.02, 0.07, 0.03, 2700.0
-
-    def shells(weight):
-        return quad(lambda x: density * 2.0 * np.pi * x * height * weight(x), inner, outer)[0]
-
-    assert cylinder_mass(inner, outer, height, density) == pytest.approx(shells(lambda x: 1.0))
-    spin = shells(lambda x: x**2)
-    assert cylinder_spin_inertia(inner, outer, height, density) == pytest.approx(spin)
-    across = shells(lambda x: x**2 / 2.0 + height**2 / 12.0)
-    assert cylinder_transverse_inertia(inner, outer, height, density) == pytest.approx(across)
 
 
 def test_stresses_against_the_equation_of_elasticity():

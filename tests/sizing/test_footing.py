@@ -24,7 +24,12 @@ from ocs_design.export.device_parts import foot_holes, wheel_pieces
 from ocs_design.export.meshes import part_manifold
 from ocs_design.parts.carrier_plate import ALUMINIUM, MAST_YIELD, SAFETY, STOCK, plate_bodies
 from ocs_design.parts.pedestal import pedestal_part
-from ocs_design.parts.plate_strength import mast_screws_use, mast_stress, plate_stress, posts_use
+from ocs_design.parts.plate_strength import (
+    mast_screws_use,
+    mast_stress,
+    plate_stresses,
+    posts_use,
+)
 from ocs_design.parts.printed import TRUNK_SCREW
 from ocs_design.parts.shapes import Disc, Rectangle
 from ocs_design.parts.solids import Part, Prism, Revolution, hollow_cylinder
@@ -43,7 +48,7 @@ from ocs_design.sizing.footing.contact import FLATNESS, contacts_of
 from ocs_design.sizing.footing.feet import device_size, feet_of
 from ocs_design.sizing.footing.on_top import ASIDE
 from ocs_design.sizing.footing.standing import footing_of, stand_on_trunk
-from ocs_design.sizing.free_place import place_free, place_on_top
+from ocs_design.sizing.free_place import place_free
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points
 from ocs_design.sizing.place import CLEARANCE
 
@@ -81,45 +86,54 @@ def boxed(tmp_path):
 
 def standing(out, up=0.0):
     """With its feet so far to both sides, so far above the trunk's top [m]."""
-    left, right = DEVICE.modules
     place = np.array([0.0, out, TOP + FOOT.wheel_height + up])
-    return replace(
-        DEVICE,
-        modules=(replace(left, position=place), replace(right, position=place * [1.0, -1.0, 1.0])),
-    )
+    places = place, place * [1.0, -1.0, 1.0]
+    modules = map(Module, PAIR.names, PAIR.axes(DEVICE.incidence).T, places)
+    return replace(DEVICE, modules=tuple(modules))
 
 
-def segment_share(over):
-    """Share of a disc within a line that is `over` radii off its middle."""
-    return 1.0 - (acos(over) - over * sqrt(1.0 - over**2)) / pi
+def stood(robot, layout, base=DEVICE, angle=DEVICE.incidence):
+    """The device in another layout, where it stands on a robot."""
+    axes = layout.axes(angle).T
+    modules = tuple(map(Module, layout.names, axes, np.zeros_like(axes)))
+    return stand_on_trunk(replace(base, modules=modules, layout=layout), robot, stated=False)
 
 
-def test_on_a_wide_box_all_of_a_foot_stands(boxed):
-    for contact in contacts_of(boxed(0.6), standing(0.1)):
-        assert contact.held
-        assert contact.gap == pytest.approx(0.0, abs=1e-9)
+def mounting_without_faults(robot, device):
+    """Where it is mounted: whatever stands is held, and no limb is in its way."""
+    check_device(device)
+    mounting = mounting_of(robot, device, (), robot.mass_properties)
+    assert mounting_open_points(mounting) == ()
+    assert all(contact.held for contact in mounting.feet)
+    assert mounting.nearest.distance > 0.0
+    return mounting
 
 
-def test_half_over_the_edge_half_the_area(boxed):
-    for contact in contacts_of(boxed(0.2), standing(0.1)):
-        assert contact.share == pytest.approx(0.5, abs=0.02)
-        assert contact.held is False
-        assert contact.gap == np.inf
+def plate_stress(plate, device):
+    return plate_stresses(plate, np.array([plate.thickness]), device.module_mass, FOOT.wheel_height)
+
+
+def is_read_again(plate):
+    return msgspec.json.decode(msgspec.json.encode(plate), type=type(plate)) == plate
 
 
 def test_the_share_is_that_of_a_circle_cut_by_a_line(boxed):
     robot = boxed(0.3)
     for over in np.linspace(-0.9, 0.9, 9).tolist():
         out = 0.15 - over * FOOT.base_radius
+        share = 1.0 - (acos(over) - over * sqrt(1.0 - over**2)) / pi
         for contact in contacts_of(robot, standing(out)):
-            assert contact.share == pytest.approx(segment_share(over), abs=0.03)
+            assert contact.share == pytest.approx(share, abs=0.03 if over else 0.02)
+            assert over > 0.0 or (contact.held, contact.gap) == (False, np.inf)
 
 
-@pytest.mark.parametrize(("up", "held"), [(0.5 * FLATNESS, True), (2.0 * FLATNESS, False)])
+@pytest.mark.parametrize(
+    ("up", "held"), [(0.0, True), (0.5 * FLATNESS, True), (2.0 * FLATNESS, False)]
+)
 def test_a_foot_in_the_air_is_not_held(boxed, up, held):
-    found = contacts_of(boxed(0.6), standing(0.1, up))
-    assert [contact.held for contact in found] == [held, held]
-    assert found[0].gap == pytest.approx(up)
+    for contact in contacts_of(boxed(0.6), standing(0.1, up)):
+        assert contact.held == held
+        assert contact.gap == pytest.approx(up, abs=1e-9)
 
 
 def test_a_foot_in_the_trunk_is_told(boxed):
@@ -138,41 +152,33 @@ def test_on_a_wide_trunk_there_is_no_plate(boxed):
     assert all(contact.held for contact in contacts_of(robot, device))
 
 
-@pytest.mark.parametrize("width", [0.05, 0.1, 0.13])
-def test_on_a_narrow_trunk_a_plate_carries_both(boxed, width):
-    robot = boxed(width)
-    device = stand_on_trunk(standing(0.1), robot, stated=False)
+@pytest.mark.parametrize(("width", "heavier"), [(0.05, 1.0), (0.1, 1.0), (0.13, 1.0), (0.1, 30.0)])
+def test_on_a_narrow_trunk_a_plate_carries_both(boxed, width, heavier):
+    robot, carrier = boxed(width), DEVICE.carrier
+    asked = replace(standing(0.1), carrier=replace(carrier, mass=heavier * carrier.mass))
+    device = stand_on_trunk(asked, robot, stated=False)
     plate = device.plate
     assert plate.position[2] == pytest.approx(TOP)
     assert device.modules[0].position[2] == pytest.approx(plate.top + FOOT.wheel_height)
-    assert device.mass == pytest.approx(DEVICE.mass + plate.mass)
+    assert device.mass == pytest.approx(asked.mass + plate.mass)
+    assert (plate.thickness > STOCK[0]) == (heavier > 1.0)
     assert all(contact.held for contact in contacts_of(robot, device))
-    feet = feet_of(device)
     least = ALUMINIUM.strength / SAFETY
-    assert plate_stress(plate, feet.mass, feet.height) <= least
+    assert plate_stress(plate, device) <= least
     thinner = [replace(plate, thickness=each) for each in STOCK if each < plate.thickness]
-    assert all(plate_stress(each, feet.mass, feet.height) > least for each in thinner)
+    assert all(plate_stress(each, device) > least for each in thinner)
 
 
 @pytest.mark.parametrize("width", [0.1, 0.6])
 def test_two_pairs_stand_on_the_trunk_or_on_a_plate_each(boxed, width):
     """Mirrored in the sagittal plane, and alike in front and behind."""
     robot, layout = boxed(width), Layout(LayoutName.DOUBLE_PAIR)
-    axes = layout.axes(DEVICE.incidence).T
-    modules = tuple(
-        Module(name, axis, DEVICE.modules[0].position)
-        for name, axis in zip(layout.names, axes, strict=True)
-    )
-    two = replace(DEVICE, modules=modules, layout=layout)
-    device = stand_on_trunk(two, robot, stated=False)
+    device = stood(robot, layout)
     assert (device.plate is None) == (width == 0.6)
     if device.plate is not None:
         assert len(device.plate.rows) == 2
         assert len(device.plate.trunk) == len(device.plate.feet) == 8
-    mounting = mounting_of(robot, device, (), robot.mass_properties)
-    assert mounting_open_points(mounting) == ()
-    assert all(contact.held for contact in mounting.feet)
-    assert mounting.nearest.distance > 0.0
+    mounting_without_faults(robot, device)
     front_left, front_right, back_left, _ = (each.position for each in device.modules)
     np.testing.assert_allclose(front_right, front_left * [1.0, -1.0, 1.0], atol=1e-12)
     assert back_left[0] < front_left[0]
@@ -187,33 +193,17 @@ def test_a_ring_of_modules_stands_on_one_plate(boxed, count):
     robot = boxed(0.13)
     around = np.radians(90.0 + 360.0 / count * np.arange(count))
     axes = np.stack([np.cos(around), np.sin(around), 0.0 * around], axis=1).round(15) + 0.0
-    layout = Layout(LayoutName.BY_HAND, tuple(map(tuple, axes.tolist())))
-    centers = place_on_top(robot, layout).centers(device_size(DEVICE))
-    modules = tuple(map(Module, layout.names, axes, centers))
-    device = stand_on_trunk(replace(DEVICE, modules=modules, layout=layout), robot, stated=False)
+    device = stood(robot, Layout(LayoutName.BY_HAND, tuple(map(tuple, axes.tolist()))))
     plate = device.plate
-    check_device(device)
     assert plate.arms == count
     assert len(plate.trunk) in {count, 2 * count}
-    contacts = contacts_of(robot, device)
-    assert all(contact.held for contact in contacts)
-    assert len(contacts) == count + len(plate.trunk)
+    assert len(mounting_without_faults(robot, device).feet) == count + len(plate.trunk)
     holes = [hole for each in foot_holes(device).values() for hole in each]
     screws = np.array(plate.feet) + plate.position[:2]
     nearest = np.linalg.norm(screws[:, None] - np.array(holes), axis=2).min(axis=1)
     np.testing.assert_allclose(nearest, 0.0, atol=1e-6)
-    feet = feet_of(device)
-    assert plate_stress(plate, feet.mass, feet.height) <= ALUMINIUM.strength / SAFETY
-    mounting = mounting_of(robot, device, (), robot.mass_properties)
-    assert mounting_open_points(mounting) == ()
-    assert msgspec.json.decode(msgspec.json.encode(plate), type=type(plate)) == plate
-
-
-def test_heavier_modules_have_a_thicker_plate(boxed):
-    robot, heavy = boxed(0.1), replace(DEVICE.carrier, mass=30.0 * DEVICE.carrier.mass)
-    light = stand_on_trunk(standing(0.1), robot, stated=False).plate
-    found = stand_on_trunk(replace(standing(0.1), carrier=heavy), robot, stated=False).plate
-    assert found.thickness > light.thickness
+    assert plate_stress(plate, device) <= ALUMINIUM.strength / SAFETY
+    assert is_read_again(plate)
 
 
 def test_a_bump_is_bridged_by_sleeves(boxed):
@@ -270,13 +260,10 @@ def test_the_selection_carries_the_plate_of_the_largest_modules(boxed):
 def test_what_leans_stands_on_pedestals_that_the_design_counts(boxed, name):
     """Each foot's plane is its seat's; settled places stay, and what is raised hangs."""
     robot, layout = boxed(0.8, length=0.8), Layout(name)
-    modules = tuple(
-        map(Module, layout.names, layout.axes(layout.angle or 0.0).T, np.zeros((len(layout), 3)))
-    )
-    loose = replace(DEVICE, modules=modules, layout=layout, incidence=layout.angle or 0.0)
-    device = stand_on_trunk(loose, robot, stated=False)
+    angle = layout.angle or 0.0
+    device = stood(robot, layout, replace(DEVICE, incidence=angle), angle)
     masses = sum(each.mass for each in device.pedestals)
-    assert device.mass - loose.mass == pytest.approx(masses)
+    assert device.mass == pytest.approx(len(layout) * DEVICE.module_mass + masses)
     assert masses > 0.0
     frames = {module.name: module for module in device.modules}
     for each in device.pedestals:
@@ -294,6 +281,11 @@ def test_what_leans_stands_on_pedestals_that_the_design_counts(boxed, name):
     )
     fallen = contacts_of(robot, replace(device, modules=raised))
     assert not any(contact.held for contact in fallen)
+    # Stated within the trunk, where there is no room for any pedestal.
+    low = [replace(module, position=np.zeros(3)) for module in device.modules]
+    sunk = stand_on_trunk(replace(device, modules=tuple(low), pedestals=()), robot, stated=True)
+    assert sunk.pedestals == ()
+    assert not any(contact.held for contact in contacts_of(robot, sunk))
     assert check_device(device) is None
     (other, *rest) = device.pedestals
     with pytest.raises(OcsError, match="under no module"):
@@ -305,15 +297,9 @@ def test_what_leans_stands_on_pedestals_that_the_design_counts(boxed, name):
 )
 def test_nothing_hangs_and_nothing_collides_over_a_full_turn(name, layout):
     """A wheel is within its housing whatever its angle: cylinders are all that they sweep."""
-    robot, layout = read_robot(ROBOTS / f"{name}.urdf"), Layout(layout)
-    axes = layout.axes(DEVICE.incidence).T
-    modules = tuple(map(Module, layout.names, axes, np.zeros_like(axes)))
-    device = stand_on_trunk(replace(DEVICE, modules=modules, layout=layout), robot, stated=False)
-    mounting = mounting_of(robot, device, (), robot.mass_properties)
-    assert mounting_open_points(mounting) == ()
-    assert mounting.known
-    assert all(contact.held for contact in mounting.feet)
-    assert mounting.nearest.distance > 0.0
+    robot = read_robot(ROBOTS / f"{name}.urdf")
+    device = stood(robot, Layout(layout))
+    assert mounting_without_faults(robot, device).known
     between = collision_model(robot).between
     solids = [module_solids(device, module) for module in device.modules]
     for one, other in combinations(solids, 2):
@@ -327,7 +313,10 @@ def test_nothing_hangs_and_nothing_collides_over_a_full_turn(name, layout):
             assert nearest == pytest.approx(0.0, abs=1e-6)
 
 
-NOT_ON_A_NARROW_TRUNK = {LayoutName.BY_HAND, LayoutName.PYRAMID}
+def with_motor():
+    """A device as it is sized, with one motor."""
+    _, sized = designed("Antigravity MN5006 KV450", alpha_criterion="lightest")
+    return sized.device
 
 
 def swept(part):
@@ -358,15 +347,25 @@ def built(device):
     return solids
 
 
+def block(x, y, z):
+    """A box between two coordinates along each axis [m]."""
+    return part_manifold(Part("block", 1.0, (Prism(Rectangle(*x, *y), *z),)), 96)
+
+
+def assert_none_meet(solids):
+    meet = [
+        (one, other)
+        for one, other in combinations(solids, 2)
+        if (solids[one] ^ solids[other]).volume() > 1e-12
+    ]
+    assert meet == []
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "width"),
     [
-        *(
-            (name, 0.12)
-            for name in LayoutName
-            if name not in {LayoutName.BY_HAND, LayoutName.PYRAMID}
-        ),
+        *((name, 0.12) for name in list(LayoutName) if name not in {"by-hand", "pyramid"}),
         (LayoutName.ORTHOGONAL, 0.6),
         (LayoutName.PYRAMID, 0.6),
     ],
@@ -375,11 +374,7 @@ def test_no_two_solids_of_any_layout_meet_over_a_full_turn(boxed, name, width):
     """What turns is its whole body of revolution; all others are as they are made."""
     robot, layout = boxed(width), Layout(name)
     angle = 0.5 if layout.angle is None else layout.angle
-    _, sized = designed("Antigravity MN5006 KV450", alpha_criterion="lightest")
-    whole = sized.device
-    centers = place_on_top(robot, layout).centers(device_size(whole))
-    modules = tuple(map(Module, layout.names, layout.axes(angle).T, centers))
-    device = stand_on_trunk(replace(whole, modules=modules, layout=layout), robot, stated=False)
+    device = stood(robot, layout, with_motor(), angle)
     stands = layout.stands(angle)
     upright = stands.all()
     held = upright or width > 0.5
@@ -396,15 +391,8 @@ def test_no_two_solids_of_any_layout_meet_over_a_full_turn(boxed, name, width):
         heads = tuple(Prism(Disc(radius, hole), each.base, high) for hole in each.holes)
         solids["heads", each.module] = part_manifold(Part("heads", 1.0, heads), 96).transform(where)
     if held:
-        box = Rectangle(-0.3, 0.3, -width / 2.0, width / 2.0)
-        trunk = part_manifold(Part("trunk", 1.0, (Prism(box, -TOP, TOP),)), 96)
-        solids["trunk", ""] = trunk
-    meet = {
-        (one, other): volume
-        for one, other in combinations(solids, 2)
-        if (volume := (solids[one] ^ solids[other]).volume()) > 1e-12
-    }
-    assert meet == {}
+        solids["trunk", ""] = block((-0.3, 0.3), (-width / 2.0, width / 2.0), (-TOP, TOP))
+    assert_none_meet(solids)
 
 
 def jointed(base, limb, mass, height, axis, inertia):
@@ -435,76 +423,48 @@ def test_to_both_sides_of_an_arm_over_the_trunk(tmp_path, name, width):
     """No part of any module, nor a plate under the arm, has any volume in common with it."""
     armed = jointed(f"0.6 {width} 0.1", "0.6 0.06 0.06", 1, 0.13, "0 1 0", (0.6, 0.6))
     (tmp_path / "armed.urdf").write_text(armed)
-    robot, layout = read_robot(tmp_path / "armed.urdf", trunk="base"), Layout(name)
-    _, sized = designed("Antigravity MN5006 KV450", alpha_criterion="lightest")
-    axes = layout.axes(0.5).T
-    modules = tuple(map(Module, layout.names, axes, np.zeros_like(axes)))
-    device = stand_on_trunk(
-        replace(sized.device, modules=modules, layout=layout), robot, stated=False
-    )
+    robot = read_robot(tmp_path / "armed.urdf", trunk="base")
+    device = stood(robot, Layout(name), with_motor(), 0.5)
     assert (device.plate is not None) == (width < 0.5)
-    assert mounting_open_points(mounting_of(robot, device, (), robot.mass_properties)) == ()
-    assert check_device(device) is None
+    mounting_without_faults(robot, device)
     (least,) = {round(float(abs(each.position[1])), 9) for each in device.modules}
     reach = CLEARANCE * device_size(device).reach
     assert min(abs(least - reach - each) for each in ASIDE) < 1e-9
-    arm = Rectangle(-0.3, 0.3, -0.03, 0.03)
-    arm = part_manifold(Part("arm", 1.0, (Prism(arm, 0.1, 0.16),)), 96)
-    solids = built(device)
-    assert max((solid ^ arm).volume() for solid in solids.values()) < 1e-12
+    arm = block((-0.3, 0.3), (-0.03, 0.03), (0.1, 0.16))
+    assert max((solid ^ arm).volume() for solid in built(device).values()) < 1e-12
     # As near to each other as they may be, balls around the modules would touch it.
     up = float(device.modules[0].position[2])
     assert hypot(reach - 0.03, up - max(0.1, min(0.16, up))) < reach
 
 
-BARS = "".join(
-    f'<collision><origin xyz="{x} 0 0.1"/><geometry><box size="0.01 0.24 0.1"/></geometry>'
-    "</collision>"
-    for x in np.arange(-0.28, 0.3, 0.07).round(3).tolist()
-)
-"""Bars across a trunk 100 mm above its top, 60 mm apart: no module stands between them."""
+BARS = np.arange(-0.28, 0.3, 0.07).round(3).tolist()
+"""Places of bars across a trunk, 100 mm high, 60 mm apart: no module stands between them."""
 
 
 def test_over_bars_across_the_trunk_a_plate_stands_on_posts(boxed):
     """Which bear it, are weighed with it, and have no volume in common with bars and modules."""
-    robot, layout = boxed(0.24, more=BARS), PAIR
-    _, sized = designed("Antigravity MN5006 KV450", alpha_criterion="lightest")
-    axes = layout.axes(0.5).T
-    modules = tuple(map(Module, layout.names, axes, np.zeros_like(axes)))
-    device = stand_on_trunk(
-        replace(sized.device, modules=modules, layout=layout), robot, stated=False
-    )
+    bar = '<collision><origin xyz="{} 0 0.1"/><geometry><box size="0.01 0.24 0.1"/></geometry>'
+    robot = boxed(0.24, more="".join(f"{bar.format(x)}</collision>" for x in BARS))
+    device = stood(robot, PAIR, with_motor(), 0.5)
     plate = device.plate
     assert plate.thread == "M8"
     assert plate.sleeves == (pytest.approx(0.1, abs=1e-4),) * 4
     assert plate.position[2] == pytest.approx(TOP + 0.1, abs=1e-4)
-    mounting = mounting_of(robot, device, (), robot.mass_properties)
-    assert mounting_open_points(mounting) == ()
-    assert all(contact.held for contact in mounting.feet)
-    check_device(device)
+    mounting_without_faults(robot, device)
     feet = feet_of(device)
     assert posts_use(plate, feet.mass, feet.height) <= 1.0
-    assert plate_stress(plate, feet.mass, feet.height) <= ALUMINIUM.strength / SAFETY
-    assert msgspec.json.decode(msgspec.json.encode(plate), type=type(plate)) == plate
+    stress = plate_stresses(plate, np.array([plate.thickness]), feet.mass, feet.height)
+    assert stress <= ALUMINIUM.strength / SAFETY
+    assert is_read_again(plate)
     # Tubes of 17 mm by 9 mm are a part of what it weighs.
     tubes = 4 * 0.1 * plate.density * pi / 4.0 * (0.017**2 - 0.009**2)
     screws = sum(plate.screw.mass(length) for length in plate.screw_lengths)
     assert plate.mass > tubes + screws
     solids = built(device)
-    boxes = [Prism(Rectangle(-0.3, 0.3, -0.12, 0.12), -TOP, TOP)]
-    boxes += [
-        Prism(Rectangle(x - 0.005, x + 0.005, -0.12, 0.12), TOP, TOP + 0.1)
-        for x in np.arange(-0.28, 0.3, 0.07).tolist()
-    ]
-    for box in boxes:
-        trunk = part_manifold(Part("trunk", 1.0, (box,)), 96)
-        assert max((solid ^ trunk).volume() for solid in solids.values()) < 1e-9
-    meet = [
-        (one, other)
-        for one, other in combinations(solids, 2)
-        if (solids[one] ^ solids[other]).volume() > 1e-12
-    ]
-    assert meet == []
+    boxes = [block((-0.3, 0.3), (-0.12, 0.12), (-TOP, TOP))]
+    boxes += [block((x - 0.005, x + 0.005), (-0.12, 0.12), (TOP, TOP + 0.1)) for x in BARS]
+    assert max((each ^ box).volume() for each in solids.values() for box in boxes) < 1e-9
+    assert_none_meet(solids)
 
 
 @pytest.fixture
@@ -523,25 +483,15 @@ def column(tmp_path):
 @pytest.mark.parametrize("name", [LayoutName.PAIR, LayoutName.DOUBLE_PAIR])
 def test_where_nothing_stands_on_top_a_mast_carries_it(column, name):
     robot, layout = column(), Layout(name)
-    modules = tuple(
-        Module(each, axis, np.zeros(3))
-        for each, axis in zip(layout.names, layout.axes(0.5).T, strict=True)
-    )
-    device = replace(DEVICE, modules=modules, layout=layout)
-    device = stand_on_trunk(device, robot, stated=False)
-    plate, mass = device.plate, device.flywheel.mass + device.carrier.mass
+    device = stood(robot, layout, angle=0.5)
+    plate, mass, height = device.plate, device.module_mass, FOOT.wheel_height
     assert plate.mast is not None
     assert len(plate.heights) == layout.pairs
-    mounting = mounting_of(robot, device, (), robot.mass_properties)
-    assert mounting_open_points(mounting) == ()
-    assert all(contact.held for contact in mounting.feet)
+    mounting = mounting_without_faults(robot, device)
     assert all(each.share > 0.9 for each in mounting.feet if each.name.startswith("mast"))
-    assert mounting.nearest.distance > 0.0
-    assert msgspec.json.decode(msgspec.json.encode(plate), type=type(plate)) == plate
-    check_device(device)
-    height = FOOT.wheel_height
+    assert is_read_again(plate)
     assert mast_stress(plate, mass, height) <= MAST_YIELD
-    assert plate_stress(plate, mass, height) <= MAST_YIELD
+    assert plate_stress(plate, device) <= MAST_YIELD
     assert mast_screws_use(plate, mass, height) <= 1.0
     # Whatever way they turn, modules are clear of the upright between them and of the arms above.
     mast, reach = plate.mast, device_size(device).reach

@@ -6,7 +6,8 @@ from anatomy import LEGGED
 from robots import ROBOTS
 from sampled import every
 
-from ocs_design.parts.foot import base_radius
+from ocs_design.parts.foot import Foot
+from ocs_design.parts.housing import Housing
 from ocs_design.parts.motor_mount import Behind
 from ocs_design.requirement.froude import default_envelope
 from ocs_design.robot.clearance import drawn, landing_ranges
@@ -140,7 +141,7 @@ def test_the_sphere_that_is_swept_holds_housing_and_motor():
     long = module_size(0.04, 0.004, Behind(0.05, 0.02), 0.0)
     assert long.reach == pytest.approx(np.hypot(0.0052 + 0.005 + 0.05, 0.02))
     wide = module_size(0.01, 0.03, Behind(0.0, 0.0), 0.0)
-    assert wide.reach == base_radius(0.01, 0.03, 0.0) > 0.04
+    assert wide.reach == Foot(Housing(0.01, 0.03)).base_radius > 0.04
     # Rim, shell, 2 mm of air, and the foot's base of 3 mm.
     assert (flat.standing, long.standing) == pytest.approx((0.0486, 0.0486))
 

@@ -13,12 +13,13 @@ from math import inf, pi
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.common.arrays import FloatArray, frozen, vector
+from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.device.device import Device, Module
 from ocs_design.device.solids import foot_of, pedestal_of
 from ocs_design.parts.carrier_plate import TOUCH, CarrierPlate, Point, steepest
 from ocs_design.parts.dog_bone import DogBone, directions
 from ocs_design.parts.module import part_name
+from ocs_design.parts.outline import even_points
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import AROUND_SLOT
 from ocs_design.robot.robot import Robot
@@ -34,8 +35,8 @@ PROUD = 1e-4
 
 
 def heights_at(surface: Surface, points: FloatArray) -> FloatArray:
-    """Heights of a surface at points in B [m], shape (n,)."""
-    return surface.height(points[:, 0], points[:, 1])
+    """Heights of a surface at points in B [m], shape (...) for points of shape (..., 2)."""
+    return surface.height(points[..., 0], points[..., 1])
 
 
 def highest_of(surface: Surface, points: FloatArray) -> float:
@@ -58,12 +59,7 @@ def _around_middle(inner: float, outer: float) -> FloatArray:
     """Points of a ring around the origin [m], shape (n, 2)."""
     count = max(4, min(48, round((outer - inner) / 1e-3)))
     around = max(16, min(180, round(2.0 * pi * outer / 1e-3)))
-    share = (np.arange(count) + 0.5) / count
-    radii = np.sqrt(inner**2 + share * (outer**2 - inner**2))
-    # The rim itself, where lands end first.
-    angles = (np.arange(around) + 0.5) * 2.0 * pi / around
-    rings = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    return frozen((radii[:, None, None] * rings).reshape(-1, 2))
+    return frozen(even_points(inner, outer, count, around))
 
 
 def plate_points(plate: CarrierPlate) -> FloatArray:
@@ -155,9 +151,7 @@ def under_pedestal(
 ) -> FootContact:
     """Contact of a pedestal with the trunk, which also has to bear the foot where it is."""
     place = pedestal.placement
-    lands = [
-        disc_points(vector(place.point([*hole, 0.0]))[:2], AROUND_SLOT) for hole in pedestal.holes
-    ]
+    lands = [disc_points(hole, AROUND_SLOT) for hole in pedestal.in_base(pedestal.holes)]
     points = base_points(pedestal), np.concatenate(lands)
     name = part_name("pedestal", module.name)
     found = _contact(name, surface, points, pedestal.position[2])

@@ -1,7 +1,7 @@
 """Feet of a device before what holds them is known, and the footing that is found for them."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from math import ceil, copysign, log, sqrt
 from typing import Any, TypeVar
@@ -178,54 +178,34 @@ def leans(module: Module) -> bool:
     return float(module.frame[2, 2]) < 1.0 - OUT_OF_REACH
 
 
-def rough(feet: Feet) -> Feet:
-    """Feet of modules that are nearly equal, wherever they stood.
+@lru_cache(maxsize=64)
+def in_vain(robot: Robot, layout: Layout, *search: str | bool) -> list[Feet]:
+    """Feet that a search, by its name and options, failed for since `in_vain.cache_clear()`."""
+    del robot, layout, search
+    return []
+
+
+def looked_for(
+    search: Callable[..., Found | None], robot: Robot, feet: Feet, layout: Layout, *options: bool
+) -> Found | None:
+    """What a search finds for modules nearly as large, wherever they stood.
 
     Sizes and mass are rounded up by 2 % at most, so that nearly equal modules share one search.
+    It takes longest where it fails: what is larger and heavier in all than what it failed for is
+    taken to fail too, and is not looked for.
     """
     figures: dict[str, Any] = {
         name: _ALIKE ** ceil(log(getattr(feet, name), _ALIKE)) for name in _FIGURES
     }
-    return replace(feet, x=0.0, bases=(), **figures)
-
-
-@dataclass(frozen=True, eq=False)
-class InVain:
-    """Modules that a search found nothing to hold, on one robot in one layout.
-
-    A search takes longest where it fails. What is larger and heavier in all is taken to fail too,
-    and is not looked for again.
-
-    Attributes:
-        tried: their feet.
-    """
-
-    tried: list[Feet] = field(default_factory=list)
-
-    def covers(self, feet: Feet) -> bool:
-        """Whether modules no larger and no heavier than these were not held."""
-        return any(
-            feet.slopes == other.slopes
-            and all(getattr(other, name) <= getattr(feet, name) for name in _FIGURES)
-            for other in self.tried
-        )
-
-
-@lru_cache(maxsize=64)
-def in_vain(robot: Robot, layout: Layout, search: str) -> InVain:
-    """The modules that a search, by its name, failed for since `in_vain.cache_clear()`."""
-    del robot, layout, search
-    return InVain()
-
-
-def looked_for(
-    search: Callable[[Robot, Feet, Layout], Found | None], robot: Robot, feet: Feet, layout: Layout
-) -> Found | None:
-    """What a search finds for modules nearly as large, which is not made in vain twice."""
-    asked, vain = rough(feet), in_vain(robot, layout, search.__name__)
-    if vain.covers(asked):
+    asked = replace(feet, x=0.0, bases=(), **figures)
+    tried = in_vain(robot, layout, search.__name__, *options)
+    if any(
+        asked.slopes == other.slopes
+        and all(getattr(other, name) <= getattr(asked, name) for name in _FIGURES)
+        for other in tried
+    ):
         return None
-    found = search(robot, asked, layout)
+    found = search(robot, asked, layout, *options)
     if found is None:
-        vain.tried.append(asked)
+        tried.append(asked)
     return found

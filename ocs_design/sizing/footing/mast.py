@@ -98,9 +98,9 @@ def footing_behind(
     back = trunk_back(robot)
     if back is None:
         return None
-    searches = (_mast_spot, _formed_spot) if formed else (_mast_spot,)
-    spots = (looked_for(each, robot, feet, layout) for each in searches)
-    spot = next((each for each in spots if each is not None), None)
+    spot = looked_for(_mast_spot, robot, feet, layout, False)
+    if spot is None and formed:
+        spot = looked_for(_mast_spot, robot, feet, layout, True)
     if spot is None:
         return None
     feet = _stacked(feet, layout)
@@ -156,19 +156,11 @@ def _stacked(feet: Feet, layout: Layout) -> Feet:
 
 
 @lru_cache(maxsize=64)
-def _mast_spot(robot: Robot, feet: Feet, layout: Layout) -> _Spot | None:
-    """Place of a mast whose modules no limb reaches while the legs give way; None: nowhere."""
-    return _spot_of(robot, feet, layout, is_formed=False)
+def _mast_spot(robot: Robot, feet: Feet, layout: Layout, is_formed: bool) -> _Spot | None:
+    """Place of a mast whose modules no limb reaches while the legs give way; None: nowhere.
 
-
-@lru_cache(maxsize=64)
-def _formed_spot(robot: Robot, feet: Feet, layout: Layout) -> _Spot | None:
-    """Place of a mast whose block has the trunk's form; None: nowhere."""
-    return _spot_of(robot, feet, layout, is_formed=True)
-
-
-def _spot_of(robot: Robot, feet: Feet, layout: Layout, *, is_formed: bool) -> _Spot | None:
-    """Place of a mast, with a block that has the trunk's form or without."""
+    With a block that has the trunk's form (`is_formed`) or without.
+    """
     back = trunk_back(robot)
     if back is None or not layout.pairs:
         return None

@@ -12,7 +12,6 @@ from ocs_design.common.arrays import frozen, vector
 from ocs_design.device.device import Device
 from ocs_design.device.layout import Layout
 from ocs_design.device.solids import foot_of, pedestal_of, pedestal_solids, plate_solids
-from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import AROUND_SLOT
 from ocs_design.robot.robot import Robot
@@ -32,7 +31,7 @@ from ocs_design.sizing.footing.feet import (
     looked_for,
     ring_of,
 )
-from ocs_design.sizing.footing.plate import PLATE_SCREW, POST_SCREW, STRONG_SCREW, held_at, plate_of
+from ocs_design.sizing.footing.plate import PLATE_SCREW, POST_SCREW, STRONG_SCREW, held_at
 from ocs_design.sizing.free_place import Search, place_on_top
 from ocs_design.sizing.place import around, place_at
 
@@ -113,10 +112,8 @@ def _nearest_footing(
             on_trunk = around((moved.x, 0.0, top), search.layout, aside)
             if isfinite(top) and not search.is_clear(on_trunk):
                 continue
-        held = held_at(surface, moved, held_by=(held_by,))
-        if held is not None:
-            plate = plate_of(held)
-            height = held.top if isinstance(held, CarrierPlate) else held
+        height, plate = held_at(surface, moved, held_by=(held_by,))
+        if isfinite(height):
             origin = round(feet.x + shift, 6) + 0.0, 0.0, height
             lift = 0.0 if plate is None else plate.thickness + max(plate.sleeves)
             place = around(origin, search.layout, aside)
@@ -187,6 +184,9 @@ def _all_held(
         if not isfinite(plane):
             return None
         least = plane + (foot.wheel_height if low is None else float(low.wheel[2]))
+        if fixed and own < least - SPARE:
+            # Stated lower than anything under it.
+            return None
         if low is None:
             lands = foot.slot_radius - AROUND_SLOT, foot.slot_radius + AROUND_SLOT
             height = own if fixed else least

@@ -128,7 +128,7 @@ def flat_patterns(
 
 def _top_and_low(surface: Surface, points: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Largest and least height of a trunk at the points of each disc [m], shape (..., m, 2)."""
-    heights = surface.height(points[..., 0], points[..., 1])
+    heights = heights_at(surface, points)
     return heights.max(axis=-1), heights.min(axis=-1)
 
 
@@ -207,7 +207,7 @@ def _widest(
     Args:
         surface, plate, patterns: see `screwed`, of one row. x: of its middle in B [m].
     """
-    z, longest = plate.position[2], POST_MAX if on_posts(plate) else SLEEVE_MAX
+    z, longest = plate.position[2], POST_MAX if plate.on_posts else SLEEVE_MAX
     spread = np.minimum(patterns.along, patterns.across) + 0.1 * (patterns.along + patterns.across)
     may_reach = patterns.top <= z + PROUD
     # What is flat is nowhere higher than a few of its points by more than that.
@@ -234,11 +234,6 @@ def _widest(
     return None if best < 0 else (best, found)
 
 
-def on_posts(plate: CarrierPlate) -> bool:
-    """Whether a plate stands on posts, not on sleeves."""
-    return plate.thread == POST_SCREW.name
-
-
 def room_to_foot(feet: Feet, held_by: Screw) -> float:
     """Least distance of a plate's screws from the middle of a foot [m]."""
     return feet.radius + held_by.head_diameter / 2.0 + HEAD_ROOM
@@ -257,8 +252,10 @@ def held_at(
     feet: Feet,
     underside: float | None = None,
     held_by: Sequence[Screw] = (PLATE_SCREW, STRONG_SCREW),
-) -> CarrierPlate | float | None:
-    """What holds the feet at their place: the trunk at a height [m], a plate, or nothing.
+) -> tuple[float, CarrierPlate | None]:
+    """Height at which the trunk, or a plate on it, holds the feet [m], and that plate.
+
+    The height is nan where nothing does.
 
     Args:
         surface: of the trunk. feet: on it.
@@ -279,9 +276,9 @@ def held_at(
         contact_of("", surface, side, feet.radius, plane=plane, lands=feet.lands).held
         for side in feet.middles
     ):
-        return float(round(plane, 6))
+        return float(round(plane, 6)), None
     plates = (_plate(surface, feet, underside, each) for each in held_by if feet.rows)
-    return next((plate for plate in plates if plate is not None), None)
+    return next(((plate.top, plate) for plate in plates if plate is not None), (nan, None))
 
 
 def _plate(
@@ -379,27 +376,19 @@ def _borne(
     if not np.isfinite(highest):
         return None
     x, y, _ = blank.position
-    if underside is None:
-        held = screwed(surface, replace(blank, position=(x, y, round(highest, 6))), patterns)
-        return None if held is None else _bearing(held, feet, STOCK)
-    for thickness in STOCK:
-        height = underside - thickness
+    # Where the feet's height is stated, a thicker plate is lower.
+    levels: list[tuple[float, tuple[float, ...]]] = [(round(highest, 6), STOCK)]
+    if underside is not None:
+        levels = [(underside - thickness, (thickness,)) for thickness in STOCK]
+    for height, thicknesses in levels:
         if height < highest - PROUD:
             return None
         held = screwed(surface, replace(blank, position=(x, y, height)), patterns)
         if held is None:
             return None
-        plate = _bearing(held, feet, (thickness,))
-        if plate is not None:
-            return plate
-    return None
-
-
-def _bearing(held: CarrierPlate, feet: Feet, thicknesses: tuple[float, ...]) -> CarrierPlate | None:
-    """The plate in the first of some thicknesses [m] that bears the modules; None: in none."""
-    for plate in thick_enough(held, feet, ALUMINIUM.strength / SAFETY, thicknesses):
-        if plate_screws_use(plate, feet.mass, feet.height) <= 1.0:
-            return plate
+        for plate in thick_enough(held, feet, ALUMINIUM.strength / SAFETY, thicknesses):
+            if plate_screws_use(plate, feet.mass, feet.height) <= 1.0:
+                return plate
     return None
 
 
@@ -415,8 +404,3 @@ def thick_enough(
     for thickness, own in zip(thicknesses, stresses.tolist(), strict=True):
         if own <= stress:
             yield replace(blank, thickness=thickness)
-
-
-def plate_of(held: CarrierPlate | float | None) -> CarrierPlate | None:
-    """The plate, where it is one that holds the feet."""
-    return held if isinstance(held, CarrierPlate) else None

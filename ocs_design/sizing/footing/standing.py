@@ -25,7 +25,7 @@ from ocs_design.sizing.footing.feet import (
 )
 from ocs_design.sizing.footing.mast import footing_behind
 from ocs_design.sizing.footing.on_top import footing_on_pedestals, footing_on_top
-from ocs_design.sizing.footing.plate import held_at, plate_of
+from ocs_design.sizing.footing.plate import held_at
 from ocs_design.sizing.free_place import Search, Sizes, place_free
 from ocs_design.sizing.place import place_at
 
@@ -62,7 +62,7 @@ def footing_of(
             return Footing(place, None)
         x, y, z = position
         feet = Feet(x, ((0.0, y), (0.0, -y)), SENSES, *base, mass)
-        return Footing(place, plate_of(held_at(surface, feet, z - largest.standing)))
+        return Footing(place, held_at(surface, feet, z - largest.standing)[1])
     if surface is not None:
         start = round(float(robot.com[0]), 6) + 0.0
         slopes = slopes_of(layout.axes(ISOTROPIC if layout.angle is None else layout.angle))
@@ -112,8 +112,8 @@ def footing_under(
         places = [module.position for module in device.modules]
         if layout != PAIR:
             return Footing(place_at(tuple(np.concatenate(places).tolist()), layout), None)
-        held = held_at(surface, feet, float(places[0][2]) - foot_of(device).wheel_height)
-        return Footing(place_at(tuple(places[0].tolist())), plate_of(held))
+        _, plate = held_at(surface, feet, float(places[0][2]) - foot_of(device).wheel_height)
+        return Footing(place_at(tuple(places[0].tolist())), plate)
     feet = replace(feet, bases=ring_of(layout, feet.reach))
     found = footing_on_top(surface, feet, Search.of(robot, feet.size, layout))
     return found or footing_behind(robot, feet, layout, formed=formed)
