@@ -9,6 +9,7 @@ import msgspec
 import numpy as np
 import pytest
 from designed import designed
+from masts import few_masts
 from robots import ROBOTS
 from wheels import driven_device
 
@@ -220,12 +221,12 @@ def test_a_bump_is_bridged_by_sleeves(boxed):
     assert all(contact.held for contact in contacts_of(robot, higher))
 
 
+@few_masts()
 def test_a_trunk_too_narrow_for_four_screws_carries_nothing(boxed):
-    robot = boxed(0.012)
+    robot = boxed(0.012, length=0.3)
     device = stand_on_trunk(standing(0.1), robot, stated=False)
     assert device.plate is None
-    mounting = mounting_of(robot, device, (), robot.mass_properties)
-    (point,) = mounting_open_points(mounting)
+    (point,) = mounting_open_points(mounting_of(robot, device, (), robot.mass_properties))
     assert point.what.startswith("the feet hang in the air")
     assert "--position" in point.cure
 
@@ -494,13 +495,13 @@ def test_where_nothing_stands_on_top_a_mast_carries_it(column, name):
     assert plate_stress(plate, device) <= MAST_YIELD
     assert mast_screws_use(plate, mass, height) <= 1.0
     # Whatever way they turn, modules are clear of the upright between them and of the arms above.
-    mast, reach = plate.mast, device_size(device).reach
-    aside = plate.across - mast.side / 2.0
-    assert mast.back < plate.across
-    assert reach <= hypot(aside, mast.back)
+    tube, reach = plate.mast, device_size(device).reach
+    aside = plate.across - tube.side / 2.0
+    assert tube.back < plate.across
+    assert reach <= hypot(aside, tube.back)
     for below, above in pairwise(plate.heights):
         middle = below + plate.thickness + height
-        assert reach <= hypot(aside, above - mast.side - middle)
+        assert reach <= hypot(aside, above - tube.side - middle)
     # Screws are on the flat back, 6 cm behind the middle, and modules behind that.
     for place in plate.screw_places:
         x, y, z = place.position + np.array(plate.position)
@@ -546,6 +547,7 @@ def test_what_cannot_carry_its_mast_is_refused(column):
     assert time >= 2.0 * sqrt(whole.inertia[1, 1] * pi / 6.0 / torque)
 
 
+@few_masts()
 def test_the_flat_spots_that_a_mast_would_need_are_told(column):
     """On a back too narrow for two screws side by side; just wide enough for them it has one."""
     narrow = column(0.01)

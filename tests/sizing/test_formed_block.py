@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import trimesh
 from manifold3d import Manifold, Mesh64, OpType
+from masts import few_masts
 from wheels import driven_device
 
 from ocs_design.common.errors import OcsError
@@ -53,6 +54,7 @@ CYLINDER = f'<geometry><cylinder radius="{RADIUS}" length="0.16"/></geometry>'
 RIDGE = '<origin rpy="0 0 0.785"/><geometry><box size="0.12 0.12 0.16"/></geometry>'
 
 
+@few_masts()
 def standing(folder, shape):
     """A trunk of that shape with a head on top, where nothing else has room, and its device."""
     path = folder / "round.urdf"
