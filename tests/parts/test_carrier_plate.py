@@ -330,7 +330,7 @@ def test_screws_of_a_plate_by_hand():
     assert plate_screws_use(plate, 6.0, 0.13) == pytest.approx(2.0 * used)
     assert plate_screws_use(replace(plate, thread="M5"), 3.0, 0.13) < 0.4 * used
     both = replace(plate, rows=(0.1, -0.1), trunk=holes * 2, sleeves=plate.sleeves * 2)
-    assert plate_screws_use(both, 3.0, 0.13) > 0.0
+    assert plate_screws_use(both, 3.0, 0.13) == pytest.approx(used)
 
 
 @given(plates, st.floats(0.1, 5.0))
@@ -387,5 +387,7 @@ def test_posts_by_hand():
     whole = tightened(held, on_metal=False, head_on_print=False)
     assert whole.torque == pytest.approx(held.screw.torque(held.screw.preload))
     assert held.length == plate.screw_lengths[0]
+    two = replace(plate, rows=(0.1, -0.1), trunk=plate.trunk * 2, sleeves=plate.sleeves * 2)
+    assert plate_screws_use(two, 3.0, 0.13) == pytest.approx(posts_use(plate, 3.0, 0.13))
     assert posts_use(on_posts(p=0.025), 3.0, 0.13) < posts_use(plate, 3.0, 0.13)
     assert posts_use(on_posts(gap=0.1), 3.0, 0.13) < posts_use(plate, 3.0, 0.13)

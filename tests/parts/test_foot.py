@@ -33,13 +33,6 @@ def test_plate_lies_on_the_drum_and_the_base_is_clear_of_both():
     assert foot.min_gap(lid, 0.01) == pytest.approx(CLEARANCE, abs=5e-6)
 
 
-def test_turntable_turns_about_the_vertical_through_the_wheel():
-    where = FOOT.placement
-    np.testing.assert_allclose(where.position, [0.0, FOOT.wheel_height, 0.0])
-    np.testing.assert_allclose(where.rotation @ [0.0, 0.0, 1.0], [0.0, -1.0, 0.0])
-    assert np.linalg.det(where.rotation) == pytest.approx(1.0)
-
-
 @pytest.mark.parametrize("incidence", np.radians([0.0, 40.0, 90.0]))
 @pytest.mark.parametrize("side", [1.0, -1.0], ids=["left", "right"])
 def test_trunk_screws_fit_the_slots_at_any_incidence(incidence, side):

@@ -187,18 +187,13 @@ def test_slopes_of_what_is_cut_off_are_those_of_its_figures():
 
 
 @pytest.mark.parametrize("density", [1200.0, 2710.0, 7850.0, 17000.0])
-def test_a_rim_is_one_piece_with_a_web_around_its_hub(density):
+def test_a_rim_is_one_piece_with_a_web_around_its_hub_or_shrunk_on_one_of_aluminium(density):
     alone = RimProblem(1e-4, room(0.05, 0.02), replace(STEEL, density=density), 1000.0).limits
     whole = limits_with_web(alone, 0.012, RimCuts(chamfer=0.3e-3))
     assert whole.inner_radius_min == pytest.approx(0.012 + LIGAMENT)
     assert whole.height_min == pytest.approx(WEB_THICKNESS + 0.6e-3 + STEP)
     assert whole.web == whole.heavy_web == WEB_THICKNESS
     assert whole.stretch_max == alone.stretch_max
-
-
-@pytest.mark.parametrize("density", [1200.0, 2710.0, 7850.0, 17000.0])
-def test_a_rim_is_shrunk_on_a_web_of_aluminium(density):
-    alone = RimProblem(1e-4, room(0.05, 0.02), replace(STEEL, density=density), 1000.0).limits
     seated = limits_with_web(alone, 0.012, web_density=ALUMINIUM)
     assert seated.inner_radius_min == pytest.approx(0.012 + LIGAMENT)
     # Taller than the web, and than as much of the rim's own material: what turns is then a rim.
