@@ -438,14 +438,14 @@ def test_to_both_sides_of_an_arm_over_the_trunk(tmp_path, name, width):
     assert hypot(reach - 0.03, up - max(0.1, min(0.16, up))) < reach
 
 
-BARS = np.arange(-0.28, 0.3, 0.07).round(3).tolist()
+BARS = np.arange(-0.14, 0.15, 0.07).round(3).tolist()
 """Places of bars across a trunk, 100 mm high, 60 mm apart: no module stands between them."""
 
 
 def test_over_bars_across_the_trunk_a_plate_stands_on_posts(boxed):
     """Which bear it, are weighed with it, and have no volume in common with bars and modules."""
     bar = '<collision><origin xyz="{} 0 0.1"/><geometry><box size="0.01 0.24 0.1"/></geometry>'
-    robot = boxed(0.24, more="".join(f"{bar.format(x)}</collision>" for x in BARS))
+    robot = boxed(0.24, 0.32, "".join(f"{bar.format(x)}</collision>" for x in BARS))
     device = stood(robot, PAIR, with_motor(), 0.5)
     plate = device.plate
     assert plate.thread == "M8"
@@ -462,7 +462,7 @@ def test_over_bars_across_the_trunk_a_plate_stands_on_posts(boxed):
     screws = sum(plate.screw.mass(length) for length in plate.screw_lengths)
     assert plate.mass > tubes + screws
     solids = built(device)
-    boxes = [block((-0.3, 0.3), (-0.12, 0.12), (-TOP, TOP))]
+    boxes = [block((-0.16, 0.16), (-0.12, 0.12), (-TOP, TOP))]
     boxes += [block((x - 0.005, x + 0.005), (-0.12, 0.12), (TOP, TOP + 0.1)) for x in BARS]
     assert max((each ^ box).volume() for each in solids.values() for box in boxes) < 1e-9
     assert_none_meet(solids)
