@@ -312,8 +312,12 @@ class Drive:
     @property
     def friction(self) -> float:
         """N eta k_t I_0, what the motor's own friction takes of the torque at the wheel [N m]."""
-        gain = self.gear_ratio * self.gear_efficiency * (self.torque_constant or 0.0)
-        return gain * (self.no_load_current or 0.0)
+        return self.torque_per_current * (self.no_load_current or 0.0)
+
+    @property
+    def torque_per_current(self) -> float:
+        """N eta k_t, torque at the wheel per current in the winding [N m/A]; 0: not known."""
+        return self.gear_ratio * self.gear_efficiency * (self.torque_constant or 0.0)
 
     @property
     def at_the_air_gap(self) -> "Drive":

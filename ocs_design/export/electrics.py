@@ -164,9 +164,8 @@ def motor_current(motor: Drive) -> float | None:
     """Current through two lines at the torque limit [A]; None where its data do not tell."""
     if motor.torque_limit is None or motor.torque_constant is None or motor.bus_voltage is None:
         return None
-    gain = motor.gear_ratio * motor.gear_efficiency * motor.torque_constant
     # The motor's own friction takes its current on top of what turns the wheel.
-    return motor.torque_limit / gain + (motor.no_load_current or 0.0)
+    return motor.torque_limit / motor.torque_per_current + (motor.no_load_current or 0.0)
 
 
 def _saturates(motor: Drive) -> bool:

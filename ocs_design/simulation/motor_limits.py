@@ -69,11 +69,10 @@ class MotorLimits(Table):
             )
         if supply is None or motor.resistance is None or motor.torque_constant is None:
             return line
-        per_current = motor.gear_ratio * motor.gear_efficiency * motor.torque_constant
-        current = float(line.torque_limit) / per_current
+        current = float(line.torque_limit) / motor.torque_per_current
         return replace(
             line,
-            copper=motor.resistance / per_current**2,
+            copper=motor.resistance / motor.torque_per_current**2,
             efficiency=motor.gear_efficiency,
             power_max=power_less_friction(supply, wheels, motor, current),
             voltage=supply.voltage,

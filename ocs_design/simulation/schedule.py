@@ -137,13 +137,13 @@ _LEVEL = np.array([0.0, 0.0, 1.0])
 def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: float) -> Target:
     """The trajectory as the law of one world follows it; after the end the trunk is held.
 
-    Returns:
-        Its k instants in place of worlds. The acceleration is zero: the torque holds it.
-
     Args:
         law: of one world.
         times: of the control instants from lift-off or release [s], shape (k,).
         period: from one to the next [s].
+
+    Returns:
+        Those instants in place of worlds. The acceleration is zero: the torque holds it.
     """
     flying = (times < trajectory.time[-1])[:, None]
     vertical = interpolated(times, trajectory.time, trajectory.vertical)

@@ -71,7 +71,7 @@ def judge(
         can_stand: whether the robot stays up on its joint drives after a level landing from this
             flight; None for a robot without legs, and in orbit. Where it does not, "upright at the
             end" says nothing about the device and is not judged.
-        objection: to the run whatever its figures are, see `soundness`; empty if there is none.
+        objection: to the run whatever its figures are, see `metrics`; empty if there is none.
         gate: largest relative momentum error that is judged.
     """
     unsound = objection or _unsound(metrics, maneuver, gate)

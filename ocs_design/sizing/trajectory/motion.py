@@ -8,11 +8,7 @@ from numpy.typing import NDArray
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.quaternions import conjugate, from_axis_angle, product
 from ocs_design.requirement.turns import loop_length
-from ocs_design.sizing.trajectory.boundary import (
-    Boundary,
-    turned_into_world,
-    vertical_of,
-)
+from ocs_design.sizing.trajectory.boundary import Boundary, turned_into_world, vertical_of
 from ocs_design.sizing.trajectory.collocation import (
     BERNSTEIN,
     DEGREE,

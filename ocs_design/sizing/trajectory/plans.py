@@ -377,10 +377,9 @@ def gyrostat_of(
 def drive_line_of(device: "Device") -> DriveLine:
     """What each drive does at its wheel beside its friction, nothing held back."""
     motor, supply, wheels = device.motor, device.supply, len(device.modules)
-    power, k_t = inf, motor.torque_constant
+    power = inf
     if supply is not None:
-        limit = motor.torque_limit
-        gain = motor.gear_ratio * motor.gear_efficiency * (k_t or 0.0)
+        limit, gain = motor.torque_limit, motor.torque_per_current
         peak = limit / gain if limit is not None and gain > 0.0 else inf
         left = power_less_friction(supply, wheels, motor, peak)
         power = motor.gear_efficiency * left / wheels
