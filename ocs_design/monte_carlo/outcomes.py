@@ -107,17 +107,15 @@ def code_of(verdict: Verdict) -> int:
 NAME = "samples"
 
 
-def share(passed: int, flown: int, confidence: float = CONFIDENCE) -> Share:
-    """The exact interval of Clopper and Pearson (Biometrika 26, 1934, 404-413).
+def share(passed: int, flown: int) -> Share:
+    """Successes of `flown` > 0 trials, with their exact interval at `CONFIDENCE`.
 
-    Args:
-        passed: successes, of `flown` > 0 trials.
-        confidence: that the interval holds the probability, at least.
+    It is that of Clopper and Pearson (Biometrika 26, 1934, 404-413).
     """
     # Importing SciPy's special functions takes a tenth of a second, its statistics a second more.
     from scipy.special import betaincinv  # noqa: PLC0415
 
-    tail = 0.5 * (1.0 - confidence)
+    tail = 0.5 * (1.0 - CONFIDENCE)
     low = float(betaincinv(passed, flown - passed + 1, tail)) if passed else 0.0
     high = 1.0
     if passed < flown:

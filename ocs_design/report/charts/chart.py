@@ -202,11 +202,11 @@ class Chart:
     height: float = 250.0
 
 
-def thinned(x: FloatArray, y: FloatArray, most: int = MOST_POINTS) -> tuple[FloatArray, FloatArray]:
+def thinned(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
     """A line with fewer points that has the same peaks: the least and the largest of each piece."""
-    if len(x) <= most:
+    if len(x) <= MOST_POINTS:
         return x, y
-    pieces, size = most // 2, len(x) // (most // 2)
+    pieces, size = MOST_POINTS // 2, len(x) // (MOST_POINTS // 2)
     # The first pieces are longer by one, as those of `array_split`.
     longer = (size + 1) * (len(x) % pieces)
     ends = (*_ends(y[:longer], size + 1), *(longer + end for end in _ends(y[longer:], size)))
