@@ -32,8 +32,6 @@ def run_reader(name, seed, count):
     """Read `count` mutated files in this process; prints a line for each that does it harm."""
     from hostile_readers import READERS, SLOW_READERS, mutated
 
-    from ocs_design.common.errors import OcsError
-
     reader, draw = (READERS | SLOW_READERS)[name], random.Random(seed)
     hang = LONG_HANG if name in SLOW_READERS else HANG
     with tempfile.TemporaryDirectory() as folder:
@@ -47,19 +45,30 @@ def run_reader(name, seed, count):
             Path(folder, "last").write_text(f"{name} {seed} {index}")
             faulthandler.dump_traceback_later(hang, exit=True)
             start = time.perf_counter()
-            try:
-                with warnings.catch_warnings():
-                    # Numpy's warnings of what overflows would reach the user's terminal.
-                    warnings.simplefilter("error", RuntimeWarning)
-                    reader.read(path)
-            except OcsError:
-                refused += 1
-            except BaseException as error:
-                keep(name, content, fault_of(error))
+            was_refused, fault = outcome(reader, path)
+            refused += was_refused
+            if fault:
+                keep(name, content, fault)
             faulthandler.cancel_dump_traceback_later()
             slowest = max(slowest, time.perf_counter() - start)
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
     print(f"DONE {slowest:.3f} {peak} {refused}", flush=True)
+
+
+def outcome(reader, path):
+    """Whether it is refused with its cure, and the fault where anything else escapes."""
+    from ocs_design.common.errors import OcsError
+
+    try:
+        with warnings.catch_warnings():
+            # Numpy's warnings of what overflows would reach the user's terminal.
+            warnings.simplefilter("error", RuntimeWarning)
+            reader.read(path)
+    except OcsError:
+        return True, ""
+    except BaseException as error:
+        return False, fault_of(error)
+    return False, ""
 
 
 def keep(name, content, fault):
@@ -106,8 +115,6 @@ def guided(name, seconds):
 
     with atheris.instrument_imports(include=["ocs_design"]):
         from hostile_readers import NUMBERS, READERS
-
-        from ocs_design.common.errors import OcsError
     reader = READERS[name]
     folder = tempfile.mkdtemp()
     os.chdir(folder)
@@ -124,14 +131,8 @@ def guided(name, seconds):
     def once(content):
         path = Path(folder, reader.file)
         path.write_bytes(content)
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("error", RuntimeWarning)
-                reader.read(path)
-        except OcsError:
-            pass
-        except BaseException as error:
-            fault = fault_of(error)
+        _, fault = outcome(reader, path)
+        if fault:
             seen[fault] += 1
             if seen[fault] == 1:
                 keep(name, content, fault)

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 from pathlib import Path
-from typing import TypeAlias
 
 from rich.console import Console
 
@@ -35,10 +34,6 @@ TORQUE_CLASSES = (0.0, 0.05, 0.2, 0.5, 1.0, 2.0, 5.0, 20.0, math.inf)
 """Limits of the classes of short-term torque that motors are counted in [N m]."""
 
 
-Row: TypeAlias = Motor | GearSheet | Material
-"""An entry of any catalogue."""
-
-
 @dataclass(frozen=True)
 class Listing:
     """One catalogue, ready to be printed: every entry, all as one document, and for people.
@@ -46,7 +41,7 @@ class Listing:
     `warnings` are about a user's file, one sentence each.
     """
 
-    rows: Sequence[Row]
+    rows: Sequence[Motor | GearSheet | Material]
     json: bytes
     print_table: Callable[[Console], None]
     warnings: tuple[str, ...] = ()
