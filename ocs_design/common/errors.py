@@ -10,6 +10,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from importlib.util import find_spec
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, ClassVar
 
 INTERRUPTED = 130
@@ -109,9 +110,9 @@ class Infeasible(OcsError):
         message: str,
         *,
         binding: Sequence[str],
-        required_spin_inertia: float | None,
-        largest_spin_inertia: float,
-        relaxations: Mapping[str, float],
+        required_spin_inertia: float | None = None,
+        largest_spin_inertia: float = 0.0,
+        relaxations: Mapping[str, float] = MappingProxyType({}),
         hint: str = "",
     ) -> None:
         super().__init__(message, hint=hint)

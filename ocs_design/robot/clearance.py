@@ -8,7 +8,15 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.robot.collision import CollisionModel, Nearest, Part, Poses, Posture, Probe
+from ocs_design.robot.collision import (
+    FARTHEST,
+    CollisionModel,
+    Nearest,
+    Part,
+    Poses,
+    Posture,
+    Probe,
+)
 from ocs_design.robot.leg_geometry import leg_geometries
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import JointKind
@@ -32,6 +40,7 @@ Ranges = Mapping[str, tuple[float, float]]
 """Lower and upper value of driven joints [rad or m]; those that are not in it are held."""
 
 
+@lru_cache(maxsize=1)
 def landing_ranges(robot: Robot) -> Ranges:
     """Ranges of the legs' joints in a landing: drives hold the nominal posture, but not stiffly."""
     ranges: dict[str, tuple[float, float]] = {}
@@ -155,28 +164,30 @@ _PROGRESS = 1e-5
 """Smallest gain for which the search goes on [m]."""
 
 
-def descended(
+def nearest_in_landings(
     collision: CollisionModel,
     probe: Probe,
-    start: Nearest,
-    ranges: Ranges,
     *,
+    within: float = FARTHEST,
     enough: float = -np.inf,
     on_feet: bool = False,
-) -> Nearest:
-    """Nearest that a part comes to a solid around a posture in which it is near already.
+) -> Nearest | None:
+    """Nearest that a limb comes to a solid while the legs give way; None beyond `within` [m].
 
-    A pattern search along the joints that move the part: drawn postures lie too far apart to find
-    the least distance of a limb with many joints.
+    From the nearest of the postures that are drawn, a pattern search along the joints that move the
+    limb: they lie too far apart to find the least distance of a limb with many joints.
 
     Args:
         collision, probe: as for `CollisionModel.nearest`.
-        start: from there.
-        ranges: of joints, which are kept.
+        within: distance of interest in the postures that are drawn [m].
         enough: distance below which it need not be nearer [m].
         on_feet: whether legs stand on their feet: see `landing_poses`.
     """
-    robot = collision.robot
+    poses = landing_poses(collision, on_feet=on_feet)
+    start = collision.nearest(probe, poses, collision.limbs, within=within, enough=enough)
+    if start is None:
+        return None
+    robot, ranges = collision.robot, landing_ranges(collision.robot)
     joints = [name for name in start.part.joints if name in ranges]
     standing = standing_legs(collision) if on_feet else ()
     legs = [leg for leg in standing if set(leg.joints) & set(joints)]

@@ -133,7 +133,7 @@ def path_between(tree: Tree, trunk: int, body: int) -> list[int]:
 
 _UPRIGHT = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 
-_FARTHEST = 10.0
+FARTHEST = 10.0
 """Largest distance that is looked for [m]."""
 
 _SLACK = 1e-9
@@ -195,7 +195,7 @@ class CollisionModel:
 
     Attributes:
         robot: see `Robot`.
-        parts: see `Part`; empty for a robot without any shape.
+        parts: see `Part`; empty for a robot without any shape. limbs: all but the trunk.
         nominal: the nominal posture alone.
     """
 
@@ -205,6 +205,7 @@ class CollisionModel:
         self._model = solid_model(robot, Warnings())
         self._data = mujoco.MjData(self._model)
         self.parts = parts_of(robot, self._model)
+        self.limbs = tuple(part for part in self.parts if part.limb)
         self._part_of = {int(geom): part for part in self.parts for geom in part.geoms}
         self._geoms_of: dict[tuple[Part, ...], NDArray[np.int64]] = {}
         self._fromto = np.zeros(6)
@@ -277,7 +278,7 @@ class CollisionModel:
         poses: Poses,
         parts: Sequence[Part],
         *,
-        within: float = _FARTHEST,
+        within: float = FARTHEST,
         enough: float = -np.inf,
     ) -> Nearest | None:
         """Part that comes nearest to a solid in any of the postures; None beyond `within`.
@@ -355,7 +356,7 @@ class CollisionModel:
 
     def between(self, left: Drum, right: Drum) -> float:
         """Distance of two solids on the trunk [m]."""
-        return self._distance(self._put(left, 0), self._put(right, 1), _FARTHEST)
+        return self._distance(self._put(left, 0), self._put(right, 1), FARTHEST)
 
     def _distance(self, first: int, second: int, within: float) -> float:
         return float(

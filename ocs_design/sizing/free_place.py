@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 import numpy as np
 
@@ -10,8 +10,8 @@ from ocs_design.common.arrays import FloatArray, vector
 from ocs_design.device.layout import PAIR, Direction, Layout
 from ocs_design.parts.motor_mount import Behind
 from ocs_design.requirement.device_sections import Envelope
-from ocs_design.robot.clearance import Ranges, descended, landing_poses, landing_ranges
-from ocs_design.robot.collision import CollisionModel, Part, collision_model
+from ocs_design.robot.clearance import nearest_in_landings
+from ocs_design.robot.collision import CollisionModel, collision_model
 from ocs_design.robot.meshes import trunk_extent, trunk_top
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import Ball, Drum
@@ -266,7 +266,9 @@ class Search:
 
     def is_off(self, solids: Sequence[Ball | Drum]) -> bool:
         """Whether solids hit no limb in the nominal posture."""
-        collision, pose, others = self.collision, self.collision.nominal, self._others
+        collision, pose = self.collision, self.collision.nominal
+        # The trunk's box ends at the face that the modules stand on.
+        others = collision.limbs
         return all(
             collision.nearest(solid, pose, others, within=-_ROUNDING) is None
             for solid in collision.near(solids, pose, others, -_ROUNDING)
@@ -289,25 +291,14 @@ class Search:
         """Whether a solid touches anything in landings, or between the postures that are drawn."""
         # Thin tubes are looked at as closely as the modules on them.
         gap = _NEAR * max(solid.radius, CLEARANCE * self.sizes.smallest.reach)
-        poses, enough = landing_poses(self.collision, on_feet=self.on_feet), -_ROUNDING
-        near = self.collision.nearest(solid, poses, self._others, within=gap, enough=enough)
-        if near is not None:
-            ranges, on_feet = self._ranges, self.on_feet
-            near = descended(self.collision, solid, near, ranges, enough=enough, on_feet=on_feet)
+        near = nearest_in_landings(
+            self.collision, solid, within=gap, enough=-_ROUNDING, on_feet=self.on_feet
+        )
         return near is not None and near.distance < -_ROUNDING
-
-    @cached_property
-    def _ranges(self) -> Ranges:
-        return landing_ranges(self.collision.robot)
 
     def _balls(self, place: Place, size: Size[float]) -> list[Ball]:
         """Balls around all modules of one size, with the room that they need."""
         return [Ball(center, CLEARANCE * size.reach) for center in place.centers(size)]
-
-    @cached_property
-    def _others(self) -> tuple[Part, ...]:
-        """All but the trunk, whose box ends at the face that the modules stand on."""
-        return tuple(part for part in self.collision.parts if part.limb)
 
     def cost(self, place: Place) -> float:
         """What the largest module adds to the inertia about roll and pitch, over the robot's."""

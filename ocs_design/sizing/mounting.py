@@ -27,7 +27,7 @@ from ocs_design.device.solids import (
 from ocs_design.parts.pedestal import Pedestal, pedestal_use
 from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.robot.clearance import Reach, descended, landing_poses, landing_ranges, reaches
+from ocs_design.robot.clearance import Reach, nearest_in_landings, reaches
 from ocs_design.robot.collision import CollisionModel, Nearest, collision_model
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Robot
@@ -182,17 +182,9 @@ def mounting_of(
     solids += [solid for each in device.pedestals for solid in pedestal_solids(each)]
     surface = trunk_surface(robot) if device.carrier.mass > 0.0 else None
     feet = contacts_of(robot, device)
-    # The legs give way in a landing.
-    limbs = [part for part in collision.parts if part.limb]
     # A mast's formed block is the last resort, and no heel is kicked up against it.
     on_feet = device.plate is not None and device.plate.relief is not None
-    poses, ranges = landing_poses(collision, on_feet=on_feet), landing_ranges(collision.robot)
-    near = [(solid, collision.nearest(solid, poses, limbs)) for solid in solids]
-    landing = [
-        descended(collision, solid, each, ranges, on_feet=on_feet)
-        for solid, each in near
-        if each is not None
-    ]
+    landing = [nearest_in_landings(collision, solid, on_feet=on_feet) for solid in solids]
     return Mounting(
         nearest=_nearest_part(collision, device, flown, surface),
         landing=_clearance(landing),
@@ -260,7 +252,6 @@ def _nearest_part(
     Feet and plate stand on the trunk, and are not near it. Where the trunk's surface is known, it
     counts in place of the trunk's convex hull.
     """
-    limbs = [part for part in collision.parts if part.limb]
     modules = [module for each in flown for module in each]
     frames = {each.module: pedestal_solids(each) for each in device.pedestals}
     below = chain(
@@ -270,8 +261,8 @@ def _nearest_part(
     found = _clearance(
         collision.nearest(solid, collision.nominal, parts)
         for solids, parts in (
-            (bodies, collision.parts if surface is None else limbs),
-            (below, limbs),
+            (bodies, collision.parts if surface is None else collision.limbs),
+            (below, collision.limbs),
         )
         for solid in solids
     )

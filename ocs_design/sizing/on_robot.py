@@ -59,9 +59,7 @@ class NeverHeld(Infeasible):
             f"A device of {device} can be held on the trunk by a mast of {held}, but to turn robot "
             "and mast takes a larger device, and nothing holds that one.",
             binding=["ocs.place"],
-            required_spin_inertia=None,
             largest_spin_inertia=best.spin_inertia,
-            relaxations={},
             hint="Another incidence, more time or a higher voltage makes the device smaller.",
         )
 

@@ -279,9 +279,6 @@ def require_survival(problem: SelectionProblem) -> None:
             f"without wheel {wheel!r} {rest} not hold the momentum about roll and pitch that "
             f"{some_of(names)} ask{'s' if len(names) == 1 else ''} for.",
             binding=["survives"],
-            required_spin_inertia=None,
-            largest_spin_inertia=0.0,
-            relaxations={},
         )
 
 

@@ -98,7 +98,7 @@ def test_every_legged_robot_has_a_free_place(name):
     assert found.free
     assert (found.place == place_on_top(robot)) == (name.rpartition("/")[2] in ON_TOP)
     collision, size = collision_model(robot), Sizes.of(envelope).largest
-    others = [part for part in collision.parts if part.limb]
+    others = collision.limbs
     x, y, z = found.place.centers(size)[0]
     poses = collision.poses([{}, *drawn(landing_ranges(robot), 1500)[512:]])
     for side in (y, -y):

@@ -67,7 +67,6 @@ def infeasible_device(
             binding=["incidence"],
             required_spin_inertia=max(finite, default=0.0),
             largest_spin_inertia=largest_spin_inertia(problem.rim_problem(1.0)),
-            relaxations={},
             hint="Choose an incidence between 0 and 90 deg, another criterion, "
             "or drop what asks for that axis.",
         )

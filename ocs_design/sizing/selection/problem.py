@@ -193,19 +193,14 @@ class Candidate(DrivenWheel):
         rim_mass: of one module [kg].
         overspeed: at which the hoop stress is limited [rad/s].
         limits: of its rim.
-        robot: without the modules, with the plate that they stand on, in B.
-        place: of the modules.
+        robot, place, guard_wall, foot_plate, layout, on_bell: see `SelectionProblem`.
         demands: of all parts of the requirement; empty where nobody looked at them.
         binding: limits that hold the mass up, as named in the specification; "housing" where a
             larger rim would be lighter, but its housing heavier.
         residual: relative change of the spin inertia in one more iteration of the fixed point.
         iterations: taken.
         plate: that it stands on; None: the trunk itself, or not looked for yet.
-        guard_wall: of the steel rings in the housings [m]; 0: none.
-        foot_plate: thickness of the feet's plates [m].
-        layout: of the modules.
         pedestals: under feet that lean; empty: none, or not looked for yet.
-        on_bell: whether each wheel is a ring around the bell of its motor.
     """
 
     incidence: float

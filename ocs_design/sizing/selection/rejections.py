@@ -75,7 +75,6 @@ class Refused(Infeasible):
             largest_spin_inertia=(
                 largest_wheel(problem, problem.envelope) if largest is None else largest
             ),
-            relaxations={},
         )
         self.problem, self.nearest = problem, nearest
 
