@@ -31,6 +31,9 @@ class ManeuverReserve:
     short: bool = False
 
 
+_NOTHING_KEPT = ManeuverReserve()
+
+
 @dataclass(frozen=True, eq=False)
 class Requirement:
     """Everything that the flywheels must be able to do.
@@ -78,6 +81,10 @@ class Requirement:
                 found.append(each.momentum(TiltInertia.uncoupled(np.ones(2)), 0.0))
         return np.reshape(found, (-1, 2))
 
+    def reserve(self, maneuver: Maneuver) -> ManeuverReserve:
+        """What is kept for a maneuver; nothing where there is no reserve."""
+        return self.reserves.get(maneuver.name, _NOTHING_KEPT)
+
     def slew(self, maneuver: Maneuver, inertia: TiltInertia, *, begun: bool = False) -> Slew:
         """What a motor must do for a maneuver with its reserve (`Maneuver.slew`).
 
@@ -86,12 +93,14 @@ class Requirement:
             begun: whether the trunk begins with the rate of the reserve: momentum that the wheels
                 hold till the end, with the sense of what they hold anyway.
         """
-        slew, kept = maneuver.slew(inertia, self.standing_height), self.reserves.get(maneuver.name)
-        slew = replace(slew, duration=slew.duration - (self.detection or 0.0))
-        if kept is None:
-            return slew
+        slew, kept = maneuver.slew(inertia, self.standing_height), self.reserve(maneuver)
         factor, momentum = kept.demand, slew.momentum
         if begun:
             factor = kept.begun
             momentum = momentum + np.copysign(inertia.diagonal * np.array(kept.rate), momentum)
-        return replace(slew, swept=factor * slew.swept, momentum=factor * momentum)
+        return replace(
+            slew,
+            swept=factor * slew.swept,
+            momentum=factor * momentum,
+            duration=slew.duration - (self.detection or 0.0),
+        )

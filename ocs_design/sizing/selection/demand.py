@@ -90,8 +90,8 @@ def margins_of(
         if maneuver.incidence is not None:
             own = np.full((len(drives), 1), maneuver.incidence)
             turned += tried([maneuver], own, begun=begun)
-        kept = requirement.reserves.get(maneuver.name)
-        if kept is not None and kept.roll > 0.0:
+        kept = requirement.reserve(maneuver)
+        if kept.roll > 0.0:
             inertia, upright = whole.at(own)
             most = held_in_roll(kept.roll, inertia, upright, whole.layout.axes(own), requirement)
             needed = most / drives.top_speed[:, None]
@@ -141,15 +141,10 @@ def wheel_task(
     swept = np.stack([slew.swept for slew in slews])
     momentum = np.stack([slew.momentum for slew in slews])
     if headed:
-        kept = [requirement.reserves.get(maneuver.name) for maneuver in maneuvers]
-        factors = [
-            1.0 if one is None else one.begun if start else one.demand
-            for one, start in zip(kept, starts, strict=True)
-        ]
-        about = [
-            np.multiply(maneuver.heading(np.broadcast_to(upright, axes.shape[:-2])), factor)
-            for maneuver, factor in zip(maneuvers, factors, strict=True)
-        ]
+        about, whole = [], np.broadcast_to(upright, axes.shape[:-2])
+        for maneuver, start in zip(maneuvers, starts, strict=True):
+            kept = requirement.reserve(maneuver)
+            about.append(np.multiply(maneuver.heading(whole), kept.begun if start else kept.demand))
         turned, held_up = np.stack(about, axis=1)[..., None]
         swept = np.concatenate([swept, turned], axis=-1)
         momentum = np.concatenate([momentum, held_up], axis=-1)

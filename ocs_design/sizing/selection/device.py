@@ -67,11 +67,9 @@ def with_demands(problem: SelectionProblem, device: Candidate) -> Candidate:
         inertia = inertia_at(problem, device, at)
         task = _task_of(maneuver, requirement, device, inertia, at)
         least = smallest_spin_inertia(task, line, device.armature).item()
-        kept = requirement.reserves.get(maneuver.name)
-        if kept is not None:
-            upright, axes = device.total.inertia[2, 2], device.layout.axes(at)
-            held = held_in_roll(kept.roll, inertia, upright, axes, requirement)
-            least = max(least, float(held) / top_speed)
+        roll, upright = requirement.reserve(maneuver).roll, device.total.inertia[2, 2]
+        held = held_in_roll(roll, inertia, upright, device.layout.axes(at), requirement)
+        least = max(least, float(held) / top_speed)
         load = task.load()
         reduced = load.reduced_inertia(spin, device.armature)
         own, begins = line.begun(load.begins), load.begins.item()

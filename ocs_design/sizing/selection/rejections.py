@@ -223,8 +223,8 @@ def _parts(problem: SelectionProblem, drives: Drives, largest: FloatArray) -> It
             # turn there and back.
             time = maneuver.duration
         yield Part(maneuver.name, at, time, needed, late, slew_reason(task, line)[0])
-        kept = requirement.reserves.get(maneuver.name)
-        if kept is not None and kept.roll > 0.0:
+        kept = requirement.reserve(maneuver)
+        if kept.roll > 0.0:
             axes = problem.layout.axes(at)
             most = held_in_roll(kept.roll, inertia, upright, axes, requirement)
             needed = most / drives.top_speed[:, None]
