@@ -99,16 +99,12 @@ def test_the_winner_from_scratch(solved):
         assert demand.spin_inertia == pytest.approx(needed, rel=1e-8)
         assert 0.0 < demand.peak_speed <= float(line.speed_max) * (1.0 + 1e-12)
         assert 0.0 < demand.peak_torque <= float(line.torque_limit) * (1.0 + 1e-12)
-
-
-def test_the_wheel_is_no_larger_than_asked_for(solved):
-    """Within 1e-9, the residual of the fixed point; but for the smallest rim of all."""
-    _, found = solved
-    asked = max(demand.spin_inertia for demand in found.demands)
+    # No larger than asked for, within the residual of the fixed point; but for the smallest rim.
     assert found.residual < 1e-9
     if not {"h_min", "web"} & set(found.binding):
+        asked = max(demand.spin_inertia for demand in found.demands)
         assert found.spin_inertia == pytest.approx(asked, rel=1e-8)
-        assert found.binding_maneuver in {demand.source for demand in found.demands}
+        assert found.binding_maneuver in by_name
 
 
 def test_a_stated_incidence_is_kept_and_no_lighter_than_the_best():

@@ -82,21 +82,18 @@ def test_less_to_do_is_no_heavier(problem):
     assert no_heavier(problem, drop, without_rate)
 
 
-@pytest.mark.parametrize("name", ["outer_radius_max", "height_max"])
-def test_more_room_is_no_heavier(problem, name):
+@pytest.mark.parametrize(
+    ("name", "factors"),
+    [
+        *((name, (1.1, 1.5)) for name in ("outer_radius_max", "height_max")),
+        *((name, (0.7,)) for name in ("inner_radius_min", "height_min", "wall_min")),
+        ("stress_safety", (0.7,)),
+    ],
+)
+def test_looser_limits_are_no_heavier(problem, name, factors):
     room = problem.envelope
-    wider = [
-        replace(problem, envelope=replace(room, **{name: getattr(room, name) * times}))
-        for times in (1.1, 1.5)
-    ]
-    assert no_heavier(problem, *wider)
-
-
-@pytest.mark.parametrize("name", ["inner_radius_min", "height_min", "wall_min", "stress_safety"])
-def test_lower_limits_are_no_heavier(problem, name):
-    room = problem.envelope
-    lower = replace(problem, envelope=replace(room, **{name: getattr(room, name) * 0.7}))
-    assert no_heavier(problem, lower)
+    rooms = [replace(room, **{name: getattr(room, name) * times}) for times in factors]
+    assert no_heavier(problem, *(replace(problem, envelope=each) for each in rooms))
 
 
 @pytest.mark.parametrize("name", ["motors", "gears", "materials"])
