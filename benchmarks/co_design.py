@@ -18,9 +18,9 @@ from paired import ROBOTS
 
 from ocs_design.common.errors import Infeasible
 from ocs_design.requirement.maneuver import Drop, Flip
-from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.sweep import Task
 from ocs_design.robot.meshes import size
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.selection.device import with_demands
@@ -61,8 +61,8 @@ def robot_problem(name: str) -> SelectionProblem:
     path = ROBOTS / FILES[name]
     robot = read_robot(path)
     specification = Specification(robot=RobotSection(file=str(path)))
-    resolved = resolve(specification, robot, size(robot.tree, robot.posture, robot.trunk))
-    problem = selection_problem(specification, robot, resolved)
+    extent = size(robot.tree, robot.posture, robot.trunk)
+    problem = selection_problem(Task.of(specification, robot, extent))
     if problem is None:
         raise TypeError("the default specification wants a motor")
     return problem

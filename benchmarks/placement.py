@@ -17,9 +17,9 @@ from paired import ROBOTS
 from ocs_design.common.errors import OcsError
 from ocs_design.device.records.device import Clearance
 from ocs_design.requirement.device_sections import MotorSection
-from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import NO_MOTOR
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.meshes import size
@@ -43,7 +43,8 @@ def row(name: str) -> str:
         robot=RobotSection(file=str(path)), motor=MotorSection(name=NO_MOTOR)
     )
     robot = read_robot(path)
-    resolved = resolve(specification, robot, size(robot.tree, robot.posture, robot.trunk))
+    task = Task.of(specification, robot, size(robot.tree, robot.posture, robot.trunk))
+    resolved = task.resolved
     start = time.perf_counter()
     collision_model(robot)
     found = place_free(robot, resolved.envelope)
@@ -52,7 +53,7 @@ def row(name: str) -> str:
     at = ", ".join(f"{1e3 * float(value):.0f}" for value in np.array(center))
     where = f"{found.face} the trunk" if found.free else "none is free"
     try:
-        designed = design_device(specification, robot, resolved)
+        designed = design_device(task)
     except OcsError as error:
         return f"{where} | {at} | {error.kind} | | {seconds:.2f}"
     start = time.perf_counter()

@@ -37,7 +37,7 @@ def design_of(specification):
     """The same for a specification of all but the robot."""
     task = by_hand()
     task = task.with_specification(replace(specification, robot=task.specification.robot))
-    return task, design_device(task.specification, task.robot, task.resolved)
+    return task, design_device(task)
 
 
 @cache
@@ -54,7 +54,7 @@ def on_solo12(**options):
 
 def device_for(task, **options):
     """The design of a task."""
-    return design_device(task.specification, task.robot, task.resolved, **options)
+    return design_device(task, **options)
 
 
 def as_recorded(task, made, *, seed=0, files=None):

@@ -11,9 +11,9 @@ from robots import ROBOTS
 from ocs_design.device.bodies import flywheel_names
 from ocs_design.export.attach import attach_device
 from ocs_design.requirement.device_sections import MotorSection
-from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import NO_MOTOR
 from ocs_design.robot.meshes import size
 from ocs_design.robot.mujoco_model import build_spec, posture_qpos
@@ -35,8 +35,8 @@ def designed(name):
         robot=RobotSection(file=str(ROBOTS / f"{name}.urdf")), motor=MotorSection(name=NO_MOTOR)
     )
     robot = read_robot(ROBOTS / f"{name}.urdf")
-    resolved = resolve(specification, robot, size(robot.tree, robot.posture, robot.trunk))
-    return robot, resolved, design_device(specification, robot, resolved)
+    task = Task.of(specification, robot, size(robot.tree, robot.posture, robot.trunk))
+    return robot, task.resolved, design_device(task)
 
 
 @cache

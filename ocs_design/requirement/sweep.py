@@ -14,6 +14,7 @@ from ocs_design.common.units import Dimension, format_quantity, parse_positive
 from ocs_design.requirement.choices import default_bus_voltage
 from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.maneuver import Drop, Flip, Maneuver
+from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.resolving import Resolved, resolve
 from ocs_design.requirement.specification import Specification
 from ocs_design.robot.robot import Robot
@@ -49,6 +50,10 @@ class Task:
             SpecificationError: see `resolve`.
         """
         return Task.of(specification, self.robot, self.robot_size)
+
+    def asking(self, requirement: Requirement) -> "Task":
+        """Task for the same robot and specification, with another requirement."""
+        return replace(self, resolved=replace(self.resolved, requirement=requirement))
 
     def with_key(self, section: str, key: str, value: float) -> Specification:
         """The specification with one key of the file at another value [SI]."""

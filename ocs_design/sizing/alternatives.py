@@ -23,7 +23,6 @@ from ocs_design.requirement.choices import BUS_VOLTAGES, any_motors, motor_choic
 from ocs_design.requirement.kinds import change_text, milder, slower
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove
 from ocs_design.requirement.pivoted import StandUp
-from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import AUTO, DISC, LIGHTEST, RING, STEEL
@@ -110,30 +109,26 @@ def relaxations(specification: Specification, asked: SelectionProblem) -> Iterat
 
 
 def lighter_otherwise(
-    specification: Specification, resolved: Resolved, choice: Choice | None, robot: Robot
+    task: Task, choice: Choice | None
 ) -> tuple[tuple[Alternative, ...], Owed | None]:
     """What each relaxation would save, and to which maneuver the mass is owed."""
-    return alternatives(specification, resolved, choice, robot), owed_to(choice, robot)
+    return alternatives(task, choice), owed_to(task, choice)
 
 
-def alternatives(
-    specification: Specification, resolved: Resolved, choice: Choice | None, robot: Robot
-) -> tuple[Alternative, ...]:
+def alternatives(task: Task, choice: Choice | None) -> tuple[Alternative, ...]:
     """What each relaxation of the defaults and of the limits would save; empty without a motor.
 
     Args:
-        specification: what was stated: what it relaxes already is not offered again.
-        resolved: the same with nothing left open.
+        task: what was asked for: what its specification relaxes already is not offered again.
         choice: the device, and what it was chosen from; None: it has no motor.
-        robot: that carries it.
     """
     if choice is None:
         return ()
     chosen = choice.chosen
     worth = (1.0 - _WORTH) * chosen.mass
-    answers, hangs = [], _hangs(choice, robot)
-    for change in _changes(specification, resolved, choice, robot):
-        found, note = change.lighter(choice, robot, quick=hangs), SAVES_NOTHING
+    answers, hangs = [], _hangs(choice, task.robot)
+    for change in _changes(task, choice):
+        found, note = change.lighter(choice, quick=hangs), SAVES_NOTHING
         # What is lighter may be wider, and so may its plate.
         if found is None or found.mass > worth:
             found = chosen
@@ -154,14 +149,12 @@ class _Change:
     """One change of the question.
 
     Attributes:
-        text: in words.
-        specification, resolved: the question with it.
+        text: in words. task: the question with it.
         problem: the same on the footing and with the reserve of the device as it stands.
     """
 
     text: str
-    specification: Specification
-    resolved: Resolved
+    task: Task
     problem: SelectionProblem
 
     @property
@@ -169,28 +162,27 @@ class _Change:
         """Whether the incidence is to be chosen anew."""
         return self.problem.incidence is None
 
-    def lighter(self, choice: Choice, robot: Robot, *, quick: bool) -> Candidate | None:
+    def lighter(self, choice: Choice, *, quick: bool) -> Candidate | None:
         """The device with it, where a quick look finds drives that save anything.
 
         It is sized as a whole with the lightest of those drives.
 
         Args:
-            choice: the device as it stands. robot: that carries it.
+            choice: the device as it stands.
             quick: whether a device at the same incidence is told as the look finds it, with nothing
                 under it.
         """
         found = lightest_below(self.problem, (1.0 - _WORTH) * choice.chosen.modules_mass)
-        offered = self.resolved.choice
+        offered, stated = self.task.resolved.choice, self.task.specification.flywheel.material
         if found is None or offered is None:
             return None
         if quick and not self.turns:
             return found
         parts = replace(offered, motors=(found.motor,), gears=(found.gear,))
-        stated = self.specification.flywheel.material
         if len(self.problem.materials) > 1 or (self.turns and stated != AUTO):
             # Steels make much the same device, and to weigh them all at every incidence takes long.
             parts = replace(parts, materials=(found.material,))
-        return _whole(self.specification, replace(self.resolved, choice=parts), robot)
+        return _whole(replace(self.task, resolved=replace(self.task.resolved, choice=parts)))
 
     def notes(self, found: Candidate, asked: SelectionProblem) -> Iterator[str]:
         """What to know of the device that is found, beside its mass and its motor."""
@@ -222,27 +214,25 @@ def _hangs(choice: Choice, robot: Robot) -> bool:
     return footing_under(device, robot, stated=stated, formed=formed) is None
 
 
-def _whole(specification: Specification, resolved: Resolved, robot: Robot) -> Candidate | None:
+def _whole(task: Task) -> Candidate | None:
     """The lightest device, on its own footing with its own reserve; None: there is none."""
     try:
-        own = design_device(specification, robot, resolved, ranked=False)
+        own = design_device(task, ranked=False)
     except Infeasible:
         return None
     return None if own.choice is None else own.choice.chosen
 
 
-def built_otherwise(
-    specification: Specification, resolved: Resolved, choice: Choice | None, robot: Robot
-) -> tuple[Alternative, ...]:
+def built_otherwise(task: Task, choice: Choice | None) -> tuple[Alternative, ...]:
     """The device with rings in place of discs, or discs in place of rings; none where none does it.
 
     It is told whether it is lighter or not, but where nothing holds the device. All of its drives
     are weighed: each stands higher or lower than with the construction that there is, on other feet
     and another plate, so that a look at the place of those tells little.
     """
-    if choice is None or _hangs(choice, robot):
+    if choice is None or _hangs(choice, task.robot):
         return ()
-    other = other_construction(specification, resolved, choice.problem)
+    other = other_construction(task, choice.problem)
     if other is None:
         return ()
     text = "a disc on each motor in place of the ring around its bell"
@@ -250,15 +240,15 @@ def built_otherwise(
         text = "a ring bonded around each motor's bell in place of the disc"
     wheel = RING if other.on_bell else DISC
     # The bell sets the bore, which a co-design would change.
-    built = replace(specification, ocs=replace(specification.ocs, wheel=wheel, co_design=None))
-    found = _whole(built, resolved, robot)
+    stated = task.specification
+    built = replace(stated, ocs=replace(stated.ocs, wheel=wheel, co_design=None))
+    found = _whole(replace(task, specification=built))
     return () if found is None else (_answer(text, found, f"--wheel {wheel}"),)
 
 
-def _changes(
-    specification: Specification, resolved: Resolved, choice: Choice, robot: Robot
-) -> Iterator[_Change]:
+def _changes(task: Task, choice: Choice) -> Iterator[_Change]:
     """Each relaxation, and more power, room and time, as the question with that change alone."""
+    specification, resolved = task.specification, task.resolved
     offered, chosen = resolved.choice, choice.chosen
     assert offered is not None, "there are motors to choose from"
     problem = replace(choice.problem, incidence=chosen.incidence, materials=(chosen.material,))
@@ -269,12 +259,12 @@ def _changes(
         requirement = replace(resolved.requirement, maneuvers=to.requirement.maneuvers)
         own = replace(offered, supply=to.supply)
         own_resolved = replace(resolved, requirement=requirement, envelope=to.envelope, choice=own)
-        return _Change(text, specification, own_resolved, to)
+        return _Change(text, replace(task, resolved=own_resolved), to)
 
     for each in relaxations(specification, problem):
         stated = each.stated(specification)
         try:
-            own = motor_choice(stated, robot)
+            own = motor_choice(stated, task.robot)
         except SpecificationError:  # No motor is rated for so much.
             continue
         assert own is not None, "there are motors to choose from"
@@ -282,7 +272,8 @@ def _changes(
         motors = tuple(motor for motor in relaxed.motors if motor.name in names)
         if motors:
             relaxed = replace(relaxed, motors=motors)
-            yield _Change(each.text, stated, replace(resolved, choice=own), relaxed)
+            asked_for = replace(task, specification=stated, resolved=replace(resolved, choice=own))
+            yield _Change(each.text, asked_for, relaxed)
     asked = problem.requirement
     flips = [each for each in asked.maneuvers if isinstance(each, Flip)]
     if problem.layout.pairs and any(flip.incidence is None for flip in flips):
@@ -312,18 +303,13 @@ def _changes(
         yield changed(text, with_limit(problem, TIME, MORE_TIME))
 
 
-def owed_to(choice: Choice | None, robot: Robot) -> Owed | None:
-    """The maneuver without which the device would be lightest; None: none is asked for.
-
-    Args:
-        choice: the device, and what it was chosen from; None: it has no motor.
-        robot: that carries it.
-    """
+def owed_to(task: Task, choice: Choice | None) -> Owed | None:
+    """The maneuver without which the device would be lightest; None: none is asked for."""
     if choice is None:
         return None
     chosen, asked = choice.chosen, choice.problem.requirement
     problem = replace(choice.problem, incidence=chosen.incidence, materials=(chosen.material,))
-    best, hangs = (1.0 - _WORTH) * chosen.mass, _hangs(choice, robot)
+    best, hangs = (1.0 - _WORTH) * chosen.mass, _hangs(choice, task.robot)
     owed = Owed(maneuver="", mass_without=chosen.mass) if asked.maneuvers else None
     for maneuver in asked.maneuvers:
         rest = tuple(each for each in asked.maneuvers if each is not maneuver)
@@ -333,7 +319,7 @@ def owed_to(choice: Choice | None, robot: Robot) -> Owed | None:
         lighter = lightest_below(without, best)
         if lighter is None:
             continue
-        mass = (lighter if hangs else with_plate(lighter, problem, robot)).mass
+        mass = (lighter if hangs else with_plate(lighter, problem, task.robot)).mass
         if mass < best:
             best, owed = mass, Owed(maneuver=maneuver.name, mass_without=mass)
     return owed
@@ -428,8 +414,7 @@ class _Search:
         motor = replace(changed.motor, name=selected.motor.name)
         named = replace(changed, motor=motor, ocs=replace(changed.ocs, co_design=None))
         try:
-            task = self.task.with_specification(named)
-            device = design_device(named, task.robot, task.resolved, ranked=False).device
+            device = design_device(self.task.with_specification(named), ranked=False).device
         except Infeasible:
             return None
         if device.mass > self.target:

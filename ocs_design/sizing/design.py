@@ -14,7 +14,6 @@ from ocs_design.device.layout import PAIR, Criterion
 from ocs_design.device.records.selection import CoDesignRecord
 from ocs_design.requirement.checks import contradictions
 from ocs_design.requirement.pivoted import StandUp
-from ocs_design.requirement.resolving import Resolved, resolve
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import CONTAINING, LIGHTEST, MORE_PAIRS, PYRAMID
@@ -45,14 +44,7 @@ KICK_ROUNDS, _KICK_SETTLED = 3, 0.01
 of their angular impulse, over the largest, that is none."""
 
 
-def design_device(
-    specification: Specification,
-    robot: Robot,
-    resolved: Resolved,
-    *,
-    ranked: bool = True,
-    reserve: Reserve | None = None,
-) -> Designed:
+def design_device(task: Task, *, ranked: bool = True, reserve: Reserve | None = None) -> Designed:
     """The lightest device that meets the specification.
 
     A kick turns the robot about a centre of mass that the device has a part in, so that a device is
@@ -60,7 +52,7 @@ def design_device(
     the lightest device stands that was sized for no less than it has to bear.
 
     Args:
-        specification: what was stated. robot: that carries it. resolved: what was meant.
+        task: what is asked, of which robot.
         ranked: whether the heavier devices are of interest too; to weigh them all takes longer.
         reserve: to keep for what is drawn; None: for the reliability that is specified.
 
@@ -72,24 +64,23 @@ def design_device(
     in_vain.cache_clear()
     tried: list[tuple[float, float, Designed]] = []
     before: tuple[FloatArray, FloatArray] | None = None
-    com = robot.com
+    com = task.robot.com
     for _ in range(1 + KICK_ROUNDS):
         try:
-            designed = _designed(specification, robot, resolved, ranked=ranked, reserve=reserve)
+            designed = _designed(task, ranked=ranked, reserve=reserve)
         except Infeasible:
             if all(short > 0.0 for short, _, _ in tried):
-                asked = resolved.requirement
+                asked = task.resolved.requirement
                 climbs = [each for each in asked.maneuvers if isinstance(each, StandUp)]
                 if not any(each.slower == 1.0 for each in climbs):
                     raise
                 # Robots stand up with less torque and more momentum.
                 calmer = asked.changed(lambda m: m.calmer() if isinstance(m, StandUp) else m)
-                calm = replace(resolved, requirement=calmer)
                 with suppress(Infeasible):
-                    return design_device(specification, robot, calm, ranked=ranked, reserve=reserve)
+                    return design_device(task.asking(calmer), ranked=ranked, reserve=reserve)
                 raise
             break
-        whole, asked = designed.sized.total, resolved.requirement
+        whole, asked = designed.sized.total, task.resolved.requirement
         own = asked.on(whole)
         most, change = np.abs(own.kicks).max(initial=0.0), np.abs(own.kicks - asked.kicks)
         settled = change.max(initial=0.0) <= _KICK_SETTLED * most
@@ -104,20 +95,14 @@ def design_device(
             bend = off - before[1]
             com = found - (found - before[0]) * (off @ bend) / (bend @ bend)
         before = found, off
-        resolved = replace(resolved, requirement=asked.on(replace(whole, com=com)))
+        task = task.asking(asked.on(replace(whole, com=com)))
     return min(tried, key=lambda each: each[:2])[2]
 
 
-def _designed(
-    specification: Specification,
-    robot: Robot,
-    resolved: Resolved,
-    *,
-    ranked: bool,
-    reserve: Reserve | None,
-) -> Designed:
+def _designed(task: Task, *, ranked: bool, reserve: Reserve | None) -> Designed:
     """The device for what is resolved; see `design_device`."""
-    problem = selection_problem(specification, robot, resolved)
+    specification, robot, resolved = task.specification, task.robot, task.resolved
+    problem = selection_problem(task)
     if problem is None:
         # See docs/theory.md, Lower bound on the wheels' inertia.
         ocs, envelope = specification.ocs, resolved.envelope
@@ -192,10 +177,9 @@ def survivors(specification: Specification, robot: Robot, progress: Progress) ->
         asked = replace(specification, ocs=ocs)
         if any(contradictions(asked)):
             continue
-        resolved = resolve(asked, robot, size(robot.tree, robot.posture, robot.trunk))
+        task = Task.of(asked, robot, size(robot.tree, robot.posture, robot.trunk))
         with suppress(Infeasible):
-            designed = design_device(asked, robot, resolved, ranked=False)
-            masses[layout] = designed.device.mass
+            masses[layout] = design_device(task, ranked=False).device.mass
     if not masses:
         return "No layout that survives it has a device either."
     told = some_of([f"`--layout {name}` {1e3 * mass:.0f} g" for name, mass in masses.items()])
@@ -205,17 +189,15 @@ def survivors(specification: Specification, robot: Robot, progress: Progress) ->
     )
 
 
-def mass_without_survival(
-    specification: Specification, robot: Robot, resolved: Resolved
-) -> float | None:
+def mass_without_survival(task: Task) -> float | None:
     """Mass of the lightest device that need not survive a stopped drive [kg]; None: there is none.
 
     Args:
-        specification: what was stated. robot: that carries the device. resolved: what was meant.
+        task: that asks for one which has to.
     """
-    free = replace(resolved, requirement=replace(resolved.requirement, detection=None))
     with suppress(Infeasible):
-        return design_device(specification, robot, free, ranked=False).device.mass
+        free = task.asking(replace(task.resolved.requirement, detection=None))
+        return design_device(free, ranked=False).device.mass
     return None
 
 
@@ -312,7 +294,7 @@ def lightest_device(task: Task) -> FrontDevice:
         )
     stated = task.specification
     alone = replace(stated, ocs=replace(stated.ocs, co_design=False))
-    designed = design_device(alone, task.robot, task.resolved, ranked=False)
+    designed = design_device(replace(task, specification=alone), ranked=False)
     choice = designed.choice
     assert choice is not None, "there are motors to choose from"
     best = choice.chosen

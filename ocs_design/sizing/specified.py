@@ -25,6 +25,7 @@ from ocs_design.requirement.device_sections import Envelope, FlywheelSection
 from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.requirement.vocabulary import (
     ALL_LAYOUTS,
@@ -40,15 +41,13 @@ from ocs_design.requirement.vocabulary import (
     NO_WEB,
     RING,
 )
-from ocs_design.robot.robot import Robot
 from ocs_design.sizing.footing.standing import footing_of
 from ocs_design.sizing.selection.problem import SelectionProblem
 
 
-def selection_problem(
-    specification: Specification, robot: Robot, resolved: Resolved
-) -> SelectionProblem | None:
+def selection_problem(task: Task) -> SelectionProblem | None:
     """The problem that a specification poses; None where it wants no motor."""
+    specification, robot, resolved = task.specification, task.robot, task.resolved
     choice = resolved.choice
     if choice is None:
         return None
@@ -106,17 +105,15 @@ def on_bells(problem: SelectionProblem, motors: Sequence[Motor]) -> SelectionPro
     )
 
 
-def other_construction(
-    specification: Specification, resolved: Resolved, problem: SelectionProblem
-) -> SelectionProblem | None:
+def other_construction(task: Task, problem: SelectionProblem) -> SelectionProblem | None:
     """The problem with rings in place of discs, or discs in place of rings; None: there is none."""
-    choice, flywheel = resolved.choice, specification.flywheel
+    choice, flywheel = task.resolved.choice, task.specification.flywheel
     if choice is None or (flywheel.web == NO_WEB and not problem.on_bell):
         return None
     if problem.on_bell:
         return replace(
             problem,
-            motors=_held(specification, resolved, choice),
+            motors=_held(task.specification, task.resolved, choice),
             gears=choice.gears,
             web=True,
             on_bell=False,

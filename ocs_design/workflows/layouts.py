@@ -43,7 +43,7 @@ def compare_layouts(
         with steps.step(f"size {layout}") as step:
             task = read_task(asked, package_paths=package_paths, strict=strict)
             try:
-                designed = design_device(asked, task.robot, task.resolved, ranked=False)
+                designed = design_device(task, ranked=False)
             except Infeasible as error:
                 answers.append(LayoutAnswer(layout=layout, without=str(error)))
                 step.note = "no device"

@@ -22,9 +22,10 @@ from ocs_design.monte_carlo.summary import summarised
 from ocs_design.report.text.console import Steps
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.pivoted import StandUp
-from ocs_design.requirement.resolving import Resolved, resolve
+from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.sections import ValidationSection
 from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.requirement.vocabulary import RELIABILITY
 from ocs_design.robot.collision import forget_collision_model
@@ -102,6 +103,13 @@ class Placed:
             self.jumping.cancel()
 
     @property
+    def task(self) -> Task:
+        """What it was sized for."""
+        robot = self.robot
+        extent = size(robot.tree, robot.posture, robot.trunk)
+        return Task(self.specification, self.resolved, robot, extent)
+
+    @property
     def combinations(self) -> str:
         """How many combinations of parts were looked at; empty without a motor."""
         choice = self.designed.choice
@@ -128,9 +136,9 @@ def size_on_robot(
         Infeasible: there is none.
         OcsError: the maneuvers do not suit the robot, or with `strict` there is a warning.
     """
-    resolved = resolve(specification, robot, size(robot.tree, robot.posture, robot.trunk))
     factors = estimates or {}
-    resolved = resolved.estimated(factors)
+    task = Task.of(specification, robot, size(robot.tree, robot.posture, robot.trunk))
+    resolved = task.resolved.estimated(factors)
     require_trot(resolved.requirement.maneuvers, robot)
     stated, jumping = specification.validation, None
     if stated.enabled is not False and not control_of(stated, robot).ballistic:
@@ -140,7 +148,7 @@ def size_on_robot(
         # They are planned while the device is sized.
         jumping = JumpPlanning(robot, resolved.requirement.maneuvers)
     try:
-        designed = design_device(specification, robot, resolved, reserve=reserve)
+        designed = design_device(replace(task, resolved=resolved), reserve=reserve)
         device = designed.device
         if designed.requirement is not None:
             resolved = resolved.carrying(designed.requirement)

@@ -28,11 +28,9 @@ from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.reading import specification_of
 from ocs_design.requirement.resolving import read_specified_robot
 from ocs_design.requirement.specification import Specification
-from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.uncertainty import complete_uncertainty, uncertainty_texts
 from ocs_design.requirement.vocabulary import NO_MOTOR
 from ocs_design.robot.collision import forget_collision_model
-from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.margins import record_margins
 from ocs_design.simulation.run import Run
@@ -184,7 +182,7 @@ def design_ocs(
         )
         if proof.survival is not None:
             with steps.step("size a device that need not survive"):
-                alone = mass_without_survival(specification, placed.robot, placed.resolved)
+                alone = mass_without_survival(placed.task)
             design = replace(design, survival=replace(proof.survival, mass_without=alone))
         if proof.certificate is not None:
             design = replace(design, reliability=proof.certificate.record.certificate)
@@ -210,7 +208,7 @@ def _otherwise(
     placed: Placed, beside: Beside
 ) -> Callable[[], tuple[tuple[Alternative, ...], Owed | None]]:
     """Begin to look for what would be lighter otherwise than this device."""
-    asked = placed.specification, placed.resolved, placed.designed.choice, placed.robot
+    asked = placed.task, placed.designed.choice
     relaxed = beside.call(lighter_otherwise, *asked)
 
     def told() -> tuple[tuple[Alternative, ...], Owed | None]:
@@ -241,15 +239,13 @@ def _write_flights(placed: Placed, proof: Proof, folder: Path, steps: Steps) -> 
 
 def _what_must_give(placed: Placed, owed: Owed | None, steps: Steps) -> Lighter | None:
     """What would have to give for a lighter device, where that was asked."""
-    by, choice, robot = placed.specification.ocs.lighter_by, placed.designed.choice, placed.robot
+    by, choice = placed.specification.ocs.lighter_by, placed.designed.choice
     if by is None or choice is None:
         return None
-    extent = size(robot.tree, robot.posture, robot.trunk)
-    task = Task(placed.specification, placed.resolved, robot, extent)
     with steps.step("look for what would have to give") as step:
         return Lighter(
             by=by,
-            changes=lighter_by(by, task, choice, owed.maneuver if owed else "", step.update),
+            changes=lighter_by(by, placed.task, choice, owed.maneuver if owed else "", step.update),
         )
 
 

@@ -32,7 +32,7 @@ STATED = Specification(motor=MotorSection(name=MOTORS))
 
 def told_of(task, designed):
     """All that would be lighter, the other construction last."""
-    asked = task.specification, task.resolved, designed.choice, task.robot
+    asked = task, designed.choice
     return (*alternatives(*asked), *built_otherwise(*asked))
 
 
@@ -40,7 +40,7 @@ def told_of(task, designed):
 def compared(specification):
     """The task, the device, and what would be lighter by change, but the other construction."""
     task, designed = design_of(specification)
-    found = alternatives(task.specification, task.resolved, designed.choice, task.robot)
+    found = alternatives(task, designed.choice)
     return task, designed, {each.change: each for each in found}
 
 
@@ -99,15 +99,14 @@ def test_rings_on_a_robot_are_weighed_on_feet_and_a_plate_of_their_own(monkeypat
     stated = Specification(robot=RobotSection(file=SOLO12), motor=motor)
     task, slow = solo12().with_specification(stated), "10% more time for every maneuver"
     look_for(monkeypatch, slow)
-    designed = design_device(stated, task.robot, task.resolved, ranked=False)
+    designed = design_device(task, ranked=False)
     found = told_of(task, designed)
     told = {each.change: each.mass_total for each in found}
     ring = replace(stated, ocs=OcsSection(wheel="ring"))
     longer = replace(stated, maneuvers=in_more_time(task))
     others = {"a ring bonded around each motor's bell in place of the disc": ring, slow: longer}
     for change, asked in others.items():
-        own = task.with_specification(asked)
-        whole = design_device(asked, own.robot, own.resolved, ranked=False)
+        whole = design_device(task.with_specification(asked), ranked=False)
         assert told[change] == pytest.approx(whole.device.mass, rel=ABOUT)
 
 
@@ -116,7 +115,7 @@ def offered(specification):
     task, designed = design_of(specification)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("ocs_design.sizing.alternatives.lightest_below", lambda *_: None)
-        found = alternatives(task.specification, task.resolved, designed.choice, task.robot)
+        found = alternatives(task, designed.choice)
     return {each.change for each in found}
 
 

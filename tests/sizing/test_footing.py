@@ -37,9 +37,9 @@ from ocs_design.parts.solids import Part, Prism, Revolution, hollow_cylinder
 from ocs_design.requirement.device_sections import MotorSection, OcsSection
 from ocs_design.requirement.froude import default_envelope
 from ocs_design.requirement.phrases import Tilt
-from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.sections import RequirementSection, RobotSection
 from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.sweep import Task
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.meshes import size
@@ -522,8 +522,8 @@ def falling(height, robot):
         motor=MotorSection(name=STRONG),
         ocs=OcsSection(layout="pair", alpha_criterion="lightest"),
     )
-    resolved = resolve(specification, robot, size(robot.tree, robot.posture, robot.trunk))
-    return resolved, design_device(specification, robot, resolved)
+    task = Task.of(specification, robot, size(robot.tree, robot.posture, robot.trunk))
+    return task.resolved, design_device(task)
 
 
 @pytest.mark.slow

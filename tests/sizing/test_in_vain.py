@@ -1,6 +1,7 @@
 """Searches that take longest where they fail are not made again for what is harder to hold."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from commands import SOLO12
@@ -54,5 +55,5 @@ def test_what_was_not_found_for_one_device_is_looked_for_again_for_the_next(monk
     assert in_vain(robot, PAIR, "behind") == [FEET]
     monkeypatch.setattr(design, "_designed", begins)
     with pytest.raises(BegunError):
-        design.design_device(None, robot, None)
+        design.design_device(SimpleNamespace(robot=robot))
     assert in_vain(robot, PAIR, "behind") == []

@@ -23,13 +23,12 @@ def made(**asked):
     """The task for Solo12's figures, its device, and what its mass is owed to."""
     specification = Specification(motor=MOTORS, requirement=RequirementSection(**asked))
     task, designed = design_of(specification)
-    return task, designed, owed_to(designed.choice, task.robot)
+    return task, designed, owed_to(task, designed.choice)
 
 
 def mass_of(task, specification):
     """Of the device of another question [kg]."""
-    resolved = task.with_specification(specification).resolved
-    return design_device(specification, task.robot, resolved).device.mass
+    return design_device(task.with_specification(specification)).device.mass
 
 
 def test_the_mass_is_owed_to_the_maneuver_without_which_it_is_lightest():

@@ -158,8 +158,7 @@ def test_each_construction_tells_of_the_other():
     sides, alone = {}, {"alpha": 0.6}
     for wheel in ("disc", "ring"):
         task, designed = made(wheel, **alone)
-        asked = task.specification, task.resolved, designed.choice, task.robot
-        (sides[wheel],) = built_otherwise(*asked)
+        (sides[wheel],) = built_otherwise(task, designed.choice)
     for wheel, other in (("disc", "ring"), ("ring", "disc")):
         assert sides[wheel].note == f"--wheel {other}"
         mass = made(other, **alone)[1].device.mass

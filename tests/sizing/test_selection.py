@@ -20,8 +20,8 @@ from ocs_design.device.layout import module_axes
 from ocs_design.requirement.device_sections import FlywheelSection, MotorSection
 from ocs_design.requirement.maneuver import Disturbance, Flip
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.sweep import Task
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.advice import PRECISION, advice_on
 from ocs_design.sizing.limits import BUS_VOLTAGE, TIME
@@ -189,7 +189,7 @@ def test_the_motor_that_comes_closest_is_not_one_that_no_rim_fits_around():
         flywheel=FlywheelSection(r_max=0.012),
         motor=MotorSection(name="U15 II KV100, AT2820 KV1050"),
     )
-    problem = selection_problem(specified, robot, resolve(specified, robot, 0.43))
+    problem = selection_problem(Task.of(specified, robot, 0.43))
     error = reasons(problem)
     assert "AT2820 KV1050 comes closest" in error.message
     wide = reasons(replace(problem, motors=problem.motors[:1]))

@@ -218,7 +218,7 @@ def test_wheels_that_reach_yaw_are_sized_for_it_without_a_loop(layout, direct):
     """The wheels are what the closed form asks for, and a plan for them leaves something."""
     turning = {"requirement.turn": "yaw 90deg in 2s", "requirement.gravity": "1.62"}
     task = on_solo12(**turning, ocs__layout=layout)
-    problem = selection_problem(task.specification, task.robot, task.resolved)
+    problem = selection_problem(task)
     (turn,) = problem.requirement.maneuvers
     assert turn.headed == direct
     assert (turn.turn == 0.0).all() == direct
@@ -247,7 +247,7 @@ def test_what_needs_less_than_the_smallest_rim_gets_a_larger_one():
     chosen = device_for(task).choice.chosen
     (demand,) = chosen.demands
     assert demand.spin_inertia <= chosen.spin_inertia
-    problem = selection_problem(asked, task.robot, task.resolved)
+    problem = selection_problem(task)
     least = RimFloor.of(problem).mass
     assert np.isfinite(least[:, 0]).all()
     assert (np.diff(np.nan_to_num(least, posinf=1e9), axis=1) >= 0.0).all()
