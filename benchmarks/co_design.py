@@ -21,7 +21,6 @@ from ocs_design.requirement.maneuver import Drop, Flip
 from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
-from ocs_design.robot.meshes import size
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.selection.device import with_demands
 from ocs_design.sizing.selection.problem import SelectionProblem
@@ -61,8 +60,7 @@ def robot_problem(name: str) -> SelectionProblem:
     path = ROBOTS / FILES[name]
     robot = read_robot(path)
     specification = Specification(robot=RobotSection(file=str(path)))
-    extent = size(robot.tree, robot.posture, robot.trunk)
-    problem = selection_problem(Task.of(specification, robot, extent))
+    problem = selection_problem(Task.of(specification, robot))
     if problem is None:
         raise TypeError("the default specification wants a motor")
     return problem

@@ -22,7 +22,6 @@ from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import NO_MOTOR
 from ocs_design.robot.collision import collision_model
-from ocs_design.robot.meshes import size
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.free_place import Sizes, place_free
@@ -43,7 +42,7 @@ def row(name: str) -> str:
         robot=RobotSection(file=str(path)), motor=MotorSection(name=NO_MOTOR)
     )
     robot = read_robot(path)
-    task = Task.of(specification, robot, size(robot.tree, robot.posture, robot.trunk))
+    task = Task.of(specification, robot)
     resolved = task.resolved
     start = time.perf_counter()
     collision_model(robot)

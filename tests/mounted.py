@@ -15,7 +15,6 @@ from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import NO_MOTOR
-from ocs_design.robot.meshes import size
 from ocs_design.robot.mujoco_model import build_spec, posture_qpos
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.engine import simulate
@@ -35,7 +34,7 @@ def designed(name):
         robot=RobotSection(file=str(ROBOTS / f"{name}.urdf")), motor=MotorSection(name=NO_MOTOR)
     )
     robot = read_robot(ROBOTS / f"{name}.urdf")
-    task = Task.of(specification, robot, size(robot.tree, robot.posture, robot.trunk))
+    task = Task.of(specification, robot)
     return robot, task.resolved, design_device(task)
 
 

@@ -17,6 +17,7 @@ from ocs_design.requirement.maneuver import Drop, Flip, Maneuver
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.resolving import Resolved, resolve
 from ocs_design.requirement.specification import Specification
+from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot
 
 
@@ -35,13 +36,14 @@ class Task:
     robot_size: float
 
     @classmethod
-    def of(cls, specification: Specification, robot: Robot, robot_size: float) -> "Task":
+    def of(cls, specification: Specification, robot: Robot) -> "Task":
         """Task for a specification, resolved.
 
         Raises:
             SpecificationError: see `resolve`.
         """
-        return cls(specification, resolve(specification, robot, robot_size), robot, robot_size)
+        extent = size(robot.tree, robot.posture, robot.trunk)
+        return cls(specification, resolve(specification, robot, extent), robot, extent)
 
     def with_specification(self, specification: Specification) -> "Task":
         """Task for the same robot with another specification, resolved anew.
@@ -49,7 +51,8 @@ class Task:
         Raises:
             SpecificationError: see `resolve`.
         """
-        return Task.of(specification, self.robot, self.robot_size)
+        resolved = resolve(specification, self.robot, self.robot_size)
+        return replace(self, specification=specification, resolved=resolved)
 
     def asking(self, requirement: Requirement) -> "Task":
         """Task for the same robot and specification, with another requirement."""

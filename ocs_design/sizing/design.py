@@ -17,7 +17,6 @@ from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import CONTAINING, LIGHTEST, MORE_PAIRS, PYRAMID
-from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.assembly import assemble, assemble_selected
 from ocs_design.sizing.bound.device_problem import DeviceProblem
@@ -128,7 +127,7 @@ def _designed(task: Task, *, ranked: bool, reserve: Reserve | None) -> Designed:
         assert resolved.reliability is not None, "there are motors to choose from"
         require_survival(problem)
         reserve = reserve or Reserve(resolved.reliability)
-        designed = _by_selection(specification, problem, robot, reserve, ranked=ranked)
+        designed = _by_selection(task, problem, reserve, ranked=ranked)
         at, fixed = designed.device, problem.place.stated
         # The last resort, after all that holds on what is flat.
         if (
@@ -138,7 +137,7 @@ def _designed(task: Task, *, ranked: bool, reserve: Reserve | None) -> Designed:
         ):
             problem = replace(problem, formed=True)
             with suppress(Infeasible):
-                again = _by_selection(specification, problem, robot, reserve, ranked=ranked)
+                again = _by_selection(task, problem, reserve, ranked=ranked)
                 designed = designed if again.device.plate is None else again
     device, most = designed.device, specification.ocs.mass_max
     # Nothing is lighter than the lightest: no search is needed.
@@ -177,9 +176,8 @@ def survivors(specification: Specification, robot: Robot, progress: Progress) ->
         asked = replace(specification, ocs=ocs)
         if any(contradictions(asked)):
             continue
-        task = Task.of(asked, robot, size(robot.tree, robot.posture, robot.trunk))
         with suppress(Infeasible):
-            masses[layout] = design_device(task, ranked=False).device.mass
+            masses[layout] = design_device(Task.of(asked, robot), ranked=False).device.mass
     if not masses:
         return "No layout that survives it has a device either."
     told = some_of([f"`--layout {name}` {1e3 * mass:.0f} g" for name, mass in masses.items()])
@@ -202,14 +200,10 @@ def mass_without_survival(task: Task) -> float | None:
 
 
 def _by_selection(
-    specification: Specification,
-    problem: SelectionProblem,
-    robot: Robot,
-    reserve: Reserve,
-    *,
-    ranked: bool,
+    task: Task, problem: SelectionProblem, reserve: Reserve, *, ranked: bool
 ) -> Designed:
     """Modules with a motor of the catalogue each, co-designed where that is asked for."""
+    specification, robot = task.specification, task.robot
     criterion = specified_criterion(specification)
     reality = Reality.of(
         specification.reality,

@@ -16,7 +16,6 @@ from ocs_design.requirement.reading import specification_of
 from ocs_design.requirement.resolving import read_specified_robot
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task, sweep_of
-from ocs_design.robot.meshes import size
 from ocs_design.sizing.comparison import draw_front
 from ocs_design.sizing.design import lightest_device
 
@@ -80,4 +79,4 @@ def read_task(
         OcsError: the robot cannot be read, or the specification does not fit it.
     """
     robot = read_specified_robot(specification, package_paths=package_paths, strict=strict)
-    return Task.of(specification, robot, size(robot.tree, robot.posture, robot.trunk))
+    return Task.of(specification, robot)

@@ -137,7 +137,7 @@ def size_on_robot(
         OcsError: the maneuvers do not suit the robot, or with `strict` there is a warning.
     """
     factors = estimates or {}
-    task = Task.of(specification, robot, size(robot.tree, robot.posture, robot.trunk))
+    task = Task.of(specification, robot)
     resolved = task.resolved.estimated(factors)
     require_trot(resolved.requirement.maneuvers, robot)
     stated, jumping = specification.validation, None

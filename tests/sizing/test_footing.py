@@ -42,7 +42,6 @@ from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.manual import robot_by_hand
-from ocs_design.robot.meshes import size
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.footing.contact import FLATNESS, contacts_of
@@ -522,7 +521,7 @@ def falling(height, robot):
         motor=MotorSection(name=STRONG),
         ocs=OcsSection(layout="pair", alpha_criterion="lightest"),
     )
-    task = Task.of(specification, robot, size(robot.tree, robot.posture, robot.trunk))
+    task = Task.of(specification, robot)
     return task.resolved, design_device(task)
 
 

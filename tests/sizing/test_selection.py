@@ -189,7 +189,7 @@ def test_the_motor_that_comes_closest_is_not_one_that_no_rim_fits_around():
         flywheel=FlywheelSection(r_max=0.012),
         motor=MotorSection(name="U15 II KV100, AT2820 KV1050"),
     )
-    problem = selection_problem(Task.of(specified, robot, 0.43))
+    problem = selection_problem(Task.of(specified, robot))
     error = reasons(problem)
     assert "AT2820 KV1050 comes closest" in error.message
     wide = reasons(replace(problem, motors=problem.motors[:1]))
