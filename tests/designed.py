@@ -52,11 +52,6 @@ def on_solo12(**options):
     return solo12().with_specification(specification_from_options({"robot.file": SOLO12, **named}))
 
 
-def device_for(task, **options):
-    """The design of a task."""
-    return design_device(task, **options)
-
-
 def as_recorded(task, made, *, seed=0, files=None):
     """The record of a design that is neither flown nor mounted."""
     margins = record_margins(task.resolved, made, (), {})

@@ -8,13 +8,13 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
-from designed import device_for
 from scripts import script_at
 
 from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia
 from ocs_design.requirement.reading import read_specification
 from ocs_design.requirement.resolving import read_specified_robot, resolve
 from ocs_design.robot.mass import MassProperties
+from ocs_design.sizing.design import design_device
 from ocs_design.sizing.trajectory.boundary import pivot_boundary
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.plans import drive_line_of, gentlest
@@ -122,7 +122,7 @@ def hopping():
     """REx Hopper's device."""
     stated = specification("rex_hopper")
     nominal = replace(stated, requirement=replace(stated.requirement, reliability=0.5))
-    return stated, device_for(read_task(nominal), ranked=False).device
+    return stated, design_device(read_task(nominal), ranked=False).device
 
 
 @pytest.mark.slow

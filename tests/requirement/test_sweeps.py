@@ -37,7 +37,7 @@ duration = 0.75
 @pytest.fixture
 def task(solo12):
     def make(text=""):
-        return Task.of(parse_specification(text, "text"), solo12, 0.5)
+        return Task.of(parse_specification(text, "text"), solo12)
 
     return make
 

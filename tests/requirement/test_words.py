@@ -239,7 +239,7 @@ def test_the_papers_three_are_added_when_they_are_named(solo12):
 
 
 def test_a_sweep_writes_worded_maneuvers_out(solo12):
-    task = Task.of(Specification(requirement=asked(fall=["1m"])), solo12, SIZE)
+    task = Task.of(Specification(requirement=asked(fall=["1m"])), solo12)
     changed = task.with_specification(SWEEPS["time"].at(0.5, task))
     (fall,) = changed.maneuvers
     assert fall.time(changed.standing_height) == pytest.approx(0.5)

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from designed import MOTOR, designed, device_for, on_solo12, solo12
+from designed import MOTOR, designed, on_solo12, solo12
 from products import equal_rate
 from wheels import braked_inertia
 
@@ -25,6 +25,7 @@ from ocs_design.requirement.sections import RequirementSection, RobotSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing import on_robot
+from ocs_design.sizing.design import design_device
 from ocs_design.sizing.footing.feet import Footing
 from ocs_design.workflows.pareto import read_task
 
@@ -40,7 +41,7 @@ def test_the_total_is_robot_and_device_braked(motor):
 
 def test_the_incidence_of_the_robot_alone_does_not_count_the_plate():
     task = on_solo12(motor__name="Antigravity MN5006 KV450")
-    found = device_for(task)
+    found = design_device(task)
     assert found.device.plate is not None
     alone = found.sized.incidence_by_criterion_robot[Criterion.EQUAL_RATE]
     assert alone == pytest.approx(equal_rate(task.robot.inertia), rel=1e-12)
@@ -54,7 +55,7 @@ def test_wheels_that_a_brake_stops_turn_no_faster_than_their_joint_takes():
         requirement__stand_up="pitch 20deg by brake",
     )
     (climb,) = task.resolved.requirement.maneuvers
-    found = device_for(task).device
+    found = design_device(task).device
     joint = next(each for each in joints_of(found) if each.name == SHAFT_JOINT)
     drive = found.motor
     most = joint.capacity * climb.stop / (1.5 * drive.rotor_inertia)
@@ -99,7 +100,7 @@ def test_feet_of_a_heavy_device_are_as_thick_as_its_shock_asks_for():
     """To 0.1 mm, and 0.2 mm that are left as they are; all of it is weighed."""
     robot = RobotSection(mass=12.0, inertia=(0.1, 0.25, 0.3))
     task = read_task(Specification(robot=robot, motor=MotorSection(name="U8 Lite L KV110")))
-    device = device_for(task).device
+    device = design_device(task).device
     thick = device.foot_plate
     assert thick > 0.006
     bears = foot_shock(foot_of(device), device.flywheel.mass + device.carrier.mass)
@@ -145,7 +146,7 @@ def test_a_device_is_sized_for_kicks_about_the_centre_of_mass_of_all():
     task = solo12().with_specification(
         Specification(requirement=asked, motor=MotorSection(name=MOTOR))
     )
-    found = device_for(task)
+    found = design_device(task)
     own, alone = found.requirement.kicks, task.resolved.requirement.kicks
     assert own == pytest.approx(task.resolved.requirement.on(found.sized.total).kicks)
     assert found.choice.problem.requirement.kicks == pytest.approx(own, rel=0.01, abs=1e-9)
@@ -165,7 +166,7 @@ def test_a_device_that_is_held_another_way_each_time_is_refused(monkeypatch, kil
     monkeypatch.setattr(on_robot, "footing_under", lambda *_, **__: next(held))
     refused = None
     try:
-        device_for(task)
+        design_device(task)
     except on_robot.NeverHeld as error:
         refused = error
     assert (refused is None) is stays

@@ -22,6 +22,7 @@ from ocs_design.requirement.requirement import ManeuverReserve, Requirement
 from ocs_design.requirement.specification import merge
 from ocs_design.requirement.uncertainty import Constant
 from ocs_design.simulation.scenario import Flights
+from ocs_design.sizing.design import design_device
 from ocs_design.sizing.reserve import LEVEL, Needed, Reserve
 from ocs_design.sizing.selection.demand import UNDOES, held_in_roll
 from ocs_design.sizing.trajectory.plans import plan
@@ -84,7 +85,7 @@ def specified(more):
 @cache
 def solo12(more="", reliability=None, scale=1.0):
     reserve = None if reliability is None else Reserve(reliability).raised(scale)
-    return designed.device_for(specified(more), reserve=reserve, ranked=False)
+    return design_device(specified(more), reserve=reserve, ranked=False)
 
 
 def flights(more):

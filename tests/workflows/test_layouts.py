@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from commands import SOLO12
-from designed import device_for, on_solo12, solo12
+from designed import on_solo12, solo12
 
 from ocs_design.actuation.wheel_load import reach, reach_without_one
 from ocs_design.common.errors import Infeasible, UsageError
@@ -14,6 +14,7 @@ from ocs_design.requirement.device_sections import OcsSection
 from ocs_design.requirement.reading import parse_specification, specification_of
 from ocs_design.requirement.specification import Specification, merge, specification_from_options
 from ocs_design.requirement.vocabulary import LAYOUTS
+from ocs_design.sizing.design import design_device
 from ocs_design.sizing.selection.bounds import RimFloor
 from ocs_design.sizing.specified import CannotSurvive, selection_problem, specified_layout
 from ocs_design.sizing.trajectory.plans import drive_line_of, plan
@@ -153,7 +154,7 @@ def test_fewer_robots_where_nothing_is_sure_for_99_of_100(tmp_path):
 
 @pytest.mark.slow
 def test_the_lightest_is_the_same_without_the_plates_of_the_others():
-    whole, alone = (device_for(solo12(), ranked=ranked) for ranked in (True, False))
+    whole, alone = (design_device(solo12(), ranked=ranked) for ranked in (True, False))
     assert alone.device.mass == whole.device.mass
     assert alone.device.motor == whole.device.motor
     assert len(alone.choice.selection.ranking) < len(whole.choice.selection.ranking)
@@ -185,7 +186,7 @@ SURVIVES = {
 @pytest.mark.parametrize("layout", ["single", "pair", "orthogonal"])
 def test_layouts_that_cannot_do_without_any_one_wheel_are_refused(layout):
     with pytest.raises(CannotSurvive, match=f"'{layout}' does not survive .* without wheel"):
-        device_for(on_solo12(**SURVIVES, ocs__layout=layout))
+        design_device(on_solo12(**SURVIVES, ocs__layout=layout))
 
 
 @pytest.mark.parametrize(
@@ -204,7 +205,7 @@ def test_wheels_share_the_supply_when_sized_as_when_planned(layout):
     """Four wheels that were promised the half of it each found no plan of the drop."""
     drop = {"requirement.fall": "1m", "requirement.tilt": "30deg", "supply.power_max": "600 W"}
     task = on_solo12(**drop, ocs__layout=layout)
-    designed = device_for(task)
+    designed = design_device(task)
     promised = designed.choice.chosen.line.power_max
     assert drive_line_of(designed.device).power_max == pytest.approx(promised, rel=1e-9)
     standing = task.resolved.requirement.standing_height
@@ -223,7 +224,7 @@ def test_wheels_that_reach_yaw_are_sized_for_it_without_a_loop(layout, direct):
     assert turn.headed == direct
     assert (turn.turn == 0.0).all() == direct
     if direct:
-        designed = device_for(task)
+        designed = design_device(task)
         standing = task.resolved.requirement.standing_height
         found = plan(task.robot.mass_properties, designed.device, (turn,), standing)
         assert found[turn.name].share < 1.0
@@ -244,7 +245,7 @@ def test_what_needs_less_than_the_smallest_rim_gets_a_larger_one():
         }
     )
     task = read_task(asked)
-    chosen = device_for(task).choice.chosen
+    chosen = design_device(task).choice.chosen
     (demand,) = chosen.demands
     assert demand.spin_inertia <= chosen.spin_inertia
     problem = selection_problem(task)
