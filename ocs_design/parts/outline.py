@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from math import atan, ceil, cos, pi, sin, sqrt
 
 import numpy as np
@@ -127,6 +128,7 @@ def flat_outline(outline: Outline, sections: int = SECTIONS) -> FloatArray:
     return np.concatenate(corners)
 
 
+@lru_cache(maxsize=64)
 def even_points(inner: float, outer: float, rings: int, around: int) -> FloatArray:
     """Points that stand for equal shares of a ring about the origin [m], shape (rings * around, 2).
 
@@ -135,7 +137,7 @@ def even_points(inner: float, outer: float, rings: int, around: int) -> FloatArr
     """
     radii = np.sqrt(inner**2 + (np.arange(rings) + 0.5) / rings * (outer**2 - inner**2))
     angles = (np.arange(around) + 0.5) * 2.0 * pi / around
-    return np.asarray((radii[:, None, None] * ring_points(angles)).reshape(-1, 2))
+    return frozen((radii[:, None, None] * ring_points(angles)).reshape(-1, 2))
 
 
 def ring_points(angles: FloatArray) -> FloatArray:

@@ -51,15 +51,10 @@ def disc_points(middle: Sequence[float], radius: float) -> FloatArray:
 
 def ring_points(middle: Sequence[float], inner: float, outer: float) -> FloatArray:
     """Points that stand for equal shares of a ring [m], shape (n, 2)."""
-    return frozen(_around_middle(max(inner, 0.0), outer) + np.asarray(middle))
-
-
-@lru_cache(maxsize=64)
-def _around_middle(inner: float, outer: float) -> FloatArray:
-    """Points of a ring around the origin [m], shape (n, 2)."""
-    count = max(4, min(48, round((outer - inner) / 1e-3)))
+    inner = max(inner, 0.0)
+    rings = max(4, min(48, round((outer - inner) / 1e-3)))
     around = max(16, min(180, round(2.0 * pi * outer / 1e-3)))
-    return frozen(even_points(inner, outer, count, around))
+    return frozen(even_points(inner, outer, rings, around) + np.asarray(middle))
 
 
 def plate_points(plate: CarrierPlate) -> FloatArray:
