@@ -1,4 +1,4 @@
-"""Frames: rotation matrices from axes, angles and quaternions, and placements in one another.
+"""Frames: rotation matrices from axes and angles, and placements in one another.
 
 Rotations are as robot files write them. SciPy's `Rotation` would do the same, but importing it
 takes 0.3 s of processor time, and reading a robot in a known posture loads nothing else of SciPy.
@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray, frozen
 
 
@@ -39,12 +38,6 @@ def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> FloatArray:
             [-sp, cp * sr, cp * cr],
         ]
     )
-
-
-def rotation_from_quaternion(wxyz: ArrayLike) -> FloatArray:
-    """Rotation of the quaternion (w, x, y, z), of any length but zero, shape (3, 3)."""
-    quaternion = np.asarray(wxyz, dtype=np.float64)
-    return quaternions.matrix(quaternion / np.linalg.norm(quaternion))
 
 
 def rpy_from_rotation(rotation: FloatArray) -> FloatArray:

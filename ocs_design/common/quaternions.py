@@ -5,6 +5,7 @@ call into a general rotation class costs more than the physics.
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ocs_design.common.arrays import FloatArray
 
@@ -54,6 +55,12 @@ def matrix(quaternion: FloatArray) -> FloatArray:
         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
     ]
     return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def rotation_from_quaternion(wxyz: ArrayLike) -> FloatArray:
+    """Rotation of the quaternion (w, x, y, z), of any length but zero, shape (3, 3)."""
+    quaternion = np.asarray(wxyz, dtype=np.float64)
+    return matrix(quaternion / np.linalg.norm(quaternion))
 
 
 def vertical(quaternion: FloatArray) -> FloatArray:

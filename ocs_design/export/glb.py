@@ -11,7 +11,8 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from ocs_design.common.frames import Placement, rotation_from_quaternion
+from ocs_design.common.frames import Placement
+from ocs_design.common.quaternions import rotation_from_quaternion
 from ocs_design.device.bodies import IMU
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Color

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.frames import Placement, rotation_from_quaternion
+from ocs_design.common.frames import Placement
+from ocs_design.common.quaternions import rotation_from_quaternion
 from ocs_design.export.meshes import Color
 from ocs_design.export.snapshot import picture
 

@@ -16,7 +16,8 @@ import mujoco
 import numpy as np
 
 from ocs_design.common.errors import RobotError
-from ocs_design.common.frames import Placement, rotation_from_quaternion
+from ocs_design.common.frames import Placement
+from ocs_design.common.quaternions import rotation_from_quaternion
 from ocs_design.common.wording import some_of
 from ocs_design.robot.links import Connection, Link, Warnings, check_number_of_links, make_tree
 from ocs_design.robot.mass import MassProperties

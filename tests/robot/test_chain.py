@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from urdf_text import inertial, joint, link, robot
 
-from ocs_design.common.frames import Placement, rotation_from_quaternion
+from ocs_design.common.frames import Placement
+from ocs_design.common.quaternions import rotation_from_quaternion
 from ocs_design.robot.chain import chain_of, nearest_turn, neutral_posture
 from ocs_design.robot.urdf import read_urdf
 

@@ -4,7 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ocs_design.common.frames import rotation_about, rotation_from_quaternion, rotation_from_rpy
+from ocs_design.common.frames import rotation_about, rotation_from_rpy
+from ocs_design.common.quaternions import rotation_from_quaternion
 from ocs_design.robot.mass import (
     MassProperties,
     ball_density,

@@ -43,7 +43,7 @@ _DIGITS = 5
 """Digits of thicknesses [m]: a hundredth of a millimetre, as a mill has it."""
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=4096)
 def front_of(back: Surface, half: float, low: float, high: float) -> FloatArray | None:
     """How far back the front of a block is, to the left and upwards [m], shape (m, n).
 
