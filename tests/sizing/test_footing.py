@@ -48,7 +48,7 @@ from ocs_design.sizing.footing.contact import FLATNESS, contacts_of
 from ocs_design.sizing.footing.feet import device_size, feet_of
 from ocs_design.sizing.footing.on_top import ASIDE
 from ocs_design.sizing.footing.standing import footing_of, stand_on_trunk
-from ocs_design.sizing.free_place import place_free
+from ocs_design.sizing.free_place import place_free, place_on_top
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points
 from ocs_design.sizing.place import CLEARANCE
 
@@ -93,9 +93,9 @@ def standing(out, up=0.0):
 
 
 def stood(robot, layout, base=DEVICE, angle=DEVICE.incidence):
-    """The device in another layout, where it stands on a robot."""
-    axes = layout.axes(angle).T
-    modules = tuple(map(Module, layout.names, axes, np.zeros_like(axes)))
+    """The device in another layout, where it stands on a robot or hangs over it."""
+    centers = place_on_top(robot, layout).centers(device_size(base))
+    modules = tuple(map(Module, layout.names, layout.axes(angle).T, centers))
     return stand_on_trunk(replace(base, modules=modules, layout=layout), robot, stated=False)
 
 
