@@ -1,6 +1,7 @@
 """What the shape of the package promises: imports in one direction, and a quick start."""
 
 import ast
+import re
 import tomllib
 from functools import cache
 from pathlib import Path
@@ -44,6 +45,13 @@ def test_every_folder_stands_in_the_layers():
 
 def is_package(path):
     return (path / "__init__.py").exists()
+
+
+def test_the_gate_names_tests_that_are_there():
+    """It names some for the oldest versions last of all, after everything else has passed."""
+    named = re.findall(r"tests/[\w/]+\.py", (ROOT / ".ci/run").read_text())
+    assert named
+    assert [path for path in named if not (ROOT / path).is_file()] == []
 
 
 DEEPEST = 18
