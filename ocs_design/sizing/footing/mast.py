@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import chain, product
 from math import inf, sqrt, tan
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.common.arrays import FloatArray, frozen
@@ -143,8 +143,8 @@ def pads_needed(robot: Robot, feet: Feet, layout: Layout) -> Pads | None:
         bearing = half[pattern_use(held, force, arms, (half, np.full(len(half), aside))) <= 1.0]
         if len(bearing):
             least, radius = float(bearing.min()), own.sleeve_radius
-            z, _, (low, high) = _pads(back, radius, aside)
-            there = bool(((z[high] - z[low]) / 2.0 >= least).any())
+            pairs = _pairs(back, radius, aside, aside + PATTERN_STEP / 2.0)
+            there = pairs is not None and bool((np.diff(pairs.z) / 2.0 >= least).any())
             return Pads(held.name, 2.0 * radius, 2.0 * aside, 2.0 * least, there)
     return None
 
@@ -361,57 +361,75 @@ def _patterns(
     assert mast is not None, "a plate on arms"
     least = held.head_diameter / 2.0 + HEAD_ROOM
     most = mast.bore / 2.0 - plate.sleeve_radius
+    pairs = _pairs(back, plate.sleeve_radius, least, most, is_formed=spot.formed)
+    if pairs is None:
+        return []
+    low, high = pairs.z.T
     force = 2.0 * feet.mass * SHOCK * len(centers)
-    wheels, off, found = float(centers[:, 2].mean()), mast.face + spot.spacer, []
-    for aside in np.arange(least, most, PATTERN_STEP).tolist():
-        z, pads, (low, high) = _pads(back, plate.sleeve_radius, aside, is_formed=spot.formed)
-        half = (z[high] - z[low]) / 2.0
-        up = np.abs(wheels - (z[low] + z[high]) / 2.0)
-        slope = pads[:, 2:] if spot.formed else np.zeros_like(pads[:, 2:])
-        downhill = held.preload * np.linalg.norm(slope[low] + slope[high], axis=1) / 2.0
-        used = pattern_use(held, force, (off, up), (half, np.asarray(aside)), downhill)
-        if not (used <= 1.0).any():
-            continue
-        longer = np.maximum(0.0, height - z[low]) + np.maximum(0.0, z[high] - centers[-1, 2])
-        longer = np.where(used <= 1.0, longer + 1e-3 * used, np.inf)
-        for index in np.argsort(longer, kind="stable")[:_PATTERNS].tolist():
-            one, two = low[index], high[index]
-            lower, upper = ((float(deep), float(far)) for deep, far in pads[[one, two], :2])
-            pattern = float(z[one]), float(z[two]), aside, (lower, upper)
-            if np.isfinite(longer[index]):
-                found.append((float(longer[index]), pattern))
-    return [pattern for _, pattern in sorted(found, key=lambda each: each[0])[:_PATTERNS]]
+    up = np.abs(float(centers[:, 2].mean()) - (low + high) / 2.0)
+    half, downhill = ((high - low) / 2.0, pairs.aside), held.preload * pairs.slope
+    used = pattern_use(held, force, (mast.face + spot.spacer, up), half, downhill)
+    bearing = np.flatnonzero(used <= 1.0)
+    longer = np.maximum(0.0, height - low) + np.maximum(0.0, high - centers[-1, 2]) + 1e-3 * used
+    order = bearing[np.argsort(longer[bearing], kind="stable")[:_PATTERNS]]
+    return [
+        (z[0], z[1], aside, ((deep[0], far[0]), (deep[1], far[1])))
+        for z, aside, deep, far in zip(
+            *(each[order].tolist() for each in (pairs.z, pairs.aside, pairs.deep, pairs.far)),
+            strict=True,
+        )
+    ]
+
+
+class _Pairs(NamedTuple):
+    """Lower and upper heights of a mast's screws, a row each.
+
+    Attributes:
+        aside: of the screws to both sides [m], shape (n,).
+        z: both heights [m], shape (n, 2).
+        deep, far: how far back the trunk is there, at the least and at the most [m], shape (n, 2).
+        slope: of a formed block under all four, shape (n,); 0: it is flat.
+    """
+
+    aside: FloatArray
+    z: FloatArray
+    deep: FloatArray
+    far: FloatArray
+    slope: FloatArray
 
 
 @lru_cache(maxsize=256)
-def _pads(
-    back: Surface, radius: float, aside: float, *, is_formed: bool = False
-) -> tuple[FloatArray, FloatArray, tuple[NDArray[np.int64], NDArray[np.int64]]]:
-    """Heights at which a trunk's back is flat under a sleeve on either side, and how far back [m].
+def _pairs(
+    back: Surface, radius: float, least: float, most: float, *, is_formed: bool = False
+) -> _Pairs | None:
+    """Heights at which a trunk's back takes screws to both sides; None: none stand so far aside.
 
-    That is a row of four: at the least and at the most, and the mean slope of both sides upwards
-    and to the left. Last come the numbers of lower and upper heights that are as far apart as
-    screws may be.
+    They are as far apart as screws may be, and the trunk is flat under a sleeve on either side.
 
     Args:
-        back: of the trunk. radius: of the sleeves [m]. aside: of their middles to both sides [m].
+        back: of the trunk. radius: of the sleeves [m].
+        least, most: how far their middles are to both sides [m].
         is_formed: whether a block has the trunk's form there, so that it may be steep.
     """
     down, up = back.x_range
-    z = np.arange(down, up, PATTERN_STEP)
-    lands = np.concatenate([disc_points((0.0, side * aside), radius) for side in SENSES])
-    behind = back.height(z[:, None] + lands[:, 0], lands[None, :, 1] + 0.0 * z[:, None])
-    top, low = behind.max(axis=1), behind.min(axis=1)
-    around = disc_points((0.0, 0.0), radius)
-    with np.errstate(invalid="ignore"):
-        slope = behind @ np.tile(around, (len(SENSES), 1)) / (around**2).sum(axis=0) / len(SENSES)
+    every, around = np.arange(down, up, PATTERN_STEP), disc_points((0.0, 0.0), radius)
     # A map is out by its step on slopes; they are looked at again.
     steep = 2.0 * (radius + back.step) * tan(TILT_MAX)
-    with np.errstate(invalid="ignore"):
-        flat = top - low <= (steep if is_formed else FLATNESS)
-    z, low, top, slope = z[flat], low[flat], top[flat], slope[flat]
-    lower, upper = np.triu_indices(len(z), 1)
-    half = (z[upper] - z[lower]) / 2.0
-    near = (half >= SPREAD / 2.0) & (half <= SPREAD_MAX / 2.0)
-    near &= np.abs(top[upper] - top[lower]) <= (DEPTH_MAX if is_formed else SLEEVE_MAX)
-    return frozen(z), frozen(np.column_stack([low, top, slope])), (lower[near], upper[near])
+    found = []
+    for aside in np.arange(least, most, PATTERN_STEP).tolist():
+        lands = np.concatenate([disc_points((0.0, side * aside), radius) for side in SENSES])
+        behind = back.height(every[:, None] + lands[:, 0], lands[None, :, 1] + 0.0 * every[:, None])
+        top, low = behind.max(axis=1), behind.min(axis=1)
+        with np.errstate(invalid="ignore"):
+            flat = top - low <= (steep if is_formed else FLATNESS)
+            # Upwards and to the left, in the mean of both sides.
+            slope = behind @ np.tile(around, (len(SENSES), 1)) / (around**2).sum(axis=0)
+        z, low, top, slope = every[flat], low[flat], top[flat], slope[flat] / len(SENSES)
+        both = np.stack(np.triu_indices(len(z), 1), axis=1)
+        half = np.diff(z[both], axis=1)[:, 0] / 2.0
+        near = (half >= SPREAD / 2.0) & (half <= SPREAD_MAX / 2.0)
+        near &= np.ptp(top[both], axis=1) <= (DEPTH_MAX if is_formed else SLEEVE_MAX)
+        both = both[near]
+        steepness = is_formed * np.linalg.norm(slope[both].sum(axis=1), axis=1) / 2.0
+        found.append((np.full(len(both), aside), z[both], low[both], top[both], steepness))
+    return _Pairs(*map(frozen, map(np.concatenate, zip(*found, strict=True)))) if found else None
