@@ -8,8 +8,8 @@ Sizes each robot with no option beyond its file, and flies N samples of those th
 from seed 0, which no design sees. FOLDER keeps all of it: a run
 that was cut short goes on. With other sources of the package robots are sized again, and flown
 again where the device or the first sample comes out otherwise. `--samples 0` only sizes. The
-Markdown tables are printed, or put into the blocks of a page. PACKAGES is a folder that holds those
-of `OTHERS` at any depth, see `foreign_robots.py`; a PART chooses robots by their name.
+Markdown tables are printed, or put into the blocks of a page. PACKAGES is a folder that holds any
+of those of `OTHERS`, at any depth, see `foreign_robots.py`; a PART chooses robots by their name.
 """
 
 import argparse
@@ -110,7 +110,8 @@ def main() -> None:
     arguments = parser.parse_intermixed_args()
     files = {robot: ROBOTS / f"{robot}.urdf" for robot in LEGGED}
     if arguments.others is not None:
-        files |= {robot: next(arguments.others.glob(f"**/{robot}")) for robot in OTHERS}
+        at = {robot: next(arguments.others.glob(f"**/{robot}"), None) for robot in OTHERS}
+        files |= {robot: file for robot, file in at.items() if file is not None}
     for robot, file in () if arguments.kept else files.items():
         if not arguments.parts or any(part in robot for part in arguments.parts):
             renew(arguments.folder, robot, file, arguments.samples)

@@ -9,7 +9,7 @@ change that does.
 from bisect import bisect_left
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import cache, lru_cache
+from functools import cache
 from itertools import combinations
 from math import inf, isfinite
 
@@ -26,11 +26,7 @@ from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import AUTO, DISC, LIGHTEST, RING, STEEL
-from ocs_design.robot.robot import Robot
-from ocs_design.robot.surface import trunk_surface
-from ocs_design.sizing.assembly import assemble_selected
 from ocs_design.sizing.design import design_device
-from ocs_design.sizing.footing.standing import footing_under
 from ocs_design.sizing.limits import BUS_VOLTAGE, LIMITS, TIME, Progress, unseen
 from ocs_design.sizing.on_robot import with_plate
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem, with_limit
@@ -126,14 +122,16 @@ def alternatives(task: Task, choice: Choice | None) -> tuple[Alternative, ...]:
         return ()
     chosen = choice.chosen
     worth = (1.0 - _WORTH) * chosen.mass
-    answers, hangs = [], _hangs(choice, task.robot)
+    answers = []
     for change in _changes(task, choice):
-        found, note = change.lighter(choice, quick=hangs), SAVES_NOTHING
+        # To look for what holds a device takes longest where nothing is found, and a device that
+        # is sized as a whole looks for it several times.
+        found, note = change.lighter(choice, quick=choice.hangs), SAVES_NOTHING
         # What is lighter may be wider, and so may its plate.
         if found is None or found.mass > worth:
             found = chosen
         else:
-            quick = ["by a quick look"] if hangs and not change.turns else []
+            quick = ["by a quick look"] if choice.hangs and not change.turns else []
             note = "; ".join([*quick, *change.notes(found, choice.problem)])
         answers.append(_answer(change.text, found, note))
     return tuple(answers)
@@ -200,20 +198,6 @@ class _Change:
             yield "not buildable: its threads or shaft do not hold the wheel or the motor"
 
 
-@lru_cache(maxsize=1)
-def _hangs(choice: Choice, robot: Robot) -> bool:
-    """Whether nothing of the trunk's shapes holds the device.
-
-    To look for what does takes longest where nothing is found, and a device that is sized as a
-    whole looks for it several times.
-    """
-    if trunk_surface(robot) is None:
-        return False
-    device = assemble_selected(choice.chosen)
-    stated, formed = choice.problem.place.stated, choice.problem.formed
-    return footing_under(device, robot, stated=stated, formed=formed) is None
-
-
 def _whole(task: Task) -> Candidate | None:
     """The lightest device, on its own footing with its own reserve; None: there is none."""
     try:
@@ -230,7 +214,7 @@ def built_otherwise(task: Task, choice: Choice | None) -> tuple[Alternative, ...
     are weighed: each stands higher or lower than with the construction that there is, on other feet
     and another plate, so that a look at the place of those tells little.
     """
-    if choice is None or _hangs(choice, task.robot):
+    if choice is None or choice.hangs:
         return ()
     other = other_construction(task, choice.problem)
     if other is None:
@@ -309,7 +293,7 @@ def owed_to(task: Task, choice: Choice | None) -> Owed | None:
         return None
     chosen, asked = choice.chosen, choice.problem.requirement
     problem = replace(choice.problem, incidence=chosen.incidence, materials=(chosen.material,))
-    best, hangs = (1.0 - _WORTH) * chosen.mass, _hangs(choice, task.robot)
+    best = (1.0 - _WORTH) * chosen.mass
     owed = Owed(maneuver="", mass_without=chosen.mass) if asked.maneuvers else None
     for maneuver in asked.maneuvers:
         rest = tuple(each for each in asked.maneuvers if each is not maneuver)
@@ -319,7 +303,7 @@ def owed_to(task: Task, choice: Choice | None) -> Owed | None:
         lighter = lightest_below(without, best)
         if lighter is None:
             continue
-        mass = (lighter if hangs else with_plate(lighter, problem, task.robot)).mass
+        mass = (lighter if choice.hangs else with_plate(lighter, problem, task.robot)).mass
         if mass < best:
             best, owed = mass, Owed(maneuver=maneuver.name, mass_without=mass)
     return owed

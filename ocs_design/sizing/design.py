@@ -18,11 +18,12 @@ from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import CONTAINING, LIGHTEST, MORE_PAIRS, PYRAMID
 from ocs_design.robot.robot import Robot
+from ocs_design.robot.surface import trunk_surface
 from ocs_design.sizing.assembly import assemble, assemble_selected
 from ocs_design.sizing.bound.device_problem import DeviceProblem
 from ocs_design.sizing.bound.device_sizing import size_device
 from ocs_design.sizing.footing.feet import in_vain
-from ocs_design.sizing.footing.standing import footing_under, stand_on_trunk
+from ocs_design.sizing.footing.standing import footing_under, standing_on
 from ocs_design.sizing.free_place import specified_place
 from ocs_design.sizing.limits import DEVICE_MASS, Progress
 from ocs_design.sizing.on_robot import in_rings, on_its_footing, with_plate
@@ -235,17 +236,17 @@ def _by_selection(
         # CasADi takes a third of a second to import.
         from ocs_design.sizing.trajectory.co_design import co_design  # noqa: PLC0415
 
-        found = co_design(problem, best)
-        if found.adopted:
+        tried = co_design(problem, best)
+        if tried.adopted:
             # It counted the selected device's plate.
-            own = with_plate(found.device, problem, robot)
-            found = replace(found, device=own, found_mass=own.mass)
+            own = with_plate(tried.device, problem, robot)
+            tried = replace(tried, device=own, found_mass=own.mass)
             if own.mass >= best.mass:
                 note = "the selection stands: a heavier plate takes up what the wheels would save"
-                found = replace(found, adopted=False, note=note, device=best)
-        chosen = found.device
-        told = {"mass": found.found_mass, "violation": found.fine_violation, "remark": found.note}
-        co_designed = recorded(CoDesignRecord, found, **told)
+                tried = replace(tried, adopted=False, note=note, device=best)
+        chosen = tried.device
+        told = {"mass": tried.found_mass, "violation": tried.fine_violation, "remark": tried.note}
+        co_designed = recorded(CoDesignRecord, tried, **told)
     name = LIGHTEST if criterion is None else str(criterion)
 
     def resized(other: Reserve) -> float | None:
@@ -261,7 +262,9 @@ def _by_selection(
 
     # A co-design makes the selected device smaller, and its plate with it.
     device = assemble_selected(chosen)
-    device = stand_on_trunk(device, robot, stated=problem.place.stated, formed=problem.formed)
+    found = footing_under(device, robot, stated=problem.place.stated, formed=problem.formed)
+    hangs = found is None and trunk_surface(robot) is not None
+    device = device if found is None else standing_on(device, found)
     carried, bodies = device.plated(robot.mass_properties), (chosen.wheel, chosen.carrier)
     centers = np.stack([module.position for module in device.modules])
     total = braked(carried, bodies, centers, device.incidence, device.layout)
@@ -269,7 +272,7 @@ def _by_selection(
         device=device,
         sized=replace(sized_selection(problem, chosen, robot.mass_properties), total=total),
         criterion=BY_HAND if stated else name,
-        choice=Choice(problem, selection, chosen, co_designed),
+        choice=Choice(problem, selection, chosen, co_designed, hangs),
         reserve=reserve,
         account=lambda: account(reserve, reality, problem, chosen, resized, nominal=least()),
     )

@@ -157,12 +157,14 @@ class Choice:
         problem: what there was to choose from. selection: what came of it.
         chosen: the lightest one, or what the co-design made of it.
         co_design: None: not asked for.
+        hangs: whether nothing of the trunk's shapes holds it; False where they are not known.
     """
 
     problem: SelectionProblem
     selection: Selection
     chosen: Candidate
     co_design: CoDesignRecord | None
+    hangs: bool
 
 
 @dataclass(frozen=True, eq=False)

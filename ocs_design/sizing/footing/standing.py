@@ -86,8 +86,11 @@ def stand_on_trunk(device: Device, robot: Robot, *, stated: bool, formed: bool =
         formed: whether a mast may stand by a block that has the trunk's form.
     """
     found = footing_under(device, robot, stated=stated, formed=formed)
-    if found is None:
-        return device
+    return device if found is None else standing_on(device, found)
+
+
+def standing_on(device: Device, found: Footing) -> Device:
+    """The device with its modules where its footing has them."""
     centers = found.place.centers(device_size(device))
     modules = (
         replace(module, position=frozen(center))
