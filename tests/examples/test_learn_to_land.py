@@ -20,6 +20,7 @@ def example(tmp_path):
     return module
 
 
+@pytest.mark.slow
 def test_a_policy_that_turns_towards_level_earns_more_than_one_that_turns_away(example):
     seen, told = example.env.reset(options={"sample": 3})
     # About pitch, as the law pushes at the start: on the way, against the rate.

@@ -213,6 +213,7 @@ def test_a_fine_mesh_that_only_shows_is_met_by_its_hull(tmp_path):
     assert near.distance == pytest.approx(0.5 - 0.1 - 0.05, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_legs_that_give_way_on_their_feet_kick_no_heel_up():
     """A foot's middle is below all of the trunk; what other legs do is as it was drawn."""
     collision = collision_model("human_description/robots/human")

@@ -48,6 +48,7 @@ def worlds_of(solo12, device, *, desaturate):
     return worlds
 
 
+SLOW = "ideal wheels", "wheels on all axes"
 CASES = {
     "one wheel": (layout_device(Layout(LayoutName.SINGLE)), False),
     "wheels on all axes": (layout_device(Layout(LayoutName.ORTHOGONAL)), False),
@@ -61,9 +62,7 @@ CASES = {
 
 @pytest.fixture(
     scope="module",
-    params=[
-        pytest.param(name, marks=[pytest.mark.slow] * (name == "ideal wheels")) for name in CASES
-    ],
+    params=[pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in CASES],
 )
 def written(request, solo12, tmp_path_factory):
     """Worlds by name, and the folder of their controller."""

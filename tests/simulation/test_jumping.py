@@ -62,6 +62,7 @@ def test_momentum_is_kept_though_only_wheels_and_trunk_set_the_scale(runs):
     assert max(run.metrics.momentum_error for run in runs) < 3e-7
 
 
+@pytest.mark.slow
 def test_a_flight_whose_momentum_is_off_is_flown_again_in_half_the_step(
     solo12, disturbance, jumps, runs, monkeypatch
 ):

@@ -61,6 +61,7 @@ def test_without_legs_nothing_is_flown_level(batches):
     assert "without legs" in runs[0].reason
 
 
+@pytest.mark.slow
 def test_a_trunk_frame_whose_z_axis_lies_down_is_not_judged():
     """The human's frames have y up; where no trunk is named, the reader adds one with z up."""
     path = ROBOTS / "human_description" / "robots" / "human.urdf"

@@ -47,6 +47,7 @@ def test_the_incidence_of_the_robot_alone_does_not_count_the_plate():
     assert alone == pytest.approx(equal_rate(task.robot.inertia), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_wheels_that_a_brake_stops_turn_no_faster_than_their_joint_takes():
     """J W / t of the rotor goes through it; the motor alone would turn faster than that."""
     task = on_solo12(

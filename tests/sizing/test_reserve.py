@@ -176,6 +176,7 @@ def test_more_is_kept_for_more_reliability_and_for_larger_deviations():
     assert curve == sorted(curve)
 
 
+@pytest.mark.slow
 def test_a_supply_that_brakes_slowly_leaves_the_end_of_the_flight_unused():
     """Wheels whose energy it takes back in more than the 0.2 s after the plan: 10 % of the time."""
     flip = f"{LIGHTEST_OF_THREE}{ONLY_FLIP}"
@@ -274,6 +275,7 @@ def test_a_roll_at_lift_off_is_undone_by_the_momentum_of_the_closed_form():
     assert most == pytest.approx(rate * turned_roll(roll, yaw), rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_turn_by_hand_is_told_how_often_it_drifts_off_level():
     """A rate w for the time T is a tilt of w T, of which 5 deg are allowed."""
     more = ONLY_FLIP + 'incidence = 0\n[reality]\ntakeoff_rate = "normal(0, 0.05rad/s)"\n'

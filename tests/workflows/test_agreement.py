@@ -33,6 +33,7 @@ KINDS = {
     "four wheels": Specification(motor=FLAT, ocs=OcsSection(layout="double-pair")),
     "no motor": Specification(motor=MotorSection(name="none")),
 }
+SLOW = "shrunk on", "spokes", "four wheels"
 
 
 @cache
@@ -41,7 +42,10 @@ def written(kind):
     return to_json(as_recorded(task, made))
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    "kind",
+    [pytest.param(kind, marks=[pytest.mark.slow] * (kind in SLOW)) for kind in KINDS],
+)
 def test_what_was_designed_agrees_with_itself(kind, tmp_path):
     (tmp_path / "design.json").write_bytes(written(kind))
     design, device = read_designed(tmp_path)
