@@ -186,6 +186,13 @@ def test_functions_that_the_docs_name_stand_where_they_say():
     assert named > 40
 
 
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
+def test_files_of_the_package_that_a_page_names_are_there(page):
+    named = re.findall(r"`([a-z_]+/[a-z_/]+\.py)`", page.read_text())
+    homes = ROOT, ROOT / "ocs_design", ROOT / "docs"
+    assert [name for name in named if not any((home / name).is_file() for home in homes)] == []
+
+
 def test_every_reference_of_the_theory_is_listed():
     headings = anchors(DOCS / "references.md")
     cited = set(re.findall(r"references\.md#([a-z0-9]+)", (DOCS / "theory.md").read_text()))
