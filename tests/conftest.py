@@ -5,7 +5,7 @@ import os
 import pytest
 from hypothesis import settings
 
-LONGEST = "test_the_commands_that_the_docs_show_still_print_that"
+LONGEST = "test_the_commands_that_the_docs_show_still_print_that", "test_the_notebook_runs"
 OPENED_BY_MANY = "test_product.py"
 
 # Workers whose small matrices have threads of their own wait for each other. NumPy reads it once.
@@ -17,12 +17,12 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "reproducible"))
 
 
 def pytest_collection_modifyitems(items):
-    """The longest test goes first, so that one worker is not left with it when all others end.
+    """The longest tests go first, so that one worker is not left with them when all others end.
 
     Next comes the file that makes the products of `size`: a worker that comes to another file that
     opens them would wait till they are there.
     """
-    items.sort(key=lambda item: (item.name != LONGEST, item.path.name != OPENED_BY_MANY))
+    items.sort(key=lambda item: (item.name not in LONGEST, item.path.name != OPENED_BY_MANY))
 
 
 @pytest.fixture(scope="module")
