@@ -49,7 +49,10 @@ def is_package(path):
 
 def test_the_gate_names_tests_that_are_there():
     """It names some for the oldest versions last of all, after everything else has passed."""
-    named = re.findall(r"tests/[\w/]+\.py", (ROOT / ".ci/run").read_text())
+    gate = ROOT / ".ci" / "run"
+    if not gate.exists():
+        pytest.skip("the source package has no gate")
+    named = re.findall(r"tests/[\w/]+\.py", gate.read_text())
     assert named
     assert [path for path in named if not (ROOT / path).is_file()] == []
 

@@ -129,11 +129,12 @@ def _designed(task: Task, *, ranked: bool, reserve: Reserve | None) -> Designed:
         require_survival(problem)
         reserve = reserve or Reserve(resolved.reliability)
         designed = _by_selection(task, problem, reserve, ranked=ranked)
-        at, fixed = designed.device, problem.place.stated
+        at, choice, fixed = designed.device, designed.choice, problem.place.stated
         # The last resort, after all that holds on what is flat.
         if (
             at.layout.pairs
-            and footing_under(at, robot, stated=fixed) is None
+            and choice is not None
+            and choice.hangs
             and footing_under(at, robot, stated=fixed, formed=True) is not None
         ):
             problem = replace(problem, formed=True)

@@ -402,7 +402,7 @@ class _Pairs(NamedTuple):
 def _pairs(
     back: Surface, radius: float, least: float, most: float, *, is_formed: bool = False
 ) -> _Pairs | None:
-    """Heights at which a trunk's back takes screws to both sides; None: none stand so far aside.
+    """Heights at which a trunk's back takes screws to both sides; None: they do not fit the tube.
 
     They are as far apart as screws may be, and the trunk is flat under a sleeve on either side.
 
