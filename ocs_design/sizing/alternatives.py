@@ -132,7 +132,7 @@ def alternatives(task: Task, choice: Choice | None) -> tuple[Alternative, ...]:
             found = chosen
         else:
             quick = ["by a quick look"] if choice.hangs and not change.turns else []
-            note = "; ".join([*quick, *change.notes(found, choice.problem)])
+            note = "; ".join([*quick, *change.notes(found, choice)])
         answers.append(_answer(change.text, found, note))
     return tuple(answers)
 
@@ -171,22 +171,22 @@ class _Change:
                 under it.
         """
         found = lightest_below(self.problem, (1.0 - _WORTH) * choice.chosen.modules_mass)
-        offered, stated = self.task.resolved.choice, self.task.specification.flywheel.material
+        offered = self.task.resolved.choice
         if found is None or offered is None:
             return None
         if quick and not self.turns:
             return found
-        parts = replace(offered, motors=(found.motor,), gears=(found.gear,))
-        if len(self.problem.materials) > 1 or (self.turns and stated != AUTO):
-            # Steels make much the same device, and to weigh them all at every incidence takes long.
-            parts = replace(parts, materials=(found.material,))
-        return _whole(replace(self.task, resolved=replace(self.task.resolved, choice=parts)))
+        parts = replace(
+            offered, motors=(found.motor,), gears=(found.gear,), materials=(found.material,)
+        )
+        asked = replace(self.task, resolved=replace(self.task.resolved, choice=parts))
+        return _whole(asked, near=found)
 
-    def notes(self, found: Candidate, asked: SelectionProblem) -> Iterator[str]:
+    def notes(self, found: Candidate, choice: Choice) -> Iterator[str]:
         """What to know of the device that is found, beside its mass and its motor."""
         if self.turns:
             yield f"alpha {format_quantity(found.incidence, 'deg', 3)}"
-        if len(self.problem.materials) > 1:
+        if found.material != choice.chosen.material:
             yield found.material.name
         rated = found.motor.rated_voltage
         if rated is not None and self.problem.bus_voltage > _OVER * rated:
@@ -194,14 +194,14 @@ class _Change:
         gaps = build_gaps(found.motor)
         if gaps:
             yield f"not buildable: {', '.join(gaps[:_GAPS_TOLD])} not known"
-        elif found.motor.name not in {motor.name for motor in asked.motors}:
+        elif found.motor.name not in {motor.name for motor in choice.problem.motors}:
             yield "not buildable: its threads or shaft do not hold the wheel or the motor"
 
 
-def _whole(task: Task) -> Candidate | None:
+def _whole(task: Task, near: Candidate | None = None) -> Candidate | None:
     """The lightest device, on its own footing with its own reserve; None: there is none."""
     try:
-        own = design_device(task, ranked=False)
+        own = design_device(task, ranked=False, near=near)
     except Infeasible:
         return None
     return None if own.choice is None else own.choice.chosen
@@ -235,7 +235,7 @@ def _changes(task: Task, choice: Choice) -> Iterator[_Change]:
     specification, resolved = task.specification, task.resolved
     offered, chosen = resolved.choice, choice.chosen
     assert offered is not None, "there are motors to choose from"
-    problem = replace(choice.problem, incidence=chosen.incidence, materials=(chosen.material,))
+    problem = replace(choice.problem, incidence=chosen.incidence)
 
     def changed(text: str, to: SelectionProblem) -> _Change:
         # What does not change is as it was resolved: factors on turns that were found too small,
@@ -253,6 +253,9 @@ def _changes(task: Task, choice: Choice) -> Iterator[_Change]:
             continue
         assert own is not None, "there are motors to choose from"
         names, relaxed = {motor.name for motor in own.motors}, each.problem(problem)
+        if relaxed.incidence is None:
+            # Steels make much the same device, and to weigh them at every incidence takes long.
+            relaxed = replace(relaxed, materials=(chosen.material,))
         motors = tuple(motor for motor in relaxed.motors if motor.name in names)
         if motors:
             relaxed = replace(relaxed, motors=motors)

@@ -44,7 +44,13 @@ KICK_ROUNDS, _KICK_SETTLED = 3, 0.01
 of their angular impulse, over the largest, that is none."""
 
 
-def design_device(task: Task, *, ranked: bool = True, reserve: Reserve | None = None) -> Designed:
+def design_device(
+    task: Task,
+    *,
+    ranked: bool = True,
+    reserve: Reserve | None = None,
+    near: Candidate | None = None,
+) -> Designed:
     """The lightest device that meets the specification.
 
     A kick turns the robot about a centre of mass that the device has a part in, so that a device is
@@ -55,6 +61,8 @@ def design_device(task: Task, *, ranked: bool = True, reserve: Reserve | None = 
         task: what is asked, of which robot.
         ranked: whether the heavier devices are of interest too; to weigh them all takes longer.
         reserve: to keep for what is drawn; None: for the reliability that is specified.
+        near: device of the only parts to choose from, close to the one that is looked for; None:
+            all parts are searched.
 
     Raises:
         Infeasible: there is none.
@@ -67,7 +75,7 @@ def design_device(task: Task, *, ranked: bool = True, reserve: Reserve | None = 
     com = task.robot.com
     for _ in range(1 + KICK_ROUNDS):
         try:
-            designed = _designed(task, ranked=ranked, reserve=reserve)
+            designed = _designed(task, ranked=ranked, reserve=reserve, near=near)
         except Infeasible:
             if all(short > 0.0 for short, _, _ in tried):
                 asked = task.resolved.requirement
@@ -99,7 +107,9 @@ def design_device(task: Task, *, ranked: bool = True, reserve: Reserve | None = 
     return min(tried, key=lambda each: each[:2])[2]
 
 
-def _designed(task: Task, *, ranked: bool, reserve: Reserve | None) -> Designed:
+def _designed(
+    task: Task, *, ranked: bool, reserve: Reserve | None, near: Candidate | None
+) -> Designed:
     """The device for what is resolved; see `design_device`."""
     specification, robot, resolved = task.specification, task.robot, task.resolved
     problem = selection_problem(task)
@@ -128,7 +138,7 @@ def _designed(task: Task, *, ranked: bool, reserve: Reserve | None) -> Designed:
         assert resolved.reliability is not None, "there are motors to choose from"
         require_survival(problem)
         reserve = reserve or Reserve(resolved.reliability)
-        designed = _by_selection(task, problem, reserve, ranked=ranked)
+        designed = _by_selection(task, problem, reserve, ranked=ranked, near=near)
         at, choice, fixed = designed.device, designed.choice, problem.place.stated
         # The last resort, after all that holds on what is flat.
         if (
@@ -139,7 +149,7 @@ def _designed(task: Task, *, ranked: bool, reserve: Reserve | None) -> Designed:
         ):
             problem = replace(problem, formed=True)
             with suppress(Infeasible):
-                again = _by_selection(task, problem, reserve, ranked=ranked)
+                again = _by_selection(task, problem, reserve, ranked=ranked, near=near)
                 designed = designed if again.device.plate is None else again
     device, most = designed.device, specification.ocs.mass_max
     # Nothing is lighter than the lightest: no search is needed.
@@ -202,7 +212,12 @@ def mass_without_survival(task: Task) -> float | None:
 
 
 def _by_selection(
-    task: Task, problem: SelectionProblem, reserve: Reserve, *, ranked: bool
+    task: Task,
+    problem: SelectionProblem,
+    reserve: Reserve,
+    *,
+    ranked: bool,
+    near: Candidate | None,
 ) -> Designed:
     """Modules with a motor of the catalogue each, co-designed where that is asked for."""
     specification, robot = task.specification, task.robot
@@ -215,7 +230,7 @@ def _by_selection(
     )
     asked = problem.requirement
     problem, selection, reserve, nominal = on_its_footing(
-        problem, criterion, robot, (reality, reserve), ranked=ranked
+        problem, criterion, robot, (reality, reserve), ranked=ranked, near=near
     )
     if specification.ocs.guard == CONTAINING:
         problem, selection = in_rings(problem, selection.best, criterion, robot)

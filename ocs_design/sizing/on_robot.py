@@ -5,8 +5,7 @@ both are found in turn until they stay.
 """
 
 from collections.abc import Callable
-from dataclasses import replace
-from functools import partial
+from dataclasses import dataclass, replace
 
 from ocs_design.common.errors import Infeasible
 from ocs_design.common.units import format_quantity
@@ -100,36 +99,32 @@ def with_plates(
     return replace(selection, ranking=(lightest, *devices_by_mass(others)))
 
 
-def on_its_footing(
-    problem: SelectionProblem,
-    criterion: Criterion | None,
-    robot: Robot,
-    kept: tuple[Reality, Reserve],
-    *,
-    ranked: bool,
-) -> tuple[SelectionProblem, Selection, Reserve, Callable[[], Candidate]]:
-    """The selection on the footing that its best device has, with the problem that this is.
+@dataclass(frozen=True, eq=False)
+class _Search:
+    """How a device is looked for, on what it stands on.
 
-    Last come the reserve that it keeps and a function that looks for the lightest device without.
-
-    The problem is for the plate and the place of the largest modules that there may be. The
-    selection is for those of its lightest device, then only the best drive's for its own, until
-    they stay.
-
-    Args:
-        problem: to solve. criterion: see `select_by`. robot: that carries it.
-        ranked: see `with_plates`.
-        kept: what is drawn and the reserve for it, which the lightest device without one settles.
-
-    Raises:
-        Infeasible: see `select_by`; also where nothing can carry the mast or plate that it needs.
+    Attributes:
+        criterion: see `select_by`. robot: that carries it. near: see `on_its_footing`.
     """
 
-    def settled(best: Candidate) -> tuple[SelectionProblem, Candidate]:
+    criterion: Criterion | None
+    robot: Robot
+    near: Candidate | None
+
+    def selected(self, problem: SelectionProblem, start: Candidate | None) -> Selection:
+        """The selection of this problem; where its parts are known, the device near to `start`."""
+        alone = self.near and start and lightest_near(problem, start, self.criterion)
+        if alone is None:
+            return select_by(problem, self.criterion, winner=start)
+        return Selection((alone,), candidates=1, reasons=tuple)
+
+    def settled(
+        self, problem: SelectionProblem, best: Candidate
+    ) -> tuple[SelectionProblem, Candidate]:
         """The problem for the footing of this device, and the device for that, until both stay."""
-        at = problem
+        at, criterion = problem, self.criterion
         for _ in range(_FOOTINGS_MAX):
-            own = _own_footing(problem, best, robot)
+            own = _own_footing(problem, best, self.robot)
             change = abs(own.robot.mass - at.robot.mass)
             same = own.place == at.place and own.foot_plate == at.foot_plate
             if same and change <= _SETTLED * best.mass:
@@ -142,7 +137,7 @@ def on_its_footing(
             try:
                 best = again or select_by(own, criterion).best
             except Infeasible as error:
-                held = format_quantity(own.robot.mass - robot.mass, "kg", digits=4)
+                held = format_quantity(own.robot.mass - self.robot.mass, "kg", digits=4)
                 error.message = f"With the {held} that hold it on the trunk: {error.message}"
                 raise
             at = own
@@ -151,9 +146,39 @@ def on_its_footing(
                 raise NeverHeld(best, change)
         return at, best
 
-    first, widest = lightest_by(problem, criterion), problem
+
+def on_its_footing(
+    problem: SelectionProblem,
+    criterion: Criterion | None,
+    robot: Robot,
+    kept: tuple[Reality, Reserve],
+    *,
+    ranked: bool,
+    near: Candidate | None,
+) -> tuple[SelectionProblem, Selection, Reserve, Callable[[], Candidate]]:
+    """The selection on the footing that its best device has, with the problem that this is.
+
+    Last come the reserve that it keeps and a function that looks for the lightest device without.
+
+    The problem is for the plate and the place of the largest modules that there may be. The
+    selection is for those of its lightest device, then only the best drive's for its own, until
+    they stay.
+
+    Args:
+        problem: to solve. criterion: see `select_by`. robot: that carries it.
+        ranked: see `with_plates`.
+        near: device of the only parts to choose from, close to the one that is looked for; None:
+            all are searched.
+        kept: what is drawn and the reserve for it, which the lightest device without one settles.
+
+    Raises:
+        Infeasible: see `select_by`; also where nothing can carry the mast or plate that it needs.
+    """
+    search, widest = _Search(criterion, robot, near), problem
+    first = near and lightest_near(problem, near, criterion)
+    first = first or lightest_by(problem, criterion)
     if first is not None:
-        problem, first = settled(first)
+        problem, first = search.settled(problem, first)
     nominal = select_by(problem, criterion).best if first is None else first
     reality, reserve = kept
     reserve = reserve.settled(reality, problem, nominal)
@@ -164,25 +189,30 @@ def on_its_footing(
     )
     first = device_at(problem, nominal, nominal.incidence)
     try:
-        selection = select_by(problem, criterion, winner=first)
+        selection = search.selected(problem, first)
     except Infeasible:
         problem = widest
         selection = select_by(problem, criterion)
     if free:
-        problem, selection, reserve = _surer(problem, selection, reserve, (reality, plain))
+        problem, selection, reserve = _surer(search, problem, selection, reserve, (reality, plain))
     selection = with_plates(selection, problem, criterion, robot, ranked=ranked)
     for _ in range(_FOOTINGS_MAX):
         best = selection.best
-        own, device = settled(best)
+        own, device = search.settled(problem, best)
         if own is problem:
             break
-        again, problem = with_plate(lightest_near(own, device, criterion), own, robot), own
+        device, problem = lightest_near(own, device, criterion) or device, own
         others = [entry for entry in selection.ranking[1:] if not same_parts(entry, best)]
-        selection = replace(selection, ranking=(again, *others))
-    return problem, selection, reserve, partial(lightest_near, plain, nominal, criterion)
+        selection = replace(selection, ranking=(with_plate(device, own, robot), *others))
+
+    def least() -> Candidate:
+        return lightest_near(plain, nominal, criterion) or nominal
+
+    return problem, selection, reserve, least
 
 
 def _surer(
+    search: _Search,
     problem: SelectionProblem,
     selection: Selection,
     reserve: Reserve,
@@ -194,7 +224,8 @@ def _surer(
     own.
 
     Args:
-        problem: that was solved, its incidence free. selection, reserve: what came of it.
+        search: that found it. problem: that was solved, its incidence free.
+        selection, reserve: what came of it.
         told: what is drawn, and the problem without a reserve.
     """
     reality, plain = told
@@ -205,7 +236,7 @@ def _surer(
         own = reserve.of(needed)
         surer = replace(problem, requirement=own.kept(plain.requirement, free=True))
         try:
-            selection = select_by(surer, None)
+            selection = search.selected(surer, selection.best)
         except Infeasible:
             break
         problem, reserve = surer, own

@@ -50,9 +50,6 @@ _ENDLESS = 1e3
 
 def footing_on_top(surface: Surface, feet: Feet, search: Search) -> Footing | None:
     """The nearest place of the feet, as close together as they fit; pairs also farther apart."""
-    found = _nearest_footing(surface, feet, search, 0.0, PLATE_SCREW)
-    if found is not None:
-        return found
     way = looked_for(_way, search.collision.robot, feet, search.layout)
     return None if way is None else _nearest_footing(surface, feet, search, *way)
 
@@ -61,15 +58,15 @@ def footing_on_top(surface: Surface, feet: Feet, search: Search) -> Footing | No
 def _way(robot: Robot, feet: Feet, layout: Layout) -> tuple[float, Screw] | None:
     """How much farther apart pairs stand than they must, and what screws hold their plate.
 
-    With stronger screws first, then farther apart, then on posts, over what stands up from the
-    trunk; None: none does.
+    As near as may be first, then farther apart, with the usual screws before stronger ones, then
+    on posts, over what stands up from the trunk; None: none does.
     """
     surface, x = trunk_surface(robot), round(float(robot.com[0]), 6) + 0.0
     search = Search.of(robot, feet.size, layout)
     feet = replace(feet, x=x, bases=ring_of(layout, feet.reach))
-    ways = [(0.0, STRONG_SCREW)]
+    both = PLATE_SCREW, STRONG_SCREW
+    ways = [(0.0, each) for each in both]
     if layout.pairs:
-        both = PLATE_SCREW, STRONG_SCREW
         ways += [*((aside, each) for aside in ASIDE for each in both), (0.0, POST_SCREW)]
     found = (way for way in ways if surface and _nearest_footing(surface, feet, search, *way))
     return next(found, None)

@@ -35,7 +35,7 @@ _AHEAD = 256
 """Candidates that are bounded at once before the next are solved."""
 
 _CHUNK = 1024
-_PROMISING = 0.99
+_PROMISING = 0.998
 """Margin of a candidate that is not feasible where it was solved, but may be nearby."""
 
 _FALL, _FALL_STATED = 0.03, 0.003

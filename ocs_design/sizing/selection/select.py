@@ -194,16 +194,21 @@ def at_own_incidence(
 
 def lightest_near(
     problem: SelectionProblem, device: Candidate, criterion: Criterion | None
-) -> Candidate:
+) -> Candidate | None:
     """The lightest device of the same parts for another problem, at its own incidence.
 
+    None: there is none near it.
+
     Args:
-        problem: that the device does. device: to begin with. criterion: see `select_by`.
+        device: to begin with. criterion: see `select_by`.
     """
     free = problem.incidence is None and criterion is None
     solved = _solved_at(problem, [device], None if free else device.incidence)
     better = replace(solved, point=refine(solved.candidates, solved.point))
-    found = device_of(better) if better.mass[0] < solved.mass[0] else device
+    lightest = better if better.mass[0] < solved.mass[0] else solved
+    if not lightest.point.feasible[0]:
+        return None
+    found = device_of(lightest)
     if problem.incidence is not None or criterion is None:
         return found
     return at_own_incidence(problem, found, criterion)[1] or found
