@@ -29,8 +29,13 @@ from ocs_design.requirement.vocabulary import AUTO, DISC, LIGHTEST, RING, STEEL
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.limits import BUS_VOLTAGE, LIMITS, TIME, Progress, unseen
 from ocs_design.sizing.on_robot import with_plate
-from ocs_design.sizing.selection.problem import Candidate, SelectionProblem, with_limit
-from ocs_design.sizing.selection.select import lightest_below
+from ocs_design.sizing.selection.problem import (
+    Candidate,
+    SelectionProblem,
+    devices_by_mass,
+    with_limit,
+)
+from ocs_design.sizing.selection.select import devices_at, lightest_below
 from ocs_design.sizing.sized import Choice
 from ocs_design.sizing.specified import other_construction
 
@@ -176,9 +181,13 @@ class _Change:
             return None
         if quick and not self.turns:
             return found
-        parts = replace(
-            offered, motors=(found.motor,), gears=(found.gear,), materials=(found.material,)
-        )
+        parts = replace(offered, motors=(found.motor,), gears=(found.gear,))
+        if self.problem.materials != parts.materials:
+            # Steels make much the same device: to weigh them with every drive would take long.
+            each = [replace(found, material=material) for material in parts.materials]
+            built = devices_at(self.problem, each, found.incidence)
+            found = devices_by_mass([found, *filter(None, built)])[0]
+        parts = replace(parts, materials=(found.material,))
         asked = replace(self.task, resolved=replace(self.task.resolved, choice=parts))
         return _whole(asked, near=found)
 
@@ -235,7 +244,7 @@ def _changes(task: Task, choice: Choice) -> Iterator[_Change]:
     specification, resolved = task.specification, task.resolved
     offered, chosen = resolved.choice, choice.chosen
     assert offered is not None, "there are motors to choose from"
-    problem = replace(choice.problem, incidence=chosen.incidence)
+    problem = replace(choice.problem, incidence=chosen.incidence, materials=(chosen.material,))
 
     def changed(text: str, to: SelectionProblem) -> _Change:
         # What does not change is as it was resolved: factors on turns that were found too small,
@@ -253,9 +262,6 @@ def _changes(task: Task, choice: Choice) -> Iterator[_Change]:
             continue
         assert own is not None, "there are motors to choose from"
         names, relaxed = {motor.name for motor in own.motors}, each.problem(problem)
-        if relaxed.incidence is None:
-            # Steels make much the same device, and to weigh them at every incidence takes long.
-            relaxed = replace(relaxed, materials=(chosen.material,))
         motors = tuple(motor for motor in relaxed.motors if motor.name in names)
         if motors:
             relaxed = replace(relaxed, motors=motors)

@@ -105,7 +105,7 @@ def select_by(
             # What is about as light is compared at exactly its incidence.
             about, others = exact.mass * (1.0 + _ABOUT), selection.ranking[1:]
             near = [entry for entry in others if entry.mass < about]
-            turned = _devices_at(problem, near, exact.incidence) if near else ()
+            turned = devices_at(problem, near, exact.incidence) if near else ()
             moved = [device or entry for device, entry in zip(turned, near, strict=True)]
             ranking = (*devices_by_mass((exact, *moved)), *others[len(near) :])
             return replace(selection, ranking=ranking)
@@ -219,11 +219,11 @@ def device_at(problem: SelectionProblem, device: Candidate, incidence: float) ->
 
     None: there is none near it.
     """
-    (found,) = _devices_at(problem, [device], incidence)
+    (found,) = devices_at(problem, [device], incidence)
     return found
 
 
-def _devices_at(
+def devices_at(
     problem: SelectionProblem, devices: Sequence[Candidate], incidence: float
 ) -> Iterator[Candidate | None]:
     """Each of these devices for another problem; see `device_at`."""
