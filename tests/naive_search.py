@@ -88,7 +88,7 @@ def refine(problem, device):
         )
         gained = 0.0 if better is None else 1.0 - better.mass / device.mass
         device = device if better is None else better
-        if gained < 3e-5:
+        if gained < 1e-5:
             widths = widths * 0.7
     return device
 

@@ -244,16 +244,25 @@ def pages(drilling: Drilling) -> Iterator[list[Item]]:
             centre_x = (left + right) / 2.0 + (across - 1 - 2 * column) / 2.0 * width
             centre_y = (top + bottom) / 2.0 + (along - 1 - 2 * row) / 2.0 * height
             offset = centre_x + middle[1], centre_y + middle[0]
-            page = [_on_paper(item, offset) for item in drilling.items]
+            marks = [_on_paper(item, offset) for item in drilling.marks]
             number = row * across + column + 1
             yield [
-                *page,
+                *(_on_paper(item, offset) for item in drilling.around),
+                # Thin lines end at the coordinates of a hole.
+                *(_behind(item) for item in marks if isinstance(item, Text)),
+                *marks,
                 # What goes on on another sheet, and would run into the words.
                 Area(rectangle(0.0, bottom, WIDTH, HEIGHT), white=True),
                 *([Area(rectangle(0.0, 0.0, WIDTH, top), white=True)] if drilling.verdict else []),
                 *outline(rectangle(left, top, right, bottom), THIN),
                 *_words(drilling, number, across * along),
             ]
+
+
+def _behind(text: Text) -> Area:
+    """What covers thin lines under words."""
+    x, y = text.start
+    return Area(rectangle(x, y - text.height, x + text.width, y), white=True)
 
 
 def _words(drilling: Drilling, number: int, count: int) -> Iterator[Item]:

@@ -11,7 +11,7 @@ from wheels import paper_device
 
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.export.device_parts import foot_holes
-from ocs_design.export.drawing.sheet import HEIGHT, Area, Circle, Line, Text
+from ocs_design.export.drawing.sheet import HEIGHT, THIN, Area, Circle, Line, Text
 from ocs_design.export.drawing.writers import pdf_of_pages
 from ocs_design.export.drilling import CHECK, SHEET, drilling_of, pages
 from ocs_design.export.formats import Subject
@@ -72,6 +72,17 @@ def test_on_paper_the_holes_are_in_full_size_with_forward_up(device):
     assert below[0].end[0] - below[0].start[0] == CHECK
 
 
+def test_thin_lines_end_at_coordinates(device):
+    (page,) = pages(drilling_of(subject(device)))
+    numbers = [each for each in page if isinstance(each, Text) and each.height == 1.8]
+    assert len(numbers) == len(trunk_holes(device))
+    last = max(k for k, each in enumerate(page) if isinstance(each, Circle) and each.pen == THIN)
+    white = ((k, each) for k, each in enumerate(page) if isinstance(each, Area) and each.white)
+    covers = {each.corners[3]: k for k, each in white}
+    for text in numbers:
+        assert last < covers[text.place] < page.index(text)
+
+
 def test_what_is_wider_than_a_sheet_goes_on_several():
     apart = [
         replace(module, position=module.position * [1.0, 4.0, 1.0])
@@ -80,7 +91,7 @@ def test_what_is_wider_than_a_sheet_goes_on_several():
     wide = drilling_of(subject(replace(CAGED_DEVICE, modules=tuple(apart))))
     sheets = list(pages(wide))
     for sheet in sheets:
-        (cover,) = (k for k, each in enumerate(sheet) if isinstance(each, Area) and each.white)
+        *_, cover = (k for k, each in enumerate(sheet) if isinstance(each, Area) and each.white)
         assert {y for _, y in sheet[cover].corners} == {SHEET[3], HEIGHT}
         assert any("100 %" in each.text for each in sheet[cover:] if isinstance(each, Text))
     left, top, right, bottom = SHEET
