@@ -186,16 +186,22 @@ def in_vain(robot: Robot, layout: Layout, *search: str | bool) -> list[Feet]:
 
 
 def looked_for(
-    search: Callable[..., Found | None], robot: Robot, feet: Feet, layout: Layout, *options: bool
+    search: Callable[..., Found | None],
+    robot: Robot,
+    feet: Feet,
+    layout: Layout,
+    *options: bool,
+    to: Callable[[float], int] = ceil,
 ) -> Found | None:
     """What a search finds for modules nearly as large, wherever they stood.
 
-    Sizes and mass are rounded up by 2 % at most, so that nearly equal modules share one search.
+    Sizes and mass are rounded up by 2 % at most (`to`), or down (`floor`), so that nearly equal
+    modules share one search.
     It takes longest where it fails: what is larger and heavier in all than what it failed for is
     taken to fail too, and is not looked for.
     """
     figures: dict[str, Any] = {
-        name: _ALIKE ** ceil(log(getattr(feet, name), _ALIKE)) for name in _FIGURES
+        name: _ALIKE ** to(log(getattr(feet, name), _ALIKE)) for name in _FIGURES
     }
     asked = replace(feet, x=0.0, bases=(), **figures)
     tried = in_vain(robot, layout, search.__name__, *options)

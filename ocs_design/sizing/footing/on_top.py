@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from functools import lru_cache
-from math import copysign, isfinite
+from math import copysign, floor, isfinite
 
 import numpy as np
 
@@ -50,26 +50,45 @@ _ENDLESS = 1e3
 
 def footing_on_top(surface: Surface, feet: Feet, search: Search) -> Footing | None:
     """The nearest place of the feet, as close together as they fit; pairs also farther apart."""
-    way = looked_for(_way, search.collision.robot, feet, search.layout)
+    robot, layout = search.collision.robot, search.layout
+    if looked_for(_as_usual, robot, feet, layout, to=floor):
+        found = _nearest_footing(surface, feet, search, 0.0, PLATE_SCREW)
+        if found is not None:
+            return found
+    way = looked_for(_way, robot, feet, layout)
     return None if way is None else _nearest_footing(surface, feet, search, *way)
+
+
+@lru_cache(maxsize=64)
+def _as_usual(robot: Robot, feet: Feet, layout: Layout) -> Footing | None:
+    """The nearest place of feet as near as may be, on a plate with the usual screws or on none."""
+    surface, search = trunk_surface(robot), Search.of(robot, feet.size, layout)
+    if surface is None:
+        return None
+    return _nearest_footing(surface, _at_com(robot, feet, layout), search, 0.0, PLATE_SCREW)
 
 
 @lru_cache(maxsize=64)
 def _way(robot: Robot, feet: Feet, layout: Layout) -> tuple[float, Screw] | None:
     """How much farther apart pairs stand than they must, and what screws hold their plate.
 
-    As near as may be first, then farther apart, with the usual screws before stronger ones, then
-    on posts, over what stands up from the trunk; None: none does.
+    With stronger screws first, then farther apart, then on posts, over what stands up from the
+    trunk; None: none does.
     """
-    surface, x = trunk_surface(robot), round(float(robot.com[0]), 6) + 0.0
-    search = Search.of(robot, feet.size, layout)
-    feet = replace(feet, x=x, bases=ring_of(layout, feet.reach))
-    both = PLATE_SCREW, STRONG_SCREW
-    ways = [(0.0, each) for each in both]
+    surface, search = trunk_surface(robot), Search.of(robot, feet.size, layout)
+    feet = _at_com(robot, feet, layout)
+    ways = [(0.0, STRONG_SCREW)]
     if layout.pairs:
+        both = PLATE_SCREW, STRONG_SCREW
         ways += [*((aside, each) for aside in ASIDE for each in both), (0.0, POST_SCREW)]
     found = (way for way in ways if surface and _nearest_footing(surface, feet, search, *way))
     return next(found, None)
+
+
+def _at_com(robot: Robot, feet: Feet, layout: Layout) -> Feet:
+    """Feet as near to each other as may be, around the robot's centre of mass."""
+    x = round(float(robot.com[0]), 6) + 0.0
+    return replace(feet, x=x, bases=ring_of(layout, feet.reach))
 
 
 def _nearest_footing(
