@@ -407,7 +407,8 @@ class _Search:
         motor = replace(changed.motor, name=selected.motor.name)
         named = replace(changed, motor=motor, ocs=replace(changed.ocs, co_design=None))
         try:
-            device = design_device(self.task.with_specification(named), ranked=False).device
+            asked = self.task.with_specification(named)
+            device = design_device(asked, ranked=False, near=selected).device
         except Infeasible:
             return None
         if device.mass > self.target:
