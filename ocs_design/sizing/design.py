@@ -61,8 +61,8 @@ def design_device(
         task: what is asked, of which robot.
         ranked: whether the heavier devices are of interest too; to weigh them all takes longer.
         reserve: to keep for what is drawn; None: for the reliability that is specified.
-        near: device of the only parts to choose from, close to the one that is looked for; None:
-            all parts are searched.
+        near: device to start from, whose motor, gear and material are kept; None: all parts that
+            are offered are searched.
 
     Raises:
         Infeasible: there is none.

@@ -101,7 +101,7 @@ def with_plates(
 
 @dataclass(frozen=True, eq=False)
 class _Search:
-    """How a device is looked for, on what it stands on.
+    """Search for a device together with what holds it on its robot.
 
     Attributes:
         criterion: see `select_by`. robot: that carries it. near: see `on_its_footing`.
@@ -112,7 +112,7 @@ class _Search:
     near: Candidate | None
 
     def selected(self, problem: SelectionProblem, start: Candidate | None) -> Selection:
-        """The selection of this problem; where its parts are known, the device near to `start`."""
+        """The selection for a problem; where its parts are known, the device near `start` alone."""
         alone = self.near and start and lightest_near(problem, start, self.criterion)
         if alone is None:
             return select_by(problem, self.criterion, winner=start)
@@ -167,8 +167,7 @@ def on_its_footing(
     Args:
         problem: to solve. criterion: see `select_by`. robot: that carries it.
         ranked: see `with_plates`.
-        near: device of the only parts to choose from, close to the one that is looked for; None:
-            all are searched.
+        near: see `design_device`.
         kept: what is drawn and the reserve for it, which the lightest device without one settles.
 
     Raises:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from html import escape
+from itertools import product
 from pathlib import Path
 from typing import NamedTuple
 
@@ -218,19 +219,27 @@ class _Drawing:
                 words = zip(places, labels, strict=True)
                 return "".join(self._beside(x, y, text) for (x, y), text in words)
             case Rule(label=label, upright=True) if label:
-                # Below, above or in between, where no curve is in the way.
+                # Below, above or in between, right or left of it, where no curve is in the way.
                 x, low, high = self._rule(mark)[0], self._bottom - 9.0, self._top + 9.0
                 heights = [low, high, *np.arange(low, high, _RISES[1]).tolist()]
-                free = (y for y in heights if self._free(self._box(x, y, label)))
-                return self._beside(x, next(free, low), label)
+                free = (
+                    (y, left)
+                    for left, y in product((False, True), heights)
+                    for box in [self._box(x, y, label, left=left)]
+                    if self._free(box) and box.left >= self._left
+                )
+                y, left = next(free, (low, False))
+                return self._beside(x, y, label, left=left)
         return ""
 
-    def _beside(self, x: float, y: float, text: str) -> str:
-        """A word right of a place, or left of it where there is no room.
+    def _beside(self, x: float, y: float, text: str, *, left: bool = False) -> str:
+        """A word right of a place, or left of it where that is asked for or there is no room.
 
         It is clear of all others, and of the curves where it can be.
         """
-        tried = [self._box(x, y + rise, text) for rise in _RISES]
+        boxes = [self._box(x, y + rise, text, left=left) for rise in _RISES]
+        # Below are the figures of the axis.
+        tried = [each for each in boxes if each.bottom <= self._bottom] or boxes
         apart = [each for each in tried if not any(map(each.meets, self._taken))]
         box = next(filter(self._free, apart), (apart or tried)[0])
         self._taken.append(box)
@@ -245,10 +254,10 @@ class _Drawing:
         inside = (((curve >= corner) & (curve <= opposite)).all(axis=1) for curve in self._curves)
         return not any(map(np.any, inside))
 
-    def _box(self, x: float, y: float, text: str) -> _Box:
-        """Box of a word beside a place."""
+    def _box(self, x: float, y: float, text: str, *, left: bool = False) -> _Box:
+        """Box of a word beside a place; see `_beside`."""
         reach = _LETTER * len(text)
-        near = x - _GAP - reach if x + _GAP + reach > WIDTH else x + _GAP
+        near = x - _GAP - reach if left or x + _GAP + reach > WIDTH else x + _GAP
         return _Box(near, y - 6.0, near + reach, y + 5.0)
 
     def _rule(self, mark: Rule) -> tuple[float, float, float, float]:

@@ -61,7 +61,7 @@ def footing_on_top(surface: Surface, feet: Feet, search: Search) -> Footing | No
 
 @lru_cache(maxsize=64)
 def _as_usual(robot: Robot, feet: Feet, layout: Layout) -> Footing | None:
-    """The nearest place of feet as near as may be, on a plate with the usual screws or on none."""
+    """The nearest place of feet as close together as they fit, with the usual screws."""
     surface, search = trunk_surface(robot), Search.of(robot, feet.size, layout)
     if surface is None:
         return None
@@ -86,7 +86,7 @@ def _way(robot: Robot, feet: Feet, layout: Layout) -> tuple[float, Screw] | None
 
 
 def _at_com(robot: Robot, feet: Feet, layout: Layout) -> Feet:
-    """Feet as near to each other as may be, around the robot's centre of mass."""
+    """Feet as close together as they fit, around the robot's centre of mass."""
     x = round(float(robot.com[0]), 6) + 0.0
     return replace(feet, x=x, bases=ring_of(layout, feet.reach))
 

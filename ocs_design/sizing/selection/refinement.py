@@ -33,8 +33,8 @@ from ocs_design.sizing.selection.problem import (
     with_limit,
 )
 
-HELD = 1e-8
-"""Relative violation of a limit that is none: a motor's torque is known to one in ten."""
+HELD = 1e-10
+"""Relative violation of a limit that is rounding."""
 
 _LEAST, _MOST = 1e-6, 1e6
 """Ratios beyond which a limit tells nothing."""
@@ -42,7 +42,7 @@ _LEAST, _MOST = 1e-6, 1e6
 _DIFFERENCE = 1e-6
 """Half the distance of the two points of a central difference."""
 
-_DIGITS = 1e-8
+_DIGITS = 1e-11
 """Change of the logarithm of the mass at which SLSQP stops."""
 
 _ITERATIONS_MAX = 40

@@ -47,6 +47,12 @@ def notes(svg):
     return [each for each in ET.fromstring(svg).iter(f"{SVG}text") if each.get("class") == "note"]
 
 
+def ticks_below(svg):
+    """Figures of the axis below."""
+    texts = ET.fromstring(svg).iter(f"{SVG}text")
+    return [t for t in texts if t.get("class") == "tick" and t.get("text-anchor") == "middle"]
+
+
 def places(svg):
     """Centres of its discs, in the order of the marks [px]."""
     circles = ET.fromstring(svg).iter(f"{SVG}circle")
@@ -145,6 +151,24 @@ def test_the_word_at_a_rule_stands_where_no_curve_is():
     top, bottom = map(float, root.get("data-y").split())
     height = (bottom - word) / (bottom - top)
     assert 0.07 < height < 0.9
+
+
+def test_where_curves_are_all_over_its_right_the_word_at_a_rule_stands_on_its_left():
+    up = np.linspace(0.0, 10.0, 41)
+    curves = [Line(np.array([5.0, 9.0]), np.array([y, y]), Ink.BLUE) for y in up]
+    svg = inline_svg(chart(*curves, Rule(5.0, upright=True, label="touchdown")))
+    (word,) = notes(svg)
+    assert word.get("text-anchor") == "end"
+
+
+def test_where_curves_are_everywhere_the_word_at_a_rule_stays_off_the_axis():
+    """Its figures are below; a curve through the word is the lesser evil."""
+    up = np.linspace(0.0, 10.0, 41)
+    curves = [Line(np.array([1.0, 6.0]), np.array([y, y]), Ink.BLUE) for y in up]
+    svg = inline_svg(chart(*curves, Rule(2.0, upright=True, label="touchdown")))
+    (word,) = notes(svg)
+    axis = min(float(each.get("y")) for each in ticks_below(svg))
+    assert float(word.get("y")) < axis - 12.0
 
 
 def test_a_rule_with_a_name_is_in_the_legend_once():
