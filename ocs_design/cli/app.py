@@ -212,8 +212,8 @@ def _design(
     from ocs_design.requirement.vocabulary import NO_MOTOR
 
     chosen = specification.motor.name != NO_MOTOR
-    # It imports while this process does.
-    with Beside("ocs_design.sizing.alternatives" if chosen else None) as beside:
+    # They import while this process does; more would find nothing left to look for.
+    with Beside("ocs_design.sizing.alternatives" if chosen else None, most=3) as beside:
         with steps.step("load the solver and the simulator"):
             # Nothing is drawn; unless told so, MuJoCo starts processes to look for a window
             # library.

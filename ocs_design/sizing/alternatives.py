@@ -9,9 +9,10 @@ change that does.
 from bisect import bisect_left
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from itertools import combinations
 from math import inf, isfinite
+from typing import Any
 
 from ocs_design.actuation.motor import build_gaps
 from ocs_design.actuation.supply import Supply
@@ -110,36 +111,31 @@ def relaxations(specification: Specification, asked: SelectionProblem) -> Iterat
 
 
 def lighter_otherwise(
-    task: Task, choice: Choice | None
-) -> tuple[tuple[Alternative, ...], Owed | None]:
-    """What each relaxation would save, and to which maneuver the mass is owed."""
-    return alternatives(task, choice), owed_to(task, choice)
-
-
-def alternatives(task: Task, choice: Choice | None) -> tuple[Alternative, ...]:
-    """What each relaxation of the defaults and of the limits would save; empty without a motor.
+    task: Task, choice: Choice | None, call: Callable[..., Callable[[], Any]] = partial
+) -> Callable[[], tuple[tuple[Alternative, ...], Owed | None]]:
+    """Begin to look for what each relaxation would save, and for the maneuver that sets the mass.
 
     Args:
         task: what was asked for: what its specification relaxes already is not offered again.
         choice: the device, and what it was chosen from; None: it has no motor.
+        call: begins a call and returns the function that waits for its answer, as `Beside.call`.
+
+    Returns:
+        Function that waits for the answers; both are empty without a motor.
     """
     if choice is None:
-        return ()
-    chosen = choice.chosen
-    worth = (1.0 - _WORTH) * chosen.mass
-    answers = []
-    for change in _changes(task, choice):
-        # To look for what holds a device takes longest where nothing is found, and a device that
-        # is sized as a whole looks for it several times.
-        found, note = change.lighter(choice, quick=choice.hangs), SAVES_NOTHING
-        # What is lighter may be wider, and so may its plate.
-        if found is None or found.mass > worth:
-            found = chosen
-        else:
-            quick = ["by a quick look"] if choice.hangs and not change.turns else []
-            note = "; ".join([*quick, *change.notes(found, choice)])
-        answers.append(_answer(change.text, found, note))
-    return tuple(answers)
+        return lambda: ((), None)
+    # That with the other construction takes longest.
+    begun = [call(built_otherwise, task, choice)]
+    begun += [call(Change.saved, change, choice) for change in changes(task, choice)]
+    begun.append(call(owed_to, task, choice))
+
+    def answers() -> tuple[tuple[Alternative, ...], Owed | None]:
+        # From the last one on, which no other process may have begun.
+        built, *found, owed = [each() for each in reversed(begun)][::-1]
+        return (*found, *built), owed
+
+    return answers
 
 
 def _answer(text: str, device: Candidate, note: str) -> Alternative:
@@ -148,7 +144,7 @@ def _answer(text: str, device: Candidate, note: str) -> Alternative:
 
 
 @dataclass(frozen=True, eq=False)
-class _Change:
+class Change:
     """One change of the question.
 
     Attributes:
@@ -164,6 +160,17 @@ class _Change:
     def turns(self) -> bool:
         """Whether the incidence is to be chosen anew."""
         return self.problem.incidence is None
+
+    def saved(self, choice: Choice) -> Alternative:
+        """The device with it; the one that there is where next to nothing would be saved."""
+        # To look for what holds a device takes longest where nothing is found, and a device that
+        # is sized as a whole looks for it several times.
+        found = self.lighter(choice, quick=choice.hangs)
+        # What is lighter may be wider, and so may its plate.
+        if found is None or found.mass > (1.0 - _WORTH) * choice.chosen.mass:
+            return _answer(self.text, choice.chosen, SAVES_NOTHING)
+        quick = ["by a quick look"] if choice.hangs and not self.turns else []
+        return _answer(self.text, found, "; ".join([*quick, *self.notes(found, choice)]))
 
     def lighter(self, choice: Choice, *, quick: bool) -> Candidate | None:
         """The device with it, where a quick look finds drives that save anything.
@@ -239,20 +246,20 @@ def built_otherwise(task: Task, choice: Choice | None) -> tuple[Alternative, ...
     return () if found is None else (_answer(text, found, f"--wheel {wheel}"),)
 
 
-def _changes(task: Task, choice: Choice) -> Iterator[_Change]:
+def changes(task: Task, choice: Choice) -> Iterator[Change]:
     """Each relaxation, and more power, room and time, as the question with that change alone."""
     specification, resolved = task.specification, task.resolved
     offered, chosen = resolved.choice, choice.chosen
     assert offered is not None, "there are motors to choose from"
     problem = replace(choice.problem, incidence=chosen.incidence, materials=(chosen.material,))
 
-    def changed(text: str, to: SelectionProblem) -> _Change:
+    def changed(text: str, to: SelectionProblem) -> Change:
         # What does not change is as it was resolved: factors on turns that were found too small,
         # and kicks about the centre of mass with a device.
         requirement = replace(resolved.requirement, maneuvers=to.requirement.maneuvers)
         own = replace(offered, supply=to.supply)
         own_resolved = replace(resolved, requirement=requirement, envelope=to.envelope, choice=own)
-        return _Change(text, replace(task, resolved=own_resolved), to)
+        return Change(text, replace(task, resolved=own_resolved), to)
 
     for each in relaxations(specification, problem):
         stated = each.stated(specification)
@@ -266,7 +273,7 @@ def _changes(task: Task, choice: Choice) -> Iterator[_Change]:
         if motors:
             relaxed = replace(relaxed, motors=motors)
             asked_for = replace(task, specification=stated, resolved=replace(resolved, choice=own))
-            yield _Change(each.text, asked_for, relaxed)
+            yield Change(each.text, asked_for, relaxed)
     asked = problem.requirement
     flips = [each for each in asked.maneuvers if isinstance(each, Flip)]
     if problem.layout.pairs and any(flip.incidence is None for flip in flips):

@@ -1,7 +1,8 @@
 """`ocs-design size` on one page: read, require, size, plan, fly, export, record, report."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from ocs_design.device.bodies import require_no_device
 from ocs_design.device.device import Device
 from ocs_design.device.records.design import DESIGN_FILE, OcsDesign
 from ocs_design.device.records.flights import falls_short
-from ocs_design.device.records.selection import Alternative, Lighter, Owed
+from ocs_design.device.records.selection import Lighter, Owed
 from ocs_design.export.assembly.content import assembly_of
 from ocs_design.export.folder import check_target, recorded_hashes, staged_folder
 from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats, refusal
@@ -35,7 +36,7 @@ from ocs_design.robot.robot import Robot
 from ocs_design.simulation.margins import record_margins
 from ocs_design.simulation.run import Run
 from ocs_design.simulation.world_builder import control_of
-from ocs_design.sizing.alternatives import built_otherwise, lighter_by, lighter_otherwise
+from ocs_design.sizing.alternatives import lighter_by, lighter_otherwise
 from ocs_design.sizing.bound.rim_program import load_solver
 from ocs_design.sizing.buildable import buildable_of
 from ocs_design.sizing.design import mass_without_survival
@@ -109,8 +110,8 @@ def design_ocs(
         progress: function that is told the name of the step that runs and what part of it is done,
             0..1; None: a notebook shows it below the cell, and a script is silent.
         command: that was typed, for the report.
-        beside: process that looks for what would be lighter while the device is planned
-            and flown; None: this one does, afterwards.
+        beside: processes that look for what would be lighter while the device is planned and
+            flown; None: this one does, afterwards.
 
     Raises:
         OcsError: see `exceptions`; nothing is written then.
@@ -135,12 +136,12 @@ def design_ocs(
     steps.doubt(robot.warnings)
     placed = size_or_advise(specification, robot, steps, strict=strict)
     placed = size_for_turns(placed, steps, strict=strict)
-    specification, beside = placed.specification, beside or Beside()
-    otherwise = None if stated.certify else _otherwise(placed, beside)
+    look = partial(lighter_otherwise, call=(beside or Beside()).call)
+    otherwise = None if stated.certify else look(placed.task, placed.designed.choice)
     proof = prove(placed, stated, steps)
     if proof.runs and stated.certify:
         placed, proof = certify(placed, proof, steps, strict=strict)
-    otherwise = otherwise or _otherwise(placed, beside)
+    otherwise = otherwise or look(placed.task, placed.designed.choice)
     device, runs = placed.designed.device, proof.runs
     with staged_folder(folder, force=force) as staging:
         with steps.step("export parts and robot files"):
@@ -174,7 +175,9 @@ def design_ocs(
             validation=tuple(map(record_run, runs)),
             control=control,
             reality=uncertainty_texts(
-                complete_uncertainty(specification.reality, standing_height(robot), device.motor)
+                complete_uncertainty(
+                    placed.specification.reality, standing_height(robot), device.motor
+                )
             ),
             alternatives=lighter,
             owed=owed,
@@ -202,22 +205,6 @@ def load_solvers(specification: Specification) -> None:
         load_solver()
     else:
         import_module("ocs_design.sizing.trajectory.plans")
-
-
-def _otherwise(
-    placed: Placed, beside: Beside
-) -> Callable[[], tuple[tuple[Alternative, ...], Owed | None]]:
-    """Begin to look for what would be lighter otherwise than this device."""
-    asked = placed.task, placed.designed.choice
-    relaxed = beside.call(lighter_otherwise, *asked)
-
-    def told() -> tuple[tuple[Alternative, ...], Owed | None]:
-        # In this process, while the other one looks for the rest.
-        built = built_otherwise(*asked)
-        found, owed = relaxed()
-        return (*found, *built), owed
-
-    return told
 
 
 def _write_flights(placed: Placed, proof: Proof, folder: Path, steps: Steps) -> tuple[str, ...]:

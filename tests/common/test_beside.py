@@ -1,4 +1,4 @@
-"""Columns as one table, files, what can be installed, and a second process."""
+"""Columns as one table, files, what can be installed, and other processes."""
 
 import math
 import os
@@ -71,8 +71,31 @@ def test_a_process_that_fails_is_made_up_for():
 def test_nothing_runs_on_when_nobody_waits_for_it():
     with Beside("time") as other:
         other.call(time.sleep, 600.0)
-        process = other._process
+        (process,) = other._processes
     assert process.returncode == -signal.SIGKILL
+
+
+def test_one_process_answers_calls_in_turn():
+    with Beside("os") as other:
+        answers = [other.call(os.getpid) for _ in range(3)]
+        (first,) = other._processes
+        assert answers[0]() == first.pid
+        assert {answer() for answer in answers} <= {first.pid, os.getpid()}
+
+
+def test_what_no_process_has_begun_is_worked_out_here():
+    with Beside("time") as other:
+        other.call(time.sleep, 600.0)
+        assert other.call(os.getpid)() == os.getpid()
+
+
+@pytest.mark.parametrize(("usable", "most", "started"), [(2, 3, 1), (4, 2, 2), (8, 3, 3)])
+def test_one_processor_is_left_for_this_process(monkeypatch, usable, most, started):
+    monkeypatch.setattr(beside, "processors", lambda: usable)
+    with Beside("math", most) as other:
+        answers = [other.call(math.sqrt, float(each)) for each in range(6)]
+        assert [answer() for answer in answers] == [math.sqrt(each) for each in range(6)]
+        assert len(other._processes) == started
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,6 @@ import pytest
 from commands import SOLO12
 from designed import design_of, solo12
 
-import ocs_design.sizing.alternatives
 from ocs_design.requirement.device_sections import (
     FlywheelSection,
     MotorSection,
@@ -18,7 +17,13 @@ from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.maneuver import Flip
 from ocs_design.requirement.sections import RequirementSection, RobotSection
 from ocs_design.requirement.specification import Specification
-from ocs_design.sizing.alternatives import MORE_TIME, alternatives, built_otherwise
+from ocs_design.sizing.alternatives import (
+    MORE_TIME,
+    built_otherwise,
+    changes,
+    lighter_otherwise,
+    owed_to,
+)
 from ocs_design.sizing.design import design_device
 
 ABOUT = 5e-3
@@ -30,29 +35,17 @@ MOTORS = "MN4014 KV400"
 STATED = Specification(motor=MotorSection(name=MOTORS))
 
 
-def told_of(task, designed):
-    """All that would be lighter, the other construction last."""
-    asked = task, designed.choice
-    return (*alternatives(*asked), *built_otherwise(*asked))
-
-
 @cache
 def compared(specification, change):
     """The task, the device, and what this change alone would save."""
     task, designed = design_of(specification)
-    with pytest.MonkeyPatch.context() as patch:
-        look_for(patch, change)
-        (found,) = alternatives(task, designed.choice)
-    return task, designed, found
+    return task, designed, saved(task, designed.choice, change)
 
 
-def look_for(monkeypatch, text):
-    """Of all changes this one alone is looked for."""
-    changes = ocs_design.sizing.alternatives._changes
-    monkeypatch.setattr(
-        "ocs_design.sizing.alternatives._changes",
-        lambda *asked: (each for each in changes(*asked) if each.text == text),
-    )
+def saved(task, choice, text):
+    """What the change with this text would save."""
+    (change,) = [each for each in changes(task, choice) if each.text == text]
+    return change.saved(choice)
 
 
 def by_hand(task):
@@ -96,15 +89,14 @@ def test_a_change_saves_what_designing_anew_saves(change, section, of):
 
 
 @pytest.mark.slow
-def test_rings_on_a_robot_are_weighed_on_feet_and_a_plate_of_their_own(monkeypatch):
+def test_rings_on_a_robot_are_weighed_on_feet_and_a_plate_of_their_own():
     """Solo12's rings would stand on a heavier plate than its discs."""
     motor = MotorSection(name="Antigravity MN5008 KV400")
     stated = Specification(robot=RobotSection(file=SOLO12), motor=motor)
     task, slow = solo12().with_specification(stated), "10% more time for every maneuver"
-    look_for(monkeypatch, slow)
-    designed = design_device(task, ranked=False)
-    found = told_of(task, designed)
-    told = {each.change: each.mass_total for each in found}
+    choice = design_device(task, ranked=False).choice
+    (rings,) = built_otherwise(task, choice)
+    told = {each.change: each.mass_total for each in (rings, saved(task, choice, slow))}
     ring = replace(stated, ocs=OcsSection(wheel="ring"))
     longer = replace(stated, maneuvers=in_more_time(task))
     others = {"a ring bonded around each motor's bell in place of the disc": ring, slow: longer}
@@ -114,12 +106,9 @@ def test_rings_on_a_robot_are_weighed_on_feet_and_a_plate_of_their_own(monkeypat
 
 
 def offered(specification):
-    """What would be looked for, nothing of it found."""
+    """What would be looked for."""
     task, designed = design_of(specification)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("ocs_design.sizing.alternatives.lightest_below", lambda *_: None)
-        found = alternatives(task, designed.choice)
-    return {each.change for each in found}
+    return {each.text for each in changes(task, designed.choice)}
 
 
 def test_nothing_that_is_stated_is_offered_again():
@@ -143,7 +132,8 @@ def test_without_maneuvers_nobody_offers_more_time_for_them():
 
 
 def test_without_a_motor_there_is_nothing_to_choose():
-    assert offered(Specification(motor=MotorSection(name="none"))) == set()
+    task, designed = design_of(Specification(motor=MotorSection(name="none")))
+    assert lighter_otherwise(task, designed.choice)() == ((), None)
 
 
 @pytest.mark.slow
@@ -153,14 +143,33 @@ def test_any_motor_says_what_nobody_knows_of_it():
     assert one.note == "saves nothing" or "not buildable: " in one.note
 
 
-def test_where_nothing_holds_a_device_a_quick_look_is_told_and_says_so(monkeypatch):
+def test_where_nothing_holds_a_device_a_quick_look_is_told_and_says_so():
     """The look leaves out only the reserve of its own and what a mast asks of the wheels."""
     change = "modules turned to 0 deg by hand for each flip"
     task, designed, whole = compared(STATED, change)
-    look_for(monkeypatch, change)
-    # Nothing is told of rings.
-    (quick,) = told_of(task, replace(designed, choice=replace(designed.choice, hangs=True)))
-    assert quick.change == change
+    hanging = replace(designed.choice, hangs=True)
+    quick = saved(task, hanging, change)
     assert "by a quick look" in quick.note
     assert "by a quick look" not in whole.note
     assert quick.mass_total == pytest.approx(whole.mass_total, rel=0.02)
+    assert built_otherwise(task, hanging) == ()
+
+
+def test_calls_are_begun_at_once_and_their_answers_told_in_order():
+    """As other processes answer them: the last one first, which none may have begun."""
+    task, designed = design_of(STATED)
+    begun, asked = [], []
+
+    def call(function, *args):
+        number = len(begun)
+        begun.append(function.__qualname__)
+        is_last = function is owed_to
+        answer = "owed" if is_last else ("rings",) if function is built_otherwise else number
+        return lambda: (asked.append(number), answer)[1]
+
+    answers = lighter_otherwise(task, designed.choice, call)
+    assert not asked
+    found, owed = answers()
+    assert asked == list(range(len(begun)))[::-1]
+    assert found == (*range(1, len(begun) - 1), "rings")
+    assert owed == "owed"
