@@ -7,9 +7,11 @@ import pty
 import re
 import subprocess
 import sys
+import time
 from contextlib import redirect_stderr, redirect_stdout, suppress
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryFile
 from unittest import mock
 
 from ocs_design.cli import errors
@@ -72,6 +74,22 @@ def run_process(*arguments, **options):
         [*PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False, **options
     )
     return Result(done.returncode, done.stdout, done.stderr)
+
+
+def run_measured(*arguments, **options):
+    """In a process of its own: its result, and the most memory that it has had [KiB]."""
+    peak, command = 0, [*PROGRAM, *map(str, arguments)]
+    with TemporaryFile() as stdout, TemporaryFile() as stderr:
+        process = subprocess.Popen(command, stdout=stdout, stderr=stderr, **options)
+        # Not ru_maxrss, which a process inherits from the one that starts it.
+        while process.poll() is None:
+            with suppress(OSError):
+                status = Path(f"/proc/{process.pid}/status").read_text()
+                found = re.search(r"VmHWM:\s+(\d+) kB", status)
+                peak = max(peak, int(found[1]) if found else 0)
+            time.sleep(0.05)
+        said = [stream.seek(0) or stream.read().decode() for stream in (stdout, stderr)]
+    return Result(process.returncode, *said), peak
 
 
 def on_a_terminal(*arguments, answers=(), **variables):

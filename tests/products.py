@@ -117,11 +117,12 @@ CASES = {
 
 @dataclass(frozen=True)
 class Product:
-    """What a command said and the folder that it wrote."""
+    """What a command said and the folder that it wrote; of a cold one its memory [KiB] too."""
 
     case: Case
     said: Result
     folder: Path
+    peak: int | None = None
 
 
 def device_of(document):

@@ -179,21 +179,15 @@ def beside_solo12(tmp_path, monkeypatch):
     return tmp_path
 
 
-SAID = """
-import json
-found = validation.found.monte_carlo.certificate
-print(json.dumps([found.verdict, found.interval, outcome.design.ocs.mass_total]))
-"""
-
-
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")  # Those of Jupyter's own packages.
 def test_the_notebook_runs(beside_solo12, monkeypatch):
-    """And its device flies as the docs say: single flights may end otherwise elsewhere."""
+    """With a few samples in place of a certificate, which takes minutes; that has its own test."""
     nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
-    notebook = nbformat.read(beside_solo12 / "solo12.ipynb", as_version=4)
-    notebook.cells.append(nbformat.v4.new_code_cell(SAID))
+    page = (beside_solo12 / "solo12.ipynb").read_text()
+    assert page.count("certify=True") == 1
+    notebook = nbformat.reads(page.replace("certify=True", "samples=20"), as_version=4)
     nbclient.NotebookClient(notebook, timeout=600).execute()
     kinds = [
         kind
@@ -204,15 +198,11 @@ def test_the_notebook_runs(beside_solo12, monkeypatch):
     assert kinds.count("text/html") == 3
     assert kinds.count("image/png") == 2
     assert (beside_solo12 / "solo12-ocs" / "report.html").exists()
-    verdict, intervals, mass = json.loads(notebook.cells[-1].outputs[0].text)
     quoted = json.loads((ROOT / "docs" / "certified.json").read_text())["solo12"]
-    assert verdict == quoted["verdict"]
-    assert mass == pytest.approx(quoted["mass"], rel=1e-3)
-    for scenario, (low, high) in intervals.items():
-        assert low <= quoted["interval"][scenario][1]
-        assert quoted["interval"][scenario][0] <= high
+    made = read_design(beside_solo12 / "solo12-ocs")
+    assert made.ocs.mass_total == pytest.approx(quoted["mass"], rel=1e-3)
     # Its jumps start on the ground.
-    for run in read_design(beside_solo12 / "solo12-ocs").validation:
+    for run in made.validation:
         assert run.passed is run.ocs, run.reason
         assert (run.metrics["lift_off_time"] > 0.0) == (run.scenario != "drop")
 

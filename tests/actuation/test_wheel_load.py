@@ -216,6 +216,7 @@ def test_wheels_of_more_than_half_the_inertia_that_they_turn_count_as_that():
     assert (wheel_slew_time(task, 0.99 * largest, line) > time)[np.isfinite(time)].mean() > 0.9
 
 
+@pytest.mark.slow
 def test_a_gear_that_speeds_up_lets_time_rise_and_still_the_smallest_is_found():
     """With a negative armature time may fall, rise and fall again; brute force finds the first."""
     rng = np.random.default_rng(6)
@@ -452,6 +453,7 @@ def test_wheels_that_reach_yaw_turn_it_directly(name, elevation, published):
     assert more.load().excess >= level.load().excess
 
 
+@pytest.mark.slow
 @settings(deadline=None)
 @given(st.integers(2, 6), st.integers(0, 2**32 - 1))
 def test_what_is_left_of_the_gauge_is_the_linear_programmes(wheels, seed):

@@ -75,6 +75,7 @@ def test_no_row_of_the_table_wraps(what, width, monkeypatch):
     assert "\x1b" not in result.stdout
 
 
+@pytest.mark.slow
 def test_a_users_file_joins_the_table(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(MINE)
@@ -101,6 +102,7 @@ def test_what_makes_no_sense_is_wrong_usage(arguments, words):
     assert words in result.said
 
 
+@pytest.mark.slow
 def test_doubts_about_a_users_file_are_told_before_its_table(tmp_path):
     """On standard error, or in the document."""
     path = tmp_path / "mine.toml"

@@ -8,7 +8,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 import pytest
-from commands import SOLO12, Result, environment, run_process, sized
+from commands import SOLO12, Result, environment, run_measured, sized
 from exported import pinocchio_model
 from products import CASES, Product, device_of
 
@@ -23,11 +23,12 @@ def product(request, tmp_path_factory, worker_id):
     with (shared / "lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not said.exists():
-            result = run_process(
+            result, peak = run_measured(
                 "size", SOLO12, *case.options, cwd=parent, env=environment(COLUMNS="80")
             )
-            said.write_text(json.dumps(asdict(result)))
-    return Product(case, Result(**json.loads(said.read_text())), parent / "solo12-ocs")
+            said.write_text(json.dumps([asdict(result), peak]))
+    result, peak = json.loads(said.read_text())
+    return Product(case, Result(**result), parent / "solo12-ocs", peak)
 
 
 @pytest.fixture(scope="session")

@@ -45,6 +45,7 @@ TOLD = (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("no_alternatives")
 def test_files_of_a_device_that_cannot_be_built_say_so(folder):
     """As `size` writes them, and `export` again."""

@@ -29,6 +29,7 @@ def small_disk(folder, kib):
         subprocess.run(["umount", str(folder)], check=True)
 
 
+@pytest.mark.slow
 def test_a_full_disk(folder):
     (folder / "disk").mkdir()
     with small_disk(folder / "disk", kib=256):

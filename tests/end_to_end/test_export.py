@@ -37,6 +37,7 @@ MESHED = """<robot name="r">
 </robot>"""
 
 
+@pytest.mark.slow
 def test_every_file_is_what_size_wrote(product, folder):
     result = run("export", product.folder, "-o", "again")
     assert result.code == 0
@@ -69,6 +70,7 @@ def robot_with_meshes_elsewhere():
     return sized("r.urdf", "--rate-change", "1rad/s", "--package-path", "parts=hidden/p")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "make",
     [robot_by_hand, robot_in_mjcf, robot_gzipped, robot_with_meshes_elsewhere],
@@ -100,6 +102,7 @@ def test_parts_and_snippets_need_no_robot(solo12):
     assert again == {name: original[name] for name in original if not name.startswith("robot")}
 
 
+@pytest.mark.slow
 def test_the_seat_of_a_robot_with_y_up_is_in_the_design(folder):
     shutil.copy(HUMAN, "h.urdf")
     source = sized("h.urdf")
@@ -119,6 +122,7 @@ def test_a_robot_that_has_moved_is_named(solo12):
     assert made_in("again") == made_in(solo12)
 
 
+@pytest.mark.slow
 def test_a_robot_that_has_changed_is_refused_until_it_is_named(solo12):
     changed = Path("solo12.urdf").read_text().replace("</robot>", "<!-- new -->\n</robot>")
     Path("solo12.urdf").write_text(changed)
@@ -145,6 +149,7 @@ def test_a_robot_without_the_designs_trunk_is_refused(solo12):
     assert not Path("again").exists()
 
 
+@pytest.mark.slow
 def test_a_robot_from_standard_input_is_asked_for(folder):
     source = sized("-", stdin=Path(SOLO12).read_bytes())
     result = run("export", source, "-o", "again")
@@ -154,6 +159,7 @@ def test_a_robot_from_standard_input_is_asked_for(folder):
     assert made_in("again") == made_in(source)
 
 
+@pytest.mark.slow
 def test_parts_and_snippets_need_neither_simulator_nor_solver(solo12):
     """That is most of the time of a start."""
     code = (
@@ -173,6 +179,7 @@ def test_an_existing_folder_is_kept(solo12):
     assert files_in(solo12) == before
 
 
+@pytest.mark.slow
 def test_in_the_designs_own_folder_the_rest_stays(product, folder):
     shutil.copytree(product.folder, "ocs")
     Path("ocs/notes.txt").write_text("mine")
@@ -192,6 +199,7 @@ def test_one_format_renewed_in_place_leaves_the_others(solo12):
     assert files_in(solo12) == before
 
 
+@pytest.mark.slow
 def test_the_default_folder_is_named_after_the_robot(solo12):
     result = run("export", solo12)
     assert result.code == 0
@@ -199,6 +207,7 @@ def test_the_default_folder_is_named_after_the_robot(solo12):
     assert Path("solo12-ocs-export/design.json").is_file()
 
 
+@pytest.mark.slow
 def test_meshes_that_the_urdf_names_by_relative_paths_are_told_of_once(folder):
     trimesh.creation.box((0.1, 0.1, 0.1)).export("cube.stl")
     Path("r.urdf").write_text(MESHED.replace("package://parts/", ""))

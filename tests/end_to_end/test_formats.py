@@ -116,6 +116,7 @@ def check_same(found, expected):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("motor", ["none", pytest.param("auto", marks=pytest.mark.exhaustive)])
 def test_every_format_gives_the_same_design(folder, no_files, mjcf, motor):
     text = Path(SOLO12).read_bytes()
@@ -140,6 +141,7 @@ def test_every_format_gives_the_same_design(folder, no_files, mjcf, motor):
     assert found["standard input"]["robot"]["source"] == "-"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("motor", ["none", pytest.param("auto", marks=pytest.mark.exhaustive)])
 def test_the_exported_robot_can_be_read_again(folder, motor):
     """It is a robot like any other, only its device's names are taken."""
@@ -205,6 +207,7 @@ def check_inertia(document, solo12, joints, link="base_link"):
     assert alone == pytest.approx(equal_rate(inertia), abs=1e-9)
 
 
+@pytest.mark.slow
 def test_postures_are_what_is_asked_for(folder, no_files, solo12):
     zero = design(SOLO12, "--posture", "zero", "-o", "zero")
     check_inertia(zero, solo12, {})
@@ -218,6 +221,7 @@ def test_postures_are_what_is_asked_for(folder, no_files, solo12):
     assert standing["robot"]["posture"]["HL_KFE"] == pytest.approx(1.287, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_another_trunk_has_its_own_frame(folder, solo12):
     """The device then sits on a leg: nobody would, but it is what was asked for."""
     found = design(SOLO12, "--posture", "zero", "--trunk", "HL_UPPER_LEG", *FEET, "-o", "leg")
@@ -234,6 +238,7 @@ def test_a_keyframe_by_name(folder, no_files, solo12, mjcf):
     assert found["robot"]["posture_name"] == "crouch"
 
 
+@pytest.mark.slow
 def test_an_srdf_state_by_name(folder, no_files, solo12):
     (folder / "solo12.urdf").write_bytes(Path(SOLO12).read_bytes())
     (folder / "solo12.srdf").write_text(

@@ -91,6 +91,7 @@ def extreme(test):
     return test
 
 
+@pytest.mark.slow
 @FUZZ
 @given(
     mass=QUANTITIES,
@@ -107,6 +108,7 @@ def test_robots_by_hand(folder, mass, inertia, options, drive):
     check_exit(folder, "size", *by_hand, *drive, *typed, "--no-validate", "-q", "-o", "out")
 
 
+@pytest.mark.slow
 @settings(FUZZ, max_examples=6)
 @given(
     moments=st.lists(st.floats(0.5, 1.0), min_size=3, max_size=3),

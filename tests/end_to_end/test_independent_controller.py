@@ -12,6 +12,8 @@ from commands import run
 from firmware import bound
 from scripts import script_at
 
+pytestmark = pytest.mark.slow
+
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SCRIPT = script_at(EXAMPLES / "independent_controller.py")
 
@@ -63,7 +65,6 @@ def test_the_controller_one_flies_all_maneuvers(product, controller, document):
         assert pitch == pytest.approx(flown["touchdown_pitch"], abs=1e-9)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("product", ["motor"], indirect=True)
 def test_it_flies_them_in_basilisk(product, controller):
     """Rigid legs and another integrator: a tenth of a degree. Without the law 15 to 360 are left.

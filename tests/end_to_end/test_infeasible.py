@@ -38,6 +38,7 @@ def refused(*typed):
     return error
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "robot_given",
     [
@@ -124,6 +125,7 @@ def test_doubts_are_told_before_the_search_and_assumptions_after_it(odd):
     assert "Nobody asked" not in stated.document["error"]["hint"]
 
 
+@pytest.mark.slow
 def test_a_refusal_tells_what_is_doubted_what_was_assumed_and_what_nobody_asked_for(odd):
     error = run("size", odd, *WEAK, "--json").document["error"]
     assert error["warnings"]

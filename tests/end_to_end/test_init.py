@@ -4,6 +4,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+import pytest
 from commands import BY_HAND, SOLO12, on_a_terminal, run
 
 from ocs_design.requirement.reading import read_specification
@@ -61,6 +62,7 @@ def asked(*arguments, answers=()):
     return shown
 
 
+@pytest.mark.slow
 def test_on_a_terminal_it_asks(folder):
     answers = ("nowhere.urdf", SOLO12, "jump", "drop, back-flip", "forty", "45", "", "22.2 V")
     shown = asked("init", "-o", "asked.toml", answers=answers)
@@ -75,6 +77,7 @@ def test_on_a_terminal_it_asks(folder):
     assert found.supply.voltage == 22.2
 
 
+@pytest.mark.slow
 def test_on_a_terminal_it_asks_nothing_if_told_so(folder):
     shown = asked("init", SOLO12, "--yes")
     assert "Robot file" not in shown

@@ -1,17 +1,12 @@
 """Every legged robot at hand, with no option beyond its file: a design or a full explanation."""
 
-import json
 import re
-import subprocess
-from contextlib import suppress
-from pathlib import Path
-from time import sleep
 
 import pytest
 import trimesh
 from anatomy import ANATOMY
 from anatomy import LEGGED as WALKING
-from commands import PROGRAM, environment, run
+from commands import environment, run, run_measured
 from robots import ROBOTS
 
 from ocs_design.parts.carrier_plate import TUBES
@@ -28,45 +23,22 @@ def test_they_are_34():
     assert set(LEGGED) >= {SOLO12, TALOS}
 
 
-def size(name, out):
-    """Exit code and document, of a process of its own with no complaint and bounded memory."""
-    # Their jumps have their own tests; planning them for all would take minutes.
-    start = "--ballistic"
-    robot = str(ROBOTS / f"{name}.urdf")
-    command = [*PROGRAM, "size", robot, start, "-o", str(out), "--json"]
-    streams = [out.with_name(stream) for stream in ("stdout", "stderr")]
-    peak = 0
-    with streams[0].open("wb") as stdout, streams[1].open("wb") as stderr:
-        process = subprocess.Popen(command, stdout=stdout, stderr=stderr, env=environment())
-        # Not ru_maxrss, which a process inherits from the one that starts it.
-        while process.poll() is None:
-            peak = max(peak, peak_memory(process.pid))
-            sleep(0.05)
-    assert streams[1].read_text() == ""
-    assert 2**16 < peak < 2**20, "KiB, hence 1 GiB"
-    return process.returncode, json.loads(streams[0].read_text())
-
-
-def peak_memory(pid):
-    """Of a process that runs [KiB]; 0: it has ended."""
-    with suppress(OSError):
-        found = re.search(r"VmHWM:\s+(\d+) kB", Path(f"/proc/{pid}/status").read_text())
-        return int(found[1]) if found else 0
-    return 0
-
-
-@pytest.mark.slow
+@pytest.mark.exhaustive  # `benchmarks/legged_robots.py` has all 34, `test_product.py` a small one.
 @pytest.mark.parametrize("name", [SOLO12, TALOS])
 def test_size_ends_with_a_design_and_its_proof_or_with_the_motor_that_would_do(name, tmp_path):
-    """A light one and a heavy one, whichever it is; `benchmarks/legged_robots.py` has all 34."""
+    """A light one and a heavy one, whichever it is, with no complaint and in bounded memory."""
     out = tmp_path / "out"
-    code, document = size(name, out)
-    if code == 4:
+    # Their jumps have their own tests; planning them for all would take minutes.
+    asked = ("size", ROBOTS / f"{name}.urdf", "--ballistic", "-o", out, "--json")
+    said, peak = run_measured(*asked, env=environment())
+    assert said.stderr == ""
+    assert 2**16 < peak < 2**20, "KiB, hence 1 GiB"
+    if said.code == 4:
         assert name != SOLO12, "the paper built one"
-        check_refusal(document["error"])
+        check_refusal(said.document["error"])
         assert not out.exists()
     else:
-        check_proof(name, out, code, document)
+        check_proof(name, out, said.code, said.document)
 
 
 @pytest.mark.slow

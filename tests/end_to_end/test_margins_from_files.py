@@ -11,6 +11,8 @@ from flown_margins import Flown, row_of
 from ocs_design.common.errors import OcsError
 from ocs_design.workflows.restoring import read_designed
 
+pytestmark = pytest.mark.slow
+
 MOTOR = "MN4014 KV400"
 UNPLANNED = """
 [motor]
@@ -203,7 +205,6 @@ DRAWN = (
 """Three of the twenty designs that were drawn at random when this was written."""
 
 
-@pytest.mark.slow
 @pytest.mark.usefixtures("no_alternatives")
 @pytest.mark.parametrize("options", DRAWN, ids=["by hand", "little power", "little voltage"])
 def test_no_flight_of_other_designs_asks_for_more_than_is_stated(options, tmp_path):

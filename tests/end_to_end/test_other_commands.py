@@ -5,7 +5,7 @@ import sys
 
 import numpy as np
 import pytest
-from commands import BOUND, BY_HAND, SOLO12, environment, run, run_process
+from commands import BOUND, BY_HAND, SOLO12, run
 from products import equal_rate
 
 from ocs_design import __version__
@@ -97,17 +97,18 @@ def test_json_errors_are_one_document():
 
 
 @pytest.mark.slow
-def test_the_demo_sizes_solo12_from_any_folder(tmp_path):
+@pytest.mark.usefixtures("no_alternatives")
+def test_the_demo_sizes_solo12_from_any_folder(folder, monkeypatch):
     """Without a screen the page's place is said; a second one is not written over it."""
-    bare = dict.fromkeys(("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"), "")
-    told = run_process("demo", cwd=tmp_path, env=environment(**bare))
-    folder = tmp_path / "solo12-ocs"
+    for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"):
+        monkeypatch.delenv(name, raising=False)
+    told, folder = run("demo"), folder / "solo12-ocs"
     assert told.code == 0
     assert f"no browser to open it in: {folder / 'report.html'}" in told.stderr
     design = read_design(folder / "design.json")
     assert design.robot.name == "solo12"
     assert all(flight.passed for flight in design.validation if flight.ocs)
-    again = run_process("demo", cwd=tmp_path)
+    again = run("demo")
     assert again.code == 3
     assert "solo12-ocs: exists already" in again.said
     assert "--force" in again.said

@@ -11,6 +11,8 @@ from ocs_design.requirement.reading import read_specification
 from ocs_design.sizing.design import lightest_device
 from ocs_design.workflows.pareto import read_task
 
+pytestmark = pytest.mark.slow
+
 ONE_MOTOR = (
     *("--motor", "Antigravity MN5008 KV400", "--gear", "direct"),
     *("--material", "stainless-304"),
@@ -63,7 +65,6 @@ def test_a_point_s_specification_makes_that_very_device(written):
         assert vars(again) == point["device"]
 
 
-@pytest.mark.slow
 def test_size_makes_the_device_of_a_point(written, no_alternatives, no_files, tmp_path):
     result, folder = written
     point = result.document["points"][1]

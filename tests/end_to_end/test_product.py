@@ -56,6 +56,7 @@ def test_it_succeeds_and_leaves_nothing_but_its_folder(product):
     assert list(product.folder.parent.iterdir()) == [product.folder]
     written = {name for name in everything_in(product.folder) if (product.folder / name).is_file()}
     assert written == {*product.case.files, "design.json", "report.html"}
+    assert 2**16 < product.peak < 2**20, "KiB, hence 1 GiB"
 
 
 @pytest.mark.parametrize(("path", "keys"), SCHEMA.items())

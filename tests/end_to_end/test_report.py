@@ -9,7 +9,10 @@ import pytest
 from browser import browser
 
 # One of them is enough: what differs between them is in the tests of the page.
-pytestmark = pytest.mark.parametrize("product", ["motor"], indirect=True)
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.parametrize("product", ["motor"], indirect=True),
+]
 
 MOST_BYTES = 5_000_000
 READY = "document.documentElement.classList.contains('orbits')"

@@ -43,6 +43,7 @@ def test_the_commands_of_the_page_work(design, capsys):
     assert "20 robots as they might be built" in page
 
 
+@pytest.mark.slow
 def test_a_report_made_again_has_its_view_and_its_time_series_but_no_replay(design):
     assert run("export", design, "-o", "again", "-q", "--formats", "report").code == 0
     again = files_in("again")
@@ -57,6 +58,7 @@ def test_a_report_made_again_has_its_view_and_its_time_series_but_no_replay(desi
         assert tab.of_kind("Runtime.exceptionThrown", "Log.entryAdded") == []
 
 
+@pytest.mark.slow
 def test_in_its_own_folder_everything_else_stays(design):
     before = files_in(design)
     assert run("export", design, "-o", design, "--force", "-q", "--formats", "report").code == 0

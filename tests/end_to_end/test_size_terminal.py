@@ -42,6 +42,7 @@ def test_the_same_run_writes_the_same_bytes_on_any_number_of_threads(product, wi
         assert (product.folder / name).read_bytes() == (wide.folder / name).read_bytes(), name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("product", "width", "which"),
     [
@@ -96,6 +97,7 @@ def test_a_wider_terminal_breaks_no_more_lines(product, wide):
     assert len(wide.said.stdout.splitlines()) <= len(product.said.stdout.splitlines())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "product",
     [pytest.param("motor", marks=pytest.mark.exhaustive), "no motor"],
@@ -112,6 +114,7 @@ def test_json_is_the_artefact_and_nothing_else(product, tmp_path, monkeypatch):
 WORDS, ERROR = ("inspect", SOLO12), ("inspect", "nowhere.urdf")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "option", "variables"),
     [

@@ -51,6 +51,7 @@ def test_a_full_standard_output_is_told(folder):
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.slow
 @has_full_device
 def test_a_full_standard_error_is_an_error(folder):
     assert shell(f'"$@" 2> {FULL}', *UNSIZED).returncode == 3
@@ -67,6 +68,7 @@ def test_a_name_that_is_no_text_is_refused_at_once(folder):
     assert "rename" in result.document["error"]["hint"]
 
 
+@pytest.mark.slow
 def test_without_home_and_locale(folder):
     """What is no locale counts as "C", whose text is ASCII."""
     bare = {"LC_ALL": "nowhere.UTF-8", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}

@@ -34,6 +34,7 @@ def by_hand(tmp_path_factory):
     return folder / "ocs"
 
 
+@pytest.mark.slow
 def test_the_flights_are_those_of_size_to_the_last_bit(product, folder):
     result = run("validate", product.folder, "-o", "again", "--json")
     recorded = json.loads((product.folder / "design.json").read_text())
@@ -45,6 +46,7 @@ def test_the_flights_are_those_of_size_to_the_last_bit(product, folder):
         assert (Path("again") / name).read_bytes() == (product.folder / name).read_bytes()
 
 
+@pytest.mark.slow
 def test_samples_go_on_where_they_were_left_and_can_be_flown_again(by_hand, folder):
     command = ("validate", by_hand, "--samples", "5", "--seed", "3", "-o", "mc", "--json")
     first = run(*command)
@@ -136,6 +138,7 @@ def test_a_failure_in_quiet_is_one_line_with_the_verdict(by_hand, folder):
     assert quiet.stderr == f"{first}  ·  {second}\n"
 
 
+@pytest.mark.slow
 def test_a_case_of_another_design_is_refused(by_hand, folder):
     assert run("validate", by_hand, "--samples", "1", "-o", "mc", "-q").code == 0
     Path("drop.toml").write_text(DROP)
@@ -157,6 +160,7 @@ def test_a_design_without_maneuvers_has_nothing_to_fly(folder):
     assert "nothing to fly" in result.said
 
 
+@pytest.mark.slow
 def test_what_too_few_flights_say_is_undecided(by_hand):
     """152 of 152 are enough for 99 %: see below, and `test_certificate`."""
     result = run("validate", by_hand, "--certify", "--samples", "40", "--json")
@@ -191,6 +195,7 @@ def test_a_certificate_is_in_the_design_in_its_report_and_can_be_flown_again(fol
     assert again["validation"][0]["metrics"] == metrics
 
 
+@pytest.mark.slow
 def test_wheels_without_a_motor_are_certified_for_what_is_asked(folder):
     """0.9 takes a ninth of the flights that 0.99 does."""
     result = certified(DROP, *BY_HAND, *BOUND, "--reliability", "0.9")

@@ -15,6 +15,7 @@ def example():
     return script_at(SCRIPT)
 
 
+@pytest.mark.slow
 def test_a_gimbal_motor_is_too_slow_and_a_strong_and_fast_one_does_all_three(example):
     robot = example.read_robot(example.ROBOT)
     maneuvers = example.MANEUVERS

@@ -58,6 +58,7 @@ def seen_by_mujoco(model, posture):
     return (np.concatenate(points) - base.xpos) @ base.xmat.reshape(3, 3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", LEGGED_PATHS[1::2], ids=LEGGED[1::2])
 def test_real_robots_stand_as_mujoco_has_them(path, tmp_path):
     robot = robot_at(path)

@@ -57,6 +57,7 @@ def test_png_keeps_every_pixel():
     np.testing.assert_array_equal(pixels(png_bytes(image)), image)
 
 
+@pytest.mark.slow
 def test_the_three_views_are_to_one_scale_and_in_first_angle():
     sheet = pixels(drawn({"box": box_scene()})["box"])
     assert sheet.shape == (2 * HEIGHT, 2 * WIDTH, 3)
@@ -81,6 +82,7 @@ def test_the_box_around_what_is_shown_knows_the_pose_and_not_what_is_hidden():
     np.testing.assert_allclose(high, [1.2, 2.1, 3.3], atol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_robot_with_its_device():
     robot, device = read_robot(SOLO12), paper_device()
     try:

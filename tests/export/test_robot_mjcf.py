@@ -60,6 +60,7 @@ def compiled(robot, device):
     return robot_model(robot, device).compiled
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", LEGGED_PATHS[6:], ids=LEGGED[6:])
 def test_mujoco_reads_the_robot_and_its_wheels(path, tmp_path):
     robot, device = robot_at(path), paper_device()
@@ -129,6 +130,7 @@ def test_a_free_flight_keeps_its_angular_momentum_as_the_file_stands(path, tmp_p
     assert np.linalg.norm(np.array(momentum) - momentum[0], axis=1).max() < MOMENTUM_GATE * moved
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", LEGGED_PATHS[:5:2], ids=LEGGED[:5:2])
 def test_a_quadruped_stands_in_its_scene(path, tmp_path):
     robot, device = robot_at(path), paper_device()
@@ -165,6 +167,7 @@ def test_its_drives_and_options_are_those_of_the_flights(tmp_path):
         np.testing.assert_array_equal(ours, flown)
 
 
+@pytest.mark.slow
 def test_joints_in_no_leg_are_held_until_they_are_released(tmp_path):
     robot = robot_at(LEGGED_PATHS[6])
     model, data = written(robot, paper_device(), tmp_path)

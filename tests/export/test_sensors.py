@@ -99,6 +99,7 @@ def test_keyframes_of_a_branched_robot_stay(branched, tmp_path, trunk):
     check_keyframes_kept(before, written_again(branched, trunk, tmp_path / "out"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", LEGGED_PATHS[::3], ids=LEGGED[::3])
 def test_keyframes_of_real_robots_stay(path, tmp_path):
     """As MJCF, of which example-robot-data has none: written by us, without a device."""

@@ -137,6 +137,7 @@ def either_way(request, monkeypatch):
         monkeypatch.setattr(folders, "exchange", lambda one, other: False)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "either_way",
     [False, pytest.param(True, marks=pytest.mark.slow)],

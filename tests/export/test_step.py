@@ -155,6 +155,7 @@ def check_solid(found, part, place, color):
     assert found.color == pytest.approx(color[:3], abs=1e-3)
 
 
+@pytest.mark.slow
 def test_a_module_has_all_its_pieces_in_their_places(tmp_path):
     """Motor and cage among them: each by its name and colour, of its volume, at its place."""
     (tmp_path / "module.step").write_bytes(module_bytes(CAGED_DEVICE))
@@ -184,6 +185,7 @@ TWO_PLATES = replace(
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("plate", [TWO_PLATES, ON_A_MAST])
 def test_the_device_has_every_module_in_its_place_and_its_plates(tmp_path, plate):
     device = replace(DEVICES["on a plate"], plate=plate)

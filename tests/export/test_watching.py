@@ -39,6 +39,7 @@ def test_without_a_display_it_is_said_before_anything_is_flown(no_display):
     assert "apt install xvfb" in result.said
 
 
+@pytest.mark.slow
 def test_a_display_that_is_not_there_is_told(take, monkeypatch):
     monkeypatch.setenv("DISPLAY", ":9999")
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)

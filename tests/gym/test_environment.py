@@ -18,6 +18,8 @@ from ocs_design.gym import ENVIRONMENT
 from ocs_design.gym.environment import OcsFlight
 from ocs_design.monte_carlo.campaign import fly_samples, metrics_of
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
@@ -52,13 +54,7 @@ def test_it_keeps_the_promises_of_gymnasium(folder):
     check_env(env.unwrapped, skip_render_check=True)
 
 
-@pytest.mark.parametrize(
-    "maneuver",
-    [
-        "drop",
-        *(pytest.param(each, marks=pytest.mark.slow) for each in ("disturbance", "back-flip")),
-    ],
-)
+@pytest.mark.parametrize("maneuver", ["drop", "disturbance", "back-flip"])
 def test_under_the_law_an_episode_is_the_flight_of_that_sample(flight, maneuver):
     campaign = flight._campaign
     outcomes = fly_samples(campaign, [5])
@@ -72,7 +68,6 @@ def test_under_the_law_an_episode_is_the_flight_of_that_sample(flight, maneuver)
     assert found.touchdown_time == expected.touchdown_time
 
 
-@pytest.mark.slow
 def test_three_wheels_fly_as_in_the_campaign(tmp_path):
     (tmp_path / "design.json").write_bytes(to_json(design(layout="triad")))
     env = OcsFlight(tmp_path, maneuver="drop")

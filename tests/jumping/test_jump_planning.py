@@ -89,6 +89,7 @@ def test_feet_roll_and_do_not_slide(push_off, body):
         np.testing.assert_allclose(moved[:, 2], 0.0, atol=2e-4)
 
 
+@pytest.mark.slow
 def test_the_legs_come_back_to_the_stance_in_flight(planner, body):
     legs = planner.plan(JUMP, body.trunk).plan.legs
     assert legs.time[-1] < legs.lift_off + JUMP.flight_time

@@ -41,6 +41,7 @@ def test_numbers_do_not_depend_on_company_or_threads(campaign, outcomes):
     assert_same(pair.take(slice(1, 2)), outcomes.take(slice(2, 3)))
 
 
+@pytest.mark.slow
 def test_blocks_that_fly_at_once_come_back_as_they_are(campaign, outcomes):
     blocks = blocks_of(len(outcomes.index), 2)
     flown = dict(fly_here(campaign, blocks, lambda _done: None, at_once=2))
@@ -48,6 +49,7 @@ def test_blocks_that_fly_at_once_come_back_as_they_are(campaign, outcomes):
     assert_same(Outcomes.joined(list(flown.values())), outcomes)
 
 
+@pytest.mark.slow
 def test_numbers_do_not_depend_on_how_many_fit_into_memory(campaign, outcomes, monkeypatch):
     monkeypatch.setattr(ocs_design.monte_carlo.campaign, "MEMORY", 1)
     told = []
@@ -56,6 +58,7 @@ def test_numbers_do_not_depend_on_how_many_fit_into_memory(campaign, outcomes, m
     assert told[-1] == 1.0
 
 
+@pytest.mark.slow
 def test_a_sample_whose_momentum_is_off_is_flown_again_in_half_the_step(
     campaign, outcomes, monkeypatch
 ):

@@ -155,7 +155,7 @@ def test_landings_that_are_all_alike_teach_nothing_of_the_reserve(campaign, chan
     assert "land off level in pitch, all alike" in learnt.told
 
 
-@pytest.mark.exhaustive  # `test_the_notebook_runs` flies it too, as `validate` does.
+@pytest.mark.exhaustive  # Minutes of flights.
 def test_what_the_docs_quote_is_what_flies():
     """Single flights may end otherwise on another machine: intervals overlap, the verdict stays."""
     quoted = certified.kept()["solo12"]

@@ -49,6 +49,7 @@ def test_posts_and_floor_weigh_what_the_cage_weighs(height):
         assert getattr(found, name) == pytest.approx(getattr(whole, name), rel=1e-12), name
 
 
+@pytest.mark.slow
 def test_a_floor_bears_what_tilts_it_as_a_clamped_plate_does():
     """Kirchhoff's plate w = f(r) cos(theta) by a boundary value solver: a stiff middle is tilted.
 

@@ -221,6 +221,7 @@ def test_holes_on_half_a_rim_take_what_they_add_up_to():
     assert (none.hole_radius, none.most) == (0.0, 0.0)
 
 
+@pytest.mark.slow
 @given(st.floats(0.2, 10.0), st.floats(500.0, 3000.0))
 def test_a_shrink_fit_presses_wherever_it_must_hold(torque, speed):
     rings = (replace(ALUMINIUM, outer=0.031), TUNGSTEN)

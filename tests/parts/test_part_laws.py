@@ -77,6 +77,7 @@ def test_wheel(wheel):
     np.testing.assert_allclose(sum(part.mass_properties().com for part in parts), 0.0, atol=1e-15)
 
 
+@pytest.mark.slow
 @few
 @given(housings(), st.floats(0.005, 0.015))
 def test_housing_and_foot(housing, thickness):
@@ -88,6 +89,7 @@ def test_housing_and_foot(housing, thickness):
     assert_one_body(foot_part(Foot(housing, thickness)), holes + 2)
 
 
+@pytest.mark.slow
 @few
 @given(wheels())
 def test_wheel_turns_in_its_housing(wheel):

@@ -131,6 +131,7 @@ def test_moments_in_another_frame():
 BULGES = st.one_of(st.just(0.0), st.floats(0.01, 0.45), st.floats(-0.45, -0.01))
 
 
+@pytest.mark.slow
 @given(st.lists(BULGES, min_size=5, max_size=5), OFFSETS)
 def test_arcs_both_ways_agree_with_a_dense_polygon(bulges, offset):
     # Corners of a pentagon of radius 3; arcs of these bulges do not cross each other.

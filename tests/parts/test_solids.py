@@ -67,6 +67,7 @@ def test_box_turned_and_moved():
     assert_same(weighed(box, 1000.0), expected)
 
 
+@pytest.mark.slow
 @given(st.lists(st.tuples(st.floats(0.0, 1.0), st.floats(-1.0, 1.0)), min_size=3, max_size=3))
 def test_any_triangle_turned_weighs_what_its_mesh_does(corners):
     profile = np.array(corners)

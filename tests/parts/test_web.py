@@ -134,6 +134,7 @@ def test_holes_take_two_fifths_of_a_web():
     assert replace(hub, lightening=0).holes(0.037) is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", COUNTS)
 def test_what_a_web_with_holes_stands_is_counted_in_its_rims_speed(count):
     """Holes have no more than so many times the hoop stress of a rim, whatever its size."""

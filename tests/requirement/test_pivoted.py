@@ -47,6 +47,7 @@ def test_a_brake_takes_the_speed_of_the_cubli():
     assert jump.stop == pytest.approx(2.1e-3, rel=0.02)
 
 
+@pytest.mark.slow
 @given(
     tilt=st.floats(-0.5, 0.5),
     rate=st.floats(-2.0, 2.0),

@@ -186,6 +186,7 @@ def test_visuals_are_seen_but_never_touched():
     assert without.ngeom == np.count_nonzero(~seen)
 
 
+@pytest.mark.slow
 def test_dae_meshes_are_converted():
     robot = unposed_robot(ROBOTS / "panda_description/urdf/panda.urdf")
     spec = build_spec(robot).spec

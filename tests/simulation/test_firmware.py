@@ -116,6 +116,7 @@ def test_it_gives_the_torques_of_the_flown_law(written, compiled_one):
             assert np.abs(wanted).max() > 0.01
 
 
+@pytest.mark.slow
 def test_it_gives_the_torques_of_the_flights(written, compiled_one):
     worlds, controller = written[0], compiled_one[0]
     recording = simulate(list(worlds.values()))
@@ -133,6 +134,7 @@ def test_it_gives_the_torques_of_the_flights(written, compiled_one):
         assert len(flown) > 50
 
 
+@pytest.mark.slow
 def test_the_harness_prints_the_same_and_single_precision_nearly(written, compiled_one):
     folder, (controller, module) = written[1], compiled_one
     attitude, rate, speed, ground = random_states(module.WHEELS, 50)
@@ -173,6 +175,7 @@ def test_what_cannot_be_gives_no_torque(compiled_one, state):
     assert controller.step(**{**sound, **state}) == [0.0] * module.WHEELS
 
 
+@pytest.mark.slow
 def test_it_allocates_nothing_and_takes_little_stack(written):
     _, folder = written
     library = compiled(folder, "-fPIC", "-shared", out="plain.so", sources=())

@@ -85,6 +85,7 @@ def test_a_flight_whose_momentum_is_off_is_flown_again_in_half_the_step(
             assert (after.metrics, after.note) == (before.metrics, before.note)
 
 
+@pytest.mark.slow
 def test_a_jump_leaves_no_energy_unexplained(world):
     """By a loop that is written anew, which meets the batch's own centre of mass."""
     recording = simulate([world])
@@ -185,6 +186,7 @@ def test_feet_that_lift_early_in_the_push_off_do_not_count(world):
     assert clock.steps(4, 1)[0] < 0
 
 
+@pytest.mark.slow
 def test_legs_too_weak_to_jump_are_not_judged(solo12, disturbance, jumps):
     plan = jumps["disturbance"].bare
     still = replace(
@@ -203,6 +205,7 @@ def test_legs_too_weak_to_jump_are_not_judged(solo12, disturbance, jumps):
     assert "do not bring the robot off the ground" in runs[0].reason
 
 
+@pytest.mark.slow
 def test_a_robot_that_stands_is_shoved_and_calmed(solo12, builder):
     shove = Shove(name="shove", torque=(2.0, 8.0, 0.0), duration=0.05, settling=0.5)
     runs = run_scenarios(Flights(solo12, paper_device(), [shove]))

@@ -57,6 +57,7 @@ def test_a_force_at_a_point_does_what_mujoco_makes_of_it(builder, wheels):
     check_gained(world, data.subtree_angmom[0], data.subtree_linvel[0])
 
 
+@pytest.mark.slow
 def test_the_momentum_gate_stays_shut_to_a_kick(solo12):
     with_device, without = run_scenarios(Flights(solo12, paper_device(), [KICK]))
     for run in (with_device, without):

@@ -13,6 +13,8 @@ from ocs_design.simulation.reference import Step
 from ocs_design.simulation.scenario import Flights, Options, run_scenarios
 from ocs_design.simulation.wheel_law import Allocation
 
+pytestmark = pytest.mark.slow
+
 RPM = np.pi / 30.0
 
 

@@ -40,6 +40,7 @@ def _flown(device, *maneuvers):
     return found, runs
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("layout", ["pair", "triad", "pyramid"])
 def test_wheels_catch_a_robot_on_a_pivot_which_falls_without(layout):
     device = driven_device() if layout == "pair" else layout_device(Layout(LayoutName(layout)))
@@ -56,6 +57,7 @@ def test_wheels_catch_a_robot_on_a_pivot_which_falls_without(layout):
             assert run.metrics.final_wheel_speed < 0.2 * limit
 
 
+@pytest.mark.slow
 def test_a_brake_stands_a_robot_up_whose_motors_cannot():
     """From 45 deg gravity has 3.5 N m, both motors together 1.3 about roll."""
     heavy = replace(driven_device(), flywheel=HEAVY)

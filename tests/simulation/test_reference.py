@@ -207,6 +207,7 @@ def test_after_its_end_the_trunk_is_held_level(trajectory, law):
     np.testing.assert_array_equal(late.torque, 0.0)
 
 
+@pytest.mark.slow
 def test_each_maneuver_tracks_its_own_reference_and_a_push_none(solo12):
     device = driven_device(carrier=replace(driven_device().carrier, mass=0.05))
     jump, drop, flip = paper_maneuvers(solo12)

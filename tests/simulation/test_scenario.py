@@ -38,6 +38,7 @@ def test_a_robot_that_stands_is_flown_twice(solo12, batches):
     assert batches == [2]
 
 
+@pytest.mark.slow
 def test_a_robot_that_falls_is_flown_level_too(solo12, batches, monkeypatch):
     """Its drives let go of the joints."""
     build = WorldBuilder.flight
@@ -79,6 +80,7 @@ def test_no_maneuvers_no_runs(solo12, batches):
     assert batches == []
 
 
+@pytest.mark.slow
 def test_runs_come_in_the_order_of_the_maneuvers(solo12):
     jump, drop, _ = default_maneuvers(solo12)
     runs = run_scenarios(Flights(solo12, paper_device(), [drop, jump]))

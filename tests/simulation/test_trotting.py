@@ -93,6 +93,7 @@ def test_the_shove_comes_as_two_feet_lift(solo12, earliest):
     assert bent[after] > 0.1
 
 
+@pytest.mark.slow
 def test_a_robot_that_trots_is_shoved_and_calmed(solo12, world):
     with_device, without = run_scenarios(Flights(solo12, paper_device(), [SHOVE]))
     assert [with_device.passed, without.passed] == [True, True]

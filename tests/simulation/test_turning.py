@@ -15,6 +15,8 @@ from ocs_design.simulation.verdict import landing_attitude
 from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.trajectory.plans import plan
 
+pytestmark = pytest.mark.slow
+
 MOON = 1.62
 YAW = TurnTo(name="yaw", yaw=np.pi / 2.0, duration=2.9, gravity=MOON, jump_height=1.9)
 AND_PITCH = TurnTo(

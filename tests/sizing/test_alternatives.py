@@ -58,6 +58,7 @@ def in_more_time(task):
     return tuple(slower(each, MORE_TIME, task.standing_height) for each in task.maneuvers)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("change", "section", "of"),
     [
@@ -111,6 +112,7 @@ def offered(specification):
     return {each.text for each in changes(task, designed.choice)}
 
 
+@pytest.mark.slow
 def test_nothing_that_is_stated_is_offered_again():
     stated = Specification(
         motor=MotorSection(name=MOTORS),
@@ -143,6 +145,7 @@ def test_any_motor_says_what_nobody_knows_of_it():
     assert one.note == "saves nothing" or "not buildable: " in one.note
 
 
+@pytest.mark.slow
 def test_where_nothing_holds_a_device_a_quick_look_is_told_and_says_so():
     """The look leaves out only the reserve of its own and what a mast asks of the wheels."""
     change = "modules turned to 0 deg by hand for each flip"

@@ -39,6 +39,7 @@ def test_the_total_is_robot_and_device_braked(motor):
     np.testing.assert_allclose(found.sized.total.inertia, expected.inertia, rtol=1e-7, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_the_incidence_of_the_robot_alone_does_not_count_the_plate():
     task = on_solo12(motor__name="Antigravity MN5006 KV450")
     found = design_device(task)
@@ -97,6 +98,7 @@ def test_a_motor_weighs_more_than_wheels_alone():
     assert chosen.sized.total.inertia[1, 1] > bound.sized.total.inertia[1, 1]
 
 
+@pytest.mark.slow
 def test_feet_of_a_heavy_device_are_as_thick_as_its_shock_asks_for():
     """To 0.1 mm, and 0.2 mm that are left as they are; all of it is weighed."""
     robot = RobotSection(mass=12.0, inertia=(0.1, 0.25, 0.3))
@@ -123,6 +125,7 @@ def test_a_device_may_weigh_as_much_as_the_lightest_and_no_less(motor):
     assert "would do" in caught.value.hint
 
 
+@pytest.mark.slow
 def test_guard_rings_hold_the_wheel_that_they_were_sized_with():
     """Device, bill and burst go together: the ring is weighed, and thick enough for this wheel."""
     _, free = designed()
@@ -141,6 +144,7 @@ def test_guard_rings_hold_the_wheel_that_they_were_sized_with():
     np.testing.assert_allclose(found.sized.total.inertia, total.inertia, rtol=1e-7, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_device_is_sized_for_kicks_about_the_centre_of_mass_of_all():
     """From above, for less than the robot alone would have to take up, and so it is lighter."""
     asked = RequirementSection(jump_height=(0.3,), kick=(Kick(1.0, (0.1, 0.1, 0.03)),))
@@ -154,6 +158,7 @@ def test_a_device_is_sized_for_kicks_about_the_centre_of_mass_of_all():
     assert abs(own[0, 0]) < 0.9 * abs(alone[0, 0])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kilograms", "stays"), [(0.05, False), (0.01, True)])
 def test_a_device_that_is_held_another_way_each_time_is_refused(monkeypatch, kilograms, stays):
     """Unless what changes is a twentieth of it at the most; 0.49 kg weighs this one."""

@@ -157,6 +157,7 @@ def test_nothing_asked():
         size(asks())
 
 
+@pytest.mark.slow
 def test_infeasible_by_its_robot():
     """Each relaxation is verified by sizing anew, and none smaller would do."""
     envelope = replace(ROOM, outer_radius_max=0.03, mass_max=0.2)

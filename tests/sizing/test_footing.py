@@ -416,6 +416,7 @@ def jointed(base, limb, mass, height, axis, inertia):
 </robot>"""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "width"), [(LayoutName.PAIR, 0.12), (LayoutName.DOUBLE_PAIR, 0.5)]
 )
@@ -441,6 +442,7 @@ BARS = np.arange(-0.14, 0.15, 0.07).round(3).tolist()
 """Places of bars across a trunk, 100 mm high, 60 mm apart: no module stands between them."""
 
 
+@pytest.mark.slow
 def test_over_bars_across_the_trunk_a_plate_stands_on_posts(boxed):
     """Which bear it, are weighed with it, and have no volume in common with bars and modules."""
     bar = '<collision><origin xyz="{} 0 0.1"/><geometry><box size="0.01 0.24 0.1"/></geometry>'
@@ -546,6 +548,7 @@ def test_what_cannot_carry_its_mast_is_refused(column):
     assert time >= 2.0 * sqrt(whole.inertia[1, 1] * pi / 6.0 / torque)
 
 
+@pytest.mark.slow
 @few_masts()
 def test_the_flat_spots_that_a_mast_would_need_are_told(column):
     """On a back too narrow for two screws side by side; just wide enough for them it has one."""

@@ -158,6 +158,7 @@ def test_slopes_are_those_of_the_trunk_and_shear_its_screws(on_cylinder):
     assert pattern_use(held, force, arms, half, 500.0) > plain
 
 
+@pytest.mark.slow
 def test_a_trunk_that_is_too_steep_is_refused(tmp_path):
     """A box that turns an edge backwards slopes by 45 degrees."""
     robot, device = standing(tmp_path, RIDGE)

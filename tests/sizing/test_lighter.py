@@ -31,6 +31,7 @@ def mass_of(task, specification):
     return design_device(task.with_specification(specification)).device.mass
 
 
+@pytest.mark.slow
 def test_the_mass_is_owed_to_the_maneuver_without_which_it_is_lightest():
     task, designed, owed = made()
     without = {
@@ -48,6 +49,7 @@ def test_the_mass_is_owed_to_the_maneuver_without_which_it_is_lightest():
     assert owed.mass_without < designed.device.mass
 
 
+@pytest.mark.slow
 def test_the_mass_is_owed_to_the_only_maneuver():
     _, _, owed = made(fall=(1.0,))
     assert (owed.maneuver, owed.mass_without) == ("fall", None)

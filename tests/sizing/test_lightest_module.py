@@ -69,6 +69,7 @@ def meets(shape, inertia, limits):
     assert (3.0 + nu) * outer**2 + (1.0 - nu) * inner**2 <= limits.stretch_max * slack
 
 
+@pytest.mark.slow
 @given(rim_problems())
 def test_there_is_one_where_there_is_a_rim(problem):
     limits = replace(problem.limits, height_min=max(problem.limits.height_min, 1e-5))
@@ -80,6 +81,7 @@ def test_there_is_one_where_there_is_a_rim(problem):
         assert float(shape.rim_mass) >= float(rim.mass) * (1.0 - 1e-9)
 
 
+@pytest.mark.slow
 @settings(max_examples=30)
 @given(rim_problems(), st.floats(0.01, 0.95), st.sampled_from([1.0, LIGHTENED_WEIGHT]))
 def test_a_web_leaves_the_limits_met(problem, share, weight):
@@ -102,6 +104,7 @@ def with_cuts(limits, share, holes):
     return replace(limits, wall_min=wall, height_min=height, cuts=cuts)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("web", "weight", "holes", "seed", "count"),
     [
@@ -139,6 +142,7 @@ WITHOUT_A_WALL = scaled_problem(
 """Nothing but its least height keeps the widest of its wheels from being all web."""
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(rim_problems(), st.sampled_from([0.0, 0.5]), st.sampled_from([1.0, LIGHTENED_WEIGHT]))
 @example(WITHOUT_A_WALL, 0.5, 1.0)

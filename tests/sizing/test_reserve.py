@@ -153,6 +153,7 @@ def test_a_rate_at_the_start_is_momentum_till_the_end():
     np.testing.assert_allclose(begun.momentum, [0.9 * 0.003, 0.9 * 0.0011], rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_nothing_is_kept_for_an_even_chance_and_nothing_where_the_nominal_device_has_it():
     """The default: 5 deg at touchdown and 5 % of the drive are worth more than what is drawn."""
     nominal, sure = solo12(LIGHTEST_OF_THREE, 0.5), solo12(LIGHTEST_OF_THREE)
@@ -162,6 +163,7 @@ def test_nothing_is_kept_for_an_even_chance_and_nothing_where_the_nominal_device
     assert all(each.needed < 1.0 for each in sure.kept.maneuvers)
 
 
+@pytest.mark.slow
 def test_more_is_kept_for_more_reliability_and_for_larger_deviations():
     found = [solo12(WIDE, 0.8), solo12(WIDE, 0.99), solo12(WIDE, 0.99, 1.1)]
     demands = [[each.demand for each in one.reserve.maneuvers.values()] for one in found]
@@ -188,6 +190,7 @@ def test_a_supply_that_brakes_slowly_leaves_the_end_of_the_flight_unused():
     assert weak.kept.maneuvers[0].demand > 1.0
 
 
+@pytest.mark.slow
 def test_what_has_the_larger_share_saves_more_when_known():
     """Up to all that the reserve weighs; of 2048 robots shares of a hundredth are chance."""
     costs = solo12(WIDE, 0.99).kept.costs

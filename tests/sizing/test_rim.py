@@ -49,6 +49,7 @@ def test_random_problems_agree_with_the_closed_form():
         solved += 1
 
 
+@pytest.mark.slow
 @few
 @given(rim_problems(), st.floats(0.05, 1.0), st.floats(0.0, 1.0))
 def test_other_starts_lead_to_the_same_rim(problem, share_of_radius, share_of_bore):

@@ -98,6 +98,7 @@ def touching(problem, shape):
     return tuple(name for name, ratio in ratios.items() if abs(ratio - 1.0) < 1e-9)
 
 
+@pytest.mark.slow
 def test_brute_force():
     rng = np.random.default_rng(20230123)
     vertices = Counter()

@@ -47,6 +47,7 @@ def made(wheel="ring", motor="Antigravity MN5008 KV400", alpha=None, **flywheel)
     )
 
 
+@pytest.mark.slow
 def test_it_is_around_the_bell_within_its_straight_part_and_its_joints_hold():
     _, designed = made()
     wheel, drive = designed.device.flywheel, designed.device.motor
@@ -154,6 +155,7 @@ def test_what_stands_still_has_the_mass_properties_of_its_parts_in_their_places(
     assert back + device.motor.length + shaft + CLEARANCE == pytest.approx(room)
 
 
+@pytest.mark.slow
 def test_each_construction_tells_of_the_other():
     sides, alone = {}, {"alpha": 0.6}
     for wheel in ("disc", "ring"):
@@ -165,6 +167,7 @@ def test_each_construction_tells_of_the_other():
         assert sides[wheel].mass_total == pytest.approx(mass, rel=ABOUT)
 
 
+@pytest.mark.slow
 def test_none_of_the_motors_and_steels_alone_has_a_lighter_one():
     """The search leaves out what its bounds say is heavier: each by itself cannot be left out."""
     _, designed = made(motor=None)
@@ -238,6 +241,7 @@ def test_in_their_fixture_ring_and_bell_stand_as_they_do_in_the_module():
     assert apart == pytest.approx(-middle, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_the_booklet_has_the_fixture_in_table_picture_and_steps():
     assembly = Assembly("solo12", made()[1].device)
     row = next(row for row in piece_rows(assembly) if row.file == "ring_fixture.stl")

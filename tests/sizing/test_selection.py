@@ -107,6 +107,7 @@ def test_the_winner_from_scratch(solved):
         assert found.binding_maneuver in by_name
 
 
+@pytest.mark.slow
 def test_a_stated_incidence_is_kept_and_no_lighter_than_the_best():
     problem = random_problem(9)
     best = select(problem).best
@@ -118,6 +119,7 @@ def test_a_stated_incidence_is_kept_and_no_lighter_than_the_best():
     assert same.mass == pytest.approx(best.mass, rel=MASS_DIGITS)
 
 
+@pytest.mark.slow
 def test_a_rate_change_alone():
     """Momentum over twice the share of the reserved speed, L / (2 share W)."""
     problem = random_problem(9)
@@ -198,6 +200,7 @@ def test_the_motor_that_comes_closest_is_not_one_that_no_rim_fits_around():
     assert 0.0 < error.nearest.shortfall < wide.nearest.shortfall
 
 
+@pytest.mark.slow
 def test_infeasible_says_what_would_do():
     """Each change is proved by searching anew, and hardly less of it would do."""
     problem = only(random_problem(9), incidence=None)
@@ -230,6 +233,7 @@ def test_nothing_to_do_and_nothing_to_choose_from():
         select(replace(problem, wheel_speed_max=-1.0))
 
 
+@pytest.mark.slow
 def test_a_stated_wheel_speed_is_a_limit():
     problem = random_problem(9)
     best = lightest(problem)

@@ -42,6 +42,7 @@ def written(kind):
     return to_json(as_recorded(task, made))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "kind",
     [pytest.param(kind, marks=[pytest.mark.slow] * (kind in SLOW)) for kind in KINDS],

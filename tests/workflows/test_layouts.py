@@ -200,6 +200,7 @@ def test_what_does_not_go_with_a_stopped_drive(option):
     assert not [*contradictions(specification_from_options({"requirement.survives": "none"}))]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("layout", ["single", pytest.param("double-pair", marks=pytest.mark.slow)])
 def test_wheels_share_the_supply_when_sized_as_when_planned(layout):
     """Four wheels that were promised the half of it each found no plan of the drop."""
@@ -214,6 +215,7 @@ def test_wheels_share_the_supply_when_sized_as_when_planned(layout):
         assert found.trajectory is not None, found.note
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("layout", "direct"), [("pair", False), ("orthogonal", True)])
 def test_wheels_that_reach_yaw_are_sized_for_it_without_a_loop(layout, direct):
     """The wheels are what the closed form asks for, and a plan for them leaves something."""
@@ -232,6 +234,7 @@ def test_wheels_that_reach_yaw_are_sized_for_it_without_a_loop(layout, direct):
         assert demand.spin_inertia == pytest.approx(designed.device.flywheel.spin_inertia, rel=2e-2)
 
 
+@pytest.mark.slow
 def test_what_needs_less_than_the_smallest_rim_gets_a_larger_one():
     """No bound on the wheels of a turn about z alone is above zero, and no rim is that small."""
     asked = specification_from_options(
@@ -269,7 +272,7 @@ def test_a_triad_for_solo12_can_be_built(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("layout", ["triad", "pyramid"])
+@pytest.mark.parametrize("layout", ["triad", pytest.param("pyramid", marks=pytest.mark.exhaustive)])
 def test_what_survives_lands_whichever_drive_stops(layout, tmp_path):
     """Every drive at every instant; what costs mass is told, and the table has each flight."""
     asked = {**SURVIVES, "robot.file": SOLO12, "ocs.layout": layout}

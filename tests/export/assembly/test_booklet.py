@@ -368,6 +368,7 @@ def test_open_points_stand_first_and_once():
     assert "The motor's threads are not in the catalogue" in said
 
 
+@pytest.mark.slow
 def test_what_cannot_be_built_is_told_first_of_all():
     """On the first sheet above the pieces, in the title of each, and before all steps."""
     refused = "NOT buildable as it stands. The feet hang in the air; give a place."

@@ -41,6 +41,7 @@ def words(wheel):
     return [text.text for text in texts(wheel_sheet(wheel))]
 
 
+@pytest.mark.slow
 @settings(max_examples=25, suppress_health_check=[HealthCheck.filter_too_much])
 @given(drawings())
 def test_any_sheet_is_legible_within_its_frame_and_well_formed(drawing):

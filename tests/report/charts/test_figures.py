@@ -27,6 +27,7 @@ from ocs_design.report.limits import reserve_note
 RPM = 30.0 / np.pi
 
 
+@pytest.mark.slow
 def test_the_momentum_taken_is_that_of_both_wheels_up_to_touchdown():
     (found,) = taken(story())
     alpha, spin = design().ocs.incidence, design().ocs.spin_inertia

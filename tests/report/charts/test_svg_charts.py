@@ -244,6 +244,7 @@ def picture(chart):
     return np.asarray(Image.open(BytesIO(content)).convert("RGB")).astype(int)
 
 
+@pytest.mark.slow
 def test_a_chart_is_drawn_twice_as_large_as_in_svg_and_always_to_the_same_bytes():
     drawn = next(each for each in all_charts(story()) if each.name == "bound_pitch")
     image = picture(drawn)

@@ -110,6 +110,7 @@ MORE = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("problem", "exact"),
     [

@@ -27,6 +27,7 @@ def asking(share, *maneuvers):
     return replace(problem, robot=robot, requirement=requirement, incidence=0.0)
 
 
+@pytest.mark.slow
 def test_a_little_drift_is_let_pass_and_lightens_the_pitch():
     """I_yy - I_xy^2 / I_xx is left of it, and no momentum about roll is asked for."""
     even, coupled = asking(0.0, WHOLE), asking(0.03, WHOLE)

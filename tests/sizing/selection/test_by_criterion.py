@@ -19,6 +19,7 @@ def test_what_no_motor_can_do_there_is_said_of_all_of_them():
         select_by(problem, Criterion.WEIGHTED)
 
 
+@pytest.mark.slow
 def test_where_none_wins_at_its_own_incidence_the_lightest_at_its_own_leads(monkeypatch):
     """Two devices, each of which wins at the other's incidence only: heavy at its own."""
     problem = replace(draw(4).problem, incidence=None)

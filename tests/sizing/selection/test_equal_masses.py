@@ -54,6 +54,7 @@ def test_it_is_found_where_only_the_lightest_is_looked_for(steels):
     assert steels[found.places[0].parts[2]].name == "strong"
 
 
+@pytest.mark.slow
 def test_at_its_own_incidence_the_winner_is_as_light_as_its_twins():
     """Solo12's device can only just carry itself: a step too far takes a smaller radius."""
     solo = design_device(on_solo12(motor__name="Antigravity MN5006 KV450"), ranked=False)

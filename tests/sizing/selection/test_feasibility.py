@@ -16,6 +16,7 @@ from ocs_design.sizing.selection.search import search
 SEEDS = (9, *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (0, *range(10, 30))))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "share", [0.6, *(pytest.param(s, marks=pytest.mark.exhaustive) for s in (0.4, 0.75, 0.85))]
 )
@@ -79,6 +80,7 @@ def test_each_change_mends_and_hardly_less_does(seed):
     assert seed != 9 or "r_max" in {limit.name for limit in changes}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", SEEDS)
 def test_no_device_is_lighter_than_its_own_bound(seed):
     """Nor are its wheels smaller: of all that the search settles."""
@@ -91,6 +93,7 @@ def test_no_device_is_lighter_than_its_own_bound(seed):
     assert any(settled.point.feasible.any() for settled in found.batches)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "seed", [0, 21, *(pytest.param(s, marks=pytest.mark.exhaustive) for s in (3, 9, 12, 17, 20))]
 )

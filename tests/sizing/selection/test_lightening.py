@@ -22,6 +22,7 @@ def problem_of(seed: int) -> SelectionProblem:
     return replace(draw(seed).problem, incidence=0.6, lightenings=(0, 6))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_selected_wheel_is_the_made_one(seed):
     problem = problem_of(seed)
@@ -37,6 +38,7 @@ def test_the_selected_wheel_is_the_made_one(seed):
     assert made.inertia[0, 0] == pytest.approx(wheel.transverse_inertia, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_where_their_room_holds_the_device_back_the_web_is_solid():
     """Wheels of the least spin inertia, in webs that are smaller than the holes ask for."""
     problem = problem_of(SEEDS[0])

@@ -48,6 +48,7 @@ def bought(need, model, share=1.0):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", SEEDS)
 def test_with_it_there_is_a_device_and_with_a_weaker_one_there_is_none(seed):
     problem, model = too_weak(seed)
@@ -66,6 +67,7 @@ def test_with_it_there_is_a_device_and_with_a_weaker_one_there_is_none(seed):
     assert need.peak_torque > max(demand.torque for demand in demands)
 
 
+@pytest.mark.slow
 def test_where_motors_are_too_heavy_for_their_torque_a_denser_one_is_named():
     """No motor 20 times as heavy does at any size: one of twice or four times its torque does."""
     problem, model = too_weak(0)
@@ -78,6 +80,7 @@ def test_where_motors_are_too_heavy_for_their_torque_a_denser_one_is_named():
     select(replace(problem, gears=(DIRECT,), motors=(bought(need, model),)))
 
 
+@pytest.mark.slow
 def test_where_the_incidence_is_free_it_is_for_one_that_there_is():
     problem, model = too_weak(0)
     free = replace(problem, incidence=None)
@@ -85,6 +88,7 @@ def test_where_the_incidence_is_free_it_is_for_one_that_there_is():
     select(replace(free, gears=(DIRECT,), motors=(bought(need, model),)))
 
 
+@pytest.mark.slow
 def test_the_refusal_names_it():
     problem, _ = too_weak(0)
     with pytest.raises(Refused) as caught:
@@ -117,6 +121,7 @@ def test_words():
     )
 
 
+@pytest.mark.slow
 def test_a_balance_that_no_motor_catches_says_what_they_catch():
     """The told tilt is caught, and one more than the precision beyond it is not."""
     problem, _ = too_weak(0)

@@ -25,6 +25,7 @@ def priced():
     return alone, best, tuple(mass_prices(problem, best))
 
 
+@pytest.mark.slow
 def test_a_price_is_what_selecting_anew_saves(priced):
     alone, best, prices = priced
     for price in (price for price in prices if price.limit in LOOKED_AT):

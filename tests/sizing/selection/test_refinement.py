@@ -65,6 +65,7 @@ def test_the_start_does_not_matter(seed, factors, turn):
     assert found.residual[0] < 1e-9
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [3, 4])
 def test_the_number_of_threads_does_not_matter(seed):
     """To the last digit, though libraries round otherwise on another number of them."""

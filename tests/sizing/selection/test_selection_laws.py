@@ -103,6 +103,7 @@ def test_more_to_choose_from_is_no_heavier(problem, name):
     assert no_heavier(*fewer)
 
 
+@pytest.mark.slow
 def test_the_lightest_is_that_of_each_combination_by_itself(problem):
     check_each_by_itself(problem)
 

@@ -120,6 +120,7 @@ def masses_around(problem, device, name):
     return [lightest_mass(problem, device, each, stress) for each in rooms], value
 
 
+@pytest.mark.slow
 def test_prices_are_what_one_more_of_a_limit_is_worth(answer):
     problem, device, sized = answer
     assert sized.optimum.shadow_prices

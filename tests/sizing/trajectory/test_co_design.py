@@ -24,6 +24,8 @@ from ocs_design.sizing.trajectory.flight import DEFECT_MAX
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.motion import Motion
 
+pytestmark = pytest.mark.slow
+
 ROLL_AND_PITCH, GEARED, FLIPPING, CHANGING_RATE = 0, 21, 8, 16
 """Seeds of random problems: what asks for most of their devices."""
 
@@ -53,7 +55,7 @@ def answered(request):
     return (*question(request.param), answer(request.param))
 
 
-@pytest.mark.parametrize("seed", [0, pytest.param(21, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("seed", [0, 21])
 def test_symbols_and_numbers_are_the_same_device(seed):
     problem, selected = question(seed)
     device, rng = FreeDevice.of(problem, selected), np.random.default_rng(seed)

@@ -74,6 +74,7 @@ def test_the_closed_form_is_near_the_smallest_wheel(time, rpm):
     assert high / closed == pytest.approx(1.0, abs=0.1)
 
 
+@pytest.mark.slow
 def test_a_wheel_that_is_too_small_says_from_where_it_stands_up():
     refused = reference(gyrostat(UP, 3e-4), LINE, UP, 0.1)
     assert refused.trajectory is None
@@ -82,6 +83,7 @@ def test_a_wheel_that_is_too_small_says_from_where_it_stands_up():
     assert reference(gyrostat(milder, 3e-4), LINE, milder, 0.1).trajectory is not None
 
 
+@pytest.mark.slow
 def test_a_wheel_that_begins_spinning_backwards_may_be_smaller():
     """Wheelbot spins up to 2,000 rpm the other way before it stands up from 36 deg."""
     smaller = gyrostat(UP, 6e-4)

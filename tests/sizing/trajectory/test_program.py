@@ -117,6 +117,7 @@ def test_the_motors_pay_for_the_kinetic_energy(solved):
     assert abs(error[-1]) < 2e-5 * energy.max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["pitch and roll", "back-flip at an angle", "push"])
 def test_mujoco_ends_where_the_plan_ends(name):
     gyrostat, maneuver = CASES[name]

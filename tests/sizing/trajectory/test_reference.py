@@ -59,6 +59,7 @@ def test_a_turn_that_takes_longer_is_refused_with_its_time():
     assert 1.0 / 1.05 < 2.0 / float(told[1]) < 1.05
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "layout", [LayoutName.TRIAD, pytest.param(LayoutName.PYRAMID, marks=pytest.mark.slow)]
 )
@@ -117,6 +118,7 @@ def test_the_supply_is_enough_for_the_others_whenever_a_drive_stops():
     assert shares[False] > 2.0
 
 
+@pytest.mark.slow
 def test_a_loop_of_a_tall_body_leaves_more_of_the_drives():
     """As of Unitree's G1 with 3.5 times as much inertia about roll and pitch as about yaw."""
     yaw = TurnTo(name="yaw", jump_height=1.0, yaw=np.pi / 2.0, duration=4.0, gravity=1.62)

@@ -55,6 +55,7 @@ def test_about_pitch_it_is_the_closed_form(degrees, maneuver, costs):
     assert 1.0 - 1e-7 < found.gyrostat.spin_inertia / best < 1.0 + costs
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("pitch", "roll", "degrees", "free", "stated"),
     [
@@ -135,6 +136,7 @@ def _held_for_a_step(tilt, axes, steps=40):
     return float(program.solve().value(size)) * 1e-4
 
 
+@pytest.mark.slow
 def test_a_push_needs_what_holds_its_momentum_and_turns_back():
     found = smallest_wheels(body(np.radians(35.0), 1.2e-4, DIAGONAL), asked(PUSH))
     assert found.solution.solved
@@ -151,6 +153,7 @@ SINGLE, TRIAD, ORTHOGONAL, PYRAMID = (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("axes", "pitch", "roll", "stated"),
     [
@@ -174,6 +177,7 @@ def test_one_program_sizes_any_layout_of_wheels(axes, pitch, roll, stated):
     assert missed(wanted, found.trajectory) < 1e-6
 
 
+@pytest.mark.slow
 def test_a_single_wheel_flips_the_robot():
     """The theory's figure, with torques that are held for a step, is within 1 %."""
     found = smallest_wheels(Gyrostat(DIAGONAL, SINGLE, 2e-4), asked(BACK_FLIP))
@@ -185,6 +189,7 @@ QUARTER = np.array([np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5)])
 """The attitude turned about the vertical by 90 degrees."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("axes", "stated"),
     [pytest.param(ORTHOGONAL, 8.6e-5, marks=pytest.mark.exhaustive), (PYRAMID, 3.7e-5)],
@@ -198,6 +203,7 @@ def test_wheels_about_the_vertical_turn_the_heading(axes, stated):
     assert 0.975 < found.gyrostat.spin_inertia / stated < 0.995
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("duration", "stated"),
     [
