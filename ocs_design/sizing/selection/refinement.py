@@ -6,6 +6,7 @@ for which every part of the requirement is met on the robot with the device; Sci
 """
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from typing import NamedTuple
@@ -46,12 +47,18 @@ _DIGITS = 1e-11
 """Change of the logarithm of the mass at which SLSQP stops."""
 
 _ITERATIONS_MAX = 40
+_PATIENCE = 12
+"""Evaluations without progress after which SLSQP is stopped; it may try a hundred at a jump."""
+
+_PENALTY = 10.0
+"""Logarithm of the mass that a violation counts for, to tell progress: prices are about one."""
+
 _AROUND = 0.7
 """Largest change of the logarithms of radius, height and wall."""
 
 
 class Optimum(NamedTuple):
-    """The point at which SLSQP ended.
+    """The best point that SLSQP has seen.
 
     Attributes:
         point: see `coordinates`. value: logarithm of the mass of a module [log kg].
@@ -86,10 +93,21 @@ def lightest(programme: "Programme", start: FloatArray) -> Optimum:
     low: FloatArray = np.append(start[:3] - _AROUND, turn[0])
     high: FloatArray = np.append(start[:3] + _AROUND, turn[1])
 
+    best, cost, idle = Optimum(start, np.inf, np.inf), np.inf, 0
+
     # The last one is kept: SLSQP asks for each in parts.
     @lru_cache(maxsize=1)
     def evaluation(point: bytes) -> _Evaluation:
-        return programme.evaluation(np.frombuffer(point), low, high)
+        nonlocal best, cost, idle
+        found = programme.evaluation(np.frombuffer(point), low, high)
+        missed = np.append(-found.limits, found.limits[equal])
+        here = Optimum(np.frombuffer(point), found.value, max(float(missed.max()), 0.0))
+        best = min(best, here, key=lambda seen: (max(seen.violation, HELD), seen.value))
+        now = here.value + _PENALTY * here.violation
+        cost, idle = (now, 0) if now < cost - _DIGITS else (cost, idle + 1)
+        if idle > _PATIENCE:
+            raise _StalledError
+        return found
 
     def at(point: FloatArray) -> _Evaluation:
         return evaluation(point.tobytes())
@@ -110,8 +128,8 @@ def lightest(programme: "Programme", start: FloatArray) -> Optimum:
 
     stated = programme.candidates.problem.requirement.spin_inertia is not None
     equal, unequal = slice(int(stated)), slice(int(stated), None)
-    with _libraries().limit(limits=1, user_api="blas"):
-        found = minimize(
+    with _libraries().limit(limits=1, user_api="blas"), suppress(_StalledError):
+        minimize(
             value,
             np.clip(start, low, high),
             jac=slope,
@@ -120,9 +138,11 @@ def lightest(programme: "Programme", start: FloatArray) -> Optimum:
             constraints=[between(unequal, np.inf), *([between(equal, 0.0)] if stated else [])],
             options={"maxiter": _ITERATIONS_MAX, "ftol": _DIGITS},
         )
-    end = at(np.asarray(found.x))
-    missed = np.append(-end.limits, end.limits[equal])
-    return Optimum(np.asarray(found.x), end.value, max(float(missed.max()), 0.0))
+    return best
+
+
+class _StalledError(Exception):
+    """SLSQP makes no progress."""
 
 
 @cache

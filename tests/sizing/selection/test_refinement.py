@@ -11,7 +11,7 @@ from threadpoolctl import threadpool_limits
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.selection.candidates import Candidates, drives_of
 from ocs_design.sizing.selection.fixed_point import FixedPoint
-from ocs_design.sizing.selection.refinement import refine
+from ocs_design.sizing.selection.refinement import Programme, coordinates, lightest, refine
 from ocs_design.sizing.selection.select import select
 
 
@@ -78,6 +78,27 @@ def test_the_number_of_threads_does_not_matter(seed):
             found.append(refine(candidates, beside(chosen, (0.97, 0.98, 0.95), turn)).shapes)
     for name in ("inner_radius", "outer_radius", "height"):
         assert len({getattr(shapes, name).item() for shapes in found}) == 1, name
+
+
+def test_at_a_jump_it_ends_soon_with_the_best_point_that_was_seen(monkeypatch):
+    """A limit that no step mends, and whose slope says that one would."""
+    problem, chosen = drawn(2)
+    programme, asked = Programme(candidates_of(problem, chosen)), []
+    whole = Programme.evaluation
+
+    def jumping(self, point, low, high):
+        asked.append(point)
+        found = whole(self, point, low, high)
+        missed = 1e-4 + np.abs(point - start).max()
+        slopes = np.vstack([found.slopes, np.ones(point.size)])
+        return found._replace(limits=np.append(found.limits, -missed), slopes=slopes)
+
+    start = coordinates(chosen.outer_radius, chosen.height, chosen.inner_radius, chosen.incidence)
+    monkeypatch.setattr(Programme, "evaluation", jumping)
+    found = lightest(programme, start)
+    assert len(asked) < 20
+    np.testing.assert_array_equal(found.point, start)
+    assert found.violation == pytest.approx(1e-4)
 
 
 def test_what_cannot_be_is_not_possible():
