@@ -18,7 +18,7 @@ from naive_device import (
 from naive_wheel import Rims
 
 COARSE = (31, 12, 8, 26)
-FINE = (7, 7, 7, 81)
+FINE = (7, 13, 7, 81)
 """Points of incidence, outer radius, height and wall."""
 BLOCK = 30_000
 NARROW = 2e-4
@@ -88,7 +88,7 @@ def refine(problem, device):
         )
         gained = 0.0 if better is None else 1.0 - better.mass / device.mass
         device = device if better is None else better
-        if gained < 1e-5:
+        if gained < 3e-5:
             widths = widths * 0.7
     return device
 

@@ -207,7 +207,7 @@ def _design(
             specification, package_paths=package_paths, strict=output.strict, progress=steps
         )
         output.give(answer, print_layouts)
-        return
+        raise typer.Exit(answer.exit_code)
     from ocs_design.common.beside import Beside
     from ocs_design.requirement.vocabulary import NO_MOTOR
 

@@ -82,6 +82,11 @@ class LayoutsAnswer:
     robot: str
     layouts: tuple[LayoutAnswer, ...]
 
+    @property
+    def exit_code(self) -> int:
+        """0, or 4 if no layout has a device."""
+        return Infeasible.exit_code if all(each.without for each in self.layouts) else 0
+
 
 @dataclass(frozen=True, kw_only=True)
 class PostureLine:

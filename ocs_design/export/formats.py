@@ -179,7 +179,7 @@ ALL = "all"
 
 
 def formats_named(names: Collection[str], others: Collection[str] = ()) -> tuple[Format, ...]:
-    """Formats of these names; the usual ones if there are none.
+    """Formats of these names in small letters; the usual ones if there are none.
 
     Names of `others`, which are written too but are no formats of a device, are passed over.
 
@@ -189,7 +189,6 @@ def formats_named(names: Collection[str], others: Collection[str] = ()) -> tuple
     if not names:
         return USUAL_FORMATS
     known = (*(each.name for each in FORMATS), *others, ALL)
-    names = [name.casefold() for name in names]
     for name in names:
         if name not in known:
             available = ", ".join(known)

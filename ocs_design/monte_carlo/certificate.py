@@ -15,7 +15,10 @@ from numpy.typing import NDArray
 from ocs_design.device.records.flights import ReliabilityRecord
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import Outcomes, share
+from ocs_design.requirement.maneuver import End
+from ocs_design.requirement.turns import TurnTo
 from ocs_design.simulation.run import LANDING_TOLERANCE
+from ocs_design.simulation.verdict import landing_attitude
 
 ERROR = 0.05
 """Largest probability of either wrong verdict."""
@@ -147,6 +150,10 @@ def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Less
     """
     names = ("roll", "pitch")
     tilts = np.stack([outcomes.metric(f"touchdown_{name}") for name in names])
+    for number, flight in enumerate(campaign.flights):
+        tilts[:, :, number] -= np.array(landing_attitude(flight.maneuver)[:2])[:, None]
+        if isinstance(flight.maneuver, TurnTo) and flight.maneuver.end == End.AT_REST:
+            tilts[:, :, number] = 0.0
     off = (np.abs(tilts) > LANDING_TOLERANCE).sum(axis=1)
     axis, number = divmod(int(np.argmax(off)), len(campaign.flights))
     if not off[axis, number]:

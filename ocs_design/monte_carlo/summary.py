@@ -20,10 +20,11 @@ from ocs_design.device.answers import (
 )
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import FAULTS, Outcomes, share, shares
-from ocs_design.requirement.maneuver import Flip, Maneuver, Shove
+from ocs_design.requirement.maneuver import End, Flip, Maneuver, Shove
+from ocs_design.requirement.turns import TurnTo
 from ocs_design.simulation.run import LANDING_TOLERANCE
 from ocs_design.simulation.scenario import fly
-from ocs_design.simulation.verdict import Fault, landing_attitude
+from ocs_design.simulation.verdict import Fault, landing_attitude, off_asked
 from ocs_design.simulation.world import World
 from ocs_design.simulation.world_builder import Options
 
@@ -34,10 +35,14 @@ MOST_CAUSES = 4
 
 
 def attitude_error(outcomes: Outcomes, maneuver: Maneuver, number: int) -> FloatArray:
-    """Largest of roll and pitch at touchdown and of what a flip falls short by [rad], (n,)."""
-    error = np.maximum(
-        np.abs(outcomes.metric("touchdown_roll")), np.abs(outcomes.metric("touchdown_pitch"))
-    )[:, number]
+    """Off the attitude asked for at touchdown, and what a flip falls short by [rad], (n,).
+
+    NaN where any attitude will do.
+    """
+    roll, pitch = (outcomes.metric(f"touchdown_{axis}")[:, number] for axis in ("roll", "pitch"))
+    if isinstance(maneuver, TurnTo) and maneuver.end == End.AT_REST:
+        return np.full(len(roll), np.nan)
+    error = off_asked(roll, pitch, maneuver)
     if isinstance(maneuver, Flip):
         turned = outcomes.metric("turned_angle")[:, number]
         error = np.maximum(error, np.abs(turned - maneuver.angle))

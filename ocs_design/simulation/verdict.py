@@ -260,8 +260,8 @@ def _landing_failure(metrics: Metrics, maneuver: Maneuver) -> str:
     return f"{_ends(maneuver)} at {_tilt(metrics)}, not at {_angles(pitch, roll)}"
 
 
-def _vertical(roll: float, pitch: float) -> FloatArray:
-    """World's upward direction in B, of angles as `quaternions.tilt` has them, shape (3,)."""
+def _vertical(roll: FloatArray, pitch: FloatArray) -> FloatArray:
+    """World's upward direction in B, of angles as `quaternions.tilt` has them, shape (3, ...)."""
     return np.array([-np.sin(pitch) * np.cos(roll), np.sin(roll), np.cos(pitch) * np.cos(roll)])
 
 
@@ -270,11 +270,17 @@ def off_at_touchdown(metrics: Metrics, maneuver: Maneuver) -> float:
 
     Of a trunk on its side the pitch is any angle: what counts there is where the vertical is.
     """
-    roll, pitch, _ = landing_attitude(maneuver)
-    if roll == pitch == 0.0:
-        return max(abs(metrics.touchdown_roll), abs(metrics.touchdown_pitch))
-    ended = _vertical(metrics.touchdown_roll, metrics.touchdown_pitch)
-    return float(np.arccos(np.clip(ended @ _vertical(roll, pitch), -1.0, 1.0)))
+    ended = np.array([metrics.touchdown_roll]), np.array([metrics.touchdown_pitch])
+    return float(off_asked(*ended, maneuver)[0])
+
+
+def off_asked(roll: FloatArray, pitch: FloatArray, maneuver: Maneuver) -> FloatArray:
+    """As `off_at_touchdown`, of the roll and pitch of n touchdowns [rad], each (n,)."""
+    asked_roll, asked_pitch, _ = landing_attitude(maneuver)
+    if asked_roll == asked_pitch == 0.0:
+        return np.maximum(np.abs(roll), np.abs(pitch))
+    cosine = _vertical(np.array(asked_roll), np.array(asked_pitch)) @ _vertical(roll, pitch)
+    return np.asarray(np.arccos(np.clip(cosine, -1.0, 1.0)))
 
 
 def _ends(maneuver: Maneuver) -> str:

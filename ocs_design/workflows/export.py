@@ -74,7 +74,8 @@ def export_design(
         OcsError: the design or the robot cannot be read, the robot has changed, or the folder
             cannot be written; nothing is written then.
     """
-    steps, names = Steps.of(progress), (formats,) if isinstance(formats, str) else tuple(formats)
+    steps, named = Steps.of(progress), (formats,) if isinstance(formats, str) else formats
+    names = tuple(name.casefold() for name in named)
     chosen = formats_named(names, ON_DESIGN)
     rest = [name for name in ON_DESIGN if name in names or ALL in names]
     with steps.step("read the design and its robot") as step:

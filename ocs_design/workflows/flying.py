@@ -25,7 +25,7 @@ from ocs_design.requirement.specification import Specification, merge_section
 from ocs_design.requirement.uncertainty import UncertaintySection, entries, uncertainty_of_texts
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.run import Run
-from ocs_design.simulation.scenario import Flights, fly_stopped, run_scenarios
+from ocs_design.simulation.scenario import Flights, fly_stopped, refusal, run_scenarios
 from ocs_design.simulation.world_builder import Options, control_of, overridden
 from ocs_design.sizing.trajectory.motion import Trajectory
 from ocs_design.workflows.restoring import (
@@ -105,7 +105,13 @@ class Planned(Flights):
             runs: as designed, which show what the legs bear.
             stated: how what is built and met differs from the design.
             seed: of all samples.
+
+        Raises:
+            OcsError: no flight of this robot says anything.
         """
+        if unclear := refusal(self.robot):
+            hint = "name a link of the trunk whose z axis points up by --trunk"
+            raise OcsError(unclear, hint=hint)
         uncertainty = Uncertainty.of(stated, self.robot, self.device, self.detection)
         can_stand = [run.can_stand for run in runs if run.ocs]
         return make_campaign(self, can_stand=can_stand, uncertainty=uncertainty, seed=seed)
@@ -125,6 +131,11 @@ class Task(Planned):
     design: OcsDesign
     uncertainty: UncertaintySection
     warnings: tuple[str, ...]
+
+    @property
+    def flown_hash(self) -> str:
+        """SHA-256 of what is flown; see the function."""
+        return flown_hash(self.design, self.control, self.detection)
 
 
 def read_task(
@@ -198,8 +209,12 @@ def read_task(
     )
 
 
-def flown_hash(design: OcsDesign, control: ControlRecord) -> str:
-    """SHA-256 of what of a design is flown: device, maneuvers and wheel law."""
-    asked, stops = design.requirement, design.requirement.detection
-    flown = (design.ocs, asked.maneuvers, control, *(() if stops is None else (stops,)))
+def flown_hash(design: OcsDesign, control: ControlRecord, detection: float | None) -> str:
+    """SHA-256 of what of a design is flown: device, maneuvers and wheel law.
+
+    Args:
+        detection: time until a stopped drive is known, where one stops in flights too [s].
+    """
+    stops = () if detection is None else (detection,)
+    flown = (design.ocs, design.requirement.maneuvers, control, *stops)
     return hashlib.sha256(msgspec.json.encode(flown, order="deterministic")).hexdigest()

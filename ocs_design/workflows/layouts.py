@@ -8,11 +8,12 @@ from ocs_design.common.files import AnyPath
 from ocs_design.device.answers import LayoutAnswer, LayoutsAnswer
 from ocs_design.report.text.console import Steps, Tell
 from ocs_design.requirement.reading import specification_of
+from ocs_design.requirement.resolving import read_specified_robot
 from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import LAYOUTS
 from ocs_design.sizing.comparison import layout_answer
 from ocs_design.sizing.design import design_device
-from ocs_design.workflows.pareto import read_task
 
 
 def compare_layouts(
@@ -37,11 +38,12 @@ def compare_layouts(
         OcsError: the robot cannot be read, or the specification does not fit it.
     """
     steps, stated = Steps.of(progress), specification_of(design_for)
+    robot = read_specified_robot(stated, package_paths=package_paths, strict=strict)
     answers = []
     for layout in LAYOUTS:
         asked = replace(stated, ocs=replace(stated.ocs, layout=layout))
         with steps.step(f"size {layout}") as step:
-            task = read_task(asked, package_paths=package_paths, strict=strict)
+            task = Task.of(asked, robot)
             try:
                 designed = design_device(task, ranked=False)
             except Infeasible as error:
@@ -50,4 +52,4 @@ def compare_layouts(
                 continue
             answers.append(layout_answer(layout, task, designed))
             step.note = designed.device.motor.name
-    return LayoutsAnswer(robot=task.robot.name, layouts=tuple(answers))
+    return LayoutsAnswer(robot=robot.name, layouts=tuple(answers))

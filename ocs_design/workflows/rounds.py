@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ocs_design.common.errors import Infeasible, SpecificationError
+from ocs_design.common.errors import Infeasible, SpecificationError, UsageError
 from ocs_design.device.answers import MonteCarloRecord
 from ocs_design.device.checks import device_warnings
 from ocs_design.device.records.flights import SurvivalRecord
@@ -363,9 +363,17 @@ def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tupl
 
     Returns:
         Device of the last round and its flights.
+
+    Raises:
+        UsageError: there is no maneuver to fly.
     """
     specification = placed.specification
     stated = specification.validation
+    if not proof.runs:
+        raise UsageError(
+            "--certify repeats maneuvers, and none is asked for",
+            hint="leave it out, or ask for a maneuver, as with --fall 1m",
+        )
     test = SequentialTest(placed.resolved.reliability or RELIABILITY)
     told: list[str] = []
     for number in range(1, ROUNDS + 1):

@@ -139,7 +139,7 @@ def design_ocs(
     look = partial(lighter_otherwise, call=(beside or Beside()).call)
     otherwise = None if stated.certify else look(placed.task, placed.designed.choice)
     proof = prove(placed, stated, steps)
-    if proof.runs and stated.certify:
+    if stated.certify:
         placed, proof = certify(placed, proof, steps, strict=strict)
     otherwise = otherwise or look(placed.task, placed.designed.choice)
     device, runs = placed.designed.device, proof.runs
@@ -189,7 +189,9 @@ def design_ocs(
             design = replace(design, survival=replace(proof.survival, mass_without=alone))
         if proof.certificate is not None:
             design = replace(design, reliability=proof.certificate.record.certificate)
-            proof.certificate.write(staging, flown_hash(design, control))
+            proof.certificate.write(
+                staging, flown_hash(design, control, design.requirement.detection)
+            )
         with steps.step("write the report"):
             # What tells of the flights too: the bill of materials and the assembly.
             told = Subject.of(robot, device, safe_name(robot.name)).recorded(design)

@@ -36,9 +36,8 @@ from ocs_design.requirement.vocabulary import RELIABILITY
 from ocs_design.simulation.engine import POSE_RATE
 from ocs_design.simulation.physics import Engine, EngineName
 from ocs_design.simulation.run import Run
-from ocs_design.simulation.scenario import refusal
 from ocs_design.simulation.warp_engine import warp_engine
-from ocs_design.workflows.flying import Task, flown_hash, read_task
+from ocs_design.workflows.flying import Task, read_task
 from ocs_design.workflows.recording import record_run, write_runs
 
 SAMPLES_VERSION = 2
@@ -226,7 +225,7 @@ def validate_design(
             strict=strict,
         )
         step.note = task.robot.name
-    if case is not None and case.design != flown_hash(task.design, task.control):
+    if case is not None and case.design != task.flown_hash:
         raise OcsError(
             f"{replay}: is a case of another design than {task.path}",
             hint="give the design that it was kept for, flown under the same law",
@@ -262,7 +261,13 @@ def validate_design(
     # The time series, and the design with these flights in place of its own.
     with staged_folder(request.out, force=force) as staging:
         write_runs(runs, staging, found.survival)
-        again = replace(task.design, validation=found.validation, files=file_hashes(staging))
+        again = replace(
+            task.design,
+            validation=found.validation,
+            control=task.control,
+            requirement=replace(task.design.requirement, detection=task.detection),
+            files=file_hashes(staging),
+        )
         if found.survival is not None:
             before = task.design.survival
             alone = None if before is None else before.mass_without
@@ -279,12 +284,14 @@ def watch(answer: Validation) -> None:
     """
     task, shown = answer.task, [run for run in answer.runs if run.ocs]
     device_of = {each.name: task.device.as_flown(each) for each in task.maneuvers}
+    posed = [(run.scenario, run.poses) for run in shown if run.poses is not None]
     takes = [
-        Take(film_model(task.robot, device_of[run.scenario], ocs=True), run.poses.qpos)
-        for run in shown
-        if run.poses is not None
+        Take(film_model(task.robot, device_of[scenario], ocs=True), poses.qpos)
+        for scenario, poses in posed
     ]
-    watch_takes(takes, 1.0 / POSE_RATE)
+    # Not `POSE_RATE`: poses are whole control steps apart.
+    periods = [float(poses.time[1] - poses.time[0]) for _, poses in posed]
+    watch_takes(takes, periods[0])
 
 
 def _fly_samples(
@@ -298,7 +305,7 @@ def _fly_samples(
     campaign = replace(campaign_of(task, runs, request.stated.validation.seed), engine=engine)
     enough = None if request.until_width is None else narrow(request.until_width)
     enough = enough if test is None else test.decided
-    flown, storage = flown_hash(task.design, task.control), None
+    flown, storage = task.flown_hash, None
     if folder is not None:
         # What the numbers of a campaign follow from.
         identity = Identity(
@@ -351,6 +358,4 @@ def campaign_of(
     Raises:
         OcsError: no flight of this robot says anything.
     """
-    if unclear := refusal(task.robot):
-        raise OcsError(unclear, hint="name a link of the trunk whose z axis points up by --trunk")
     return task.campaign(runs, task.uncertainty, task.design.seed if seed is None else seed)

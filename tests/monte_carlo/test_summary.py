@@ -12,6 +12,7 @@ from ocs_design.device.layout import module_axes
 from ocs_design.monte_carlo.outcomes import METRICS, share
 from ocs_design.monte_carlo.summary import advice, attitude_error, causes, order
 from ocs_design.requirement.maneuver import Drop, Flip
+from ocs_design.requirement.turns import TurnTo
 
 DROP = Drop(name="drop", height=1.0, pitch=0.5)
 IN_LINE = Flip(name="flip", jump_height=1.0, angle=-3.0, duration=1.0, incidence=0.0)
@@ -43,6 +44,18 @@ def test_failures_are_worse_than_any_pass_and_what_was_not_judged_is_the_worst()
     assert order(outcomes, DROP, 0)[-1] == 7
     outcomes.codes[9], outcomes.metrics[9] = 1, np.nan
     assert order(outcomes, DROP, 0)[-2:].tolist() == [7, 9]
+
+
+def test_a_turn_is_off_by_the_angle_to_the_vertical_that_is_asked_for():
+    """And one that shall only stop turning is off by nothing that is known."""
+    outcomes = made_outcomes(range(3))
+    asked = TurnTo(name="lean", pitch=0.5, duration=1.0, gravity=1.62, jump_height=1.0)
+    tilts = outcomes.metric("touchdown_pitch"), outcomes.metric("touchdown_roll")
+    tilts[0][:, 0], tilts[1][:, 0] = (0.5, 0.6, 0.0), 0.0
+    outcomes.metric("heading_drift")[:, 0] = 0.0
+    found = attitude_error(outcomes, asked, 0)
+    np.testing.assert_allclose(found, [0.0, 0.1, 0.5], rtol=0, atol=1e-9)
+    assert np.isnan(attitude_error(outcomes, replace(asked, end="at rest"), 0)).all()
 
 
 def test_a_flip_is_off_by_what_it_lacks():
