@@ -322,10 +322,12 @@ def test_dxf_of_each_piece(solo12):
     assert set(files_in("one")) == {"design.json", *pieces}
 
 
-def test_formats_are_listed_with_commas_or_one_by_one(solo12):
+def test_formats_are_listed_with_commas_or_one_by_one_in_any_capitals(solo12):
     run("export", solo12, "-o", "a", "-q", "--formats", "stl,bom")
-    run("export", solo12, "-o", "b", "-q", "--formats", "bom", "--formats", "stl")
+    run("export", solo12, "-o", "b", "-q", "--formats", "BOM", "--formats", "Stl")
     assert files_in("a") == files_in("b")
+    assert run("export", solo12, "-o", "c", "-q", "--formats", "Report").code == 0
+    assert set(files_in("c")) == {"design.json", "report.html"}
     assert set(files_in("a")) == {"design.json", "cad/flywheel.stl", "cad/bill_of_materials.csv"}
 
 

@@ -138,6 +138,23 @@ def test_a_failure_in_quiet_is_one_line_with_the_verdict(by_hand, folder):
     assert quiet.stderr == f"{first}  ·  {second}\n"
 
 
+def test_flights_by_another_law_are_recorded_with_it(by_hand, folder):
+    """Flown again from there they are the same, and a case of theirs is known."""
+    law = ("--spec", "law.toml", "--survives", "one")
+    Path("law.toml").write_text("[validation]\nkp = 90.0\n")
+    first = run("validate", by_hand, *law, "-o", "first", "--json")
+    design = json.loads(Path("first/design.json").read_text())
+    assert design["control"]["kp"] == 90.0
+    assert design["requirement"]["detection"] > 0.0
+    again = run("validate", "first", "--json")
+    assert again.document["validation"] == first.document["validation"]
+    assert again.document["survival"] == first.document["survival"]
+    run("validate", by_hand, *law, "--samples", "1", "-o", "mc", "-q")
+    case = next(Path("mc/worst").iterdir())
+    assert run("validate", "first", "--replay", case, "-q").code in {0, 1}
+    assert "a case of another design" in run("validate", by_hand, "--replay", case).said
+
+
 @pytest.mark.slow
 def test_a_case_of_another_design_is_refused(by_hand, folder):
     assert run("validate", by_hand, "--samples", "1", "-o", "mc", "-q").code == 0
@@ -193,6 +210,14 @@ def test_a_certificate_is_in_the_design_in_its_report_and_can_be_flown_again(fol
     again = run("validate", "ocs", "--replay", case, "--json").document
     metrics = json.loads(case.read_text())["metrics"]["drop"]
     assert again["validation"][0]["metrics"] == metrics
+
+
+def test_without_a_maneuver_nothing_is_certified(folder):
+    asked = ("--rate-change", "1rad/s", "--certify", "-o", "none")
+    result = run("size", *BY_HAND, *BOUND, *asked)
+    assert result.code == 2
+    assert "--certify repeats maneuvers, and none is asked for" in result.said
+    assert not (folder / "none").exists()
 
 
 @pytest.mark.slow

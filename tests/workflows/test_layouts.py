@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from commands import SOLO12
+from commands import SOLO12, run
 from designed import on_solo12, solo12
 
 from ocs_design.actuation.wheel_load import reach, reach_without_one
@@ -18,6 +18,7 @@ from ocs_design.sizing.design import design_device
 from ocs_design.sizing.selection.bounds import RimFloor
 from ocs_design.sizing.specified import CannotSurvive, selection_problem, specified_layout
 from ocs_design.sizing.trajectory.plans import drive_line_of, plan
+from ocs_design.workflows import layouts
 from ocs_design.workflows.layouts import compare_layouts
 from ocs_design.workflows.pareto import read_task
 from ocs_design.workflows.restoring import read_designed
@@ -173,6 +174,25 @@ def test_all_layouts_of_one_robot():
     assert by_name["single"].momentum[0] == 0.0
     assert min(by_name["pyramid"].momentum_without_one) > 0.0
     assert any("upright" in text or "horizontal" in text for text in by_name["pyramid"].open)
+
+
+def test_the_robot_is_read_once_and_no_device_at_all_is_told_by_the_exit_code(monkeypatch):
+    """Standard input can be read once only."""
+    reads, read = [], layouts.read_specified_robot
+
+    def none(*_, **__):
+        raise Infeasible("no motor is strong enough", binding=("motor",))
+
+    def counted(*asked, **options):
+        reads.append(asked)
+        return read(*asked, **options)
+
+    monkeypatch.setattr(layouts, "read_specified_robot", counted)
+    monkeypatch.setattr(layouts, "design_device", none)
+    result = run("size", SOLO12, "--layout", "all", "--json")
+    assert result.code == 4
+    assert len(result.document["layouts"]) == len(LAYOUTS)
+    assert len(reads) == 1
 
 
 SURVIVES = {
