@@ -44,9 +44,16 @@ def all_warnings(design: OcsDesign) -> Iterator[str]:
     # What is odd in the robot's file may make all else wrong, but shall not hide it.
     yield from design.robot.warnings[:1]
     if ocs.flywheel.stress_margin is None:
-        yield unchecked_stress(ocs)
+        yield f"the stress is NOT checked: no strength of {ocs.flywheel.material} is known"
     yield from flight_remarks(design)
     kept = None if design.selection is None else design.selection.kept
+    # What ends off level about an axis that its incidence leaves out of reach.
+    for each in () if kept is None else kept.maneuvers:
+        if kept is not None and each.lost > 1.0 - kept.reliability:
+            yield (
+                f"{each.maneuver}: {each.lost:.0%} of robots as built drift off level about an "
+                "axis that the wheels do not reach at its incidence: state a larger one, or none"
+            )
     if kept is not None and kept.reliability > 1.0 - 1.0 / DRAWN:
         yield (
             f"a reserve for {100.0 * kept.reliability:.8g} % of robots is that for the worst of "
@@ -65,22 +72,8 @@ def all_warnings(design: OcsDesign) -> Iterator[str]:
     yield from sorted(ocs.fitting, key=lambda note: _NOT_DESIGNED not in note)
 
 
-def unchecked_stress(ocs: OcsRecord) -> str:
-    """Sentence for a rim whose material has no known strength."""
-    return f"the stress is NOT checked: no strength of {ocs.flywheel.material} is known"
-
-
-def device_warnings(design: OcsDesign) -> tuple[str, ...]:
-    """Warnings beside the device's facts: what can hit it, how it is assembled, its motor."""
-    ocs = design.ocs
-    kept = None if design.selection is None else design.selection.kept
-    # What ends off level about an axis that its incidence leaves out of reach.
-    drifting = (
-        f"{each.maneuver}: {each.lost:.0%} of robots as built drift off level about an "
-        "axis that the wheels do not reach at its incidence: state a larger one, or none"
-        for each in (() if kept is None else kept.maneuvers)
-        if kept is not None and each.lost > 1.0 - kept.reliability
-    )
+def reached_at(ocs: OcsRecord) -> Iterator[str]:
+    """Joint values at which links of the robot hit a module, of the first few of them."""
     found = () if ocs.mounting is None else ocs.mounting.reachable
     named = [
         f"{each.part} ({', '.join(f'{name} {at:.2f}' for name, at in each.joints.items())})"
@@ -88,14 +81,8 @@ def device_warnings(design: OcsDesign) -> tuple[str, ...]:
     ]
     if len(found) > _SHOWN_LINKS:
         named.append(f"and {len(found) - _SHOWN_LINKS} more, see design.json")
-    hit = f"links that can hit a module within their joints' limits: {'; '.join(named)}"
-    return (
-        *([hit] if found else []),
-        *ocs.fitting,
-        *_overvoltage(ocs.motor),
-        *_motor_notes(design),
-        *drifting,
-    )
+    if named:
+        yield f"joint values with which links hit a module: {'; '.join(named)}"
 
 
 def _overvoltage(motor: Drive) -> Iterator[str]:

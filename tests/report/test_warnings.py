@@ -1,16 +1,23 @@
 """Warnings about a design, and notes on robots that are not symmetric to their sagittal plane."""
 
 from dataclasses import replace
+from html import escape
+from io import StringIO
 from pathlib import Path
 
 import numpy as np
 import pytest
 from designed import MOTOR
+from rich.console import Console
 from stories import design
 
 from ocs_design.device.records.design import read_design
 from ocs_design.device.records.device import Margin
 from ocs_design.device.records.selection import ReserveRecord
+from ocs_design.report.html.elements import Markup
+from ocs_design.report.html.sections import robot_section
+from ocs_design.report.story import Story
+from ocs_design.report.text.size import print_design
 from ocs_design.report.warnings import all_warnings, coupling_notes
 
 DESIGN = Path(__file__).parents[1] / "data" / "design_0_1_0.json"
@@ -128,3 +135,15 @@ def test_a_warning_under_that_heading_does_not_say_so_again():
     found = design(MOTOR)
     odd = replace(found, robot=replace(found.robot, warnings=("odd link",)))
     assert "odd link" in all_warnings(odd)
+
+
+def test_with_v_and_in_the_report_everything_to_mind_is_told():
+    found = changed(asked=1.7, saturation_torque=0.7, sha256="12ab", fitting=("glue the rim",))
+    console = Console(file=StringIO(), width=4000)
+    print_design(console, found)
+    page = str(robot_section(Story(found, (), ()), Markup("")))
+    minded = list(all_warnings(found))
+    assert len(minded) == 4
+    for each in minded:
+        assert console.file.getvalue().count(each) == 1
+        assert escape(each) in page

@@ -61,6 +61,8 @@ def robot_section(story: Story, view: Markup) -> Markup:
     """View, facts and warnings of the robot with its device."""
     design = story.design
     points = design.buildable.open
+    # Those about the robot's file stand where it is told what was read.
+    minded = [each for each in warnings.all_warnings(design) if each not in design.robot.warnings]
     return section(
         "robot",
         "Robot and device",
@@ -72,7 +74,7 @@ def robot_section(story: Story, view: Markup) -> Markup:
             class_="halves",
         ),
         table("What keeps it from being built", limits.open_points(design)) if points else "",
-        items((*design.ocs.warnings, *warnings.device_warnings(design)), look="warnings"),
+        items((*minded, *warnings.reached_at(design.ocs)), look="warnings"),
     )
 
 
@@ -158,7 +160,6 @@ def angles_section(story: Story) -> Markup:
         "angles",
         "Incidence of the wheel axes",
         figures(incidence_charts(story)),
-        items(warnings.shortfalls(story.design), look="warnings"),
         items(warnings.coupling_notes(story.design)),
     )
 
@@ -221,8 +222,7 @@ def maneuvers_section(
                 *map(note, flights.survival_words(story.design)),
             )
         )
-    remarks = items(flights.landing_remarks(story.design), look="warnings")
-    return section("maneuvers", "Maneuvers, with the device and without", remarks, *parts)
+    return section("maneuvers", "Maneuvers, with the device and without", *parts)
 
 
 def monte_carlo_section(story: Story) -> Markup:

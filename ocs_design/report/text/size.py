@@ -25,7 +25,7 @@ from ocs_design.report.device import (
 from ocs_design.report.monte_carlo import BARS
 from ocs_design.report.table import Table, columns
 from ocs_design.report.text.console import breaks_lines
-from ocs_design.report.text.layout import facts, files_written, heading, items, note, show, warn
+from ocs_design.report.text.layout import facts, files_written, heading, items, note, show
 from ocs_design.report.text.robot import print_joints, print_robot
 from ocs_design.report.text.validation import print_headline, print_runs
 from ocs_design.report.verdict import headline
@@ -42,11 +42,15 @@ def print_design(console: Console, design: OcsDesign) -> None:
     """Everything about a design and its flights, the verdict first."""
     print_headline(console, headline(design))
     items(console, (f"{each.what}; {each.cure}" for each in design.buildable.open[1:]))
+    # The robot's own stand below it.
+    minded = [each for each in warnings.all_warnings(design) if each not in design.robot.warnings]
+    if minded:
+        heading(console, "To mind")
+        items(console, (*minded, *warnings.reached_at(design.ocs)), style="yellow")
     print_robot(console, design.robot)
     heading(console, f"Requirement: wheels of at most {rpm(design.requirement.wheel_speed_max)}")
     show(console, limits.demand_table(design))
     note(console, limits.TURNS if design.selection is None else limits.DRIVEN)
-    items(console, warnings.shortfalls(design), style="yellow")
     items(console, warnings.coupling_notes(design))
     if design.requirement.assumptions:
         heading(console, "Assumed, because nothing else was specified")
@@ -58,8 +62,6 @@ def print_design(console: Console, design: OcsDesign) -> None:
         print_selection(console, design.selection, design.requirement.maneuvers)
     heading(console, device_title(design))
     facts(console, (*device_facts(design), ("motor's source", design.ocs.motor.source)))
-    warn(console, design.ocs.warnings)
-    items(console, warnings.device_warnings(design), style="yellow")
     if design.ocs.incidence_by_criterion:
         show(console, criterion_table(design.ocs))
     names, meaning = limits.active_limits(design)
@@ -81,11 +83,10 @@ def print_design(console: Console, design: OcsDesign) -> None:
     show(console, limits.margin_table(margins))
     note(console, limits.MARGIN_NOTE)
     items(console, limits.margin_notes(margins))
-    if design.ocs.flywheel.stress_margin is None:
-        items(console, [warnings.unchecked_stress(design.ocs)], style="yellow")
     if design.validation:
         print_runs(console, design.validation, design.survival)
-    items(console, flights.landing_remarks(design), style="yellow")
+    if design.reliability is not None:
+        items(console, design.reliability.rounds)
 
 
 def print_alternatives(console: Console, design: OcsDesign) -> None:
