@@ -190,6 +190,10 @@ def test_options_and_keys_say_the_same():
         ({"fall": ["1"], "tilt": ["20deg"]}, ["fall"]),
         ({"tilt": ["20deg", "10deg roll"]}, ["fall", "fall 2"]),
         ({"fall": ["1"], "flip": ["back"]}, ["flip", "fall"]),
+        (
+            {"pivot": "0,0,-0.2", "stand_up": ["pitch 10deg in 0.6s", "pitch 5deg in 0.6s"]},
+            ["stand up", "stand up 2"],
+        ),
     ],
 )
 def test_words_become_the_maneuvers_that_are_meant(solo12, words, names):
@@ -198,6 +202,18 @@ def test_words_become_the_maneuvers_that_are_meant(solo12, words, names):
     told = "\n".join(resolved.assumptions)
     assert "paper's three" not in told
     assert all(f"{name}: " in told for name in names)
+
+
+def test_a_name_that_a_table_has_is_not_given_again(solo12):
+    table = '[[maneuver]]\nkind = "drop"\nname = "{}"\nheight = 1.0\npitch = 0.3\n'
+    tables = table.format("Fall") + table.format("fall-3") + table.format("fall_4")
+    stated = parse_specification(f"requirement.tilt = ['20deg', '10deg', '5deg']\n{tables}", "x")
+    resolved = resolve(stated, solo12, SIZE)
+    names = [each.name for each in resolved.requirement.maneuvers]
+    # "fall 4" would have the files of "fall_4".
+    assert names == ["Fall", "fall-3", "fall_4", "fall 2", "fall 3", "fall 5"]
+    told = [each.partition(": ")[0] for each in resolved.assumptions]
+    assert [name for name in names if name in told] == names[3:]
 
 
 def test_what_is_not_stated_is_the_papers(solo12):
