@@ -297,6 +297,8 @@ def unfit_for_robot(
     for each in requirement.maneuvers:
         if isinstance(each, Pivoted):
             yield from _off_its_pivot(each, stated)
+    # Tables were looked at before; what is asked for in words has its jump only now.
+    yield from _too_short_flights(requirement.maneuvers)
     yield from _misfed(specification, robot)
     chosen = specification.flywheel.material
     try:

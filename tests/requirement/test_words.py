@@ -365,6 +365,19 @@ def test_a_turn_in_orbit_has_no_jump_and_lasts_as_long_as_it_takes(solo12):
     assert turn.summary == "turns to yaw 90 deg in 60 s, in orbit"
 
 
+@pytest.mark.parametrize(
+    ("turn", "time"), [({"turn": ["yaw 90deg in 2.9s"]}, 2.9), ({"catch": ["pitch 1 in 1s"]}, 1)]
+)
+def test_a_turn_longer_than_the_jump_that_is_stated_is_refused(solo12, turn, time):
+    """By hand: a jump of 0.1 m lasts sqrt(8 x 0.1 / 9.81) s."""
+    with pytest.raises(SpecificationError) as told:
+        resolve(Specification(requirement=asked(jump_height=["0.1m"], **turn)), solo12, SIZE)
+    (name,) = turn
+    assert told.value.problems == (
+        f"maneuver.{name}: its turn ends {time} s after lift-off, but the flight lasts 0.286 s",
+    )
+
+
 def test_a_trunk_frame_below_the_feet_has_no_height_to_scale_by(solo12):
     with pytest.raises(SpecificationError, match="is 50 mm below the feet") as told:
         resolve(Specification(), replace(solo12, standing_height=-0.05), SIZE)
