@@ -185,10 +185,10 @@ def _too_short_flights(maneuvers: Iterable[Maneuver]) -> Iterator[str]:
         match maneuver:
             case Maneuver(gravity=0.0) | TurnTo(jump_height=0.0):
                 continue
-            case Disturbance(onset=needed):
-                what = "its torque starts"
-            case TimedTurn(duration=needed):
-                what = "its turn ends"
+            case Disturbance():
+                what, needed = "its torque ends", maneuver.onset + maneuver.duration
+            case TimedTurn():
+                what, needed = "its turn ends", maneuver.duration
             case _:
                 continue
         if needed >= maneuver.flight_time:
