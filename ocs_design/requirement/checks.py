@@ -10,7 +10,7 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.catalogue.materials import material
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.common.units import format_quantity
-from ocs_design.requirement.choices import highest_rated_voltage, unknown_names
+from ocs_design.requirement.choices import highest_known_voltage, unknown_names
 from ocs_design.requirement.device_sections import (
     LIMIT_OF_KEY,
     Envelope,
@@ -351,7 +351,7 @@ def _oversized(specification: Specification, robot: Robot, size: float) -> Itera
 
 
 OVERFED = 1.25
-"""Times the highest voltage of any motor on offer: more was meant with its point elsewhere."""
+"""Times the highest voltage of any known motor: more was meant with its point elsewhere."""
 
 EMPTY_CELL = 3.0
 """[V] of one empty lithium cell: no robot is fed with less."""
@@ -361,14 +361,14 @@ LEAST_POWER = 1.0
 
 
 def _misfed(specification: Specification, robot: Robot) -> Iterator[str]:
-    """A voltage that no motor on offer comes near, and a supply with which nothing turns."""
+    """A voltage that no known motor comes near, and a supply with which nothing turns."""
     voltage, power = specification.supply.voltage, specification.supply.power_max
-    rated = highest_rated_voltage(specification)
-    if voltage is not None and rated is not None and voltage > OVERFED * rated:
-        meant = next(volts for place in range(1, 9) if (volts := voltage / 10**place) <= rated)
+    most = highest_known_voltage(specification)
+    if voltage is not None and most and voltage > OVERFED * most:
+        meant = next(volts for place in range(1, 9) if (volts := voltage / 10**place) <= most)
         yield (
-            f"supply.voltage: {voltage:g} V, and no motor on offer is rated for more than "
-            f"{rated:g} V: did you mean {meant:g}V?"
+            f"supply.voltage: {voltage:g} V, and no known motor takes more than {most:g} V: "
+            f"did you mean {meant:g}V?"
         )
     if voltage is not None and voltage < EMPTY_CELL:
         meant = next(volts for place in range(1, 99) if (volts := voltage * 10**place) > EMPTY_CELL)

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from math import inf
+from pathlib import Path
 
 import pytest
 
@@ -189,6 +190,20 @@ def test_where_no_motor_can_be_built_with_that_is_said_and_what_it_lacks(own):
         choice_of(motors=own)
     assert "Own 1 lacks kind: outrunner or inrunner, bolt circle of the stator" in str(caught.value)
     assert "--motors-any" in caught.value.hint
+
+
+def test_a_supply_is_compared_with_what_makers_allow_beyond_the_rating(own):
+    """A voltage that no known motor takes was meant with its point elsewhere."""
+    with pytest.raises(SpecificationError, match="no known motor takes more than 160 V"):
+        resolve(parse_specification("supply.voltage = 300", "x"), LIGHT, 1.0)
+    with Path(own).open("a") as rows:
+        rows.write("rated_voltage_v = 48\nvoltage_max_v = 400\n")
+    stated = parse_specification(
+        f"supply.voltage = 300\nmotor.name = 'Own 1'\nmotor.motors = '{own}'", "x"
+    )
+    choice = resolve(stated, LIGHT, 1.0).choice
+    assert [each.voltage_max for each in choice.motors] == [400.0]
+    assert choice.supply.voltage == 300.0
 
 
 @pytest.mark.parametrize(
