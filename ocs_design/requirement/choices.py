@@ -108,18 +108,34 @@ def _controlled(found: Motor, specification: Specification) -> Motor:
 
 
 def unknown_names(specification: Specification) -> Iterator[str]:
-    """Each motor and gear that is asked for and in no catalogue, one line each.
+    """Each motor and gear that is asked for and in no catalogue, and each file that is none.
+
+    One line each.
 
     Raises:
-        SpecificationError: a catalogue file cannot be read.
+        SpecificationError: a catalogue file has faults.
     """
-    choices: tuple[tuple[str, Callable[[Specification], object]], ...] = (
-        ("motor.name", _motors),
-        ("motor.gear", _gears),
+    stated = specification.motor
+    choices: tuple[tuple[str, Callable[[], object], str, Callable[[], object]], ...] = (
+        (
+            "motor.motors",
+            lambda: known_motors(_path(stated.motors)),
+            "motor.name",
+            lambda: _motors(specification),
+        ),
+        (
+            "motor.gears",
+            lambda: known_gears(_path(stated.gears)),
+            "motor.gear",
+            lambda: _gears(specification),
+        ),
     )
-    for path, choose in choices:
+    for file, read, name, choose in choices:
+        path = file
         try:
-            choose(specification)
+            read()
+            path = name
+            choose()
         except SpecificationError as error:
             if error.problems:
                 raise
