@@ -1,6 +1,7 @@
 """Keys of a specification that contradict each other, or cannot be meant for the robot."""
 
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import cycle
 from math import pi
 
 import numpy as np
@@ -318,7 +319,7 @@ def _oversized(specification: Specification, robot: Robot, size: float) -> Itera
                 f"flywheel.{key}: {length:g} m is larger than the robot ({size:.2g} m): "
                 f"did you mean {length:g}mm?"
             )
-    for axis, coordinate in zip("xyz", specification.ocs.position or (), strict=False):
+    for axis, coordinate in zip(cycle("xyz"), specification.ocs.position or (), strict=False):
         if abs(coordinate) > size:
             yield (
                 f"ocs.position: {axis} = {coordinate:g} m is off the robot ({size:.2g} m): "

@@ -112,6 +112,9 @@ def test_a_robot_without_legs_is_told_its_height(make_robot):
         ("[flywheel]\nh_max = 10", "flywheel.h_max: 10 m is larger"),
         ("[flywheel]\nwheel_mass_max = 102", "did you mean 102g?"),
         ("[ocs]\nposition = [0, 100, 0]", "y = 100 m is off the robot"),
+        ("[ocs]\nlayout = 'pyramid'\nposition = "
+         "[0, 0.1, 0.1, 0, -0.1, 0.1, -0.1, 0, 0.1, 0.1, 80, 0.1]",
+         "y = 80 m is off the robot (0.45 m): did you mean 80mm?"),
         ("[ocs]\nposition = [0, '-50mm', '80mm']", "y > 0"),
         ("[flywheel]\nr_max = '4mm'", "flywheel: r_max, 4 mm, leaves no room over r_min, "
          "5 mm (assumed: state it too)"),
