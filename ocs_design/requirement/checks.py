@@ -287,7 +287,7 @@ def unfit_for_robot(
         try:
             each.momentum(TiltInertia.of(robot.inertia), requirement.standing_height)
         except OcsError as error:
-            yield error.message
+            yield f"{error.message}. {error.hint}" if error.hint else error.message
     if requirement.rate_change is None and requirement.spin_inertia is None:
         if not requirement.maneuvers:
             yield "requirement: nothing is asked for: state a maneuver, rate_change or spin_inertia"

@@ -283,8 +283,14 @@ def test_the_voltage_of_older_files_is_that_of_the_supply():
 
 
 def test_controllers_are_words_or_a_mass():
-    for text, value in (('"none"', "none"), ('"auto"', "auto"), ('"35 g"', 0.035)):
+    for text, value in (('"none"', "none"), ('"Auto"', "auto"), ('"35 g"', 0.035)):
         read = parse_specification(f"supply.controllers = {text}", "s.toml").supply.controllers
         assert read == value
-    with pytest.raises(SpecificationError, match=r"supply\.controllers"):
-        parse_specification('supply.controllers = "some"', "s.toml")
+    for text, told in (
+        ("nome", "'nome' is neither a number nor one of auto, none. Did you mean 'none'?"),
+        ("35 V", "'35 V' has a unit of voltage, not of mass"),
+        ("", "is empty"),
+    ):
+        with pytest.raises(SpecificationError) as caught:
+            parse_specification(f'supply.controllers = "{text}"', "s.toml")
+        assert f"supply.controllers: {told}" in str(caught.value)

@@ -122,7 +122,8 @@ def test_a_robot_without_legs_is_told_its_height(make_robot):
         ("[flywheel]\nr_min = '60mm'", "r_max, 50 mm (assumed: state it too), leaves no room"),
         ("[requirement]\nmaneuvers = 'none'", "nothing is asked for"),
         ("[flywheel]\nmaterial = 'stainless'", "flywheel.material: there is no material"),
-        ("[[maneuver]]\nkind='drop'\nname='d'\nheight='10cm'\npitch=1", "there is no fall"),
+        ("[[maneuver]]\nkind='drop'\nname='d'\nheight='10cm'\npitch=1",
+         "there is no fall. Release it higher."),
     ],
 )  # fmt: skip
 def test_what_cannot_be_meant_is_asked_about(solo12, text, problem):

@@ -34,6 +34,7 @@ from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.sections import RequirementSection
 from ocs_design.requirement.specification import Specification, merge, specification_from_options
 from ocs_design.requirement.sweep import SWEEPS, Task
+from ocs_design.requirement.values import Several
 from ocs_design.requirement.worded_maneuvers import worded_maneuvers
 from ocs_design.requirement.writing import specification_to_toml
 from ocs_design.robot.reader import read_robot
@@ -143,12 +144,17 @@ def test_words_stand_for_gravity_and_whole_turns():
         FLIP.read("360", "--flip")
     assert told.value.hint == "Did you mean 360deg?"
     assert GRAVITY.read("orbit", "") == GRAVITY.read("0", "") == 0.0
-    with pytest.raises(OcsError, match="none of earth, moon, mars") as told:
+    with pytest.raises(OcsError, match="neither a number nor one of earth, moon, mars") as told:
         GRAVITY.read("mras", "--gravity")
     assert told.value.hint == "Did you mean 'mars'?"
     with pytest.raises(OcsError, match="400 m") as told:
         asked(jump_height=["400"])
     assert "Did you mean 400mm?" in str(told.value)
+
+
+def test_what_may_be_several_says_so_last():
+    assert TURN_TEXT.takes == "as in 'yaw 90deg in 2.9s'"
+    assert Several(TURN_TEXT).takes == "as in 'yaw 90deg in 2.9s'; or a list of such"
 
 
 def test_options_and_keys_say_the_same():
