@@ -18,6 +18,7 @@ import msgspec
 
 from ocs_design.actuation.motor import Gear, GearRoom
 from ocs_design.catalogue.rows import entry, extended, fraction, load_entries, packaged
+from ocs_design.common.errors import SpecificationError
 from ocs_design.common.files import to_json
 
 FLANGE = 1e-3
@@ -325,11 +326,21 @@ def named_stages(name: str, known: Mapping[str, GearSheet] | None = None) -> tup
     """Every stage of the gear called `name`, or the one stage that is: a gear's with its ratio.
 
     Raises:
-        SpecificationError: see `gear`.
+        SpecificationError: see `gear`; or figures are missing that its stages need.
     """
     sheets = gears() if known is None else known
     one = tuple(stage for stage in stages(sheets.values()) if stage.name == name)
-    return one if one and name not in sheets else stages([gear(name, sheets)])
+    if one and name not in sheets:
+        return one
+    named = gear(name, sheets)
+    if not named.stages():
+        lacks = ", ".join(named.missing) or "teeth of a second pulley"
+        raise SpecificationError(
+            f"no stage of the gear {named.name!r} can be computed, for its row lacks {lacks}",
+            hint="State it with these figures in a file with --gears, or name another gear: "
+            "`ocs-design catalogue gears` lists all.",
+        )
+    return named.stages()
 
 
 def load_gears(path: Path) -> Mapping[str, GearSheet]:

@@ -20,6 +20,11 @@ def safe_name(name: str) -> str:
     return re.sub(r"[^A-Za-z0-9._-]+", "_", name).strip("._") or "robot"
 
 
+def comparable_name(name: str) -> str:
+    """What names have in common that would have the same files: some disks fold capitals."""
+    return safe_name(name).casefold()
+
+
 _UNITS = ((1 << 20, "MiB"), (1 << 10, "KiB"))
 
 

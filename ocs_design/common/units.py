@@ -283,5 +283,7 @@ def _known(dimension: Dimension) -> str:
 
 
 def _example(dimension: Dimension) -> str:
+    if dimension is Dimension.RATIO:
+        return "a bare number, or per cent, as in '150%'"
     unit = next(iter(UNITS[dimension]))
     return f"a number in SI or with a unit, as in '1 {unit}' ({_known(dimension)})"

@@ -1,6 +1,7 @@
 """Keys of a specification that contradict each other, or cannot be meant for the robot."""
 
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import cycle
 from math import pi
 
 import numpy as np
@@ -10,7 +11,7 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.catalogue.materials import material
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.common.units import format_quantity
-from ocs_design.requirement.choices import highest_rated_voltage, unknown_names
+from ocs_design.requirement.choices import highest_known_voltage, unknown_names
 from ocs_design.requirement.device_sections import (
     LIMIT_OF_KEY,
     Envelope,
@@ -185,10 +186,10 @@ def _too_short_flights(maneuvers: Iterable[Maneuver]) -> Iterator[str]:
         match maneuver:
             case Maneuver(gravity=0.0) | TurnTo(jump_height=0.0):
                 continue
-            case Disturbance(onset=needed):
-                what = "its torque starts"
-            case TimedTurn(duration=needed):
-                what = "its turn ends"
+            case Disturbance():
+                what, needed = "its torque ends", maneuver.onset + maneuver.duration
+            case TimedTurn():
+                what, needed = "its turn ends", maneuver.duration
             case _:
                 continue
         if needed >= maneuver.flight_time:
@@ -286,7 +287,7 @@ def unfit_for_robot(
         try:
             each.momentum(TiltInertia.of(robot.inertia), requirement.standing_height)
         except OcsError as error:
-            yield error.message
+            yield f"{error.message}. {error.hint}" if error.hint else error.message
     if requirement.rate_change is None and requirement.spin_inertia is None:
         if not requirement.maneuvers:
             yield "requirement: nothing is asked for: state a maneuver, rate_change or spin_inertia"
@@ -297,6 +298,8 @@ def unfit_for_robot(
     for each in requirement.maneuvers:
         if isinstance(each, Pivoted):
             yield from _off_its_pivot(each, stated)
+    # Tables were looked at before; what is asked for in words has its jump only now.
+    yield from _too_short_flights(requirement.maneuvers)
     yield from _misfed(specification, robot)
     chosen = specification.flywheel.material
     try:
@@ -316,7 +319,7 @@ def _oversized(specification: Specification, robot: Robot, size: float) -> Itera
                 f"flywheel.{key}: {length:g} m is larger than the robot ({size:.2g} m): "
                 f"did you mean {length:g}mm?"
             )
-    for axis, coordinate in zip("xyz", specification.ocs.position or (), strict=False):
+    for axis, coordinate in zip(cycle("xyz"), specification.ocs.position or (), strict=False):
         if abs(coordinate) > size:
             yield (
                 f"ocs.position: {axis} = {coordinate:g} m is off the robot ({size:.2g} m): "
@@ -349,7 +352,7 @@ def _oversized(specification: Specification, robot: Robot, size: float) -> Itera
 
 
 OVERFED = 1.25
-"""Times the highest voltage of any motor on offer: more was meant with its point elsewhere."""
+"""Times the highest voltage of any known motor: more was meant with its point elsewhere."""
 
 EMPTY_CELL = 3.0
 """[V] of one empty lithium cell: no robot is fed with less."""
@@ -359,14 +362,14 @@ LEAST_POWER = 1.0
 
 
 def _misfed(specification: Specification, robot: Robot) -> Iterator[str]:
-    """A voltage that no motor on offer comes near, and a supply with which nothing turns."""
+    """A voltage that no known motor comes near, and a supply with which nothing turns."""
     voltage, power = specification.supply.voltage, specification.supply.power_max
-    rated = highest_rated_voltage(specification)
-    if voltage is not None and rated is not None and voltage > OVERFED * rated:
-        meant = next(volts for place in range(1, 9) if (volts := voltage / 10**place) <= rated)
+    most = highest_known_voltage(specification)
+    if voltage is not None and most and voltage > OVERFED * most:
+        meant = next(volts for place in range(1, 9) if (volts := voltage / 10**place) <= most)
         yield (
-            f"supply.voltage: {voltage:g} V, and no motor on offer is rated for more than "
-            f"{rated:g} V: did you mean {meant:g}V?"
+            f"supply.voltage: {voltage:g} V, and no known motor takes more than {most:g} V: "
+            f"did you mean {meant:g}V?"
         )
     if voltage is not None and voltage < EMPTY_CELL:
         meant = next(volts for place in range(1, 99) if (volts := voltage * 10**place) > EMPTY_CELL)

@@ -108,18 +108,34 @@ def _controlled(found: Motor, specification: Specification) -> Motor:
 
 
 def unknown_names(specification: Specification) -> Iterator[str]:
-    """Each motor and gear that is asked for and in no catalogue, one line each.
+    """Each motor and gear that is asked for and in no catalogue, and each file that is none.
+
+    One line each.
 
     Raises:
-        SpecificationError: a catalogue file cannot be read.
+        SpecificationError: a catalogue file has faults.
     """
-    choices: tuple[tuple[str, Callable[[Specification], object]], ...] = (
-        ("motor.name", _motors),
-        ("motor.gear", _gears),
+    stated = specification.motor
+    choices: tuple[tuple[str, Callable[[], object], str, Callable[[], object]], ...] = (
+        (
+            "motor.motors",
+            lambda: known_motors(_path(stated.motors)),
+            "motor.name",
+            lambda: _motors(specification),
+        ),
+        (
+            "motor.gears",
+            lambda: known_gears(_path(stated.gears)),
+            "motor.gear",
+            lambda: _gears(specification),
+        ),
     )
-    for path, choose in choices:
+    for file, read, name, choose in choices:
+        path = file
         try:
-            choose(specification)
+            read()
+            path = name
+            choose()
         except SpecificationError as error:
             if error.problems:
                 raise
@@ -172,7 +188,7 @@ def _motors(specification: Specification, voltage: float = 0.0) -> tuple[Motor, 
 
 
 def _highest_voltage(found: Motor) -> float:
-    """Highest supply that the maker of a complete motor allows [V]."""
+    """Highest supply that a motor's maker allows [V]; 0: no source says."""
     return found.voltage_max or found.rated_voltage or 0.0
 
 
@@ -192,10 +208,10 @@ def doubts_about_motors(specification: Specification) -> tuple[str, ...]:
     return () if file is None or name == NO_MOTOR else motor_doubts(file)
 
 
-def highest_rated_voltage(specification: Specification) -> float | None:
-    """Highest voltage that any known motor is rated for [V]; None: no source says."""
+def highest_known_voltage(specification: Specification) -> float:
+    """Highest supply that the maker of any known motor allows [V]; 0: no source says."""
     known = known_motors(_path(specification.motor.motors)).values()
-    return max((each.rated_voltage for each in known if each.rated_voltage), default=None)
+    return max(map(_highest_voltage, known), default=0.0)
 
 
 MOST_NAMED = 3

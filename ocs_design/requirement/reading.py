@@ -7,7 +7,7 @@ from reprlib import repr as shortened
 from typing import Any
 
 from ocs_design.common.errors import SpecificationError
-from ocs_design.common.files import AnyPath, TextKind, safe_name
+from ocs_design.common.files import AnyPath, TextKind, comparable_name
 from ocs_design.common.units import STANDARD_GRAVITY
 from ocs_design.requirement.checks import contradictions
 from ocs_design.requirement.keys import Faults, keys_of
@@ -118,11 +118,10 @@ def _checked(content: Mapping[str, object], name: str) -> Specification:
         if maneuver is not None:
             maneuvers.append(maneuver)
 
-    # Maneuvers whose figures would be written to the same files; some disks do not tell capitals
-    # apart.
+    # Maneuvers whose figures would be written to the same files.
     of_file: dict[str, list[str]] = {}
     for maneuver in maneuvers:
-        of_file.setdefault(safe_name(maneuver.name).casefold(), []).append(maneuver.name)
+        of_file.setdefault(comparable_name(maneuver.name), []).append(maneuver.name)
     for same in of_file.values():
         if len(set(same)) > 1:
             names = ", ".join(map(repr, same))

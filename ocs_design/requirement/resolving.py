@@ -360,9 +360,10 @@ def resolve(specification: Specification, robot: Robot, robot_size: float) -> Re
         specified = getattr(flywheel, key)
         if specified is not None:
             envelope = replace(envelope, **{limit: specified})
-    maneuvers, worded = specification.maneuvers, worded_maneuvers(asked, robot)
+    maneuvers = specification.maneuvers
     if specification.takes_default_maneuvers:
         maneuvers = default_maneuvers(robot, asked.gravity or STANDARD_GRAVITY)
+    worded = worded_maneuvers(asked, robot, (each.name for each in maneuvers))
     maneuvers = (*maneuvers, *worded.maneuvers)
     requirement = Requirement(
         maneuvers=maneuvers,

@@ -324,13 +324,31 @@ class Entry:
         return f"{told} of {self.of}" if self.of else told
 
 
-@cache
 def entries(file: Path = DEFAULTS) -> Mapping[str, Entry]:
     """Every key's entry: of `file`, and of the package's own where that has none.
 
     Raises:
         SpecificationError: the file cannot be read, or has faults, all of which are listed.
     """
+    own = _entries_once(DEFAULTS)
+    if file == DEFAULTS:
+        return own
+    try:
+        plain = file.is_file()
+    except OSError:
+        plain = False
+    # A file may be edited between two calls, and a pipe can be read but once.
+    return MappingProxyType({**own, **(_read_entries(file) if plain else _entries_once(file))})
+
+
+@cache
+def _entries_once(file: Path) -> Mapping[str, Entry]:
+    """Entries of a file that is read on the first call alone."""
+    return _read_entries(file)
+
+
+def _read_entries(file: Path) -> Mapping[str, Entry]:
+    """Entries that a file states, by key; see `entries`."""
     content = _FILE.parse_toml(_FILE.read(file), str(file))
     faults, found = Faults(), {}
     for name in sorted(content.keys() - {"reality"}):
@@ -347,14 +365,15 @@ def entries(file: Path = DEFAULTS) -> Mapping[str, Entry]:
         if texts["of"] and texts["of"] not in _SCALES:
             faults.unknown(f"{where}.of", texts["of"], _SCALES)
         how = Spread(Dimension.RATIO, "%") if texts["of"] else spread
-        value = faults.read(how, stated.get("value"), where)
+        if "value" not in stated:
+            faults.append(f"{where}.value: is missing")
+            continue
+        value = faults.read(how, stated["value"], where)
         if value is not None:
             found[name] = Entry(value, **texts)
     if faults:
         raise SpecificationError(f"{file} has faults:", problems=faults)
-    if file == DEFAULTS:
-        return MappingProxyType(found)
-    return MappingProxyType({**entries(), **found})
+    return MappingProxyType(found)
 
 
 _ENTRY_KEYS = ("value", "of", "drawn", "source")

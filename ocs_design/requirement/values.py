@@ -155,7 +155,7 @@ class NamedQuantity(Quantity):
         word = raw.strip().casefold() if isinstance(raw, str) else ""
         if word.isalpha() and word not in self.words:
             raise QuantityError(
-                f"{where}: {shortened(raw)} is none of {', '.join(self.words)}, and no number",
+                f"{where}: {shortened(raw)} is neither a number nor one of {', '.join(self.words)}",
                 hint=did_you_mean(word, tuple(self.words)),
             )
         return self.words[word] if word in self.words else super().read(raw, where)
@@ -226,7 +226,7 @@ class Several:
     @property
     def takes(self) -> str:
         """What may be written, in words (`Value.takes`)."""
-        return f"one or several of {self.each.takes}"
+        return f"{self.each.takes}; or a list of such"
 
     def read(self, raw: object, where: str) -> tuple[Any, ...]:
         """Value that `raw` stands for (`Value.read`); each once."""
@@ -345,7 +345,7 @@ class Choice:
 
 @dataclass(frozen=True)
 class WordOr:
-    """One of a few words, or a quantity.
+    """One of a few words, taken with any capitals, or a quantity.
 
     Attributes:
         words: that stand for something else. quantity: what else may be written.
@@ -361,7 +361,14 @@ class WordOr:
 
     def read(self, raw: object, where: str) -> float | str:
         """Value that `raw` stands for (`Value.read`)."""
-        return raw if isinstance(raw, str) and raw in self.words else self.quantity.read(raw, where)
+        if not isinstance(raw, str) or any(map(str.isdigit, raw)) or not raw.strip():
+            return self.quantity.read(raw, where)
+        if word := _as_written(raw, self.words):
+            return word
+        raise QuantityError(
+            f"{where}: {shortened(raw)} is neither a number nor one of {', '.join(self.words)}",
+            hint=did_you_mean(raw.strip(), self.words),
+        )
 
 
 @form("true or false")

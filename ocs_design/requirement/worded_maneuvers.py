@@ -9,6 +9,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
+from ocs_design.common.files import comparable_name
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
 from ocs_design.requirement.froude import default_maneuvers, jump_for, standing_height
 from ocs_design.requirement.maneuver import Disturbance, Maneuver
@@ -28,11 +29,17 @@ class Worded:
     notes: tuple[str, ...]
 
 
-def worded_maneuvers(asked: RequirementSection, robot: Robot) -> Worded:
+def worded_maneuvers(asked: RequirementSection, robot: Robot, taken: Iterable[str] = ()) -> Worded:
     """Jumps, kicks, falls and flips that are asked for by keys of their own.
 
     Each kick is during each jump, each flip in each jump, each fall from each tilt; what is not
     stated is as in the paper's tests, scaled to the robot.
+
+    Args:
+        asked: the words.
+        robot: to scale to.
+        taken: names that other maneuvers have already; none of these gets one of them, or one
+            that would have the same files.
 
     Raises:
         SpecificationError: a kick hits no link of the robot, or a point off it.
@@ -41,11 +48,14 @@ def worded_maneuvers(asked: RequirementSection, robot: Robot) -> Worded:
     disturbance, drop, back_flip = default_maneuvers(robot, gravity or STANDARD_GRAVITY)
     maneuvers: list[Maneuver] = []
     notes: list[str] = []
+    files = {comparable_name(name) for name in taken}
 
     def add(maneuver: Maneuver, note: str, told: str = "") -> None:
         """Add a maneuver with a note on it; a second one of the same name is numbered."""
-        same = sum(each.name.split()[0] == maneuver.name for each in maneuvers)
-        name = f"{maneuver.name} {same + 1}" if same else maneuver.name
+        name, number = maneuver.name, 2
+        while comparable_name(name) in files:
+            name, number = f"{maneuver.name} {number}", number + 1
+        files.add(comparable_name(name))
         maneuvers.append(replace(maneuver, name=name))
         notes.append(f"{name}: {told or maneuver.summary}{note}.")
 

@@ -25,9 +25,9 @@ from ocs_design.requirement.values import ONE_TURN, Quantities, Quantity, Severa
 PEOPLE_UNITS: Mapping[Dimension, str] = {
     Dimension.LENGTH: "mm",
     Dimension.ANGLE: "deg",
-    Dimension.ANGULAR_SPEED: "rpm",
+    Dimension.ANGULAR_SPEED: "deg/s",
 }
-"""Units that people think in, where they are not SI's."""
+"""Units that people think in, where they are not SI's; the trunk's for angular speeds."""
 
 _SAME = 1e-12
 """Relative; a degree is no finite number of radians."""
@@ -87,6 +87,8 @@ def written(  # noqa: PLR0911
     match how, value:
         case WordOr(quantity=quantity), float() | int():
             return written(value, quantity, figures)
+        case Quantity(dimension=Dimension.ANGULAR_SPEED, likely="rpm"), float() | int():
+            return _text(_told(value, Dimension.ANGULAR_SPEED, "rpm", figures))
         case Quantity(dimension=dimension), float() | int():
             small = dimension is not Dimension.LENGTH or abs(value) < 1.0
             unit = PEOPLE_UNITS.get(dimension, si_unit(dimension)) if small else si_unit(dimension)

@@ -118,8 +118,8 @@ def posture_sensitivity(robot: Robot) -> Mapping[str, MassProperties]:
     """Locked mass properties of the robot in B, by what the plausible posture is.
 
     They are the nominal one, all joints at zero, standing at 60 to 90 % of the stretched legs,
-    standing with the legs spread sideways by 0.25 to 1 rad, and what the file names. Postures that
-    joint limits forbid are left out.
+    standing with the legs spread sideways by 0.25 to 1 rad, and what the file names, as
+    `resolve_posture` takes it. Postures that joint limits forbid are left out.
     """
     tree, legs = robot.tree, robot.legs
     postures = [(f"nominal ({robot.posture_name})", robot.posture), (ZERO, {})]
@@ -134,7 +134,13 @@ def posture_sensitivity(robot: Robot) -> Mapping[str, MassProperties]:
         turned = {name: usual[name] + sign * angle for name, sign in outwards.items()}
         if all(joints[name].lower <= value <= joints[name].upper for name, value in turned.items()):
             postures.append((f"legs spread by {angle:g} rad", {**usual, **turned}))
-    postures += tree.named_postures.items()
+    # As `resolve_posture` takes them: the built-in ones have their names for themselves.
+    filled = neutral_posture(tree)
+    postures += (
+        (name, {**filled, **values})
+        for name, values in tree.named_postures.items()
+        if name not in {ZERO, STAND}
+    )
     return {label: tree.locked_mass_properties(values, robot.trunk) for label, values in postures}
 
 

@@ -101,8 +101,7 @@ def _read_file(path: Path, name: str) -> bytes:
                 hint = f"did you mean {path.with_name(name_of_stem[close[0]])}?"
         raise RobotError(f"{path} does not exist", hint=hint) from error
     except IsADirectoryError as error:
-        suffixes = {".urdf", ".xacro", ".xml", ".gz"}
-        found = sorted(each for each in path.iterdir() if each.suffix in suffixes)
+        found = _likely_robots(path)
         hint = f"give a file, such as {found[0]}" if found else "give the URDF or MJCF file itself"
         raise RobotError(f"{path} is a folder", hint=hint) from error
     except PermissionError as error:
@@ -114,6 +113,18 @@ def _read_file(path: Path, name: str) -> bytes:
         raise RobotError(
             f"{str(path)!r} cannot be read: {reason}", hint="check the path"
         ) from error
+
+
+def _likely_robots(folder: Path) -> list[Path]:
+    """What may be a robot in a folder and in the folders in it, as packages have it; best first."""
+    inside = (*folder.glob("*"), *folder.glob("[!.]*/*"))
+    suffixes = {".urdf", ".xacro", ".xml", ".gz"}
+    likely = (each for each in inside if each.suffix in suffixes and each.name not in _OF_PACKAGES)
+    return sorted(likely, key=lambda each: (len(each.parts), ".urdf" not in each.name, each))
+
+
+_OF_PACKAGES = {"package.xml", "plugin.xml", "plugins.xml"}
+"""Files that a ROS package has beside its robot."""
 
 
 def _read_bounded(stream: BinaryIO | gzip.GzipFile, path_text: str, state: str = "") -> bytes:

@@ -141,6 +141,15 @@ def test_says_what_is_wrong_and_what_would_be_right(value, message):
     assert "mm" in caught.value.hint or "finite" in caught.value.hint
 
 
+@pytest.mark.parametrize("value", ["twice", None])
+def test_a_ratio_is_a_bare_number_or_per_cent(value):
+    """The example itself can be read."""
+    with pytest.raises(QuantityError) as caught:
+        parse_quantity(value, Dimension.RATIO, "flywheel.stress_safety")
+    assert caught.value.hint == "Write a bare number, or per cent, as in '150%'."
+    assert parse_quantity("150%", Dimension.RATIO, "") == 1.5
+
+
 @given(text=st.text(max_size=80))
 def test_no_text_does_worse_than_a_quantity_error(text):
     try:

@@ -156,7 +156,18 @@ def test_rounded_for_people(default):
     assert rounded_text(default, "supply.voltage") == "24 V"
     assert rounded_text(default, "supply.controllers") == "auto"
     third = replace(default, requirement=RequirementSection(rate_change=1 / 3))
-    assert rounded_text(third, "requirement.rate_change") == "3.183 rpm"
+    assert rounded_text(third, "requirement.rate_change") == "19.1 deg/s"
+    fast = replace(default, requirement=RequirementSection(wheel_speed_max=40.0 * np.pi))
+    assert rounded_text(fast, "requirement.wheel_speed_max") == "1200 rpm"
+
+
+def test_a_trunk_turns_in_degrees_and_a_wheel_in_revolutions(empty):
+    rates = re.findall(r"^# rate = (.*?) +#", empty, flags=re.MULTILINE)
+    speeds = re.findall(r"^# wheel_speed = (.*?) +#", empty, flags=re.MULTILINE)
+    assert len(rates) == 3
+    assert all(rate.count("deg/s") == 3 for rate in rates)
+    assert len(speeds) > 2
+    assert all(speed.endswith('rpm"') for speed in speeds)
 
 
 STATED = {

@@ -1,7 +1,9 @@
 """Distributions against SciPy's, and their text."""
 
 import math
+import os
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -119,11 +121,30 @@ def test_a_file_takes_the_place_of_the_defaults(tmp_path):
     assert entries(file)["com_error"].source == "weighed on three scales"
 
 
+def test_a_file_that_was_edited_is_read_again(tmp_path):
+    file = tmp_path / "own.toml"
+    for error in (0.01, 0.02):
+        file.write_text(f'[reality]\nmass_error = "normal(0, {error})"\n')
+        assert default_uncertainty(0.5, file=str(file)).mass_error == Normal(0.0, error)
+
+
+@pytest.mark.skipif(not Path("/dev/fd").is_dir(), reason="pipes have no path here")
+def test_a_pipe_is_read_once():
+    read, write = os.pipe()
+    os.write(write, b'[reality]\nmass_error = "normal(0, 3%)"\n')
+    os.close(write)
+    for _ in range(2):
+        found = default_uncertainty(0.5, file=f"/dev/fd/{read}")
+        assert found.mass_error == Normal(0.0, 0.03)
+    os.close(read)
+
+
 @pytest.mark.parametrize(
     ("text", "word"),
     [
         ('mas_error = "1%"', "Did you mean 'mass_error'"),
         ("mass_error = { valu = 1 }", "valu"),
+        ('mass_error = { source = "scales" }', "reality.mass_error.value: is missing"),
         ('com_error = { value = "1%", of = "height" }', "standing height"),
         ('takeoff_rate = { value = "1deg", of = "pendulum rate" }', "takeoff_rate"),
         ('[reality.contact_friction]\nvalue = "-50%"\nof = "standing height"', "beyond 1%"),

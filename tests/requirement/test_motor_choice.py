@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from math import inf
+from pathlib import Path
 
 import pytest
 
@@ -118,7 +119,7 @@ def test_several_names_are_chosen_among_whatever_they_lack():
 
 
 def test_names_are_taken_alone():
-    gear = next(iter(gears()))
+    gear = next(name for name, sheet in gears().items() if sheet.stages())
     choice = choice_of(name="R80 KV110", gear=gear, material="brass-c360")
     assert [motor.name for motor in choice.motors] == ["R80 KV110"]
     assert choice.gears == stages([gears()[gear]])
@@ -150,6 +151,21 @@ def test_a_gear_is_meant_with_any_ratio_or_with_the_one_that_is_printed(sheet):
     assert choice_of(gear=sheet.name).gears == stages
     for stage in (stages[0], stages[-1]):
         assert choice_of(gear=stage.name).gears == (stage,)
+
+
+def test_a_belt_with_one_pulley_is_told_what_it_lacks(tmp_path):
+    own = tmp_path / "own.toml"
+    row = {"pitch_m": 0.002, "width_m": 0.006, "belt_mass_kg_per_m": 0.01, "mass_kg": 0.02}
+    row |= {"working_tension_n": 40, "belt_speed_max_m_s": 40, "pulley_density_kg_m3": 2700}
+    figures = "\n".join(f"{column} = {figure}" for column, figure in row.items())
+    named = 'name = "mine"\nmaker = "me"\nsource = "bench"\nkind = "belt"\nefficiency = 0.95'
+    for teeth, offered in (("[20]", 0), ("[20, 40]", 2)):
+        own.write_text(f"[[gear]]\n{named}\nteeth = {teeth}\n{figures}\n")
+        if offered:
+            assert len(choice_of(gears=str(own), gear="mine").gears) == offered
+        else:
+            with pytest.raises(SpecificationError, match="lacks teeth of a second pulley"):
+                choice_of(gears=str(own), gear="mine")
 
 
 @pytest.mark.parametrize(
@@ -191,12 +207,35 @@ def test_where_no_motor_can_be_built_with_that_is_said_and_what_it_lacks(own):
     assert "--motors-any" in caught.value.hint
 
 
+def test_a_supply_is_compared_with_what_makers_allow_beyond_the_rating(own):
+    """A voltage that no known motor takes was meant with its point elsewhere."""
+    with pytest.raises(SpecificationError, match="no known motor takes more than 160 V"):
+        resolve(parse_specification("supply.voltage = 300", "x"), LIGHT, 1.0)
+    with Path(own).open("a") as rows:
+        rows.write("rated_voltage_v = 48\nvoltage_max_v = 400\n")
+    stated = parse_specification(
+        f"supply.voltage = 300\nmotor.name = 'Own 1'\nmotor.motors = '{own}'", "x"
+    )
+    choice = resolve(stated, LIGHT, 1.0).choice
+    assert [each.voltage_max for each in choice.motors] == [400.0]
+    assert choice.supply.voltage == 300.0
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [
         ("motor.name = 'R80'", ("motor.name", "Did you mean", "R80 KV110")),
         ("motor.name = '%%%'", ("motor.name", "catalogue motors")),
         ("motor.gear = 'no gear'", ("motor.gear", "no gear")),
+        ("motor.gears = 'gone.csv'", ("motor.gears: cannot read the catalogue gone.csv",)),
+        (
+            "motor.gear = 'gp42c 203115'",
+            (
+                "motor.gear: no stage of the gear 'GP 42 C 203115'",
+                "lacks inertia_kg_m2, inertia_at, motor_speed_max_rpm",
+                "--gears",
+            ),
+        ),
         ("motor.name = 'none'\nsupply.voltage = 24", ("supply.voltage", "has no effect")),
         (
             "motor.name = 'none'\nocs.alpha_criterion = 'lightest'",

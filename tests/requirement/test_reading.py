@@ -153,7 +153,8 @@ def test_all_faults_are_told_at_once_each_with_its_key():
         ),
         (DROP.replace("fall", "跳") + DROP.replace("fall", "翻"), "would have the same files"),
         (FLIP.replace("duration=0.9", "duration='1.1s'"), "its turn ends 1.1 s .* lasts 0.903 s"),
-        (PUSH.replace("2.4", "0.4"), "torque starts 0.1 s .* lasts 0.0815 s"),
+        (PUSH.replace("2.4", "0.4"), "torque ends 0.15 s .* lasts 0.0815 s"),
+        (PUSH.replace("0.05", "0.4"), "torque ends 0.5 s .* lasts 0.489 s"),
         (PUSH.replace("2.4", "-2.4"), "lasts 0 s"),
         ("[robot]\nfile = 'a\\u0000b'".replace("'", '"'), "not a text"),
         ("maneuver = 3", r"\[\[maneuver\]\]"),
@@ -282,8 +283,14 @@ def test_the_voltage_of_older_files_is_that_of_the_supply():
 
 
 def test_controllers_are_words_or_a_mass():
-    for text, value in (('"none"', "none"), ('"auto"', "auto"), ('"35 g"', 0.035)):
+    for text, value in (('"none"', "none"), ('"Auto"', "auto"), ('"35 g"', 0.035)):
         read = parse_specification(f"supply.controllers = {text}", "s.toml").supply.controllers
         assert read == value
-    with pytest.raises(SpecificationError, match=r"supply\.controllers"):
-        parse_specification('supply.controllers = "some"', "s.toml")
+    for text, told in (
+        ("nome", "'nome' is neither a number nor one of auto, none. Did you mean 'none'?"),
+        ("35 V", "'35 V' has a unit of voltage, not of mass"),
+        ("", "is empty"),
+    ):
+        with pytest.raises(SpecificationError) as caught:
+            parse_specification(f'supply.controllers = "{text}"', "s.toml")
+        assert f"supply.controllers: {told}" in str(caught.value)

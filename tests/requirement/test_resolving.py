@@ -112,6 +112,9 @@ def test_a_robot_without_legs_is_told_its_height(make_robot):
         ("[flywheel]\nh_max = 10", "flywheel.h_max: 10 m is larger"),
         ("[flywheel]\nwheel_mass_max = 102", "did you mean 102g?"),
         ("[ocs]\nposition = [0, 100, 0]", "y = 100 m is off the robot"),
+        ("[ocs]\nlayout = 'pyramid'\nposition = "
+         "[0, 0.1, 0.1, 0, -0.1, 0.1, -0.1, 0, 0.1, 0.1, 80, 0.1]",
+         "y = 80 m is off the robot (0.45 m): did you mean 80mm?"),
         ("[ocs]\nposition = [0, '-50mm', '80mm']", "y > 0"),
         ("[flywheel]\nr_max = '4mm'", "flywheel: r_max, 4 mm, leaves no room over r_min, "
          "5 mm (assumed: state it too)"),
@@ -119,7 +122,8 @@ def test_a_robot_without_legs_is_told_its_height(make_robot):
         ("[flywheel]\nr_min = '60mm'", "r_max, 50 mm (assumed: state it too), leaves no room"),
         ("[requirement]\nmaneuvers = 'none'", "nothing is asked for"),
         ("[flywheel]\nmaterial = 'stainless'", "flywheel.material: there is no material"),
-        ("[[maneuver]]\nkind='drop'\nname='d'\nheight='10cm'\npitch=1", "there is no fall"),
+        ("[[maneuver]]\nkind='drop'\nname='d'\nheight='10cm'\npitch=1",
+         "there is no fall. Release it higher."),
     ],
 )  # fmt: skip
 def test_what_cannot_be_meant_is_asked_about(solo12, text, problem):

@@ -34,6 +34,7 @@ from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.sections import RequirementSection
 from ocs_design.requirement.specification import Specification, merge, specification_from_options
 from ocs_design.requirement.sweep import SWEEPS, Task
+from ocs_design.requirement.values import Several
 from ocs_design.requirement.worded_maneuvers import worded_maneuvers
 from ocs_design.requirement.writing import specification_to_toml
 from ocs_design.robot.reader import read_robot
@@ -143,12 +144,17 @@ def test_words_stand_for_gravity_and_whole_turns():
         FLIP.read("360", "--flip")
     assert told.value.hint == "Did you mean 360deg?"
     assert GRAVITY.read("orbit", "") == GRAVITY.read("0", "") == 0.0
-    with pytest.raises(OcsError, match="none of earth, moon, mars") as told:
+    with pytest.raises(OcsError, match="neither a number nor one of earth, moon, mars") as told:
         GRAVITY.read("mras", "--gravity")
     assert told.value.hint == "Did you mean 'mars'?"
     with pytest.raises(OcsError, match="400 m") as told:
         asked(jump_height=["400"])
     assert "Did you mean 400mm?" in str(told.value)
+
+
+def test_what_may_be_several_says_so_last():
+    assert TURN_TEXT.takes == "as in 'yaw 90deg in 2.9s'"
+    assert Several(TURN_TEXT).takes == "as in 'yaw 90deg in 2.9s'; or a list of such"
 
 
 def test_options_and_keys_say_the_same():
@@ -190,6 +196,10 @@ def test_options_and_keys_say_the_same():
         ({"fall": ["1"], "tilt": ["20deg"]}, ["fall"]),
         ({"tilt": ["20deg", "10deg roll"]}, ["fall", "fall 2"]),
         ({"fall": ["1"], "flip": ["back"]}, ["flip", "fall"]),
+        (
+            {"pivot": "0,0,-0.2", "stand_up": ["pitch 10deg in 0.6s", "pitch 5deg in 0.6s"]},
+            ["stand up", "stand up 2"],
+        ),
     ],
 )
 def test_words_become_the_maneuvers_that_are_meant(solo12, words, names):
@@ -198,6 +208,18 @@ def test_words_become_the_maneuvers_that_are_meant(solo12, words, names):
     told = "\n".join(resolved.assumptions)
     assert "paper's three" not in told
     assert all(f"{name}: " in told for name in names)
+
+
+def test_a_name_that_a_table_has_is_not_given_again(solo12):
+    table = '[[maneuver]]\nkind = "drop"\nname = "{}"\nheight = 1.0\npitch = 0.3\n'
+    tables = table.format("Fall") + table.format("fall-3") + table.format("fall_4")
+    stated = parse_specification(f"requirement.tilt = ['20deg', '10deg', '5deg']\n{tables}", "x")
+    resolved = resolve(stated, solo12, SIZE)
+    names = [each.name for each in resolved.requirement.maneuvers]
+    # "fall 4" would have the files of "fall_4".
+    assert names == ["Fall", "fall-3", "fall_4", "fall 2", "fall 3", "fall 5"]
+    told = [each.partition(": ")[0] for each in resolved.assumptions]
+    assert [name for name in names if name in told] == names[3:]
 
 
 def test_what_is_not_stated_is_the_papers(solo12):
@@ -347,6 +369,19 @@ def test_a_turn_in_orbit_has_no_jump_and_lasts_as_long_as_it_takes(solo12):
     (turn,) = maneuvers(solo12, turn=["yaw 90deg in 60s"], gravity="orbit")
     assert (turn.gravity, turn.jump_height, turn.flight_time) == (0.0, 0.0, 60.0)
     assert turn.summary == "turns to yaw 90 deg in 60 s, in orbit"
+
+
+@pytest.mark.parametrize(
+    ("turn", "time"), [({"turn": ["yaw 90deg in 2.9s"]}, 2.9), ({"catch": ["pitch 1 in 1s"]}, 1)]
+)
+def test_a_turn_longer_than_the_jump_that_is_stated_is_refused(solo12, turn, time):
+    """By hand: a jump of 0.1 m lasts sqrt(8 x 0.1 / 9.81) s."""
+    with pytest.raises(SpecificationError) as told:
+        resolve(Specification(requirement=asked(jump_height=["0.1m"], **turn)), solo12, SIZE)
+    (name,) = turn
+    assert told.value.problems == (
+        f"maneuver.{name}: its turn ends {time} s after lift-off, but the flight lasts 0.286 s",
+    )
 
 
 def test_a_trunk_frame_below_the_feet_has_no_height_to_scale_by(solo12):

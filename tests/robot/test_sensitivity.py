@@ -1,11 +1,13 @@
 """How Solo12's inertia moves with its posture, against the figures of the theory."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from robots import ROBOTS, SOLO12
 
 from ocs_design.robot.manual import robot_by_hand
-from ocs_design.robot.posture import posture_sensitivity
+from ocs_design.robot.posture import posture_sensitivity, resolve_posture
 from ocs_design.robot.reader import read_robot
 
 
@@ -34,6 +36,24 @@ def test_lower_stands_weigh_less_about_every_axis(rows):
 
 def test_named_postures_are_there(rows):
     assert {"nominal (stand)", "standing", "straight_standing"} <= set(rows)
+
+
+def test_named_postures_are_those_that_can_be_asked_for():
+    """A1's knees cannot be straight: what does not name them leaves them at their limit."""
+    robot = read_robot(ROBOTS / "a1_description/urdf/a1.urdf")
+    named = {"sit": {"FL_thigh_joint": 1.0}, "zero": {"FL_thigh_joint": 0.5}}
+    robot = replace(robot, tree=replace(robot.tree, named_postures=named))
+    rows = posture_sensitivity(robot)
+    asked = {
+        name: resolve_posture(robot.tree, robot.trunk, robot.legs, name, {}).values
+        for name in named
+    }
+    assert asked["sit"]["FR_calf_joint"] < -0.9
+    assert not any(asked["zero"].values())
+    for name, values in asked.items():
+        expected = robot.tree.locked_mass_properties(values, robot.trunk)
+        np.testing.assert_allclose(rows[name].inertia, expected.inertia, rtol=1e-12)
+        np.testing.assert_allclose(rows[name].com, expected.com, rtol=1e-12, atol=1e-15)
 
 
 def test_postures_beyond_the_limits_are_left_out():

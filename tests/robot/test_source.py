@@ -62,6 +62,24 @@ def test_what_is_no_file_suggests_another(tmp_path: Path, asked, says, hint):
     assert hint in caught.value.hint
 
 
+@pytest.mark.parametrize(
+    ("files", "named"),
+    [
+        (("package.xml", "launch/view.launch.xml", "robots/b.xacro", "urdf/a.urdf"), "urdf/a.urdf"),
+        (("package.xml", "urdf/a.urdf", "urdf/arm/hand.urdf", "z.xml"), "z.xml"),
+        (("package.xml", ".git/a.urdf", "src/deep/a.urdf"), ""),
+    ],
+)
+def test_the_robot_of_a_package_is_suggested(tmp_path: Path, files, named):
+    for file in files:
+        (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / file).write_bytes(TWO_LINKS)
+    with pytest.raises(RobotError, match="is a folder") as caught:
+        read_source(tmp_path)
+    told = f"give a file, such as {tmp_path / named}" if named else "give the URDF or MJCF file"
+    assert caught.value.hint.startswith(told)
+
+
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may read every file")
 def test_a_file_without_permission_is_refused(tmp_path: Path):
     path = tmp_path / "robot.urdf"
