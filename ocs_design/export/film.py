@@ -84,8 +84,7 @@ def film_model(robot: Robot, device: Device, *, ocs: bool) -> mujoco.MjModel:
     found = compiled(model.spec)
     found.opt.gravity[:] = 0.0
     if not ocs:
-        hidden = [each.name for each in device_bodies(device) if each.module is not None]
-        bodies = [found.body(name).id for name in hidden]
+        bodies = [found.body(each.name).id for each in device_bodies(device)]
         found.geom_group[np.isin(found.geom_bodyid, bodies)] = HIDDEN_GROUP
     return found
 

@@ -13,7 +13,7 @@ from functools import cached_property
 from ocs_design.device.device import Device
 from ocs_design.device.records.flights import StoppedRecord, SurvivalRecord
 from ocs_design.jumping.jump import BALLISTIC, JumpPlans
-from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.maneuver import Maneuver, Shove
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.robot.leg_geometry import up_axis
 from ocs_design.robot.robot import Robot
@@ -188,10 +188,15 @@ def fly_stopped(
     ends = fly(worlds, flights.options, progress)
     for (maneuver, stopped, _), flight in zip(flown, ends, strict=True):
         against = refusal(flights.robot) or flight.objection
-        verdict = judge(flight.metrics, maneuver, can_stand=None, objection=against)
-        tilt = None
-        if flight.metrics is not None and verdict.fault is not Fault.UNSOUND:
-            tilt = off_at_touchdown(flight.metrics, maneuver)
+        # Of a flight the landing counts, and not what the legs make of it.
+        shoved = isinstance(maneuver, Shove)
+        verdict = judge(
+            flight.metrics, maneuver, can_stand=True if shoved else None, objection=against
+        )
+        tilt, ended = None, flight.metrics
+        if ended is not None and verdict.fault is not Fault.UNSOUND:
+            final = max(abs(ended.final_roll), abs(ended.final_pitch))
+            tilt = final if shoved else off_at_touchdown(ended, maneuver)
         found.append(
             StoppedRecord(
                 scenario=maneuver.name,

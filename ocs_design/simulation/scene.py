@@ -1,12 +1,11 @@
 """Robot, device, joint drives and floor as one compiled MuJoCo model."""
 
-from dataclasses import replace
 from enum import StrEnum
 
 import mujoco
 import numpy as np
 
-from ocs_design.device.bodies import flywheel_names, joint_names
+from ocs_design.device.bodies import device_bodies, flywheel_names, joint_names
 from ocs_design.device.device import Device
 from ocs_design.export.attach import attach_device
 from ocs_design.export.physics import (
@@ -16,7 +15,6 @@ from ocs_design.export.physics import (
     hold_other_joints,
     meet_no_link,
 )
-from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.mujoco_bodies import quaternion
@@ -139,19 +137,12 @@ def compile_scene(
 ) -> mujoco.MjModel:
     """The scene with the device on it, on a pivot if told; `scene` itself stays as it is."""
     spec = scene.copy()
-    if wheels is Wheels.ABSENT:
-        # Without mass, at the same place. What has a body keeps it: all worlds of a batch have the
-        # same sizes.
-        carrier = device.carrier
-        device = replace(
-            device,
-            flywheel=replace(
-                device.flywheel, mass=1e-9, spin_inertia=1e-12, transverse_inertia=1e-12
-            ),
-            motor=replace(device.motor, mass=0.0, rotor_inertia=0.0),
-            carrier=Carrier(1e-9, 1e-12, 1e-12) if carrier.mass > 0.0 else carrier,
-        )
     attach_device(spec, robot, device)
+    if wheels is Wheels.ABSENT:
+        # Without mass, at the same place: all worlds of a batch have the same sizes.
+        for each in device_bodies(device):
+            body = spec.body(each.name)
+            body.mass, body.inertia = 1e-9, np.full(3, 1e-12)
     for name in flywheel_names(device):
         for geom in spec.body(name).geoms:
             geom.contype, geom.conaffinity = 0, 1

@@ -173,7 +173,7 @@ class WorldBuilder:
             )
         if active and self._options.desaturate:
             desaturation = Desaturation.of(
-                self._robot, standing, body.spin_inertia, maneuver.gravity
+                self._robot, max(standing, 0.0), body.spin_inertia, maneuver.gravity
             )
 
         takes_off = bool(start.velocity.any())
@@ -203,7 +203,8 @@ class WorldBuilder:
             standing_height=standing,
             stands=stands,
             takes_off=takes_off,
-            flight_time=flight,
+            # Who is shoved on the ground does not fly: all that is watched counts.
+            flight_time=flight or settling,
             duration=duration,
             settles=None if pivoted is None else pivoted.duration,
             note="; ".join(filter(None, (jump.note, changed))),

@@ -5,6 +5,7 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 import pytest
+from built import DEVICES
 from robots import ROBOTS, SOLO12
 from wheels import EC45_BODY, braked_inertia, driven_device, geared, paper_device, paper_maneuvers
 
@@ -79,8 +80,10 @@ def test_absent_wheels_leave_exactly_the_bare_robot(solo12, builder, maneuvers):
     assert data.ncon > 0
 
 
-def test_what_is_absent_has_no_motors_either(solo12, any_builder, maneuvers):
-    model = any_builder.flight(maneuvers[1], Wheels.ABSENT).model
+@pytest.mark.parametrize("name", DEVICES)
+def test_of_what_is_absent_nothing_weighs_anything(solo12, name, maneuvers):
+    """Neither wheels nor motors, nor what holds them on the trunk."""
+    model = WorldBuilder(solo12, DEVICES[name]).flight(maneuvers[1], Wheels.ABSENT).model
     assert model.body_subtreemass[1] == pytest.approx(solo12.mass, rel=1e-8)
 
 
