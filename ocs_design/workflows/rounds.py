@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ocs_design.common.errors import Infeasible, SpecificationError, UsageError
-from ocs_design.device.answers import MonteCarloRecord
+from ocs_design.device.answers import CERTIFICATE_FOLDER, MonteCarloRecord
 from ocs_design.device.checks import device_warnings
 from ocs_design.device.records.flights import SurvivalRecord
 from ocs_design.jumping.jump import JumpPlans
@@ -62,10 +62,6 @@ from ocs_design.workflows.flying import (
 if TYPE_CHECKING:
     from ocs_design.jumping.planning import JumpPlanning
     from ocs_design.sizing.trajectory.plans import Reference
-
-
-CERTIFICATE_FOLDER = "certificate"
-"""Folder of the many flights of `--certify`."""
 
 
 @dataclass(frozen=True, eq=False)
