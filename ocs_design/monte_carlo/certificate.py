@@ -170,7 +170,7 @@ def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Less
     shares = np.corrcoef(values[:, varied], tilt, rowvar=False)[-1, :-1] ** 2
     part, cause = max(zip(shares.tolist(), (outcomes.names[i] for i in varied), strict=True))
     factor = float(min(max(reached / LANDING_TOLERANCE, LEAST), LARGEST))
-    ending = f"the reserve is raised by {factor:.2f}"
+    ending = f"the reserve is raised by a factor of {factor:.2f}"
     if not campaign.flights[number].world.body.reach[axis]:
         factor, ending = 1.0, f"no wheel turns the robot in {names[axis]}, however large it is"
     elif cause.startswith("attitude_bias"):
@@ -179,7 +179,7 @@ def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Less
     quantity = cause.replace("_", " ").replace(".", " ")
     return Lesson(
         factor,
-        f"{landings}, which {test.asked:.4g} of them keep within "
-        f"{np.degrees(reached):.1f} deg ({np.degrees(LANDING_TOLERANCE):.0f} are allowed); "
-        f"{part:.0%} of its variance goes with {quantity}: {ending}",
+        f"{landings}; {100.0 * test.asked:.4g}% stay within {np.degrees(reached):.1f} deg "
+        f"({np.degrees(LANDING_TOLERANCE):.0f} deg is allowed), and {part:.0%} of the variance "
+        f"comes from {quantity}: {ending}",
     )

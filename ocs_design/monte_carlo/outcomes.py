@@ -238,7 +238,7 @@ class Storage:
                         if getattr(recorded, name) != getattr(identity, name)
                     ]
                     raise OutputError(
-                        f"{folder}: holds samples of another campaign; not the same: "
+                        f"{folder}: holds samples of another campaign; these differ: "
                         f"{', '.join(differs)}",
                         hint=_HINT,
                     )

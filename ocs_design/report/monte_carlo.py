@@ -22,11 +22,12 @@ _SPREAD = (
 
 def campaign_title(record: MonteCarloRecord) -> str:
     """How many robots were flown, and from which seed they were drawn."""
-    flown = f"{record.samples:,} robots as they might be built"
+    count, enough = f"{record.samples:,}", ""
     if record.samples != record.asked:
         what = "interval asked for" if record.certificate is None else "certificate"
-        flown += f" of {record.asked:,}, enough for the {what}"
-    return f"{flown}, seed {record.seed}"
+        count += f" of {record.asked:,}"
+        enough = f"; that was enough for the {what}"
+    return f"{count} robots as they might be built, seed {record.seed}{enough}"
 
 
 def success_table(record: MonteCarloRecord) -> Table:
