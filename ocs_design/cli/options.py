@@ -356,8 +356,8 @@ def specified_by_command(context: typer.Context) -> "Specification":
         value = context.params.get(parameter)
         if context.params.get(f"no_{parameter}"):
             given[path] = False
-        # What is not said is None, empty where it repeats, or a flag that is false; zero equals
-        # False, and is a seed.
+        # An option that was not given is None, an empty list or a false flag; 0 is a valid seed,
+        # and equals False.
         elif value is not None and value is not False and value not in ((), []):
             given[path] = list(value) if isinstance(value, tuple) else value
     typed = specification_from_options(given)
