@@ -5,14 +5,13 @@ is that one of them does all of its maneuvers.
 """
 
 from dataclasses import dataclass
-from enum import StrEnum
 from math import ceil, log
 from statistics import NormalDist
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.device.records.flights import ReliabilityRecord
+from ocs_design.device.records.flights import Conclusion, ReliabilityRecord
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import Outcomes, share
 from ocs_design.requirement.maneuver import End
@@ -25,14 +24,6 @@ ERROR = 0.05
 
 WORSE = 3.0
 """Odds of failure of a device that must not be certified, over those that were asked for."""
-
-
-class Conclusion(StrEnum):
-    """What a certificate says."""
-
-    CERTIFIED = "certified"
-    SHORT = "falls short"
-    UNDECIDED = "undecided"
 
 
 @dataclass(frozen=True)
@@ -108,7 +99,7 @@ def certificate(
     return ReliabilityRecord(
         asked=test.asked,
         worse=test.worse,
-        verdict=(finding or Conclusion.UNDECIDED).value,
+        verdict=finding or Conclusion.UNDECIDED,
         samples=count,
         whole=whole.passed,
         whole_interval=(whole.low, whole.high),

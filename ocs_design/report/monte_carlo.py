@@ -6,7 +6,7 @@ import numpy as np
 
 from ocs_design.common.units import ceiled, floored
 from ocs_design.device.answers import MonteCarloRecord, Share
-from ocs_design.device.records.flights import ReliabilityRecord
+from ocs_design.device.records.flights import Conclusion, ReliabilityRecord
 from ocs_design.report.table import Table, columns
 
 BARS = " ▁▂▃▄▅▆▇█"
@@ -52,9 +52,13 @@ def success_table(record: MonteCarloRecord) -> Table:
 
 def certificate_line(found: ReliabilityRecord) -> str:
     """What was asked for and how sure it is, short enough for the first line."""
-    words = {"certified": "certified for", "falls short": "falls short of"}
-    verdict = words.get(found.verdict, "undecided about")
-    return f"{verdict} {100.0 * found.asked:.4g} %: {found.whole:,} of {found.samples:,} pass"
+    words = {
+        Conclusion.CERTIFIED: "certified for",
+        Conclusion.SHORT: "falls short of",
+        Conclusion.UNDECIDED: "undecided about",
+    }
+    passed = f"{found.whole:,} of {found.samples:,} pass"
+    return f"{words[found.verdict]} {100.0 * found.asked:.4g} %: {passed}"
 
 
 def certificate_notes(found: ReliabilityRecord) -> Iterator[str]:

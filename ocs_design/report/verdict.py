@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from ocs_design.device.answers import Validated
 from ocs_design.device.records.design import OcsDesign
-from ocs_design.device.records.flights import ValidationRecord
+from ocs_design.device.records.flights import Conclusion, ValidationRecord
 from ocs_design.report.device import has_motor
 from ocs_design.report.flights import falls, survival_sentence, turned_by_hand
 from ocs_design.report.monte_carlo import certificate_line
@@ -61,7 +61,11 @@ def headline(found: OcsDesign | Validated) -> Headline:
         count = len(survival.flights)
         parts.append(_share("with a drive stopped", count - len(survival.lost), count, Tone.FAIL))
     if certified is not None:
-        tones = {"certified": Tone.PASS, "falls short": Tone.FAIL, "undecided": Tone.OPEN}
+        tones = {
+            Conclusion.CERTIFIED: Tone.PASS,
+            Conclusion.SHORT: Tone.FAIL,
+            Conclusion.UNDECIDED: Tone.OPEN,
+        }
         verdict = f"{100.0 * certified.asked:.4g} % {certified.verdict}"
         parts.append(Toned(verdict, tones[certified.verdict]))
     # Those that fail before those that are not judged.

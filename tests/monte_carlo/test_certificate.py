@@ -13,10 +13,10 @@ from scipy import stats
 from wheels import layout_device
 
 from ocs_design.device.layout import Layout, LayoutName
+from ocs_design.device.records.flights import Conclusion
 from ocs_design.monte_carlo.certificate import (
     ERROR,
     LARGEST,
-    Conclusion,
     SequentialTest,
     certificate,
     lesson,
