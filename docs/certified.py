@@ -22,7 +22,8 @@ import numpy as np
 from blocks import table
 
 from ocs_design.common.units import floored
-from ocs_design.monte_carlo.certificate import ERROR, Conclusion, SequentialTest
+from ocs_design.device.records.flights import Conclusion
+from ocs_design.monte_carlo.certificate import ERROR, SequentialTest
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "ocs_design"

@@ -64,7 +64,7 @@ EXAMPLES: Mapping[str, tuple[str, ...]] = {
     "validate": (
         "ocs-design validate robot-ocs --samples 1000 --until-width 5% -o flights",
         "ocs-design validate robot-ocs --certify",
-        "ocs-design validate robot-ocs --replay flights/worst/drop_1.json --view",
+        "ocs-design validate robot-ocs --replay flights/worst/drop-1.json --view",
     ),
     "pareto": (
         "ocs-design pareto robot.urdf --against time -o front",
@@ -313,7 +313,7 @@ def bound(
 ) -> None:
     """Show the paper's lower bound of a robot by hand.
 
-    Least inertia of the wheels, and its curve over the incidence.
+    Least inertia of the wheels, and its curve over rate change and wheel speed.
     """
     from ocs_design.report.text.answers import print_bound
     from ocs_design.workflows.bound import bound_by_hand
@@ -364,8 +364,8 @@ def catalogue(
 
     A motor of your own is a [[motor]] of a TOML file or a row of a CSV file for --motors: name,
     maker, source, mass_kg, kv_rpm_per_v or kt_nm_per_a, resistance_ohm, resistance_between
-    ("line-line"), peak_current_a, rated_voltage_v. With -v the list says what a motor lacks to be
-    built with.
+    ("line-line"), peak_current_a, rated_voltage_v. The list says what a motor lacks to be built
+    with.
     """
     from ocs_design.report.text.catalogue import listing
     from ocs_design.report.text.layout import warn

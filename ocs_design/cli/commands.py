@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 def doctor(as_json: opt.AsJson = False, no_color: opt.NoColor = False) -> None:
     """Show what is installed, and how to get the rest.
 
-    What each thing is for is told. Packages are imported and pictures drawn to see that they can
+    Says what each package is for. Packages are imported and pictures drawn to see that they can
     be. Exit codes: 0 all that is required works, 5 something required does not.
     """
     from ocs_design.report.text.answers import print_examination
@@ -61,7 +61,7 @@ QUESTIONS: Mapping[str, str] = {
 def init(
     context: typer.Context,
     yes: Annotated[
-        bool, typer.Option("-y", "--yes", help="Ask nothing; as where no terminal is.")
+        bool, typer.Option("-y", "--yes", help="Ask nothing, as without a terminal.")
     ] = False,
     out: Annotated[
         Path | None, opt.option("-o --out", "FILE", "File to write. Default: <name>.toml.")
@@ -124,7 +124,9 @@ def _ask_task(start: "Start") -> tuple["Start", tuple[str, ...]]:
             named = tuple(name.strip() for name in answer.split(","))
             unknown = [name for name in named if name not in (*known, ALL)]
             if unknown:
-                raise UsageError(f"{', '.join(unknown)}: is none of {', '.join((*known, ALL))}")
+                raise UsageError(
+                    f"{', '.join(unknown)}: unknown; choose from {', '.join((*known, ALL))}"
+                )
             return () if ALL in named else named
 
         question = f"Maneuvers: {', '.join(known)}, with commas, or {ALL}"
@@ -161,7 +163,7 @@ OtherRobot: TypeAlias = Annotated[
     opt.option(
         "--robot",
         "FILE",
-        "The robot's file, where it has moved or is to be another than was sized for.",
+        "The robot's file, if it has moved or another one is wanted.",
         completion.files(*completion.ROBOTS),
     ),
 ]

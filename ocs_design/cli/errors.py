@@ -40,7 +40,7 @@ def run(app: typer.Typer, arguments: Sequence[str]) -> int:
         for before, name in pairwise(("", *arguments)):
             if not name.strip() or re.fullmatch(r"--[\w-]+=", name):
                 raise UsageError(
-                    f"{before if not name.strip() else name[:-1]}: what is typed for it is empty",
+                    f"{before if not name.strip() else name[:-1]}: the value is empty",
                     hint="look whether the shell's variable is set, or leave the option out",
                 )
         result = command.main(list(arguments), prog_name="ocs-design", standalone_mode=False)
@@ -81,7 +81,7 @@ def _told(error: Failure) -> OcsError:
         )
     if isinstance(error, UnicodeEncodeError):
         return OcsError(
-            f"{error.object[:200]!a}: that name is no text in the encoding {error.encoding}",
+            f"{error.object[:200]!a}: this name is not valid {error.encoding}",
             hint="rename the file or folder, or set PYTHONUTF8=1 if the name is UTF-8",
         )
     context = getattr(error, "ctx", None)

@@ -128,7 +128,7 @@ Certify: TypeAlias = Annotated[
     bool,
     typer.Option(
         "--certify",
-        help="Fly robots as they might be built, until it is sure whether enough of them pass.",
+        help="Fly robots as they might be built, until it is clear whether enough of them pass.",
     ),
 ]
 Seed: TypeAlias = Annotated[int | None, option("--seed", "N", "Seed of all random numbers.")]
@@ -168,7 +168,7 @@ ROBOT_OPTIONS: Mapping[str, object] = {
 
 TASK_OPTIONS: Mapping[str, object] = {
     **ROBOT_OPTIONS,
-    "rate_change": _text("RATE", "Change of the trunk's rate to be able to make."),
+    "rate_change": _text("RATE", "Change of the trunk's rate that the device must manage."),
     "reliability": _text(
         "SHARE", "Share of robots that shall pass as built; 0.99 by default, 0.5: nominal."
     ),
@@ -291,7 +291,8 @@ TASK_OPTIONS: Mapping[str, object] = {
         completion.any_of(completion.gears),
     ),
     "motors_any": _flag(
-        "--motors-any", "Choose among motors that cannot be built with too: no threads known, say."
+        "--motors-any",
+        "Also choose among motors that cannot be built with yet, for example with unknown threads.",
     ),
     "motors": _text(
         "FILE",
@@ -355,8 +356,8 @@ def specified_by_command(context: typer.Context) -> "Specification":
         value = context.params.get(parameter)
         if context.params.get(f"no_{parameter}"):
             given[path] = False
-        # What is not said is None, empty where it repeats, or a flag that is false; zero equals
-        # False, and is a seed.
+        # An option that was not given is None, an empty list or a false flag; 0 is a valid seed,
+        # and equals False.
         elif value is not None and value is not False and value not in ((), []):
             given[path] = list(value) if isinstance(value, tuple) else value
     typed = specification_from_options(given)
@@ -392,7 +393,7 @@ def package_paths_of_command(context: typer.Context) -> Mapping[str, Path]:
         name, separator, folder = text.partition("=")
         if not (name and separator and folder):
             raise UsageError(
-                f"--package-path {text}: is not NAME=DIR",
+                f"--package-path {text}: expected NAME=DIR",
                 hint="as in --package-path my_robot=/opt/my_robot",
             )
         if not Path(folder).is_dir():

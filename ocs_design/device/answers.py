@@ -347,6 +347,9 @@ RESULT_FILE = "monte_carlo.json"
 """Record of a campaign, written last: a folder without it is not complete, and the same command
 completes it."""
 
+CERTIFICATE_FOLDER = "certificate"
+"""Folder of the many flights of `--certify`."""
+
 CONFIDENCE = 0.95
 """Confidence of the intervals of all shares."""
 

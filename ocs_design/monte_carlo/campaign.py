@@ -201,7 +201,7 @@ class Case:
         seed, sample: which its noise follows from.
         scenario: for which it was kept. verdict: on it, in one sentence.
         values: that were drawn, by name (SI).
-        metrics: of each scenario by its name; what there is none of is null.
+        metrics: of each scenario by its name; null where there is no value.
     """
 
     schema_version: int

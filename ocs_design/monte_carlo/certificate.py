@@ -5,14 +5,13 @@ is that one of them does all of its maneuvers.
 """
 
 from dataclasses import dataclass
-from enum import StrEnum
 from math import ceil, log
 from statistics import NormalDist
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.device.records.flights import ReliabilityRecord
+from ocs_design.device.records.flights import Conclusion, ReliabilityRecord
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import Outcomes, share
 from ocs_design.requirement.maneuver import End
@@ -25,14 +24,6 @@ ERROR = 0.05
 
 WORSE = 3.0
 """Odds of failure of a device that must not be certified, over those that were asked for."""
-
-
-class Conclusion(StrEnum):
-    """What a certificate says."""
-
-    CERTIFIED = "certified"
-    SHORT = "falls short"
-    UNDECIDED = "undecided"
 
 
 @dataclass(frozen=True)
@@ -108,7 +99,7 @@ def certificate(
     return ReliabilityRecord(
         asked=test.asked,
         worse=test.worse,
-        verdict=(finding or Conclusion.UNDECIDED).value,
+        verdict=finding or Conclusion.UNDECIDED,
         samples=count,
         whole=whole.passed,
         whole_interval=(whole.low, whole.high),
@@ -170,7 +161,7 @@ def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Less
     shares = np.corrcoef(values[:, varied], tilt, rowvar=False)[-1, :-1] ** 2
     part, cause = max(zip(shares.tolist(), (outcomes.names[i] for i in varied), strict=True))
     factor = float(min(max(reached / LANDING_TOLERANCE, LEAST), LARGEST))
-    ending = f"the reserve is raised by {factor:.2f}"
+    ending = f"the reserve is raised by a factor of {factor:.2f}"
     if not campaign.flights[number].world.body.reach[axis]:
         factor, ending = 1.0, f"no wheel turns the robot in {names[axis]}, however large it is"
     elif cause.startswith("attitude_bias"):
@@ -179,7 +170,7 @@ def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Less
     quantity = cause.replace("_", " ").replace(".", " ")
     return Lesson(
         factor,
-        f"{landings}, which {test.asked:.4g} of them keep within "
-        f"{np.degrees(reached):.1f} deg ({np.degrees(LANDING_TOLERANCE):.0f} are allowed); "
-        f"{part:.0%} of its variance goes with {quantity}: {ending}",
+        f"{landings}; {100.0 * test.asked:.4g}% stay within {np.degrees(reached):.1f} deg "
+        f"({np.degrees(LANDING_TOLERANCE):.0f} deg is allowed), and {part:.0%} of the variance "
+        f"comes from {quantity}: {ending}",
     )

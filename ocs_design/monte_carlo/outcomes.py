@@ -1,7 +1,6 @@
 """Blocks of samples and their outcomes, as arrays, shares, tables and the folder of a campaign."""
 
 import csv
-import hashlib
 import math
 import shutil
 import zipfile
@@ -88,7 +87,6 @@ class Outcomes(Table):
                 metrics=self.metrics,
                 codes=self.codes,
                 names=np.array(self.names),
-                figures=np.array(METRICS),
             )
 
     @classmethod
@@ -196,11 +194,6 @@ class Identity:
     hold: int
     desaturate: bool
 
-    @property
-    def key(self) -> str:
-        """One short name for all of it."""
-        return hashlib.sha256(msgspec.json.encode(self, order="deterministic")).hexdigest()
-
 
 class Storage:
     """Blocks in files of their own, each complete or not there."""
@@ -230,7 +223,7 @@ class Storage:
                     raise OutputError(
                         f"{folder}: exists, and holds no samples of ocs-design", hint=_HINT
                     )
-            if recorded is not None and recorded.key != identity.key:
+            if recorded is not None and recorded != identity:
                 if not force:
                     differs = [
                         name
@@ -238,12 +231,12 @@ class Storage:
                         if getattr(recorded, name) != getattr(identity, name)
                     ]
                     raise OutputError(
-                        f"{folder}: holds samples of another campaign; not the same: "
+                        f"{folder}: holds samples of another campaign; these differ: "
                         f"{', '.join(differs)}",
                         hint=_HINT,
                     )
-                # What was made of the samples goes first: it is not to stand beside those of
-                # another.
+                # Delete the old results first, so that they never stand beside another campaign's
+                # samples.
                 (folder / RESULT_FILE).unlink(missing_ok=True)
                 shutil.rmtree(folder / BLOCKS, ignore_errors=True)
             (folder / BLOCKS).mkdir(parents=True, exist_ok=True)

@@ -150,7 +150,7 @@ def standing_advice(campaign: Campaign, outcomes: Outcomes, number: int) -> str:
     if not falls.any():
         return ""
     fell = outcomes.index[falls]
-    worlds = [campaign.worlds(campaign.sample(index))[number] for index in fell[:TRIED].tolist()]
+    worlds = [campaign.built(campaign.sample(index), number) for index in fell[:TRIED].tolist()]
     stand = {}
     for words, change in REMEDIES.items():
         found = fly([change(world) for world in worlds], Options(hold=campaign.hold))

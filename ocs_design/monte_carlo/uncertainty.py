@@ -74,7 +74,7 @@ class Uncertainty:
         return cls({key: getattr(complete, key) for key in KEYS}, device.layout, detection)
 
     def written(self) -> Mapping[str, str]:
-        """Text that differs between any two sets of distributions (SI)."""
+        """Distributions as text by key (SI); different sets have different texts."""
         texts = {key: spread.written() for key, spread in self.spreads.items()}
         if self.detection is None:
             return texts

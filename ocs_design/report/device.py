@@ -117,7 +117,7 @@ def device_facts(design: OcsDesign) -> Rows:
     """Wheel, masses, drive and place of the device."""
     ocs, motor = design.ocs, design.ocs.motor
     rows = [*_wheel_facts(ocs), *_mass_facts(design), ("motor", motor.full_name)]
-    if motor.bus_voltage is not None:
+    if has_motor(design):
         if motor.gear != DIRECT.name:
             loss = f"efficiency {motor.gear_efficiency:.0%}"
             rows.append(("gear", f"{motor.gear}, ratio {motor.gear_ratio:.3g}, {loss}"))

@@ -104,11 +104,13 @@ def short_verdict(run: ValidationRecord, *, kind: str) -> Toned:
         angle, what = abs(found["turned_angle"] or 0.0), " turned"
     elif found["touchdown_time"] == found["lift_off_time"]:
         # Pushed as it stands.
-        angle, what = float(off_level(*_angles(found, "{}_swing"))), " swing"
+        angle, what = float(np.hypot(*_angles(found, "{}_swing"))), " swing"
+    elif kind == "turn":
+        angle = float(off_level(*_angles(found, "touchdown_{}")))
+        what = f", heading {degrees_number(found['heading_drift'] or 0.0)}"
     else:
-        angle, what = float(off_level(*_angles(found, "touchdown_{}"))), ""
-        if kind == "turn":
-            what = f", heading {degrees_number(found['heading_drift'] or 0.0)}"
+        # As `judge` has it: within its limit this one passes, whatever the verticals' angle is.
+        angle, what = max(map(abs, _angles(found, "touchdown_{}"))), ""
     return Toned(f"{word.text:<5} {degrees_number(angle):>5}{what}", word.tone)
 
 
@@ -231,14 +233,14 @@ def landing_remarks(design: OcsDesign) -> Iterator[str]:
     bare = {run.scenario: run for run in design.validation if not run.ocs}
     swings = []
     for run in carrying:
-        swing = _tilt(run, "{}_swing")
-        alone = _tilt(bare[run.scenario], "{}_swing") if run.scenario in bare else None
+        swing = _swing(run)
+        alone = _swing(bare[run.scenario]) if run.scenario in bare else None
         if swing is not None and alone is not None and swing > alone + WORSE:
             swings.append(f"{run.scenario} {degrees(swing)}, {degrees(alone)} without")
     if swings:
         yield f"on the ground the trunk swings further with the device: {'; '.join(swings)}"
     stood = (run for run in carrying if run.passed and run.can_stand)
-    ends = {run.scenario: _tilt(run, "final_{}") or 0.0 for run in stood}
+    ends = {run.scenario: float(off_level(*_angles(run.metrics, "final_{}"))) for run in stood}
     leaning = [f"{name} {degrees(end)}" for name, end in ends.items() if end > LANDING_TOLERANCE]
     if leaning:
         yield (
@@ -256,11 +258,15 @@ def landing_remarks(design: OcsDesign) -> Iterator[str]:
 
 
 def _angles(metrics: Mapping[str, float | bool | None], name: str) -> tuple[float, float]:
-    roll, pitch = (metrics[name.format(axis)] for axis in ("roll", "pitch"))
+    """Roll and pitch of that name [rad]; 0 where they are not known."""
+    roll, pitch = (metrics.get(name.format(axis)) for axis in ("roll", "pitch"))
     return roll or 0.0, pitch or 0.0
 
 
-def _tilt(run: ValidationRecord, name: str) -> float | None:
-    """Roll and pitch together [rad]; None where they are not known."""
-    roll, pitch = (run.metrics.get(name.format(axis)) for axis in ("roll", "pitch"))
+def _swing(run: ValidationRecord) -> float | None:
+    """Swings of roll and pitch together [rad]; None where they are not known.
+
+    They are widths, of more than a full turn where a robot rolls over, and no attitude.
+    """
+    roll, pitch = (run.metrics.get(f"{axis}_swing") for axis in ("roll", "pitch"))
     return None if roll is None or pitch is None else float(np.hypot(roll, pitch))

@@ -81,13 +81,13 @@ TURNS = (
     " the least torque that does it. With more torque down to half this inertia may do: the "
     "flights show it."
 )
-"""How demands were calculated of wheels without motors."""
+"""Note on demands of wheels without motors."""
 
 DRIVEN = (
     "Momenta are those of constant torque one way and then the other. The spin inertia is what the "
     "chosen drive needs: it may hold its speed for longer, and then takes less momentum."
 )
-"""How they were calculated with a drive."""
+"""Note on demands of a chosen drive."""
 
 
 def demand_table(design: OcsDesign) -> Table:

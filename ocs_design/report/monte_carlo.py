@@ -6,7 +6,7 @@ import numpy as np
 
 from ocs_design.common.units import ceiled, floored
 from ocs_design.device.answers import MonteCarloRecord, Share
-from ocs_design.device.records.flights import ReliabilityRecord
+from ocs_design.device.records.flights import Conclusion, ReliabilityRecord
 from ocs_design.report.table import Table, columns
 
 BARS = " ▁▂▃▄▅▆▇█"
@@ -22,11 +22,12 @@ _SPREAD = (
 
 def campaign_title(record: MonteCarloRecord) -> str:
     """How many robots were flown, and from which seed they were drawn."""
-    flown = f"{record.samples:,} robots as they might be built"
+    count, enough = f"{record.samples:,}", ""
     if record.samples != record.asked:
         what = "interval asked for" if record.certificate is None else "certificate"
-        flown += f" of {record.asked:,}, enough for the {what}"
-    return f"{flown}, seed {record.seed}"
+        count += f" of {record.asked:,}"
+        enough = f"; that was enough for the {what}"
+    return f"{count} robots as they might be built, seed {record.seed}{enough}"
 
 
 def success_table(record: MonteCarloRecord) -> Table:
@@ -51,9 +52,13 @@ def success_table(record: MonteCarloRecord) -> Table:
 
 def certificate_line(found: ReliabilityRecord) -> str:
     """What was asked for and how sure it is, short enough for the first line."""
-    words = {"certified": "certified for", "falls short": "falls short of"}
-    verdict = words.get(found.verdict, "undecided about")
-    return f"{verdict} {100.0 * found.asked:.4g} %: {found.whole:,} of {found.samples:,} pass"
+    words = {
+        Conclusion.CERTIFIED: "certified for",
+        Conclusion.SHORT: "falls short of",
+        Conclusion.UNDECIDED: "undecided about",
+    }
+    passed = f"{found.whole:,} of {found.samples:,} pass"
+    return f"{words[found.verdict]} {100.0 * found.asked:.4g} %: {passed}"
 
 
 def certificate_notes(found: ReliabilityRecord) -> Iterator[str]:

@@ -11,7 +11,7 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import safe_name
-from ocs_design.device.answers import RESULT_FILE, MonteCarloRecord, PostureLine
+from ocs_design.device.answers import CERTIFICATE_FOLDER, RESULT_FILE, MonteCarloRecord, PostureLine
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.records.flights import (
     ValidationRecord,
@@ -166,13 +166,15 @@ def _first_file(folders: Sequence[Path], name: str) -> Path | None:
 
 
 def read_campaign(folders: Sequence[Path]) -> MonteCarloRecord | None:
-    """Record that `validate --samples` wrote into one of these folders, or below one.
+    """Record of many flights in one of these folders, or below one; None: there is none.
+
+    Those that `validate --samples` flew come before those of the certificate.
 
     Raises:
         OcsError: it is there and cannot be read.
     """
     places = (path for folder in folders for path in sorted(folder.glob(f"**/{RESULT_FILE}")))
-    path = next(places, None)
+    path = min(places, key=lambda each: each.parent.name == CERTIFICATE_FOLDER, default=None)
     if path is None:
         return None
     try:

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 from ocs_design.device.answers import Validated
 from ocs_design.device.records.design import OcsDesign
-from ocs_design.device.records.flights import ValidationRecord
+from ocs_design.device.records.flights import Conclusion, ValidationRecord
+from ocs_design.report.device import has_motor
 from ocs_design.report.flights import falls, survival_sentence, turned_by_hand
 from ocs_design.report.monte_carlo import certificate_line
 from ocs_design.report.table import Tone, Toned
@@ -60,7 +61,11 @@ def headline(found: OcsDesign | Validated) -> Headline:
         count = len(survival.flights)
         parts.append(_share("with a drive stopped", count - len(survival.lost), count, Tone.FAIL))
     if certified is not None:
-        tones = {"certified": Tone.PASS, "falls short": Tone.FAIL, "undecided": Tone.OPEN}
+        tones = {
+            Conclusion.CERTIFIED: Tone.PASS,
+            Conclusion.SHORT: Tone.FAIL,
+            Conclusion.UNDECIDED: Tone.OPEN,
+        }
         verdict = f"{100.0 * certified.asked:.4g} % {certified.verdict}"
         parts.append(Toned(verdict, tones[certified.verdict]))
     # Those that fail before those that are not judged.
@@ -81,7 +86,7 @@ def _buildable(design: OcsDesign) -> Toned:
     yes = design.buildable.yes
     if yes is not None:
         return Toned("buildable" if yes else "NOT buildable", Tone.PASS if yes else Tone.FAIL)
-    if design.ocs.motor.bus_voltage is None:
+    if not has_motor(design):
         return Toned("no motor chosen yet", Tone.OPEN)
     why = "" if design.robot.sha256 else ", for the robot has no shapes"
     return Toned(f"buildable: not known{why}", Tone.OPEN)

@@ -3,14 +3,13 @@
 import subprocess
 from collections.abc import Sequence
 from contextlib import suppress
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.common.errors import MissingToolError, extra_command
+from ocs_design.common.errors import MissingToolError
 from ocs_design.common.files import safe_name
 from ocs_design.common.units import rpm
 from ocs_design.common.wording import degrees
@@ -53,8 +52,6 @@ def film_or_tell(
     robot: Robot, device: Device, maneuvers: Sequence[Maneuver], runs: Sequence[Run], folder: Path
 ) -> tuple[str, ...]:
     """Write the films of `film_flights` where they can be made, never failing; gives remarks."""
-    if find_spec("PIL") is None:
-        return (f"no video, because Pillow is not installed; {extra_command('video')}",)
     try:
         films = film_flights(robot, device, maneuvers, runs, folder)
     except MissingToolError as error:
@@ -96,7 +93,7 @@ def film_flights(
                     lines.append(f"wheels {', '.join(speeds)}")
                 side.append(captioned(frame, title, run.passed, lines))
             sides.append(side)
-        # Who is done first stands still until the other is.
+        # The shorter film holds its last frame until the other ends.
         longest = max(map(len, sides))
         film: list[Picture] = [
             np.concatenate([side[min(k, len(side) - 1)] for side in sides], axis=1)
@@ -109,7 +106,7 @@ def film_flights(
 
 def captioned(picture: Picture, title: str, good: bool | None, lines: Sequence[str]) -> Picture:
     """The picture with a title, in a colour for how it went if that is known, and lines below."""
-    # Pillow is an extra.
+    # Importing it takes time, and only films need it.
     from PIL import Image, ImageDraw, ImageFont  # noqa: PLC0415
 
     image = Image.fromarray(picture)
@@ -158,7 +155,7 @@ def encode(pictures: Sequence[Picture], seconds: float, stem: Path) -> Path:
             )
             if done.returncode == 0:
                 return path
-        # What is there of it is no film.
+        # Remove what ffmpeg left unfinished.
         path.unlink(missing_ok=True)
     path, kept = stem.with_suffix(".gif"), pictures[::GIF_EVERY]
     # All frames in the colours of some: one palette is small, and nothing flickers.

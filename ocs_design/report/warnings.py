@@ -12,6 +12,7 @@ from ocs_design.device.layout import PAIR
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.records.device import OcsRecord
 from ocs_design.export.electrics import controller_rating
+from ocs_design.report.device import has_motor
 from ocs_design.report.flights import flight_remarks, hand_turn
 from ocs_design.requirement.bound import AXES, authority
 from ocs_design.requirement.vocabulary import DRAWN
@@ -99,7 +100,7 @@ def _overvoltage(motor: Drive) -> Iterator[str]:
 def _motor_notes(design: OcsDesign) -> Iterator[str]:
     """Notes on the motor's figures and its controllers; none where no motor was chosen."""
     motor = design.ocs.motor
-    if motor.bus_voltage is None:
+    if not has_motor(design):
         return
     torques = (each.demand for each in design.margins if each.name == MOTOR_TORQUE)
     asked, starts = max(torques, default=0.0), motor.saturation_torque

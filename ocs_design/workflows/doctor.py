@@ -57,7 +57,7 @@ PURPOSES: Mapping[str, str] = MappingProxyType(
         "distributed": "Monte Carlo on many machines",
         "mujoco-warp": "Monte Carlo on an NVIDIA GPU",
         "pyarrow": "samples as Parquet",
-        "pillow": "words on videos",
+        "pillow": "PDF, words on videos",
         "imageio-ffmpeg": "videos where the system has no ffmpeg",
         "cadquery-ocp-novtk": "parts in STEP for CAD",
         "ezdxf": "the wheel in DXF for CAD",
@@ -251,7 +251,7 @@ def film_maker() -> Finding:
     """Finding about ffmpeg, which makes films."""
     path, found = ffmpeg_program(), ""
     if path is not None:
-        # What does not run is not there.
+        # An ffmpeg that does not run counts as missing.
         with suppress(OSError, subprocess.SubprocessError):
             said = subprocess.run(
                 [path, "-version"], capture_output=True, text=True, check=True, timeout=20.0

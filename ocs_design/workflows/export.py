@@ -1,8 +1,9 @@
 """`ocs-design export`: every file again from `design.json`."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import AnyPath, safe_name, to_json
@@ -10,6 +11,7 @@ from ocs_design.device.answers import Exported, PostureLine, posture_lines
 from ocs_design.device.bodies import joint_names
 from ocs_design.device.records.design import DESIGN_FILE, OcsDesign, design_file
 from ocs_design.export.folder import (
+    REPORT_FILE,
     file_hashes,
     keep_others,
     recorded_hashes,
@@ -30,6 +32,9 @@ from ocs_design.workflows.restoring import (
     read_recorded_robot,
     seat_of,
 )
+
+if TYPE_CHECKING:
+    from ocs_design.report.story import Story
 
 _WHERE = (
     "say where it is with --robot FILE, or leave out the robot's files: "
@@ -106,16 +111,25 @@ def export_design(
                 if CONTROLLER in names:
                     raise
                 remarks = (*remarks, f"without the controller: {error.message}")
+        story = None
         if set(rest) - {CONTROLLER}:
-            remarks += _write_pages(known, where, staging, rest, command)
-        made = file_hashes(staging)
+            story, more = _read_story(known, where, staging, command)
+            remarks += more
+        if story is not None and FIGURES in rest:
+            remarks += _write_figures(story, staging)
+        new = set(file_hashes(staging))
         if folder.exists() and folder.samefile(path.parent):
             # If all usual files are made anew, those of before may have had other names.
             usual = set(USUAL_FORMATS) <= set(chosen)
             folders = {each.folder for each in FORMATS} if usual else set()
             old = {file for file in known.files if file.partition("/")[0] in folders}
             keep_others(path.parent, staging, without=old)
+        # All other files are there now: the report, which holds the design, has their hashes too.
         again = replace(known, files=recorded_hashes(staging))
+        if story is not None and REPORT in rest:
+            _write_report(replace(story, design=again), staging)
+            new.add(REPORT_FILE)
+        made = {name: value for name, value in file_hashes(staging).items() if name in new}
         (staging / DESIGN_FILE).write_bytes(to_json(again))
     told = known.robot.warnings
     return Exported(
@@ -126,14 +140,14 @@ def export_design(
     )
 
 
-def _write_pages(
-    design: OcsDesign, where: Whereabouts, folder: Path, names: Collection[str], command: str
-) -> tuple[str, ...]:
-    """Write charts and report; a file that the folder lacks is taken from the design's own."""
-    # They need the simulator's values, which parts and snippets do without.
-    from ocs_design.report.charts.figures import FOLDER, all_charts  # noqa: PLC0415
-    from ocs_design.report.charts.svg import write_charts  # noqa: PLC0415
-    from ocs_design.report.html.page import write_report  # noqa: PLC0415
+def _read_story(
+    design: OcsDesign, where: Whereabouts, folder: Path, command: str
+) -> tuple["Story", tuple[str, ...]]:
+    """What charts and report show, and remarks.
+
+    What the folder lacks is taken from the design's own.
+    """
+    # It needs the simulator's values, which parts and snippets do without.
     from ocs_design.report.story import story_in  # noqa: PLC0415
 
     postures: tuple[PostureLine, ...] = ()
@@ -143,13 +157,25 @@ def _write_pages(
         postures = posture_lines(robot)
     except OcsError as error:
         remarks = (f"without the chart of incidence over postures: {error.message}",)
-    story = story_in([folder, where.design.parent], design, postures=postures, command=command)
-    if FIGURES in names:
-        remarks += write_charts(tuple(all_charts(story)), folder / FOLDER)
-    if REPORT in names:
-        whole = replace(design, files=recorded_hashes(folder))
-        write_report(replace(story, design=whole), folder)
-    return remarks
+    folders = [folder, where.design.parent]
+    return story_in(folders, design, postures=postures, command=command), remarks
+
+
+def _write_figures(story: "Story", folder: Path) -> tuple[str, ...]:
+    """Write every chart; gives remarks."""
+    # As for the story.
+    from ocs_design.report.charts.figures import FOLDER, all_charts  # noqa: PLC0415
+    from ocs_design.report.charts.svg import write_charts  # noqa: PLC0415
+
+    return write_charts(tuple(all_charts(story)), folder / FOLDER)
+
+
+def _write_report(story: "Story", folder: Path) -> None:
+    """Write the page."""
+    # As for the story.
+    from ocs_design.report.html.page import write_report  # noqa: PLC0415
+
+    write_report(story, folder)
 
 
 def _write_controller(name: str, where: Whereabouts, folder: Path) -> None:

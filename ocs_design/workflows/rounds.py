@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ocs_design.common.errors import Infeasible, SpecificationError, UsageError
-from ocs_design.device.answers import MonteCarloRecord
+from ocs_design.device.answers import CERTIFICATE_FOLDER, MonteCarloRecord
 from ocs_design.device.checks import device_warnings
-from ocs_design.device.records.flights import SurvivalRecord
+from ocs_design.device.records.flights import Conclusion, SurvivalRecord
 from ocs_design.jumping.jump import JumpPlans
 from ocs_design.monte_carlo.campaign import Campaign, write_results
 from ocs_design.monte_carlo.certificate import ROUND, ROUNDS, SequentialTest, certificate, lesson
@@ -62,10 +62,6 @@ from ocs_design.workflows.flying import (
 if TYPE_CHECKING:
     from ocs_design.jumping.planning import JumpPlanning
     from ocs_design.sizing.trajectory.plans import Reference
-
-
-CERTIFICATE_FOLDER = "certificate"
-"""Folder of the many flights of `--certify`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -388,7 +384,7 @@ def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tupl
             found = certificate(test, campaign, flown, number=number)
             step.note = f"{found.verdict}, {found.whole:,} of {found.samples:,} pass"
         reserve, learnt = placed.designed.reserve, None
-        if found.verdict == "falls short" and number < ROUNDS and reserve is not None:
+        if found.verdict == Conclusion.SHORT and number < ROUNDS and reserve is not None:
             learnt = lesson(test, campaign, flown)
             told.append(f"round {number}: {step.note}; {learnt.told}")
         outcomes = flown.take(slice(found.samples))

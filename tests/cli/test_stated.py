@@ -71,7 +71,7 @@ def test_package_paths_are_pairs(tmp_path):
 
 @pytest.mark.parametrize("text", ["alone", "=folder", "name="])
 def test_what_is_no_pair_is_refused(text):
-    with pytest.raises(UsageError, match="is not NAME=DIR"):
+    with pytest.raises(UsageError, match="expected NAME=DIR"):
         package_paths(text)
 
 

@@ -69,7 +69,7 @@ def test_on_a_terminal_it_asks(folder):
     for question in ("Robot file", "Maneuvers", "radius", "height", "battery"):
         assert question in shown
     assert "nowhere.urdf does not exist" in shown
-    assert "jump: is none of disturbance, drop, back-flip, all" in shown
+    assert "jump: unknown; choose from disturbance, drop, back-flip, all" in shown
     assert re.search(r"r-max: 'forty' is not", shown)
     found = read_specification(folder / "asked.toml")
     assert [maneuver.name for maneuver in found.maneuvers] == ["drop", "back-flip"]

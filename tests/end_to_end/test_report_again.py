@@ -8,9 +8,13 @@ from pathlib import Path
 import pytest
 from browser import browser
 from commands import files_in, run
+from pages import Page
 
 from ocs_design.common.errors import OcsError
+from ocs_design.common.files import to_json
+from ocs_design.device.answers import CONFIDENCE, MonteCarloRecord
 from ocs_design.device.records.design import read_design
+from ocs_design.monte_carlo.outcomes import share
 from ocs_design.report.story import read_campaign, story_in
 
 DOC = (Path(__file__).parents[2] / "docs" / "report.md").read_text()
@@ -64,6 +68,11 @@ def test_in_its_own_folder_everything_else_stays(design):
     assert run("export", design, "-o", design, "--force", "-q", "--formats", "report").code == 0
     after = files_in(design)
     assert {name for name in after if after[name] != before.get(name)} == {"report.html"}
+    page = Page(after["report.html"].decode())
+    files = json.loads(after["design.json"])["files"]
+    assert json.loads(page.inside["design"])["files"] == files
+    told = after["report.html"].decode()
+    assert all(digest in told for digest in files.values())
 
 
 def test_flights_come_from_their_files_as_they_were_flown(product):
@@ -81,3 +90,15 @@ def test_a_campaign_that_cannot_be_read_is_told(tmp_path, product):
     (tmp_path / "monte_carlo.json").write_text("{")
     with pytest.raises(OcsError, match=r"monte_carlo\.json"):
         read_campaign([tmp_path])
+
+
+def test_a_campaign_that_was_added_comes_before_the_certificates(tmp_path, product):
+    for name, samples in (("certificate", 40), ("samples", 20)):
+        told = share(samples, samples)
+        record = MonteCarloRecord(
+            seed=0, samples=samples, asked=samples, confidence=CONFIDENCE, reality={},
+            success=told, scenarios=(),
+        )  # fmt: skip
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "monte_carlo.json").write_bytes(to_json(record))
+        assert read_campaign([product.folder, tmp_path]) == record

@@ -1,5 +1,6 @@
 """The sequential test's promises, summed exactly over all flights it may see."""
 
+import re
 import sys
 from functools import cache
 from pathlib import Path
@@ -12,10 +13,10 @@ from scipy import stats
 from wheels import layout_device
 
 from ocs_design.device.layout import Layout, LayoutName
+from ocs_design.device.records.flights import Conclusion
 from ocs_design.monte_carlo.certificate import (
     ERROR,
     LARGEST,
-    Conclusion,
     SequentialTest,
     certificate,
     lesson,
@@ -117,6 +118,10 @@ def test_the_reserve_is_raised_by_what_the_tilt_lacks(campaign, spread):
     learnt = lesson(SequentialTest(0.99), campaign, outcomes)
     assert learnt.factor == pytest.approx(min(2.576 * spread / np.radians(5.0), LARGEST), rel=0.1)
     assert "off level in roll" in learnt.told
+    assert re.search(
+        r"; 99% stay within \d+\.\d deg \(5 deg is allowed\), and \d+% of the", learnt.told
+    )
+    assert learnt.told.endswith(f": the reserve is raised by a factor of {learnt.factor:.2f}")
     assert "com error y" in learnt.told
 
 

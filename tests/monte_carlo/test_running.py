@@ -101,7 +101,7 @@ def test_a_spoilt_block_is_flown_again(tmp_path, stored, spoil):
 def test_another_campaign_is_not_mixed_in(tmp_path, stored):
     stored().keep(BLOCKS[0], made_outcomes(range(8)))
     other = replace(IDENTITY, seed=1)
-    with pytest.raises(OutputError, match="not the same: seed"):
+    with pytest.raises(OutputError, match="these differ: seed"):
         Storage(tmp_path / "mc", other, force=False)
     anew = Storage(tmp_path / "mc", other, force=True)
     assert not anew.found(BLOCKS)

@@ -3,6 +3,7 @@
 import io
 import re
 from dataclasses import asdict, replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,6 +16,9 @@ from ocs_design.report.charts.chart import Points
 from ocs_design.report.charts.front import COLUMNS, front_chart
 from ocs_design.report.flights import flight_remarks, flight_table, flights_title, short_verdict
 from ocs_design.report.text.front import NONE, OWN, print_front
+from ocs_design.requirement.maneuver import Flip
+from ocs_design.simulation.run import LANDING_TOLERANCE
+from ocs_design.simulation.verdict import off_at_touchdown
 
 LEVEL = {"roll_swing": 0.0, "final_roll": 0.0, "final_wheel_speed": 0.0}
 
@@ -92,6 +96,31 @@ def test_the_angle_beside_a_verdict_is_the_one_that_it_rests_on(kind, words):
     landed = {"touchdown_roll": 0.0, "touchdown_pitch": np.radians(3.0)}
     turned = {"turned_angle": -2.0 * np.pi, "heading_drift": np.pi / 2.0}
     assert short_verdict(run(**LASTING, **landed, **turned), kind=kind).text == words
+
+
+@pytest.mark.parametrize(
+    ("roll", "pitch", "words"), [(4.9, -4.9, "pass    4.9"), (-5.1, 0.0, "FAIL    5.1")]
+)
+def test_beside_a_landing_is_the_larger_angle_as_the_rule_of_level_has_it(roll, pitch, words):
+    landed = {"touchdown_roll": np.radians(roll), "touchdown_pitch": np.radians(pitch)}
+    metrics = SimpleNamespace(**landed)
+    flip = Flip(name="flip", jump_height=0.5, duration=0.5, angle=2.0 * np.pi)
+    passed = off_at_touchdown(metrics, flip) <= LANDING_TOLERANCE
+    record = run(**LASTING, **landed, passed=passed)
+    assert short_verdict(record, kind="drop").text == words
+
+
+def test_who_ends_leaning_is_told_the_angle_of_the_verticals():
+    """Of 31.5 deg of roll and pitch: acos(cos(31.5 deg)^2); their root sum square is 44.5 deg."""
+    (found,) = remarks(run(final=31.5, final_roll=np.radians(31.5)))
+    assert "ends leaning: kerb 43.4 deg (more than 45 deg would be a fall)" in found
+
+
+def test_a_robot_that_rolls_over_swings_by_more_than_one_that_does_not():
+    over = run(ocs=False, swing=360.0, passed=False)
+    assert remarks(run(swing=30.0), over) == []
+    shoved = run(swing=360.0, lift_off_time=0.0, touchdown_time=0.0)
+    assert short_verdict(shoved, kind="shove").text == "pass  360.0 swing"
 
 
 def test_a_robot_on_a_pivot_touches_nothing_down():

@@ -2,7 +2,8 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from enum import StrEnum
+from typing import TypeAlias
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -119,6 +120,14 @@ class SurvivalRecord:
         )
 
 
+class Conclusion(StrEnum):
+    """What a certificate says."""
+
+    CERTIFIED = "certified"
+    SHORT = "falls short"
+    UNDECIDED = "undecided"
+
+
 @dataclass(frozen=True, kw_only=True)
 class ReliabilityRecord:
     """What flights of robots as they might be built say of the reliability that was asked for.
@@ -137,7 +146,7 @@ class ReliabilityRecord:
 
     asked: float
     worse: float
-    verdict: Literal["certified", "falls short", "undecided"]
+    verdict: Conclusion
     samples: int
     whole: int
     whole_interval: tuple[float, float]
@@ -158,5 +167,5 @@ def falls_short(
     return (
         any(run.ocs and run.passed is not True for run in runs)
         or (survival is not None and bool(survival.lost))
-        or (certificate is not None and certificate.verdict == "falls short")
+        or (certificate is not None and certificate.verdict == Conclusion.SHORT)
     )

@@ -277,7 +277,7 @@ def _rows(
         name=name,
         title=title,
         description=description,
-        # Discs at either end are seen whole.
+        # Margins so that discs at 0 and 90 deg are drawn whole.
         x=Axis("incidence angle", "deg", -3.0, 93.0),
         y=Axis("", "", len(rows) - 0.4, -0.6),
         marks=tuple(marks),

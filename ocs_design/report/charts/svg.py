@@ -320,7 +320,7 @@ def _stretched(axis: Axis, span: float) -> Axis:
 def _path(places: FloatArray, *, closed: bool = False) -> str:
     rounded = places.round(1)
     steps = np.diff(rounded, axis=0)
-    # Points in the middle of a level stretch say nothing.
+    # Points inside a horizontal stretch are dropped.
     onwards = steps[1:, 0] * steps[:-1, 0] >= 0.0
     level = (steps[1:, 1] == 0.0) & (steps[:-1, 1] == 0.0)
     kept = rounded[np.concatenate([[True], ~(level & onwards), [True]])]

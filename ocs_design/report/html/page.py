@@ -35,8 +35,8 @@ _PARTS = {
     "angles": "Incidence",
     "drive": "Drive",
     "maneuvers": "Maneuvers",
-    "assembly": "Assembly",
     "samples": "Monte Carlo",
+    "assembly": "Assembly",
     "record": "Provenance",
 }
 """Sections and their short names in the contents."""

@@ -11,6 +11,8 @@ from pages import Page
 from stories import design, story
 
 from ocs_design.common.files import to_json
+from ocs_design.device.answers import CONFIDENCE, MonteCarloRecord
+from ocs_design.monte_carlo.outcomes import share
 from ocs_design.report.html.page import report_page
 from ocs_design.report.html.sections import sizes_section
 
@@ -62,6 +64,22 @@ def test_every_link_leads_somewhere_and_no_name_is_there_twice(page):
             assert set(attributes.get(pointing, "").split()) <= set(names)
         if attributes.get("href", "").startswith("#"):
             assert attributes["href"][1:] in names
+
+
+def test_a_campaign_has_its_place_in_the_contents_and_says_how_many_were_flown():
+    success = share(20, 20)
+    campaign = MonteCarloRecord(
+        seed=0, samples=20, asked=10_000, confidence=CONFIDENCE, reality={}, success=success,
+        scenarios=(),
+    )  # fmt: skip
+    found = Page(report_page(replace(story(), monte_carlo=campaign)))
+    links = [each["href"][1:] for each in found.named("a") if each.get("class") != "skip"]
+    listed = [link for link in links if link in ("assembly", "samples")]
+    sections = [each.get("id") for each in found.named("section")]
+    assert listed == ["samples", "assembly"]
+    assert [each for each in sections if each in listed] == listed
+    said = "20 of 10,000 robots as they might be built, seed 0; that was enough for the interval"
+    assert any(text.startswith(said) for text in found.texts)
 
 
 def test_the_wheel_is_told_with_what_its_hub_is_bored_to_and_how_thick_its_web_is():
