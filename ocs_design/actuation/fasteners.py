@@ -39,8 +39,9 @@ class Screw:
                 `IN_PLASTIC` where it is cut into a print.
         """
         least = 1e3 * (thickness + depth * self.diameter)
-        long_enough = (length for length in SHORT_LENGTHS if length >= least - 1e-9)
-        return 1e-3 * next(long_enough, 5 * ceil(least / 5.0 - 1e-9))
+        long_enough = (length for length in LENGTHS if length >= least - 1e-9)
+        # Nothing that is sized asks for one beyond them.
+        return 1e-3 * next(long_enough, 20 * ceil(least / 20.0 - 1e-9))
 
     def designation(self, length: float) -> str:
         """Designation of a screw of this length [m]."""
@@ -189,8 +190,8 @@ MU = 0.12
 """Friction of plain or zinc-plated screws, a little oil (VDI 2230-1, table A5, class B: 0.08 to
 0.16)."""
 
-SHORT_LENGTHS = (4, 5, 6, 8, 10, 12, 16, 20)
-"""[mm], ISO 4762:2004, table 1, which goes on in steps of 5 mm."""
+LENGTHS = (4, 5, 6, 8, 10, 12, 16, *range(20, 71, 5), *range(80, 161, 10), *range(180, 301, 20))
+"""Standard lengths from 4 mm up [mm]: ISO 4762:2004, table 1."""
 
 SCREWS = (
     Screw("M2", 2.0e-3, 2.4e-3, 1.6e-3, 3.8e-3, 2.0e-3, 0.4e-3, 1.5e-3, 1.0e-3),
