@@ -278,7 +278,7 @@ def _hints(
     """Sentences on what would do."""
     if changes:
         texts = [field.change_text(limit, value) for limit, value in changes.items()]
-        yield advice(texts, MOST_CHANGE, "")
+        yield advice(texts, "")
     layout = field.problem.layout
     if not layout.pairs and reason is Reason.INCIDENCE:
         yield (
@@ -299,7 +299,7 @@ def _hints(
             "of both, or for another incidence, here or of that maneuver."
         )
     elif not changes:
-        yield advice([], MOST_CHANGE, "loosen several, ask for less, or add stronger motors.")
+        yield advice([], "loosen several, ask for less, or add stronger motors.")
 
 
 def unasked(maneuvers: Sequence[Maneuver]) -> str:
