@@ -40,7 +40,7 @@ def test_energy_balance_of_a_spin_up(gear):
     motion = spin_up(wheel, time_constants=3.0)
     taken = consumption(motion, wheel)
     stored = kinetic(wheel, motion)
-    assert taken.drawn == pytest.approx(taken.heat_both + taken.gear_loss + stored, rel=1e-6)
+    assert taken.drawn == pytest.approx(taken.heat_all + taken.gear_loss + stored, rel=1e-6)
     assert taken.gear_loss == pytest.approx((1.0 / gear.efficiency - 1.0) * stored, rel=1e-6)
 
 
@@ -49,8 +49,8 @@ def test_constant_voltage_wastes_as_much_as_it_stores():
     wheel = driven_wheel()
     motion = spin_up(wheel, time_constants=20.0, samples=20001)
     taken = consumption(motion, wheel)
-    assert taken.heat_both == pytest.approx(kinetic(wheel, motion), rel=1e-6)
-    assert taken.drawn == pytest.approx(2.0 * taken.heat_both, rel=1e-6)
+    assert taken.heat_all == pytest.approx(kinetic(wheel, motion), rel=1e-6)
+    assert taken.drawn == pytest.approx(2.0 * taken.heat_all, rel=1e-6)
 
 
 @pytest.mark.parametrize("gear", [DIRECT, BELT])
@@ -66,7 +66,7 @@ def test_energy_balance_of_spinning_up_and_braking(gear):
     assert taken.fed_back > 0.0
     # Power changes its sign within an interval: the parts are exact to the step, the sum is exact.
     assert taken.drawn - taken.fed_back == pytest.approx(
-        taken.heat_both + taken.gear_loss, rel=1e-12
+        taken.heat_all + taken.gear_loss, rel=1e-12
     )
     assert taken.fed_back < kinetic(wheel, motion, index=1)
 
@@ -123,5 +123,5 @@ def test_energy_balance_of_a_tumbling_trunk(gear):
     final = flown.y[:, -1]
     kinetic_energy = 0.5 * final @ body.mass_matrix @ final
     drawn = taken.drawn - taken.fed_back
-    assert drawn == pytest.approx(taken.heat_both + taken.gear_loss + kinetic_energy, rel=1e-6)
+    assert drawn == pytest.approx(taken.heat_all + taken.gear_loss + kinetic_energy, rel=1e-6)
     assert np.linalg.norm(rate[-1]) > 0.5
