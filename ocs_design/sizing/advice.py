@@ -358,7 +358,11 @@ class NeededMotor:
         return (
             f"A motor of about {torque:.3g} N m peak torque and {rpm:,.0f} rpm without load at "
             f"{self.voltage:g} V, of at most {mass:.3g} kg, would do."
-            + (f" None as heavy for its torque as {self.heavier} would." if self.heavier else "")
+            + (
+                f" Motors as heavy for their torque as {self.heavier} would not do, however large."
+                if self.heavier
+                else ""
+            )
         )
 
 

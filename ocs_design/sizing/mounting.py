@@ -134,9 +134,10 @@ def _hanging(mounting: Mounting) -> Iterator[OpenPoint]:
         gap = max(contact.gap or 0.0 for contact in loose)
         share = min(contact.share or 0.0 for contact in loose)
         names = some_of(list(dict.fromkeys(contact.name for contact in loose)))
-        off = format_quantity(gap, "mm", digits=2) + " off it" if isfinite(gap) else "over nothing"
+        most = "at screws the gap is up to " + format_quantity(gap, "mm", digits=2)
+        at_screws = most if isfinite(gap) else "under screws there is nothing"
         what = (
-            f"{names}: {share:.0%} of what stands is on the {loose[0].on}, and screws are {off}"
+            f"{names}: {share:.0%} of the underside touches the {loose[0].on}; {at_screws}"
             if share > 0.0
             else "the feet hang in the air: the trunk is not under them, or not near"
         )

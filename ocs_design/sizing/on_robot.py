@@ -55,8 +55,8 @@ class NeverHeld(Infeasible):
     def __init__(self, best: Candidate, mass: float) -> None:
         held, device = (format_quantity(each, "kg", digits=3) for each in (mass, best.modules_mass))
         super().__init__(
-            f"A device of {device} can be held on the trunk by what weighs {held}, but to turn that "
-            "too takes a larger device, and nothing holds that one.",
+            f"A device of {device} can be held on the trunk by what weighs {held}, but to turn "
+            "that too takes a larger device, and nothing holds that one.",
             binding=["ocs.place"],
             largest_spin_inertia=best.spin_inertia,
             hint="Another incidence, more time or a higher voltage makes the device smaller.",

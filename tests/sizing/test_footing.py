@@ -138,6 +138,26 @@ def test_a_foot_in_the_air_is_not_held(boxed, up, held):
         assert contact.gap == pytest.approx(up, abs=1e-9)
 
 
+@pytest.mark.parametrize(("over", "at_screws"), [(0.5, "nothing"), (0.0, "2 mm")])
+def test_what_of_a_foot_is_not_on_the_trunk_is_told(boxed, over, at_screws):
+    """Half over the edge, or all screws over a step of 2 mm around a third of its base."""
+    step = 0.2 * FOOT.base_radius
+    more = "".join(
+        f'<collision><origin xyz="0 {side * 0.1} 0.051"/><geometry>'
+        f'<cylinder radius="{step}" length="0.002"/></geometry></collision>'
+        for side in (1.0, -1.0)
+    )
+    robot = boxed(0.2 if over else 0.6, more="" if over else more)
+    device = standing(0.1, 0.0 if over else 0.002)
+    (point,) = mounting_open_points(mounting_of(robot, device, (), robot.mass_properties))
+    told = re.fullmatch(
+        r"left foot, right foot: (\d+)% of the underside touches the trunk; (.*)", point.what
+    )
+    assert 0 < int(told[1]) < 100
+    assert told[2].startswith("under screws there is" if over else "at screws the gap is up to")
+    assert told[2].endswith(at_screws)
+
+
 def test_a_foot_in_the_trunk_is_told(boxed):
     robot = boxed(0.6)
     device = standing(0.1, -0.004)
