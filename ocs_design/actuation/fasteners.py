@@ -89,7 +89,7 @@ class Screw:
     def slot_area(self, across: float) -> float:
         """What a head or washer presses on beside a slot as wide as a clearance hole [m^2].
 
-        Its disc less a strip of that width, of two segments less than half of the disc each.
+        Disc of the head less the strip that the slot takes.
 
         Args:
             across: diameter of the head or washer [m].
