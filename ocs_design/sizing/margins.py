@@ -162,9 +162,10 @@ def winding_current(motion: Motion, wheel: DrivenWheel, *, friction: bool = True
     """
     gear, torque = wheel.gear, motion.wheel_torque
     current = torque / (gear.ratio * gear.efficiency * wheel.torque_constant)
-    if friction and wheel.friction_current:
+    idle = wheel.drive.no_load_current or 0.0
+    if friction and idle:
         direction = np.where(torque == 0.0, np.sign(motion.wheel_speed), np.sign(torque))
-        current = current + wheel.friction_current * direction
+        current = current + idle * direction
     return current
 
 
@@ -188,7 +189,7 @@ def bus_power(motion: Motion, wheel: DrivenWheel, *, friction: bool = True) -> F
     each = copper + shaft_power(motion, wheel)
     if friction:
         turning = wheel.gear.ratio * np.abs(motion.wheel_speed)
-        each = each + wheel.torque_constant * wheel.friction_current * turning
+        each = each + wheel.torque_constant * (wheel.drive.no_load_current or 0.0) * turning
     power: FloatArray = np.sum(each, axis=1)
     return power
 
@@ -263,7 +264,7 @@ def margins(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> tuple[Margi
         strength = wheel.material.yield_strength
         note = f"at {OVERSPEED:g} x the highest speed that the drive reaches"
         found.append(Margin(HOOP_STRESS, stress, strength, "Pa", note=note))
-    moved = wheel.turned_inertia + wheel.armature
+    moved = wheel.turned_inertia + wheel.drive.armature
     energy = float((0.5 * moved * np.sum(motion.wheel_speed**2, axis=1)).max())
     # No motor of the catalogue states what its bearings stand, or how far apart they are.
     moment = float(bearing_moment(motion, axes, wheel).max())
@@ -283,7 +284,7 @@ def _drive_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
     note = "" if wheel.motor.speed_max else "no limit stated: no-load speed at rated voltage"
     yield Margin(MOTOR_SPEED, gear.ratio * speed, _finite(capacity), "rad/s", note=note)
     # The motor turns against its own friction whenever it is used.
-    rubbed = wheel.friction
+    rubbed = wheel.drive.friction
     asked = _peak(motion.wheel_torque)
     yield Margin(
         MOTOR_TORQUE,

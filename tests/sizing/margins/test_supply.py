@@ -23,14 +23,16 @@ def resting_trunk(time, speed, torque):
 def spin_up(wheel, time_constants, samples=4001):
     """Full voltage from rest: W = w_0 (1 - e^(-t/T)), tau = tau_s e^(-t/T), T = I w_0 / tau_s."""
     line = wheel.line
-    constant = (wheel.turned_inertia + wheel.armature) * line.no_load_speed / line.stall_torque
+    constant = (
+        (wheel.turned_inertia + wheel.drive.armature) * line.no_load_speed / line.stall_torque
+    )
     time = np.linspace(0.0, time_constants * constant, samples)
     decay = np.exp(-time / constant)
     return resting_trunk(time, line.no_load_speed * (1.0 - decay), line.stall_torque * decay)
 
 
 def kinetic(wheel, motion, index=-1):
-    moved = wheel.turned_inertia + wheel.armature
+    moved = wheel.turned_inertia + wheel.drive.armature
     return 0.5 * moved * float(np.sum(motion.wheel_speed[index] ** 2))
 
 
@@ -60,7 +62,7 @@ def test_energy_balance_of_spinning_up_and_braking(gear):
     torque = 0.2 * wheel.line.torque_limit
     # The jump of the torque stands as two samples at one time.
     time = np.array([0.0, 0.1, 0.1, 0.2])
-    speed = torque / (wheel.turned_inertia + wheel.armature) * np.array([0.0, 0.1, 0.1, 0.0])
+    speed = torque / (wheel.turned_inertia + wheel.drive.armature) * np.array([0.0, 0.1, 0.1, 0.0])
     motion = resting_trunk(time, speed, torque * np.array([1.0, 1.0, -1.0, -1.0]))
     taken = consumption(motion, wheel)
     assert taken.fed_back > 0.0
@@ -102,7 +104,7 @@ def test_energy_balance_of_a_tumbling_trunk(gear):
         np.array([[0.03, 1e-3, 2e-3], [1e-3, 0.0535, 0.0], [2e-3, 0.0, 0.068]]),
         module_axes(np.radians(30.0)),
         wheel.turned_inertia,
-        wheel.armature,
+        wheel.drive.armature,
     )
     line, voltage = wheel.line, np.array([1.0, -0.5])
 
