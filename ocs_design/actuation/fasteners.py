@@ -61,16 +61,19 @@ class Screw:
         return beside / (2.0 * self.mass(length))
 
     @property
+    def stress_area(self) -> float:
+        """Tensile stress area of its thread, pi / 4 (d - 0.9382 P)^2 (ISO 898-1, 9.1.6.1) [m^2]."""
+        return pi / 4.0 * self._stressed_diameter**2
+
+    @property
     def preload(self) -> float:
         """Preload of a screw of class 8.8 that is tightened to 90 % of its yield strength [N].
 
         VDI 2230-1:2015, with `MU` in the thread: `0.9 R_p A_s / sqrt(1 + 3 (3/2 d_2/d_0 (P / (pi
         d_2) + 1.155 mu))^2)`, d_0 that of the stress area.
         """
-        stressed = self.diameter - 0.9382 * self.pitch
-        flank = self._pitch_diameter
-        twist = 1.5 * flank / stressed * (self.pitch / (pi * flank) + 1.155 * MU)
-        area = pi / 4.0 * stressed**2
+        flank, area = self._pitch_diameter, self.stress_area
+        twist = 1.5 * flank / self._stressed_diameter * (self.pitch / (pi * flank) + 1.155 * MU)
         return 0.9 * CLASSES[USUAL_CLASS].yields * area / sqrt(1.0 + 3.0 * twist**2)
 
     def torque(self, preload: float) -> float:
@@ -104,12 +107,17 @@ class Screw:
         return self.diameter - 0.6495 * self.pitch
 
     @property
+    def _stressed_diameter(self) -> float:
+        """Diameter of the stress area [m]."""
+        return self.diameter - 0.9382 * self.pitch
+
+    @property
     def _head_mass(self) -> float:
         head = pi / 4.0 * self.head_diameter**2 * self.head_height
         return STEEL * (head - sqrt(0.75) * self.key**2 * self.key_depth)
 
     def _thread_mass(self, length: float) -> float:
-        return STEEL * pi / 4.0 * (self.diameter - 0.9382 * self.pitch) ** 2 * length
+        return STEEL * self.stress_area * length
 
 
 @dataclass(frozen=True)

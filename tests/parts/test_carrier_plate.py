@@ -27,7 +27,7 @@ from ocs_design.parts.carrier_plate import (
     sleeve_part,
 )
 from ocs_design.parts.dog_bone import FILLET, DogBone, directions
-from ocs_design.parts.joints import screw_use, stress_area
+from ocs_design.parts.joints import screw_use
 from ocs_design.parts.plate_strength import (
     bending_stress,
     mast_screws_use,
@@ -340,7 +340,7 @@ def test_screws_of_a_plate_balance_what_pushes(plate, mass):
     x = np.array(plate.trunk)[:, 0]
     moment = plate.arms * mass * SHOCK * (0.1 + plate.thickness + max(plate.sleeves))
     pull = moment * np.abs(x).max() / (x @ x)
-    assert used >= pull / (0.9 / 1.25 * 800e6 * stress_area(screw(plate.thread))) / 1.4
+    assert used >= pull / (0.9 / 1.25 * 800e6 * screw(plate.thread).stress_area) / 1.4
 
 
 def on_posts(gap=0.15, p=0.015, q=0.06):
