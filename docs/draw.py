@@ -25,7 +25,7 @@ WIDTH, HEIGHT, OVERSAMPLING = 900, 560, 2
 
 WHEEL = WheelDrawing(
     wheel=Wheel(
-        Rim(0.0392, 0.0413, 0.00305, "stainless-304", 8000.0),
+        Rim(0.0392, 0.0413, 0.00305, "stainless-304", 8000.0, chamfer=0.3e-3),
         WheelCentre(
             web_thickness=0.0015,
             radius=0.0115,

@@ -16,7 +16,7 @@ MADE_FOR = {"robot": "solo12", "identity": "9f3c0a1b2d4e"}
 HUB = WheelCentre(0.0015, 0.012, 0.008, 0.004, "EN AW-6082", 2700.0, HoleRing(0.008, 4, 0.0017))
 
 FLAT = WheelDrawing(
-    wheel=Wheel(Rim(0.0392, 0.0413, 0.00305, "stainless-304", 8000.0), HUB),
+    wheel=Wheel(Rim(0.0392, 0.0413, 0.00305, "stainless-304", 8000.0, chamfer=0.3e-3), HUB),
     speed=750.0,
     **MADE_FOR,
 )

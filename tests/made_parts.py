@@ -15,7 +15,7 @@ from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre, wheel_part
 
 STEEL, ALUMINIUM = 7860.0, 2700.0
 
-RIM = Rim(0.022, 0.03, 0.01, "steel", STEEL, balancing=HoleRing(0.026, 12, 0.001, 0.002))
+RIM = Rim(0.022, 0.03, 0.01, "steel", STEEL, 0.3e-3, HoleRing(0.026, 12, 0.001, 0.002))
 
 HUB = WheelCentre(
     web_thickness=1.5e-3,
@@ -30,8 +30,8 @@ HUB = WheelCentre(
 )
 
 TWO_PIECES = Wheel(RIM, HUB)
-ONE_PIECE = Wheel(Rim(0.022, 0.03, 0.01, "aluminium", ALUMINIUM), HUB)
-RIM_ALONE = Wheel(Rim(0.022, 0.03, 0.01, "steel", STEEL))
+ONE_PIECE = Wheel(Rim(0.022, 0.03, 0.01, "aluminium", ALUMINIUM, chamfer=0.3e-3), HUB)
+RIM_ALONE = Wheel(Rim(0.022, 0.03, 0.01, "steel", STEEL, chamfer=0.3e-3))
 DISC = Wheel(Rim(0.0, 0.03, 0.01, "steel", STEEL, chamfer=0.0))
 
 ACROSS = Placement(np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]), np.zeros(3))

@@ -39,8 +39,9 @@ class Screw:
                 `IN_PLASTIC` where it is cut into a print.
         """
         least = 1e3 * (thickness + depth * self.diameter)
-        long_enough = (length for length in SHORT_LENGTHS if length >= least - 1e-9)
-        return 1e-3 * next(long_enough, 5 * ceil(least / 5.0 - 1e-9))
+        long_enough = (length for length in LENGTHS if length >= least - 1e-9)
+        # Nothing that is sized asks for one beyond them.
+        return 1e-3 * next(long_enough, 20 * ceil(least / 20.0 - 1e-9))
 
     def designation(self, length: float) -> str:
         """Designation of a screw of this length [m]."""
@@ -60,16 +61,19 @@ class Screw:
         return beside / (2.0 * self.mass(length))
 
     @property
+    def stress_area(self) -> float:
+        """Tensile stress area of its thread, pi / 4 (d - 0.9382 P)^2 (ISO 898-1, 9.1.6.1) [m^2]."""
+        return pi / 4.0 * self._stressed_diameter**2
+
+    @property
     def preload(self) -> float:
         """Preload of a screw of class 8.8 that is tightened to 90 % of its yield strength [N].
 
         VDI 2230-1:2015, with `MU` in the thread: `0.9 R_p A_s / sqrt(1 + 3 (3/2 d_2/d_0 (P / (pi
         d_2) + 1.155 mu))^2)`, d_0 that of the stress area.
         """
-        stressed = self.diameter - 0.9382 * self.pitch
-        flank = self._pitch_diameter
-        twist = 1.5 * flank / stressed * (self.pitch / (pi * flank) + 1.155 * MU)
-        area = pi / 4.0 * stressed**2
+        flank, area = self._pitch_diameter, self.stress_area
+        twist = 1.5 * flank / self._stressed_diameter * (self.pitch / (pi * flank) + 1.155 * MU)
         return 0.9 * CLASSES[USUAL_CLASS].yields * area / sqrt(1.0 + 3.0 * twist**2)
 
     def torque(self, preload: float) -> float:
@@ -88,7 +92,7 @@ class Screw:
     def slot_area(self, across: float) -> float:
         """What a head or washer presses on beside a slot as wide as a clearance hole [m^2].
 
-        Its disc less a strip of that width, of two segments less than half of the disc each.
+        Disc of the head less the strip that the slot takes.
 
         Args:
             across: diameter of the head or washer [m].
@@ -103,12 +107,17 @@ class Screw:
         return self.diameter - 0.6495 * self.pitch
 
     @property
+    def _stressed_diameter(self) -> float:
+        """Diameter of the stress area [m]."""
+        return self.diameter - 0.9382 * self.pitch
+
+    @property
     def _head_mass(self) -> float:
         head = pi / 4.0 * self.head_diameter**2 * self.head_height
         return STEEL * (head - sqrt(0.75) * self.key**2 * self.key_depth)
 
     def _thread_mass(self, length: float) -> float:
-        return STEEL * pi / 4.0 * (self.diameter - 0.9382 * self.pitch) ** 2 * length
+        return STEEL * self.stress_area * length
 
 
 @dataclass(frozen=True)
@@ -189,8 +198,8 @@ MU = 0.12
 """Friction of plain or zinc-plated screws, a little oil (VDI 2230-1, table A5, class B: 0.08 to
 0.16)."""
 
-SHORT_LENGTHS = (4, 5, 6, 8, 10, 12, 16, 20)
-"""[mm], ISO 4762:2004, table 1, which goes on in steps of 5 mm."""
+LENGTHS = (4, 5, 6, 8, 10, 12, 16, *range(20, 71, 5), *range(80, 161, 10), *range(180, 301, 20))
+"""Standard lengths from 4 mm up [mm]: ISO 4762:2004, table 1."""
 
 SCREWS = (
     Screw("M2", 2.0e-3, 2.4e-3, 1.6e-3, 3.8e-3, 2.0e-3, 0.4e-3, 1.5e-3, 1.0e-3),

@@ -2,7 +2,7 @@
 
 Within the time T a wheel of spin inertia h turns by at most Phi(h), ending at its final speed
 W_f = momentum / h, and sweeps M(h) = h Phi. It must sweep phi(P) + phi(L) T (`wheel_load`), the
-excess and what the final speed itself sweeps. From `dA/dt = x` (`unit_slew`) the slope is exact,
+excess and what the final speed itself sweeps. From `dA/dt = x` (`unit_drive`) the slope is exact,
 
     dM/dh = Phi + h w_0 T_0 (A - x t) (1 - 2 kappa h) / I_red - w_0 T_0 f (x - f) / b(f).
 

@@ -8,9 +8,9 @@ lam = tau_L / tau_s,
 
 The current limits the acceleration up to x_c = 1 - l, and the braking from x_b = lam - 1 up.
 
-Times are in units of T_0 = I_red w_0 / a_0, wheel angles in units of w_0 T_0 (`unit_drive` has the
-others), so that dx/dt = a(x) up and -b(x) down. Up to the peak x the wheel takes the time r + l z:
-first r = min(x, x_c) at the current limit, then l z on the voltage line, x = x_c + l (1 - e^-z).
+Times are in units of T_0 = I_red w_0 / a_0, wheel angles in units of w_0 T_0, so that dx/dt = a(x)
+up and -b(x) down. Up to the peak x the wheel takes the time r + l z: first r = min(x, x_c) at the
+current limit, then l z on the voltage line, x = x_c + l (1 - e^-z).
 Then it may coast, at its cap, and it brakes to the final speed f. z is what is solved for: close to
 w_0 it tells speeds apart that x cannot.
 

@@ -31,7 +31,7 @@ from ocs_design.parts.joints import (
     correction,
     cylinder_torque,
     hub_joint,
-    preload,
+    joint_preload,
     shear_torque,
     shrink_fit,
     slip_fit_eccentricity,
@@ -301,7 +301,7 @@ def _shaft_joints(device: Device, web: Web) -> Iterator[Margin]:
         tight = format_quantity(tightening_torque(held, circle.screws), "N m", digits=2)
         note = (
             f"friction under {circle}, class {circle.screws}, tightened with {tight} to "
-            f"{preload(held, circle.screws):,.0f} N, {against}"
+            f"{joint_preload(held, circle.screws):,.0f} N, {against}"
         )
         reserve = shear_torque(held, circle.bolts, circle.radius, circle.screws)
     elif mounting is not None and mounting.shaft_diameter is not None:

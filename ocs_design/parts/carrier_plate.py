@@ -293,7 +293,7 @@ class CarrierPlate:
         return np.asarray(2.0 / radius * np.array(thick) @ around / _AROUND)
 
     def own(self, holes: tuple[Hole, ...], index: int) -> tuple[Hole, ...]:
-        """What of the holes of all plates is of one."""
+        """Holes of the plate with this index."""
         count = len(holes) // len(self.rows)
         return holes[index * count : (index + 1) * count]
 

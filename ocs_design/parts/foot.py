@@ -63,8 +63,10 @@ So the trunk's screws stand at 45 degrees to the lateral direction.
 """
 
 KNEE = 1.0e-3
-"""Over which the base's radius goes over from what its slots ask for to what its stem does [m]: the
-selection follows its slope."""
+"""Width of the transition between both radii of the base, so that it has a slope everywhere [m].
+
+One is what its slots ask for, the other what its stem does.
+"""
 
 LONG_MARKS = 12
 """All around, every 30 degrees, with two short ones after each: left and right feet are the same

@@ -44,19 +44,14 @@ SHEAR_SHARE = 0.577
 """Shear strength over yield strength by distortion energy: Shigley, equation 5-21."""
 
 
-def stress_area(held: Screw) -> float:
-    """Tensile stress area of a thread, pi / 4 (d - 0.9382 P)^2 (ISO 898-1, 9.1.6.1) [m^2]."""
-    return pi / 4.0 * (held.diameter - 0.9382 * held.pitch) ** 2
-
-
-def preload(held: Screw, strength: str = USUAL_CLASS) -> float:
+def joint_preload(held: Screw, strength: str = USUAL_CLASS) -> float:
     """Force that a screw of a property class is tightened to, 0.75 of its proof load [N]."""
-    return PRELOAD_SHARE * CLASSES[strength].proof * stress_area(held)
+    return PRELOAD_SHARE * CLASSES[strength].proof * held.stress_area
 
 
 def tightening_torque(held: Screw, strength: str = USUAL_CLASS) -> float:
     """Torque for that preload [N m]; see `Screw.torque`."""
-    return held.torque(preload(held, strength))
+    return held.torque(joint_preload(held, strength))
 
 
 def friction_torque(held: Screw, count: int, radius: float, strength: str = USUAL_CLASS) -> float:
@@ -66,12 +61,12 @@ def friction_torque(held: Screw, count: int, radius: float, strength: str = USUA
         held: each of them. count: of them. radius: of their circle [m].
         strength: their property class.
     """
-    return FRICTION * count * preload(held, strength) / TIGHTENING_FACTOR * radius
+    return FRICTION * count * joint_preload(held, strength) / TIGHTENING_FACTOR * radius
 
 
 def shear_torque(held: Screw, count: int, radius: float, strength: str = USUAL_CLASS) -> float:
     """Torque at which their threads yield in shear, should the faces slip [N m]."""
-    return SHEAR_SHARE * CLASSES[strength].yields * stress_area(held) * count * radius
+    return SHEAR_SHARE * CLASSES[strength].yields * held.stress_area * count * radius
 
 
 SCREW_TENSION, SCREW_SHEAR = 0.9 * 800e6 / 1.25, 0.6 * 800e6 / 1.25
@@ -83,7 +78,7 @@ def screw_use(held: Screw, tension: FloatArray, shear: FloatArray) -> FloatArray
 
     F_v / F_v,Rd + F_t / (1.4 F_t,Rd), and F_t / F_t,Rd at the least.
     """
-    area = stress_area(held)
+    area = held.stress_area
     pulled, sheared = tension / (SCREW_TENSION * area), shear / (SCREW_SHEAR * area)
     return np.maximum(pulled, sheared + pulled / 1.4)
 

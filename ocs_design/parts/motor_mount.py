@@ -209,7 +209,7 @@ def mount_of(
         return MotorMount(MountHoles(pilot), None, wheel, foot_plate=foot_plate)
     passage = cage.passage
     assert passage.screws is not None
-    purpose = "cage on housing and foot, it is tapped"
+    purpose = "housing and foot on cage, which is tapped"
     on_plate = _through_walls(passage.screws, foot_plate, purpose, IN_PLASTIC)
     fastening = _fastening(stator, cage.floor, f"motor in its cage; {_DEPTH}", 1.0)
     held = Screwed(fastening, stator, -cage.back, 1.0, by_wheel=True)

@@ -24,8 +24,8 @@ PANEL = 1.2e-3
 """[m], six layers of 0.2 mm: the drum's floor, which the foot's plate backs, and the lid, a guard.
 
 10 N, the force of the test finger of IEC 60529, move the middle of a lid of 45 mm radius whose edge
-is held by 1.4 mm, and what is over the rim by less than 0.1 mm: W a^2 / (16 pi D), Roark, 7th
-edition, table 11.2, case 17, with 1.8 GPa.
+is held by 1.33 mm, and what is over the rim by less than 0.1 mm: W a^2 / (16 pi D), Roark, 7th
+edition, table 11.2, case 17, with 1.8 GPa and nu = 0.38 (`housing.lid_sag`).
 """
 
 CLEARANCE = 2.0e-3

@@ -90,7 +90,7 @@ have room for them with a spoke between, and few more would fit."""
 
 LIGHTENED_STRESS: Mapping[int, float] = {0: 0.0, 5: 6.5, 6: 6.5, 7: 8.0, 8: 8.0}
 """Largest stress at so many holes over the hoop stress at the rim's bore, at the most
-(`joints.holed_peaks` of webs and rims of all sizes)."""
+(`turning_rings.holed_peaks` of webs and rims of all sizes)."""
 
 LIGHTENING_PLACE = 0.42
 """g of the module's text: about in the middle between a hub and a bore of four times its radius."""

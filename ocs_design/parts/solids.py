@@ -321,7 +321,7 @@ def total(parts: Iterable[Part[float]]) -> MassProperties:
 
 @dataclass(frozen=True)
 class Carrier:
-    """What of a module stands still with the trunk, as one body.
+    """Mass and inertia of a wheel, or of all that stands still of a module, as one body.
 
     It is symmetric to the vertical plane through the wheel's axis. With the mass and both inertias
     alone it is a body of revolution at the wheel's centre.

@@ -9,9 +9,6 @@ from ocs_design.parts.rim import CHAMFER_SHARE, LIGAMENT
 from ocs_design.parts.shapes import Disc
 from ocs_design.parts.solids import Part, Prism, Revolution, revolved
 
-CHAMFER = 0.3e-3
-"""Chamfer of the rim's four edges, at 45 degrees [m]: enough that hands may touch it."""
-
 ROUNDING = 1e-9
 """Rounding of lengths that are as they must be at the least [m]: a thousandth of a micrometre."""
 
@@ -51,7 +48,7 @@ class Rim:
     Attributes:
         inner_radius, outer_radius, height: [m].
         material: name. density: [kg/m^3].
-        chamfer: of its four edges, as asked for [m]; see `made_chamfer`.
+        chamfer: of its four edges at 45 degrees, as asked for [m]; see `made_chamfer`.
         balancing: blind holes, the same in both faces; None: none.
     """
 
@@ -60,7 +57,7 @@ class Rim:
     height: float
     material: str
     density: float
-    chamfer: float = CHAMFER
+    chamfer: float
     balancing: HoleRing | None = None
 
     @property

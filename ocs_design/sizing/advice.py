@@ -278,7 +278,7 @@ def _hints(
     """Sentences on what would do."""
     if changes:
         texts = [field.change_text(limit, value) for limit, value in changes.items()]
-        yield advice(texts, MOST_CHANGE, "")
+        yield advice(texts, "")
     layout = field.problem.layout
     if not layout.pairs and reason is Reason.INCIDENCE:
         yield (
@@ -299,7 +299,7 @@ def _hints(
             "of both, or for another incidence, here or of that maneuver."
         )
     elif not changes:
-        yield advice([], MOST_CHANGE, "loosen several, ask for less, or add stronger motors.")
+        yield advice([], "loosen several, ask for less, or add stronger motors.")
 
 
 def unasked(maneuvers: Sequence[Maneuver]) -> str:
@@ -358,7 +358,11 @@ class NeededMotor:
         return (
             f"A motor of about {torque:.3g} N m peak torque and {rpm:,.0f} rpm without load at "
             f"{self.voltage:g} V, of at most {mass:.3g} kg, would do."
-            + (f" None as heavy for its torque as {self.heavier} would." if self.heavier else "")
+            + (
+                f" Motors as heavy for their torque as {self.heavier} would not do, however large."
+                if self.heavier
+                else ""
+            )
         )
 
 

@@ -65,7 +65,7 @@ def assemble_driven(
         incidence: of the wheel axes, or the layout's angle [rad].
         centers: of the wheels in B [m], shape (n, 3).
     """
-    motor = Drive.of(wheel.motor, wheel.gear, wheel.supply.voltage, wheel.line)
+    motor = wheel.drive
     flywheel = _flywheel(
         (wheel.inner_radius, wheel.outer_radius, wheel.height),
         wheel.material,

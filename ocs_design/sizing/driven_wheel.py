@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from functools import cached_property
 
-from ocs_design.actuation.drive import DriveLine, armature, rotor_share
+from ocs_design.actuation.drive import Drive, DriveLine
 from ocs_design.actuation.motor import Gear, Motor
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material
@@ -46,25 +46,20 @@ class DrivenWheel:
         web = None if self.web_material is None else self.web_material.density
         return wheel_body(*size, self.material.density, self.hub, cuts=self.cuts, web_density=web)
 
+    @cached_property
+    def drive(self) -> Drive:
+        """Motor behind its gear at the supply's voltage."""
+        return Drive.of(self.motor, self.gear, self.supply.voltage, self.line)
+
     @property
     def rotor_inertia(self) -> float:
         """Inertia of the motor's rotor [kg m^2]; 0 where it is not stated."""
         return self.motor.rotor_inertia or 0.0
 
     @property
-    def rotor_share(self) -> float:
-        """Part of the spin inertia that is the rotor's, s N J_r [kg m^2]."""
-        return rotor_share(self.rotor_inertia, self.gear)
-
-    @property
-    def armature(self) -> float:
-        """What the motor accelerates beyond the spin inertia [kg m^2]."""
-        return armature(self.rotor_inertia, self.gear)
-
-    @property
     def turned_inertia(self) -> float:
         """Momentum per wheel speed, of the wheel as it is made and the rotor [kg m^2]."""
-        return self.wheel.axial_inertia + self.rotor_share
+        return self.wheel.axial_inertia + self.drive.rotor_inertia
 
     @property
     def torque_constant(self) -> float:
@@ -77,17 +72,6 @@ class DrivenWheel:
         """Resistance between two lines [ohm], without which there is no line."""
         assert self.motor.resistance is not None, "the line has it"
         return self.motor.resistance
-
-    @property
-    def friction_current(self) -> float:
-        """I_0, that the motor itself draws turning freely [A]; 0 where it is not stated."""
-        return self.motor.no_load_current or 0.0
-
-    @property
-    def friction(self) -> float:
-        """N eta k_t I_0, what the motor's own friction takes of the torque at the wheel [N m]."""
-        gain = self.gear.ratio * self.gear.efficiency
-        return gain * self.torque_constant * self.friction_current
 
     @property
     def overspeed_stress(self) -> float | None:

@@ -22,7 +22,7 @@ def place_on_top(robot: Robot, layout: Layout = PAIR) -> Place:
     """Place on top of the trunk around the centre of mass, symmetric to the sagittal plane.
 
     Each module may be turned to any incidence without touching the trunk or another one. Other
-    parts of the robot are not looked at: see `free_place`. What a person wears is on the back.
+    parts of the robot are not looked at: see `place_free`. What a person wears is on the back.
     """
     if robot.worn_at is not None:
         return around(robot.worn_at, layout)

@@ -15,7 +15,7 @@ on geometric programming, Optim. Eng. 8, 2007). The least wall, the holes and th
 little; the tests compare with a grid. So the lightest of some radii has the best between its
 neighbours.
 
-Chamfers and holes (`rim_cuts`) take L(R, r) off k and M(R, r) off the mass over pi rho: the rim is
+Chamfers and holes (`RimCuts`) take L(R, r) off k and M(R, r) off the mass over pi rho: the rim is
 a plain one of k + L, and its best bore where, with e from the derivatives of L and M by b,
 
     (a - b)^2 (1 - e) = 2 q b,
@@ -37,15 +37,22 @@ from ocs_design.requirement.device_sections import Envelope
 from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits
 from ocs_design.sizing.module_radii import largest_radius, smallest_radius
 
-# A round leaves a sixth of the interval of radii.
 _PARTS = 12
+"""Parts that a round divides the interval of radii into, of which it leaves two."""
+
 _PER_DIGIT = 4.0 / 3.0
-# Of C, which moves by less than a fifth of what the height does.
+"""Rounds that a digit of the radius takes."""
+
+# C moves by less than a fifth of what the height does, what is cut off a rim by more.
 _BORE_ROUNDS = 5
-# Of what is cut off a rim besides, which moves by more.
+"""Rounds of solving for the bore of a plain rim, at most."""
+
 _DIGITS = 9
-# Of e, which is small where there is a bore to speak of.
+"""Digits to which radius and bore are solved for; a round for each where cuts or holes are."""
+
 _MOST_BENT = 0.5
+"""Largest e of the module's text; e is small where there is a bore to speak of."""
+
 # Limits that meet in one point stay compatible when their figures are rounded.
 _ROUNDING = 1e-12
 # Of R^2 - r^2 over R^2.

@@ -202,15 +202,14 @@ def smallest_change(
     return limit.loosened(now, narrowed(at(mends), low, high, precision)[1])
 
 
-def advice(changes: Sequence[str], most: float, otherwise: str) -> str:
+def advice(changes: Sequence[str], otherwise: str) -> str:
     """Single changes that would do as a sentence.
 
     Args:
         changes: a text of each.
-        most: factor by which each limit was changed at most.
         otherwise: advice where there is none.
     """
     if not changes:
-        return f"No single limit would do, not even changed {most:.0f}-fold: {otherwise}"
+        return f"No single change would do, however large within reason: {otherwise}"
     which = "Any one of these" if len(changes) > 1 else "This"
     return f"{which} alone would do: {'; '.join(changes)}."

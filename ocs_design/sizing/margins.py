@@ -22,12 +22,12 @@ from ocs_design.sizing.trajectory.motion import Trajectory
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """Motion of trunk and wheels, linear between samples; two samples at one time are a jump.
+    """Motion of trunk and m wheels, linear between samples; two samples at one time are a jump.
 
     Attributes:
         time: [s], not falling, shape (n,).
-        wheel_speed: relative to the trunk [rad/s], shape (n, 2).
-        wheel_torque: of the motors at the wheels [N m], shape (n, 2).
+        wheel_speed: relative to the trunk [rad/s], shape (n, m).
+        wheel_torque: of the motors at the wheels [N m], shape (n, m).
         rate: of the trunk in B [rad/s], shape (n, 3).
         acceleration: of the trunk in B [rad/s^2], shape (n, 3).
     """
@@ -111,18 +111,18 @@ class Consumption:
     Attributes:
         duration: of the motion [s].
         peak_current: of a winding [A].
-        current_squared_time: integral of i^2 of the busier motor [A^2 s].
-        heat: in the busier winding [J]. heat_both: in both windings [J].
-        gear_loss: of both gears [J].
-        drawn, fed_back: energy from the bus and to it, both motors together [J].
-        power_drawn, power_fed_back: largest from the bus and to it, both motors together [W].
+        current_squared_time: integral of i^2 of the busiest motor [A^2 s].
+        heat: in the winding that heats most [J]. heat_all: in all windings [J].
+        gear_loss: of all gears [J].
+        drawn, fed_back: energy from the bus and to it, all motors together [J].
+        power_drawn, power_fed_back: largest from the bus and to it, all motors together [W].
     """
 
     duration: float
     peak_current: float
     current_squared_time: float
     heat: float
-    heat_both: float
+    heat_all: float
     gear_loss: float
     drawn: float
     fed_back: float
@@ -131,7 +131,7 @@ class Consumption:
 
 
 def consumption(motion: Motion, wheel: DrivenWheel) -> Consumption:
-    """Currents, heat, powers and energies of a motion with two equal wheels."""
+    """Currents, heat, powers and energies of a motion with equal wheels."""
     fine = motion.between()
     current = winding_current(fine, wheel)
     squared_time = [integral(values**2, fine.time) for values in current.T]
@@ -145,7 +145,7 @@ def consumption(motion: Motion, wheel: DrivenWheel) -> Consumption:
         peak_current=float(np.abs(current).max()),
         current_squared_time=max(squared_time),
         heat=wheel.resistance * max(squared_time),
-        heat_both=wheel.resistance * sum(squared_time),
+        heat_all=wheel.resistance * sum(squared_time),
         gear_loss=integral(loss.sum(axis=1), fine.time),
         drawn=integral(np.maximum(drawn, 0.0), fine.time),
         fed_back=integral(np.maximum(fed_back, 0.0), fine.time),
@@ -155,21 +155,22 @@ def consumption(motion: Motion, wheel: DrivenWheel) -> Consumption:
 
 
 def winding_current(motion: Motion, wheel: DrivenWheel, *, friction: bool = True) -> FloatArray:
-    """i = tau / (N eta k_t) [A], as the drive's line has it, and I_0 on top; shape (n, 2).
+    """i = tau / (N eta k_t) [A], as the drive's line has it, and I_0 on top; shape (n, m).
 
     The losses of gear and bearings are taken to work against the motor also where it brakes, when
     in truth they help: currents and heat are on the safe side.
     """
     gear, torque = wheel.gear, motion.wheel_torque
     current = torque / (gear.ratio * gear.efficiency * wheel.torque_constant)
-    if friction and wheel.friction_current:
+    idle = wheel.drive.no_load_current or 0.0
+    if friction and idle:
         direction = np.where(torque == 0.0, np.sign(motion.wheel_speed), np.sign(torque))
-        current = current + wheel.friction_current * direction
+        current = current + idle * direction
     return current
 
 
 def shaft_power(motion: Motion, wheel: DrivenWheel) -> FloatArray:
-    """Power at the motors' shafts [W], shape (n, 2): tau W / eta driving, eta tau W braking.
+    """Power at the motors' shafts [W], shape (n, m): tau W / eta driving, eta tau W braking.
 
     Unlike the current, the energy that comes back is not rounded to the safe side: a gear that
     loses in the one direction would make energy in the other.
@@ -188,7 +189,7 @@ def bus_power(motion: Motion, wheel: DrivenWheel, *, friction: bool = True) -> F
     each = copper + shaft_power(motion, wheel)
     if friction:
         turning = wheel.gear.ratio * np.abs(motion.wheel_speed)
-        each = each + wheel.torque_constant * wheel.friction_current * turning
+        each = each + wheel.torque_constant * (wheel.drive.no_load_current or 0.0) * turning
     power: FloatArray = np.sum(each, axis=1)
     return power
 
@@ -214,7 +215,7 @@ def worst(by_scenario: Iterable[tuple[str, Iterable[Margin]]]) -> tuple[Margin, 
 
 
 def bearing_moment(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> FloatArray:
-    """Moment of the trunk on each wheel across its axis [N m], shape (n, 2).
+    """Moment of the trunk on each wheel across its axis [N m], shape (n, m).
 
     With a the axis, w the trunk's rate and W the wheel's speed relative to it, a rotor has the
     momentum I_t w_perp + (I_s (a w) + h W) a, whose change as seen from the world is, across a
@@ -224,8 +225,8 @@ def bearing_moment(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> Floa
 
     Args:
         motion: of trunk and wheels.
-        axes: unit spin axes in B as columns, shape (3, 2).
-        wheel: either of the two.
+        axes: unit spin axes in B as columns, shape (3, m).
+        wheel: each of them.
     """
     moments = []
     for wheel_speed, axis in zip(motion.wheel_speed.T, axes.T, strict=True):
@@ -254,8 +255,8 @@ def margins(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> tuple[Margi
 
     Args:
         motion: of trunk and wheels, flown or a reference.
-        axes: unit spin axes in B as columns, as they are in this motion, shape (3, 2).
-        wheel: each of the two.
+        axes: unit spin axes in B as columns, as they are in this motion, shape (3, m).
+        wheel: each of them.
     """
     found = [*_drive_margins(motion, wheel), *_electric_margins(consumption(motion, wheel), wheel)]
     stress = wheel.overspeed_stress
@@ -263,7 +264,7 @@ def margins(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> tuple[Margi
         strength = wheel.material.yield_strength
         note = f"at {OVERSPEED:g} x the highest speed that the drive reaches"
         found.append(Margin(HOOP_STRESS, stress, strength, "Pa", note=note))
-    moved = wheel.turned_inertia + wheel.armature
+    moved = wheel.turned_inertia + wheel.drive.armature
     energy = float((0.5 * moved * np.sum(motion.wheel_speed**2, axis=1)).max())
     # No motor of the catalogue states what its bearings stand, or how far apart they are.
     moment = float(bearing_moment(motion, axes, wheel).max())
@@ -283,7 +284,7 @@ def _drive_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
     note = "" if wheel.motor.speed_max else "no limit stated: no-load speed at rated voltage"
     yield Margin(MOTOR_SPEED, gear.ratio * speed, _finite(capacity), "rad/s", note=note)
     # The motor turns against its own friction whenever it is used.
-    rubbed = wheel.friction
+    rubbed = wheel.drive.friction
     asked = _peak(motion.wheel_torque)
     yield Margin(
         MOTOR_TORQUE,
@@ -305,7 +306,7 @@ def _drive_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
 
 
 def _electric_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin]:
-    """Current and power of the bus against its supply, the energies, and heat of the busier motor.
+    """Current and power of the bus against its supply, the energies, and heat of the busiest motor.
 
     Continuous ratings are for hours and a maneuver lasts a second: a current that exceeds one is no
     fault, but asks for a pause until the mean of i^2 is back at the rating's.
@@ -321,7 +322,7 @@ def _electric_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin
         taken.drawn,
         None,
         "J",
-        note=f"heat in the windings {taken.heat_both:.3g} J",
+        note=f"heat in the windings {taken.heat_all:.3g} J",
     )
     yield Margin(
         "energy fed back",

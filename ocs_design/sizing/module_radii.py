@@ -13,7 +13,7 @@ radii that leave room are one interval, between the largest of those crossings t
 below and the smallest of those that bound it from above.
 
 A rim with broken edges and holes is a plain one of so much more k and mass as they take
-(`rim_cuts`). That changes little along with (R, r), and each round of solving for it at a crossing
+(`RimCuts`). That changes little along with (R, r), and each round of solving for it at a crossing
 gains two digits or so.
 """
 

@@ -13,7 +13,7 @@ from ocs_design.common.units import format_quantity
 from ocs_design.common.wording import some_of
 from ocs_design.device.bodies import flywheel_name
 from ocs_design.device.device import Device
-from ocs_design.device.layout import PAIR, SIDES
+from ocs_design.device.layout import PAIR, SIDES, Layout
 from ocs_design.device.records.device import Clearance, OpenPoint
 from ocs_design.device.solids import (
     ModuleSolids,
@@ -57,6 +57,7 @@ class Mounting:
         pedestals: what holds each foot that leans, or would.
         module_mass: of what stands on each [kg].
         pads: flat spots that would hold a mast; None: they are no pairs, or none bears them.
+        layout: of the wheels.
     """
 
     nearest: Clearance | None
@@ -68,6 +69,7 @@ class Mounting:
     pedestals: tuple[Pedestal, ...] = ()
     module_mass: float = 0.0
     pads: Pads | None = None
+    layout: Layout = PAIR
 
     @property
     def known(self) -> bool:
@@ -102,8 +104,15 @@ def mounting_open_points(mounting: Mounting) -> tuple[OpenPoint, ...]:
     found += _hanging(mounting)
     hit = _hit(mounting)
     if hit:
-        found.append(OpenPoint(what=hit, cure="give another place with --position X,Y,Z"))
+        cure = f"give another place with {_position_option(mounting.layout)}"
+        found.append(OpenPoint(what=hit, cure=cure))
     return tuple(found)
+
+
+def _position_option(layout: Layout) -> str:
+    """Option that states where the wheels of a layout are, in words."""
+    one = layout == PAIR or len(layout) == 1
+    return "--position X,Y,Z" if one else "--position, with x, y and z of every wheel"
 
 
 def _hanging(mounting: Mounting) -> Iterator[OpenPoint]:
@@ -119,22 +128,24 @@ def _hanging(mounting: Mounting) -> Iterator[OpenPoint]:
     if proud > PROUD:
         reaches_up = format_quantity(proud, "mm", digits=2)
         what = f"the {feet[0].on} under the feet reaches {reaches_up} above their underside"
-        higher = "stand the modules higher with --position X,Y,Z"
+        higher = f"stand the modules higher with {_position_option(mounting.layout)}"
         yield OpenPoint(what=what, cure=higher if in_pairs else more_feet)
     elif loose:
         gap = max(contact.gap or 0.0 for contact in loose)
         share = min(contact.share or 0.0 for contact in loose)
         names = some_of(list(dict.fromkeys(contact.name for contact in loose)))
-        off = format_quantity(gap, "mm", digits=2) + " off it" if isfinite(gap) else "over nothing"
+        most = "at screws the gap is up to " + format_quantity(gap, "mm", digits=2)
+        at_screws = most if isfinite(gap) else "under screws there is nothing"
         what = (
-            f"{names}: {share:.0%} of what stands is on the {loose[0].on}, and screws are {off}"
+            f"{names}: {share:.0%} of the underside touches the {loose[0].on}; {at_screws}"
             if share > 0.0
             else "the feet hang in the air: the trunk is not under them, or not near"
         )
         flat_spot = format_quantity(2.0 * SPREAD, "mm")
         cure = (
-            "give a place on the trunk with --position X,Y,Z or another trunk with --trunk, or "
-            f"make a flat spot of {flat_spot} by {flat_spot} on top of it for a plate's four screws"
+            f"give a place on the trunk with {_position_option(mounting.layout)}, or another trunk "
+            f"with --trunk, or make a flat spot of {flat_spot} by {flat_spot} on top of it for a "
+            "plate's four screws"
         )
         cures = [cure] if in_pairs else []
         if pads is not None:
@@ -202,6 +213,7 @@ def mounting_of(
         pads=pads_needed(robot, feet_of(device), device.layout)
         if any(contact.held is False for contact in feet)
         else None,
+        layout=device.layout,
     )
 
 
@@ -229,10 +241,12 @@ def placement_warnings(
     hit = _hit(mounting)
     if not hit:
         return ()
-    hint = "no free place was found"
+    layout, hint = device.layout, "no free place was found"
     if not stated:
-        hint += ": give one with --position X,Y,Z"
-    elif device.layout == PAIR and (best := place_free(robot, envelope, device.layout)).free:
+        hint += f": give one with {_position_option(layout)}"
+    elif layout != PAIR:
+        hint = f"give another place with {_position_option(layout)}"
+    elif (best := place_free(robot, envelope, layout)).free:
         left, _ = best.place.centers(device_size(device))
         place = ",".join(f"{1e3 * float(value):.1f}mm" for value in left)
         hint = f"free would be --position {place}, {best.face} the trunk"

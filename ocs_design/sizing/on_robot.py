@@ -49,14 +49,14 @@ _TOO_THICK = 0.2e-3
 class NeverHeld(Infeasible):
     """What would hold a device on the trunk asks for a larger device, which nothing holds.
 
-    Args: the device, and the mass of what holds it [kg].
+    Args: the device, and the mass of the heaviest that would hold it [kg].
     """
 
     def __init__(self, best: Candidate, mass: float) -> None:
         held, device = (format_quantity(each, "kg", digits=3) for each in (mass, best.modules_mass))
         super().__init__(
-            f"A device of {device} can be held on the trunk by a mast of {held}, but to turn robot "
-            "and mast takes a larger device, and nothing holds that one.",
+            f"A device of {device} can be held on the trunk by what weighs {held}, but to turn "
+            "that too takes a larger device, and nothing holds that one.",
             binding=["ocs.place"],
             largest_spin_inertia=best.spin_inertia,
             hint="Another incidence, more time or a higher voltage makes the device smaller.",
@@ -125,7 +125,8 @@ class _Search:
         at, criterion = problem, self.criterion
         for _ in range(_FOOTINGS_MAX):
             own = _own_footing(problem, best, self.robot)
-            change = abs(own.robot.mass - at.robot.mass)
+            masses = own.robot.mass, at.robot.mass
+            change, heavier = abs(masses[0] - masses[1]), max(masses) - self.robot.mass
             same = own.place == at.place and own.foot_plate == at.foot_plate
             if same and change <= _SETTLED * best.mass:
                 break
@@ -143,7 +144,7 @@ class _Search:
             at = own
         else:
             if change > _HELD * best.mass:
-                raise NeverHeld(best, change)
+                raise NeverHeld(best, heavier)
         return at, best
 
 

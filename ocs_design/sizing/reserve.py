@@ -486,7 +486,9 @@ class _Flown:
 
     def has(self, rate: tuple[float, float]) -> float:
         """What the device does over what is asked, by the selection's own formula."""
-        demand = spin_demand(self._task(rate), self.device.line.reserved(), self.device.armature)
+        demand = spin_demand(
+            self._task(rate), self.device.line.reserved(), self.device.drive.armature
+        )
         can = capability(demand, np.asarray(self.device.spin_inertia))
         return (can.sweep / demand.sweep).item()
 
@@ -511,7 +513,7 @@ class _Flown:
             momentum=np.abs(held),
             duration=self.duration,
             coupling=np.asarray(load.coupling.item()),
-            armature=np.asarray(self.device.armature),
+            armature=np.asarray(self.device.drive.armature),
             least=np.zeros(1),
             drive=UnitDrive.of(line.reserved(self.share).begun(load.begins.item())),
         )

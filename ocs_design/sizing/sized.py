@@ -127,7 +127,7 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
 
     Central differences of the closed form; one-sided where only one side has a module.
     """
-    rim_inertia = chosen.spin_inertia - chosen.rotor_share - chosen.hub_share
+    rim_inertia = chosen.spin_inertia - chosen.drive.rotor_inertia - chosen.hub_share
     rim = RimProblem(rim_inertia, problem.envelope, chosen.material, chosen.overspeed)
     limits = chosen.limits
     shell, prices = chosen.shell, {}

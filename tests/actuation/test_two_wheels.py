@@ -183,6 +183,7 @@ def test_a_slew_about_both_axes(pair, angle):
         ("M4", 0.016, "ISO 4762 M4 x 20"),
         ("M4", 0.0161, "ISO 4762 M4 x 25"),
         ("M6", 0.029, "ISO 4762 M6 x 35"),
+        ("M4", 0.0661, "ISO 4762 M4 x 80"),
     ],
 )
 def test_a_screw_reaches_as_deep_as_it_is_thick(name, thickness, designation):

@@ -131,7 +131,7 @@ def test_screws_fill_the_holes_and_weigh_what_iso_4762_says(sized):
     metal, printed, stem = 1.0, 2.0, 1e3 * sized.ocs["foot_plate"]
     expected = {
         "motor in its cage": (2 * stator, [max(3.0, 0.42 * stem)], metal),
-        "cage on housing and foot": (8, [1e3 * floor + stem], printed),
+        "housing and foot on cage": (8, [1e3 * floor + stem], printed),
         "lid on drum": (8, [1e3 * lid], printed),
         "foot on plate": (4, [max(3.0, 0.6 * stem)], metal),
         "plate on trunk": (4, [1e3 * plate["thickness"] + each for each in thick], metal),

@@ -59,7 +59,7 @@ LIDS_AND_FEET = {
             housed(CAGED.mounting),
             LIDS_AND_FEET
             | {
-                "cage on housing and foot, it is tapped": ("screw ISO 4762 M2 x 12", 8),
+                "housing and foot on cage, which is tapped": ("screw ISO 4762 M2 x 12", 8),
                 "motor in its cage": ("screw ISO 4762 M3 x 6", 8),
                 "wheel on rotor": ("screw ISO 4762 M3 x 6", 6),
             },

@@ -5,7 +5,6 @@ import pytest
 from ocs_design.actuation.fasteners import (
     CLASSES,
     IN_PLASTIC,
-    SHORT_LENGTHS,
     USUAL_CLASS,
     screw,
 )
@@ -22,8 +21,13 @@ HELD = [
     if motor.mounting is not None and mount_of(motor, None).screwed
 ]
 
-STANDARD = {*SHORT_LENGTHS, *range(20, 105, 5)}
-"""ISO 4762 [mm]."""
+# fmt: off
+STANDARD = (
+    2.5, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 30, 35, 40, 45, 50, 55, 60, 65, 70,
+    80, 90, 100, 110, 120, 130, 140, 150, 160, 180, 200, 220, 240, 260, 280, 300,
+)
+# fmt: on
+"""Lengths of ISO 4762:2004, table 1 [mm]."""
 
 LEAST_RIM = 2e-3
 """Lowest rim that a specification may have by default [m]."""
@@ -46,6 +50,16 @@ def test_every_screw_is_standard_and_holds():
             assert each.depth >= (IN_PLASTIC if "tapped" in each.purpose else 1.0)
             shorter = max((other for other in STANDARD if other < length), default=0)
             assert shorter - 1e3 * each.thickness < least
+
+
+@pytest.mark.parametrize("name", ["M4", "M8"])
+def test_long_screws_are_standard_too(name):
+    """Those through masts and posts: from 70 mm on the steps are 10 mm, from 160 mm 20 mm."""
+    held = screw(name)
+    for through in range(300 - round(1e3 * held.diameter)):
+        least = through + 1e3 * held.diameter
+        length = 1e3 * held.length_through(1e-3 * through)
+        assert length == pytest.approx(next(each for each in STANDARD if each >= least - 1e-9))
 
 
 def test_no_screw_ends_in_what_is_behind_its_thread():

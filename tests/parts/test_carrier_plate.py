@@ -27,7 +27,7 @@ from ocs_design.parts.carrier_plate import (
     sleeve_part,
 )
 from ocs_design.parts.dog_bone import FILLET, DogBone, directions
-from ocs_design.parts.joints import screw_use, stress_area
+from ocs_design.parts.joints import screw_use
 from ocs_design.parts.plate_strength import (
     bending_stress,
     mast_screws_use,
@@ -340,7 +340,7 @@ def test_screws_of_a_plate_balance_what_pushes(plate, mass):
     x = np.array(plate.trunk)[:, 0]
     moment = plate.arms * mass * SHOCK * (0.1 + plate.thickness + max(plate.sleeves))
     pull = moment * np.abs(x).max() / (x @ x)
-    assert used >= pull / (0.9 / 1.25 * 800e6 * stress_area(screw(plate.thread))) / 1.4
+    assert used >= pull / (0.9 / 1.25 * 800e6 * screw(plate.thread).stress_area) / 1.4
 
 
 def on_posts(gap=0.15, p=0.015, q=0.06):
@@ -379,9 +379,10 @@ def test_posts_by_hand():
     assert (1e6 * area, 1e9 * section) == pytest.approx((219.91, 639.5), rel=1e-4)
     force = 294.2
     stress = force * 0.075 / 639.5e-9 + force * 0.215 / 0.015 / 219.9e-6
-    # M8 of class 8.8: 0.9 x 640 MPa x 36.6 mm^2 / 1.132, friction 0.12 (VDI 2230-1).
+    # M8 of class 8.8: 0.9 x 640 MPa x 36.6 mm^2 / 1.132, friction 0.12; a torque wrench leaves
+    # 1 / 1.6 of that at the least (VDI 2230-1).
     pressed = 18.62e3 / 219.9e-6
-    shares = stress / pressed, stress / 127.5e6, (stress + pressed) / 255e6
+    shares = 1.6 * stress / pressed, stress / 127.5e6, (stress + pressed) / 255e6
     assert posts_use(plate, 3.0, 0.13) == pytest.approx(max(shares), rel=5e-3)
     (held,) = plate.fastenings
     whole = tightened(held, on_metal=False, head_on_print=False)

@@ -19,11 +19,10 @@ from ocs_design.parts.joints import (
     cylinder_torque,
     friction_torque,
     hub_joint,
-    preload,
+    joint_preload,
     shear_torque,
     shrink_fit,
     slip_fit_eccentricity,
-    stress_area,
     tightening_torque,
     tolerance_width,
 )
@@ -161,14 +160,14 @@ def test_a_hole_in_an_evenly_stretched_plate_doubles_its_stress():
 def test_screws_are_tightened_to_three_quarters_of_their_proof_load(thread, area, strength, proof):
     """Stress areas and proof loads of ISO 898-1, tables 4 and 5, in mm^2 and N."""
     held = screw(thread)
-    assert 1e6 * stress_area(held) == pytest.approx(area, rel=2e-3)
-    assert preload(held, strength) == pytest.approx(0.75 * proof, rel=7e-3)
-    assert tightening_torque(held, strength) == held.torque(preload(held, strength))
+    assert 1e6 * held.stress_area == pytest.approx(area, rel=2e-3)
+    assert joint_preload(held, strength) == pytest.approx(0.75 * proof, rel=7e-3)
+    assert tightening_torque(held, strength) == held.torque(joint_preload(held, strength))
     # VDI 2230 with 0.12 in thread and under the head; a tenth to a seventh below K = 0.2.
     flank, under = held.diameter - 0.6495 * held.pitch, (held.head_diameter + held.clearance_hole)
     lever = 0.16 * held.pitch + 0.58 * flank * 0.12 + under / 4.0 * 0.12
-    assert tightening_torque(held) == pytest.approx(preload(held) * lever)
-    assert 0.85 < tightening_torque(held) / (0.2 * preload(held) * held.diameter) < 0.9
+    assert tightening_torque(held) == pytest.approx(joint_preload(held) * lever)
+    assert 0.85 < tightening_torque(held) / (0.2 * joint_preload(held) * held.diameter) < 0.9
 
 
 def test_four_screws_of_m3_on_12_mm_carry_3_3_newton_metres():

@@ -42,6 +42,7 @@ def wheels(draw: st.DrawFn) -> Wheel:
         outer * draw(st.floats(0.05, 1.0)),
         draw(st.sampled_from(["aluminium", "steel"])),
         draw(st.sampled_from([ALUMINIUM, STEEL])),
+        chamfer=0.3e-3,
     )
     bore = draw(st.floats(0.0005, 0.004))
     bolts = draw(

@@ -37,7 +37,9 @@ def test_chamfer_leaves_half_of_each_face():
     assert Rim(0.02, 0.021, 0.01, "steel", 7860.0, chamfer=1.0).made_chamfer == pytest.approx(
         0.25e-3
     )
-    assert Rim(0.02, 0.03, 0.0006, "steel", 7860.0).made_chamfer == pytest.approx(0.15e-3)
+    assert Rim(0.02, 0.03, 0.0006, "steel", 7860.0, chamfer=0.3e-3).made_chamfer == pytest.approx(
+        0.15e-3
+    )
 
 
 @pytest.mark.parametrize(

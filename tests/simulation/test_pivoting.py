@@ -1,5 +1,6 @@
 """Robots on a pivot flown in MuJoCo: caught, stood up, and what gravity does to momentum."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -76,7 +77,15 @@ def test_a_brake_stands_a_robot_up_whose_motors_cannot():
 def test_a_brake_cannot_stop_wheels_that_no_motor_spins_that_fast():
     refused = plan(ROBOT.mass_properties, driven_device(), [BRAKED], 0.2)["braked"]
     assert refused.trajectory is None
-    assert "rpm and 6,211 rpm" in refused.note
+    told = re.fullmatch(
+        r"the brake would have to stop the wheels from ([\d,]+) rpm, and the motors reach only "
+        r"([\d,]+) rpm",
+        refused.note,
+    )
+    needed, reached = (float(each.replace(",", "")) for each in told.groups())
+    assert needed == pytest.approx(refused.spun * 30.0 / np.pi, rel=0.01)
+    assert reached / needed == pytest.approx(refused.part, rel=0.01)
+    assert reached == 6211.0
 
 
 @pytest.mark.parametrize("maneuver", [TILTED, ON_POINT])

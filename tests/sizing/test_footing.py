@@ -43,10 +43,12 @@ from ocs_design.requirement.sweep import Task
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
+from ocs_design.robot.surface import trunk_surface
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.footing.contact import FLATNESS, contacts_of
 from ocs_design.sizing.footing.feet import device_size, feet_of
 from ocs_design.sizing.footing.on_top import ASIDE
+from ocs_design.sizing.footing.plate import POST_SCREW, held_at
 from ocs_design.sizing.footing.standing import footing_of, stand_on_trunk
 from ocs_design.sizing.free_place import place_free, place_on_top
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points
@@ -134,6 +136,26 @@ def test_a_foot_in_the_air_is_not_held(boxed, up, held):
     for contact in contacts_of(boxed(0.6), standing(0.1, up)):
         assert contact.held == held
         assert contact.gap == pytest.approx(up, abs=1e-9)
+
+
+@pytest.mark.parametrize(("over", "at_screws"), [(0.5, "nothing"), (0.0, "2 mm")])
+def test_what_of_a_foot_is_not_on_the_trunk_is_told(boxed, over, at_screws):
+    """Half over the edge, or all screws over a step of 2 mm around a third of its base."""
+    step = 0.2 * FOOT.base_radius
+    more = "".join(
+        f'<collision><origin xyz="0 {side * 0.1} 0.051"/><geometry>'
+        f'<cylinder radius="{step}" length="0.002"/></geometry></collision>'
+        for side in (1.0, -1.0)
+    )
+    robot = boxed(0.2 if over else 0.6, more="" if over else more)
+    device = standing(0.1, 0.0 if over else 0.002)
+    (point,) = mounting_open_points(mounting_of(robot, device, (), robot.mass_properties))
+    told = re.fullmatch(
+        r"left foot, right foot: (\d+)% of the underside touches the trunk; (.*)", point.what
+    )
+    assert 0 < int(told[1]) < 100
+    assert told[2].startswith("under screws there is" if over else "at screws the gap is up to")
+    assert told[2].endswith(at_screws)
 
 
 def test_a_foot_in_the_trunk_is_told(boxed):
@@ -442,11 +464,25 @@ BARS = np.arange(-0.14, 0.15, 0.07).round(3).tolist()
 """Places of bars across a trunk, 100 mm high, 60 mm apart: no module stands between them."""
 
 
+BAR = (
+    '<collision><origin xyz="{} 0 {}"/><geometry><box size="0.01 0.24 {}"/></geometry></collision>'
+)
+"""A bar: where, the height of its middle, its height [m]."""
+
+
+@pytest.mark.parametrize(("thickness", "length"), [(12e-3, 0.2), (15e-3, None)])
+def test_posts_are_no_longer_than_their_screws(boxed, monkeypatch, thickness, length):
+    """Posts of 170 mm, threads of 15.2 mm and a plate of 12 mm take M8 x 200, one of 15 mm more."""
+    monkeypatch.setattr("ocs_design.sizing.footing.plate.STOCK", (thickness,))
+    robot = boxed(0.24, 0.32, "".join(BAR.format(x, TOP + 0.085, 0.17) for x in BARS))
+    _, plate = held_at(trunk_surface(robot), feet_of(standing(0.1)), None, (POST_SCREW,))
+    assert (plate and plate.screw_lengths[0]) == length
+
+
 @pytest.mark.slow
 def test_over_bars_across_the_trunk_a_plate_stands_on_posts(boxed):
     """Which bear it, are weighed with it, and have no volume in common with bars and modules."""
-    bar = '<collision><origin xyz="{} 0 0.1"/><geometry><box size="0.01 0.24 0.1"/></geometry>'
-    robot = boxed(0.24, 0.32, "".join(f"{bar.format(x)}</collision>" for x in BARS))
+    robot = boxed(0.24, 0.32, "".join(BAR.format(x, TOP + 0.05, 0.1) for x in BARS))
     device = stood(robot, PAIR, with_motor(), 0.5)
     plate = device.plate
     assert plate.thread == "M8"

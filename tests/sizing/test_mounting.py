@@ -7,14 +7,15 @@ import pytest
 from mounted import MEASURED, contacts, flown_postures, mounted
 from robots import SOLO12
 from sampled import every
-from wheels import paper_device
+from wheels import layout_device, paper_device
 
 from ocs_design.common.errors import SpecificationError
+from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.froude import default_envelope
 from ocs_design.robot.clearance import drawn, landing_ranges
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
-from ocs_design.sizing.mounting import mounting_of, placement_warnings
+from ocs_design.sizing.mounting import mounting_of, mounting_open_points, placement_warnings
 
 BOX = robot_by_hand(6.0, (0.05, 0.05, 0.05))
 """A cube: I = m a^2 / 6."""
@@ -71,6 +72,28 @@ def test_a_stated_position_that_is_hit_is_a_warning_with_a_free_one_and_strictly
     assert "--position 0.0mm" in warning
     with pytest.raises(SpecificationError, match="--strict: a module overlaps 'base_link'"):
         placement_warnings(*arguments, stated=True, strict=True)
+
+
+@pytest.mark.parametrize(
+    ("name", "option"),
+    [
+        (LayoutName.SINGLE, "--position X,Y,Z"),
+        (LayoutName.TRIAD, "--position, with x, y and z of every wheel"),
+        (LayoutName.DOUBLE_PAIR, "--position, with x, y and z of every wheel"),
+    ],
+)
+@pytest.mark.parametrize("stated", [True, False])
+def test_another_place_is_asked_for_as_its_layout_states_it(name, option, stated):
+    """For none but a pair a free place is looked for where one is stated."""
+    robot, device = read_robot(SOLO12), layout_device(Layout(name))
+    low = [replace(each, position=each.position * [1.0, 1.0, 0.0]) for each in device.modules]
+    device = replace(device, modules=tuple(low))
+    mounting = mounting_of(robot, device, (), robot.mass_properties)
+    (warning,) = placement_warnings(mounting, robot, device, default_envelope(robot), stated=stated)
+    assert warning.endswith(f"with {option}")
+    assert ("no free place was found" in warning) is not stated
+    *_, hit = mounting_open_points(mounting)
+    assert hit.cure == f"give another place with {option}"
 
 
 @pytest.mark.parametrize("name", MEASURED[::2])

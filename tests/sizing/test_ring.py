@@ -80,7 +80,7 @@ def test_no_ring_on_a_grid_is_lighter():
     limits = chosen.limits
     mount = mount_of(chosen.motor, None, chosen.foot_plate, on_bell=True)
     shell = Printed(mount.holes.reach, foot_plate=chosen.foot_plate, room=mount.room)
-    inertia, inner = chosen.spin_inertia - chosen.rotor_share, chosen.inner_radius
+    inertia, inner = chosen.spin_inertia - chosen.drive.rotor_inertia, chosen.inner_radius
     outer = np.linspace(inner, float(limits.outer_radius_max), 4001)[1:]
     left = inertia + limits.cuts.axial_inertia(inner, outer, limits.density)
     height = 2.0 * left / (np.pi * limits.density * (outer**4 - inner**4))

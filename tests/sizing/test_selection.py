@@ -195,7 +195,10 @@ def test_the_motor_that_comes_closest_is_not_one_that_no_rim_fits_around():
     error = reasons(problem)
     assert "AT2820 KV1050 comes closest" in error.message
     wide = reasons(replace(problem, motors=problem.motors[:1]))
-    assert "a radius of 83.45 mm at the least, r_max is 12 mm" in wide.message
+    assert (
+        "around its hub, or with the least bore, it has a radius of 83.45 mm at the least, r_max "
+        "is 12 mm"
+    ) in wide.message
     assert wide.nearest.shortfall == pytest.approx((83.45 / 12.0) ** 4 - 1.0, rel=1e-3)
     assert 0.0 < error.nearest.shortfall < wide.nearest.shortfall
 

@@ -16,8 +16,7 @@ from ocs_design.export.device_parts import places, trunk_holes
 from ocs_design.export.formats import Documented, Subject
 from ocs_design.parts.foot import FootHold
 from ocs_design.parts.guard import Containment
-from ocs_design.parts.joints import preload as joint_preload
-from ocs_design.parts.joints import tightening_torque
+from ocs_design.parts.joints import joint_preload, tightening_torque
 from ocs_design.parts.printed import PETG, PRESSURE_SHARE, WASHER
 
 STRIP_SHARE = 1.0 / 3.0

@@ -135,7 +135,7 @@ def _infeasible(
         required_spin_inertia=rim.spin_inertia,
         largest_spin_inertia=largest_spin_inertia(rim),
         relaxations=relaxations,
-        hint=advice(texts, MOST_CHANGE, "loosen several, or ask for less."),
+        hint=advice(texts, "loosen several, or ask for less."),
     )
 
 

@@ -51,8 +51,8 @@ and through posts."""
 SPREAD = 0.02
 """Least distance of a plate's screws, forward and sideways [m]: four heads of M5 and a key."""
 
-POST_WALL, POST_MAX = 4e-3, 0.17
-"""Wall of a post, and longest one [m]: with M8 x 200."""
+POST_WALL, POST_MAX, POST_SCREW_MAX = 4e-3, 0.17, 0.2
+"""Wall of a post, longest one and longest screw through one [m]: that leaves plates of 12 mm."""
 
 PATTERN_STEP = 2e-3
 """Step between patterns of screws [m], or a fortieth of a module's reach."""
@@ -387,6 +387,8 @@ def _borne(
         if held is None:
             return None
         for plate in thick_enough(held, feet, ALUMINIUM.strength / SAFETY, thicknesses):
+            if plate.on_posts and max(plate.screw_lengths) > POST_SCREW_MAX:
+                break
             if plate_screws_use(plate, feet.mass, feet.height) <= 1.0:
                 return plate
     return None

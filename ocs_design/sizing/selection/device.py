@@ -66,12 +66,12 @@ def with_demands(problem: SelectionProblem, device: Candidate) -> Candidate:
         at = device.incidence if maneuver.incidence is None else maneuver.incidence
         inertia = inertia_at(problem, device, at)
         task = _task_of(maneuver, requirement, device, inertia, at)
-        least = smallest_spin_inertia(task, line, device.armature).item()
+        least = smallest_spin_inertia(task, line, device.drive.armature).item()
         roll, upright = requirement.reserve(maneuver).roll, device.total.inertia[2, 2]
         held = held_in_roll(roll, inertia, upright, device.layout.axes(at), requirement)
         least = max(least, float(held) / top_speed)
         load = task.load()
-        reduced = load.reduced_inertia(spin, device.armature)
+        reduced = load.reduced_inertia(spin, device.drive.armature)
         own, begins = line.begun(load.begins), load.begins.item()
         profile = slew_profile(load.angle(spin), reduced, own, load.final_speed(spin))
         demand = TaskDemand(
@@ -110,7 +110,7 @@ def survived(problem: SelectionProblem, device: Candidate, detection: float) -> 
     for maneuver in requirement.maneuvers:
         at = device.incidence if maneuver.incidence is None else maneuver.incidence
         task = _task_of(maneuver, requirement, device, inertia_at(problem, device, at), at)
-        demand = spin_demand(task, device.line.reserved(), device.armature)
+        demand = spin_demand(task, device.line.reserved(), device.drive.armature)
         with np.errstate(invalid="ignore"):
             can = capability(demand, np.asarray(device.spin_inertia)).sweep
         if (can >= demand.sweep * (1.0 - _ROUNDED)).all():

@@ -319,10 +319,11 @@ def _any_rim(spin_inertia: FloatArray, limits: RimLimits) -> bool:
 def _narrowest(limits: RimLimits) -> tuple[str, float]:
     """What a rim must go around, and its least outer radius by that [m]."""
     around = np.asarray(limits.inner_radius_min) + limits.wall_min
+    hub = "around its hub, or with the least bore,"
     least = {
         "around its motor's mount": float(np.asarray(limits.outer_radius_min).min()),
-        "around its hub and bore": float(around.min()),
+        hub: float(around.min()),
     }
     if np.isfinite(limits.inner_radius_max).any():
-        least["around its motor's bell"] = least.pop("around its hub and bore")
+        least["around its motor's bell"] = least.pop(hub)
     return max(least.items(), key=lambda item: item[1])

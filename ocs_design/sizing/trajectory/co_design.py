@@ -221,7 +221,7 @@ class FreeDevice:
             inertia=ca.reshape(inertia, 3, 3),
             axes=ca.vertcat(ca.horzcat(sine, -sine), ca.horzcat(cosine, cosine), ca.MX(1, 2)),
             spin_inertia=dimensions[0] * self.selected.spin_inertia,
-            armature=ca.MX(self.selected.armature),
+            armature=ca.MX(self.selected.drive.armature),
         )
 
     def turns(self) -> Iterator[Turn]:
@@ -287,7 +287,7 @@ def with_wheels(
         factors: spin inertias over the selected one, shape (n,).
         radii: outer radii likewise; the nearest possible one is taken.
     """
-    limits, turning = selected.limits, selected.rotor_share + selected.hub_share
+    limits, turning = selected.limits, selected.drive.rotor_inertia + selected.hub_share
     spin_inertias, outer_radii = factors * selected.spin_inertia, radii * selected.outer_radius
     shapes = lightest_module_at(spin_inertias - turning, outer_radii, limits, selected.shell)
     for row in np.flatnonzero(np.isfinite(shapes.mass)).tolist():
@@ -305,7 +305,7 @@ def with_wheels(
 
 def _gyrostat(problem: SelectionProblem, device: Candidate, incidence: float) -> Gyrostat:
     inertia = device.total_at(problem.robot, incidence).inertia
-    return Gyrostat(inertia, module_axes(incidence), device.spin_inertia, device.armature)
+    return Gyrostat(inertia, module_axes(incidence), device.spin_inertia, device.drive.armature)
 
 
 def _usable(problem: SelectionProblem, device: Candidate) -> DriveLine:

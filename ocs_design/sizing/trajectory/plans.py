@@ -196,8 +196,10 @@ def reference(
         spun = float(np.abs(taken / gyrostat.spin_inertia).max())
         most = float(line.top_speed)
         if spun > most:
-            told = " and ".join(map(rpm, (spun, most)))
-            note = f"speed of the wheels that the brake takes, and that the motors reach: {told}"
+            note = (
+                f"the brake would have to stop the wheels from {rpm(spun)}, and the motors reach "
+                f"only {rpm(most)}"
+            )
             return Reference(None, note, part=most / spun, spun=spun)
     # Two axes turn the heading by a loop of the tilt; a tall body yaws more easily than it tilts.
     x, y, z = np.diag(gyrostat.inertia)

@@ -23,14 +23,16 @@ def resting_trunk(time, speed, torque):
 def spin_up(wheel, time_constants, samples=4001):
     """Full voltage from rest: W = w_0 (1 - e^(-t/T)), tau = tau_s e^(-t/T), T = I w_0 / tau_s."""
     line = wheel.line
-    constant = (wheel.turned_inertia + wheel.armature) * line.no_load_speed / line.stall_torque
+    constant = (
+        (wheel.turned_inertia + wheel.drive.armature) * line.no_load_speed / line.stall_torque
+    )
     time = np.linspace(0.0, time_constants * constant, samples)
     decay = np.exp(-time / constant)
     return resting_trunk(time, line.no_load_speed * (1.0 - decay), line.stall_torque * decay)
 
 
 def kinetic(wheel, motion, index=-1):
-    moved = wheel.turned_inertia + wheel.armature
+    moved = wheel.turned_inertia + wheel.drive.armature
     return 0.5 * moved * float(np.sum(motion.wheel_speed[index] ** 2))
 
 
@@ -40,7 +42,7 @@ def test_energy_balance_of_a_spin_up(gear):
     motion = spin_up(wheel, time_constants=3.0)
     taken = consumption(motion, wheel)
     stored = kinetic(wheel, motion)
-    assert taken.drawn == pytest.approx(taken.heat_both + taken.gear_loss + stored, rel=1e-6)
+    assert taken.drawn == pytest.approx(taken.heat_all + taken.gear_loss + stored, rel=1e-6)
     assert taken.gear_loss == pytest.approx((1.0 / gear.efficiency - 1.0) * stored, rel=1e-6)
 
 
@@ -49,8 +51,8 @@ def test_constant_voltage_wastes_as_much_as_it_stores():
     wheel = driven_wheel()
     motion = spin_up(wheel, time_constants=20.0, samples=20001)
     taken = consumption(motion, wheel)
-    assert taken.heat_both == pytest.approx(kinetic(wheel, motion), rel=1e-6)
-    assert taken.drawn == pytest.approx(2.0 * taken.heat_both, rel=1e-6)
+    assert taken.heat_all == pytest.approx(kinetic(wheel, motion), rel=1e-6)
+    assert taken.drawn == pytest.approx(2.0 * taken.heat_all, rel=1e-6)
 
 
 @pytest.mark.parametrize("gear", [DIRECT, BELT])
@@ -60,13 +62,13 @@ def test_energy_balance_of_spinning_up_and_braking(gear):
     torque = 0.2 * wheel.line.torque_limit
     # The jump of the torque stands as two samples at one time.
     time = np.array([0.0, 0.1, 0.1, 0.2])
-    speed = torque / (wheel.turned_inertia + wheel.armature) * np.array([0.0, 0.1, 0.1, 0.0])
+    speed = torque / (wheel.turned_inertia + wheel.drive.armature) * np.array([0.0, 0.1, 0.1, 0.0])
     motion = resting_trunk(time, speed, torque * np.array([1.0, 1.0, -1.0, -1.0]))
     taken = consumption(motion, wheel)
     assert taken.fed_back > 0.0
     # Power changes its sign within an interval: the parts are exact to the step, the sum is exact.
     assert taken.drawn - taken.fed_back == pytest.approx(
-        taken.heat_both + taken.gear_loss, rel=1e-12
+        taken.heat_all + taken.gear_loss, rel=1e-12
     )
     assert taken.fed_back < kinetic(wheel, motion, index=1)
 
@@ -102,7 +104,7 @@ def test_energy_balance_of_a_tumbling_trunk(gear):
         np.array([[0.03, 1e-3, 2e-3], [1e-3, 0.0535, 0.0], [2e-3, 0.0, 0.068]]),
         module_axes(np.radians(30.0)),
         wheel.turned_inertia,
-        wheel.armature,
+        wheel.drive.armature,
     )
     line, voltage = wheel.line, np.array([1.0, -0.5])
 
@@ -123,5 +125,5 @@ def test_energy_balance_of_a_tumbling_trunk(gear):
     final = flown.y[:, -1]
     kinetic_energy = 0.5 * final @ body.mass_matrix @ final
     drawn = taken.drawn - taken.fed_back
-    assert drawn == pytest.approx(taken.heat_both + taken.gear_loss + kinetic_energy, rel=1e-6)
+    assert drawn == pytest.approx(taken.heat_all + taken.gear_loss + kinetic_energy, rel=1e-6)
     assert np.linalg.norm(rate[-1]) > 0.5

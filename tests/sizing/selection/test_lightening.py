@@ -33,7 +33,7 @@ def test_the_selected_wheel_is_the_made_one(seed):
     made = total(wheel_parts(wheel_geometry(wheel)))
     assert made.mass == pytest.approx(best.wheel_mass, rel=1e-9)
     assert made.mass == pytest.approx(wheel.mass, rel=1e-9)
-    spin = made.inertia[2, 2] + best.rotor_share
+    spin = made.inertia[2, 2] + best.drive.rotor_inertia
     assert spin == pytest.approx(best.spin_inertia, rel=1e-9)
     assert made.inertia[0, 0] == pytest.approx(wheel.transverse_inertia, rel=1e-9)
 

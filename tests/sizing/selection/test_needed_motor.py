@@ -73,7 +73,8 @@ def test_where_motors_are_too_heavy_for_their_torque_a_denser_one_is_named():
     problem, model = too_weak(0)
     heavy = replace(model, mass=20.0 * model.mass)
     need = needed_motor(problem, heavy)
-    assert need.text.endswith(f"would do. None as heavy for its torque as {model.name} would.")
+    others = f"Motors as heavy for their torque as {model.name} would not do, however large."
+    assert need.text.endswith(f"would do. {others}")
     denser = need.peak_torque / need.mass / (heavy.peak_torque / heavy.mass)
     assert round(denser, 6) in {2.0, 4.0}
     model = replace(heavy, peak_torque=denser * heavy.peak_torque)

@@ -77,7 +77,7 @@ def test_symbols_and_numbers_are_the_same_device(seed):
         np.testing.assert_allclose(inertia, found.total.inertia, rtol=0, atol=atol)
         np.testing.assert_allclose(axes, module_axes(dimensions[2]), rtol=0, atol=1e-15)
         assert float(spin_inertia) == pytest.approx(found.spin_inertia, rel=1e-12)
-        assert float(armature) == selected.armature
+        assert float(armature) == selected.drive.armature
         assert float(mass) * selected.mass == pytest.approx(found.mass, rel=of_mass)
 
 
@@ -140,7 +140,7 @@ def test_what_is_adopted_is_a_whole_device(answered):
         assert device is selected
         return
     assert device.mass == pytest.approx(found.found_mass, rel=1e-12)
-    spin = wheel_of(device)[1] + device.rotor_share
+    spin = wheel_of(device)[1] + device.drive.rotor_inertia
     assert device.spin_inertia == pytest.approx(spin, rel=1e-9)
     bodies = (device.wheel, device.carrier)
     total = braked(problem.robot, bodies, device.centers, device.incidence)
