@@ -151,7 +151,10 @@ def _shaft_notes(mounting: Mounting, device: Device) -> Iterator[str]:
 
 
 def _overlap_notes(device: Device, foot: Foot) -> Iterator[str]:
-    """Feet and motors that reach over the middle of the robot, and so into each other."""
+    """Feet and motors of pairs that reach over the robot's middle, and so into each other."""
+    if not device.layout.pairs:
+        # No module stands opposite its mirror image.
+        return
     left = device.modules[0]
     room, inwards = float(left.position[1]), float(left.axis[1])
     if foot.base_radius > room:
