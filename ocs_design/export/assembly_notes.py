@@ -62,7 +62,7 @@ def drive_notes(device: Device) -> tuple[str, ...]:
             f"how motor and gear are held is not designed, because the gear's {unknown} are not "
             f"in the catalogue: {stands}; {_UNDRILLED}{threads}"
         )
-        return (held, *_overlap_notes(device, foot))
+        return (held, *_overlap_notes(device, foot), *_landing_notes(device, foot))
     mounting, known = motor.mounting or Mounting(), known_motors(None).get(motor.name)
     remark = () if known is None or not known.remark else (f"of the motor: {known.remark}",)
     return (

@@ -113,6 +113,14 @@ def test_behind_a_gear_nothing_is_known():
     assert said(device_on(None, drive)).startswith("how motor and gear are held is not designed")
 
 
+def test_a_heavy_module_behind_a_gear_lands_as_hard_as_any():
+    drive = replace(geared(2.0), diameter=0.04, length=0.1)
+    device = replace(device_on(None, drive), foot_plate=0.005)
+    heavy = replace(device, carrier=replace(device.carrier, mass=20.0))
+    assert "printed of PETG the feet bear" in said(heavy)
+    assert "printed of PETG the feet bear" not in said(device)
+
+
 def test_feet_in_each_other_s_way():
     assert "the feet stand in each other's way" in said(device_on(FLAT, apart=0.02))
 

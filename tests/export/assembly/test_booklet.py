@@ -335,6 +335,32 @@ def test_the_screws_reach_into_the_motor_is_told_beside_what_its_model_draws():
         assert ("these screws would be too long" in said) == (bool(model) and long)
 
 
+def test_behind_a_gear_nothing_is_fixed_in_a_hole_or_bonded_on_a_shaft():
+    """Its wheels are bought, both of them."""
+    web = DEVICES["caged"].flywheel.web
+    device = DEVICES["gear"]
+    device = replace(device, flywheel=replace(device.flywheel, web=web))
+    assembly = Assembly("dog", device)
+    rows = {row.name: row for row in piece_rows(assembly)}
+    assert "gear 2" not in rows
+    for name in ("gear", "gear, at the motor"):
+        assert (rows[name].made, rows[name].file) == (f"bought: {device.motor.gear}", "")
+    steps = texts(assembly, "Steps")
+    numbers = [assembly.numbers[name] for name in ("gear", "motor")]
+    assert "Fix gear ({}) and motor ({}) as said above".format(*numbers) in steps
+    assert "the gear's output within 0.05 mm of the wheel's axis" in steps
+    assert "middle of their hole" not in steps
+    assert "by a joint of your own: how a wheel is held on this gear is not in" in steps
+    assert "compound" not in steps
+
+
+def test_on_an_unknown_shaft_no_compound_hardens():
+    steps = texts(Assembly("dog", DEVICES["unknown threads"]), "Steps")
+    assert "by a joint of your own: the shaft and the rotor's threads are not in" in steps
+    assert "compound" not in steps
+    assert "middle of their hole" in steps
+
+
 def test_a_rim_of_another_material_is_shrunk_on():
     """Steel of 12e-6 per K on aluminium: hotter by the tightest fit and 0.03 mm of air."""
     wheel = DEVICES["caged"].flywheel
