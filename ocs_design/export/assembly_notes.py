@@ -64,7 +64,7 @@ def drive_notes(device: Device) -> tuple[str, ...]:
         )
         return (held, *_overlap_notes(device, foot), *_landing_notes(device, foot))
     mounting, known = motor.mounting or Mounting(), known_motors(None).get(motor.name)
-    remark = () if known is None or not known.remark else (f"of the motor: {known.remark}",)
+    remark = () if known is None or not known.remark else (f"about the motor: {known.remark}",)
     return (
         *remark,
         *_mounting_notes(mounting, device),

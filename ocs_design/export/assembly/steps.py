@@ -315,8 +315,8 @@ def _trunk_steps(assembly: Assembly) -> Iterator[str]:
     places_of = f"{'; '.join(drilled)}; {what} stand at z = {stand} mm"
     if assembly.refused:
         yield (
-            "Drill no hole into the trunk and cut nothing that stands on it before that is settled "
-            "which keeps the device from being built: they may come to lie elsewhere."
+            "Do not drill the trunk or cut any part that stands on it until the open points are "
+            "settled: the holes may move."
         )
     elif device.plate is None:
         yield (
