@@ -217,8 +217,8 @@ class FrontDevice:
     """The lightest device of a point; SI.
 
     Attributes:
-        mass: of both modules and of the plate under them, as `size` tells it. share: of the
-            robot's.
+        mass: of the whole device, with plate or pedestals [kg], as `size` tells it.
+        share: of the robot's mass.
         motor, gear, material: names in the catalogue.
         incidence: of the wheel axes.
         outer_radius, inner_radius, height, rim_mass: of one rim.

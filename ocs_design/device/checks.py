@@ -81,9 +81,11 @@ def check_device(device: Device) -> None:
     if device.plate is not None:
         faults += _plate_faults(device.plate)
     if not 0.0 <= device.guard_wall <= LARGEST_LENGTH:
-        faults.append(f"ocs.guard_wall is {device.guard_wall}")
-    if not 0.0 < device.foot_plate <= LARGEST_LENGTH:
-        faults.append(f"ocs.foot_plate is {device.foot_plate}")
+        faults.append(_outside("ocs.guard_wall", device.guard_wall, 0.0, LARGEST_LENGTH))
+    if not SMALLEST_LENGTH <= device.foot_plate <= LARGEST_LENGTH:
+        faults.append(
+            _outside("ocs.foot_plate", device.foot_plate, SMALLEST_LENGTH, LARGEST_LENGTH)
+        )
     if device.supply is not None:
         # A limit that it does not have is infinite.
         for name, highest in (("voltage", LARGEST), ("current_max", inf), ("power_max", inf)):
@@ -91,7 +93,7 @@ def check_device(device: Device) -> None:
             if not 0.0 < value <= highest:
                 faults.append(f"supply.{name} is {value:g}, not positive")
     if not isfinite(device.incidence):
-        faults.append(f"ocs.incidence is {device.incidence}")
+        faults.append(f"ocs.incidence is {device.incidence}, not finite")
     if tuple(module.name for module in device.modules) != device.layout.names:
         faults.append(f"ocs.modules are not those of {device.layout.text}")
     for module in device.modules:
@@ -103,7 +105,7 @@ def check_device(device: Device) -> None:
     faults += _wheel_faults(device.flywheel)
     if faults:
         raise OcsError(
-            f"the design's device cannot be: {'; '.join(faults)}",
+            f"the design describes a device that cannot exist: {'; '.join(faults)}",
             hint="run `ocs-design size` again to write the design anew",
         )
 
@@ -164,9 +166,9 @@ def _pedestal_faults(device: Device) -> Iterator[str]:
         for name in _PEDESTAL_LENGTHS:
             size = getattr(pedestal, name)
             if not SMALLEST_LENGTH <= size <= LARGEST_LENGTH:
-                yield f"pedestals.{name} is {size:g}"
+                yield _outside(f"pedestals.{name}", size, SMALLEST_LENGTH, LARGEST_LENGTH)
         if not _UNIT_TOLERANCE < pedestal.lean <= pi / 2.0 + _UNIT_TOLERANCE:
-            yield f"pedestals.lean is {pedestal.lean:g}"
+            yield _outside("pedestals.lean", pedestal.lean, _UNIT_TOLERANCE, pi / 2.0)
         places = np.array([*pedestal.position, pedestal.heading])
         if not (np.abs(places) <= LARGEST_LENGTH).all():
             yield "a place of a pedestal is beyond all measure"
@@ -188,7 +190,7 @@ def _figures(value: object, path: str) -> Iterator[str]:
             yield f"{path} is {value!r}, which is none of {', '.join(map(str, known))}"
     elif path.endswith((".bolts", ".holes")) and isinstance(value, int | float):
         if not 0 <= value <= MOST_BOLTS:
-            yield f"{path} is {value}"
+            yield _outside(path, value, 0, MOST_BOLTS)
     elif isinstance(value, float):
         name = path.rpartition(".")[2]
         if name in _LENGTHS or path.endswith(_OR_NONE + _OF_GEARS):
@@ -199,7 +201,12 @@ def _figures(value: object, path: str) -> Iterator[str]:
             low, high = (1e-15 if name in _POSITIVE and path not in _MAY_BE_ZERO else 0.0), LARGEST
         absent = value == 0.0 and path.endswith(_OR_NONE + _OF_GEARS)
         if not absent and not low <= value <= high:
-            yield f"{path} is {value:g}, not between {low:g} and {high:g}"
+            yield _outside(path, value, low, high)
+
+
+def _outside(path: str, value: float, low: float, high: float) -> str:
+    """Fault of a figure that is out of its range."""
+    return f"{path} is {value:g}, not between {low:g} and {high:g}"
 
 
 HEAVY = 0.3

@@ -62,9 +62,9 @@ def drive_notes(device: Device) -> tuple[str, ...]:
             f"how motor and gear are held is not designed, because the gear's {unknown} are not "
             f"in the catalogue: {stands}; {_UNDRILLED}{threads}"
         )
-        return (held, *_overlap_notes(device, foot))
+        return (held, *_overlap_notes(device, foot), *_landing_notes(device, foot))
     mounting, known = motor.mounting or Mounting(), known_motors(None).get(motor.name)
-    remark = () if known is None or not known.remark else (f"of the motor: {known.remark}",)
+    remark = () if known is None or not known.remark else (f"about the motor: {known.remark}",)
     return (
         *remark,
         *_mounting_notes(mounting, device),
@@ -151,7 +151,10 @@ def _shaft_notes(mounting: Mounting, device: Device) -> Iterator[str]:
 
 
 def _overlap_notes(device: Device, foot: Foot) -> Iterator[str]:
-    """Feet and motors that reach over the middle of the robot, and so into each other."""
+    """Feet and motors of pairs that reach over the robot's middle, and so into each other."""
+    if not device.layout.pairs:
+        # No module stands opposite its mirror image.
+        return
     left = device.modules[0]
     room, inwards = float(left.position[1]), float(left.axis[1])
     if foot.base_radius > room:

@@ -91,7 +91,7 @@ def bill_rows(device: Device, margins: Sequence[Margin] = ()) -> Sequence[BillRo
     motor, count = device.motor, len(device.modules)
     rows = list(_wheel_rows(device.flywheel, count))
     if motor.mass > 0.0:
-        supply = [] if motor.bus_voltage is None else [f"on {motor.bus_voltage:g} V"]
+        supply = [] if motor.bus_voltage is None else [f"run at {motor.bus_voltage:g} V"]
         if motor.bus_voltage and motor.rated_voltage and motor.bus_voltage > motor.rated_voltage:
             supply.append(f"rated for {motor.rated_voltage:g} V: ask its maker before you buy")
         remark, name = "; ".join([*supply, *drive_notes(device)]), f"motor {motor.full_name}"

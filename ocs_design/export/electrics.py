@@ -91,10 +91,13 @@ def wiring(device: Device, margins: Sequence[Margin]) -> Iterator[str]:
     counted = "are" if motor.controller_mass > 0.0 else "are not either"
     if motor.bus_voltage is None:
         return
+    each = "a controller next to the motor"
+    if count > 1:
+        each = f"one bus for all - {count} controllers, each next to its motor"
     yield (
-        f"Battery ({motor.bus_voltage:g} V) - fuse and switch - one bus for all - "
-        f"{count} controllers, each next to its motor - three wires to "
-        "each motor. Keep the bus short: its inductance adds to every spike."
+        f"Battery ({motor.bus_voltage:g} V) - fuse and switch - "
+        f"{each} - three wires to {'the' if count == 1 else 'each'} motor. "
+        "Keep the bus short: its inductance adds to every spike."
     )
     if rating:
         yield f"Controllers, {count}: {rating}. They take torque (current) commands."

@@ -51,7 +51,7 @@ from ocs_design.export.device_parts import metal_pieces, pedestal_kinds, printed
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Color
 from ocs_design.export.visuals import ALUMINIUM, PRINT, piece_color
-from ocs_design.parts.carrier_plate import block_part, mast_part, plate_part
+from ocs_design.parts.carrier_plate import plate_bodies, plate_part
 from ocs_design.parts.outline import Arc
 from ocs_design.parts.shapes import Disc
 from ocs_design.parts.solids import Part, Prism, Relief, Revolution, Solid
@@ -104,15 +104,17 @@ def device_bytes(device: Device) -> bytes:
         place = wheel_placement(each) @ carrier_placement(each)
         assembly.put(module, whole, place, each.name)
     if device.plate is not None:
-        plate, mast = device.plate, device.plate.mast
-        bodies = [(plate_part(each), each.position) for each in plate.each]
-        if mast is not None:
-            bodies.append((mast_part(plate, mast), plate.position))
-        if plate.relief is not None:
-            bodies.append((block_part(plate, plate.relief), plate.position))
-        for part, position in bodies:
+        plate = device.plate
+        on_trunk = Placement(np.eye(3), np.array(plate.position))
+        # All plates are its first body, and here a piece each.
+        _, *others = plate_bodies(plate)
+        bodies = [
+            (plate_part(each), Placement(np.eye(3), np.array(each.position))) for each in plate.each
+        ]
+        bodies += [(part, on_trunk @ at) for part, at in others]
+        for part, place in bodies:
             label = assembly.add_part(part.name, part, ALUMINIUM)
-            assembly.put(label, whole, Placement(np.eye(3), np.array(position)), part.name)
+            assembly.put(label, whole, place, part.name)
     for kind in pedestal_kinds(device):
         label = assembly.add_part(kind.name, kind.part, PRINT)
         for pedestal in kind.alike:

@@ -37,13 +37,11 @@ class LoopMargins:
     """Margins of a loop that is closed once in every period.
 
     Attributes:
-        period: of the control steps [s].
         crossover: frequency at which the loop's gain is one, of the margin [rad/s].
         phase: margin there [rad].
         delay: that the loop stands beyond its own hold [s].
     """
 
-    period: float
     crossover: float
     phase: float
     delay: float
@@ -76,7 +74,7 @@ def loop_margins(
     level = np.log(np.maximum(np.abs(eigenvalues(frequency)), 1e-300))
     before, which = np.nonzero(level[:-1] * level[1:] <= 0.0)
     if not before.size:
-        return LoopMargins(period, 0.0, np.pi, np.inf)
+        return LoopMargins(0.0, np.pi, np.inf)
     first, last = level[before, which], level[before + 1, which]
     part = first / np.where(first == last, 1.0, first - last)
     crossing = frequency[before] * (frequency[before + 1] / frequency[before]) ** part
@@ -85,7 +83,7 @@ def loop_margins(
     late = np.mod(phase, 2.0 * np.pi) / crossing
     soonest = int(np.argmin(late))
     return LoopMargins(
-        period, float(crossing[soonest]), float(np.abs(phase).min()), float(late[soonest])
+        float(crossing[soonest]), float(np.abs(phase[soonest])), float(late[soonest])
     )
 
 

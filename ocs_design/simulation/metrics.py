@@ -186,8 +186,8 @@ def breakdown(recording: Recording, index: int) -> str:
     code = int(recording.warning[index])
     said = f": MuJoCo stopped at {_WARNINGS[code]}" if code in _WARNINGS else ""
     return (
-        f"not judged: the simulation became unstable{said}; look for links with next to no inertia "
-        f"and for figures that are hardly meant by `ocs-design inspect`"
+        f"not judged: the simulation became unstable{said}; run `ocs-design inspect` and look for "
+        "links with next to no inertia and for implausible values"
     )
 
 

@@ -202,7 +202,8 @@ def _unsound(metrics: Metrics | None, maneuver: Maneuver, gate: float = MOMENTUM
         return (
             f"not judged: angular momentum in flight is off by {metrics.momentum_error:.1e}, "
             f"more than {gate:.0e}: something moves too fast for the steps of the "
-            f"physics; look for links with next to no inertia by `ocs-design inspect`"
+            "physics; run `ocs-design inspect` and look for links with next to no inertia and for "
+            "implausible values"
         )
     if metrics.lift_off_time is None:
         return "not judged: the legs do not bring the robot off the ground"

@@ -10,6 +10,7 @@ from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError
 from ocs_design.device.checks import check_device, device_warnings
 from ocs_design.device.records.design import read_design
+from ocs_design.parts.pedestal import Pedestal
 from ocs_design.robot.mass import MassProperties
 
 DEVICE = read_design(Path(__file__).parents[1] / "data" / "design_0_1_0.json").ocs.device()
@@ -35,6 +36,26 @@ def test_figures_of_no_device_are_refused(part, figure, value):
     changed = replace(getattr(DEVICE, part), **{figure: value})
     with pytest.raises(OcsError, match=f"{part}.{figure} is"):
         check_device(replace(DEVICE, **{part: changed}))
+
+
+@pytest.mark.parametrize(
+    ("change", "rule"),
+    [
+        ({"guard_wall": -1.0}, "ocs.guard_wall is -1, not between 0 and 100"),
+        ({"foot_plate": 0.0}, "ocs.foot_plate is 0, not between 1e-07 and 100"),
+        ({"incidence": np.nan}, "ocs.incidence is nan, not finite"),
+        (
+            {"pedestals": (Pedestal(0.027, 0.02, 0.05, 2.0, 500.0),)},
+            "pedestals.middle is 500, not between 1e-07 and 100; "
+            "pedestals.lean is 2, not between 1e-06 and 1.5708",
+        ),
+    ],
+)
+def test_a_fault_tells_the_rule_that_is_broken(change, rule):
+    with pytest.raises(OcsError) as refused:
+        check_device(replace(DEVICE, **change))
+    assert rule in str(refused.value)
+    assert "the design describes a device that cannot exist: " in str(refused.value)
 
 
 @pytest.mark.parametrize("value", [0.0, -5.0, np.nan])

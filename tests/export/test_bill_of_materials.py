@@ -100,7 +100,7 @@ def test_any_name_stays_in_its_cell_and_on_its_line():
     motor = rows_of(text)[1]
     assert motor["part"] == 'motor a "b", c'
     assert motor["source"] == "d e"
-    assert motor["remark"].startswith("on 24 V; the motor's threads are not in the catalogue")
+    assert motor["remark"].startswith("run at 24 V; the motor's threads are not in the catalogue")
     assert list(motor) == list(COLUMNS)
 
 

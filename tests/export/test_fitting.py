@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from built import DEVICES, FLAT
+from built import DEVICES, FLAT, around
 from hypothesis import given
 from hypothesis import strategies as st
 from wheels import EC45, PAPER_WHEEL, driven_device, geared, paper_device
@@ -13,6 +13,7 @@ from wheels import EC45, PAPER_WHEEL, driven_device, geared, paper_device
 from ocs_design.actuation.motor import BoltCircle, Face, Mounting
 from ocs_design.device.bodies import wheel_placement
 from ocs_design.device.device import Device, Web
+from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly_notes import device_notes, drive_notes
 from ocs_design.export.visuals import still_visuals
@@ -112,8 +113,22 @@ def test_behind_a_gear_nothing_is_known():
     assert said(device_on(None, drive)).startswith("how motor and gear are held is not designed")
 
 
+def test_a_heavy_module_behind_a_gear_lands_as_hard_as_any():
+    drive = replace(geared(2.0), diameter=0.04, length=0.1)
+    device = replace(device_on(None, drive), foot_plate=0.005)
+    heavy = replace(device, carrier=replace(device.carrier, mass=20.0))
+    assert "printed of PETG the feet bear" in said(heavy)
+    assert "printed of PETG the feet bear" not in said(device)
+
+
 def test_feet_in_each_other_s_way():
     assert "the feet stand in each other's way" in said(device_on(FLAT, apart=0.02))
+
+
+@pytest.mark.parametrize("name", ["single", "triad", "orthogonal", "pyramid"])
+def test_modules_without_a_mirror_image_stand_in_no_way_of_one(name):
+    device = around(Layout(LayoutName(name)))
+    assert "in each other's way" not in said(device)
 
 
 @given(incidence=st.floats(0.0, 1.5), diameter=st.floats(0.02, 0.06), length=st.floats(0.005, 0.06))

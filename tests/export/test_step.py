@@ -30,9 +30,10 @@ from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool, XCAFDoc_ShapeTo
 from ocs_design.common.frames import FORWARDS, Placement
 from ocs_design.device.bodies import STEEL, carrier_placement, wheel_placement
 from ocs_design.export.assembly.placed import placed_parts
+from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.export.step import device_bytes, module_bytes, step_bytes
 from ocs_design.export.visuals import ALUMINIUM, MOTOR, PRINT
-from ocs_design.parts.carrier_plate import Mast, mast_part, plate_part
+from ocs_design.parts.carrier_plate import Mast, plate_bodies, plate_part
 from ocs_design.parts.solids import Part, Relief
 
 TOLERANCE = 1e-9
@@ -142,6 +143,7 @@ COLORS = {
     "motor": MOTOR,
     "plate": ALUMINIUM,
     "mast": ALUMINIUM,
+    "sleeve": ALUMINIUM,
     "flywheel": STEEL,
 }
 
@@ -197,16 +199,18 @@ def test_the_device_has_every_module_in_its_place_and_its_plates(tmp_path, plate
         for module, frame in zip(device.modules, frames, strict=True)
         for name, (part, place) in placed_parts(device).items()
     ]
-    bodies = [(plate_part(each), each.position) for each in plate.each]
-    bodies += [(mast_part(plate, plate.mast), plate.position)] if plate.mast else []
-    expected += [
-        (("device", part.name), part, Placement(np.eye(3), np.array(position)))
-        for part, position in bodies
+    bodies = [
+        (plate_part(each), Placement(np.eye(3), np.array(each.position))) for each in plate.each
     ]
+    on_trunk = Placement(np.eye(3), np.array(plate.position))
+    bodies += [(part, on_trunk @ at) for part, at in list(plate_bodies(plate))[1:]]
+    expected += [(("device", part.name), part, place) for part, place in bodies]
     assert [each.path for each in found] == [path for path, *_ in expected]
     for each, (path, part, place) in zip(found, expected, strict=True):
         check_solid(each, part, place, COLORS[path[-1]])
     assert step_bytes(plate_part(plate)).count(b"MANIFOLD_SOLID_BREP(") == len(plate.each)
+    billed = sum(row.quantity for row in bill_rows(device) if row.part.startswith("sleeve"))
+    assert sum(each.path[-1].startswith("sleeve") for each in found) == billed > 0
     wheels = [each.solid.com for each in found if each.path[-1] == "flywheel"]
     np.testing.assert_allclose(wheels, [module.position for module in device.modules], atol=1e-9)
 

@@ -79,5 +79,21 @@ def test_a_regulated_plan_has_the_margins_that_theory_promises(world):
     assert np.degrees(plan_margins(settled, world.body, 1e-4).phase) > 60.0
 
 
+def test_the_phase_is_that_of_the_crossover_beside_it():
+    """Of two axes alone the slow one has less phase, and the fast one stands less delay."""
+    none = np.zeros_like(STATE)
+    state, control = np.block([[STATE, none], [none, STATE]]), np.kron(np.eye(2), CONTROL)
+    gains = [(2.0, 0.1), (400.0, 40.0)]
+    slow, fast = (loop_margins(STATE, CONTROL, np.array([each]), 0.001) for each in gains)
+    assert slow.phase < fast.phase
+    assert slow.delay > fast.delay
+    feedback = np.zeros((2, 4))
+    feedback[0, :2], feedback[1, 2:] = gains
+    both = loop_margins(state, control, feedback, 0.001)
+    assert both.crossover == pytest.approx(fast.crossover, rel=1e-3)
+    assert both.phase == pytest.approx(fast.phase, rel=1e-3)
+    assert both.delay == pytest.approx(fast.delay, rel=1e-3)
+
+
 def test_a_loop_whose_gain_is_nowhere_one_stands_any_delay():
     assert loop_margins(-np.eye(1), np.eye(1), 0.1 * np.eye(1), 0.005).delay == np.inf

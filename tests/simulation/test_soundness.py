@@ -87,6 +87,7 @@ def test_a_state_without_end_is_named(world):
     recording = simulate([replace(world, duration=0.02)])
     assert not recording.stable[0]
     assert "MuJoCo stopped at a speed that is huge or not a number" in breakdown(recording, 0)
+    assert "run `ocs-design inspect` and look for links with next to" in breakdown(recording, 0)
     world.qvel[0] = np.nan
     assert "the start is not finite" in objection(world)
 

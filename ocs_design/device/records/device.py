@@ -59,8 +59,10 @@ class MountingRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class OcsRecord:
-    """The device. `mass_total` is of all modules; `total_...` of robot and braked device.
+    """The device, with what its feet stand on.
 
+    `mass_total` is of the whole device, with plate or pedestals [kg]; `total_...` of robot and
+    braked device.
     `center_of_mass` is of the device alone, in B; None in files of older versions.
     `fitting` is what is left to do by hand: see `export.assembly_notes`. `layout` is how the axes
     lie, and `incidence` its angle: of a pair the axes are at plus and minus that.

@@ -230,7 +230,7 @@ class Alternative:
 
     Attributes:
         change: what would be different, as a person would say it.
-        mass_total: of both modules [kg]; None: there is no device then.
+        mass_total: of the whole device, with plate or pedestals [kg]; None: there is none then.
         motor: its name; empty where there is no device.
         note: what speaks for or against it; empty if nothing does.
     """
@@ -247,7 +247,8 @@ class Owed:
 
     Attributes:
         maneuver: its name; empty: no single one, without any of them it weighs the same.
-        mass_without: of both modules that do all else [kg]; None: nothing else is asked.
+        mass_without: of the whole device that does all else, with plate or pedestals [kg]; None:
+            nothing else is asked.
     """
 
     maneuver: str
@@ -259,7 +260,7 @@ class Lighter:
     """What would have to give for a lighter device.
 
     Attributes:
-        by: mass that both modules are to lose [kg].
+        by: mass that the whole device, with plate or pedestals, is to lose [kg].
         changes: each of which does it; empty: none that was looked for.
     """
 

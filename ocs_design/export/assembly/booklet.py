@@ -71,6 +71,7 @@ _LABELS = {
     "hub": "web with hub",
     "motor": "motor",
     "gear": "gear",
+    "gear_2": "gear, at the motor",
     "drum": "housing, drum",
     "lid": "housing, lid",
     "foot": "foot",
@@ -309,7 +310,7 @@ def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]
     motor = device.motor
     if name == "motor":
         return f"bought: {motor.full_name}", ""
-    if name == "gear":
+    if name.startswith("gear"):
         return f"bought: {motor.gear}" if motor.gear != DIRECT.name else "bought", ""
     of_housing = name in ("drum", "lid", "foot", "cage")
     if of_housing or name.startswith(("pedestal", "ring_fixture")):

@@ -148,11 +148,17 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
     if "motor" in assembly.numbers and not any(
         name.startswith("motor") for name in assembly.screws
     ):
-        # Its threads are not known.
-        yield (
-            f"Fix the motor{assembly.number('motor')} to plate and drum, its axis within "
-            f"{1e3 * RUN_OUT:g} mm of the middle of their hole, as said above."
-        )
+        # Its threads are not known, and behind a gear neither is a hole for it.
+        if device.motor.gear_room is not None:
+            yield (
+                f"Fix gear{assembly.number('gear')} and motor{assembly.number('motor')} as said "
+                f"above, the gear's output within {1e3 * RUN_OUT:g} mm of the wheel's axis."
+            )
+        else:
+            yield (
+                f"Fix the motor{assembly.number('motor')} to plate and drum, its axis within "
+                f"{1e3 * RUN_OUT:g} mm of the middle of their hole, as said above."
+            )
     for name in assembly.screws:
         if name not in assembly.late:
             caged = name.startswith("motor in its cage")
@@ -262,7 +268,9 @@ def _joint_steps(assembly: Assembly) -> Iterator[str]:
         return
     screwed = any(name.startswith("wheel") for name in assembly.screws)
     for joint in joints_of(assembly.device):
-        if joint.name == SHAFT_JOINT and not screwed:
+        if joint.name == SHAFT_JOINT and joint.capacity is None:
+            yield f"Hold the wheel on its drive by a joint of your own: {joint.note}."
+        elif joint.name == SHAFT_JOINT and not screwed:
             room = foot_of(assembly.device).housing.rim_height - assembly.device.flywheel.height
             yield (
                 f"Put the wheel on the motor's shaft: {joint.note}. Strips of "
@@ -307,8 +315,8 @@ def _trunk_steps(assembly: Assembly) -> Iterator[str]:
     places_of = f"{'; '.join(drilled)}; {what} stand at z = {stand} mm"
     if assembly.refused:
         yield (
-            "Drill no hole into the trunk and cut nothing that stands on it before that is settled "
-            "which keeps the device from being built: they may come to lie elsewhere."
+            "Do not drill the trunk or cut any part that stands on it until the open points are "
+            "settled: the holes may move."
         )
     elif device.plate is None:
         yield (

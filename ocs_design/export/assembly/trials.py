@@ -179,7 +179,9 @@ def sweep(assembly: Assembly) -> Iterator[str]:
     modes = resonances_of(device)
     if top is None or not modes:
         return
-    reached = demand_of(assembly.margins, "wheel speed") or top
+    flown = demand_of(assembly.margins, "wheel speed")
+    reached = flown or top
+    most = "what the maneuvers reach at most" if flown else "its top speed"
     computed = ", ".join(
         f"{mode.name} {60.0 * mode.frequency:,.0f} rpm"
         for mode in sorted(modes, key=lambda each: each.frequency)
@@ -187,15 +189,16 @@ def sweep(assembly: Assembly) -> Iterator[str]:
     yield (
         "Hold the robot by its trunk, lids on, nobody in the wheels' planes, an accelerometer "
         "taped to one foot. Run that module's wheel alone from standstill to "
-        f"{rpm(reached)}, what the maneuvers reach at most, in about a minute; then the others. "
+        f"{rpm(reached)}, {most}, in about a minute; then the others. "
         f"Write down where each shakes most. Computed are: {computed}; a trunk or screws that "
         "give way make them lower, and damping is assumed."
     )
+    fastest = "The largest speed of the maneuvers" if flown else "The wheel's top speed"
     for mode in modes:
         off = reached / (2.0 * math.pi * mode.frequency) - 1.0
         if 0.0 < abs(off) < NEAR:
             yield (
-                f"The largest speed of the maneuvers, {rpm(reached)}, is {abs(off):.0%} "
+                f"{fastest}, {rpm(reached)}, is {abs(off):.0%} "
                 f"{'above' if off > 0.0 else 'below'} that of the {mode.name}: there it shakes the "
                 f"module with {_two(mode.acceleration_at(reached) / STANDARD_GRAVITY)} times its "
                 f"weight, and with {_two(mode.acceleration / STANDARD_GRAVITY)} times if they meet."
@@ -243,10 +246,12 @@ def safety(assembly: Assembly) -> Iterator[str]:
     both = demand_of(assembly.margins, "stored energy")
     flown = ""
     if both is not None:
-        flown = f"; the planned maneuvers reach {significant(both, 3)} J in all wheels"
+        where = "in all wheels" if count > 1 else "in it"
+        flown = f"; the planned maneuvers reach {significant(both, 3)} J {where}"
+    wheels = f", {count} of them {significant(count * energy, 3)} J" if count > 1 else ""
     yield (
-        f"Each wheel stores {significant(energy, 3)} J at {rpm(speed)}, {count} of them "
-        f"{significant(count * energy, 3)} J{flown}. That is "
+        f"{'Each' if count > 1 else 'The'} wheel stores {significant(energy, 3)} J at "
+        f"{rpm(speed)}{wheels}{flown}. That is "
         f"{_two(count * energy / 9.81)} kg dropped from 1 m."
     )
     part = burst.fragment
@@ -301,7 +306,8 @@ def _runaway(assembly: Assembly) -> Iterator[str]:
     worst = burst_of(assembly.device, speed)
     asked = f"the ring against that is {_at_least(worst.steel)} mm of mild steel"
     if built:
-        asked += f", and the one built in is {'as thick' if built >= worst.steel else 'thinner'}"
+        enough = "thick enough" if built >= worst.steel else "too thin"
+        asked += f", and the one built in is {enough}"
     yield (
         f"The wheel law, which computes with {motor.bus_voltage:g} V, drives no wheel past "
         f"{rpm(top)}, however full the battery is, and brakes one that is faster. A controller "

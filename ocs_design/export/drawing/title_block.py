@@ -53,9 +53,16 @@ DIGITS = 12
 
 
 def device_hash(device: Device) -> str:
-    """Hash of wheel, motor and carrier as `design.json` has them: the same for the same parts."""
-    parts = msgspec.json.encode((device.flywheel, device.motor, device.carrier))
-    return hashlib.sha256(parts).hexdigest()[:DIGITS]
+    """Hash of all that is drawn, as `design.json` has it: the same for the same parts.
+
+    These are wheel, motor, carrier, guard and feet, what the feet stand on, and the incidence.
+    """
+    parts = (
+        *(device.flywheel, device.motor, device.carrier, device.guard_wall, device.foot_plate),
+        *(device.plate, device.pedestals, device.incidence),
+    )
+    # Numbers of NumPy are encoded as those that they are read back as.
+    return hashlib.sha256(msgspec.json.encode(parts, enc_hook=float)).hexdigest()[:DIGITS]
 
 
 def frame() -> list[Item]:

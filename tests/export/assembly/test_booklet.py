@@ -115,6 +115,10 @@ def test_modes_are_swept_for_on_the_robot_and_what_is_near_one_is_told():
         re.search(r"make the plate 4 mm thick.*?: ([\d,]+) rpm", said)[1].replace(",", "")
     )
     assert stiffer == pytest.approx(60.0 * plate.frequency * (4e-3 / thick) ** 1.5, rel=1e-3)
+    # Without flights it is the top speed.
+    unflown = texts(Assembly("solo12", device), "Sweep")
+    assert f"to {rpm(3e3)}, its top speed, in about" in unflown
+    assert "of the maneuvers" not in unflown
     # Far from all modes nothing of the kind is told, and without modes there is no sweep.
     far = (Margin("wheel speed", 2.0 * at, 3e3, "rad/s"),)
     assert "above that of" not in texts(Assembly("solo12", device, far), "Sweep")
@@ -209,9 +213,9 @@ def test_what_keeps_a_wheel_from_its_top_speed_is_told_beside_its_guard(wall):
     assert rpm == pytest.approx(1.1 * speed * 30.0 / np.pi, abs=0.6)
     assert energy == pytest.approx(1.21 * burst.fragment.energy, rel=0.02)
     assert 0.0 <= steel - 1e3 * 1.1 ** (4.0 / 3.0) * burst.steel < 0.1
-    as_thick = "and the one built in is as thick" in said
-    assert as_thick == (1e3 * wall >= steel - 0.1 and wall > 0.0)
-    assert ("built in is thinner" in said) == (wall > 0.0 and not as_thick)
+    enough = "and the one built in is thick enough" in said
+    assert enough == (1e3 * wall >= steel - 0.1 and wall > 0.0)
+    assert ("built in is too thin" in said) == (wall > 0.0 and not enough)
 
 
 def test_a_guard_ring_is_built_and_told_with_its_limits():
@@ -335,6 +339,40 @@ def test_the_screws_reach_into_the_motor_is_told_beside_what_its_model_draws():
         assert ("these screws would be too long" in said) == (bool(model) and long)
 
 
+def test_behind_a_gear_nothing_is_fixed_in_a_hole_or_bonded_on_a_shaft():
+    """Its wheels are bought, both of them."""
+    web = DEVICES["caged"].flywheel.web
+    device = DEVICES["gear"]
+    device = replace(device, flywheel=replace(device.flywheel, web=web))
+    assembly = Assembly("dog", device)
+    rows = {row.name: row for row in piece_rows(assembly)}
+    assert "gear 2" not in rows
+    for name in ("gear", "gear, at the motor"):
+        assert (rows[name].made, rows[name].file) == (f"bought: {device.motor.gear}", "")
+    steps = texts(assembly, "Steps")
+    numbers = [assembly.numbers[name] for name in ("gear", "motor")]
+    assert "Fix gear ({}) and motor ({}) as said above".format(*numbers) in steps
+    assert "the gear's output within 0.05 mm of the wheel's axis" in steps
+    assert "middle of their hole" not in steps
+    assert "by a joint of your own: how a wheel is held on this gear is not in" in steps
+    assert "compound" not in steps
+
+
+def test_on_an_unknown_shaft_no_compound_hardens():
+    steps = texts(Assembly("dog", DEVICES["unknown threads"]), "Steps")
+    assert "by a joint of your own: the shaft and the rotor's threads are not in" in steps
+    assert "compound" not in steps
+    assert "middle of their hole" in steps
+
+
+def test_one_wheel_is_not_told_of_as_several():
+    assembly = Assembly("dog", around(Layout(LayoutName.SINGLE)))
+    said = texts(assembly, "Safety")
+    assert "The wheel stores" in said
+    assert "of them" not in said
+    assert "switch - a controller next to the motor - three wires" in texts(assembly, "Wiring")
+
+
 def test_a_rim_of_another_material_is_shrunk_on():
     """Steel of 12e-6 per K on aluminium: hotter by the tightest fit and 0.03 mm of air."""
     wheel = DEVICES["caged"].flywheel
@@ -377,7 +415,7 @@ def test_what_cannot_be_built_is_told_first_of_all():
         assembly = Assembly("solo12", device, fitting=(threads, "of the motor"), refused=refused)
         assert all_texts(assembly)[0] == refused
         said = texts(assembly, "Steps")
-        assert "Drill no hole into the trunk" in said
+        assert "Do not drill the trunk or cut any part that stands on it until" in said
         assert "cad/drilling.pdf" not in said
         # Nor is a thread in it or a tool for it, which a device that is settled has.
         before = texts(assembly, "Before")

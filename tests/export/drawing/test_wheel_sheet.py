@@ -8,6 +8,7 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
+from built import DEVICES
 from drawn_wheels import (
     FLAT,
     HOLED,
@@ -24,6 +25,7 @@ from hypothesis import HealthCheck, given, settings
 from scipy.integrate import quad
 from wheels import paper_device
 
+from ocs_design.actuation.supply import Supply
 from ocs_design.device.device import Web
 from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.sheet import FRAME_BOX, OUTLINE, Circle, Line, Text
@@ -31,6 +33,7 @@ from ocs_design.export.drawing.title_block import device_hash
 from ocs_design.export.drawing.wheel import inside_corners
 from ocs_design.export.drawing.wheel_sheet import draw_wheel, wheel_drawing, wheel_sheet
 from ocs_design.export.drawing.writers import pdf_of_pages
+from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.rim import WEB_MATERIAL, WEB_THICKNESS, Hub
 from ocs_design.parts.wheel import Wheel
 
@@ -261,11 +264,22 @@ def test_a_web_is_made_with_the_hub_that_was_sized():
     assert wheel_geometry(replace(DEVICE.flywheel, web=web)).hub.bolts is None
 
 
-def test_the_hash_follows_the_parts_and_not_their_place():
-    turned = DEVICE.at_incidence(0.3)
-    heavier = replace(DEVICE, flywheel=replace(DEVICE.flywheel, height=0.02))
-    assert device_hash(DEVICE) == device_hash(turned) != device_hash(heavier)
-    assert len(device_hash(DEVICE)) == 12
+def test_the_hash_follows_everything_that_is_drawn():
+    """Plates of 3 and 5 mm and none are three designs; what no drawing shows makes no other."""
+    built = DEVICES["on a plate"]
+    pedestal = Pedestal(0.027, 0.02, 0.05, 0.5, 0.04)
+    others = [
+        replace(built, flywheel=replace(built.flywheel, height=0.02)),
+        replace(built, plate=replace(built.plate, thickness=0.005)),
+        replace(built, plate=None),
+        replace(built, plate=None, pedestals=(pedestal,)),
+        replace(built, guard_wall=0.0015),
+        replace(built, foot_plate=0.006),
+        built.at_incidence(0.3),
+    ]
+    assert len({device_hash(each) for each in (built, *others)}) == 1 + len(others)
+    assert device_hash(built) == device_hash(replace(built, supply=Supply(24.0)))
+    assert len(device_hash(built)) == 12
 
 
 @pytest.mark.parametrize(("fastest", "said"), [(math.inf, None), (800.0, 800.0)])
