@@ -38,7 +38,6 @@ WHEEL = WheelDrawing(
     ),
     robot="solo12",
     identity="an example",
-    tool="ocs-design",
     speed=750.0,
 )
 """An example that shows everything a sheet has."""
