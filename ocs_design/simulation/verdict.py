@@ -276,7 +276,7 @@ def off_at_touchdown(metrics: Metrics, maneuver: Maneuver) -> float:
 
 
 def off_asked(roll: FloatArray, pitch: FloatArray, maneuver: Maneuver) -> FloatArray:
-    """As `off_at_touchdown`, of the roll and pitch of n touchdowns [rad], each (n,)."""
+    """Angles off what is asked at n touchdowns with this roll and pitch [rad], each (n,)."""
     asked_roll, asked_pitch, _ = landing_attitude(maneuver)
     if asked_roll == asked_pitch == 0.0:
         return np.maximum(np.abs(roll), np.abs(pitch))
