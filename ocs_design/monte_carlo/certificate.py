@@ -14,10 +14,8 @@ from numpy.typing import NDArray
 from ocs_design.device.records.flights import Conclusion, ReliabilityRecord
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import Outcomes, share
-from ocs_design.requirement.maneuver import End
-from ocs_design.requirement.turns import TurnTo
 from ocs_design.simulation.run import LANDING_TOLERANCE
-from ocs_design.simulation.verdict import landing_attitude
+from ocs_design.simulation.verdict import ends_anyhow, landing_attitude
 
 ERROR = 0.05
 """Largest probability of either wrong verdict."""
@@ -143,7 +141,7 @@ def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Less
     tilts = np.stack([outcomes.metric(f"touchdown_{name}") for name in names])
     for number, flight in enumerate(campaign.flights):
         tilts[:, :, number] -= np.array(landing_attitude(flight.maneuver)[:2])[:, None]
-        if isinstance(flight.maneuver, TurnTo) and flight.maneuver.end == End.AT_REST:
+        if ends_anyhow(flight.maneuver):
             tilts[:, :, number] = 0.0
     off = (np.abs(tilts) > LANDING_TOLERANCE).sum(axis=1)
     axis, number = divmod(int(np.argmax(off)), len(campaign.flights))

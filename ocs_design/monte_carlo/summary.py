@@ -20,11 +20,10 @@ from ocs_design.device.answers import (
 )
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import FAULTS, Outcomes, share, shares
-from ocs_design.requirement.maneuver import End, Flip, Maneuver, Shove
-from ocs_design.requirement.turns import TurnTo
+from ocs_design.requirement.maneuver import Flip, Maneuver, Shove
 from ocs_design.simulation.run import LANDING_TOLERANCE
 from ocs_design.simulation.scenario import fly
-from ocs_design.simulation.verdict import Fault, landing_attitude, off_asked
+from ocs_design.simulation.verdict import Fault, ends_anyhow, landing_attitude, off_asked
 from ocs_design.simulation.world import World
 from ocs_design.simulation.world_builder import Options
 
@@ -40,7 +39,7 @@ def attitude_error(outcomes: Outcomes, maneuver: Maneuver, number: int) -> Float
     NaN where any attitude will do.
     """
     roll, pitch = (outcomes.metric(f"touchdown_{axis}")[:, number] for axis in ("roll", "pitch"))
-    if isinstance(maneuver, TurnTo) and maneuver.end == End.AT_REST:
+    if ends_anyhow(maneuver):
         return np.full(len(roll), np.nan)
     error = off_asked(roll, pitch, maneuver)
     if isinstance(maneuver, Flip):

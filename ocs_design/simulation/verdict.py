@@ -245,9 +245,14 @@ def landing_attitude(maneuver: Maneuver) -> tuple[float, float, float | None]:
     return float(roll), float(pitch), float(quaternions.heading(attitude))
 
 
+def ends_anyhow(maneuver: Maneuver) -> bool:
+    """Whether a maneuver may end at any attitude, as a turn that shall only stop may."""
+    return isinstance(maneuver, TurnTo) and maneuver.end == End.AT_REST
+
+
 def _landing_failure(metrics: Metrics, maneuver: Maneuver) -> str:
     """What is wrong with the attitude at touchdown; empty if it is level, or as asked."""
-    if isinstance(maneuver, TurnTo) and maneuver.end == End.AT_REST:
+    if ends_anyhow(maneuver):
         if metrics.touchdown_rate <= REST_RATE:
             return ""
         rate = np.degrees(metrics.touchdown_rate)

@@ -134,7 +134,7 @@ class Task(Planned):
 
     @property
     def flown_hash(self) -> str:
-        """SHA-256 of what is flown; see the function."""
+        """SHA-256 of the device, the maneuvers and the wheel law that are flown."""
         return flown_hash(self.design, self.control, self.detection)
 
 

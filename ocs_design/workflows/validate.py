@@ -289,9 +289,9 @@ def watch(answer: Validation) -> None:
         Take(film_model(task.robot, device_of[scenario], ocs=True), poses.qpos)
         for scenario, poses in posed
     ]
-    # Not `POSE_RATE`: poses are whole control steps apart.
+    # Poses are whole control steps apart, so that these are not at `POSE_RATE`.
     periods = [float(poses.time[1] - poses.time[0]) for _, poses in posed]
-    watch_takes(takes, periods[0])
+    watch_takes(takes, next(iter(periods), 1.0 / POSE_RATE))
 
 
 def _fly_samples(

@@ -138,6 +138,19 @@ def test_a_failure_in_quiet_is_one_line_with_the_verdict(by_hand, folder):
     assert quiet.stderr == f"{first}  ·  {second}\n"
 
 
+def test_flights_are_shown_in_real_time(by_hand, folder, monkeypatch):
+    """Poses are three control steps of 5 ms apart, the nearest to 60 a second."""
+    shown = []
+    monkeypatch.setenv("DISPLAY", ":7")
+    monkeypatch.setattr(
+        "ocs_design.workflows.validate.watch_takes", lambda *asked: shown.append(asked)
+    )
+    assert run("validate", by_hand, "--view").code == 0
+    ((takes, seconds),) = shown
+    assert len(takes) == 1
+    assert seconds == pytest.approx(0.015)
+
+
 def test_flights_by_another_law_are_recorded_with_it(by_hand, folder):
     """Flown again from there they are the same, and a case of theirs is known."""
     law = ("--spec", "law.toml", "--survives", "one")

@@ -9,15 +9,18 @@ import imageio_ffmpeg
 import mujoco
 import numpy as np
 import pytest
+from built import DEVICES
 from PIL import Image
 from wheels import EC45, driven_device
 
 from ocs_design.common.errors import MissingToolError
+from ocs_design.device.bodies import PLATE, device_bodies
 from ocs_design.export.film import Take, film_model, render_takes
 from ocs_design.report import video
 from ocs_design.report.video import BAD, GOOD, captioned, encode, film_or_tell
 from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.mujoco_bodies import HIDDEN_GROUP
 
 ROBOT = robot_by_hand(2.5, (0.03, 0.05, 0.07, 0.0, 0.0, 0.0))
 UP = np.array([0.0, 0.0, 0.2])
@@ -54,6 +57,18 @@ def frames():
         return render_takes(takes)
     except MissingToolError as error:
         pytest.skip(str(error))
+
+
+def test_without_the_device_nothing_of_it_is_drawn():
+    """Not the plate either, which is of no module."""
+    device = DEVICES["on a plate"]
+    for ocs in (True, False):
+        model = film_model(ROBOT, device, ocs=ocs)
+        bodies = [model.body(each.name).id for each in device_bodies(device)]
+        shown = model.geom_group[np.isin(model.geom_bodyid, bodies)] != HIDDEN_GROUP
+        assert shown.any() == ocs
+        plate = model.geom_bodyid == model.body(PLATE).id
+        assert (model.geom_group[plate] == HIDDEN_GROUP).all() == (not ocs)
 
 
 def is_blue(frame):

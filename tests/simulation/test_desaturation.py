@@ -5,6 +5,7 @@ import pytest
 from wheels import paper_device
 
 from ocs_design.requirement.froude import default_maneuvers
+from ocs_design.requirement.pivoted import Balance
 from ocs_design.simulation.desaturation import SETTLING
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scene import Wheels
@@ -20,6 +21,13 @@ def landed(solo12):
         for brake in (False, True)
     ]
     return simulate(worlds), worlds
+
+
+def test_about_a_pivot_its_limit_is_none_at_all_and_not_below_nothing(solo12):
+    """Nothing stands there; written into C it would be the limit of all maneuvers."""
+    tilted = Balance(name="tilted", pivot=(0.0, 0.0, -0.3), roll=0.03, duration=1.0)
+    builder = WorldBuilder(solo12, paper_device(), Options(desaturate=True))
+    assert builder.flight(tilted, Wheels.ACTIVE).desaturation.torque_max == 0.0
 
 
 def test_nothing_changes_before_the_robot_has_stood_for_a_while(landed):

@@ -265,10 +265,10 @@ def _reason(
             narrow = ""
             if radius > most:
                 bonded = np.isfinite(limits.inner_radius_max).any()
-                largest = "by its bond and r_max the most" if bonded else "r_max"
+                largest = "its bond and r_max allow" if bonded else "r_max allows"
                 narrow = (
-                    f": {where} it has a radius of {format_quantity(radius, 'mm')} at the least, "
-                    f"{largest} is {format_quantity(most, 'mm')}"
+                    f": {where} its radius is at least {format_quantity(radius, 'mm')}, and "
+                    f"{largest} {format_quantity(most, 'mm')}"
                 )
             return Reason.ENVELOPE, f"{wheel}, and no rim of that size fits{narrow}"
         if not _any_rim(rims, limits):
@@ -319,7 +319,7 @@ def _any_rim(spin_inertia: FloatArray, limits: RimLimits) -> bool:
 def _narrowest(limits: RimLimits) -> tuple[str, float]:
     """What a rim must go around, and its least outer radius by that [m]."""
     around = np.asarray(limits.inner_radius_min) + limits.wall_min
-    hub = "around its hub, or with the least bore,"
+    hub = "around its hub, or with the least bore allowed,"
     least = {
         "around its motor's mount": float(np.asarray(limits.outer_radius_min).min()),
         hub: float(around.min()),
