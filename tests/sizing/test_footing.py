@@ -479,6 +479,16 @@ def test_posts_are_no_longer_than_their_screws(boxed, monkeypatch, thickness, le
     assert (plate and plate.screw_lengths[0]) == length
 
 
+@pytest.mark.parametrize(("up", "thickness"), [(0.0325, 3e-3), (0.0335, 4e-3), (0.0345, 5e-3)])
+def test_where_the_height_is_stated_a_thicker_plate_has_shorter_sleeves(boxed, up, thickness):
+    """Sleeves are 30 mm long at most: the feet stand that and the plate above the trunk."""
+    feet, robot = feet_of(standing(0.1)), boxed(0.24, 0.32)
+    height, plate = held_at(trunk_surface(robot), feet, TOP + up)
+    assert height == pytest.approx(TOP + up)
+    assert plate.thickness == thickness
+    assert plate.sleeves == pytest.approx((up - thickness,) * 4)
+
+
 @pytest.mark.slow
 def test_over_bars_across_the_trunk_a_plate_stands_on_posts(boxed):
     """Which bear it, are weighed with it, and have no volume in common with bars and modules."""

@@ -385,7 +385,8 @@ def _borne(
             return None
         held = screwed(surface, replace(blank, position=(x, y, height)), patterns)
         if held is None:
-            return None
+            # Under a thicker plate sleeves are shorter, and another pattern may be in reach.
+            continue
         for plate in thick_enough(held, feet, ALUMINIUM.strength / SAFETY, thicknesses):
             if plate.on_posts and max(plate.screw_lengths) > POST_SCREW_MAX:
                 break
