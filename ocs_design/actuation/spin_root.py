@@ -35,7 +35,7 @@ _BLOCK = 32768
 
 
 @dataclass(frozen=True, eq=False)
-class SpinDemand(Table):
+class SweepDemand(Table):
     """What the busiest wheel must do; all fields broadcast.
 
     Attributes:
@@ -69,7 +69,7 @@ class Capability(NamedTuple):
     slope: FloatArray
 
 
-def capability(demand: SpinDemand, spin_inertia: FloatArray) -> Capability:
+def capability(demand: SweepDemand, spin_inertia: FloatArray) -> Capability:
     """What wheels of that spin inertia sweep; see the module's text.
 
     Where the final speed is out of reach within the time, they accelerate all the time.
@@ -90,7 +90,7 @@ def capability(demand: SpinDemand, spin_inertia: FloatArray) -> Capability:
     return Capability(scale * h * slew.angle, scale * slope)
 
 
-def newton_step(demand: SpinDemand, spin_inertia: FloatArray, can: Capability) -> FloatArray:
+def newton_step(demand: SweepDemand, spin_inertia: FloatArray, can: Capability) -> FloatArray:
     """Newton's step of 1/M over 1/h [kg m^2]; inf where it would have to go beyond every h.
 
     Args:
@@ -106,13 +106,13 @@ def newton_step(demand: SpinDemand, spin_inertia: FloatArray, can: Capability) -
         return np.where(ahead, spin_inertia / (1.0 - gain), np.inf)
 
 
-def smallest_roots(demands: Sequence[SpinDemand]) -> list[FloatArray]:
+def smallest_roots(demands: Sequence[SweepDemand]) -> list[FloatArray]:
     """The smallest spin inertia that meets each demand [kg m^2]; inf where none does.
 
     All are looked for at once, as a call of numpy costs more than its work on few.
     """
     of_drive = [field.name for field in fields(UnitDrive)]
-    own = [field.name for field in fields(SpinDemand) if field.name != "drive"]
+    own = [field.name for field in fields(SweepDemand) if field.name != "drive"]
     shapes, columns = [], []
     for demand in demands:
         drive = [getattr(demand.drive, name) for name in of_drive]
@@ -121,7 +121,7 @@ def smallest_roots(demands: Sequence[SpinDemand]) -> list[FloatArray]:
         columns.append([part.reshape(-1) for part in parts])
     flat = [np.concatenate(parts) for parts in zip(*columns, strict=True)]
     drives = UnitDrive(**dict(zip(of_drive, flat[len(own) :], strict=True)))
-    whole = SpinDemand(**dict(zip(own, flat[: len(own)], strict=True)), drive=drives)
+    whole = SweepDemand(**dict(zip(own, flat[: len(own)], strict=True)), drive=drives)
     answer = np.empty(whole.sweep.size)
     for start in range(0, answer.size, _BLOCK):
         block = slice(start, start + _BLOCK)
@@ -131,7 +131,7 @@ def smallest_roots(demands: Sequence[SpinDemand]) -> list[FloatArray]:
     return [part.reshape(shape) for part, shape in each]
 
 
-def _roots(demand: SpinDemand) -> FloatArray:
+def _roots(demand: SweepDemand) -> FloatArray:
     """Smallest root of each demand of one block [kg m^2], shape (n,)."""
     drive, high = demand.drive, 1.0 / (2.0 * demand.coupling)
 
@@ -168,7 +168,7 @@ class _Search(Table):
     """
 
     lane: NDArray[np.intp]
-    demand: SpinDemand
+    demand: SweepDemand
     h: FloatArray
     low: FloatArray
     high: FloatArray

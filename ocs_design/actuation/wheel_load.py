@@ -32,7 +32,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.slew import slew_time
-from ocs_design.actuation.spin_root import SpinDemand, smallest_roots
+from ocs_design.actuation.spin_root import SweepDemand, smallest_roots
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.actuation.unit_drive import UnitDrive, positive
 from ocs_design.common.arrays import FloatArray
@@ -364,14 +364,14 @@ def smallest_spin_inertia(
 
 def spin_demand(
     task: WheelTask, line: DriveLine, armature: ArrayLike = 0.0, least: ArrayLike = 0.0
-) -> SpinDemand:
+) -> SweepDemand:
     """What `smallest_spin_inertia` solves for; arguments as there.
 
     `least` is the smallest h to consider [kg m^2], shape (...).
     """
     load = task.load()
     duration = np.asarray(task.duration, dtype=np.float64)
-    return SpinDemand(
+    return SweepDemand(
         sweep=load.excess + load.held * np.maximum(duration, 0.0),
         momentum=load.held,
         duration=duration,

@@ -79,7 +79,7 @@ def _copy(source: object, target: object, names: Iterable[str]) -> None:
 STEADY_LEGS = 3
 """Number of legs with which a robot stands by itself."""
 
-HELD = 1e6
+HELD_ARMATURE = 1e6
 """Armature of a held joint [kg m^2 or kg]: 1 N m over a second moves it by 1e-6 rad/s."""
 
 LEG_STIFFNESS = 0.5
@@ -119,7 +119,7 @@ def hold_other_joints(spec: mujoco.MjSpec, robot: Robot) -> None:
     for name in robot.tree.joints:
         if name not in driven:
             joint = spec.joint(name)
-            joint.armature, joint.frictionloss = HELD, 0.0
+            joint.armature, joint.frictionloss = HELD_ARMATURE, 0.0
             joint.limited = mujoco.mjtLimited.mjLIMITED_FALSE
 
 

@@ -60,7 +60,7 @@ def write(subject: Subject, folder: Path) -> Notes:
         "macro": f"{package.removesuffix('_description')}_ros2_control",
         "plugin": MOCK_PLUGIN,
         "root": json.dumps(next((link for link in links if link not in children), "")),
-        "distance": numbers(3.0 * robot.gyration_radius + 1.0),
+        "distance": numbers(5.2 * robot.mass_properties.gyration_radius + 1.0),
         **_controllers(robot, joint_names(device)),
     }
     controls = []

@@ -35,7 +35,7 @@ class Reference:
     Attributes:
         name: of the robot. source: of its figures.
         standing_height: of the trunk over the soles [m].
-        gyration_radius: sqrt(trace(I) / m) of the standing robot [m].
+        gyration_radius: of the standing robot [m] (`MassProperties.gyration_radius`).
         roll_inertia, pitch_inertia: of the standing robot about its centre of mass [kg m^2].
     """
 
@@ -51,7 +51,7 @@ SOLO12 = Reference(
     name="Solo12",
     source="examples/solo12.urdf, standing at 80 % of its stretched legs",
     standing_height=0.272,
-    gyration_radius=0.250384943,
+    gyration_radius=0.144559814,
     roll_inertia=0.0320385239,
     pitch_inertia=0.0550873600,
 )
@@ -74,7 +74,7 @@ class Scale:
     def of(cls, robot: Robot) -> "Scale":
         """The scale of `robot`."""
         if robot.standing_height is None:
-            length = _ratio(robot.gyration_radius, SOLO12.gyration_radius)
+            length = _ratio(robot.mass_properties.gyration_radius, SOLO12.gyration_radius)
         else:
             length = _ratio(robot.standing_height, SOLO12.standing_height)
         return cls(

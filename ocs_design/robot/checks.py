@@ -17,7 +17,7 @@ from ocs_design.robot.chain import Chain, chain_of, neutral_posture
 from ocs_design.robot.leg_geometry import sole_depths
 from ocs_design.robot.legs import is_wheel
 from ocs_design.robot.links import Warnings
-from ocs_design.robot.mass import MassProperties, ball_density, gyration_radius, physical_defect
+from ocs_design.robot.mass import MassProperties, ball_density, physical_defect
 from ocs_design.robot.meshes import half_extents, mesh_bounds
 from ocs_design.robot.robot import Leg
 from ocs_design.robot.tree import Body, JointKind, ShapeKind, Tree
@@ -42,7 +42,7 @@ def plausibility_warnings(
     warnings = Warnings()
     # The quotients of a mass of 1e-300 kg are infinite, and judged rightly as that.
     with np.errstate(all="ignore"):
-        radius, density = gyration_radius(weighed), ball_density(weighed)
+        radius, density = weighed.gyration_radius, ball_density(weighed)
         stated = (
             f"the robot weighs {weighed.mass:.3g} kg with a radius of gyration of {radius:.3g} m"
         )

@@ -35,6 +35,11 @@ class MassProperties:
         """A body without mass."""
         return cls(0.0, np.zeros(3), np.zeros((3, 3)))
 
+    @property
+    def gyration_radius(self) -> float:
+        """Radius of gyration about axes through the centre of mass, sqrt(trace(I) / 3 m) [m]."""
+        return float(np.sqrt(np.trace(self.inertia) / 3.0 / self.mass))
+
     def moved(self, rotation: FloatArray, position: FloatArray) -> "MassProperties":
         """Mass properties in a frame where the present one stands at `rotation`, `position`."""
         return MassProperties(
@@ -117,14 +122,9 @@ radius of gyration. Public robots lie between 5 and 484, a double pendulum of ro
 that is off by a thousand takes them beyond."""
 
 
-def gyration_radius(body: MassProperties) -> float:
-    """Radius of gyration about an axis through the centre of mass, mean of all axes [m]."""
-    return float(np.sqrt(np.trace(body.inertia) / 3.0 / body.mass))
-
-
 def ball_density(body: MassProperties) -> float:
     """Density of the homogeneous ball of the same mass and inertia, `2 m R^2 / 5` [kg/m^3]."""
-    radius = np.sqrt(2.5) * gyration_radius(body)
+    radius = np.sqrt(2.5) * body.gyration_radius
     return float(body.mass / (4.0 / 3.0 * np.pi * radius**3))
 
 
@@ -133,7 +133,7 @@ def impossible_size(body: MassProperties) -> str | None:
     density = ball_density(body)
     if THINNEST <= density <= DENSEST:
         return None
-    radius = gyration_radius(body)
+    radius = body.gyration_radius
     size = f"{radius:.3g} m" if radius >= 1.0 else f"{1e3 * radius:.3g} mm"
     than = "thinner than air" if density < THINNEST else "denser than a ball of tungsten"
     return f"{body.mass:.4g} kg with a radius of gyration of {size} is {than}"

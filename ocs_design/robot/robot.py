@@ -222,11 +222,6 @@ class Robot:
         """Locked inertia about the centre of mass in B [kg m^2], shape (3, 3)."""
         return self.mass_properties.inertia
 
-    @property
-    def gyration_radius(self) -> float:
-        """Radius of gyration sqrt(trace(I) / m) [m]: a length that needs no geometry."""
-        return float(np.sqrt(np.trace(self.inertia) / self.mass))
-
     def __repr__(self) -> str:
         return (
             f"<Robot {self.name}: {self.mass:.4g} kg, {len(self.tree.joints)} joints, "

@@ -9,7 +9,7 @@ from ocs_design.device.bodies import device_bodies, flywheel_names, joint_names
 from ocs_design.device.device import Device
 from ocs_design.export.attach import attach_device
 from ocs_design.export.physics import (
-    HELD,
+    HELD_ARMATURE,
     add_drives,
     flight_options,
     hold_other_joints,
@@ -120,7 +120,7 @@ def _anchor(spec: mujoco.MjSpec, robot: Robot, maneuver: Pivoted) -> None:
     )
     for name in robot.tree.joints:
         joint = spec.joint(name)
-        joint.armature, joint.frictionloss = HELD, 0.0
+        joint.armature, joint.frictionloss = HELD_ARMATURE, 0.0
         joint.limited = mujoco.mjtLimited.mjLIMITED_FALSE
     for geom in spec.geoms:
         geom.contype = geom.conaffinity = 0
@@ -151,7 +151,7 @@ def compile_scene(
         _anchor(spec, robot, pivoted)
     if wheels is not Wheels.ACTIVE:
         for name in joint_names(device):
-            spec.joint(name).armature = HELD
+            spec.joint(name).armature = HELD_ARMATURE
     model = spec.compile()
     if wheels is Wheels.ABSENT:
         # Only now: a geom that touches nothing would be compiled to other sizes, and the worlds

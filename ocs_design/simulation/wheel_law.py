@@ -14,7 +14,7 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray, Table, stacked_columns
 from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.target import Target
-from ocs_design.sizing.trajectory.gyrostat import OUT_OF_REACH, Gyrostat
+from ocs_design.sizing.trajectory.gyrostat import NO_AUTHORITY, Gyrostat
 
 
 class Allocation(StrEnum):
@@ -75,7 +75,7 @@ class WheelLaw(Table):
         # `J w_dot = -g A tau - w x H`, g the reaction (see `Gyrostat`), solved for tau.
         J = body.actuated_inertia
         from_tilt, from_gyroscopic, from_yaw = J[:, :2], np.eye(3), J[:, 2]
-        if np.linalg.matrix_rank(body.axes, OUT_OF_REACH) < len(J):
+        if np.linalg.matrix_rank(body.axes, NO_AUTHORITY) < len(J):
             # The wheels cannot push about z, so its row is no command but says which yaw
             # acceleration comes with the other two.
             yaw = J[:, 2:] / J[2, 2]

@@ -28,7 +28,7 @@ from ocs_design.sizing.margins import (
     MOTOR_TORQUE,
     WHEEL_SPEED,
 )
-from ocs_design.sizing.mounting import Mounting, mounting_open_points
+from ocs_design.sizing.mounting import DeviceMounting, mounting_open_points
 from ocs_design.sizing.sized import Designed
 
 _SUPPLY = "give a supply that stands it with --bus-power and --bus-current, or more time"
@@ -67,7 +67,7 @@ the limit that its law keeps."""
 
 
 def buildable_of(
-    robot: Robot, designed: Designed, margins: Sequence[Margin], mounting: Mounting | None
+    robot: Robot, designed: Designed, margins: Sequence[Margin], mounting: DeviceMounting | None
 ) -> Buildable:
     """Whether a designed device can be built on its robot, and what is open."""
     motor = None if designed.choice is None else designed.choice.chosen.motor
@@ -76,7 +76,7 @@ def buildable_of(
 
 def buildable(
     motor: Motor | None,
-    mounting: Mounting | None,
+    mounting: DeviceMounting | None,
     margins: Sequence[Margin],
     joints: Sequence[Margin] = (),
     robot: Robot | None = None,

@@ -41,7 +41,7 @@ from ocs_design.sizing.free_place import place_free
 
 
 @dataclass(frozen=True, eq=False)
-class Mounting:
+class DeviceMounting:
     """How a device sits on its robot, at every incidence flown.
 
     Modules are their housings, motors and feet, or bare wheels.
@@ -77,10 +77,10 @@ class Mounting:
         return all(contact.held is not None for contact in self.feet)
 
 
-def mounting_open_points(mounting: Mounting) -> tuple[OpenPoint, ...]:
+def mounting_open_points(mounting: DeviceMounting) -> tuple[OpenPoint, ...]:
     """What of a mounting keeps the device from being built: what hangs, and what collides.
 
-    Feet on a trunk whose shapes are not known are no open point: `Mounting.known` tells of them.
+    Feet on a trunk whose shapes are not known are no open point: `known` tells of them.
     """
     found: list[OpenPoint] = []
     cure = "take a layout whose axes are horizontal: --layout pair, triad or single"
@@ -115,7 +115,7 @@ def _position_option(layout: Layout) -> str:
     return "--position X,Y,Z" if one else "--position, with x, y and z of every wheel"
 
 
-def _hanging(mounting: Mounting) -> Iterator[OpenPoint]:
+def _hanging(mounting: DeviceMounting) -> Iterator[OpenPoint]:
     """Feet that are not held, and what would hold them; alike ones are told once."""
     feet, pads = mounting.feet, mounting.pads
     loose = [contact for contact in feet if contact.held is False and not contact.leans]
@@ -163,7 +163,7 @@ def _hanging(mounting: Mounting) -> Iterator[OpenPoint]:
         yield OpenPoint(what=what, cure=", or ".join(cures) or more_feet)
 
 
-def _hit(mounting: Mounting) -> str:
+def _hit(mounting: DeviceMounting) -> str:
     """What is hit in the nominal posture or in a landing, as a clause; empty if nothing is."""
     nearest, landing = mounting.nearest, mounting.landing
     if nearest is not None and nearest.distance < 0.0:
@@ -176,7 +176,7 @@ def _hit(mounting: Mounting) -> str:
 
 def mounting_of(
     robot: Robot, device: Device, maneuvers: Sequence[Maneuver], whole: MassProperties
-) -> Mounting:
+) -> DeviceMounting:
     """How a device sits on its robot.
 
     Args:
@@ -196,7 +196,7 @@ def mounting_of(
     # A mast's formed block is the last resort, and no heel is kicked up against it.
     on_feet = device.plate is not None and device.plate.relief is not None
     landing = [nearest_in_landings(collision, solid, on_feet=on_feet) for solid in solids]
-    return Mounting(
+    return DeviceMounting(
         nearest=_nearest_part(collision, device, flown, surface),
         landing=_clearance(landing),
         reachable=reaches(collision, solids),
@@ -218,7 +218,7 @@ def mounting_of(
 
 
 def placement_warnings(
-    mounting: Mounting,
+    mounting: DeviceMounting,
     robot: Robot,
     device: Device,
     envelope: Envelope,

@@ -39,7 +39,7 @@ _FOOTINGS_MAX, _RINGS_MAX, _RESERVES_MAX = 6, 16, 3
 _SETTLED = 1e-3
 """Change of a plate's mass over its device's that is none: a device's follows by a hundredth."""
 
-_HELD = 0.05
+_NEVER_SETTLES = 0.05
 """Change of that mass from which a device is held in another way each time it is sized anew."""
 
 _TOO_THICK = 0.2e-3
@@ -143,7 +143,7 @@ class _Search:
                 raise
             at = own
         else:
-            if change > _HELD * best.mass:
+            if change > _NEVER_SETTLES * best.mass:
                 raise NeverHeld(best, heavier)
         return at, best
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.actuation.drive import PLANNED, Drive, DriveLine
-from ocs_design.actuation.spin_root import SpinDemand, capability
+from ocs_design.actuation.spin_root import SweepDemand, capability
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.actuation.unit_drive import UnitDrive
 from ocs_design.actuation.wheel_load import WheelTask, held_by_each, spin_demand
@@ -508,7 +508,7 @@ class _Flown:
             momentum = momentum - self.inertia * self.rates * [1.0, 0.0]
         held, load = self._each(momentum), self._task((0.0, 0.0)).load()
         asked = self._each(self.swept + momentum * self.duration)
-        demand = SpinDemand(
+        demand = SweepDemand(
             sweep=np.abs(asked),
             momentum=np.abs(held),
             duration=self.duration,

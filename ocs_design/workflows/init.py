@@ -65,7 +65,7 @@ def read_start(
     scaled_to = robot
     if scaled_to is None:
         # Solo12 as a rigid body: only its scale is asked for.
-        trace = SOLO12_MASS * SOLO12.gyration_radius**2
+        trace = 3.0 * SOLO12_MASS * SOLO12.gyration_radius**2
         roll, pitch = SOLO12.roll_inertia, SOLO12.pitch_inertia
         inertia = (roll, pitch, trace - roll - pitch)
         scaled_to = robot_by_hand(SOLO12_MASS, inertia, name=SOLO12.name)

@@ -42,7 +42,7 @@ from ocs_design.report.story import export_time_series, series_file
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.run import Run
-from ocs_design.sizing.mounting import Mounting
+from ocs_design.sizing.mounting import DeviceMounting
 from ocs_design.sizing.selection.refinement import mass_prices
 from ocs_design.sizing.sized import Choice, Designed
 
@@ -135,7 +135,7 @@ def record_design(
     *,
     margins: tuple[Margin, ...],
     built: Buildable,
-    mounting: Mounting | None,
+    mounting: DeviceMounting | None,
     warnings: tuple[str, ...] = (),
     seed: int,
     package_paths: Mapping[str, AnyPath] | None = None,

@@ -47,7 +47,7 @@ from ocs_design.sizing.fallbacks import (
     more_wheels_may_do,
     substitutions,
 )
-from ocs_design.sizing.mounting import Mounting, mounting_of, placement_warnings
+from ocs_design.sizing.mounting import DeviceMounting, mounting_of, placement_warnings
 from ocs_design.sizing.on_robot import NeverHeld
 from ocs_design.sizing.reserve import Reserve
 from ocs_design.sizing.selection.rejections import Refused
@@ -81,7 +81,7 @@ class Placed:
     robot: Robot
     resolved: Resolved
     designed: Designed
-    mounting: Mounting
+    mounting: DeviceMounting
     warnings: tuple[str, ...]
     jumping: "JumpPlanning | None"
     estimates: Mapping[str, float] = field(default_factory=dict)

@@ -25,6 +25,6 @@ def solo12(make_robot) -> Robot:
     """The reference itself."""
     from ocs_design.requirement.froude import SOLO12
 
-    gyration = 2.5 * SOLO12.gyration_radius**2
+    gyration = 7.5 * SOLO12.gyration_radius**2
     yaw = gyration - SOLO12.roll_inertia - SOLO12.pitch_inertia
     return make_robot(2.5, (SOLO12.roll_inertia, SOLO12.pitch_inertia, yaw), SOLO12.standing_height)

@@ -90,7 +90,7 @@ def test_examples_take_as_much_of_a_robots_own_time_as_on_solo12(length, gravity
 
 def test_without_legs_the_radius_of_gyration_scales(make_robot):
     robot = make_robot(2.5, (0.03, 0.05, 0.064), None)
-    ratio = np.sqrt(0.144 / 2.5) / SOLO12.gyration_radius
+    ratio = np.sqrt(0.144 / 7.5) / SOLO12.gyration_radius
     assert Scale.of(robot).length == pytest.approx(ratio)
     assert standing_height(robot) == pytest.approx(ratio * SOLO12.standing_height)
 
@@ -107,5 +107,5 @@ def test_the_reference_is_solo12_as_the_tool_reads_it():
     assert robot.standing_height == pytest.approx(SOLO12.standing_height, rel=1e-8)
     assert robot.inertia[0, 0] == pytest.approx(SOLO12.roll_inertia, rel=1e-8)
     assert robot.inertia[1, 1] == pytest.approx(SOLO12.pitch_inertia, rel=1e-8)
-    assert robot.gyration_radius == pytest.approx(SOLO12.gyration_radius, rel=1e-8)
+    assert robot.mass_properties.gyration_radius == pytest.approx(SOLO12.gyration_radius, rel=1e-8)
     assert Scale.of(robot) == Scale(1.0, 1.0, 1.0)

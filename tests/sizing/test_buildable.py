@@ -12,10 +12,10 @@ from ocs_design.device.records.device import Clearance, Margin
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.buildable import buildable
 from ocs_design.sizing.footing.contact import FootContact
-from ocs_design.sizing.mounting import Mounting
+from ocs_design.sizing.mounting import DeviceMounting
 
 WHOLE = next(motor for motor in motors().values() if not build_gaps(motor))
-FREE = Mounting(Clearance("trunk", 0.01), None, (), np.zeros(3), np.zeros(3))
+FREE = DeviceMounting(Clearance("trunk", 0.01), None, (), np.zeros(3), np.zeros(3))
 
 
 def margin(name, demand, capacity):

@@ -10,7 +10,7 @@ from rims import STEEL, paper_problem, random_problem
 
 from ocs_design.parts.moments import cylinder_mass
 from ocs_design.parts.rim import RimCuts, cylinder_spin_inertia, hoop_stress
-from ocs_design.sizing.bound.rim_problem import RimLimits, lightest_rim, smallest_spin_inertia
+from ocs_design.sizing.bound.rim_problem import RimLimits, lightest_rim, smallest_rim_inertia
 
 POINTS = 500
 
@@ -146,12 +146,12 @@ def test_shapes_broadcast():
     assert np.isnan(shape.mass).tolist() == [[False, False, True]] * 2
 
 
-def test_smallest_spin_inertia_is_where_feasibility_begins():
+def test_the_smallest_rim_inertia_is_where_feasibility_begins():
     rng = np.random.default_rng(11)
     met = 0
     for _ in range(300):
         problem = random_problem(rng)
-        smallest = float(smallest_spin_inertia(problem.limits))
+        smallest = float(smallest_rim_inertia(problem.limits))
         wider = replace(problem, envelope=replace(problem.envelope, mass_max=np.inf))
         if smallest == 0.0 or np.isnan(lightest_rim(smallest * 1.001, wider.limits).mass):
             continue
@@ -177,4 +177,4 @@ def test_what_is_cut_off_the_smallest_rim_is_not_counted():
     disc = solid(bore, web, limits.density)[1]
     drilled, own, _ = solid(cuts.hole_radius, cuts.hole_depth, limits.density)
     holes = 2 * cuts.holes * (own + drilled * (bore + wall / 2.0) ** 2)
-    assert float(smallest_spin_inertia(limits)) == pytest.approx(ring + disc - holes, rel=1e-12)
+    assert float(smallest_rim_inertia(limits)) == pytest.approx(ring + disc - holes, rel=1e-12)

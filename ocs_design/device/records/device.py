@@ -49,7 +49,7 @@ class ReachRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class MountingRecord:
-    """How the device sits on its robot (`sizing.mounting.Mounting`)."""
+    """How the device sits on its robot (`sizing.mounting.DeviceMounting`)."""
 
     landing: Clearance | None
     reachable: tuple[ReachRecord, ...]

@@ -27,7 +27,7 @@ from ocs_design.sizing.bound.rim_problem import (
     RimProblem,
     RimShape,
     lightest_rim,
-    smallest_spin_inertia,
+    smallest_rim_inertia,
 )
 from ocs_design.sizing.place import braked
 
@@ -139,7 +139,7 @@ _OFF_THE_EDGE = 1.0 + 1e-10
 
 
 @dataclass(frozen=True, eq=False)
-class FixedPoint:
+class DeviceFixedPoint:
     """What robot and device together ask for, and a rim that has it.
 
     Attributes:
@@ -160,7 +160,7 @@ class FixedPoint:
     iterations: int = 0
 
 
-def find_fixed_point(problem: DeviceProblem) -> FixedPoint:
+def find_fixed_point(problem: DeviceProblem) -> DeviceFixedPoint:
     """Iterate from the robot alone until nothing moves.
 
     Raises:
@@ -183,7 +183,7 @@ def find_fixed_point(problem: DeviceProblem) -> FixedPoint:
     return guess
 
 
-def _follow(problem: DeviceProblem, shape: RimShape | None, incidence: float) -> FixedPoint:
+def _follow(problem: DeviceProblem, shape: RimShape | None, incidence: float) -> DeviceFixedPoint:
     """The incidence, the demands and the spin inertia that a rim at an incidence entails."""
     if problem.incidence is not None:
         incidence = problem.incidence
@@ -191,12 +191,12 @@ def _follow(problem: DeviceProblem, shape: RimShape | None, incidence: float) ->
         incidence = best_incidences(problem, shape, incidence)[problem.criterion]
     demands = device_demands(problem, shape, incidence)
     if problem.requirement.spin_inertia is not None:
-        return FixedPoint(problem.requirement.spin_inertia, incidence, demands)
+        return DeviceFixedPoint(problem.requirement.spin_inertia, incidence, demands)
     largest = max((demand.spin_inertia for demand in demands), default=0.0)
     if largest == 0.0:
         raise UsageError(
             "nothing is asked of the wheels",
             hint="Ask for a rate change, for a maneuver, or for a spin inertia.",
         )
-    smallest = smallest_spin_inertia(problem.rim_problem(largest).limits)
-    return FixedPoint(max(largest, float(smallest) * _OFF_THE_EDGE), incidence, demands)
+    smallest = smallest_rim_inertia(problem.rim_problem(largest).limits)
+    return DeviceFixedPoint(max(largest, float(smallest) * _OFF_THE_EDGE), incidence, demands)

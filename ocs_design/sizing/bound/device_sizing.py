@@ -7,8 +7,8 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import Criterion
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.device_problem import (
+    DeviceFixedPoint,
     DeviceProblem,
-    FixedPoint,
     best_incidences,
     braked_total,
     find_fixed_point,
@@ -19,7 +19,7 @@ from ocs_design.sizing.bound.rim_program import RimSolution, solve_rim
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class DeviceSizing(FixedPoint):
+class DeviceSizing(DeviceFixedPoint):
     """Two sized wheels on their robot, where what they are asked for is settled.
 
     Attributes:

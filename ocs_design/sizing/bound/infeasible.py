@@ -10,11 +10,11 @@ import numpy as np
 from ocs_design.common.errors import Infeasible
 from ocs_design.common.units import round_outwards
 from ocs_design.sizing.bound.device_problem import (
+    DeviceFixedPoint,
     DeviceProblem,
-    FixedPoint,
     find_fixed_point,
 )
-from ocs_design.sizing.bound.rim_problem import RimProblem, lightest_rim, smallest_spin_inertia
+from ocs_design.sizing.bound.rim_problem import RimProblem, lightest_rim, smallest_rim_inertia
 from ocs_design.sizing.limits import (
     MOST_CHANGE,
     PRECISION,
@@ -46,7 +46,7 @@ def infeasible_rim(problem: RimProblem, solve: Callable[[RimProblem], object]) -
 
 
 def infeasible_device(
-    problem: DeviceProblem, dead_end: FixedPoint, solve: Callable[[DeviceProblem], object]
+    problem: DeviceProblem, dead_end: DeviceFixedPoint, solve: Callable[[DeviceProblem], object]
 ) -> Infeasible:
     """The error for a device that cannot be.
 
@@ -186,7 +186,7 @@ def largest_spin_inertia(problem: RimProblem) -> float:
     """
     limits = problem.limits
     ceiling = np.pi * limits.density * limits.height_max * limits.outer_radius_max**4 / 2.0
-    smallest = float(smallest_spin_inertia(limits)) * (1.0 + 1e-9)
+    smallest = float(smallest_rim_inertia(limits)) * (1.0 + 1e-9)
     reached = max(smallest, float(ceiling) * 1e-9)
     beyond = float(ceiling) * (1.0 + 1e-9)
     if not is_feasible(replace(problem, spin_inertia=reached)):
@@ -207,7 +207,7 @@ def shortfall(problem: RimProblem) -> str:
     if largest == 0.0:
         return f"no rim at all fits within {room}, whatever its spin inertia"
     if largest > problem.spin_inertia:
-        least = float(smallest_spin_inertia(problem.limits))
+        least = float(smallest_rim_inertia(problem.limits))
         return f"every rim within {room} has more spin inertia than {asked}: at least {least:.5g}"
     return (
         f"no rim of {problem.material.name} within {room} has the spin inertia of {asked}; "

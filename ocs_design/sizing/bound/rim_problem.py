@@ -293,7 +293,7 @@ def lightest_rim(spin_inertia: ArrayLike, limits: RimLimits) -> RimShape:
     return RimShape(*(np.where(fits, value, np.nan) for value in values))
 
 
-def smallest_spin_inertia(limits: RimLimits) -> FloatArray:
+def smallest_rim_inertia(limits: RimLimits) -> FloatArray:
     """Spin inertia of the narrowest, thinnest and flattest rim within the lower limits [kg m^2].
 
     With its web, if it has one, and without what is cut off it.

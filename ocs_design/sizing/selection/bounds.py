@@ -26,8 +26,12 @@ from ocs_design.parts.printed import half_height
 from ocs_design.parts.rim import LIGHTENED, hub_of
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits, limits_with_web
-from ocs_design.sizing.bound.rim_problem import smallest_spin_inertia as smallest_rim
+from ocs_design.sizing.bound.rim_problem import (
+    BORE_SHARE,
+    RimLimits,
+    limits_with_web,
+    smallest_rim_inertia,
+)
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.module_radii import smallest_radius
 from ocs_design.sizing.selection.candidates import Candidates, Guess, known_pairs, rim_limits
@@ -134,7 +138,7 @@ class RimFloor:
         room = problem.envelope
         disc = np.pi * limits.density * room.height_max * room.outer_radius_max**4 / 2.0
         steps = np.tile(np.linspace(0.0, 1.0, _RIMS), materials * webs)
-        least = smallest_rim(limits).reshape(webs, -1).min(axis=0)
+        least = smallest_rim_inertia(limits).reshape(webs, -1).min(axis=0)
         least = np.maximum(np.tile(least, webs) * _OFF_THE_EDGE, 1e-9 * disc)
         inertia = least * np.maximum(disc / least, 1.0) ** steps
         # Where there is no room for holes the web is solid.
@@ -289,7 +293,7 @@ def least_inertia(
         radius = zero + max(room.inner_radius_min + room.wall_min, closed)
         wheel = rim / widest**2 + PlainDrum().mass(radius, zero + room.height_min)
     else:
-        rim = np.maximum(rim, smallest_rim(limits) * _OFF_THE_EDGE)
+        rim = np.maximum(rim, smallest_rim_inertia(limits) * _OFF_THE_EDGE)
         # A wheel of more spin inertia is no smaller.
         radius = np.minimum(smallest_radius(rim, limits), widest)
         wheel = _SURELY * np.nan_to_num(lightest_module(rim, limits, PlainDrum(), _DIGITS).mass)
@@ -337,7 +341,7 @@ def initial_guess(candidates: Candidates, spin_inertia: FloatArray) -> Guess:
     low, high = np.array([(cell.low, cell.high) for cell in cells])[needed.argmin(axis=1)].T
     spin = needed.min(axis=1)
     known = np.isfinite(spin)
-    least = smallest_rim(candidates.limits) * _OFF_THE_EDGE
+    least = smallest_rim_inertia(candidates.limits) * _OFF_THE_EDGE
     rim = np.maximum(np.where(known, spin, 0.0) - candidates.drives.beside_rim, least)
     module = lightest_module(rim, candidates.limits, candidates.shell, _DIGITS).mass
     mass = len(candidates.problem.layout) * (candidates.drives.mass + _SURELY * module)

@@ -32,7 +32,7 @@ from ocs_design.sizing.bound.rim_problem import (
     RimLimits,
     RimProblem,
     limits_with_web,
-    smallest_spin_inertia,
+    smallest_rim_inertia,
     stretch_beside_holes,
 )
 from ocs_design.sizing.lightest_module import ModuleShape, lightest_module_at
@@ -131,7 +131,7 @@ class Candidates(Table):
 
         A rotor that turns against its wheel may have as much momentum as the smallest rim.
         """
-        least = smallest_spin_inertia(self.limits) * _OFF_THE_EDGE + self.drives.beside_rim
+        least = smallest_rim_inertia(self.limits) * _OFF_THE_EDGE + self.drives.beside_rim
         return np.maximum(least, _NOTHING)
 
     def shapes_at(self, spin_inertia: FloatArray, radius: FloatArray) -> ModuleShape:

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray, Table
-from ocs_design.sizing.bound.rim_problem import smallest_spin_inertia
+from ocs_design.sizing.bound.rim_problem import smallest_rim_inertia
 from ocs_design.sizing.lightest_module import ModuleShape
 from ocs_design.sizing.module_radii import smallest_radius
 from ocs_design.sizing.selection.candidates import Candidates, Guess
@@ -134,7 +134,7 @@ def solve_stepwise(candidates: Candidates, guess: Guess) -> Iterator[Solved]:
     """
     start = np.maximum(guess.spin_inertia, candidates.least_spin_inertia)
     # A larger wheel than that of the start may be needed, and may have a larger radius.
-    rim = np.maximum(start - candidates.drives.beside_rim, smallest_spin_inertia(candidates.limits))
+    rim = np.maximum(start - candidates.drives.beside_rim, smallest_rim_inertia(candidates.limits))
     high = candidates.problem.envelope.outer_radius_max
     low = np.minimum(smallest_radius(rim, candidates.limits), high)
     radius, half, angle = np.sqrt(low * high), np.log(high / low) / 2.0, guess.angle

@@ -34,7 +34,7 @@ from ocs_design.sizing.selection.problem import (
     with_limit,
 )
 
-HELD = 1e-10
+_FEASIBLE = 1e-10
 """Relative violation of a limit that is rounding."""
 
 _LEAST, _MOST = 1e-6, 1e6
@@ -76,7 +76,7 @@ def refine(candidates: Candidates, point: FixedPoint) -> FixedPoint:
     shape = point.shapes.take(0)
     outer, height, inner = map(float, (shape.outer_radius, shape.height, shape.inner_radius))
     optimum = lightest(programme, coordinates(outer, height, inner, float(point.angle[0])))
-    if optimum.violation <= HELD:
+    if optimum.violation <= _FEASIBLE:
         return programme.fixed_point(optimum.point)
     # SLSQP comes no closer where a slope jumps: the device beside it has the same radius.
     radius, angle = np.exp(optimum.point[:1]), optimum.point[3:]
@@ -102,7 +102,7 @@ def lightest(programme: "Programme", start: FloatArray) -> Optimum:
         found = programme.evaluation(np.frombuffer(point), low, high)
         missed = np.append(-found.limits, found.limits[equal])
         here = Optimum(np.frombuffer(point), found.value, max(float(missed.max()), 0.0))
-        best = min(best, here, key=lambda seen: (max(seen.violation, HELD), seen.value))
+        best = min(best, here, key=lambda seen: (max(seen.violation, _FEASIBLE), seen.value))
         now = here.value + _PENALTY * here.violation
         cost, idle = (now, 0) if now < cost - _DIGITS else (cost, idle + 1)
         if idle > _PATIENCE:
@@ -294,7 +294,7 @@ _UNITS = {STRESS: 0.1, TIME: 0.01, WHEEL_SPEED: 100.0}
 _LEAST_LEFT = 0.5
 """Share of a limit that is left where it is loosened downwards."""
 
-_HELD = 1e-6
+_FEASIBLE_TO_PRICE = 1e-6
 """Relative violation of a limit that does not matter to a price."""
 
 _HOLDS, _MOVES = 1e-6, 1e-9
@@ -317,7 +317,7 @@ def mass_prices(problem: SelectionProblem, chosen: Candidate) -> Iterator[PriceR
         change = 0.0
         if np.any((held < _HOLDS) & (np.abs(moved - held) > _MOVES)):
             found = lightest(looser, start)
-            if found.violation <= _HELD:
+            if found.violation <= _FEASIBLE_TO_PRICE:
                 change = min(float(np.expm1(found.value - before)), 0.0)
         yield PriceRecord(
             limit=limit.name,

@@ -24,8 +24,7 @@ from ocs_design.parts.rim import cylinder_spin_inertia
 from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.pivoted import Balance, Pivoted
 from ocs_design.requirement.turns import TurnTo
-from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits
-from ocs_design.sizing.bound.rim_problem import smallest_spin_inertia as smallest_rim
+from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits, smallest_rim_inertia
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.selection.bounds import PairBounds, cells_of, least_inertia
 from ocs_design.sizing.selection.candidates import Candidates, drives_of
@@ -258,7 +257,9 @@ def _reason(
     if not part.late > 1.0:
         # A wheel would fit, but for its hoop stress, or for what it adds to the robot's inertia.
         limits = Candidates.of_each_material(problem, drive).limits
-        rims = np.maximum(part.needed - drive.beside_rim, smallest_rim(limits) * (1.0 + 1e-9))
+        rims = np.maximum(
+            part.needed - drive.beside_rim, smallest_rim_inertia(limits) * (1.0 + 1e-9)
+        )
         if not _any_rim(rims, replace(limits, stretch_max=np.inf)):
             # What a rim is too narrow to go around, if there is anything.
             (where, radius), most = _narrowest(limits), float(np.max(limits.outer_radius_max))

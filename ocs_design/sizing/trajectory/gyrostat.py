@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
 
-OUT_OF_REACH = 1e-6
+NO_AUTHORITY = 1e-6
 """Share of their torque below which the wheels leave an axis alone."""
 
 
@@ -54,7 +54,7 @@ class Gyrostat:
         """Axes in B about which the trunk is free and the wheels act, as rows, shape (k, 3)."""
         if self.edge is None:
             return np.eye(3)[self.reach]
-        reached = np.abs(self.edge @ self.axes).max() > OUT_OF_REACH
+        reached = np.abs(self.edge @ self.axes).max() > NO_AUTHORITY
         return np.reshape(self.edge if reached else (), (-1, 3))
 
     @property
@@ -122,17 +122,17 @@ class Gyrostat:
     @property
     def reach(self) -> NDArray[np.bool_]:
         """Whether the wheels act about each axis of B, shape (3,)."""
-        return np.asarray(np.abs(self.axes).max(axis=1) > OUT_OF_REACH)
+        return np.asarray(np.abs(self.axes).max(axis=1) > NO_AUTHORITY)
 
     @property
     def spanned(self) -> int:
         """Number of independent axes that the wheels have."""
-        return int(np.linalg.matrix_rank(self.axes, OUT_OF_REACH))
+        return int(np.linalg.matrix_rank(self.axes, NO_AUTHORITY))
 
     @property
     def sharing(self) -> FloatArray:
         """Matrix from a torque on the trunk to the smallest minus motor torques, shape (n, 3)."""
-        inverse = np.linalg.pinv(self.axes, rcond=OUT_OF_REACH)
+        inverse = np.linalg.pinv(self.axes, rcond=NO_AUTHORITY)
         return np.asarray(inverse / self.reaction, dtype=np.float64)
 
 
@@ -146,7 +146,7 @@ def shared_by_others(axes: FloatArray, wheel: int) -> FloatArray:
         axes: A, as columns, shape (3, n). wheel: k, whose motor is to give none.
     """
     runs = np.arange(axes.shape[1]) != wheel
-    return np.asarray(runs[:, None] * (np.linalg.pinv(axes * runs, rcond=OUT_OF_REACH) @ axes))
+    return np.asarray(runs[:, None] * (np.linalg.pinv(axes * runs, rcond=NO_AUTHORITY) @ axes))
 
 
 def taken_over(axes: FloatArray) -> float:

@@ -16,7 +16,7 @@ from ocs_design.sizing.trajectory.collocation import (
     TORQUE_DEGREE,
     bernstein_basis,
 )
-from ocs_design.sizing.trajectory.gyrostat import OUT_OF_REACH, Gyrostat
+from ocs_design.sizing.trajectory.gyrostat import NO_AUTHORITY, Gyrostat
 
 _INSIDE = 1e-6
 """How far inside an interval its ends are read: torques may jump from one to the next."""
@@ -80,8 +80,8 @@ class Motion:
         """
         wheels = len(self.torques)
         each = -np.arange(wheels) / wheels
-        idle = each - np.linalg.pinv(gyrostat.axes, rcond=OUT_OF_REACH) @ gyrostat.axes @ each
-        stays = bool(np.abs(idle).max() > OUT_OF_REACH)
+        idle = each - np.linalg.pinv(gyrostat.axes, rcond=NO_AUTHORITY) @ gyrostat.axes @ each
+        stays = bool(np.abs(idle).max() > NO_AUTHORITY)
         most = UNEVEN * np.abs(self.states[4 : 4 + wheels]).max()
         speeds = most * (idle / np.abs(idle).max() if stays else each)
         time = self.lengths.sum()
