@@ -18,7 +18,10 @@ from ocs_design.device.records.flights import (
 )
 from ocs_design.device.records.requirement import DemandRecord
 from ocs_design.report.table import Cell, Table, Tone, Toned, columns
+from ocs_design.requirement.maneuver import Flip, Maneuver
+from ocs_design.requirement.turns import TurnTo
 from ocs_design.simulation.run import LANDING_TOLERANCE, UPRIGHT_TILT
+from ocs_design.simulation.verdict import ends_anyhow, landing_attitude, off_asked
 
 WORSE = np.radians(1.0)
 """A swing on the ground with the device is reported if it is larger by this than without [rad]."""
@@ -94,35 +97,42 @@ def flights_title(runs: Iterable[ValidationRecord]) -> str:
     return f"degrees off level at touchdown{balance}, or turned"
 
 
-def short_verdict(run: ValidationRecord, *, kind: str) -> Toned:
-    """Verdict with the angle it rests on: of a flip what it turned by, of a turn the heading."""
+def short_verdict(run: ValidationRecord, maneuver: Maneuver | None) -> Toned:
+    """Verdict with the angle it rests on: of a flip what it turned by, of a turn the heading.
+
+    Without the maneuver the flight is taken for one that is to end level.
+    """
     word = (_WITH if run.ocs else _WITHOUT)[run.passed]
     found = run.metrics
     if run.passed is None or not found:
         return word
-    if kind == "flip":
+    roll, pitch = _angles(found, "touchdown_{}")
+    # As `judge` has it.
+    angle, what = max(abs(roll), abs(pitch)), ""
+    if isinstance(maneuver, Flip):
         angle, what = abs(found["turned_angle"] or 0.0), " turned"
     elif found["touchdown_time"] == found["lift_off_time"]:
         # Pushed as it stands.
         angle, what = float(np.hypot(*_angles(found, "{}_swing"))), " swing"
-    elif kind == "turn":
-        angle = float(off_level(*_angles(found, "touchdown_{}")))
-        what = f", heading {degrees_number(found['heading_drift'] or 0.0)}"
-    else:
-        # As `judge` has it: within its limit this one passes, whatever the verticals' angle is.
-        angle, what = max(map(abs, _angles(found, "touchdown_{}"))), ""
+    elif isinstance(maneuver, TurnTo):
+        if ends_anyhow(maneuver):
+            angle, what = found.get("touchdown_rate") or 0.0, " deg/s"
+        elif any(landing_attitude(maneuver)[:2]):
+            angle = float(off_asked(np.array([roll]), np.array([pitch]), maneuver)[0])
+            what = " off target"
+        what += f", heading {degrees_number(found['heading_drift'] or 0.0)}"
     return Toned(f"{word.text:<5} {degrees_number(angle):>5}{what}", word.tone)
 
 
 def verdict_table(design: OcsDesign) -> Table:
     """Verdict on each maneuver with the device and without, with the angles that they rest on."""
-    kinds = {each.name: each.kind for each in design.requirement.maneuvers}
+    asked = {each.name: each.maneuver() for each in design.requirement.maneuvers}
     bare = {run.scenario: run for run in design.validation if not run.ocs}
     rows = (
         (
             run.scenario,
             *(
-                "-" if each is None else short_verdict(each, kind=kinds.get(run.scenario, ""))
+                "-" if each is None else short_verdict(each, asked.get(run.scenario))
                 for each in (run, bare.get(run.scenario))
             ),
         )

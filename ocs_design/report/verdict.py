@@ -22,10 +22,12 @@ class Headline:
     Attributes:
         parts: of the line, each with its tone.
         matter: the one thing that matters most, a sentence; empty: nothing is in the way.
+        flight: scenario whose verdict that is; empty: it is another matter.
     """
 
     parts: tuple[Toned, ...]
     matter: str
+    flight: str = ""
 
     @property
     def text(self) -> str:
@@ -70,10 +72,12 @@ def headline(found: OcsDesign | Validated) -> Headline:
         parts.append(Toned(verdict, tones[certified.verdict]))
     # Those that fail before those that are not judged.
     worst = sorted(runs, key=lambda run: run.passed is None)
-    faults = (f"{run.scenario}: {run.reason}" for run in worst if run.passed is not True)
+    fault = next((run for run in worst if run.passed is not True), None)
+    if fault is not None and not shortage:
+        return Headline(tuple(parts), f"{fault.scenario}: {fault.reason}", fault.scenario)
     matters = (
         shortage,
-        next(faults, "") or falls(runs),
+        falls(runs),
         survival_sentence(survival) if survival is not None and survival.lost else "",
         by_hand,
         "" if certified is None else certificate_line(certified),

@@ -16,7 +16,8 @@ from ocs_design.report.charts.chart import Points
 from ocs_design.report.charts.front import COLUMNS, front_chart
 from ocs_design.report.flights import flight_remarks, flight_table, flights_title, short_verdict
 from ocs_design.report.text.front import NONE, OWN, print_front
-from ocs_design.requirement.maneuver import Flip
+from ocs_design.requirement.maneuver import Drop, End, Flip
+from ocs_design.requirement.turns import TurnTo
 from ocs_design.simulation.run import LANDING_TOLERANCE
 from ocs_design.simulation.verdict import off_at_touchdown
 
@@ -84,18 +85,35 @@ def test_a_row_is_named_by_its_scenario_or_by_the_device_alone():
 LASTING = {"lift_off_time": 0.0, "touchdown_time": 1.0}
 
 
+DROP = Drop(name="drop", height=1.0, pitch=0.5)
+FLIP = Flip(name="flip", jump_height=0.5, duration=0.5, angle=2.0 * np.pi)
+
+
+def turn(**asked):
+    return TurnTo(name="turn", duration=0.5, **asked)
+
+
 @pytest.mark.parametrize(
-    ("kind", "words"),
+    ("maneuver", "words"),
     [
-        ("turn", "pass    3.0, heading 90.0"),
-        ("flip", "pass  360.0 turned"),
-        ("drop", "pass    3.0"),
+        (FLIP, "pass  360.0 turned"),
+        (DROP, "pass    4.0"),
+        (None, "pass    4.0"),
+        (turn(yaw=np.pi / 2.0), "pass    4.0, heading 90.0"),
+        (turn(pitch=0.5, end=End.LEVEL), "pass    4.0, heading 90.0"),
+        (turn(pitch=np.radians(6.0)), "pass    5.0 off target, heading 90.0"),
+        (turn(pitch=0.5, end=End.AT_REST), "pass    2.0 deg/s, heading 90.0"),
     ],
 )
-def test_the_angle_beside_a_verdict_is_the_one_that_it_rests_on(kind, words):
-    landed = {"touchdown_roll": 0.0, "touchdown_pitch": np.radians(3.0)}
-    turned = {"turned_angle": -2.0 * np.pi, "heading_drift": np.pi / 2.0}
-    assert short_verdict(run(**LASTING, **landed, **turned), kind=kind).text == words
+def test_the_angle_beside_a_verdict_is_the_one_that_it_rests_on(maneuver, words):
+    """Of a tilted end it is that of the verticals: 3 and 4 deg at right angles make 5."""
+    landed = {"touchdown_roll": np.radians(-4.0), "touchdown_pitch": np.radians(3.0)}
+    turned = {
+        "turned_angle": -2.0 * np.pi,
+        "heading_drift": np.pi / 2.0,
+        "touchdown_rate": np.radians(2.0),
+    }
+    assert short_verdict(run(**LASTING, **landed, **turned), maneuver).text == words
 
 
 @pytest.mark.parametrize(
@@ -104,10 +122,11 @@ def test_the_angle_beside_a_verdict_is_the_one_that_it_rests_on(kind, words):
 def test_beside_a_landing_is_the_larger_angle_as_the_rule_of_level_has_it(roll, pitch, words):
     landed = {"touchdown_roll": np.radians(roll), "touchdown_pitch": np.radians(pitch)}
     metrics = SimpleNamespace(**landed)
-    flip = Flip(name="flip", jump_height=0.5, duration=0.5, angle=2.0 * np.pi)
-    passed = off_at_touchdown(metrics, flip) <= LANDING_TOLERANCE
-    record = run(**LASTING, **landed, passed=passed)
-    assert short_verdict(record, kind="drop").text == words
+    level = turn(yaw=np.pi / 2.0)
+    for maneuver in (DROP, level):
+        passed = off_at_touchdown(metrics, maneuver) <= LANDING_TOLERANCE
+        record = run(**LASTING, **landed, heading_drift=0.0, passed=passed)
+        assert short_verdict(record, maneuver).text.removesuffix(", heading 0.0") == words
 
 
 def test_who_ends_leaning_is_told_the_angle_of_the_verticals():
@@ -120,7 +139,7 @@ def test_a_robot_that_rolls_over_swings_by_more_than_one_that_does_not():
     over = run(ocs=False, swing=360.0, passed=False)
     assert remarks(run(swing=30.0), over) == []
     shoved = run(swing=360.0, lift_off_time=0.0, touchdown_time=0.0)
-    assert short_verdict(shoved, kind="shove").text == "pass  360.0 swing"
+    assert short_verdict(shoved, None).text == "pass  360.0 swing"
 
 
 def test_a_robot_on_a_pivot_touches_nothing_down():

@@ -3,6 +3,7 @@
 import re
 from dataclasses import replace
 from io import StringIO
+from pathlib import Path
 
 import pytest
 from designed import MOTOR
@@ -14,6 +15,7 @@ from ocs_design.device.records.device import Buildable, OpenPoint
 from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.report.table import Tone
 from ocs_design.report.text.layout import items, note, wrapped
+from ocs_design.report.text.size import print_summary
 from ocs_design.report.verdict import headline
 
 
@@ -84,6 +86,17 @@ def test_a_biped_that_lands_level_and_falls_is_told():
     assert line.text == "buildable  ·  level 2 of 2  ·  stands 0 of 2"
     assert line.tone is Tone.OPEN
     assert line.matter.startswith("drop, flip: the robot lands level and then falls")
+
+
+def test_a_flight_that_fails_is_minded_though_the_verdict_names_one_of_its_letters():
+    runs = run("back-flip", **OFF, reason="turns 200"), run("flip", **OFF, reason="turns 9")
+    screen = StringIO()
+    found = replace(design(MOTOR), validation=runs)
+    print_summary(Console(file=screen, width=100), found, (), Path("out"))
+    assert headline(found).flight == "back-flip"
+    _, _, minded = screen.getvalue().partition("To mind")
+    assert "- flip, with: turns 9" in minded
+    assert "- back-flip, with:" not in minded
 
 
 def test_a_robot_without_legs_does_not_stand():

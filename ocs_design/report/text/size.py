@@ -180,8 +180,8 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
     facts(console, rows)
     if runs:
         _print_flights(console, design, runs)
-    # The verdict names flights already.
-    flown = (run for run in design.validation if run.ocs and run.scenario in line.matter)
+    # What the verdict says already.
+    flown = (run for run in design.validation if run.ocs and run.scenario == line.flight)
     told = {line.matter, *(flights.run_sentence(run, with_note=False) for run in flown)}
     minded = [each for each in warnings.all_warnings(design) if each not in told]
     if minded:
