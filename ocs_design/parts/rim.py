@@ -32,7 +32,7 @@ inertia, less what that leaves out within the hub.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import inf, pi, sin, sqrt
 
@@ -424,28 +424,25 @@ def hub_of(
     elif rotor is not None:
         # A pilot bore stays clear of the screws.
         bore = min(bore, rotor.inside - LIGAMENT)
+    on_shaft = mounting.shaft_diameter is not None
+    wide = 2.0 * bore if on_shaft else 5.5e-3 + 0.15 * (motor.diameter or 0.03)
+    hub = Hub(
+        max(wide, bore + HUB_WALL),
+        hub_height(mounting),
+        bore,
+        chamfer=chamfer,
+        web_thickness=web_thickness,
+        lightening=lightening,
+    )
     if rotor is None:
-        on_shaft = mounting.shaft_diameter is not None
-        wide = 2.0 * bore if on_shaft else 5.5e-3 + 0.15 * (motor.diameter or 0.03)
-        return Hub(
-            max(wide, bore + HUB_WALL),
-            hub_height(mounting),
-            bore,
-            chamfer=chamfer,
-            web_thickness=web_thickness,
-            lightening=lightening,
-        )
-    return Hub(
+        return hub
+    return replace(
+        hub,
         radius=rotor.reach + HUB_WALL,
-        height=hub_height(mounting),
-        bore_radius=bore,
         bolts=rotor.bolts,
         bolt_circle_radius=rotor.radius,
         bolt_hole_radius=rotor.hole_radius,
-        chamfer=chamfer,
         bolt_head=screw(rotor.thread).head_height,
-        web_thickness=web_thickness,
-        lightening=lightening,
     )
 
 

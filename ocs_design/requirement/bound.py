@@ -147,26 +147,12 @@ def bound_curve(rate_changes: ArrayLike, wheel_speeds: ArrayLike) -> FloatArray:
     return ratio
 
 
-def spin_inertia_for(momentum: FloatArray, incidence: float, wheel_speed_max: float) -> float:
-    """Smallest spin inertia of each wheel that takes roll and pitch momentum at once [kg m^2].
-
-    The reachable momenta form the rhombus `|L_x| / sin a + |L_y| / cos a <= 2 I_w gamma`
-    (docs/theory.md, What a maneuver asks for). An axis that needs nothing costs nothing, whatever
-    the incidence.
-
-    Args:
-        momentum: of roll and pitch [N m s], shape (2,).
-        incidence: [rad].
-        wheel_speed_max: relative to the trunk [rad/s].
-    """
-    return per_wheel(momentum, incidence) / wheel_speed_max
-
-
 def per_wheel(both: FloatArray, incidence: float) -> float:
     """What each wheel must give along its own axis for roll and pitch of both together.
 
-    `(|x| / sin a + |y| / cos a) / 2`, for momenta [N m s] as for torques [N m]; inf if an axis that
-    is asked for is out of reach.
+    `(|x| / sin a + |y| / cos a) / 2`, for momenta [N m s] as for torques [N m]: what wheels can
+    give forms a rhombus (docs/theory.md, What a maneuver asks for). An axis that needs nothing
+    costs nothing, whatever the incidence; inf if one that is asked for is out of reach.
 
     Args:
         both: on roll and on pitch, shape (2,).
@@ -203,7 +189,7 @@ def spin_demands(
     ) -> SpinDemand:
         """Demand of a momentum [N m s] and, where a time is set, a least torque [N m]."""
         left = requirement.wheel_speed_max - begins
-        least = spin_inertia_for(momentum, at, left) if left > 0.0 else float("inf")
+        least = per_wheel(momentum, at) / left if left > 0.0 else float("inf")
         per_motor = 0.0 if torque is None else per_wheel(torque, at)
         return SpinDemand(source, at, momentum, least, per_motor)
 

@@ -76,14 +76,10 @@ def motor_choice(specification: Specification, robot: Robot) -> MotorChoice | No
     )
 
 
-def default_bus_voltage(robot: Robot) -> float:
-    """Supply voltage that robots of this mass usually have [V]."""
-    return next(voltage for most, voltage in BUS_VOLTAGES.items() if robot.mass <= most)
-
-
 def default_supply(robot: Robot) -> Supply:
     """What a robot of this mass can feed its wheels with: `BUS_VOLTAGES`, `POWER_PER_MASS`."""
-    return Supply(default_bus_voltage(robot), power_max=POWER_PER_MASS * robot.mass)
+    voltage = next(usual for most, usual in BUS_VOLTAGES.items() if robot.mass <= most)
+    return Supply(voltage, power_max=POWER_PER_MASS * robot.mass)
 
 
 def specified_supply(specification: Specification, robot: Robot) -> Supply:
@@ -116,11 +112,13 @@ def unknown_names(specification: Specification) -> Iterator[str]:
         SpecificationError: a catalogue file has faults.
     """
     stated = specification.motor
+    # Where none is named, it is the file that has none, or none to build with.
+    names = "motor.motors" if stated.name in {None, AUTO} else "motor.name"
     choices: tuple[tuple[str, Callable[[], object], str, Callable[[], object]], ...] = (
         (
             "motor.motors",
             lambda: known_motors(_path(stated.motors)),
-            "motor.name",
+            names,
             lambda: _motors(specification),
         ),
         (

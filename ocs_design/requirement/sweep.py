@@ -11,7 +11,7 @@ import numpy as np
 
 from ocs_design.common.errors import UsageError
 from ocs_design.common.units import Dimension, format_quantity, parse_positive
-from ocs_design.requirement.choices import default_bus_voltage
+from ocs_design.requirement.choices import specified_supply
 from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.maneuver import Drop, Flip, Maneuver
 from ocs_design.requirement.requirement import Requirement
@@ -298,7 +298,7 @@ _SWEEPS = (
         (0.5, 2.5),
         "supply",
         "voltage",
-        lambda task: task.specification.supply.voltage or default_bus_voltage(task.robot),
+        lambda task: specified_supply(task.specification, task.robot).voltage,
     ),
 )
 

@@ -44,18 +44,17 @@ def module_size(
     height: Real,
     behind: Behind[Real] | Behind[float],
     mount_reach: Real | float,
-    guard_wall: float = 0.0,
     *,
     foot_plate: Real | float = PLATE_THICKNESS,
 ) -> Size[Real]:
     """Size of a housing on its foot, around a wheel of this radius and height, with its motor.
 
-    All in metres; a guard ring in the housing makes that as much wider. What stands behind the
-    foot's plate, motor, gear and cage, goes so far back and so far to both sides: how high it
-    stands is no matter to a turn about the vertical.
+    All in metres; a guard ring adds its wall to the wheel's radius. What stands behind the foot's
+    plate, motor, gear and cage, goes so far back and so far to both sides: how high it stands is no
+    matter to a turn about the vertical.
     """
     reach: Any = mount_reach
-    housing: Housing[Real] = Housing(outer_radius + guard_wall, height, MountHoles(reach))
+    housing: Housing[Real] = Housing(outer_radius, height, MountHoles(reach))
     foot: Foot[Real] = Foot(housing, foot_plate)
     around = (housing.radius**2 + housing.half_height**2) ** 0.5
     depth = larger(foot.back + behind.depth, behind.from_wheel)

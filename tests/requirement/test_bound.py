@@ -10,9 +10,9 @@ from ocs_design.requirement.bound import (
     bound_curve,
     corrected_bound,
     elroy_beanie_bound,
+    per_wheel,
     spin_bound,
     spin_demands,
-    spin_inertia_for,
 )
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.requirement.requirement import Requirement
@@ -149,14 +149,14 @@ def test_the_wheels_reach_the_momentum_and_no_smaller_ones_do(roll, pitch, incid
     """Solves C h = L for the momentum of each wheel: the larger one decides."""
     axes = [[np.sin(incidence), -np.sin(incidence)], [np.cos(incidence), np.cos(incidence)]]
     each = np.linalg.solve(axes, [roll, pitch])
-    least = spin_inertia_for(np.array([roll, pitch]), incidence, speed)
+    least = per_wheel(np.array([roll, pitch]), incidence) / speed
     assert least == pytest.approx(np.abs(each).max() / speed, rel=1e-9, abs=1e-300)
 
 
 def test_zero_momentum_costs_nothing_where_the_wheels_have_no_authority():
-    assert spin_inertia_for(np.array([0.0, 2.0]), 0.0, 100.0) == pytest.approx(0.01)
-    assert spin_inertia_for(np.array([2.0, 0.0]), np.pi / 2, 100.0) == pytest.approx(0.01)
-    assert spin_inertia_for(np.zeros(2), 0.0, 100.0) == 0.0
+    assert per_wheel(np.array([0.0, 2.0]), 0.0) == pytest.approx(1.0)
+    assert per_wheel(np.array([2.0, 0.0]), np.pi / 2) == pytest.approx(1.0)
+    assert per_wheel(np.zeros(2), 0.0) == 0.0
 
 
 def test_momentum_out_of_reach_is_an_infinite_demand_that_names_its_axis():

@@ -37,6 +37,8 @@ torque_max_nm = 5
 motor_speed_max_rpm = 9000
 """
 
+OWN_MOTOR = '[[motor]]\nname = "Own 1"\nmaker = "me"\nsource = "bench"\n'
+
 LIGHT = robot_by_hand(20.0, (0.3, 0.4, 0.5), name="light")
 HEAVIEST = robot_by_hand(60.1, (0.3, 0.4, 0.5), name="heaviest")
 HEAVY = robot_by_hand(20.1, (0.3, 0.4, 0.5), name="heavy")
@@ -190,7 +192,7 @@ def test_what_is_no_name_is_refused(raw):
 @pytest.fixture
 def own(tmp_path):
     file = tmp_path / "own.toml"
-    file.write_text('[[motor]]\nname = "Own 1"\nmaker = "me"\nsource = "bench"\n')
+    file.write_text(OWN_MOTOR)
     return str(file)
 
 
@@ -205,6 +207,20 @@ def test_where_no_motor_can_be_built_with_that_is_said_and_what_it_lacks(own):
         choice_of(motors=own)
     assert "Own 1 lacks kind: outrunner or inrunner, bolt circle of the stator" in str(caught.value)
     assert "--motors-any" in caught.value.hint
+
+
+@pytest.mark.parametrize(
+    ("rows", "fault"),
+    [("", "has no motor"), (OWN_MOTOR, "no motor can be built with: Own 1 lacks")],
+)
+def test_a_file_without_a_motor_to_build_with_is_at_fault_under_its_own_key(tmp_path, rows, fault):
+    own = tmp_path / "own.toml"
+    own.write_text(rows)
+    with pytest.raises(SpecificationError) as caught:
+        resolve(parse_specification(f"motor.motors = '{own}'", "x"), LIGHT, 1.0)
+    (problem,) = caught.value.problems
+    assert problem.startswith("motor.motors: ")
+    assert fault in problem
 
 
 def test_a_supply_is_compared_with_what_makers_allow_beyond_the_rating(own):

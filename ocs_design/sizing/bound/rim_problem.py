@@ -122,7 +122,7 @@ class RimProblem:
     def hoop_stress_max(self) -> float:
         """Yield strength over the safety [Pa]; inf if the material's figures are not known."""
         strength, safety = self.material.yield_strength, self.envelope.stress_safety
-        if strength is None or self.material.poisson_ratio is None or safety == 0.0:
+        if strength is None or self.material.poisson_ratio is None:
             return float("inf")
         return strength / safety
 
@@ -204,10 +204,8 @@ def stretch_beside_holes(stress: float | FloatArray, stress_safety: float) -> fl
 
     Args:
         stress: of the holes over the hoop stress (`Hub.lightened_stress`).
-        stress_safety: yield strength over the allowed hoop stress; 0: it is not limited.
+        stress_safety: yield strength over the allowed hoop stress.
     """
-    if stress_safety == 0.0:
-        return 1.0
     return stress_safety / np.maximum(stress, stress_safety)
 
 

@@ -137,13 +137,11 @@ def device_size(device: Device) -> Size[float]:
     wheel, mount = device.flywheel, motor_mount(device)
     if device.carrier.mass == 0.0:
         return wheel_size(wheel.outer_radius, wheel.height)
-    behind = mount.behind(device.motor)
     return module_size(
-        wheel.outer_radius,
+        wheel.outer_radius + device.guard_wall,
         max(wheel.height, mount.room),
-        behind,
+        mount.behind(device.motor),
         mount.holes.reach,
-        device.guard_wall,
         foot_plate=device.foot_plate,
     )
 

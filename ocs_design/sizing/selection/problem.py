@@ -251,11 +251,10 @@ class Candidate(DrivenWheel):
     def centers(self) -> FloatArray:
         """Centres of the wheels in B [m], shape (n, 3)."""
         size = module_size(
-            self.outer_radius,
+            self.outer_radius + self.guard_wall,
             max(self.height, self.mount.room),
             self.mount.behind(self.motor),
             self.mount.holes.reach,
-            self.guard_wall,
             foot_plate=self.foot_plate,
         )
         return frozen(self.place.centers(size))
