@@ -17,8 +17,6 @@ FloatArray: TypeAlias = NDArray[np.float64]
 Vector = tuple[float, float, float]
 Matrix = tuple[Vector, Vector, Vector]
 
-Number = TypeVar("Number", np.float64, np.bool_)
-
 
 def frozen(values: ArrayLike | Sequence[float]) -> FloatArray:
     """A read-only copy of `values` as float64, so that frozen dataclasses are frozen throughout."""
@@ -37,15 +35,6 @@ def matrix(values: FloatArray) -> Matrix:
     """Three rows as tuples."""
     first, second, third = (vector(row) for row in values)
     return first, second, third
-
-
-def put_rows(
-    values: NDArray[Number], rows: NDArray[np.intp], others: NDArray[Number]
-) -> NDArray[Number]:
-    """A copy of an array with other values in these rows."""
-    copy = values.copy()
-    copy[rows] = others
-    return copy
 
 
 class Table(DataclassInstance):
@@ -88,7 +77,8 @@ class Table(DataclassInstance):
             if isinstance(own, Table):
                 columns[field.name] = own.put(rows, other)
             elif isinstance(own, np.ndarray):
-                columns[field.name] = put_rows(own, rows, other)
+                columns[field.name] = own.copy()
+                columns[field.name][rows] = other
         return replace(self, **columns)
 
     def _each(

@@ -15,6 +15,9 @@ from ocs_design.common.errors import QuantityError, UsageError
 LARGEST = 1e15
 """Largest value, SI: whatever is measured here is far below, and its fifth power must be finite."""
 
+MILLIMETRES = 1000.0
+"""Per metre; what a workshop or a printer reads is in millimetres."""
+
 CELL_NOMINAL, CELL_FULL = 3.7, 4.2
 """Voltages of one cell of lithium polymer [V], as makers of packs state them."""
 

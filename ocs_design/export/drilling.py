@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from ocs_design.actuation.fasteners import Screw
-from ocs_design.common.units import format_quantity, round_outwards
+from ocs_design.common.units import MILLIMETRES, format_quantity, round_outwards
 from ocs_design.device.joints import foot_screws
 from ocs_design.device.solids import foot_of
 from ocs_design.export.device_parts import foot_holes, trunk_holes
@@ -37,8 +37,6 @@ from ocs_design.parts.carrier_plate import steepest
 from ocs_design.parts.module import part_name
 from ocs_design.parts.outline import flat_outline
 from ocs_design.parts.printed import TRUNK_SCREW
-
-MILLIMETRES = 1000.0
 
 SHEET = (15.0, 15.0, WIDTH - 15.0, HEIGHT - 30.0)
 """Left, top, right and bottom of what one sheet shows [mm]: printers reach it; below are words."""

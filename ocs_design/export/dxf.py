@@ -15,14 +15,13 @@ from ezdxf.filemanagement import new
 from ezdxf.layouts.layout import Modelspace
 
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.units import MILLIMETRES
 from ocs_design.export.device_parts import BLOCK, plate_pieces, wheel_pieces
 from ocs_design.export.drawing import sheet
 from ocs_design.export.drawing.sheet import Area, Circle, Line, Polyline, Text
 from ocs_design.export.drilling import CHECK, Drilling, bounds, drilling_of
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.solids import Part, Prism, Revolution
-
-MILLIMETRES = 1000.0
 
 OUTLINE, HOLES, AXES, SECTION = "OUTLINE", "HOLES", "AXES", "SECTION"
 """Layers: the largest and the smallest circle from the front; holes; centre lines; half section."""

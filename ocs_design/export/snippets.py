@@ -30,13 +30,8 @@ from ocs_design.robot.leg_geometry import BASE_FRAME
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.tree import ShapeKind
 
-_MACRO_PLACE = {
-    "link": "${prefix}ocs_${side}_motor",
-    "parent": "${parent}",
-    "position": "${position}",
-    "rpy": "${rpy}",
-}
-"""Place of the carrier in terms of the xacro macro's arguments."""
+_MACRO_PLACE = {"parent": "${parent}", "position": "${position}", "rpy": "${rpy}"}
+"""Place of wheel and carrier in terms of the xacro macro's arguments."""
 
 
 def write(subject: Subject, folder: Path) -> Notes:
@@ -81,13 +76,21 @@ def snippet_xacro(device: Device, base: Base) -> str:
         for body in bodies.device_bodies(device)
         if body.module is None
     ]
+    cylinder = cylinder_urdf(device.flywheel.outer_radius, device.flywheel.height)
+    wheel = {
+        **inertial_values(bodies.flywheel_inertial(device)),
+        **_MACRO_PLACE,
+        "link": "${prefix}ocs_${side}_flywheel",
+        "joint": "${prefix}ocs_${side}",
+        "visual": cylinder,
+        "collision": cylinder,
+        "limit": limit_urdf(device),
+    }
     values = {
         **_names(base),
         "base_rpy": numbers(rpy_from_rotation(rotation)),
-        **inertial_values(bodies.flywheel_inertial(device)),
         **_macro_wheels(device),
-        "cylinder": cylinder_urdf(device.flywheel.outer_radius, device.flywheel.height),
-        "limit": limit_urdf(device),
+        "flywheel": indent(fill("flywheel.urdf", wheel), "  "),
         "carrier": indent(_macro_carrier(device), "  "),
         "plate": indent("".join(under), "  "),
         "plugin": MOCK_PLUGIN,
@@ -154,7 +157,10 @@ def _macro_carrier(device: Device) -> str:
             f'    <xacro:if value="${{side == {side}}}">\n{look}    </xacro:if>\n'
             for side, look in zip(sides, looks, strict=True)
         )
-    return fill("carrier.urdf", {**_MACRO_PLACE, **sided, "visuals": visuals})
+    return fill(
+        "carrier.urdf",
+        {**_MACRO_PLACE, **sided, "link": "${prefix}ocs_${side}_motor", "visuals": visuals},
+    )
 
 
 def snippet_ros2_control(device: Device) -> str:

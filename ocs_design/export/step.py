@@ -1,5 +1,7 @@
 """STEP (ISO 10303-21, application protocol 214): exact parts in millimetres, by Open CASCADE.
 
+Its tolerances are made for millimetres.
+
 Importing this takes seconds, and fails where Open CASCADE is not installed.
 """
 
@@ -44,6 +46,7 @@ from scipy.interpolate import make_interp_spline
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import Placement
+from ocs_design.common.units import MILLIMETRES
 from ocs_design.device.bodies import carrier_placement, wheel_placement
 from ocs_design.device.device import Device
 from ocs_design.export.assembly.placed import placed_parts
@@ -55,9 +58,6 @@ from ocs_design.parts.carrier_plate import plate_bodies, plate_part
 from ocs_design.parts.outline import Arc
 from ocs_design.parts.shapes import Disc
 from ocs_design.parts.solids import Part, Prism, Relief, Revolution, Solid
-
-MILLIMETRES = 1000.0
-"""Units per metre: Open CASCADE's tolerances are made for millimetres."""
 
 DECIMALS = 10
 """Decimals of coordinates [mm]: else 30.4 mm would be written with sixteen digits."""

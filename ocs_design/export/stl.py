@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ocs_design.common.units import MILLIMETRES
 from ocs_design.device.device import Device, Flywheel
 from ocs_design.export.device_parts import metal_pieces, wheel_pieces
 from ocs_design.export.formats import Notes, Subject
@@ -16,8 +17,7 @@ from ocs_design.export.meshes import Mesh, merged, part_mesh
 from ocs_design.export.visuals import WHEEL_MESH, still_meshes
 
 METRES = 1.0
-MILLIMETRES = 1000.0
-"""Units per metre: millimetres for printing, metres for robot files."""
+"""Units per metre of the meshes of robot files."""
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 

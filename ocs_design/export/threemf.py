@@ -12,6 +12,7 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 import numpy as np
 
+from ocs_design.common.units import MILLIMETRES
 from ocs_design.export.device_parts import wheel_pieces
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Mesh
@@ -20,8 +21,6 @@ from ocs_design.export.templates import fill, template_text
 
 GAP = 0.01
 """Distance of parts on the printer's bed [m]."""
-
-_MILLIMETRES = 1000.0
 
 
 def write(subject: Subject, folder: Path) -> Notes:
@@ -39,7 +38,7 @@ def threemf_bytes(meshes: Mapping[str, Mesh]) -> bytes:
     for number, (name, mesh) in enumerate(meshes.items(), start=1):
         vertices = "\n".join(
             f'<vertex x="{x:.6f}" y="{y:.6f}" z="{z:.6f}"/>'
-            for x, y, z in _MILLIMETRES * mesh.vertices
+            for x, y, z in MILLIMETRES * mesh.vertices
         )
         triangles = "\n".join(
             f'<triangle v1="{first}" v2="{second}" v3="{third}"/>'
@@ -53,7 +52,7 @@ def threemf_bytes(meshes: Mapping[str, Mesh]) -> bytes:
         )
         # Side by side along x, none below the bed.
         low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
-        x, y, z = _MILLIMETRES * (np.array([left, 0.0, 0.0]) - low)
+        x, y, z = MILLIMETRES * (np.array([left, 0.0, 0.0]) - low)
         items.append(
             f'<item objectid="{number}" transform="1 0 0 0 1 0 0 0 1 {x:.6f} {y:.6f} {z:.6f}"/>'
         )

@@ -12,8 +12,9 @@ import pytest
 import trimesh
 from made_parts import HUB, ONE_PIECE, RIM_ALONE, TWO_PIECES
 
+from ocs_design.common.units import MILLIMETRES
 from ocs_design.export.meshes import part_mesh
-from ocs_design.export.stl import MILLIMETRES, stl_bytes
+from ocs_design.export.stl import stl_bytes
 from ocs_design.parts.wheel import HoleRing, Wheel, wheel_parts
 
 pytest.importorskip("ezdxf", reason="ezdxf is the extra [dxf]")

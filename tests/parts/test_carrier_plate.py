@@ -12,9 +12,10 @@ from hypothesis import strategies as st
 from naive_outline import flat_figures, green
 
 from ocs_design.actuation.fasteners import screw
+from ocs_design.common.units import MILLIMETRES
 from ocs_design.export.assembly.content import tightened
 from ocs_design.export.meshes import part_manifold, part_mesh
-from ocs_design.export.stl import MILLIMETRES, stl_bytes
+from ocs_design.export.stl import stl_bytes
 from ocs_design.parts.carrier_plate import (
     ALUMINIUM,
     STOCK,
