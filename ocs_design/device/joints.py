@@ -189,7 +189,7 @@ def _elastic(material: Material | None) -> tuple[float, float] | None:
 
 
 def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
-    """Stress of a wheel of one piece, or pressure, stresses and buckling of a shrink fit."""
+    """Stress of a wheel of one piece, or torque, stresses and buckling of a shrink fit."""
     wheel = device.flywheel
     rings, fit = wheel_rings(wheel), rim_fit(device)
     if rings is None:
@@ -206,15 +206,18 @@ def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
         strength = materials()[wheel.material].yield_strength
         yield Margin(WHEEL_STRESS, peak, strength, "Pa", note=note)
     elif fit is None:
-        yield Margin(RIM_JOINT, 0.0, None, "Pa", note="thermal expansions are not known")
+        yield Margin(RIM_JOINT, 0.0, None, "N m", note="thermal expansions are not known")
     else:
-        edges = (format_quantity(2.0 * each, "um", digits=3) for each in (fit.least, fit.most))
-        note = (
-            f"shrunk on, {', '.join(edges)} too narrow across; least pressure at {OVERSPEED:g} x "
-            f"top speed, {COLDEST:g} to {WARMEST:g} deg C, against what carries {SERVICE:g} x peak "
-            f"torque at a friction of {FRICTION:g}"
+        least, most = (
+            format_quantity(2.0 * each, "um", digits=3) for each in (fit.least, fit.most)
         )
-        yield Margin(RIM_JOINT, fit.needed, fit.held, "Pa", note=note)
+        note = (
+            f"shrunk on, {least} to {most} too narrow across; friction of {FRICTION:g} at the "
+            f"looser, at {OVERSPEED:g} x top speed or at rest, {COLDEST:g} to {WARMEST:g} deg C, "
+            f"against {SERVICE:g} x peak torque"
+        )
+        torque = SERVICE * (device.motor.torque_limit or 0.0)
+        yield Margin(RIM_JOINT, torque, fit.torque, "N m", note=note)
         for name, stress, material in (
             ("web of the shrink fit", fit.stress_web, web.material),
             ("rim of the shrink fit", fit.stress_rim, wheel.material),
@@ -276,6 +279,7 @@ def rim_fit(device: Device) -> ShrinkFit | None:
     if wheel.web is None or rings is None or wheel.web.material == wheel.material:
         return None
     inside, around = (materials()[name] for name in (wheel.web.material, wheel.material))
+    hub = wheel.web.hub
     if inside.thermal_expansion is None or around.thermal_expansion is None:
         return None
     return shrink_fit(
@@ -283,6 +287,7 @@ def rim_fit(device: Device) -> ShrinkFit | None:
         (inside.thermal_expansion, around.thermal_expansion),
         OVERSPEED * device.motor.top_speed,
         SERVICE * (device.motor.torque_limit or 0.0),
+        holes=hub.bolt_circle_radius if hub.bolts else None,
     )
 
 

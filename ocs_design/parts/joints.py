@@ -4,7 +4,7 @@ from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
-from math import floor, inf, pi
+from math import ceil, floor, inf, pi
 
 import numpy as np
 
@@ -310,8 +310,8 @@ class ShrinkFit:
 
     Attributes:
         least, most: radial interference at `MADE` [m].
-        needed: pressure that carries the torque [Pa].
-        held: least pressure, at the least interference, turning or not, cold or warm [Pa].
+        torque: that friction carries at the least pressure: at the least interference, turning or
+            not, cold or warm [N m].
         stress_web, stress_rim: largest, at the largest interference [Pa].
         squeezed: largest pressure on the web [Pa].
         buckling: pressure at which the web buckles [Pa].
@@ -319,8 +319,7 @@ class ShrinkFit:
 
     least: float
     most: float
-    needed: float
-    held: float
+    torque: float
     stress_web: float
     stress_rim: float
     squeezed: float
@@ -333,21 +332,28 @@ Stability, 2nd ed., section 9.1. The rim holds the web's edge, its hub stiffens 
 
 
 def shrink_fit(
-    rings: Sequence[Ring], expansions: tuple[float, float], speed: float, torque: float
+    rings: Sequence[Ring],
+    expansions: tuple[float, float],
+    speed: float,
+    torque: float,
+    *,
+    holes: float | None = None,
 ) -> ShrinkFit:
     """The loosest shrink fit that holds at that speed and at rest, cold and warm.
 
-    Web and rim grow by their expansions; bore and web are made to grade 6 each.
+    Web and rim grow by their expansions; bore and web are made to grade 6 each. Interferences are
+    whole micrometres across, as they are drawn.
 
     Args:
         rings: hub, web and rim, or web and rim.
         expansions: of web and rim [1/K].
         speed: that it holds at [rad/s].
-        torque: that it carries [N m].
+        torque: that it carries at least [N m].
+        holes: radius of the circle of the hub's screws [m]; None: it has none.
     """
     web = rings[-2]
     radius, joint = web.outer, len(rings) - 2
-    needed = torque / (2.0 * pi * radius**2 * web.thickness * FRICTION)
+    per_pressure = cylinder_torque(2.0 * radius, web.thickness, FRICTION)
     grown = [(expansions[0] - expansions[1]) * (at - MADE) * radius for at in (COLDEST, WARMEST)]
 
     def turning(interference: float, at: float) -> TurningRings:
@@ -357,18 +363,19 @@ def shrink_fit(
     # Pressure is linear in the interference.
     per_interference = turning(1e-6, 0.0).pressure(joint) / 1e-6
     loosest = min(turning(shift, at).pressure(joint) for shift in grown for at in (0.0, speed))
-    least = (SERVICE * needed - loosest) / per_interference
+    least = (torque / per_pressure - loosest) / per_interference
+    least = ceil(2e6 * least - 1e-6) / 2e6
     most = least + tolerance_width(2.0 * radius, Grade.IT6)
     states = [turning(most + shift, at) for shift in grown for at in (0.0, speed)]
+    inside = [state.peak(ring) for state in states for ring in range(joint + 1)]
+    if holes is not None:
+        inside += [state.peak_at_hole(0, holes) for state in states]
     stiffness = web.elastic_modulus * web.thickness**3 / (12.0 * (1.0 - web.poisson_ratio**2))
     return ShrinkFit(
         least=least,
         most=most,
-        needed=needed,
-        held=min(
-            turning(least + shift, at).pressure(joint) for shift in grown for at in (0.0, speed)
-        ),
-        stress_web=max(state.peak(ring) for state in states for ring in range(joint + 1)),
+        torque=per_pressure * (loosest + per_interference * least),
+        stress_web=max(inside),
         stress_rim=max(state.peak(joint + 1) for state in states),
         squeezed=max(state.pressure(joint) for state in states),
         buckling=_BUCKLING * stiffness / (radius**2 * web.thickness) if radius > 0.0 else inf,

@@ -147,9 +147,9 @@ class TurningRings:
         return float(np.sqrt(radial**2 - radial * hoop + hoop**2).max())
 
     def peak_at_hole(self, ring: int, radius: float) -> float:
-        """Largest stress at the edge of a small hole at a radius: 3 s_1 - s_2 (Kirsch) [Pa]."""
+        """Largest stress at the edge of a small hole at a radius: |3 s_1 - s_2| (Kirsch) [Pa]."""
         radial, hoop = (float(stress) for stress in self.stresses(ring, radius))
-        return max(3.0 * hoop - radial, 3.0 * radial - hoop)
+        return max(abs(3.0 * hoop - radial), abs(3.0 * radial - hoop))
 
 
 def ligament_efficiencies(web: Ring, count: int, circle: float, hole: float) -> tuple[float, float]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ocs_design.common.units import rpm
-from ocs_design.device.joints import SHAFT_JOINT, joints_of
+from ocs_design.device.joints import SHAFT_JOINT, joints_of, rim_fit
 from ocs_design.device.records.device import Margin
 from ocs_design.parts.joints import SERVICE
 from ocs_design.requirement.pivoted import StandUp
@@ -14,6 +14,7 @@ from ocs_design.requirement.resolving import Resolved
 from ocs_design.simulation.run import Run
 from ocs_design.sizing.margins import (
     BRAKE_TORQUE,
+    BRAKED_RIM,
     BRAKED_SHAFT,
     HOOP_STRESS,
     MOTOR_TORQUE,
@@ -103,6 +104,7 @@ def _brake_margins(
     """What a brake that grips the wheels, as the Cubli's does, asks of them and their joints."""
     device, drive = designed.device, designed.device.motor
     shaft = next((each for each in joints_of(device) if each.name == SHAFT_JOINT), None)
+    fit = rim_fit(device)
     for maneuver in resolved.requirement.maneuvers:
         plan = plans.get(maneuver.name)
         if not isinstance(maneuver, StandUp) or plan is None or not plan.spun:
@@ -119,6 +121,9 @@ def _brake_margins(
         if shaft is not None:
             note = f"{SERVICE:g} x what stops the rotor, {where}, by a brake that grips the wheel"
             rows.append(Margin(BRAKED_SHAFT, rotor, shaft.capacity, "N m", note=note))
+        if fit is not None:
+            note = f"{SERVICE:g} x the brake torque, should it not grip the rim itself"
+            rows.append(Margin(BRAKED_RIM, SERVICE * wheel, fit.torque, "N m", note=note))
         yield maneuver.name, tuple(rows)
 
 

@@ -19,6 +19,7 @@ from ocs_design.parts.joints import EPOXY
 from ocs_design.robot.meshes import lacks_mesh, unmeasured
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.margins import (
+    BRAKED_RIM,
     BRAKED_SHAFT,
     BUS_CURRENT,
     BUS_POWER,
@@ -43,6 +44,7 @@ CURES: Mapping[str, str] = {
     BUS_POWER + FED_BACK: _SUPPLY,
     HOOP_STRESS: "choose a stronger material (--material), or a slower motor",
     BRAKED_SHAFT: "choose a motor with a lighter rotor or with threads in it (--motor)",
+    BRAKED_RIM: "make the wheel in one piece (--web disc)",
     BEARING_MOMENT: "choose a motor with stronger bearings (--motor)",
 }
 """Margins whose capacity is not to be exceeded, by name, and what can be done.

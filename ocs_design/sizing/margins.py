@@ -243,7 +243,8 @@ def bearing_moment(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> Floa
 WHEEL_SPEED, MOTOR_SPEED, MOTOR_TORQUE = "wheel speed", "motor speed", "motor torque"
 BUS_CURRENT, BUS_POWER, HOOP_STRESS = "bus current", "bus power", "hoop stress"
 RMS_CURRENT = "rms current"
-BRAKE_TORQUE, BRAKED_SHAFT = "brake torque", "shaft joint, braked"
+BRAKE_TORQUE = "brake torque"
+BRAKED_SHAFT, BRAKED_RIM = "shaft joint, braked", "rim joint, braked"
 FED_BACK = ", fed back"
 """Words behind the name of what goes into the bus."""
 

@@ -7,9 +7,11 @@ import pytest
 from campaigns import calm_metrics
 from designed import MOTOR, designed
 
+from ocs_design.catalogue.materials import material
 from ocs_design.requirement.pivoted import StandUp
 from ocs_design.simulation.margins import record_margins
 from ocs_design.simulation.run import Run, Series
+from ocs_design.sizing.buildable import buildable_of
 from ocs_design.sizing.trajectory.motion import Trajectory
 from ocs_design.sizing.trajectory.plans import Reference
 
@@ -104,16 +106,22 @@ def test_wheels_without_a_motor_say_what_they_can():
     assert stress.margin == pytest.approx(device.device.flywheel.stress_margin)
 
 
-def test_a_brake_is_asked_of_the_wheel_and_of_what_holds_its_rotor():
-    """J W / t of the wheel, 1.5 J_r W / t of the rotor; the wheel turns fastest before it."""
-    task, found = designed()
+def braked(found):
+    """A stand-up by a brake from 400 rad/s, and margins of a design of Solo12's that makes it."""
+    task, _ = designed()
     edge = {"pivot": (0.0, 0.0, -0.24), "edge": (0.0, 1.0, 0.0)}
     up = StandUp(name="up", **edge, pitch=0.5, duration=1.0, actuation="brake")
     up = up.on(found.sized.total)
     asked = replace(task.resolved.requirement, maneuvers=(up,))
     plans = {"up": replace(planned(100.0), spun=400.0)}
     margins = record_margins(replace(task.resolved, requirement=asked), found, (), plans)
-    rows = {margin.name: margin for margin in margins}
+    return up, {margin.name: margin for margin in margins}
+
+
+def test_a_brake_is_asked_of_the_wheel_and_of_what_holds_its_rotor():
+    """J W / t of the wheel, 1.5 J_r W / t of the rotor; the wheel turns fastest before it."""
+    _, found = designed()
+    up, rows = braked(found)
     wheel, drive = found.device.flywheel, found.device.motor
     assert rows["wheel speed"].demand == 400.0
     assert rows["brake torque"].demand == pytest.approx(wheel.spin_inertia * 400.0 / up.stop)
@@ -122,3 +130,21 @@ def test_a_brake_is_asked_of_the_wheel_and_of_what_holds_its_rotor():
     assert held.capacity == rows["shaft joint"].capacity
     assert "from 3,820 rpm in 3.8 ms" in held.note
     assert held.scenario == "up"
+    assert "rim joint, braked" not in rows
+
+
+def test_a_brake_is_asked_of_a_shrink_fit_too():
+    """1.5 J W / t of the wheel, should the brake grip the web: more than its fit is made for."""
+    task, found = designed()
+    wheel, aluminium = found.device.flywheel, material("aluminium-6061-t6")
+    web = replace(wheel.web, material=aluminium.name, density=aluminium.density)
+    shrunk = replace(found.device, flywheel=replace(wheel, web=web))
+    found = replace(found, device=shrunk)
+    _, rows = braked(found)
+    held = rows["rim joint, braked"]
+    assert held.demand == pytest.approx(1.5 * rows["brake torque"].demand)
+    assert held.capacity == rows["rim joint"].capacity
+    assert held.margin < 1.0
+    opened = buildable_of(task.robot, found, tuple(rows.values()), None).open
+    (point,) = [point for point in opened if point.what.startswith("rim joint, braked")]
+    assert "--web disc" in point.cure

@@ -73,7 +73,7 @@ def test_what_is_used_up_to_the_last_is_not_exceeded(name, demand, yes):
 @pytest.mark.parametrize(
     ("joint", "words"),
     [
-        (Margin("rim joint", 2e6, 1e6, "Pa"), "rim joint: 2.0 MPa asked, 1.0 MPa held"),
+        (Margin("rim joint", 2.0, 1.0, "N m"), "rim joint: 2 N m asked, 1 N m held"),
         (
             Margin("shaft joint", 1.0, None, "N m", note="not in the catalogue"),
             "not in the catalogue",
