@@ -39,6 +39,7 @@ class MotorChoice:
         motors, gears, materials: the candidates.
         supply: of all motors.
         wheel_speed_max: specified highest speed of a wheel [rad/s]; None: what the drive can do.
+        torque_max: specified largest torque of a wheel [N m]; inf: not limited. Gears have it too.
     """
 
     motors: tuple[Motor, ...]
@@ -46,6 +47,12 @@ class MotorChoice:
     materials: tuple[Material, ...]
     supply: Supply
     wheel_speed_max: float | None
+    torque_max: float
+
+    @property
+    def direct(self) -> Gear:
+        """No gear, with the specified torque limit."""
+        return replace(DIRECT, torque_max=self.torque_max)
 
 
 def motor_choice(specification: Specification, robot: Robot) -> MotorChoice | None:
@@ -73,6 +80,7 @@ def motor_choice(specification: Specification, robot: Robot) -> MotorChoice | No
         else (material(named),),
         supply=supply,
         wheel_speed_max=specification.requirement.wheel_speed_max,
+        torque_max=limit,
     )
 
 

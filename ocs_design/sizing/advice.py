@@ -397,9 +397,11 @@ def needed_motor(problem: SelectionProblem, model: Motor) -> NeededMotor | None:
     if not (torque > 0.0 and np.isfinite(momentum) and largest > 0.0):
         return None
 
+    direct = next((gear for gear in problem.gears if gear.room is None), DIRECT)
+
     def does(built: Motor, speed: float, peak: float) -> bool:
         motor = _scaled(built, peak, speed, problem.bus_voltage)
-        return Field.of(replace(problem, motors=(motor,), gears=(DIRECT,))).possible
+        return Field.of(replace(problem, motors=(motor,), gears=(direct,))).possible
 
     for denser in _DENSER:
         own, found = replace(model, peak_torque=denser * model.peak_torque), []

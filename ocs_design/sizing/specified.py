@@ -1,13 +1,12 @@
 """The selection's problem that a specification poses, and its layout, criterion, webs and cuts."""
 
-from collections.abc import Sequence
 from dataclasses import replace
 from math import inf, isfinite
 
 import numpy as np
 
 from ocs_design.actuation.drive import speed_limit
-from ocs_design.actuation.motor import DIRECT, Motor, Mounting
+from ocs_design.actuation.motor import Motor, Mounting
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_load import held, without_each
 from ocs_design.catalogue.materials import material
@@ -76,20 +75,21 @@ def selection_problem(task: Task) -> SelectionProblem | None:
         else None,
         lightenings=specified_lightenings(specification.flywheel),
     )
-    return on_bells(problem, choice.motors) if stated.wheel == RING else problem
+    return on_bells(problem, choice) if stated.wheel == RING else problem
 
 
-def on_bells(problem: SelectionProblem, motors: Sequence[Motor]) -> SelectionProblem:
-    """The problem with rings around the bells of those of these motors that have one.
+def on_bells(problem: SelectionProblem, choice: MotorChoice) -> SelectionProblem:
+    """The problem with rings around the bells of those motors that have one, on direct drive.
 
     Raises:
         UsageError: none has.
     """
-    belled = tuple(motor for motor in motors if bell_of(motor) is not None)
+    belled = tuple(motor for motor in choice.motors if bell_of(motor) is not None)
     if not belled:
-        some = ", ".join(motor.name for motor in motors[:_NAMED])
+        some = ", ".join(motor.name for motor in choice.motors[:_NAMED])
+        more = " ..." if len(choice.motors) > _NAMED else ""
         raise UsageError(
-            f"no ring fits around the bell of {some}{' ...' if len(motors) > _NAMED else ''}: it "
+            f"no ring fits around the bell of {some}{more}: it "
             "takes an outrunner that is screwed on by its back, of known diameter and length, with "
             "a bell longer than its shaft stands out",
             hint="Name another motor with --motor, or leave out --wheel ring.",
@@ -97,7 +97,7 @@ def on_bells(problem: SelectionProblem, motors: Sequence[Motor]) -> SelectionPro
     return replace(
         problem,
         motors=belled,
-        gears=(DIRECT,),
+        gears=(choice.direct,),
         web=False,
         on_bell=True,
         web_material=None,
@@ -120,7 +120,7 @@ def other_construction(task: Task, problem: SelectionProblem) -> SelectionProble
             lightenings=specified_lightenings(flywheel),
         )
     try:
-        return on_bells(problem, choice.motors)
+        return on_bells(problem, choice)
     except UsageError:
         return None
 

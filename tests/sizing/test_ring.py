@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from designed import design_of
+from fronts import by_hand
 from part_gaps import overlap_volume, turning_clearance
 
 from ocs_design.catalogue.materials import material
@@ -22,6 +23,7 @@ from ocs_design.parts.motor_mount import mount_of
 from ocs_design.parts.printed import CLEARANCE
 from ocs_design.requirement.device_sections import FlywheelSection, MotorSection, OcsSection
 from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.sweep import Task
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.sizing.alternatives import built_otherwise
 from ocs_design.sizing.lightest_module import lightest_module
@@ -29,6 +31,7 @@ from ocs_design.sizing.limits import TIME
 from ocs_design.sizing.selection.candidates import Candidates, drives_of
 from ocs_design.sizing.selection.problem import of_parts, with_limit
 from ocs_design.sizing.selection.select import lightest_by
+from ocs_design.sizing.specified import selection_problem
 
 MORE_TIME = 1.2
 """Factor with which no bond limits the ring."""
@@ -63,6 +66,13 @@ def test_it_is_around_the_bell_within_its_straight_part_and_its_joints_hold():
     assert all(joint.margin >= 1.0 for joint in joints_of(designed.device))
     assert balance_of(designed.device).off_centre > GLUE_GAP
     assert not balance_of(designed.device).shifted
+
+
+def test_a_specified_torque_limit_holds_for_rings_as_for_discs():
+    for wheel in ("ring", "disc"):
+        specified = Specification(motor=MotorSection(torque_max=0.01), ocs=OcsSection(wheel=wheel))
+        problem = selection_problem(Task.of(specified, by_hand().robot))
+        assert {gear.torque_max for gear in problem.gears} == {0.01}
 
 
 def test_the_rotor_counts():
