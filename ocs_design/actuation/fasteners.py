@@ -43,6 +43,11 @@ class Screw:
         # Nothing that is sized asks for one beyond them.
         return 1e-3 * next(long_enough, 20 * ceil(least / 20.0 - 1e-9))
 
+    @property
+    def usual_length(self) -> float:
+        """Longest in which it is commonly sold, ten times its diameter (ISO 4762, table 1) [m]."""
+        return 10.0 * self.diameter
+
     def designation(self, length: float) -> str:
         """Designation of a screw of this length [m]."""
         return f"ISO 4762 {self.name} x {1e3 * length:.0f}"

@@ -198,7 +198,11 @@ def _screw_row(held: Fastening, modules: int) -> BillRow:
     """Equal screws of that many modules."""
     name, count = f"screw {held.designation}", modules * held.count
     source = f"mass from its dimensions in ISO 4762, steel of {STEEL:g} kg/m^3"
-    return BillRow(name, count, "steel", "", held.screw.mass(held.length), held.purpose, source)
+    remark, kind = held.purpose, held.screw
+    if held.length > kind.usual_length + 1e-9:
+        usual = f"{1e3 * kind.usual_length:.0f} mm, ISO 4762"
+        remark += f"; longer than {kind.name} is usually sold ({usual}): a special order"
+    return BillRow(name, count, "steel", "", kind.mass(held.length), remark, source)
 
 
 def _unweighed_rows(device: Device, margins: Sequence[Margin]) -> Iterator[BillRow]:

@@ -191,6 +191,15 @@ def test_a_screw_reaches_as_deep_as_it_is_thick(name, thickness, designation):
     assert found.designation(found.length_through(thickness)) == designation
 
 
+@pytest.mark.parametrize(
+    ("name", "millimetres"),
+    [("M2", 20), ("M2.5", 25), ("M3", 30), ("M4", 40), ("M5", 50), ("M6", 60), ("M8", 80)],
+)
+def test_the_longest_that_is_commonly_sold(name, millimetres):
+    """The end of the range of commercial lengths of each size: ISO 4762:2004, table 1."""
+    assert screw(name).usual_length == pytest.approx(1e-3 * millimetres)
+
+
 def test_threads_in_plastic_are_twice_as_deep():
     assert screw("M2").length_through(0.0016, IN_PLASTIC) == 0.006
 

@@ -68,6 +68,22 @@ def test_a_wheel_of_one_material_is_one_part_with_all_its_holes():
     assert "web 1.50 with 6 lightening holes 19.00 on a circle of 46.60" in row.remark
 
 
+def test_a_screw_that_is_longer_than_usual_is_a_special_order():
+    """M3 through 3 mm of plate and a sleeve: 24 mm take M3 x 30, 24.1 mm M3 x 35."""
+    device = DEVICES["on a plate"]
+
+    def trunk_screws(sleeve):
+        plate = replace(device.plate, sleeves=(sleeve,) * 4)
+        rows = bill_rows(replace(device, plate=plate))
+        return next(row for row in rows if row.remark.startswith("plate on trunk"))
+
+    usual, long = trunk_screws(0.024), trunk_screws(0.0241)
+    assert usual.part == "screw ISO 4762 M3 x 30"
+    assert "special" not in usual.remark
+    assert long.part == "screw ISO 4762 M3 x 35"
+    assert long.remark.endswith("longer than M3 is usually sold (30 mm, ISO 4762): a special order")
+
+
 def test_only_what_the_device_holds_is_listed():
     assert [row.part for row in bill_rows(paper_device())] == ["flywheel rim"]
     bare = driven_device(carrier=replace(EC45_BODY, mass=EC45.mass))
