@@ -297,17 +297,26 @@ def refusal(robot: Found) -> tuple[str, str, str]:
 
 
 def verdict(found: list[Found]) -> str:
-    """How many robots the flights show to fall short of 99 %."""
-    flown = [robot.flown["monte_carlo"]["success"] for robot in found if robot.samples]
-    short = sum(success["high"] < RELIABILITY for success in flown)
-    samples = sum(success["flown"] for success in flown)
+    """Which robots the flights show to fall short of 99 %."""
+    flown = {robot.name: robot.flown["monte_carlo"]["success"] for robot in found if robot.samples}
+    short = [name for name, success in flown.items() if success["high"] < RELIABILITY]
+    samples = sum(success["flown"] for success in flown.values())
     return (
-        f"Of {len(flown)} devices, flown {samples:,} times in all, the interval of {short} lies "
-        f"below 99 %.\n"
+        f"Of {len(flown)} devices, flown {samples:,} times in all, the interval of {len(short)} "
+        f"lies below 99 %{': ' if short else ''}{', '.join(short)}.\n"
     )
 
 
+def built(found: list[Found]) -> str:
+    """How many get a device that can be built, and the lightest and the heaviest of these."""
+    there = [each for each in found if not each.refused and each.sized["buildable"]["yes"]]
+    masses = [(each.sized["ocs"]["mass_total"], each.name) for each in there]
+    least, most = (f"{grams(mass)} ({name})" for mass, name in (min(masses), max(masses)))
+    return f"{len(there)} of {len(found)} can be built, of {least} to {most}.\n"
+
+
 TABLES: Mapping[str, Callable[[list[Found]], str]] = {
+    "built": built,
     "verdict": verdict,
     "devices": devices,
     "others": devices,

@@ -11,6 +11,7 @@ from urllib.parse import urlsplit
 
 import pytest
 import typer
+from products import CASES
 from scripts import script_at
 
 import ocs_design
@@ -191,6 +192,15 @@ def test_files_of_the_package_that_a_page_names_are_there(page):
     named = re.findall(r"`([a-z_]+/[a-z_/]+\.py)`", page.read_text())
     homes = ROOT, ROOT / "ocs_design", ROOT / "docs"
     assert [name for name in named if not any((home / name).is_file() for home in homes)] == []
+
+
+def test_every_file_that_size_writes_is_on_the_page_of_the_output():
+    """Charts and time series by their folder, as charts and maneuvers name them."""
+    text = (DOCS / "output.md").read_text()
+    for file in CASES["motor"].files:
+        folder, name = file.rsplit("/", 1)
+        known = f"{folder}/" if folder in ("figures", "validation") else name
+        assert known.replace("solo12_ocs", "<name>_ocs") in text, file
 
 
 def test_every_reference_of_the_theory_is_listed():

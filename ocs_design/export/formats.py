@@ -148,16 +148,26 @@ class Format:
 
 
 FORMATS = (
-    Format("stl", "wheel as meshes", "cad", "stl"),
+    Format("stl", "wheel and what else is of metal, as meshes", "cad", "stl"),
     Format(
         "bom", "parts list with stock and masses", "cad", "bill_of_materials", needs_margins=True
     ),
     Format(
-        "drawing", "technical drawing of the wheel, drilling template", "cad", "drawing.wheel_sheet"
+        "drawing",
+        "technical drawings of wheel and plate, drilling template",
+        "cad",
+        "drawing.wheel_sheet",
     ),
     Format("3mf", "wheel for slicers", "cad", "threemf", on_request=True),
     Format("step", "exact parts", "cad", "step", on_request=True, library="OCP"),
-    Format("dxf", "wheel in the plane", "cad", "dxf", on_request=True, library="ezdxf"),
+    Format(
+        "dxf",
+        "wheel and plate in the plane, drilling template",
+        "cad",
+        "dxf",
+        on_request=True,
+        library="ezdxf",
+    ),
     Format("printed", "housing, foot and cage for printing", "cad", "printed"),
     Format(
         "assembly", "how to build it, step by step", "cad", "assembly.booklet", needs_margins=True

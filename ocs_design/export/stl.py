@@ -23,7 +23,7 @@ _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute
 
 
 def write(subject: Subject, folder: Path) -> Notes:
-    """Write the wheel, or each of its pieces, plate and guard ring, in mm."""
+    """Write the wheel, or each of its pieces, plate, mast, block and guard ring, in mm."""
     others = {name: part_mesh(part) for name, part in metal_pieces(subject.device).items()}
     for name, mesh in {**wheel_meshes(subject.device.flywheel), **others}.items():
         (folder / f"{name}.stl").write_bytes(stl_bytes(mesh, name))
