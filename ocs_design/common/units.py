@@ -136,7 +136,7 @@ def parse_quantity(value: object, dimension: Dimension, where: str) -> float:
             `LARGEST`.
     """
     if isinstance(value, str):
-        match = _QUANTITY.fullmatch(value) if len(value) <= LONGEST_QUANTITY else None
+        match = _matched(value) if len(value) <= LONGEST_QUANTITY else None
         if match is None:
             shown = value if len(value) <= LONGEST_QUANTITY else f"{value[:LONGEST_QUANTITY]}..."
             empty, what = not value.strip(), f"{shown!r} is not a finite number with a unit"
@@ -171,10 +171,15 @@ def parse_positive(text: str, dimension: Dimension, option: str) -> float:
     return value
 
 
-def written_unit(value: object, dimension: Dimension) -> str:
-    """The unit that a readable `value` was written in; a bare number's is that of SI."""
-    match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
-    return (match and match[2]) or si_unit(dimension)
+def written_unit(value: object) -> str:
+    """The unit that a readable `value` was written in; empty for a bare number."""
+    match = _matched(value) if isinstance(value, str) else None
+    return match[2] if match else ""
+
+
+def _matched(text: str) -> re.Match[str] | None:
+    """A number and what is behind it; word processors write a minus sign for the hyphen."""
+    return _QUANTITY.fullmatch(text.replace("\N{MINUS SIGN}", "-"))
 
 
 def si_unit(dimension: Dimension) -> str:

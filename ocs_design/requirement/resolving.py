@@ -9,7 +9,14 @@ from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import DEFAULT_MATERIAL, Material, material
 from ocs_design.common.errors import RobotError, SpecificationError, UsageError
 from ocs_design.common.files import AnyPath
-from ocs_design.common.units import STANDARD_GRAVITY, format_quantity, rpm, to_unit
+from ocs_design.common.units import (
+    STANDARD_GRAVITY,
+    Dimension,
+    format_quantity,
+    rpm,
+    si_unit,
+    to_unit,
+)
 from ocs_design.requirement.checks import contradictions, unfit_for_robot
 from ocs_design.requirement.choices import (
     POWER_PER_MASS,
@@ -42,6 +49,7 @@ from ocs_design.requirement.sections import RequirementSection, RobotSection, Va
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.requirement.uncertainty import default_uncertainty
+from ocs_design.requirement.values import JointValue
 from ocs_design.requirement.vocabulary import (
     ALUMINIUM_WEB,
     AUTO,
@@ -62,6 +70,7 @@ from ocs_design.robot.mass import impossible_size
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.recognition import question_about
 from ocs_design.robot.robot import Robot
+from ocs_design.robot.tree import JointKind
 
 
 def default_specification(
@@ -127,6 +136,7 @@ def read_specified_robot(
             joints=stated.joints or {},
             package_paths=package_paths,
         )
+        _check_units(stated.joints or {}, robot)
         impossible = impossible_size(robot.mass_properties) if sure else None
         if impossible is not None:
             raise RobotError(
@@ -173,6 +183,20 @@ def read_specified_robot(
             "--strict: " + "; ".join(robot.warnings), hint="mend the files of robot and motors"
         )
     return robot
+
+
+def _check_units(joints: Mapping[str, float], robot: Robot) -> None:
+    """Refuse lengths for joints that turn, and angles for those that slide."""
+    for name, value in joints.items():
+        written = value.dimension if isinstance(value, JointValue) else None
+        slides = robot.tree.joints[name].kind is JointKind.PRISMATIC
+        if written is (Dimension.ANGLE if slides else Dimension.LENGTH):
+            does, fit = ("slides", "30mm") if slides else ("turns", "10deg")
+            raise UsageError(
+                f"joint {name!r} {does}, and its value {value:.4g} {si_unit(written)} is of "
+                f"{written}",
+                hint=f"give it as in {name}={fit}",
+            )
 
 
 @dataclass(frozen=True, eq=False)

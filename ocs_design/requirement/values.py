@@ -113,12 +113,12 @@ class Quantity:
             raise QuantityError(f"{where}: {raw} is next to nothing", hint="Check its unit.")
         if abs(number) > self.most:
             # In the unit that it was written in; a bare number's is named.
-            unit = written_unit(raw, self.dimension)
+            unit = written_unit(raw) or si_unit(self.dimension)
             limit = format_quantity(math.copysign(self.most, number), unit)
-            given = f"{raw} {unit}" if _is_bare(raw) else raw
+            given = raw if written_unit(raw) else f"{raw} {unit}"
             beyond = "above" if number > 0.0 else "below"
             raise QuantityError(f"{where}: {given} is {beyond} {limit}", hint=self._hint(raw))
-        if abs(number) > self.most_bare and _is_bare(raw):
+        if abs(number) > self.most_bare and not written_unit(raw):
             raise QuantityError(
                 f"{where}: {raw} without a unit is {raw} {si_unit(self.dimension)}",
                 hint=f"{self._hint(raw)} Give the number with its unit.",
@@ -127,12 +127,8 @@ class Quantity:
 
     def _hint(self, raw: object) -> str:
         """The cure where a bare number was meant in another unit."""
-        return f"Did you mean {raw}{self.likely}?" if _is_bare(raw) and self.likely else ""
-
-
-def _is_bare(raw: object) -> bool:
-    """Whether a number was given without a unit."""
-    return str(raw).strip()[-1] in "0123456789."
+        bare = not written_unit(raw)
+        return f"Did you mean {raw}{self.likely}?" if bare and self.likely else ""
 
 
 @dataclass(frozen=True)
@@ -379,8 +375,24 @@ def true_or_false(raw: object, where: str) -> bool:
     raise SpecificationError(f"{where}: {shortened(raw)} is neither true nor false")
 
 
+class JointValue(float):
+    """Value of a joint [rad or m].
+
+    Attributes:
+        dimension: of the unit that it was written with; None for a bare number.
+    """
+
+    dimension: Dimension | None
+
+    def __new__(cls, value: float, dimension: Dimension | None = None) -> "JointValue":
+        """A number that knows its dimension."""
+        made = super().__new__(cls, value)
+        made.dimension = dimension
+        return made
+
+
 @form("table of joint = angle or length")
-def joint_values(raw: object, where: str) -> Mapping[str, float]:
+def joint_values(raw: object, where: str) -> Mapping[str, JointValue]:
     """Values of joints by name: angles, or lengths where a unit of length says so.
 
     A table, or texts `NAME=VALUE` from the command line.
@@ -400,15 +412,20 @@ def joint_values(raw: object, where: str) -> Mapping[str, float]:
         raise SpecificationError(
             f"{where}: {shortened(raw)} is not a table, as in {{ hip = '10deg' }}"
         )
-    found: dict[str, float] = {}
+    found: dict[str, JointValue] = {}
     for name, value in table.items():
         place = f"{where}.{name}"
         try:
             length = parse_quantity(value, Dimension.LENGTH, place)
         except QuantityError:
-            found[name] = parse_quantity(value, Dimension.ANGLE, place)
+            angle = parse_quantity(value, Dimension.ANGLE, place)
+            found[name] = JointValue(angle, Dimension.ANGLE)
         else:
-            found[name] = _BARE_JOINT.read(value, place) if _is_bare(value) else length
+            found[name] = (
+                JointValue(length, Dimension.LENGTH)
+                if written_unit(value)
+                else JointValue(_BARE_JOINT.read(value, place))
+            )
     return found
 
 

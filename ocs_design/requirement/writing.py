@@ -20,7 +20,15 @@ from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.phrases import About, Climb, Kick, Person, Pivot, Tilt
 from ocs_design.requirement.specification import SECTIONS, Specification, all_keys, with_files
 from ocs_design.requirement.uncertainty import Distribution, Spread
-from ocs_design.requirement.values import ONE_TURN, Quantities, Quantity, Several, Value, WordOr
+from ocs_design.requirement.values import (
+    ONE_TURN,
+    JointValue,
+    Quantities,
+    Quantity,
+    Several,
+    Value,
+    WordOr,
+)
 
 PEOPLE_UNITS: Mapping[Dimension, str] = {
     Dimension.LENGTH: "mm",
@@ -133,11 +141,13 @@ def _plain(value: object) -> str:
             # NumPy's own floats are floats too, and call themselves by their type.
             return repr(float(value))
         case Mapping():
-            # A bare number beyond a turn would be taken for degrees, and refused.
-            joints = {
-                name: _plain(entry) if abs(entry) <= ONE_TURN else _text(f"{float(entry)!r} rad")
-                for name, entry in value.items()
-            }
+            joints = {}
+            for name, entry in value.items():
+                dimension = entry.dimension if isinstance(entry, JointValue) else None
+                # A bare number beyond a turn would be taken for degrees, and refused.
+                bare = dimension is None and abs(entry) <= ONE_TURN
+                unit = si_unit(dimension or Dimension.ANGLE)
+                joints[name] = _plain(entry) if bare else _text(f"{float(entry)!r} {unit}")
             pairs = ", ".join(f"{_text(name)} = {entry}" for name, entry in joints.items())
             return f"{{ {pairs} }}"
         case _:

@@ -127,12 +127,12 @@ def leader_of(
     """
     for index in np.flatnonzero(model.eq_type == mujoco.mjtEq.mjEQ_JOINT):
         leader = int(model.eq_obj2id[index])
-        if model.eq_obj1id[index] != joint or leader < 0 or not model.eq_active0[index]:
+        if model.eq_obj1id[index] != joint or not model.eq_active0[index]:
             continue
         constant, slope, *curved = model.eq_data[index, :5]
-        if np.any(curved):
-            name = model.joint(joint).name
-            warnings.add("joints that follow another by a curve, read as free", name)
+        if leader < 0 or np.any(curved):
+            how = "are held by an equality" if leader < 0 else "follow another by a curve"
+            warnings.add(f"joints that {how}, read as free", model.joint(joint).name)
             continue
         offset = constant + _reference(model, joint) - slope * _reference(model, leader)
         return model.joint(leader).name, float(slope), float(offset)
@@ -277,6 +277,8 @@ def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) ->
         principal = MassProperties(float(model.body_mass[body]), np.zeros(3), moments)
         axes = rotation_from_quaternion(model.body_iquat[body])
         weighed = principal.moved(axes, model.body_ipos[body])
+        if model.body_gravcomp[body] != 0.0:
+            warnings.add("bodies that gravity does not pull (gravcomp), in flights it does", name)
         links[name] = Link(name, weighed, (*shapes_of(model, body), *unseen))
         for connection in connections_to(model, body, warnings) if body != base else ():
             children.setdefault(connection.parent, []).append(connection)

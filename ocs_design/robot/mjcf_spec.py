@@ -88,8 +88,10 @@ def embed_assets(
         lost: takes what that leaves out.
     """
     of_meshes: list[Asset] = [*spec.meshes, *spec.skins, *spec.hfields]
-    assets = [(each, spec.meshdir) for each in of_meshes]
-    assets += [(each, spec.texturedir) for each in spec.textures]
+    assets = [(each, each.compiler.meshdir) for each in of_meshes]
+    assets += [(each, each.compiler.texturedir) for each in spec.textures]
+    # Those of an attached model have that model's rules.
+    rules = [spec.compiler, *(each.compiler for each, _ in assets)]
     names: dict[Path, str] = {}
     for asset, subfolder in assets:
         missing = _embed(spec, asset, folder / subfolder, names)
@@ -113,7 +115,8 @@ def embed_assets(
             for geom in [geom for geom in spec.geoms if geom.hfieldname == asset.name]:
                 delete_geom(spec, geom)
         spec.delete(asset)
-    spec.meshdir = spec.texturedir = ""
+    for each in rules:
+        each.meshdir = each.texturedir = ""
     spec.strippath = False
 
 
@@ -166,9 +169,11 @@ def parse_mjcf(
     """
     root = parse_xml(content, warnings)
     _expand_includes(root, folder, seen=set())
+    models: dict[str, bytes] = {}
+    _read_models(root, folder, models)
     try:
         with mujoco_warnings_to(warnings):
-            spec = mujoco.MjSpec.from_string(ET.tostring(root, encoding="unicode"))
+            spec = mujoco.MjSpec.from_string(ET.tostring(root, encoding="unicode"), include=models)
     except ValueError as error:
         raise mujoco_refusal(error) from error
     # Bodies that are fused lose their names, and the trunk may be one of them.
@@ -215,27 +220,60 @@ def _expand_includes(parent: ET.Element, folder: Path, seen: set[Path]) -> None:
             _expand_includes(child, folder, seen)
             continue
         path = folder / child.get("file", "")
-        if not is_below(path, roots_of(folder / "model.xml")):
-            raise RobotError(
-                f"the included file {path} lies outside of the model's folder and repository",
-                hint="put it into the model's folder",
-            )
+        included = _read_part(path, folder, "included file")
         if path.resolve() in seen:
             raise RobotError(
                 f"{path} is included twice", hint="MJCF allows each file to be included once"
             )
         seen.add(path.resolve())
-        try:
-            included = parse_xml(read_plain_file(path, MAX_BYTES))
-        except OSError as error:
-            raise RobotError(
-                f"the included file {path} cannot be read: {error.strerror}",
-                hint="keep the model's files together; a model from standard input "
-                "finds its includes in the current folder",
-            ) from error
-        except RobotError as error:
-            message = f"the included file {path}: {error.message}"
-            raise RobotError(message, hint=error.hint) from error
         _expand_includes(included, folder, seen)
         place = list(parent).index(child)
         parent[place : place + 1] = list(included)
+
+
+def _read_models(root: ET.Element, folder: Path, models: dict[str, bytes]) -> None:
+    """Read the models that a model attaches, which then are named as they are in `models`.
+
+    Their own files are named with their folders, for they are not relative to the whole model's.
+    """
+    for asset in root.findall("asset/model"):
+        path = folder / asset.get("file", "")
+        attached = _read_part(path, folder, "attached model")
+        name = unused_name(path.stem, path.suffix, models)
+        models[name] = b""
+        if len(models) > _MOST_ATTACHED:
+            raise RobotError(
+                f"more than {_MOST_ATTACHED} models are attached: does {path.name} hold itself?",
+                hint="no <model> may name a file that it is part of",
+            )
+        _expand_includes(attached, path.parent, seen=set())
+        _read_models(attached, path.parent, models)
+        for rules in attached.findall("compiler"):
+            for kind in {"assetdir", "meshdir", "texturedir"} & set(rules.attrib):
+                rules.set(kind, str(path.parent / rules.get(kind, "")))
+        attached.insert(0, ET.Element("compiler", assetdir=str(path.parent)))
+        models[name] = ET.tostring(attached)
+        asset.set("file", name)
+
+
+_MOST_ATTACHED = 100
+"""Largest number of models that a model is put together from."""
+
+
+def _read_part(path: Path, folder: Path, what: str) -> ET.Element:
+    """The root element of a file that a model in `folder` names."""
+    if not is_below(path, roots_of(folder / "model.xml")):
+        raise RobotError(
+            f"the {what} {path} lies outside of the model's folder and repository",
+            hint="put it into the model's folder",
+        )
+    try:
+        return parse_xml(read_plain_file(path, MAX_BYTES))
+    except OSError as error:
+        raise RobotError(
+            f"the {what} {path} cannot be read: {error.strerror}",
+            hint="keep the model's files together; a model from standard input "
+            "finds its includes in the current folder",
+        ) from error
+    except RobotError as error:
+        raise RobotError(f"the {what} {path}: {error.message}", hint=error.hint) from error

@@ -42,6 +42,9 @@ def add_missing_feet(spec: mujoco.MjSpec, model: mujoco.MjModel, robot: Robot) -
             type=mujoco.mjtGeom.mjGEOM_SPHERE,
             size=[leg.foot_radius or _FOOT_SHARE * leg.length, 0.0, 0.0],
             pos=link.point(leg.foot),
+            # In the file's defaults geoms may be there to look at only.
+            contype=1,
+            conaffinity=1,
         )
 
 

@@ -65,10 +65,11 @@ class MeshFinder:
 
     def __call__(self, name: str) -> Path | None:
         """The file, or None if it is not there."""
-        scheme, separator, rest = name.strip().partition("://")
+        address = _forward(name)
+        scheme, separator, rest = address.partition("://")
         candidates: list[Path] = []
         if not separator:
-            candidates = [self.folder / name.strip()]
+            candidates = [self.folder / address]
         elif scheme == "file":
             candidates = [self.folder / unquote(rest)]
         elif scheme in _PACKAGED:
@@ -95,7 +96,7 @@ class MeshFinder:
         """
         first: dict[str, str] = {}
         for name in self.missing:
-            scheme, _, rest = name.strip().rpartition("://")
+            scheme, _, rest = _forward(name).rpartition("://")
             package, _, inside = rest.partition("/") if scheme in _PACKAGED else ("", "", rest)
             first.setdefault(package, unquote(inside))
         cures = []
@@ -140,6 +141,11 @@ class MeshFinder:
             yield above / package
             if above.name == package:
                 yield above
+
+
+def _forward(name: str) -> str:
+    """A mesh's name as it would be written outside of Windows."""
+    return name.strip().replace("\\", "/")
 
 
 def _environment_paths(variable: str) -> list[Path]:

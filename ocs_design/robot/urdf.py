@@ -14,6 +14,7 @@ import numpy as np
 
 from ocs_design.common.errors import RobotError
 from ocs_design.common.frames import Placement, rotation_from_rpy
+from ocs_design.common.quaternions import rotation_from_quaternion
 from ocs_design.common.wording import some_of
 from ocs_design.robot.links import (
     Children,
@@ -164,8 +165,23 @@ def read_origin(parent: ET.Element, where: str) -> Placement:
     """Placement that the `<origin>` of an element states; the identity without one."""
     origin = parent.find("origin")
     xyz = numbers(origin, "xyz", where, (0.0, 0.0, 0.0))
-    rpy = numbers(origin, "rpy", where, (0.0, 0.0, 0.0))
-    return Placement(rotation_from_rpy(*rpy), xyz)
+    if origin is not None and _QUATERNION in origin.attrib:
+        if "rpy" in origin.attrib:
+            raise RobotError(
+                f"{where}: an <origin> has both rpy and {_QUATERNION}", hint="remove one of them"
+            )
+        x, y, z, w = numbers(origin, _QUATERNION, where, (0.0, 0.0, 0.0, 1.0))
+        if not any((x, y, z, w)):
+            raise RobotError(
+                f"{where}: {_QUATERNION} of <origin> is all zero",
+                hint=f'no turn is {_QUATERNION}="0 0 0 1"',
+            )
+        return Placement(rotation_from_quaternion([w, x, y, z]), xyz)
+    return Placement(rotation_from_rpy(*numbers(origin, "rpy", where, (0.0, 0.0, 0.0))), xyz)
+
+
+_QUATERNION = "quat_xyzw"
+"""Attribute in place of `rpy` since version 1.1 (ros/urdfdom, urdf_parser/src/pose.cpp)."""
 
 
 def _read_shapes(
@@ -266,6 +282,8 @@ def _read_joint(element: ET.Element, name: str, kind: str, warnings: Warnings) -
         if kind != "continuous":
             lower = number(limit, "lower", where, default=0.0)
             upper = number(limit, "upper", where, default=0.0)
+    elif kind != "continuous":
+        warnings.add("joints without a <limit>, which ROS refuses, read as without limits", name)
     if lower >= upper:
         warnings.add(
             "joints whose lower limit is not below the upper, read as without limits", name
@@ -325,6 +343,8 @@ def read_urdf(content: bytes, *, find_mesh: FindMesh) -> Tree:
         )
     if is_xacro(root):
         raise unexpanded_xacro()
+    if root.get("version", "1.0") == "1.0":
+        _ignore_quaternions(root, warnings)
     palette, elements = read_palette(root), root.findall("link")
     check_number_of_links(len(elements))
     if not elements:
@@ -349,6 +369,17 @@ def read_urdf(content: bytes, *, find_mesh: FindMesh) -> Tree:
         if angles and np.abs(angles).max() > _MOST_TURNED:
             warnings.add("frames turned by more than two turns: angles in degrees?", name)
     return make_tree(root.get("name") or base, base, links, children, warnings)
+
+
+def _ignore_quaternions(root: ET.Element, warnings: Warnings) -> None:
+    """Do as ROS does with a file of version 1.0, which knows none."""
+    for part in root:
+        for origin in part.iter("origin"):
+            if origin.attrib.pop(_QUATERNION, None) is not None:
+                warnings.add(
+                    f'{_QUATERNION} without version="1.1" of <robot>, ignored as in ROS',
+                    part.get("name", ""),
+                )
 
 
 def is_xacro(root: ET.Element) -> bool:

@@ -66,6 +66,9 @@ def robot_scene(robot: Robot) -> mujoco.MjSpec:
     # The robot's own control has no part in the flights.
     for element in [*spec.actuators, *spec.sensors, *spec.keys]:
         spec.delete(element)
+    # Nor what stands in for such a control: only the floor bears the robot's weight.
+    for body in spec.bodies[1:]:
+        body.gravcomp = 0.0
     add_floor(spec)
     add_drives(spec, robot)
     hold_other_joints(spec, robot)

@@ -16,6 +16,7 @@ from ocs_design.common.units import (
     parse_quantity,
     si_unit,
     to_unit,
+    written_unit,
 )
 
 ALL_UNITS = [(dimension, unit) for dimension, units in UNITS.items() for unit in units]
@@ -48,11 +49,19 @@ FINITE = st.floats(-1e12, 1e12).filter(lambda x: x == 0.0 or abs(x) > 1e-200)
         ("0.04 N m s", Dimension.ANGULAR_MOMENTUM, 0.04),
         ("80%", Dimension.RATIO, 0.8),
         ("-.5e1 s", Dimension.TIME, -5.0),
+        ("\N{MINUS SIGN}5e\N{MINUS SIGN}1 s", Dimension.TIME, -0.5),
         ("1e-999999 mm", Dimension.LENGTH, 0.0),
     ],
 )
 def test_reads_exactly_the_number_that_was_written(text, dimension, expected):
     assert parse_quantity(text, dimension, "x") == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "unit"), [("9.81m/s2", "m/s2"), ("3 kg m2", "kg m2"), ("-2.5e3", ""), (30, "")]
+)
+def test_a_unit_that_ends_with_a_digit_is_one(text, unit):
+    assert written_unit(text) == unit
 
 
 @pytest.mark.parametrize("degrees", [1, 30, 40, 180, 360, -12.5])

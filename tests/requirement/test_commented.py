@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from specifications import FULL, same
 
+from ocs_design.common.units import Dimension
 from ocs_design.requirement.device_sections import OcsSection
 from ocs_design.requirement.froude import example_maneuvers
 from ocs_design.requirement.keys import keys_of
@@ -20,6 +21,7 @@ from ocs_design.requirement.resolving import default_specification
 from ocs_design.requirement.sections import RequirementSection, RobotSection, ValidationSection
 from ocs_design.requirement.specification import SECTIONS, Specification, all_keys
 from ocs_design.requirement.uncertainty import Distribution
+from ocs_design.requirement.values import JointValue
 from ocs_design.requirement.writing import (
     commented_toml,
     rounded_text,
@@ -175,6 +177,9 @@ STATED = {
     # A bare number so large would be taken for degrees.
     "a joint beyond a turn": Specification(
         robot=RobotSection(joints={"wheel": 4.0 * np.pi, "knee": 1.5})
+    ),
+    "a slide": Specification(
+        robot=RobotSection(joints={"rail": JointValue(7.0, Dimension.LENGTH)})
     ),
     "axes by hand": Specification(ocs=OcsSection(axes=(0.0, 1.0, 0.0, 0.6, 0.0, -0.8))),
     "a robot by hand": Specification(

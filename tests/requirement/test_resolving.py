@@ -6,8 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from commands import SOLO12, run
+from urdf_text import LIMIT, inertial, joint, link, robot
 
-from ocs_design.common.errors import RobotError, SpecificationError
+from ocs_design.common.errors import RobotError, SpecificationError, UsageError
 from ocs_design.requirement.bound import spin_demands
 from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.froude import WHEEL_SPEED_MAX, default_envelope
@@ -304,3 +305,30 @@ def test_a_robot_that_weighs_the_sum_of_its_parts_is_no_matter(weighed):
 
 def test_it_is_an_option_with_a_unit():
     assert TOLD in run("inspect", SOLO12, "--weighed", "2700g").said
+
+
+RAIL = robot(
+    link("trunk", inertial(2.0)),
+    link("arm", inertial()),
+    link("cart", inertial()),
+    joint("hip", "trunk", "arm", LIMIT),
+    joint("rail", "arm", "cart", LIMIT, kind="prismatic"),
+)
+
+
+@pytest.mark.parametrize(
+    ("joint", "fits", "not_"), [("hip", "10deg", "10mm"), ("rail", "10mm", "10deg")]
+)
+def test_a_joint_that_turns_takes_no_length_and_one_that_slides_no_angle(
+    joint, fits, not_, tmp_path
+):
+    (path := tmp_path / "robot.urdf").write_bytes(RAIL)
+
+    def posture(value):
+        options = {"robot.file": str(path), "robot.joints": [f"{joint}={value}"]}
+        return read_specified_robot(specification_from_options(options), sure=False).posture[joint]
+
+    assert posture(fits) > 0.0
+    assert posture("0.5") == 0.5
+    with pytest.raises(UsageError, match=f"'{joint}'"):
+        posture(not_)

@@ -65,6 +65,7 @@ def test_plain_and_file_addresses(tmp_path: Path):
     finder = MeshFinder(tmp_path, {})
     for name in ("a b/m.stl", str(mesh), f"file://{tmp_path}/a%20b/m.stl", "file://a b/m.stl"):
         assert finder(name) == mesh
+        assert finder(name.replace("/", "\\")) == mesh
 
 
 @pytest.mark.parametrize(
@@ -85,6 +86,7 @@ def test_what_is_missing_is_noted_once(tmp_path: Path, name):
         ("package://bot/m/a.stl", "lib/share/bot/m/a.stl", "--package-path bot={}/lib/share/bot"),
         ("package://bot/m/a.stl", "ws/m/.hidden/a.stl", "--package-path bot=DIR"),
         ("m/a.stl", "ws/bot/m/a.stl", "put the robot's file into {}/ws/bot"),
+        (r"package://bot\m\a.stl", "ws/m/.hidden/a.stl", "--package-path bot=DIR"),
         ("m/a.stl", "a.stl", "put them where the file names them, below {}/ws/bot/urdf"),
     ],
 )

@@ -166,6 +166,13 @@ def test_a_linear_joint_equality_is_a_mimic_as_mujoco_holds_it(slope, constant):
     assert abs(data.efc_pos[data.efc_type == mujoco.mjtConstraint.mjCNSTR_EQUALITY]).max() < 1e-15
 
 
+def test_a_joint_that_an_equality_holds_and_a_weight_that_is_borne_are_told():
+    held = with_equality('<joint joint1="a" polycoef="0.3 0 0 0 0"/>')
+    warnings = read(held.replace('name="shoe"', 'name="shoe" gravcomp="1"')).warnings
+    assert any("held by an equality" in each and each.endswith(": a") for each in warnings)
+    assert any("gravcomp" in each and each.endswith(": shoe") for each in warnings)
+
+
 def test_a_curved_joint_equality_and_a_loop_are_told():
     curved = '<joint joint1="a" joint2="s" polycoef="0 1 2 0 0"/>'
     loop = '<connect name="rod" body1="toe" body2="trunk" anchor="0 0 0"/>'
@@ -343,3 +350,46 @@ def test_numbers_beyond_all_measure_are_refused(number):
     )
     with pytest.raises(RobotError):
         read_mjcf(text.encode(), None)
+
+
+ATTACHED = """<mujoco><compiler angle="degree" meshdir="meshes"/>
+  <include file="rules.xml"/><asset><mesh name="m" file="m.stl"/></asset>
+  <worldbody><body name="leg" euler="0 10 0"><joint name="hip" axis="0 1 0" range="-90 90"/>
+    <geom type="mesh" mesh="m"/></body></worldbody></mujoco>"""
+ATTACHING = """<mujoco><compiler angle="radian"/><asset><model name="leg" file="{file}"/></asset>
+  <worldbody><body name="trunk"><freejoint/><geom size="0.1"/>
+    <frame pos="0 0.2 0" euler="0.3 0 0"><attach model="leg" body="leg" prefix="left_"/></frame>
+    <frame pos="0 -0.2 0"><attach model="leg" body="leg" prefix="right_"/></frame>
+  </body></worldbody></mujoco>"""
+
+
+def attaching(folder, file="parts/leg.xml"):
+    (parts := folder / "parts").mkdir()
+    (parts / "meshes").mkdir()
+    (parts / "leg.xml").write_text(ATTACHED)
+    (parts / "rules.xml").write_text('<mujoco><default><geom density="300"/></default></mujoco>')
+    box = trimesh.creation.box(
+        (0.1, 0.2, 0.3), trimesh.transformations.translation_matrix((0, 1, 0))
+    )
+    box.export(parts / "meshes" / "m.stl")
+    (folder / "robot.xml").write_text(text := ATTACHING.format(file=file))
+    return text
+
+
+def test_attached_models_are_read_by_their_own_rules_from_any_folder(folder):
+    tree = read(attaching(folder), folder)
+    model = mujoco.MjModel.from_xml_path(str(folder / "robot.xml"))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    weighed = tree.locked_mass_properties({}, "trunk")
+    assert weighed.mass == pytest.approx(model.body_subtreemass[1], rel=1e-12)
+    np.testing.assert_allclose(weighed.com, data.subtree_com[1], atol=1e-12)
+    assert tree.joints["left_hip"].upper == pytest.approx(np.pi / 2.0)
+
+
+def test_a_model_that_holds_itself_or_lies_elsewhere_is_refused(folder):
+    text = attaching(folder, "robot.xml")
+    with pytest.raises(RobotError, match="hold itself"):
+        read(text, folder)
+    with pytest.raises(RobotError, match="outside of the model's folder"):
+        read(text.replace("robot.xml", "../out.xml"), folder)

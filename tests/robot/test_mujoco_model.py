@@ -195,6 +195,15 @@ def test_dae_meshes_are_converted():
     assert spec.compile().nmesh > 0
 
 
+def test_it_touches_where_the_files_default_is_to_look_at_only(tmp_path):
+    text = MJCF.format(**FREE).replace('contype="4"', 'contype="0" conaffinity="0"')
+    robot = read_robot(write(tmp_path, text))
+    model = build_spec(robot).spec.compile()
+    assert len(robot.legs) == 2
+    for leg in robot.legs:
+        assert model.geom(foot_geom_name(leg)).contype == 1
+
+
 def test_a_foot_of_nothing_gets_something_to_stand_on():
     robot = read_robot(ROBOTS / "simple_humanoid_description/urdf/simple_humanoid.urdf")
     assert robot.legs

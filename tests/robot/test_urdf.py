@@ -7,6 +7,7 @@ import pinocchio as pin
 import pytest
 from urdf_text import LIMIT, TWO_LINKS, inertial, joint, link, robot
 
+from ocs_design.common.errors import RobotError
 from ocs_design.robot.tree import JointKind, ShapeKind, Tree
 from ocs_design.robot.urdf import read_urdf
 
@@ -101,6 +102,41 @@ def test_what_floats_under_a_massless_root_is_the_base(kind):
     assert tree.bodies[0].name == "trunk"
     assert "world" not in tree.body_of_link
     assert tree.warnings == ()
+
+
+TURNED = (
+    link(
+        "trunk",
+        inertial(2.0, "0.1 0.2 0.25").replace('"0 0 0"', '"0.1 0 0" quat_xyzw="0.2 0.4 0.1 -0.8"'),
+    ),
+    link("leg", inertial(1.0, "0.1 0.12 0.05")),
+    joint("hip", "trunk", "leg", '<origin xyz="0 1 0" quat_xyzw="0.4 0 0 0.6"/>', LIMIT),
+)
+
+
+@pytest.mark.parametrize("version", ["1.0", "1.1"])
+def test_quaternions_of_origins_turn_as_in_pinocchio(version):
+    content = robot(*TURNED).replace(b"<robot", f'<robot version="{version}"'.encode())
+    tree, model = read(content), pin.buildModelFromXML(content.decode(), pin.JointModelFreeFlyer())
+    weighed, data = tree.locked_mass_properties({}, "trunk"), model.createData()
+    pin.ccrba(model, data, pin.neutral(model), np.zeros(model.nv))
+    np.testing.assert_allclose(weighed.inertia, data.Ig.inertia, atol=1e-12)
+    assert bool(tree.warnings) == (version == "1.0")
+
+
+@pytest.mark.parametrize("turn", ['quat_xyzw="0 0 0 1" rpy="0 0 0"', 'quat_xyzw="0 0 0 0"'])
+def test_a_turn_stated_twice_or_not_at_all_is_refused(turn):
+    content = robot(link("trunk", inertial().replace("<origin", f"<origin {turn}")))
+    with pytest.raises(RobotError, match="quat_xyzw"):
+        read(content.replace(b"<robot", b'<robot version="1.1"'))
+
+
+@pytest.mark.parametrize(("kind", "told"), [("revolute", True), ("continuous", False)])
+def test_a_missing_limit_is_told(kind, told):
+    links = link("trunk", inertial()), link("leg", inertial())
+    tree = read(robot(*links, joint("hip", "trunk", "leg", kind=kind)))
+    assert tree.joints["hip"].upper == np.inf
+    assert any("hip" in warning for warning in tree.warnings) == told
 
 
 def test_a_floating_joint_within_the_robot_is_held_with_a_warning():

@@ -247,3 +247,10 @@ def test_settings_of_the_file_do_not_reach_the_simulation(compiled, case):
     for name in dir(plain.opt):
         if not name.startswith("_"):
             np.testing.assert_array_equal(getattr(other.opt, name), getattr(plain.opt, name), name)
+
+
+def test_gravity_pulls_whatever_the_file_says(solo12, tmp_path):
+    text = build_spec(solo12, visuals=False).spec.to_xml()
+    (path := tmp_path / "robot.xml").write_text(text.replace("<body ", '<body gravcomp="1" '))
+    scene = robot_scene(read_robot(path, trunk=solo12.trunk))
+    assert not scene.compile().body_gravcomp.any()
