@@ -1,1 +1,1 @@
-"""How large: the incidence of the wheel axes, the rim, and both on the robot that carries them."""
+"""Sizing: the incidence of the wheel axes, the rim, and the device on the robot that carries it."""

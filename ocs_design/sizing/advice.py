@@ -1,10 +1,10 @@
-"""Where no motor can do it: the smallest single changes that would do.
+"""Advice when no motor suffices: the smallest single changes that make a device feasible.
 
-Each asks whether there is any device, of many problems that are alike (`Field`). Which device is of
-no account, so that candidates need not be ranked: those are tried first whose largest wheel exceeds
-what they need the most, and the first that is solved ends the search. Where nothing is possible,
-nearly all candidates fall out by what they need with a wheel of no mass and by the largest wheel in
-closed form.
+Each change is tested by asking whether any device is feasible for a slightly different problem
+(`Field`). Which device does not matter, so candidates are not ranked: those whose largest wheel
+exceeds their need the most are tried first, and the first that is solved ends the search. Where
+nothing is feasible, nearly all candidates are ruled out by what they need with a massless wheel and
+by the largest wheel in closed form.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -53,17 +53,17 @@ from ocs_design.sizing.selection.problem import (
 from ocs_design.sizing.selection.rejections import Refused, largest_wheel
 
 PRECISION = 0.03
-"""Precision of the changes, relative: with less by more than that none of the drives that
-`Field.possible` tries can do it."""
+"""Relative precision of the changes: with a change smaller by more than this, none of the drives
+that `Field.possible` tries is feasible."""
 
 MOST_CHANGE = 10.0
-"""A limit changed by more than this factor is another project."""
+"""Largest factor by which a limit is changed; beyond it, the project is a different one."""
 
 _MOST_CHANGES = {"wheel_mass_max": MOST_CHANGE**3, "r_max": 7.0, "time": 3.0}
-"""Other factors: a mass goes with the cube of every length. Three times the time of a jump is nine
-times its height: beyond, a humanoid is told to fall from 145 m. A radius, with whose fourth power
-the inertia goes, is changed less: wheels beyond may couple roll and pitch by anything, and no bound
-of what they need survives that."""
+"""Limits with another largest factor. Mass scales with the cube of length. Three times the duration
+of a jump is nine times its height; beyond that, a humanoid would be advised to fall from 145 m.
+Inertia scales with the fourth power of the radius, so the radius is changed less: larger wheels may
+couple roll and pitch arbitrarily strongly, and no bound on what they need holds then."""
 
 _STATE_FIGURES = (
     "Choose another motor (`ocs-design catalogue motors` marks what is missing), or state its "
@@ -72,26 +72,27 @@ _STATE_FIGURES = (
 
 
 _CELLS = 6
-"""Ranges of the incidence: wider than those of `bounds`, for all drives at once."""
+"""Number of intervals of the incidence, fewer than in `bounds`, for all drives at once."""
 
 _FIRST, _BLOCK = 32, 512
-"""Candidates that are bounded at once: few first, where any will do."""
+"""Sizes of the first and of later batches of candidates that are bounded together; any feasible one
+will do, so the first batch is small."""
 
 _FIRST_SOLVED, _SOLVED = 4, 64
-"""Candidates that are solved at once."""
+"""Sizes of the first and of later batches of candidates that are solved together."""
 
 _MOST_SOLVED = 128
-"""Candidates that are solved before the answer is no: the most promising ones come first."""
+"""Number of candidates, the most promising first, that are solved before the answer is no."""
 
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """Drives of a problem that are still in question.
+    """Drives of a problem that are still being considered.
 
     Attributes:
-        problem: what is asked for, and the room for it.
+        problem: requirement and envelope.
         drives: n of them.
-        needed: what their wheels need at the least, whatever they weigh [kg m^2], shape (n,); inf
+        needed: least spin inertia of their wheels, whatever they weigh [kg m^2], shape (n,); inf
             where no wheel would do.
     """
 
@@ -140,9 +141,10 @@ class Field:
         return any(len(candidates) for candidates, _ in self._bounded())
 
     def change_text(self, limit: Limit, value: float) -> str:
-        """A change as the user states it: time is a matter of each maneuver's own keys.
+        """A change in the user's terms: time is set by each maneuver's own keys.
 
-        More of it is told for those maneuvers that need it; all with so much more can be done.
+        More time is advised only for the maneuvers that need it, out of those that this much more
+        time makes feasible together.
         """
         if limit is not TIME:
             return limit.loose_text(value)
@@ -159,7 +161,8 @@ class Field:
     def _bounded(self) -> Iterator[tuple[Candidates, Guess]]:
         """Candidates that no bound rules out, the most promising first, few at first."""
         every = Candidates.of_each_material(self.problem, self.drives)
-        # First comes whose largest wheel has the most to spare; too small a one is left out.
+        # Candidates whose largest wheel has the most margin come first; too small ones are left
+        # out.
         beside = every.drives.beside_rim
         needed = np.repeat(self.needed, len(self.problem.materials))
         largest = largest_spin_inertia(every.limits) + beside
@@ -191,17 +194,16 @@ def advice_on(
     """The error with the single changes that would do.
 
     Args:
-        refused: what no motor can do.
-        progress: is told the share that is done.
-        default: whether nobody asked for these maneuvers.
-        lightest: whether the lightest incidence may be a cure, as nobody has tried it.
+        refused: problem that no motor can solve, and why.
+        progress: called with the fraction done. default: whether the maneuvers are the defaults.
+            lightest: whether the lightest incidence, not tried yet, may be the cure.
     """
     reason, problem = refused.nearest.reason, refused.problem
     changes: dict[Limit, float] = {}
     hints: list[str] = [_STATE_FIGURES]
     if reason is not Reason.FIGURES:
         field = Field.of(problem)
-        # No change of a limit mends an incidence.
+        # Changing a limit does not help where the incidence is at fault.
         if reason is not Reason.INCIDENCE:
             changes = single_changes(field, progress)
         model = next(each for each in problem.motors if each.name == refused.nearest.motor)
@@ -224,7 +226,7 @@ def advice_on(
             *_hints(field, reason, changes, lightest=lightest),
         ]
     if refused.for_reserve:
-        hints.append("A lower --reliability keeps less in reserve.")
+        hints.append("A lower --reliability needs a smaller reserve.")
     return Infeasible(
         refused.message,
         binding=refused.binding,
@@ -236,7 +238,7 @@ def advice_on(
 
 
 def _caught(field: Field) -> Iterator[str]:
-    """Sentence on the largest upset that the drives can balance, with all else as asked."""
+    """Sentence on the largest upset that the drives can balance, all else as specified."""
     requirement = field.problem.requirement
     asked = [each for each in requirement.maneuvers if isinstance(each, Balance)]
 
@@ -249,14 +251,14 @@ def _caught(field: Field) -> Iterator[str]:
         return
     part, _ = narrowed(lambda each: not does(each), least, 1.0, PRECISION)
     told = some_of([f"{each.times(part).upset} for {each.name}" for each in asked])
-    yield f"With {told} there is a device."
+    yield f"A device exists with {told}."
 
 
 def single_changes(field: Field, progress: Progress = unseen) -> dict[Limit, float]:
-    """Values of the limits that can mend it alone and just do, gentlest first [SI].
+    """Values of single limits that just make a device feasible, the gentlest change first [SI].
 
-    Each is proved by looking for a device again, among all motors and gears of the problem; what
-    only an unlikely one of them could do may be missed (`Field.possible`).
+    Each is verified by searching for a device again, among all motors and gears of the problem; a
+    change that only an unlikely drive could use may be missed (`Field.possible`).
     """
 
     def changed(limit: Limit, value: float) -> Field:
@@ -275,71 +277,71 @@ def single_changes(field: Field, progress: Progress = unseen) -> dict[Limit, flo
 def _hints(
     field: Field, reason: Reason, changes: Mapping[Limit, float], *, lightest: bool
 ) -> Iterator[str]:
-    """Sentences on what would do."""
+    """Sentences on changes that would make a device feasible."""
     if changes:
         texts = [field.change_text(limit, value) for limit, value in changes.items()]
         yield advice(texts, "")
     layout = field.problem.layout
     if not layout.pairs and reason is Reason.INCIDENCE:
         yield (
-            f"The wheels of {layout.text} do not reach every axis that is asked for: ask for "
-            "less, or take another layout (--layout pair)."
+            f"The wheels of {layout.text} cannot turn the robot about every required axis: "
+            "require less, or choose another layout (--layout pair)."
         )
         return
     free = replace(field.problem, incidence=None)
     stated = layout.pairs and field.problem.incidence is not None
     if lightest and stated and field.changed(free).possible:
         yield (
-            "At another incidence there is a device: leave out --alpha and choose "
+            "Other incidences are feasible: leave out --alpha and choose "
             "--alpha-criterion lightest."
         )
     elif reason is Reason.INCIDENCE:
         yield (
-            "Wheels at 0 deg cannot roll the trunk, wheels at 90 deg cannot pitch it: ask for one "
-            "of both, or for another incidence, here or of that maneuver."
+            "Wheels at 0 deg cannot roll the trunk, wheels at 90 deg cannot pitch it: require only "
+            "one of the two, or set another incidence, for the device or for that maneuver."
         )
     elif not changes:
         yield advice([], "loosen several, ask for less, or add stronger motors.")
 
 
 def unasked(maneuvers: Sequence[Maneuver]) -> str:
-    """Sentences that tell that these are the default, and how to ask for others."""
+    """Sentences that say that these maneuvers are the defaults, and how to specify others."""
     names = some_of([each.name for each in maneuvers])
     return (
-        f"Nobody asked for {names}: they are the default. State what you need with --jump-height, "
-        "--tilt, --fall or --kick, and only that is asked."
+        f"No maneuver was specified, so the defaults apply: {names}. Specify your own with "
+        "--jump-height, --tilt, --fall or --kick; they replace the defaults."
     )
 
 
 _STRONGER = 1.2 ** np.arange(1, 10)
-"""Peak torques that are tried, over that which turns the robot alone in time: up to fivefold."""
+"""Peak torques to try, relative to that which turns the robot alone in time: up to fivefold."""
 
 _FASTER = (1.2, 1.6, 2.2)
-"""Speeds without load that are tried, over that of the largest wheel with the robot's momentum."""
+"""No-load speeds to try, relative to that of the largest wheel with the robot's momentum."""
 
 _AS_WEAK = 1.1
-"""A slower motor is named in place of one that may be weaker by this factor at most."""
+"""Of two motors whose torques differ by at most this factor, the slower one is recommended."""
 
 _DENSER = (1.0, 2.0, 4.0)
-"""Torques over masses that are tried in turn, over the model's: where six motors weigh as much as
-the robot, none built as the model would do, however large."""
+"""Torque-to-mass ratios to try in turn, relative to the model's: where six motors weigh as much as
+the robot, none built like the model would do, however large."""
 
 _ANGLES = np.radians(np.arange(5.0, 90.0, 5.0))
-"""Incidences of which the one that asks for the least torque is taken, where it is free [rad]."""
+"""Incidences to try where it is free; that which requires the least torque is taken [rad]."""
 
 _STALL = (2.0, 10.0)
-"""Stall torque over peak torque that a winding is taken to have, least and most."""
+"""Assumed range of a winding's ratio of stall torque to peak torque."""
 
 
 @dataclass(frozen=True)
 class NeededMotor:
-    """Motor with which there would be a device, its wheel on its shaft.
+    """Direct-drive motor that would make a device feasible.
 
     Attributes:
-        peak_torque: [N m]. no_load_speed: at the supply's voltage [rad/s].
+        peak_torque: peak torque [N m]. no_load_speed: at the supply's voltage [rad/s].
         mass: at most [kg].
         voltage: of the supply [V].
-        heavier: motor that none would do of that is as heavy for its torque; empty: some would.
+        heavier: motor whose torque-to-mass ratio is too low at any size; empty: it suffices.
     """
 
     peak_torque: float
@@ -356,10 +358,10 @@ class NeededMotor:
         )
         rpm = round(self.no_load_speed * 30.0 / np.pi, -2)
         return (
-            f"A motor of about {torque:.3g} N m peak torque and {rpm:,.0f} rpm without load at "
-            f"{self.voltage:g} V, of at most {mass:.3g} kg, would do."
+            f"A motor with about {torque:.3g} N m peak torque and {rpm:,.0f} rpm no-load speed at "
+            f"{self.voltage:g} V, weighing at most {mass:.3g} kg, would do."
             + (
-                f" Motors as heavy for their torque as {self.heavier} would not do, however large."
+                f" Motors with the torque-to-mass ratio of {self.heavier} would not do at any size."
                 if self.heavier
                 else ""
             )
@@ -367,24 +369,24 @@ class NeededMotor:
 
 
 def needed_motor(problem: SelectionProblem, model: Motor) -> NeededMotor | None:
-    """The weakest motor that would do, built as `model` is, or with more torque for its mass.
+    """The weakest motor that would do, built like `model` or with more torque for its mass.
 
-    Torque and mass grow with the third power of a motor's lengths. Its speed is that with which the
-    largest wheel has the momentum asked for, and somewhat more where that lets it be much weaker.
+    Torque and mass scale with the cube of a motor's dimensions. Its speed is that at which the
+    largest wheel has the required momentum, or somewhat more where that allows a much weaker motor.
 
     Args:
-        problem: that no motor solves. Where its incidence is free, the motor is for the one that
-            asks for the least torque.
+        problem: problem that no motor solves. Where its incidence is free, the motor is for the one
+            that requires the least torque.
         model: a motor whose figures are known.
 
     Returns:
-        None: no such motor would do, or no time is set, or the wheels are no pairs.
+        The motor; None: no such motor would do, no time is set, or the wheels are not in pairs.
     """
     if not problem.layout.pairs or not (model.mass and model.peak_torque):
         return None
 
     def asked(incidence: float) -> tuple[float, float]:
-        """Torque [N m] and momentum [N m s] of a wheel at the most."""
+        """Largest torque [N m] and momentum [N m s] of a wheel."""
         demands = spin_demands(problem.requirement, problem.robot.inertia, incidence)
         torque = max(demand.torque for demand in demands)
         momentum = max(per_wheel(demand.momentum, demand.incidence) for demand in demands)
@@ -422,7 +424,7 @@ def needed_motor(problem: SelectionProblem, model: Motor) -> NeededMotor | None:
 
 
 def _scaled(model: Motor, peak_torque: float, speed: float, voltage: float) -> Motor:
-    """The model enlarged to a peak torque [N m], and wound for a speed [rad/s] at a voltage."""
+    """The model scaled to a peak torque [N m] and wound for a speed [rad/s] at a voltage [V]."""
     assert model.peak_torque is not None
     larger = peak_torque / model.peak_torque
     stall = _STALL[0]

@@ -1,9 +1,9 @@
 """What would make a device lighter: single changes of the specification, and what they save.
 
-A selection on the footing of the device as it stands tells quickly which drive is lightest after a
-change; the changed question is then sized as a whole with it (docs/theory.md, The selection:
-Alternatives, What must give). Where the mass to be saved is stated, each answer is the smallest
-change that does.
+A selection on the present device's footing quickly finds the lightest drive after a change; the
+changed specification is then sized in full with that drive (docs/theory.md, The selection:
+Alternatives, What must give). Where the mass to save is specified, each answer is the smallest
+change that saves it.
 """
 
 from bisect import bisect_left
@@ -44,13 +44,13 @@ MORE_ROOM, MORE_TIME = 1.2, 1.1
 """Factors on r_max and on the time of every maneuver."""
 
 _GAPS_TOLD = 2
-"""Missing figures of a motor that a line has room for."""
+"""Number of a motor's missing figures that fit on a line."""
 
 _OVER = 1.05
-"""Supply over a motor's rated voltage from which the note says so."""
+"""Ratio of the supply to a motor's rated voltage above which the note mentions it."""
 
 _WORTH = 0.005
-"""Share of the mass below which a saving is not worth telling."""
+"""Fraction of the mass below which a saving is not reported."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,8 +58,8 @@ class Relaxation:
     """A choice that the specification leaves open.
 
     Attributes:
-        text: in words. option: of the command line, with what speaks against it.
-        stated: the specification with it. problem: the problem with it.
+        text: in words. option: command line option, with its drawback.
+        stated: applies it to a specification. problem: applies it to a problem.
     """
 
     text: str
@@ -69,12 +69,12 @@ class Relaxation:
 
     @property
     def told(self) -> str:
-        """Words for it, with the option."""
+        """The text with the option."""
         return f"{self.text} ({self.option})"
 
 
 def relaxations(specification: Specification, asked: SelectionProblem) -> Iterator[Relaxation]:
-    """Choices that a specification leaves open; `asked` is the problem that it states."""
+    """Choices that a specification leaves open; `asked` is the problem that it defines."""
     stated = specification.ocs
     if asked.layout.pairs and stated.alpha is None and stated.alpha_criterion != LIGHTEST:
         yield Relaxation(
@@ -91,7 +91,7 @@ def relaxations(specification: Specification, asked: SelectionProblem) -> Iterat
             lambda p: replace(p, materials=strong_materials()),
         )
     if specification.motor.name in {None, AUTO} and not specification.motor.any:
-        # A motor that is slower than its maker states stays so (`specified`).
+        # A motor slowed below its maker's speed stays so (`specified`).
         own = {motor.name: motor for motor in asked.motors}
         motors = tuple(own.get(motor.name, motor) for motor in any_motors(specification))
         yield Relaxation(
@@ -113,25 +113,25 @@ def relaxations(specification: Specification, asked: SelectionProblem) -> Iterat
 def lighter_otherwise(
     task: Task, choice: Choice | None, call: Callable[..., Callable[[], Any]] = partial
 ) -> Callable[[], tuple[tuple[Alternative, ...], Owed | None]]:
-    """Begin to look for what each relaxation would save, and for the maneuver that sets the mass.
+    """Start computing what each relaxation would save, and which maneuver drives the mass.
 
     Args:
-        task: what was asked for: what its specification relaxes already is not offered again.
+        task: the design task; what its specification already relaxes is not offered again.
         choice: the device, and what it was chosen from; None: it has no motor.
-        call: begins a call and returns the function that waits for its answer, as `Beside.call`.
+        call: starts a call and returns the function that waits for its answer, like `Beside.call`.
 
     Returns:
         Function that waits for the answers; both are empty without a motor.
     """
     if choice is None:
         return lambda: ((), None)
-    # That with the other construction takes longest.
+    # The other construction takes longest.
     begun = [call(built_otherwise, task, choice)]
     begun += [call(Change.saved, change, choice) for change in changes(task, choice)]
     begun.append(call(owed_to, task, choice))
 
     def answers() -> tuple[tuple[Alternative, ...], Owed | None]:
-        # From the last one on, which no other process may have begun.
+        # Last one first: it is the least likely to have been started by another process.
         built, *found, owed = [each() for each in reversed(begun)][::-1]
         return (*found, *built), owed
 
@@ -139,17 +139,17 @@ def lighter_otherwise(
 
 
 def _answer(text: str, device: Candidate, note: str) -> Alternative:
-    """The device after a change, with what speaks for or against it."""
+    """The device after a change, with a note for or against it."""
     return Alternative(change=text, mass_total=device.mass, motor=device.motor.name, note=note)
 
 
 @dataclass(frozen=True, eq=False)
 class Change:
-    """One change of the question.
+    """One change of the specification.
 
     Attributes:
-        text: in words. task: the question with it.
-        problem: the same on the footing and with the reserve of the device as it stands.
+        text: in words. task: the task with it.
+        problem: the same with the present device's footing and reserve.
     """
 
     text: str
@@ -158,29 +158,29 @@ class Change:
 
     @property
     def turns(self) -> bool:
-        """Whether the incidence is to be chosen anew."""
+        """Whether the incidence is chosen again."""
         return self.problem.incidence is None
 
     def saved(self, choice: Choice) -> Alternative:
-        """The device with it; the one that there is where next to nothing would be saved."""
-        # To look for what holds a device takes longest where nothing is found, and a device that
-        # is sized as a whole looks for it several times.
+        """The device with this change; the present one where it would save next to nothing."""
+        # Searching for a mount takes longest where there is none, and sizing a device in full
+        # repeats that search several times.
         found = self.lighter(choice, quick=choice.hangs)
-        # What is lighter may be wider, and so may its plate.
+        # A lighter device may be wider, and so may its plate.
         if found is None or found.mass > (1.0 - _WORTH) * choice.chosen.mass:
             return _answer(self.text, choice.chosen, SAVES_NOTHING)
         quick = ["by a quick look"] if choice.hangs and not self.turns else []
         return _answer(self.text, found, "; ".join([*quick, *self.notes(found, choice)]))
 
     def lighter(self, choice: Choice, *, quick: bool) -> Candidate | None:
-        """The device with it, where a quick look finds drives that save anything.
+        """The device with this change; None: a quick selection finds no drive that saves mass.
 
-        It is sized as a whole with the lightest of those drives.
+        It is sized in full with the lightest of those drives.
 
         Args:
-            choice: the device as it stands.
-            quick: whether a device at the same incidence is told as the look finds it, with nothing
-                under it.
+            choice: the present device.
+            quick: whether a device at the same incidence is returned as the quick selection finds
+                it, without a mount.
         """
         found = lightest_below(self.problem, (1.0 - _WORTH) * choice.chosen.modules_mass)
         offered = self.task.resolved.choice
@@ -190,7 +190,8 @@ class Change:
             return found
         parts = replace(offered, motors=(found.motor,), gears=(found.gear,))
         if self.problem.materials != parts.materials:
-            # Steels make much the same device: to weigh them with every drive would take long.
+            # Devices of different steels are much alike; trying each with every drive would take
+            # long.
             each = [replace(found, material=material) for material in parts.materials]
             built = devices_at(self.problem, each, found.incidence)
             found = devices_by_mass([found, *filter(None, built)])[0]
@@ -199,7 +200,7 @@ class Change:
         return _whole(asked, near=found)
 
     def notes(self, found: Candidate, choice: Choice) -> Iterator[str]:
-        """What to know of the device that is found, beside its mass and its motor."""
+        """Notes on the device found, besides its mass and motor."""
         if self.turns:
             yield f"alpha {format_quantity(found.incidence, 'deg', 3)}"
         if found.material != choice.chosen.material:
@@ -215,7 +216,7 @@ class Change:
 
 
 def _whole(task: Task, near: Candidate | None = None) -> Candidate | None:
-    """The lightest device, on its own footing with its own reserve; None: there is none."""
+    """The lightest device, with its own footing and reserve; None: none is feasible."""
     try:
         own = design_device(task, ranked=False, near=near)
     except Infeasible:
@@ -224,11 +225,11 @@ def _whole(task: Task, near: Candidate | None = None) -> Candidate | None:
 
 
 def built_otherwise(task: Task, choice: Choice | None) -> tuple[Alternative, ...]:
-    """The device with rings in place of discs, or discs in place of rings; none where none does it.
+    """The device with rings in place of discs, or discs in place of rings; empty if infeasible.
 
-    It is told whether it is lighter or not, but where nothing holds the device. All of its drives
-    are weighed: each stands higher or lower than with the construction that there is, on other feet
-    and another plate, so that a look at the place of those tells little.
+    It is reported whether lighter or not, unless the device has no mount. All drives are tried:
+    each stands higher or lower than with the present construction, on other feet and another plate,
+    so a quick selection on the present footing says little.
     """
     if choice is None or choice.hangs:
         return ()
@@ -239,7 +240,7 @@ def built_otherwise(task: Task, choice: Choice | None) -> tuple[Alternative, ...
     if other.on_bell:
         text = "a ring bonded around each motor's bell in place of the disc"
     wheel = RING if other.on_bell else DISC
-    # The bell sets the bore, which a co-design would change.
+    # The bell fixes the bore, which a co-design would change.
     stated = task.specification
     built = replace(stated, ocs=replace(stated.ocs, wheel=wheel, co_design=None))
     found = _whole(replace(task, specification=built))
@@ -247,15 +248,15 @@ def built_otherwise(task: Task, choice: Choice | None) -> tuple[Alternative, ...
 
 
 def changes(task: Task, choice: Choice) -> Iterator[Change]:
-    """Each relaxation, and more power, room and time, as the question with that change alone."""
+    """Each relaxation, and more power, room and time, as a task with that change alone."""
     specification, resolved = task.specification, task.resolved
     offered, chosen = resolved.choice, choice.chosen
     assert offered is not None, "there are motors to choose from"
     problem = replace(choice.problem, incidence=chosen.incidence, materials=(chosen.material,))
 
     def changed(text: str, to: SelectionProblem) -> Change:
-        # What does not change is as it was resolved: factors on turns that were found too small,
-        # and kicks about the centre of mass with a device.
+        # The rest stays as resolved: factors on turns that were found too small, and kicks about
+        # the centre of mass with a device.
         requirement = replace(resolved.requirement, maneuvers=to.requirement.maneuvers)
         own = replace(offered, supply=to.supply)
         own_resolved = replace(resolved, requirement=requirement, envelope=to.envelope, choice=own)
@@ -304,7 +305,7 @@ def changes(task: Task, choice: Choice) -> Iterator[Change]:
 
 
 def owed_to(task: Task, choice: Choice | None) -> Owed | None:
-    """The maneuver without which the device would be lightest; None: none is asked for."""
+    """The maneuver without which the device would be lightest; None: there are no maneuvers."""
     if choice is None:
         return None
     chosen, asked = choice.chosen, choice.problem.requirement
@@ -326,21 +327,21 @@ def owed_to(task: Task, choice: Choice | None) -> Owed | None:
 
 
 MOST = 200
-"""Largest change that is looked for [%]."""
+"""Largest change that is tried [%]."""
 
 _LOOSER = (0, 1, 3, 7, 15, 31)
-"""By how much an answer is loosened [%], one after the other, until its whole design agrees."""
+"""Amounts by which an answer is loosened in turn until its full design confirms it [%]."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Lever:
-    """One figure that can give way by a share [%]: the changed question, and its words."""
+    """One figure that can be relaxed by a percentage: the changed specification, and its text."""
 
     changed: Callable[[int], Specification]
     text: Callable[[int], str]
 
     def beside(self, choice: Relaxation) -> "_Lever":
-        """Lever on the same figure, where another choice is made too."""
+        """Lever on the same figure combined with another choice."""
         return _Lever(
             lambda percent: choice.stated(self.changed(percent)),
             lambda percent: f"{self.text(percent)}, and {choice.told}",
@@ -350,13 +351,14 @@ class _Lever:
 def lighter_by(
     mass: float, task: Task, choice: Choice, owed: str, progress: Progress = unseen
 ) -> tuple[Alternative, ...]:
-    """Changes of the specification, each of which makes the device that much lighter.
+    """Changes of the specification, each of which saves the given mass.
 
     Args:
-        mass: by which [kg].
-        task: that the device was designed for. choice: how it was.
-        owed: maneuver that the mass is owed to, which may give way alone; empty: none.
-        progress: told the share that is done.
+        mass: mass to save [kg].
+        task: task that the device was designed for. choice: the device, and what it was chosen
+            from.
+        owed: maneuver that drives the mass, which may be relaxed alone; empty: none.
+        progress: called with the fraction done.
     """
     target = choice.chosen.mass - mass
     if target <= 0.0:
@@ -373,21 +375,21 @@ def lighter_by(
         found.append(search.smallest(lever))
         progress((index + 1) / len(levers))
     if not any(found):
-        # No figure and no choice does it alone: one of each together may.
+        # No single figure or choice saves enough: one of each together may.
         found += [search.smallest(lever.beside(each)) for each in options for lever in levers]
     return tuple(answer for answer in found if answer is not None)
 
 
 @dataclass(frozen=True, eq=False)
 class _Search:
-    """Devices of changed questions, as light as the target [kg]."""
+    """Devices for changed specifications, no heavier than the target [kg]."""
 
     task: Task
     choice: Choice
     target: float
 
     def smallest(self, lever: _Lever) -> Alternative | None:
-        """The smallest change that does: the more gives way, the lighter the device."""
+        """The smallest sufficient change: the more is relaxed, the lighter the device."""
 
         def does(percent: int) -> bool:
             return self._selected(lever.changed(percent)) is not None
@@ -407,7 +409,7 @@ class _Search:
         return None
 
     def answer(self, text: str, changed: Specification) -> Alternative | None:
-        """The device of a changed question, sized as a whole with the motor that does."""
+        """The device for a changed specification, sized in full with the selected motor."""
         selected = self._selected(changed)
         if selected is None:
             return None
@@ -423,9 +425,9 @@ class _Search:
         return Alternative(change=text, mass_total=device.mass, motor=device.motor.name)
 
     def _selected(self, changed: Specification) -> Candidate | None:
-        """The lightest device of a changed question, on the footing of the device that there is.
+        """The lightest device for a changed specification, on the present device's footing.
 
-        None: it is too heavy, or there is none.
+        None: it is too heavy, or none is feasible.
         """
         chosen, stated, asked = self.choice.chosen, changed.ocs, self.choice.problem
         try:
@@ -453,10 +455,10 @@ class _Search:
 
 
 def _levers(task: Task, owed: str) -> Iterator[_Lever]:
-    """Figures that can give way: time, room, supply, and what is asked.
+    """Figures that can be relaxed: time, room, supply, and the requirement.
 
-    Of the maneuver that the mass is `owed` to, its own time where there are several, and its tilt
-    or push; no flip is smaller.
+    For the maneuver that drives the mass (`owed`), its own time where there are several, and its
+    tilt or push; a flip cannot be made smaller.
     """
     names, height = [maneuver.name for maneuver in task.maneuvers], task.standing_height
 
@@ -504,7 +506,7 @@ def _levers(task: Task, owed: str) -> Iterator[_Lever]:
 def _key(
     task: Task, section: str, key: str, own: float, unit: str, *, upwards: bool = True
 ) -> _Lever:
-    """A key of the file, rounded to three digits on its loose side."""
+    """Lever on a key of the file, rounded to three digits towards the looser side."""
 
     def value(percent: int) -> float:
         factor = 1.0 + percent / 100.0

@@ -1,4 +1,4 @@
-"""The device that a sizing or a selection comes to, as it is exported and simulated."""
+"""Assembly of a sizing's or selection's result into the device that is exported and simulated."""
 
 from dataclasses import replace
 
@@ -23,7 +23,7 @@ def assemble(sizing: DeviceSizing, resolved: Resolved) -> Device:
     return Device(
         sizing.incidence,
         _modules(PAIR, sizing.incidence, sizing.centers),
-        # To the last digit what was minimised.
+        # Exactly the mass that was minimised.
         replace(flywheel, mass=rim.mass),
         Drive(
             name="assumed",
@@ -32,7 +32,7 @@ def assemble(sizing: DeviceSizing, resolved: Resolved) -> Device:
             no_load_speed=speed,
             torque_limit=resolved.torque_max,
             rotor_inertia=0.0,
-            source="no motor is chosen; highest speed and torque as assumed or stated",
+            source="no motor is chosen; highest speed and torque as assumed or specified",
         ),
     )
 
@@ -58,10 +58,10 @@ def assemble_driven(
     *,
     layout: Layout = PAIR,
 ) -> Device:
-    """Modules with a motor of the catalogue each.
+    """Modules, each with a motor of the catalogue.
 
     Args:
-        carrier: what of each stands still.
+        carrier: the stationary part of each.
         incidence: of the wheel axes, or the layout's angle [rad].
         centers: of the wheels in B [m], shape (n, 3).
     """
@@ -94,7 +94,7 @@ def _flywheel(
     cuts: RimCuts = NO_CUTS,
     web_material: Material | None = None,
 ) -> Flywheel:
-    """Wheel of a rim's inner and outer radius and height [m], and a rotor's share [kg m^2]."""
+    """Wheel from a rim's inner and outer radius and height [m], and a rotor's share [kg m^2]."""
     inner, outer, height = cylinder
     strength, stress, web = material.yield_strength, None, None
     if material.poisson_ratio is not None:

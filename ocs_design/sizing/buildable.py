@@ -1,4 +1,4 @@
-"""What keeps a device from being built as it stands, gathered from all that was looked at."""
+"""Open points that keep a device from being built as designed, gathered from all checks."""
 
 from collections.abc import Mapping, Sequence
 
@@ -32,8 +32,8 @@ from ocs_design.sizing.margins import (
 from ocs_design.sizing.mounting import DeviceMounting, mounting_open_points
 from ocs_design.sizing.sized import Designed
 
-_SUPPLY = "give a supply that stands it with --bus-power and --bus-current, or more time"
-_DRIVE = "choose a motor that can do more (--motor), or give more time"
+_SUPPLY = "give a stronger supply with --bus-power and --bus-current, or allow more time"
+_DRIVE = "choose a stronger motor (--motor), or allow more time"
 CURES: Mapping[str, str] = {
     WHEEL_SPEED: _DRIVE,
     MOTOR_SPEED: _DRIVE,
@@ -47,9 +47,10 @@ CURES: Mapping[str, str] = {
     BRAKED_RIM: "make the wheel in one piece (--web disc)",
     BEARING_MOMENT: "choose a motor with stronger bearings (--motor)",
 }
-"""Margins whose capacity is not to be exceeded, by name, and what can be done.
+"""Margins whose capacity must not be exceeded, by name, and the cure.
 
-The others may be: a continuous current for a second, and a voltage, which then gives less torque.
+Others may be exceeded: a continuous current for a second, and a voltage, which then gives less
+torque.
 """
 
 _JOINT_CURES = {
@@ -61,17 +62,18 @@ _JOINT_CURES = {
 }
 _BOND_CURE = "choose a slower motor, or a disc in place of the ring (--wheel disc)"
 _SPARE = ("shaft joint, screws in shear", FOOT_SHOCK, FLOOR_SHOCK)
-"""What may fall short: friction carries the torque, and what PETG does not bear can be milled."""
+"""Joints that may fall short: friction carries the torque, and parts too weak in PETG can be
+milled."""
 
 TOLERANCE = 1e-3
-"""Share by which a capacity may be exceeded: what a wheel gains within one control step, beyond
-the limit that its law keeps."""
+"""Fraction by which a capacity may be exceeded: what a wheel gains within one control step beyond
+the limit that its control law keeps."""
 
 
 def buildable_of(
     robot: Robot, designed: Designed, margins: Sequence[Margin], mounting: DeviceMounting | None
 ) -> Buildable:
-    """Whether a designed device can be built on its robot, and what is open."""
+    """Whether a designed device can be built on its robot, and the open points."""
     motor = None if designed.choice is None else designed.choice.chosen.motor
     return buildable(motor, mounting, margins, joints_of(designed.device), robot)
 
@@ -83,23 +85,23 @@ def buildable(
     joints: Sequence[Margin] = (),
     robot: Robot | None = None,
 ) -> Buildable:
-    """Whether a device can be built as it stands, and what is open.
+    """Whether a device can be built as designed, and the open points.
 
     Args:
-        motor: that was chosen; None: none was, and nothing can be told.
-        mounting: on the robot; where the robot's shapes are not known, nothing can be told either.
+        motor: the chosen motor; None: none was chosen, and the answer is unknown.
+        mounting: on the robot; the answer is unknown where the robot's shapes are.
         margins: of the device.
         joints: of a module.
-        robot: that the device stands on; None: it has no meshes to miss.
+        robot: robot that carries the device; None: no meshes can be missing.
     """
     if motor is None:
         return Buildable(yes=None)
     points: list[OpenPoint] = []
-    # Without meshes it is not known what the device stands on and hits.
+    # Without meshes it is unknown what the device stands on and hits.
     mounted = () if mounting is None else mounting_open_points(mounting)
     bodies = () if robot is None else robot.tree.bodies
     trunk = None if robot is None else bodies[robot.tree.body_of_link[robot.trunk]]
-    # What is amiss with the feet on a trunk may be that one of its meshes is not there.
+    # A fault of the feet on the trunk may be due to a missing mesh.
     unknown = [
         body.name
         for body in bodies
@@ -113,8 +115,8 @@ def buildable(
         points.append(
             OpenPoint(
                 what=f"no source gives the {listed(gaps)} of {motor.name}",
-                cure="leave the motor to the program, which takes one that can be built with, or "
-                "state its figures in a file of your own (--motors FILE)",
+                cure="leave the choice to the program, which takes a motor with all data needed to "
+                "build, or give its figures in your own file (--motors FILE)",
             )
         )
     for joint in joints:
@@ -126,7 +128,8 @@ def buildable(
             points.append(OpenPoint(what=f"{joint.name}: {joint.note}", cure=cure))
         elif joint.margin is not None and joint.margin < 1.0 and joint.name not in _SPARE:
             asked, there = (quantity(each, joint.unit) for each in (joint.demand, joint.capacity))
-            points.append(OpenPoint(what=f"{joint.name}: {asked} asked, {there} held", cure=cure))
+            what = f"{joint.name}: {asked} required, {there} available"
+            points.append(OpenPoint(what=what, cure=cure))
     points += mounted
     for margin in margins:
         short = margin.margin is not None and margin.margin < 1.0 - TOLERANCE
@@ -135,7 +138,7 @@ def buildable(
                 quantity(each, margin.unit) for each in (margin.demand, margin.capacity)
             )
             by = f" by {margin.scenario}" if margin.scenario else ""
-            what = f"{margin.name}: {asked} asked{by}, {there} is allowed"
+            what = f"{margin.name}: {asked} required{by}, {there} allowed"
             points.append(OpenPoint(what=what, cure=CURES[margin.name]))
     if not missing and (mounting is None or not mounting.known):
         return Buildable(yes=None, open=tuple(points))

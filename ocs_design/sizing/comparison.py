@@ -1,4 +1,4 @@
-"""Lightest devices compared: at each value of one figure, and of each layout."""
+"""Comparison of lightest devices: at each value of one figure, and for each layout."""
 
 from collections.abc import Callable, Sequence
 
@@ -26,17 +26,17 @@ def draw_front(
     choose: Choose,
     progress: Progress = unseen,
 ) -> Front:
-    """Front of the lightest device at each value; where there is none, why.
+    """Front of the lightest device at each value, or the reason why there is none.
 
     Args:
-        sweep: what is varied. values: of it [SI].
-        progress: is told the share that is done.
+        sweep: the varied figure. values: its values [SI].
+        progress: called with the fraction done.
     """
     points = []
     for index, value in enumerate(values):
         specification = with_absolute_files(sweep.at(value, task))
         file = f"points/{index + 1:02d}.toml"
-        # A value for which nothing can be designed is an answer too.
+        # A value without a feasible device is a result too.
         device, reason = None, ""
         try:
             device = choose(task.with_specification(specification))
@@ -64,7 +64,7 @@ def draw_front(
 
 
 def layout_answer(layout: str, task: Task, designed: Designed) -> LayoutAnswer:
-    """What a device of a layout weighs and takes, with all of its wheels and with one less."""
+    """Mass of a layout's device, and its momentum capacity with all wheels and with one less."""
     device, sized, choice = designed.device, designed.sized, designed.choice
     mounting = mounting_of(task.robot, device, task.maneuvers, sized.total)
     each = device.flywheel.spin_inertia * sized.wheel_speed_max

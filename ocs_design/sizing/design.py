@@ -36,12 +36,12 @@ from ocs_design.sizing.sized import Choice, Designed, sized_by_bound, sized_sele
 from ocs_design.sizing.specified import require_survival, selection_problem, specified_criterion
 
 BY_HAND = "by hand"
-"""Criterion of an incidence, or source of a spin inertia, that the user gave."""
+"""Name for the criterion of an incidence, or the source of a spin inertia, that the user gave."""
 
 
 KICK_ROUNDS, _KICK_SETTLED = 3, 0.01
-"""How often a device is sized anew for kicks about the centre of mass that it leads to, and change
-of their angular impulse, over the largest, that is none."""
+"""Number of times a device is sized again for kicks about its own centre of mass, and change of
+their angular impulse, relative to the largest, that counts as converged."""
 
 
 def design_device(
@@ -53,22 +53,22 @@ def design_device(
 ) -> Designed:
     """The lightest device that meets the specification.
 
-    A kick turns the robot about a centre of mass that the device has a part in, so that a device is
-    sized for the kicks on robot and device before it, then by secants. Where they do not settle,
-    the lightest device stands that was sized for no less than it has to bear.
+    A kick turns the robot about a centre of mass that depends on the device, so the device is sized
+    for the kicks on the robot with the previous device, then by secants. Where these do not
+    converge, the result is the lightest device that was sized for kicks no smaller than its own.
 
     Args:
-        task: what is asked, of which robot.
-        ranked: whether the heavier devices are of interest too; to weigh them all takes longer.
-        reserve: to keep for what is drawn; None: for the reliability that is specified.
-        near: device to start from, whose motor, gear and material are kept; None: all parts that
-            are offered are searched.
+        task: the requirement and the robot.
+        ranked: whether heavier devices are ranked too, which takes longer.
+        reserve: reserve for sampled errors; None: that of the specified reliability.
+        near: device to start from, whose motor, gear and material are kept; None: all parts on
+            offer are searched.
 
     Raises:
         Infeasible: there is none.
-        UsageError: nothing is asked for, or a limit is no positive number.
+        UsageError: nothing is required, or a limit is not a positive number.
     """
-    # The device depends on what is asked here, and not on what was looked for before.
+    # The device must not depend on earlier searches.
     in_vain.cache_clear()
     tried: list[tuple[float, float, Designed]] = []
     before: tuple[FloatArray, FloatArray] | None = None
@@ -82,7 +82,7 @@ def design_device(
                 climbs = [each for each in asked.maneuvers if isinstance(each, StandUp)]
                 if not any(each.slower == 1.0 for each in climbs):
                     raise
-                # Robots stand up with less torque and more momentum.
+                # Standing up more slowly takes less torque and more momentum.
                 calmer = asked.changed(lambda m: m.calmer() if isinstance(m, StandUp) else m)
                 with suppress(Infeasible):
                     return design_device(task.asking(calmer), ranked=ranked, reserve=reserve)
@@ -110,7 +110,7 @@ def design_device(
 def _designed(
     task: Task, *, ranked: bool, reserve: Reserve | None, near: Candidate | None
 ) -> Designed:
-    """The device for what is resolved; see `design_device`."""
+    """The device for the task as resolved; see `design_device`."""
     specification, robot, resolved = task.specification, task.robot, task.resolved
     problem = selection_problem(task)
     if problem is None:
@@ -140,7 +140,7 @@ def _designed(
         reserve = reserve or Reserve(resolved.reliability)
         designed = _by_selection(task, problem, reserve, ranked=ranked, near=near)
         at, choice, fixed = designed.device, designed.choice, problem.place.stated
-        # The last resort, after all that holds on what is flat.
+        # The last resort, after all mounts on flat surfaces.
         if (
             at.layout.pairs
             and choice is not None
@@ -152,31 +152,31 @@ def _designed(
                 again = _by_selection(task, problem, reserve, ranked=ranked, near=near)
                 designed = designed if again.device.plate is None else again
     device, most = designed.device, specification.ocs.mass_max
-    # Nothing is lighter than the lightest: no search is needed.
+    # This device is already the lightest: no search is needed.
     if most is None or device.mass <= most:
         return designed
     raise Infeasible(
-        f"The lightest device that does everything weighs {DEVICE_MASS.figure(device.mass)}, all "
-        f"modules: ocs.mass_max allows {DEVICE_MASS.figure(most)}.",
+        f"The lightest device that meets all requirements weighs {DEVICE_MASS.figure(device.mass)} "
+        f"(all modules); ocs.mass_max allows {DEVICE_MASS.figure(most)}.",
         binding=[DEVICE_MASS.name],
         required_spin_inertia=device.flywheel.spin_inertia,
         largest_spin_inertia=device.flywheel.spin_inertia,
         relaxations={DEVICE_MASS.name: device.mass},
-        hint=f"{DEVICE_MASS.loose_text(device.mass)} would do. Without this limit `size` tells "
-        "what makes it lighter: more room, voltage or time.",
+        hint=f"{DEVICE_MASS.loose_text(device.mass)} would do. Without this limit, `size` reports "
+        "what would make it lighter: more room, voltage or time.",
     )
 
 
 SURVIVORS = ("triad", *MORE_PAIRS[:1], PYRAMID)
-"""Layouts that reach roll and pitch with any one wheel left out, the fewest wheels first."""
+"""Layouts that control roll and pitch with any one wheel missing, the fewest wheels first."""
 
 
 def survivors(specification: Specification, robot: Robot, progress: Progress) -> str:
-    """Layouts that would survive a stopped drive and their masses, for one that cannot.
+    """Layouts that would survive a stopped drive, with their masses, for a layout that cannot.
 
     Args:
-        specification: what was stated. robot: that carries the device.
-        progress: is told the share that is done.
+        specification: as given. robot: robot that carries the device.
+        progress: called with the fraction done.
     """
     masses: dict[str, float] = {}
     for done, layout in enumerate(SURVIVORS):
@@ -191,11 +191,11 @@ def survivors(specification: Specification, robot: Robot, progress: Progress) ->
         with suppress(Infeasible):
             masses[layout] = design_device(Task.of(asked, robot), ranked=False).device.mass
     if not masses:
-        return "No layout that survives it has a device either."
+        return "No layout that survives it has a feasible device either."
     told = some_of([f"`--layout {name}` {1e3 * mass:.0f} g" for name, mass in masses.items()])
     return (
-        f"What survives it weighs: {told}. At which instants a device that need not survive lands "
-        "all the same, `validate DESIGN --survives one` tells."
+        f"Layouts that survive it: {told}. `validate DESIGN --survives one` reports at which "
+        "instants of failure a device that was not sized to survive still lands."
     )
 
 
@@ -203,7 +203,7 @@ def mass_without_survival(task: Task) -> float | None:
     """Mass of the lightest device that need not survive a stopped drive [kg]; None: there is none.
 
     Args:
-        task: that asks for one which has to.
+        task: task whose device has to survive it.
     """
     with suppress(Infeasible):
         free = task.asking(replace(task.resolved.requirement, detection=None))
@@ -219,7 +219,7 @@ def _by_selection(
     ranked: bool,
     near: Candidate | None,
 ) -> Designed:
-    """Modules with a motor of the catalogue each, co-designed where that is asked for."""
+    """Modules, each with a motor of the catalogue, co-designed where that is specified."""
     specification, robot = task.specification, task.robot
     criterion = specified_criterion(specification)
     reality = Reality.of(
@@ -238,7 +238,7 @@ def _by_selection(
         ringed = device_at(replace(problem, requirement=asked), best, best.incidence) or best
 
         def nominal() -> Candidate:
-            """It stands in rings as well."""
+            """The nominal device, with guard rings."""
             return ringed
 
     if criterion is not None:
@@ -254,11 +254,11 @@ def _by_selection(
 
         tried = co_design(problem, best)
         if tried.adopted:
-            # It counted the selected device's plate.
+            # The co-design counted the selected device's plate.
             own = with_plate(tried.device, problem, robot)
             tried = replace(tried, device=own, found_mass=own.mass)
             if own.mass >= best.mass:
-                note = "the selection stands: a heavier plate takes up what the wheels would save"
+                note = "the selection stands: a heavier plate outweighs what the wheels would save"
                 tried = replace(tried, adopted=False, note=note, device=best)
         chosen = tried.device
         told = {"mass": tried.found_mass, "violation": tried.fine_violation, "remark": tried.note}
@@ -266,7 +266,7 @@ def _by_selection(
     name = LIGHTEST if criterion is None else str(criterion)
 
     def resized(other: Reserve) -> float | None:
-        """Mass of the selected parts and the plate with another reserve [kg]."""
+        """Mass of the selected parts and the plate, sized with another reserve [kg]."""
         asked = other.kept(problem.requirement, free=False)
         found = device_at(replace(problem, requirement=asked), selection.best, chosen.incidence)
         return None if found is None else found.modules_mass + chosen.plate_mass
@@ -298,7 +298,8 @@ def lightest_device(task: Task) -> FrontDevice:
     """Lightest device that is selected for a task, before any co-design.
 
     Raises:
-        Infeasible: there is none; does not say what would help. UsageError: no motor is wanted.
+        Infeasible: there is none; without advice on what would help.
+        UsageError: the specification has no motor.
     """
     if task.resolved.choice is None:
         raise UsageError(

@@ -19,8 +19,9 @@ class DrivenWheel:
     Attributes:
         inner_radius, outer_radius, height: of the rim [m].
         material: of the rim.
-        motor, gear: that drive it.
-        line: of the drive at the wheel, nothing held back, up to a stated highest speed.
+        motor, gear: motor and gear that drive it.
+        line: torque-speed line of the drive at the wheel, without reserve, up to a specified top
+            speed.
         supply: of all motors.
         hub: in the middle of the wheel's web; None: massless spokes.
         cuts: off the rim.
@@ -41,7 +42,7 @@ class DrivenWheel:
 
     @cached_property
     def wheel(self) -> Carrier:
-        """Rim, web and hub, without what turns in the motor; no source states that across."""
+        """Rim, web and hub, without the rotor, whose transverse inertia no source gives."""
         size = (self.inner_radius, self.outer_radius, self.height)
         web = None if self.web_material is None else self.web_material.density
         return wheel_body(*size, self.material.density, self.hub, cuts=self.cuts, web_density=web)
@@ -63,19 +64,19 @@ class DrivenWheel:
 
     @property
     def torque_constant(self) -> float:
-        """k_t [N m/A], without which there is no line."""
+        """Torque constant [N m/A]; a drive with a line has one."""
         assert self.motor.torque_constant is not None, "the line has it"
         return self.motor.torque_constant
 
     @property
     def resistance(self) -> float:
-        """Resistance between two lines [ohm], without which there is no line."""
+        """Line-to-line resistance [ohm]; a drive with a torque-speed line has one."""
         assert self.motor.resistance is not None, "the line has it"
         return self.motor.resistance
 
     @property
     def overspeed_stress(self) -> float | None:
-        """Hoop stress at `OVERSPEED` times the speed reached [Pa]; None: no Poisson's ratio."""
+        """Hoop stress at `OVERSPEED` times the top speed [Pa]; None: Poisson's ratio is unknown."""
         if self.material.poisson_ratio is None:
             return None
         return hoop_stress(

@@ -1,6 +1,6 @@
-"""What is tried in turn where nothing meets the specification, and how it is told.
+"""Fallbacks tried in turn where nothing meets the specification, and how they are reported.
 
-Only what is not stated changes, and only as far as all that is stated allows it.
+Only unspecified values change, and only as far as the specified ones allow.
 """
 
 from collections.abc import Iterator, Sequence
@@ -22,39 +22,39 @@ LESS_SURE = (0.9, 0.8)
 
 
 HEAVY_MOTORS = 0.2
-"""Share of the robot's mass above which a device's motors make it worth trying more wheels: four of
-1.7 kg may do what two of 7 kg do."""
+"""Fraction of the robot's mass above which the motors' mass makes more wheels worth trying: four
+motors of 1.7 kg may do what two of 7 kg do."""
 
 
 @dataclass(frozen=True)
 class Heavier:
-    """A device that gave way to a lighter one.
+    """A device that was replaced by a lighter one.
 
     Attributes:
-        mass: of it [kg].
+        mass: its mass [kg].
     """
 
     mass: float
 
     @property
     def message(self) -> str:
-        """What it weighs."""
+        """Its mass, as text."""
         return f"{format_quantity(self.mass, 'kg', digits=4)}."
 
 
 Tried = tuple[Specification, Refused | NeverHeld | Heavier]
-"""A specification, and how it was refused, or what its device weighs that is not taken."""
+"""A specification, and why it was refused, or the mass of its device that was not taken."""
 
 
 def attempts(specification: Specification, tried: Sequence[Tried]) -> Iterator[Specification]:
-    """What was asked for, and what is tried in turn where that was refused.
+    """The specification itself, then the fallbacks to try in turn where it was refused.
 
-    Where neither layout nor incidence is stated, the lightest incidence and more pairs. Where no
-    reliability is, a smaller one for all that its reserve alone stood in the way of.
+    Where neither layout nor incidence is specified, the lightest incidence and more pairs. Where no
+    reliability is, a lower one for each attempt that failed only because of its reserve.
 
     Args:
-        specification: what was stated.
-        tried: what has been refused so far, which grows between one attempt and the next.
+        specification: as given.
+        tried: refusals so far; grows between one attempt and the next.
     """
     yield specification
     stated = specification.ocs
@@ -75,12 +75,12 @@ def attempts(specification: Specification, tried: Sequence[Tried]) -> Iterator[S
 
 
 def more_wheels_may_do(device: Device, robot_mass: float) -> bool:
-    """Whether the motors are so heavy for the robot that more and smaller ones may be lighter."""
+    """Whether the motors are so heavy for the robot that more, smaller ones may be lighter."""
     return len(device.modules) * (device.motor.mass or 0.0) > HEAVY_MOTORS * robot_mass
 
 
 def attempt_text(specification: Specification, asked: Specification) -> str:
-    """What an attempt sizes, as in `a device of 4 wheels at its lightest incidence`."""
+    """What an attempt sizes, such as `a device of 4 wheels at its lightest incidence`."""
     layout, reliability = asked.ocs.layout, asked.requirement.reliability
     what = "the device"
     if layout is not None and layout != specification.ocs.layout:
@@ -95,7 +95,7 @@ def attempt_text(specification: Specification, asked: Specification) -> str:
 def substitutions(
     specification: Specification, asked: Specification, tried: Sequence[Tried]
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """What was taken in place of what is not stated, and why: as assumptions, and as warnings."""
+    """Substitutes for unspecified values, and why: as assumptions, and as warnings."""
     told: list[str] = []
     few: list[str] = []
     stated, more, less = specification.ocs.layout, asked.ocs.layout, asked.requirement.reliability
@@ -104,7 +104,7 @@ def substitutions(
         with_two = f"With two: {next(two)}"
         told.append(f"Layout: {more}, {WHEELS[more]} wheels. {with_two}")
         if specification.motor.name not in {None, AUTO}:
-            few.append(f"{WHEELS[more]} wheels are taken. {with_two}")
+            few.append(f"{WHEELS[more]} wheels are used. {with_two}")
     criterion = specification.ocs.alpha_criterion
     if asked.ocs.alpha_criterion != criterion:
         at_alpha = replace(asked.ocs, alpha_criterion=criterion)
@@ -114,19 +114,20 @@ def substitutions(
     if less is not None and less != specification.requirement.reliability:
         why = next(error.message for each, error in tried if each.ocs == asked.ocs)
         told.append(f"Reliability: {less:.0%} of robots. For {RELIABILITY:.0%}: {why}")
-        few.append(f"sized for {less:.0%} of robots: for {RELIABILITY:.0%} there is no device")
+        few.append(f"sized for {less:.0%} of robots: no device is feasible for {RELIABILITY:.0%}")
     return tuple(told), tuple(few)
 
 
 def closest(tried: Sequence[Tried], robot_mass: float) -> Refused:
-    """The refusal that advice is given on.
+    """The refusal on which advice is based.
 
-    Where a wheel lacks room, it is that of what was asked for; where the motors are too weak, that
-    of what came closest. An attempt that got as far as to what holds it on the trunk, so that its
-    robot is heavier than `robot_mass` [kg], came closer than one that no motor drives without.
+    Where a wheel lacks room, it is that of the specification itself; where the motors are too weak,
+    that of the attempt that came closest. An attempt that got as far as its mount, so that its
+    robot is heavier than `robot_mass` [kg], came closer than one that no motor can drive even
+    without a mount.
 
     Raises:
-        NeverHeld: of what was asked for, where every attempt failed at what holds it on the trunk.
+        NeverHeld: the first refusal, where every attempt failed for want of a mount.
     """
     refused = [error for _, error in tried if isinstance(error, Refused)]
     if not refused:
@@ -141,7 +142,7 @@ def closest(tried: Sequence[Tried], robot_mass: float) -> Refused:
 def advised(
     refusal: Refused, specification: Specification, tried: Sequence[Tried], progress: Progress
 ) -> Infeasible:
-    """The error with the single changes that would do, where every attempt was refused."""
+    """The error with the single changes that would help, where every attempt was refused."""
     incidences = [error.problem.incidence for _, error in tried if isinstance(error, Refused)]
     found = advice_on(
         refusal,

@@ -22,7 +22,7 @@ def place_on_top(robot: Robot, layout: Layout = PAIR) -> Place:
     """Place on top of the trunk around the centre of mass, symmetric to the sagittal plane.
 
     Each module may be turned to any incidence without touching the trunk or another one. Other
-    parts of the robot are not looked at: see `place_free`. What a person wears is on the back.
+    parts of the robot are not checked: see `place_free`. A person wears the device on the back.
     """
     if robot.worn_at is not None:
         return around(robot.worn_at, layout)
@@ -36,10 +36,10 @@ FORWARD, LEFT, UP = np.eye(3)
 ON_TOP = "on top of"
 
 STEP = 0.5
-"""Step between places that are tried, over the radius of the largest module's sphere."""
+"""Step between the places tried, relative to the radius of the largest module's sphere."""
 
 STAND_OFF = 2.0
-"""Farthest from a face, in the same unit."""
+"""Largest distance from a face, in the same unit."""
 
 Spot = tuple[float, float, float]
 """Place on a face: along, across and off it [m]."""
@@ -52,12 +52,12 @@ class Face:
     Attributes:
         name: for people, as in "on top of the trunk".
         normal, along, across: unit vectors in B: outwards, and two in the face, shape (3,).
-        outward: how the left module of a pair stands off as it grows; see `Place`.
+        outward: direction in which the left module of a pair moves away as it grows; see `Place`.
         upright: whether they stand on their feet; see `Place`.
         nearest: point of the face that is nearest to the centre of mass, in B [m], shape (3,).
         shifts, offsets: ranges along and across, from `nearest`, that stay on the face [m].
-        layout: of the modules; all but pairs stand around a point of the sagittal plane, and
-            pairs in rows one after the other `along` the face.
+        layout: of the modules; pairs stand in rows one after the other `along` the face, all others
+            around a point of the sagittal plane.
     """
 
     name: str
@@ -98,8 +98,8 @@ class Face:
 def faces(robot: Robot, layout: Layout = PAIR) -> tuple[Face, ...]:
     """Top, back and flanks of the trunk; only pairs stand behind or beside it.
 
-    Nothing is put beneath it, where a robot lands that falls short, or in front, where legs fold
-    up and cameras look. Beside it, each module is on its own side.
+    Nothing is put beneath it, where a robot lands that falls short, or in front, where legs fold up
+    and cameras look. Modules beside it are one on each side.
     """
     if not layout.pairs:
         top = _sagittal_face(robot, ON_TOP, UP, FORWARD)
@@ -117,7 +117,7 @@ def faces(robot: Robot, layout: Layout = PAIR) -> tuple[Face, ...]:
 
 
 def _sagittal_face(robot: Robot, name: str, normal: FloatArray, along: FloatArray) -> Face:
-    """Face with both modules side by side, as far apart as the trunk is wide or less."""
+    """Face with both modules side by side, at most as far apart as the trunk is wide."""
     shift, shifts = _range(robot, along)
     upright = name == ON_TOP
     return Face(
@@ -138,14 +138,14 @@ def _plane(robot: Robot, normal: FloatArray) -> float:
 
 
 def _range(robot: Robot, direction: FloatArray) -> tuple[float, tuple[float, float]]:
-    """Coordinate on the trunk nearest to the centre of mass, and how far the trunk goes from it."""
+    """Coordinate on the trunk nearest to the centre of mass, and the extent on either side."""
     low, high = -_plane(robot, -direction), _plane(robot, direction)
     start = float(np.clip(direction @ robot.com, low, high))
     return start, (low - start, high - start)
 
 
 def _steps(limits: tuple[float, float], step: float) -> list[float]:
-    """Multiples of `step` between two limits that have 0 between them."""
+    """Multiples of `step` between two limits on either side of 0."""
     low, high = limits
     return [count * step for count in range(int(np.ceil(low / step)), int(high // step) + 1)]
 
@@ -154,10 +154,10 @@ _ROUNDING = 2e-6
 """Places are rounded to the micrometre [m]."""
 
 _NEAR = 0.5
-"""Gap over a ball's or a module's radius below which it is looked at more closely."""
+"""Gap, relative to a ball's or a module's radius, below which it is checked more closely."""
 
 _SIZES = 5
-"""Number of sizes of a module that are tried."""
+"""Number of module sizes tried."""
 
 _HALVINGS = 5
 
@@ -179,7 +179,7 @@ class Sizes:
         )
 
     def all(self) -> Iterator[Size[float]]:
-        """Radii from the largest down, so close that balls at them cover all between."""
+        """Sizes from the largest down, so close that their balls cover all sizes between."""
         for share in np.linspace(1.0, 0.0, 1 if self.smallest == self.largest else _SIZES).tolist():
             pairs = zip(self.smallest, self.largest, strict=True)
             yield Size(*((1.0 - share) * small + share * large for small, large in pairs))
@@ -187,12 +187,12 @@ class Sizes:
 
 @dataclass(frozen=True)
 class FreePlace:
-    """Place of the modules, and why it is that one.
+    """Place of the modules, with the face it is on and whether it is free.
 
     Attributes:
-        place: of both, for every size.
-        face: where on the trunk, as in "behind the trunk".
-        free: whether nothing is hit there; False: no place that was tried is free.
+        place: of the modules, for every size.
+        face: where on the trunk, such as "behind" the trunk.
+        free: whether the modules hit nothing there; False: none of the places tried is free.
     """
 
     place: Place
@@ -201,7 +201,7 @@ class FreePlace:
 
 
 def specified_place(position: tuple[float, ...] | None, robot: Robot, envelope: Envelope) -> Place:
-    """Place of a pair as stated in B [m] (`place_at`); None: the nearest free place."""
+    """Place of a pair as specified in B [m] (`place_at`); None: the nearest free place."""
     return place_free(robot, envelope, PAIR).place if position is None else place_at(position)
 
 
@@ -209,9 +209,9 @@ def specified_place(position: tuple[float, ...] | None, robot: Robot, envelope: 
 def place_free(robot: Robot, envelope: Envelope, layout: Layout = PAIR) -> FreePlace:
     """Place on top over the centre of mass if that is free, else the free place nearest to it.
 
-    Free is what no other part of the robot comes near, in the nominal posture and while its legs
-    give way (`landing_ranges`), whatever the module's size and incidence. Nearest is where a module
-    adds least to the robot's inertia about roll and pitch, each over the robot's own.
+    A place is free if no other part of the robot comes near it, in the nominal posture and while
+    the legs give way (`landing_ranges`), whatever the module's size and incidence. Nearest means
+    adding least to the robot's inertia about roll and pitch, each relative to the robot's own.
     """
     search = Search(collision_model(robot), Sizes.of(envelope), layout)
     on_top = place_on_top(robot, layout)
@@ -226,7 +226,7 @@ def place_free(robot: Robot, envelope: Envelope, layout: Layout = PAIR) -> FreeP
 
 @dataclass(frozen=True, eq=False)
 class Search:
-    """Looks for places that no limb comes near.
+    """Search for places that no limb comes near.
 
     Attributes:
         collision, sizes, layout: see `CollisionModel`, `Sizes` and `Layout`.
@@ -275,7 +275,7 @@ class Search:
         )
 
     def drawn_in(self, face: Face, spot: Spot) -> Spot:
-        """Nearer than the grid of spots has it: to the face, to the middle, to the trunk's own."""
+        """Free spot refined between grid points, nearer to the face and the trunk's centre."""
         for axis in (2, 1, 0):
             step = np.sign(spot[axis]) * min(STEP * self.sizes.largest.reach, abs(spot[axis]))
             for _ in range(_HALVINGS):
@@ -288,8 +288,8 @@ class Search:
         return spot
 
     def touches(self, solid: Ball | Drum) -> bool:
-        """Whether a solid touches anything in landings, or between the postures that are drawn."""
-        # Thin tubes are looked at as closely as the modules on them.
+        """Whether a solid touches anything during landings, or between the sampled postures."""
+        # Thin tubes are checked as closely as the modules on them.
         gap = _NEAR * max(solid.radius, CLEARANCE * self.sizes.smallest.reach)
         near = nearest_in_landings(
             self.collision, solid, within=gap, enough=-_ROUNDING, on_feet=self.on_feet
@@ -301,7 +301,7 @@ class Search:
         return [Ball(center, CLEARANCE * size.reach) for center in place.centers(size)]
 
     def cost(self, place: Place) -> float:
-        """What the largest module adds to the inertia about roll and pitch, over the robot's."""
+        """Inertia about roll and pitch that the largest module adds, relative to the robot's."""
         robot = self.collision.robot
         x, y, z = (place.centers(self.sizes.largest) - robot.com).T
         roll, pitch = y**2 + z**2, x**2 + z**2

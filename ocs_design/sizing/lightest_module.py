@@ -1,28 +1,28 @@
-"""The lightest rim with its web and the shell around it, for many at once.
+"""The lightest rim with its web and the shell around it, for many modules at once.
 
 With a = R^2, b = r^2, k = 2 I / (pi rho), a web that counts like t of the rim's material, and
-q = C / (pi rho) of C = dm_shell/dh, the mass at a given R is at its best where (docs/theory.md, Web
+q = C / (pi rho) with C = dm_shell/dh, the mass at a given R is least where (docs/theory.md, Web
 and hub)
 
     (a - b)^2 = 2 q b,  so that  b = a + q - sqrt(q (2 a + q)),
 
-or at the bound of b next to it (`module_radii`). C grows a little with h, by the foot's base, and
-each round of solving for it gains a digit or more. Over R the mass of rim and shell has a single
-valley: with u = a - b and v = a + b everything but the least wall and some holes is a generalised
-posynomial of (R, h, u, v), made of sums, products, powers and the larger of two, and the smallest
-of a geometric program is a convex function of log R (Boyd, Kim, Vandenberghe, Hassibi, A tutorial
-on geometric programming, Optim. Eng. 8, 2007). The least wall, the holes and the web bend it a
-little; the tests compare with a grid. So the lightest of some radii has the best between its
-neighbours.
+or at the nearest bound of b (`module_radii`). C grows a little with h, through the foot's base, and
+each iteration for it gains a digit or more. The mass of rim and shell has a single minimum over R:
+with u = a - b and v = a + b everything but the least wall and some holes is a generalised
+posynomial of (R, h, u, v), made of sums, products, powers and maxima, and the optimum of a
+geometric program is a convex function of log R (Boyd, Kim, Vandenberghe, Hassibi, A tutorial on
+geometric programming, Optim. Eng. 8, 2007). The least wall, the holes and the web disturb this a
+little; the tests compare with a grid. So the optimum lies between the neighbours of the lightest of
+several radii.
 
-Chamfers and holes (`RimCuts`) take L(R, r) off k and M(R, r) off the mass over pi rho: the rim is
-a plain one of k + L, and its best bore where, with e from the derivatives of L and M by b,
+Chamfers and holes (`RimCuts`) take L(R, r) off k and M(R, r) off the mass over pi rho: the rim is a
+plain one of k + L, and its best bore is where, with e from the derivatives of L and M by b,
 
     (a - b)^2 (1 - e) = 2 q b,
     e (k + L - t a^2) / (a + b)^2 = L' (1 + q / (a - b)) / (a + b) - M'.
 
-They are a few per cent at most and are found along with C. Lightening holes, with which the web
-weighs like y t, add (y - 1) t to the right-hand side of the last line.
+They are a few per cent at most and are found by the same iteration as C. Lightening holes, which
+make the web weigh like y t, add (y - 1) t to the right-hand side of the last line.
 """
 
 from dataclasses import dataclass
@@ -38,24 +38,24 @@ from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits
 from ocs_design.sizing.module_radii import largest_radius, smallest_radius
 
 _PARTS = 12
-"""Parts that a round divides the interval of radii into, of which it leaves two."""
+"""Number of parts into which each round divides the interval of radii; it keeps two of them."""
 
 _PER_DIGIT = 4.0 / 3.0
-"""Rounds that a digit of the radius takes."""
+"""Rounds per digit of the radius."""
 
-# C moves by less than a fifth of what the height does, what is cut off a rim by more.
+# Changing the height changes C by under a fifth as much, and the cuts by more.
 _BORE_ROUNDS = 5
-"""Rounds of solving for the bore of a plain rim, at most."""
+"""Largest number of iterations for the bore of a plain rim."""
 
 _DIGITS = 9
-"""Digits to which radius and bore are solved for; a round for each where cuts or holes are."""
+"""Digits to which radius and bore are solved; with cuts or holes, one iteration for each."""
 
 _MOST_BENT = 0.5
-"""Largest e of the module's text; e is small where there is a bore to speak of."""
+"""Largest e (see the module's docstring); e is small unless the bore is tiny."""
 
-# Limits that meet in one point stay compatible when their figures are rounded.
+# Tolerance that keeps limits which meet in one point compatible after rounding.
 _ROUNDING = 1e-12
-# Of R^2 - r^2 over R^2.
+# Least (R^2 - r^2) / R^2 of a rim.
 _NO_WALL = 1e-9
 
 
@@ -84,21 +84,21 @@ class ModuleShape(Table):
 def lightest_module(
     spin_inertia: ArrayLike, limits: RimLimits, shell: Shell, digits: int = _DIGITS
 ) -> ModuleShape:
-    """The lightest wheel of each spin inertia [kg m^2] with its shell; see the module's text.
+    """The lightest wheel of each spin inertia [kg m^2] with its shell; see the module's docstring.
 
     Args:
-        digits: to which its radius and its bore are found.
+        digits: digits to which its radius and bore are found.
     """
     inertia = np.asarray(spin_inertia, dtype=np.float64)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         low, high = _radii(inertia, limits)
         low, high = np.broadcast_arrays(low, high)
-        # Several radii at once, as a call of numpy costs more than its work on few modules.
+        # Several radii at once: for few modules, a NumPy call costs more than its work.
         parts = np.linspace(0.0, 1.0, _PARTS + 1).reshape(-1, *(1,) * low.ndim)
         for _ in range(round(_PER_DIGIT * digits)):
             radii = low + parts * (high - low)
             mass = _shape(inertia, radii, limits, shell, digits).mass
-            # On an edge of the interval rounding may leave no rim.
+            # At an end of the interval, rounding may leave no rim.
             best = np.where(mass > 0.0, mass, np.inf).argmin(axis=0)[None]
             low, high = (
                 np.take_along_axis(radii, np.clip(best + step, 0, _PARTS), axis=0)[0]
@@ -121,7 +121,7 @@ def lightest_module_at(
 
 
 def _radii(inertia: FloatArray, limits: RimLimits) -> tuple[FloatArray, FloatArray]:
-    """Smallest and largest outer radius of a rim [m]; NaN where there is no rim at all."""
+    """Smallest and largest outer radius of a rim [m]; NaN where no rim is feasible."""
     low, high = smallest_radius(inertia, limits), largest_radius(inertia, limits)
     flat = np.asarray(limits.height_min) <= np.asarray(limits.height_max) * (1.0 + _ROUNDING)
     fits = (low <= high * (1.0 + _ROUNDING)) & (inertia > 0.0) & flat
@@ -153,12 +153,12 @@ def _shape(
 def _rim_height(
     inertia: FloatArray, outer: FloatArray, bore: FloatArray, limits: RimLimits
 ) -> tuple[FloatArray, FloatArray]:
-    """k of the rim alone before it is cut [m^5], and its height [m], by R and r^2."""
+    """k of the rim alone before it is cut [m^5], and its height [m], from R and r^2."""
     cut = limits.cuts.spread(np.sqrt(bore), outer)
     of_rim = 2.0 * inertia / (np.pi * limits.density) + cut - limits.web * bore**2
     square = outer**2
     height = of_rim / (square**2 - bore**2)
-    # A rim without any wall is none: of it, this is nothing over nothing, or what rounding left.
+    # Without a wall there is no rim: the quotient is 0 / 0, or rounding error.
     return of_rim, np.where(square - bore > _NO_WALL * square, height, np.nan)
 
 
@@ -173,7 +173,7 @@ def _best_bore(
     square = outer_radius**2
     height = np.asarray(limits.height_min) + np.zeros_like(outer_radius)
     weight, bore_weight = limits.hoop_weights
-    # A rim's height and mass have no say in these.
+    # These do not depend on the rim's height and mass.
     fixed = (
         np.maximum(np.asarray(limits.inner_radius_min) ** 2, (BORE_SHARE * outer_radius) ** 2),
         np.minimum(
@@ -200,7 +200,7 @@ def _best_bore(
         over = both**2 / (of_rim + limits.web * (bore**2 - square**2))
         bent = 0.0
         if limits.cuts.any:
-            # e of the module's text, of derivatives by r^2: those by r over 2 r.
+            # e of the module's docstring, from derivatives by r^2: those by r over 2 r.
             inner = np.sqrt(bore)
             spread = limits.cuts.spread_slope(inner, outer_radius)
             spread = spread * (1.0 + ratio / (square - bore)) / both
@@ -219,7 +219,7 @@ def _bounds(
     fixed: tuple[FloatArray, FloatArray],
     inner: FloatArray | None,
 ) -> tuple[FloatArray, FloatArray]:
-    """Bounds of r^2 at R [m^2], with what is cut off a rim of about that r; None: nothing."""
+    """Bounds of r^2 at R [m^2], with the cuts of a rim of inner radius `inner`; None: no cuts."""
     full = 2.0 * inertia / (np.pi * limits.density)
     if inner is not None:
         full = full + limits.cuts.spread(inner, outer)
@@ -229,7 +229,7 @@ def _bounds(
         mass = limits.mass_max / (np.pi * limits.density)
         if inner is not None:
             mass = mass + limits.cuts.area(inner, outer)
-        # At the largest mass t b^2 + m b = k - m a, m per pi rho.
+        # At the largest mass, t b^2 + m b = k - m a, with m over pi rho.
         over, web = full / mass - outer**2, limits.web / mass
         by_mass = 2.0 * over / (1.0 + np.sqrt(np.maximum(1.0 + 4.0 * web * over, 1e-300)))
         lower = np.maximum(lower, by_mass)
@@ -239,7 +239,7 @@ def _bounds(
 def _bore_at_height(
     full: FloatArray, outer: FloatArray, limits: RimLimits, height: float | FloatArray
 ) -> FloatArray:
-    """b at which a rim of radius R has that height; zero where even a full one is taller."""
+    """b at which a rim of radius R has the given height; 0 where even a solid disc is taller."""
     square, over = outer * outer, np.asarray(height) - limits.web
     beyond = full - limits.web * square**2
     bore: FloatArray = np.sqrt(np.maximum(square**2 - beyond / over, 0.0))
@@ -247,30 +247,31 @@ def _bore_at_height(
 
 
 HOUSING, MOUNT, BOND = "housing", "mount", "bond on the bell"
-"""Stand for the radius: where no limit holds it, for a larger rim is lighter, but its housing and
-its foot are heavier; where the motor's mount asks for a larger housing; where a ring's bond holds
-no larger one."""
+"""Names of what sets the radius: no limit, since a larger rim is lighter but its housing and foot
+are heavier; the motor's mount, which needs a larger housing; a ring's bond, which holds no larger
+ring."""
 
 BELL, HUB, LIGHTENING_HOLES = "bell", "hub", "lightening holes"
-"""Stand for the bore: of a ring around a motor's bell, which is its height too, and where hub or
-holes ask for more than was specified."""
+"""Names of what sets the bore: the motor's bell in a ring, which also sets its height; hub or holes
+that need more than specified."""
 
 WEB, CUT_HEIGHT, CUT_WALL = "web", "height for edges and holes", "wall for edges and holes"
-"""Stand for height and wall where web, chamfers or balancing holes ask for more than specified."""
+"""Names of what sets height and wall where web, chamfers or balancing holes need more than
+specified."""
 
 HOLED_STRESS = "stress at lightening holes"
-"""Stands for the hoop stress where the holes stand less."""
+"""Name of the hoop stress limit where the holes are the weakest point."""
 
 _TOUCHING = 1e-5
-"""Relative distance from an active limit; a hundredth of what can be turned."""
+"""Relative distance within which a limit is active; a hundredth of what a lathe can resolve."""
 
 
 def binding_limits(shape: ModuleShape, limits: RimLimits, room: Envelope) -> tuple[str, ...]:
-    """Names of the limits that one module touches, as in the specification.
+    """Names of the limits that are active for one module, as in the specification.
 
     Args:
         shape: of the module. limits: of its rim; both scalars.
-        room: as specified, without what web and hub take.
+        room: as specified, without the changes for web and hub.
     """
     at, inner, outer = limits, float(shape.inner_radius), float(shape.outer_radius)
     height = float(shape.height)

@@ -1,8 +1,8 @@
 """The limits of the specification by name, and the smallest change of one that would do.
 
-The search for that change knows nothing of designs. It asks whether there is one with a limit at
-another value, and where that takes long also whether one is conceivable at all, which a bound tells
-at once.
+The search for that change knows nothing of designs. It asks whether a design exists with a limit at
+another value and, where that takes long, whether one is conceivable at all, which a bound answers
+quickly.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -24,9 +24,9 @@ class Limit:
 
     Attributes:
         name: of the constraint. label: of the figure that sets it, in the specification.
-        field: of the `Envelope` or the `Requirement` that holds it.
-        loosens_upwards: more is possible if it is larger.
-        unit: of its figure in messages. per_si: that figure over the SI one.
+        field: attribute of the `Envelope` or the `Requirement` that holds it.
+        loosens_upwards: whether a larger value allows more.
+        unit: of its figure in messages. per_si: ratio of that figure to the SI one.
     """
 
     name: str
@@ -37,16 +37,16 @@ class Limit:
     per_si: float
 
     def value(self, owner: Owner) -> float:
-        """The limit as it is [SI]."""
+        """Present value of the limit [SI]."""
         return float(getattr(owner, self.field))
 
     def replaced(self, owner: Owner, value: float) -> Owner:
-        """Limits with this one alone changed."""
+        """The owner with this limit alone changed."""
         change: dict[str, Any] = {self.field: value}
         return replace(owner, **change)
 
     def loosened(self, value: float, factor: float) -> float:
-        """`value` made looser by a factor above one."""
+        """`value` loosened by a factor above one."""
         return value * factor if self.loosens_upwards else value / factor
 
     def figure(self, value: float) -> str:
@@ -91,33 +91,33 @@ LIMITS: Mapping[str, Limit] = {
 
 
 MOST_CHANGE = 1e3
-"""A limit that helps only when multiplied or divided by more than this is no advice."""
+"""A limit that must be multiplied or divided by more than this to help is not advised."""
 
 PRECISION = 1e-6
-"""Relative, of the smallest change that helps."""
+"""Relative precision of the smallest change that helps."""
 
 _LARGEST_STEP = 1.25
-"""Ratio of two changes that are tried one after the other, at most."""
+"""Largest ratio of two successive changes tried."""
 
 Test: TypeAlias = Callable[[Limit, float], bool]
 """Whether something holds with one limit at another value [SI]."""
 
 Progress: TypeAlias = Callable[[float], None]
-"""Is told the share that is done."""
+"""Called with the fraction done."""
 
 
 def unseen(share: float) -> None:
-    """Progress that nobody looks at."""
+    """Progress that is ignored."""
 
 
 def narrowed(
     does: Callable[[float], bool], low: float, high: float, precision: float
 ) -> tuple[float, float]:
-    """Two values next to each other, relative, of which the larger does and the smaller does not.
+    """Bisection on a logarithmic scale: a value that fails and one, slightly larger, that succeeds.
 
     Args:
-        does: whether a value does. low: that does not. high: that does.
-        precision: to which they are near.
+        does: whether a value succeeds. low: a value that fails. high: one that succeeds.
+        precision: largest relative difference of the result's two values.
     """
     while high > (1.0 + precision) * low:
         middle = sqrt(low * high)
@@ -134,12 +134,12 @@ def smallest_changes(
     conceivable: Test | None = None,
     progress: Progress = unseen,
 ) -> dict[Limit, float]:
-    """Values of the limits that can mend the design alone and just do, gentlest first [SI].
+    """Values of single limits that just make the design feasible, the gentlest change first [SI].
 
     Args:
-        values: of the limits as they are [SI].
-        mends, precision, most, conceivable: see `smallest_change`, of any limit.
-        progress: is told the share that is done.
+        values: present values of the limits [SI].
+        mends, precision, most, conceivable: as in `smallest_change`, for any limit.
+        progress: called with the fraction done.
     """
     found = {}
     for index, (limit, now) in enumerate(values.items()):
@@ -166,20 +166,20 @@ def smallest_change(
     most: float = MOST_CHANGE,
     conceivable: Callable[[float], bool] | None = None,
 ) -> float | None:
-    """The value next to `now`, on its loose side, that mends the design; None: none does.
+    """The smallest loosening from `now` that makes the design feasible; None: there is none.
 
-    Steps outwards until it mends, by steps that grow, then halves the last one: a limit loosened
-    too far need not mend what a smaller change does, as a larger wheel also weighs on the robot.
+    Growing steps outwards until one succeeds, then bisection of the last one: loosening a limit too
+    far may fail where a smaller change succeeds, since a larger wheel also loads the robot.
 
     Args:
-        limit: which one, for the side on which it is loose.
-        now: its value, at which there is no design.
-        mends: whether a value allows a design.
-        precision: of the value, relative.
-        most: factor by which it is changed at most.
+        limit: the limit, which knows its loose side.
+        now: its present value, at which no design is feasible.
+        mends: whether a design is feasible at a value.
+        precision: relative precision of the value.
+        most: largest factor by which it is changed.
         conceivable: where `mends` takes long, whether a bound leaves any design: true from some
-            change on. A limit that does not mend at its largest change is then taken for one that
-            never does.
+            change onwards. A limit that does not help at its largest change is then assumed never
+            to help.
     """
     if not (isfinite(now) and now > 0.0):
         return None
@@ -203,13 +203,13 @@ def smallest_change(
 
 
 def advice(changes: Sequence[str], otherwise: str) -> str:
-    """Single changes that would do as a sentence.
+    """Sentence on the single changes that would do.
 
     Args:
         changes: a text of each.
         otherwise: advice where there is none.
     """
     if not changes:
-        return f"No single change would do, however large within reason: {otherwise}"
+        return f"No single change within reason would do: {otherwise}"
     which = "Any one of these" if len(changes) > 1 else "This"
     return f"{which} alone would do: {'; '.join(changes)}."

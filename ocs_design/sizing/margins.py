@@ -1,9 +1,8 @@
-"""Margins of a motion: what it takes of winding, supply, rim and bearings, against what they stand.
+"""Margins of a motion: its demands on winding, supply, rim and bearings against their capacities.
 
-The motor is one equivalent DC motor behind an ideal inverter, V = R i + k_t w; the voltage of the
-bus is constant, and it takes back whatever the motors give (docs/theory.md, Margins). Friction is
-the motor's no-load current, on the safe side: it adds to whatever is drawn, and takes nothing off
-what is fed back.
+The motor is modelled as a DC motor behind an ideal inverter, V = R i + k_t w; the bus has constant
+voltage and accepts all regenerated power (docs/theory.md, Margins). Friction is the motor's no-load
+current, conservatively: it adds to the power drawn and takes nothing off the power fed back.
 """
 
 from collections.abc import Iterable, Iterator
@@ -25,8 +24,8 @@ class Motion:
     """Motion of trunk and m wheels, linear between samples; two samples at one time are a jump.
 
     Attributes:
-        time: [s], not falling, shape (n,).
-        wheel_speed: relative to the trunk [rad/s], shape (n, m).
+        time: [s], non-decreasing, shape (n,). wheel_speed: relative to the trunk [rad/s], shape (n,
+            m).
         wheel_torque: of the motors at the wheels [N m], shape (n, m).
         rate: of the trunk in B [rad/s], shape (n, 3).
         acceleration: of the trunk in B [rad/s^2], shape (n, 3).
@@ -63,8 +62,7 @@ class Motion:
     ) -> "Motion":
         """Motion of a recorded flight, whose torque is held from each sample to the next.
 
-        The trunk's acceleration is the mean one between two samples; a landing's is larger for
-        shorter.
+        The trunk's acceleration is the mean between two samples; in a landing it is briefly larger.
 
         Args:
             time: [s], increasing, shape (n,), n >= 2.
@@ -80,7 +78,7 @@ class Motion:
         )
 
     def between(self) -> "Motion":
-        """Samples with the middle of each interval between them, shape (2 n - 1, ...)."""
+        """Samples with the midpoint of each interval inserted, shape (2 n - 1, ...)."""
         found = {}
         for name, values in vars(self).items():
             found[name] = np.repeat(values, 2, axis=0)[:-1]
@@ -89,11 +87,11 @@ class Motion:
 
 
 def integral(values: FloatArray, time: FloatArray) -> float:
-    """Simpson's rule over intervals with their middles: exact for what is quadratic in each.
+    """Simpson's rule over intervals with midpoints: exact for functions quadratic in each.
 
     Args:
         values: shape (2 n - 1,).
-        time: as `Motion.between` gives it, shape (2 n - 1,).
+        time: as from `Motion.between`, shape (2 n - 1,).
     """
     step = time[2::2] - time[:-2:2]
     return float(step @ (values[:-2:2] + 4.0 * values[1::2] + values[2::2]) / 6.0)
@@ -106,16 +104,16 @@ def _both_ends(values: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True)
 class Consumption:
-    """Consumption over one motion; of one motor where nothing else is said.
+    """Consumption over one motion; of one motor unless stated otherwise.
 
     Attributes:
         duration: of the motion [s].
         peak_current: of a winding [A].
-        current_squared_time: integral of i^2 of the busiest motor [A^2 s].
+        current_squared_time: integral of i^2 in the busiest motor [A^2 s].
         heat: in the winding that heats most [J]. heat_all: in all windings [J].
         gear_loss: of all gears [J].
         drawn, fed_back: energy from the bus and to it, all motors together [J].
-        power_drawn, power_fed_back: largest from the bus and to it, all motors together [W].
+        power_drawn, power_fed_back: largest power from the bus and to it, all motors together [W].
     """
 
     duration: float
@@ -136,7 +134,7 @@ def consumption(motion: Motion, wheel: DrivenWheel) -> Consumption:
     current = winding_current(fine, wheel)
     squared_time = [integral(values**2, fine.time) for values in current.T]
     drawn, fed_back = bus_power(fine, wheel), -bus_power(fine, wheel, friction=False)
-    # In the middle of a jump there is nothing.
+    # Midpoints of jumps do not exist in time.
     lasts = np.ones(len(fine.time), dtype=bool)
     lasts[1::2] = np.diff(motion.time) > 0.0
     loss = shaft_power(fine, wheel) - fine.wheel_torque * fine.wheel_speed
@@ -155,10 +153,10 @@ def consumption(motion: Motion, wheel: DrivenWheel) -> Consumption:
 
 
 def winding_current(motion: Motion, wheel: DrivenWheel, *, friction: bool = True) -> FloatArray:
-    """i = tau / (N eta k_t) [A], as the drive's line has it, and I_0 on top; shape (n, m).
+    """i = tau / (N eta k_t) [A], as in the drive's torque-speed line, plus I_0; shape (n, m).
 
-    The losses of gear and bearings are taken to work against the motor also where it brakes, when
-    in truth they help: currents and heat are on the safe side.
+    Losses of gear and bearings are counted against the motor even in braking, where they really
+    help: currents and heat are conservative.
     """
     gear, torque = wheel.gear, motion.wheel_torque
     current = torque / (gear.ratio * gear.efficiency * wheel.torque_constant)
@@ -172,8 +170,8 @@ def winding_current(motion: Motion, wheel: DrivenWheel, *, friction: bool = True
 def shaft_power(motion: Motion, wheel: DrivenWheel) -> FloatArray:
     """Power at the motors' shafts [W], shape (n, m): tau W / eta driving, eta tau W braking.
 
-    Unlike the current, the energy that comes back is not rounded to the safe side: a gear that
-    loses in the one direction would make energy in the other.
+    Unlike the current, the returned energy is not conservative: a gear that loses power in one
+    direction would create it in the other.
     """
     power = motion.wheel_torque * motion.wheel_speed
     efficiency = wheel.gear.efficiency
@@ -181,7 +179,7 @@ def shaft_power(motion: Motion, wheel: DrivenWheel) -> FloatArray:
 
 
 def bus_power(motion: Motion, wheel: DrivenWheel, *, friction: bool = True) -> FloatArray:
-    """Power of all motors together [W], shape (n,): R i^2, what the shafts take, and friction.
+    """Power of all motors together [W], shape (n,): R i^2, shaft power, and friction.
 
     For direct drive that is V i with V = R i + k_t w. Friction is k_t I_0 at the motor's speed.
     """
@@ -195,30 +193,30 @@ def bus_power(motion: Motion, wheel: DrivenWheel, *, friction: bool = True) -> F
 
 
 def worst(by_scenario: Iterable[tuple[str, Iterable[Margin]]]) -> tuple[Margin, ...]:
-    """The smallest margin of each kind, with the scenario that sets it, in the order they come.
+    """The smallest margin of each kind, with the scenario that sets it, in order of appearance.
 
-    Where there is no capacity it is the largest demand.
+    Without a capacity, it is the one with the largest demand.
 
     Args:
-        by_scenario: names of maneuvers and the margins of a motion of each; a name may come twice,
-            for what was planned and for what was flown.
+        by_scenario: names of maneuvers, each with the margins of a motion; a name may occur twice,
+            for the planned and for the flown motion.
     """
     found: dict[str, Margin] = {}
     for name, margins in by_scenario:
         for margin in margins:
             kept = found.get(margin.name)
             if kept is None or margin.strain > kept.strain:
-                # A rim's stress is that of the drive's highest speed, whatever is done with it.
+                # A rim's stress is that at the drive's highest speed in every scenario.
                 scenario = "" if margin.name == HOOP_STRESS else name
                 found[margin.name] = replace(margin, scenario=scenario)
     return tuple(found.values())
 
 
 def bearing_moment(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> FloatArray:
-    """Moment of the trunk on each wheel across its axis [N m], shape (n, m).
+    """Moment of the trunk on each wheel, perpendicular to its axis [N m], shape (n, m).
 
     With a the axis, w the trunk's rate and W the wheel's speed relative to it, a rotor has the
-    momentum I_t w_perp + (I_s (a w) + h W) a, whose change as seen from the world is, across a
+    momentum I_t w_perp + (I_s (a w) + h W) a, whose inertial derivative perpendicular to a is
     (Euler's equations in a frame that does not spin with the rotor; Hughes1986, Gyrostats):
 
         M = I_t w_dot_perp + (I_s (a w) + h W - I_t (a w)) w x a .
@@ -246,17 +244,17 @@ RMS_CURRENT = "rms current"
 BRAKE_TORQUE = "brake torque"
 BRAKED_SHAFT, BRAKED_RIM = "shaft joint, braked", "rim joint, braked"
 FED_BACK = ", fed back"
-"""Words behind the name of what goes into the bus."""
+"""Suffix of the names of margins on power fed into the bus."""
 
 ALL_MOTORS = "all motors together, ideal inverter, friction included"
 
 
 def margins(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> tuple[Margin, ...]:
-    """What a motion asks of the drive, the rim, the supply and the bearings.
+    """Margins of drive, rim, supply and bearings for one motion.
 
     Args:
-        motion: of trunk and wheels, flown or a reference.
-        axes: unit spin axes in B as columns, as they are in this motion, shape (3, m).
+        motion: of trunk and wheels, flown or planned.
+        axes: unit spin axes in B in this motion, as columns, shape (3, m).
         wheel: each of them.
     """
     found = [*_drive_margins(motion, wheel), *_electric_margins(consumption(motion, wheel), wheel)]
@@ -267,12 +265,12 @@ def margins(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> tuple[Margi
         found.append(Margin(HOOP_STRESS, stress, strength, "Pa", note=note))
     moved = wheel.turned_inertia + wheel.drive.armature
     energy = float((0.5 * moved * np.sum(motion.wheel_speed**2, axis=1)).max())
-    # No motor of the catalogue states what its bearings stand, or how far apart they are.
+    # No data sheet in the catalogue gives the load rating or the spacing of the bearings.
     moment = float(bearing_moment(motion, axes, wheel).max())
     return (
         *found,
         Margin("stored energy", energy, None, "J", note="all wheels with their rotors"),
-        Margin(BEARING_MOMENT, moment, None, "N m", note="gyroscopic, and of the trunk's turning"),
+        Margin(BEARING_MOMENT, moment, None, "N m", note="gyroscopic, and accelerating the trunk"),
     )
 
 
@@ -284,7 +282,7 @@ def _drive_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
     capacity = min(speed_limit(wheel.motor) or np.inf, gear.motor_speed_max)
     note = "" if wheel.motor.speed_max else "no limit stated: no-load speed at rated voltage"
     yield Margin(MOTOR_SPEED, gear.ratio * speed, _finite(capacity), "rad/s", note=note)
-    # The motor turns against its own friction whenever it is used.
+    # A motor in use also works against its own friction.
     rubbed = wheel.drive.friction
     asked = _peak(motion.wheel_torque)
     yield Margin(
@@ -307,10 +305,10 @@ def _drive_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
 
 
 def _electric_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin]:
-    """Current and power of the bus against its supply, the energies, and heat of the busiest motor.
+    """Bus current and power against the supply's limits, energies, and heat of the busiest motor.
 
-    Continuous ratings are for hours and a maneuver lasts a second: a current that exceeds one is no
-    fault, but asks for a pause until the mean of i^2 is back at the rating's.
+    Continuous ratings are for hours and a maneuver lasts a second: exceeding one is not a fault,
+    but requires a pause until the mean of i^2 is back at the rating's.
     """
     supply = wheel.supply.told
     current_max, power_max = _finite(supply.power / supply.voltage), _finite(supply.power)

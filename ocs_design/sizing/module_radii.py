@@ -1,6 +1,6 @@
-"""Which outer radii leave room for a rim of a given spin inertia, in closed form but for two roots.
+"""Outer radii feasible for a rim of a given spin inertia, in closed form except for two roots.
 
-With a = R^2, b = r^2, k = 2 I / (pi rho) and a web that counts like t of the rim's material the
+With a = R^2, b = r^2, k = 2 I / (pi rho) and a web that counts like t of the rim's material, the
 height is h = (k - t b^2) / (a^2 - b^2), and the limits bound b at each R, from above and below:
 
     h_max: b^2 <= a^2 - (k - t a^2) / (h_max - t)    h_min: b^2 >= a^2 - (k - t a^2) / (h_min - t)
@@ -8,13 +8,13 @@ height is h = (k - t b^2) / (a^2 - b^2), and the limits bound b at each R, from 
     bell:  b <= r_max^2, where the bore is that of a ring around one
     hoop stress: b <= (S - (3 + nu) a) / (1 - nu)    mass:  k - t b^2 <= m_max / (pi rho) (a + b)
 
-Each pair of an upper and a lower bound leaves all radii on one side of where the two meet. So the
-radii that leave room are one interval, between the largest of those crossings that bound R from
+Each pair of an upper and a lower bound admits all radii on one side of the point where the two
+meet. So the feasible radii are one interval, between the largest of the crossings that bound R from
 below and the smallest of those that bound it from above.
 
-A rim with broken edges and holes is a plain one of so much more k and mass as they take
-(`RimCuts`). That changes little along with (R, r), and each round of solving for it at a crossing
-gains two digits or so.
+A rim with chamfered edges and holes is a plain one with k and mass increased by what they remove
+(`RimCuts`). That depends only weakly on (R, r), so each iteration for it at a crossing gains about
+two digits.
 """
 
 from collections.abc import Callable
@@ -25,13 +25,15 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits, flat_wall_radius
 
-# From above each step of Newton's method halves the error at least; then it doubles the digits.
+# From above, each Newton step at least halves the error; near the root it doubles the digits.
 _NEWTON_STEPS = 12
-# Relative, of a last step that no digit is left to gain by: the one after it would be nothing.
+# Relative step below which iteration stops: the next would be rounding.
 _LAST_STEP = 1e-9
-# Relative, of two radii that are one: limits that meet in a point must still leave a rim there.
+# Relative difference of radii that count as equal: limits that meet in a point must still admit a
+# rim.
 _SAME = 1e-13
-# Of what is cut off a rim, at least a digit each: it is at most an eighth of its cross-section.
+# Iterations for the cuts; each gains at least a digit, as cuts are at most an eighth of the
+# section.
 _CUT_ROUNDS = 7
 
 
@@ -43,9 +45,9 @@ class _Crossing(NamedTuple):
 
 
 class _Asked(NamedTuple):
-    """A plain rim that is asked for, with chamfers and holes to be cut off it, and its limits.
+    """A required plain rim, before chamfers and holes are cut, and its limits.
 
-    Each method is the rim at which two limits meet.
+    Each method returns the rim at which two limits meet.
 
     Attributes:
         full: k [m^5]. mass: largest, over pi rho [m^3].
@@ -59,13 +61,13 @@ class _Asked(NamedTuple):
     def tall_and_narrow(self) -> _Crossing:
         """The largest height and the least bore."""
         bore, tall = np.asarray(self.limits.inner_radius_min), np.asarray(self.limits.height_max)
-        # Positive also where the web alone has more than is asked for: then nothing small is too
-        # tall.
+        # Non-negative even where the web alone has more inertia than required: then no small rim is
+        # too tall.
         fourth = np.maximum(self.full - self.limits.web * bore**4, 0.0) / tall + bore**4
         return _Crossing(bore, np.sqrt(np.sqrt(fourth)))
 
     def tall_and_closed(self) -> _Crossing:
-        """The largest height and the least share of a bore."""
+        """The largest height and the least ratio of bore to outer radius."""
         tall = np.asarray(self.limits.height_max)
         fourth = self.full / tall / (1.0 - (1.0 - self.limits.web / tall) * BORE_SHARE**4)
         outer = np.sqrt(np.sqrt(fourth))
@@ -74,7 +76,7 @@ class _Asked(NamedTuple):
     def tall_and_heavy(self) -> _Crossing:
         """The largest height and the largest mass.
 
-        A rim of both has a - b = m / (pi rho h) = c, so that h c (2 a - c) + t (a - c)^2 = k. Where
+        A rim at both has a - b = m / (pi rho h) = c, so that h c (2 a - c) + t (a - c)^2 = k. Where
         that leaves no bore, every radius is light enough.
         """
         tall, web = np.asarray(self.limits.height_max), self.limits.web
@@ -110,7 +112,7 @@ class _Asked(NamedTuple):
             return value, 4.0 * (flat * radius**3 - (flat - web) * inner**3)
 
         with np.errstate(divide="ignore"):
-            # Without any rim the web alone would have as much.
+            # At this radius the web alone, without any rim, would have the inertia.
             start = np.minimum(flat_wall_radius(self.full / flat, wall), (self.full / web) ** 0.25)
         outer = _root_from_above(excess, start, web)
         return _Crossing(outer - wall, outer)
@@ -147,11 +149,11 @@ class _Asked(NamedTuple):
         flat = self.full / tall
         root = np.sqrt(np.maximum(more - flat * (outer**2 - inner**2 * more) / stretch**2, 0.0))
         square = (stretch + inner**2 * flat / stretch) / (outer + inner * root)
-        # Where R^4 is less than that already, the least height leaves any bore.
+        # Where R^4 is already smaller, the least height allows any bore.
         return self._stretched(np.where(stretch > outer * np.sqrt(flat / more), square, np.inf))
 
     def _stretched(self, square: FloatArray) -> _Crossing:
-        """Bore that the hoop stress leaves of a rim with that R^2 [m^2]."""
+        """Rim with that R^2 [m^2] and the bore at which it reaches the hoop stress limit."""
         outer, inner = self.limits.hoop_weights
         square = np.maximum(square, 0.0)
         bore = (self.limits.stretch_max - outer * square) / inner
@@ -194,12 +196,12 @@ def largest_radius(inertia: FloatArray, limits: RimLimits) -> FloatArray:
 def _crossing_radius(
     crossing: Callable[[_Asked], _Crossing], inertia: FloatArray, limits: RimLimits
 ) -> FloatArray:
-    """R where two limits meet on a rim with what is cut off it [m]."""
+    """R at which two limits meet for a rim with cuts [m]."""
     cuts, per_volume = limits.cuts, np.pi * limits.density
     full, mass = 2.0 * inertia / per_volume, np.asarray(limits.mass_max) / per_volume
     found = crossing(_Asked(full, mass, limits))
     for _ in range(_CUT_ROUNDS if cuts.any else 0):
-        # Where they do not meet nothing is cut.
+        # Where the limits do not meet, there are no cuts.
         both = cuts.spread(*found), cuts.area(*found)
         spread, area = (np.where(np.isfinite(cut), cut, 0.0) for cut in both)
         last, found = found, crossing(_Asked(full + spread, mass + area, limits))
@@ -209,7 +211,7 @@ def _crossing_radius(
 
 
 def _held_bore(limits: RimLimits) -> bool:
-    """Whether bores have an upper limit; these rims have no webs."""
+    """Whether bores have an upper limit; such rims have no webs."""
     return not np.all(np.isinf(limits.inner_radius_max))
 
 
@@ -218,7 +220,7 @@ def _root_from_above(
     start: FloatArray,
     web: float | FloatArray,
 ) -> FloatArray:
-    """Root of a convex, rising function, by Newton's method; without a web it is the start itself.
+    """Root of a convex, increasing function by Newton's method; without a web, the start itself.
 
     Args:
         excess: the function and its slope.

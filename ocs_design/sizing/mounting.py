@@ -1,4 +1,4 @@
-"""How a device sits on its robot: what it is near, what could hit it, what it changes."""
+"""How a device sits on its robot: clearances, possible collisions, change of mass properties."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -47,16 +47,18 @@ class DeviceMounting:
     Modules are their housings, motors and feet, or bare wheels.
 
     Attributes:
-        nearest: in the nominal posture; None if the robot has no geometry.
-        landing: what moves against the trunk, while the legs give way as in landings; None if
-            nothing does.
-        reachable: limbs that could hit a module somewhere within their joints' limits.
-        com_shift: of the centre of mass by the device, in B [m], shape (3,).
-        inertia_change: of I_xx, I_yy and I_zz about the centre of mass, over the robot's own.
-        feet: what each foot stands on, the plate among them; empty where wheels have no feet.
-        pedestals: what holds each foot that leans, or would.
-        module_mass: of what stands on each [kg].
-        pads: flat spots that would hold a mast; None: they are no pairs, or none bears them.
+        nearest: clearance in the nominal posture; None if the robot has no geometry.
+        landing: clearance to parts that move relative to the trunk, while the legs give way as in
+            landings; None if there are none.
+        reachable: limbs that could hit a module somewhere within their joint limits.
+        com_shift: shift of the centre of mass by the device, in B [m], shape (3,).
+        inertia_change: change of I_xx, I_yy and I_zz about the centre of mass, relative to the
+            robot's own.
+        feet: what each foot stands on, which may be the plate; empty where wheels have no feet.
+        pedestals: the pedestal of each tilted foot, existing or needed.
+        module_mass: mass of the module on each [kg].
+        pads: flat spots that would hold a mast; None: the modules are not in pairs, or no mast is
+            strong enough.
         layout: of the wheels.
     """
 
@@ -78,12 +80,12 @@ class DeviceMounting:
 
 
 def mounting_open_points(mounting: DeviceMounting) -> tuple[OpenPoint, ...]:
-    """What of a mounting keeps the device from being built: what hangs, and what collides.
+    """Open points of a mounting: feet without support, and collisions.
 
-    Feet on a trunk whose shapes are not known are no open point: `known` tells of them.
+    Feet on a trunk of unknown shape are not an open point: `known` reports them.
     """
     found: list[OpenPoint] = []
-    cure = "take a layout whose axes are horizontal: --layout pair, triad or single"
+    cure = "choose a layout whose axes are horizontal: --layout pair, triad or single"
     leaning = [contact.name for contact in mounting.feet if contact.leans]
     use = max((pedestal_use(each, mounting.module_mass) for each in mounting.pedestals), default=0)
     if leaning:
@@ -91,11 +93,11 @@ def mounting_open_points(mounting: DeviceMounting) -> tuple[OpenPoint, ...]:
         mass = format_quantity(sum(each.mass for each in mounting.pedestals), "g", digits=3)
         length, width, height = (format_quantity(size, "mm", digits=2) for size in largest.sizes)
         what = (
-            f"{some_of(leaning, len(leaning))} cannot stand on the trunk: under a wheel whose axis "
-            "is not horizontal goes a pedestal, and it is nowhere flat enough for all pedestals "
-            f"and other feet. Pedestals would weigh {mass} together, the largest {length} long, "
-            f"{width} wide and {height} high, and use {use:.0%} of their strength at 20 g; neither "
-            "mass nor places nor files count them"
+            f"{some_of(leaning, len(leaning))} cannot stand on the trunk: a wheel whose axis is "
+            "not horizontal needs a pedestal, and the trunk is nowhere flat enough for all "
+            f"pedestals and other feet. Pedestals would weigh {mass} together, the largest "
+            f"{length} long, {width} wide and {height} high, and use {use:.0%} of their strength "
+            "at 20 g; mass, positions and files do not include them"
         )
         found.append(OpenPoint(what=what, cure=cure))
     elif use > 1.0:
@@ -110,19 +112,19 @@ def mounting_open_points(mounting: DeviceMounting) -> tuple[OpenPoint, ...]:
 
 
 def _position_option(layout: Layout) -> str:
-    """Option that states where the wheels of a layout are, in words."""
+    """Command line option for the positions of a layout's wheels, as text."""
     one = layout == PAIR or len(layout) == 1
     return "--position X,Y,Z" if one else "--position, with x, y and z of every wheel"
 
 
 def _hanging(mounting: DeviceMounting) -> Iterator[OpenPoint]:
-    """Feet that are not held, and what would hold them; alike ones are told once."""
+    """Feet that are not held, and what would hold them; similar ones are reported once."""
     feet, pads = mounting.feet, mounting.pads
     loose = [contact for contact in feet if contact.held is False and not contact.leans]
     in_pairs = any(contact.name.startswith(SIDES[0]) for contact in feet)
     more_feet = (
-        "make a plate that carries all feet, or take another layout: --layout pair, double-pair or "
-        "triad"
+        "make a plate that carries all feet, or choose another layout: --layout pair, double-pair "
+        "or triad"
     )
     proud = max((contact.proud for contact in loose), default=0.0)
     if proud > PROUD:
@@ -139,7 +141,7 @@ def _hanging(mounting: DeviceMounting) -> Iterator[OpenPoint]:
         what = (
             f"{names}: {share:.0%} of the underside touches the {loose[0].on}; {at_screws}"
             if share > 0.0
-            else "the feet hang in the air: the trunk is not under them, or not near"
+            else "the feet hang in the air: the trunk is not below them, or too far below"
         )
         flat_spot = format_quantity(2.0 * SPREAD, "mm")
         cure = (
@@ -154,7 +156,7 @@ def _hanging(mounting: DeviceMounting) -> Iterator[OpenPoint]:
                 for each in (pads.diameter, pads.aside, pads.up)
             )
             cures.append(
-                "keep limbs and what stands out off its back, which is flat enough for the "
+                "keep limbs and protrusions clear of its back, which is flat enough for the "
                 f"{pads.screw} screws of a mast"
                 if pads.there
                 else f"make four flat spots of {wide} on its back, {aside} apart sideways and at "
@@ -164,7 +166,7 @@ def _hanging(mounting: DeviceMounting) -> Iterator[OpenPoint]:
 
 
 def _hit(mounting: DeviceMounting) -> str:
-    """What is hit in the nominal posture or in a landing, as a clause; empty if nothing is."""
+    """Collision in the nominal posture or in a landing, as a clause; empty if there is none."""
     nearest, landing = mounting.nearest, mounting.landing
     if nearest is not None and nearest.distance < 0.0:
         overlap = format_quantity(-nearest.distance, "mm")
@@ -180,9 +182,9 @@ def mounting_of(
     """How a device sits on its robot.
 
     Args:
-        robot: without it.
+        robot: without the device.
         device: as designed.
-        maneuvers: some may have an incidence of their own.
+        maneuvers: maneuvers, some of which may have an incidence of their own.
         whole: robot and device together, in B.
     """
     collision = collision_model(robot)
@@ -193,7 +195,7 @@ def mounting_of(
     solids += [solid for each in device.pedestals for solid in pedestal_solids(each)]
     surface = trunk_surface(robot) if device.carrier.mass > 0.0 else None
     feet = contacts_of(robot, device)
-    # A mast's formed block is the last resort, and no heel is kicked up against it.
+    # With a mast's formed block, the last resort, heels are assumed not to be kicked up against it.
     on_feet = device.plate is not None and device.plate.relief is not None
     landing = [nearest_in_landings(collision, solid, on_feet=on_feet) for solid in solids]
     return DeviceMounting(
@@ -226,17 +228,17 @@ def placement_warnings(
     stated: bool,
     strict: bool = False,
 ) -> tuple[str, ...]:
-    """What is hit where the modules stand, one sentence each; joints' limits are another matter.
+    """Collisions at the modules' place, one sentence each; joint limits are not considered.
 
     Args:
         mounting: of the device on the robot.
         robot, device: see `mounting_of`.
-        envelope: that the rims had to keep to.
+        envelope: limits of the rims.
         stated: whether the user chose the position.
-        strict: they are errors.
+        strict: whether collisions are errors.
 
     Raises:
-        SpecificationError: `strict`, and there is any.
+        SpecificationError: `strict`, and there is a collision.
     """
     hit = _hit(mounting)
     if not hit:
@@ -249,7 +251,7 @@ def placement_warnings(
     elif (best := place_free(robot, envelope, layout)).free:
         left, _ = best.place.centers(device_size(device))
         place = ",".join(f"{1e3 * float(value):.1f}mm" for value in left)
-        hint = f"free would be --position {place}, {best.face} the trunk"
+        hint = f"--position {place}, {best.face} the trunk, would be free"
     if strict:
         raise SpecificationError(f"--strict: {hit}", hint=hint)
     return (f"{hit}; {hint}",)
@@ -261,10 +263,10 @@ def _nearest_part(
     flown: Sequence[Sequence[ModuleSolids]],
     surface: Surface | None,
 ) -> Clearance | None:
-    """Nearest of all links, of the plate and of another module, which is named after its wheel.
+    """The nearest of all links, the plate and other modules; a module is named after its wheel.
 
-    Feet and plate stand on the trunk, and are not near it. Where the trunk's surface is known, it
-    counts in place of the trunk's convex hull.
+    Feet and plate stand on the trunk, so their distance from it does not count. Where the trunk's
+    surface is known, it replaces the trunk's convex hull.
     """
     modules = [module for each in flown for module in each]
     frames = {each.module: pedestal_solids(each) for each in device.pedestals}
@@ -306,7 +308,7 @@ def _nearest_part(
 
 
 def _above(surface: Surface, solid: Drum) -> float:
-    """Least height of a cylinder over the trunk's surface, upright [m]; inf: nothing is below."""
+    """Least height of a cylinder above the trunk's surface [m]; inf: nothing is below."""
     side = np.cross(solid.axis, [0.0, 0.0, 1.0] if abs(solid.axis[2]) < 0.9 else [1.0, 0.0, 0.0])
     side /= np.linalg.norm(side)
     up = np.cross(side, solid.axis)

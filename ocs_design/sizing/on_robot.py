@@ -1,7 +1,7 @@
-"""The selection on the robot: each device with a plate, feet and guard rings of its own.
+"""Selection of devices on the robot, each with its own plate, feet and guard rings.
 
-Plate, feet and rings follow from the device that they carry or hold, and add to what it must turn:
-both are found in turn until they stay.
+Plate, feet and rings depend on the device that they carry or guard, and add to what it must turn:
+both are found in turn until they converge.
 """
 
 from collections.abc import Callable
@@ -37,26 +37,27 @@ from ocs_design.sizing.selection.select import (
 _FOOTINGS_MAX, _RINGS_MAX, _RESERVES_MAX = 6, 16, 3
 
 _SETTLED = 1e-3
-"""Change of a plate's mass over its device's that is none: a device's follows by a hundredth."""
+"""Change of the plate's mass, relative to the device's, that counts as converged; the device's mass
+then changes by a hundredth of it."""
 
 _NEVER_SETTLES = 0.05
-"""Change of that mass from which a device is held in another way each time it is sized anew."""
+"""Change of that mass above which a device counts as mounted differently each time it is sized."""
 
 _TOO_THICK = 0.2e-3
-"""Excess thickness of feet that are left as they are [m]: 0.5 g each."""
+"""Excess thickness of feet that is tolerated [m]: 0.5 g each."""
 
 
 class NeverHeld(Infeasible):
-    """What would hold a device on the trunk asks for a larger device, which nothing holds.
+    """The mount would need a larger device, which no mount can hold.
 
-    Args: the device, and the mass of the heaviest that would hold it [kg].
+    Args: the device, and the mass of the heaviest mount that would hold it [kg].
     """
 
     def __init__(self, best: Candidate, mass: float) -> None:
         held, device = (format_quantity(each, "kg", digits=3) for each in (mass, best.modules_mass))
         super().__init__(
-            f"A device of {device} can be held on the trunk by what weighs {held}, but to turn "
-            "that too takes a larger device, and nothing holds that one.",
+            f"A device of {device} needs a mount of {held} on the trunk, but turning that mount "
+            "too takes a larger device, which no mount can hold.",
             binding=["ocs.place"],
             largest_spin_inertia=best.spin_inertia,
             hint="Another incidence, more time or a higher voltage makes the device smaller.",
@@ -64,7 +65,7 @@ class NeverHeld(Infeasible):
 
 
 def with_plate(candidate: Candidate, problem: SelectionProblem, robot: Robot) -> Candidate:
-    """A selected device with the plate or the pedestals that it stands on, where it needs any."""
+    """A selected device with its plate or pedestals, where it needs any."""
     device = assemble_selected(candidate)
     stated, formed = problem.place.stated, problem.formed
     device = stand_on_trunk(device, robot, stated=stated, formed=formed)
@@ -79,13 +80,15 @@ def with_plates(
     *,
     ranked: bool = True,
 ) -> Selection:
-    """The selection with the plates that its devices stand on, the lightest with its plate first.
+    """The selection with each device on its plate, the lightest with its plate first.
 
-    Every device has a plate of its own size: that of a smaller one is lighter.
+    Every device has a plate of its own size: a smaller device has a lighter plate.
 
     Args:
-        problem: that was solved. criterion: see `select_by`; the first is at its own incidence.
-        ranked: False leaves out what is heavier than the lightest before it has a plate at all.
+        problem: the problem solved. criterion: see `select_by`; the first device is at its own
+            incidence.
+        ranked: False skips devices that without a plate are already heavier than the lightest with
+            one.
     """
     plated: list[Candidate] = []
     for entry in selection.ranking:
@@ -101,10 +104,10 @@ def with_plates(
 
 @dataclass(frozen=True, eq=False)
 class _Search:
-    """Search for a device together with what holds it on its robot.
+    """Search for a device together with its mount on the robot.
 
     Attributes:
-        criterion: see `select_by`. robot: that carries it. near: see `on_its_footing`.
+        criterion: see `select_by`. robot: robot that carries it. near: see `design_device`.
     """
 
     criterion: Criterion | None
@@ -112,7 +115,7 @@ class _Search:
     near: Candidate | None
 
     def selected(self, problem: SelectionProblem, start: Candidate | None) -> Selection:
-        """The selection for a problem; where its parts are known, the device near `start` alone."""
+        """The selection for a problem; where its parts are known, only the device near `start`."""
         alone = self.near and start and lightest_near(problem, start, self.criterion)
         if alone is None:
             return select_by(problem, self.criterion, winner=start)
@@ -121,7 +124,7 @@ class _Search:
     def settled(
         self, problem: SelectionProblem, best: Candidate
     ) -> tuple[SelectionProblem, Candidate]:
-        """The problem for the footing of this device, and the device for that, until both stay."""
+        """The problem for this device's footing, and the device for that problem, converged."""
         at, criterion = problem, self.criterion
         for _ in range(_FOOTINGS_MAX):
             own = _own_footing(problem, best, self.robot)
@@ -133,13 +136,13 @@ class _Search:
             again = device_at(own, best, best.incidence)
             if again is not None and criterion is not None and own.incidence is None:
                 _, again = at_own_incidence(own, again, criterion)
-            # Under a mast, which no estimate before had, another drive may be needed, or none do.
+            # Earlier estimates had no mast; with it another drive may be needed, or none suffices.
             again = again or lightest_by(own, criterion)
             try:
                 best = again or select_by(own, criterion).best
             except Infeasible as error:
                 held = format_quantity(own.robot.mass - self.robot.mass, "kg", digits=4)
-                error.message = f"With the {held} that hold it on the trunk: {error.message}"
+                error.message = f"With a mount of {held} on the trunk: {error.message}"
                 raise
             at = own
         else:
@@ -157,22 +160,23 @@ def on_its_footing(
     ranked: bool,
     near: Candidate | None,
 ) -> tuple[SelectionProblem, Selection, Reserve, Callable[[], Candidate]]:
-    """The selection on the footing that its best device has, with the problem that this is.
+    """The selection on the footing of its best device, preceded by the problem that it solves.
 
-    Last come the reserve that it keeps and a function that looks for the lightest device without.
+    They are followed by the reserve that it keeps, and a function that finds the lightest device
+    without a reserve.
 
-    The problem is for the plate and the place of the largest modules that there may be. The
-    selection is for those of its lightest device, then only the best drive's for its own, until
-    they stay.
+    The problem given is for the plate and the place of the largest possible modules. The selection
+    is for those of its lightest device, then for those of the best drive alone, to convergence.
 
     Args:
-        problem: to solve. criterion: see `select_by`. robot: that carries it.
+        problem: to solve. criterion: see `select_by`. robot: robot that carries the device.
         ranked: see `with_plates`.
         near: see `design_device`.
-        kept: what is drawn and the reserve for it, which the lightest device without one settles.
+        kept: sampled errors and the reserve for them, which is computed for the lightest device
+            without a reserve.
 
     Raises:
-        Infeasible: see `select_by`; also where nothing can carry the mast or plate that it needs.
+        Infeasible: see `select_by`; also where no device can carry the mast or plate that it needs.
     """
     search, widest = _Search(criterion, robot, near), problem
     first = near and lightest_near(problem, near, criterion)
@@ -218,15 +222,14 @@ def _surer(
     reserve: Reserve,
     told: tuple[Reality, SelectionProblem],
 ) -> tuple[SelectionProblem, Selection, Reserve]:
-    """The selection with the reserve that its own device tells, where that is not sure enough.
+    """The selection with the reserve that its own device needs, where the first was too small.
 
-    The one that it was made with was told by a device that keeps nothing, at an incidence of its
-    own.
+    The first reserve was computed for a device without a reserve, at that device's incidence.
 
     Args:
-        search: that found it. problem: that was solved, its incidence free.
-        selection, reserve: what came of it.
-        told: what is drawn, and the problem without a reserve.
+        search: the search that found it. problem: the problem solved, its incidence free.
+        selection, reserve: its result.
+        told: sampled errors, and the problem without a reserve.
     """
     reality, plain = told
     for _ in range(_RESERVES_MAX):
@@ -250,7 +253,7 @@ def _own_footing(problem: SelectionProblem, best: Candidate, robot: Robot) -> Se
     cage, feet = motor_mount(device).cage, best.foot_plate
     floor = 0.0 if cage is None else floor_at_shock(cage, best.motor.mass or 0.0, best.wheel.mass)
     least = plate_thickness(foot_of(device), module, floor)
-    # Thicker feet are a little heavier, and ask for more.
+    # Thicker feet are a little heavier, so a little excess is tolerated.
     if not least <= feet <= least + _TOO_THICK:
         feet = least
     found = footing_under(device, robot, stated=stated, formed=problem.formed)
@@ -266,14 +269,14 @@ def in_rings(
     criterion: Criterion | None,
     robot: Robot,
 ) -> tuple[SelectionProblem, Selection]:
-    """The selection with guard rings that hold the wheels of its best device, and its problem.
+    """The selection with guard rings that contain the wheels of its best device, and its problem.
 
-    All drives are weighed with rings of one wall, then the lightest with those of its own wheels,
-    until no other is lighter.
+    All drives are ranked with rings of one wall thickness, then the lightest with rings for its own
+    wheels, until no other is lighter.
 
     Args:
-        problem: without rings. best: its lightest device, whose rings are the first wall.
-        criterion: see `select_by`. robot: that carries it.
+        problem: without rings. best: its lightest device, whose rings set the first wall thickness.
+        criterion: see `select_by`. robot: robot that carries the device.
 
     Raises:
         Infeasible: every device is too heavy with its rings.
@@ -293,7 +296,7 @@ def in_rings(
     for _ in range(_RINGS_MAX):
         best = selection.best
         drive = best.motor.name, best.gear.name
-        # The rings of a drive only grow, so that the last ones hold its wheels.
+        # The rings of a drive only grow, so the last ones contain its wheels.
         own = ringed(best, best.guard_wall if drive in tried else 0.0)
         tried.add(drive)
         change = abs(own.robot.mass - at.robot.mass)
@@ -321,9 +324,9 @@ def in_rings(
 
 
 def _unheld(wall: float, error: Infeasible) -> Infeasible:
-    """The error where every device is too heavy with rings that hold its wheels."""
+    """The error where every device is too heavy with rings that contain its wheels."""
     return Infeasible(
-        f"With guard rings of {1e3 * wall:.1f} mm of steel no motor does everything: {error}",
+        f"With guard rings of {1e3 * wall:.1f} mm steel no motor meets all requirements: {error}",
         binding=["ocs.guard", *error.binding],
         required_spin_inertia=error.required_spin_inertia,
         largest_spin_inertia=error.largest_spin_inertia,

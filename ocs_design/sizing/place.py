@@ -1,4 +1,4 @@
-"""How much room a module takes, where modules stand as that grows, and all of them on the robot."""
+"""Size of a module, positions of modules as they grow, and robot and modules as one rigid body."""
 
 from dataclasses import dataclass
 from typing import Any, Generic, NamedTuple, TypeVar
@@ -16,17 +16,18 @@ from ocs_design.parts.solids import Carrier
 from ocs_design.robot.mass import MassProperties, combine
 
 CLEARANCE = 1.1
-"""Room kept around a wheel, over the radius of the sphere that it sweeps at any incidence."""
+"""Space kept around a wheel, relative to the radius of the sphere that it sweeps at any
+incidence."""
 
 Real = TypeVar("Real", float, FloatArray)
 
 
 class Size(NamedTuple, Generic[Real]):
-    """How much room a module takes.
+    """Space that a module takes.
 
     Attributes:
         reach: radius that housing, motor and the foot's base stay within at any incidence [m].
-        standing: of the wheel's centre over what it stands on [m].
+        standing: height of the wheel's centre above the surface that the module stands on [m].
     """
 
     reach: Real
@@ -34,7 +35,7 @@ class Size(NamedTuple, Generic[Real]):
 
 
 def wheel_size(outer_radius: Real, height: Real) -> Size[Real]:
-    """Size of a bare wheel that turns freely over what carries it."""
+    """Size of a bare wheel that turns freely above its support."""
     reach: Real = (outer_radius**2 + height**2 / 4.0) ** 0.5
     return Size(reach, CLEARANCE * reach)
 
@@ -49,9 +50,9 @@ def module_size(
 ) -> Size[Real]:
     """Size of a housing on its foot, around a wheel of this radius and height, with its motor.
 
-    All in metres; a guard ring adds its wall to the wheel's radius. What stands behind the foot's
-    plate, motor, gear and cage, goes so far back and so far to both sides: how high it stands is no
-    matter to a turn about the vertical.
+    All in metres; a guard ring adds its wall to the wheel's radius. Motor, gear and cage behind the
+    foot's plate count with their depth and half-width; their height does not matter for a turn
+    about the vertical.
     """
     reach: Any = mount_reach
     housing: Housing[Real] = Housing(outer_radius, height, MountHoles(reach))
@@ -67,9 +68,9 @@ class Place:
     """Centres of all modules as their size grows.
 
     Attributes:
-        origins: of each, if it had no size, in B [m].
-        outward: how far each stands off, per radius of the sphere that it sweeps, in B.
-        upright: whether they stand on what is below them, and so as high as their feet make them.
+        origins: centre of each if it had no size, in B [m].
+        outward: displacement of each per radius of the sphere that it sweeps, in B.
+        upright: whether they stand on a surface below them, at the height of their feet.
     """
 
     origins: tuple[Direction, ...]
@@ -78,7 +79,7 @@ class Place:
 
     @property
     def stated(self) -> bool:
-        """Whether it is the same for modules of any size, as a stated one is (`place_at`)."""
+        """Whether it is the same for modules of any size, as a specified one is (`place_at`)."""
         return not (any(map(any, self.outward)) or self.upright)
 
     def __call__(self, outer_radius: float, height: float) -> FloatArray:
@@ -95,11 +96,11 @@ class Place:
 
 
 def around(middle: Direction, layout: Layout, aside: float = 0.0) -> Place:
-    """Upright modules around a point of what they stand on, in B [m].
+    """Upright modules around a point of the surface that they stand on, in B [m].
 
     Args:
         middle: that point. layout: of the modules.
-        aside: how much farther to its side than it must each stands [m].
+        aside: extra distance of each to its side, beyond what it needs [m].
     """
     x, y, z = middle
     outward = tuple(vector(each) for each in np.array(layout.ring) * CLEARANCE)
@@ -108,9 +109,9 @@ def around(middle: Direction, layout: Layout, aside: float = 0.0) -> Place:
 
 
 def place_at(position: tuple[float, ...], layout: Layout = PAIR) -> Place:
-    """Modules at stated places in B [m]: three coordinates of each.
+    """Modules at specified positions in B [m]: three coordinates of each.
 
-    Of a pair only the left one's are stated, and the right one is mirrored in y.
+    For a pair only the left one is given; the right one is its mirror image in y.
     """
     places = np.reshape(position, (-1, 3))
     if layout == PAIR:
@@ -129,7 +130,7 @@ def braked(
 
     Args:
         robot: without the modules.
-        bodies: of one module, in its own frame (`Layout.frames`).
+        bodies: rigid bodies of one module, in its own frame (`Layout.frames`).
         centers: of the wheels in B [m], shape (n, 3).
         incidence: of their axes, or the layout's angle [rad].
         layout: of the modules.
@@ -144,11 +145,11 @@ def with_device(robot: MassProperties, device: Device, *, free: bool = False) ->
     """Robot and device as one rigid body in B, wheels braked.
 
     Wheels that spin freely keep the momentum of wheel and rotor about their axis, whatever the
-    trunk does (docs/theory.md, The robot with its wheels: a gyrostat); the carrier's inertia has
-    the rotor's in it.
+    trunk does (docs/theory.md, The robot with its wheels: a gyrostat); the carrier's inertia
+    includes the rotor's.
 
     Args:
-        robot: without the device. device: on it.
+        robot: without the device. device: device on it.
         free: whether the wheels spin freely.
     """
     wheel = device.flywheel

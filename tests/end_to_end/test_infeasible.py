@@ -21,8 +21,8 @@ ONE_KIND = ("--gear", "direct", "--material", "stainless-304")
 WHEELS_ALONE = ("--motor", "none", "--no-validate")
 TOO_WEAK = "Antigravity 4004 KV300"
 NEEDED_MOTOR = re.compile(
-    r"A motor of about [\d.]+ N m peak torque and [\d,]+ rpm without load at \d+ V, "
-    r"of at most [\d.]+ kg, would do\."
+    r"A motor with about [\d.]+ N m peak torque and [\d,]+ rpm no-load speed at \d+ V, "
+    r"weighing at most [\d.]+ kg, would do\."
 )
 RELAXATION = re.compile(
     r"\b(?P<key>[a-z_]+) (?P<figure>[\d.e+]+)(?: (?P<unit>mm|g|rpm))?(?=[;.] ?)"
@@ -83,7 +83,7 @@ def test_no_motor_reaches_an_axis_that_the_incidence_leaves_out(folder):
     assert (error["relaxations"], error["required_spin_inertia"]) == ({}, None)
     assert "axis out of reach" in error["message"]
     # That is so, and no limit of the room has any part in it.
-    assert "another incidence there is a device: leave out --alpha" in error["hint"]
+    assert "Other incidences are feasible: leave out --alpha" in error["hint"]
     assert "limit" not in error["hint"]
 
 
@@ -122,7 +122,7 @@ def test_doubts_are_told_before_the_search_and_assumptions_after_it(odd):
     assert front.index("doubt") < front.index("choose a device")
     stated = run("size", SOLO12, *WEAK, "--fall", "1m", "--tilt", "30deg", "--json")
     assert stated.document["error"]["warnings"] == []
-    assert "Nobody asked" not in stated.document["error"]["hint"]
+    assert "defaults" not in stated.document["error"]["hint"]
 
 
 @pytest.mark.slow
@@ -130,7 +130,9 @@ def test_a_refusal_tells_what_is_doubted_what_was_assumed_and_what_nobody_asked_
     error = run("size", odd, *WEAK, "--json").document["error"]
     assert error["warnings"]
     assert "drop: falls from 1 m at roll 0 deg and pitch 30 deg." in error["assumptions"]
-    assert error["hint"].startswith("Nobody asked for disturbance, drop, back-flip: they are the d")
+    assert error["hint"].startswith(
+        "No maneuver was specified, so the defaults apply: disturbance, drop, back-flip. Specify"
+    )
     slower = re.findall(r"drop height (\d\.\d+) m", error["hint"])
     assert len(slower) == 1, "said once"
     assert "falls from" not in error["hint"]

@@ -67,10 +67,10 @@ def check_refusal(error):
         assert float(told[1]) > float(told[2])
     else:
         # The robot with a mast is turned in time, but not with the device as well.
-        assert re.match(r"With the [\d.]+ kg that hold it on the trunk: ", error["message"])
+        assert re.match(r"With a mount of [\d.]+ kg on the trunk: ", error["message"])
     needed = re.search(
-        r"A motor of about ([\d.]+) N m peak torque and ([\d,]+) rpm without load at (\d+) V, "
-        r"of at most ([\d.]+) kg, would do\.",
+        r"A motor with about ([\d.]+) N m peak torque and ([\d,]+) rpm no-load speed at (\d+) V, "
+        r"weighing at most ([\d.]+) kg, would do\.",
         error["hint"],
     )
     assert needed or error["relaxations"]["time"] > 1.0

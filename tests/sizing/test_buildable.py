@@ -53,7 +53,7 @@ def test_a_motor_that_lacks_figures_is_named_with_them():
 def test_a_capacity_that_is_exceeded_is_open(name):
     found = buildable(WHOLE, FREE, (margin(name, 1200.0, 1000.0),))
     assert found.yes is False
-    assert found.open[0].what == f"{name}: 1,200 W asked by drop, 1,000 W is allowed"
+    assert found.open[0].what == f"{name}: 1,200 W required by drop, 1,000 W allowed"
 
 
 @pytest.mark.parametrize(
@@ -73,7 +73,7 @@ def test_what_is_used_up_to_the_last_is_not_exceeded(name, demand, yes):
 @pytest.mark.parametrize(
     ("joint", "words"),
     [
-        (Margin("rim joint", 2.0, 1.0, "N m"), "rim joint: 2 N m asked, 1 N m held"),
+        (Margin("rim joint", 2.0, 1.0, "N m"), "rim joint: 2 N m required, 1 N m available"),
         (
             Margin("shaft joint", 1.0, None, "N m", note="not in the catalogue"),
             "not in the catalogue",

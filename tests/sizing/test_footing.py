@@ -579,9 +579,7 @@ def test_what_cannot_carry_its_mast_is_refused(column):
     robot = column()
     with pytest.raises(Infeasible) as caught:
         falling(0.62, robot)
-    held = re.match(
-        r"With the (.*) kg that hold it on the trunk: Motor U12 II", caught.value.message
-    )
+    held = re.match(r"With a mount of (.*) kg on the trunk: Motor U12 II", caught.value.message)
     assert float(held[1]) == pytest.approx(caught.value.problem.robot.mass - robot.mass, rel=1e-3)
     resolved, found = falling(0.66, robot)
     whole, (fall,) = found.sized.total, resolved.requirement.maneuvers

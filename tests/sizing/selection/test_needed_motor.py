@@ -73,7 +73,7 @@ def test_where_motors_are_too_heavy_for_their_torque_a_denser_one_is_named():
     problem, model = too_weak(0)
     heavy = replace(model, mass=20.0 * model.mass)
     need = needed_motor(problem, heavy)
-    others = f"Motors as heavy for their torque as {model.name} would not do, however large."
+    others = f"Motors with the torque-to-mass ratio of {model.name} would not do at any size."
     assert need.text.endswith(f"would do. {others}")
     denser = need.peak_torque / need.mass / (heavy.peak_torque / heavy.mass)
     assert round(denser, 6) in {2.0, 4.0}
@@ -117,8 +117,8 @@ def test_where_no_time_is_set_any_torque_does_and_none_is_named():
 def test_words():
     need = NeededMotor(peak_torque=21.3, no_load_speed=303.7, mass=2.11, voltage=48.0)
     assert need.text == (
-        "A motor of about 22 N m peak torque and 2,900 rpm without load at 48 V, of at most 2.2 kg,"
-        " would do."
+        "A motor with about 22 N m peak torque and 2,900 rpm no-load speed at 48 V, weighing at "
+        "most 2.2 kg, would do."
     )
 
 
@@ -137,7 +137,7 @@ def test_a_balance_that_no_motor_catches_says_what_they_catch():
         select(tilted(1.0))
     assert re.search(r"pitch [0-9.]+ deg at best for held, pitch 5.73 deg given", str(caught.value))
     hint = advice_on(caught.value).hint
-    told = re.search(r"With pitch ([0-9.]+) deg for held there is a device", hint).group(1)
+    told = re.search(r"A device exists with pitch ([0-9.]+) deg for held", hint).group(1)
     share = np.radians(float(told)) / held.pitch
     assert 0.1 < share < 1.0
     select(tilted(0.99 * share))
