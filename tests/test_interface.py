@@ -108,7 +108,7 @@ def results():
         "Front of": front,
         "Robot solo12: 2.5 kg, 12 joints, 4 legs": read_robot(EXAMPLES / "solo12.urdf"),
         "Specification: robot.file=": read_specification(EXAMPLES / "solo12.toml"),
-        "Specification: nothing stated": Specification(),
+        "Specification: nothing specified": Specification(),
     }
 
 

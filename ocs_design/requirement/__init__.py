@@ -1,1 +1,1 @@
-"""What the device must do: maneuvers, the paper's bound, the specification file."""
+"""Requirements on the device: maneuvers, the paper's bound, the specification file."""

@@ -1,7 +1,7 @@
-"""How much spin inertia a change of rate or of momentum needs at least (Elroy's Beanie).
+"""Least spin inertia for a change of rate or of momentum (Elroy's Beanie).
 
-A wheel that speeds up by `gamma` relative to the trunk takes momentum from it. Necessary, never
-sufficient: torque, angle and time are not asked for here.
+A wheel that speeds up by `gamma` relative to the trunk takes momentum from it. The bound is
+necessary, not sufficient: it ignores torque, angle and time.
 """
 
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.requirement.requirement import Requirement
 
 AXES = ("roll", "pitch")
-"""The axes that the wheels can turn the trunk about, in the order of all (2,) arrays."""
+"""Axes about which the wheels can turn the trunk, in the order of all (2,) arrays."""
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class SpinBound:
 
     Attributes:
         paper: inertia of the one-wheel model as the paper prints it [kg m^2].
-        required: the same with the sign put right [kg m^2]; the tool goes by this one.
+        required: the same with the sign corrected [kg m^2]; the one used for sizing.
         spin_inertia: of each of the two wheels, from `required` [kg m^2].
     """
 
@@ -34,14 +34,14 @@ class SpinBound:
 
 @dataclass(frozen=True, eq=False)
 class SpinDemand:
-    """What one part of the requirement asks of each wheel.
+    """Demand of one part of the requirement on each wheel.
 
     Attributes:
         source: name of the maneuver, or `rate change, roll` and `rate change, pitch`.
         incidence: at which it was computed [rad].
         momentum: roll and pitch momentum that both wheels take together [N m s], shape (2,).
         spin_inertia: smallest of each wheel [kg m^2]; inf if an axis is out of the wheels' reach.
-        torque: of each motor, below which no wheel turns the robot in time [N m]; 0: no time set.
+        torque: of each motor, below which no wheel turns the robot in time [N m]; 0: no time limit.
     """
 
     source: str
@@ -55,7 +55,7 @@ class SpinDemand:
 
     @property
     def unreachable_axes(self) -> tuple[str, ...]:
-        """Names of the axes that need momentum and get none at this incidence."""
+        """Names of the axes that need momentum but cannot get any at this incidence."""
         blind = (self.momentum != 0.0) & (authority(self.incidence) < OUT_OF_REACH)
         return tuple(axis for axis, is_blind in zip(AXES, blind, strict=True) if is_blind)
 
@@ -63,7 +63,7 @@ class SpinDemand:
 def elroy_beanie_bound(inertia: float, rate_change: float, wheel_speed_max: float) -> float:
     """The paper's bound as printed, `I_r d / (d + gamma)` [kg m^2] (paper, section 3.1).
 
-    The printed sum comes from a slip of sign: see `corrected_bound`.
+    The printed sum results from a sign error: see `corrected_bound`.
     """
     return inertia * rate_change / (rate_change + wheel_speed_max)
 
@@ -81,7 +81,7 @@ def corrected_bound(inertia: float, rate_change: float, wheel_speed_max: float) 
         wheel_speed_max: of the wheel relative to the trunk, gamma [rad/s].
 
     Returns:
-        inf where `d >= gamma`: not even a wheel of infinite inertia will do.
+        inf where `d >= gamma`: not even a wheel of infinite inertia suffices.
     """
     if rate_change >= wheel_speed_max:
         return float("inf")
@@ -96,7 +96,7 @@ def authority(incidence: float) -> FloatArray:
 def spin_bound(
     inertia: float, rate_change: float, wheel_speed_max: float, share: float
 ) -> SpinBound:
-    """The bound by hand, as printed and as corrected, and per wheel `I_f / (2 share)`.
+    """The bound as printed and as corrected, and the inertia per wheel, `I_f / (2 share)`.
 
     Args:
         inertia: of the robot about the axis [kg m^2].
@@ -114,11 +114,11 @@ def spin_bound(
 
 
 def turned_roll(roll: ArrayLike, upright: ArrayLike) -> FloatArray:
-    """Momentum about roll for each rate of roll at the start of a flip, `I_xx (1 + I_xx / I_zz)`.
+    """Momentum about roll per roll rate at the start of a flip, `I_xx (1 + I_xx / I_zz)`.
 
-    The momentum `I_xx p` stands still in space. After a quarter turn it lies along the trunk's z
-    axis, which wheels across it do not reach, and turns it by `p I_xx / I_zz` (docs/theory.md, A
-    roll at lift-off).
+    The momentum `I_xx p` is fixed in space. After a quarter turn it lies along the trunk's z axis,
+    about which wheels with axes across it cannot act, and the trunk turns at `p I_xx / I_zz`
+    (docs/theory.md, A roll at lift-off).
 
     Args:
         roll, upright: I_xx and I_zz of robot and device [kg m^2].
@@ -131,14 +131,14 @@ def turned_roll(roll: ArrayLike, upright: ArrayLike) -> FloatArray:
 
 
 def bound_curve(rate_changes: ArrayLike, wheel_speeds: ArrayLike) -> FloatArray:
-    """Required over robot's inertia, I_f / I_r, one row per wheel speed (paper, figure 3).
+    """Required inertia over the robot's, I_f / I_r, one row per wheel speed (paper, figure 3).
 
     Args:
         rate_changes: [rad/s], shape (n,).
         wheel_speeds: [rad/s], shape (m,).
 
     Returns:
-        Shape (m, n); inf where the wheel is no faster than the change asked for.
+        Shape (m, n); inf where the wheel is no faster than the required change.
     """
     change = np.asarray(rate_changes, dtype=np.float64)[np.newaxis, :]
     headroom = np.asarray(wheel_speeds, dtype=np.float64)[:, np.newaxis] - change
@@ -148,11 +148,11 @@ def bound_curve(rate_changes: ArrayLike, wheel_speeds: ArrayLike) -> FloatArray:
 
 
 def per_wheel(both: FloatArray, incidence: float) -> float:
-    """What each wheel must give along its own axis for roll and pitch of both together.
+    """Demand on each wheel along its own axis, for roll and pitch of both together.
 
-    `(|x| / sin a + |y| / cos a) / 2`, for momenta [N m s] as for torques [N m]: what wheels can
-    give forms a rhombus (docs/theory.md, What a maneuver asks for). An axis that needs nothing
-    costs nothing, whatever the incidence; inf if one that is asked for is out of reach.
+    `(|x| / sin a + |y| / cos a) / 2`, for momenta [N m s] as for torques [N m]: the achievable
+    set is a rhombus (docs/theory.md, What a maneuver asks for). An axis without demand costs
+    nothing, whatever the incidence; inf if one with demand is out of reach.
 
     Args:
         both: on roll and on pitch, shape (2,).
@@ -168,7 +168,7 @@ def per_wheel(both: FloatArray, incidence: float) -> float:
 def spin_demands(
     requirement: Requirement, total_inertia: FloatArray, incidence: float
 ) -> tuple[SpinDemand, ...]:
-    """What each maneuver, and the rate change about each axis, asks of a wheel.
+    """Demand on a wheel of each maneuver, and of the rate change about each axis.
 
     From the gyrostat's momentum `H = I_tot w + A I_w W`: the wheels must take `I_tot d`, which is
     `corrected_bound` with the device counted in the total (docs/theory.md, The robot with its
@@ -177,7 +177,7 @@ def spin_demands(
     Args:
         requirement: maneuvers, rate change and wheel speed.
         total_inertia: of the robot with its device, wheels braked [kg m^2], shape (3, 3).
-        incidence: of the design; a maneuver's own goes first [rad].
+        incidence: of the design; a maneuver's own takes precedence [rad].
     """
 
     def demand(
@@ -201,7 +201,7 @@ def spin_demands(
         momentum, torque = maneuver.momentum(turned, height), maneuver.least_torque(turned, height)
         slew = maneuver.slew(turned, height)
         _, pitch = slew.swept if slew.swept.any() else slew.momentum
-        # Both wheels of a pair pitch the trunk alike, and one of them rolls it the other way.
+        # Both wheels of a pair pitch the trunk the same way, but roll it in opposite ways.
         begins = float(np.sign(pitch)) * slew.begins if pitch else abs(slew.begins)
         found.append(demand(maneuver.name, momentum, at, torque, begins))
     if requirement.rate_change is not None:
@@ -212,14 +212,14 @@ def spin_demands(
 
 
 def rate_momenta(inertia: TiltInertia, rate_change: float) -> FloatArray:
-    """Momenta about roll and pitch for a change of the rate of roll, and of that of pitch [N m s].
+    """Momenta about roll and pitch for a change of the roll rate, and of the pitch rate [N m s].
 
     Args:
         inertia: of the robot with its device, wheels braked.
         rate_change: about either axis, one at a time [rad/s].
 
     Returns:
-        No momentum below zero, shape (..., 2, 2): axis of the change, axis of the momentum.
+        Magnitudes, shape (..., 2, 2): axis of the change, axis of the momentum.
     """
     each = [inertia.momentum(rate) for rate in np.diag([rate_change, rate_change])]
     return np.abs(np.stack(each, axis=-2))

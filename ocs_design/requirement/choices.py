@@ -1,4 +1,4 @@
-"""What the selection may choose from, as a specification states it."""
+"""Candidate motors, gears and materials of the selection, as specified."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -20,26 +20,26 @@ from ocs_design.requirement.vocabulary import AUTO, NO_CONTROLLERS, NO_MOTOR, ST
 from ocs_design.robot.robot import Robot
 
 BUS_VOLTAGES: Mapping[float, float] = MappingProxyType({20.0: 24.0, 60.0: 48.0, inf: 72.0})
-"""[V] by the mass of the heaviest robot that has it [kg].
+"""Default bus voltage [V], by the mass of the heaviest robot that has it [kg].
 
 24 V, six cells of lithium polymer: Solo12, A1, Go2. 48 V: ANYmal; Unitree's B2, 60 kg, has 50.4 V
-(docs.westonrobot.com/robot_user_guide/unitree/b2.html). 72 V, twenty cells, for what is heavier:
+(docs.westonrobot.com/robot_user_guide/unitree/b2.html). 72 V, twenty cells, for heavier robots:
 an assumption."""
 
 POWER_PER_MASS = 400.0
-"""Power of the supply over the robot's mass [W/kg]: a pack of 4 kW/kg, as lithium polymer is sold
-for, that takes a tenth of the robot's mass."""
+"""Default supply power over the robot's mass [W/kg]: a lithium-polymer pack, sold at 4 kW/kg, that
+makes up a tenth of the robot's mass."""
 
 
 @dataclass(frozen=True, eq=False)
 class MotorChoice:
-    """Motors, gears and materials to choose from, and what feeds the motors.
+    """Motors, gears and materials to choose from, and the supply of the motors.
 
     Attributes:
         motors, gears, materials: the candidates.
         supply: of all motors.
-        wheel_speed_max: specified highest speed of a wheel [rad/s]; None: what the drive can do.
-        torque_max: specified largest torque of a wheel [N m]; inf: not limited. Gears have it too.
+        wheel_speed_max: specified highest speed of a wheel [rad/s]; None: the drive's own limit.
+        torque_max: specified largest torque of a wheel [N m]; inf: no limit; also set in the gears.
     """
 
     motors: tuple[Motor, ...]
@@ -56,11 +56,11 @@ class MotorChoice:
 
 
 def motor_choice(specification: Specification, robot: Robot) -> MotorChoice | None:
-    """What may be chosen from; None where the specification wants no motor.
+    """Candidates for the selection; None if the specification wants no motor.
 
     Raises:
-        SpecificationError: a name that no catalogue has, a file that cannot be read, or motors of
-            which none can be built with; see `unknown_names`.
+        SpecificationError: a name is in no catalogue, a file cannot be read, or no motor can be
+            built with; see `unknown_names`.
     """
     specified = specification.motor
     if specified.name == NO_MOTOR:
@@ -74,7 +74,7 @@ def motor_choice(specification: Specification, robot: Robot) -> MotorChoice | No
             replace(stage, torque_max=min(stage.torque_max, limit))
             for stage in _gears(specification)
         ),
-        # Of a group, only materials whose stress can be checked.
+        # Groups include only materials whose stress can be checked.
         materials=strong_materials(steel=named == STEEL)
         if named in {STEEL, AUTO}
         else (material(named),),
@@ -85,7 +85,7 @@ def motor_choice(specification: Specification, robot: Robot) -> MotorChoice | No
 
 
 def default_supply(robot: Robot) -> Supply:
-    """What a robot of this mass can feed its wheels with: `BUS_VOLTAGES`, `POWER_PER_MASS`."""
+    """Default supply of a robot of this mass: `BUS_VOLTAGES`, `POWER_PER_MASS`."""
     voltage = next(usual for most, usual in BUS_VOLTAGES.items() if robot.mass <= most)
     return Supply(voltage, power_max=POWER_PER_MASS * robot.mass)
 
@@ -101,7 +101,7 @@ def specified_supply(specification: Specification, robot: Robot) -> Supply:
 
 
 def _controlled(found: Motor, specification: Specification) -> Motor:
-    """The motor with the mass of its controller, specified or by its current."""
+    """The motor with its controller's mass, specified or estimated from its current."""
     stated = specification.supply.controllers
     if stated == NO_CONTROLLERS:
         return found
@@ -112,7 +112,7 @@ def _controlled(found: Motor, specification: Specification) -> Motor:
 
 
 def unknown_names(specification: Specification) -> Iterator[str]:
-    """Each motor and gear that is asked for and in no catalogue, and each file that is none.
+    """Requested motors and gears that are in no catalogue, and files that cannot be read.
 
     One line each.
 
@@ -120,7 +120,7 @@ def unknown_names(specification: Specification) -> Iterator[str]:
         SpecificationError: a catalogue file has faults.
     """
     stated = specification.motor
-    # Where none is named, it is the file that has none, or none to build with.
+    # If no motor is named, the fault is in the file: no motors, or none to build with.
     names = "motor.motors" if stated.name in {None, AUTO} else "motor.name"
     choices: tuple[tuple[str, Callable[[], object], str, Callable[[], object]], ...] = (
         (
@@ -149,11 +149,11 @@ def unknown_names(specification: Specification) -> Iterator[str]:
 
 
 def _motors(specification: Specification, voltage: float = 0.0) -> tuple[Motor, ...]:
-    """Motors to choose from: all that are named, else those to build with at this supply [V].
+    """Candidate motors: all that are named, else those that can be built with at this supply [V].
 
     Raises:
-        SpecificationError: a name is in no list, or none of the motors can be built with, or none
-            of these is rated for the supply.
+        SpecificationError: a name is in no list, no motor can be built with, or none of these is
+            rated for the supply.
     """
     specified = specification.motor
     file = _path(specified.motors)
@@ -162,7 +162,7 @@ def _motors(specification: Specification, voltage: float = 0.0) -> tuple[Motor, 
         named = dict.fromkeys(names_in(specified.name or ""))
         if alone := [word for word in (AUTO, NO_MOTOR) if word in named]:
             raise SpecificationError(
-                f"{alone[0]!r} stands alone, and motors are named beside it",
+                f"{alone[0]!r} cannot be combined with names of motors",
                 hint=f"Leave out {alone[0]!r}, or the motors.",
             )
         return tuple(motor(name, known) for name in named)
@@ -170,7 +170,7 @@ def _motors(specification: Specification, voltage: float = 0.0) -> tuple[Motor, 
     offered = tuple((load_motors(file) if only_own and file else known_motors(file)).values())
     if not offered:
         raise SpecificationError(
-            f"{file} has no motor", hint="`ocs-design catalogue motors` shows what a row has"
+            f"{file} has no motors", hint="`ocs-design catalogue motors` shows what a row has"
         )
     if specified.any:
         return offered
@@ -178,34 +178,34 @@ def _motors(specification: Specification, voltage: float = 0.0) -> tuple[Motor, 
     if not complete:
         lacks = [f"{each.name} lacks {', '.join(build_gaps(each))}" for each in offered]
         raise SpecificationError(
-            "no motor can be built with: " + "; ".join(lacks[:MOST_NAMED]),
-            hint="Fill in the figures, name the motor with --motor, or see what any motor would do "
-            "with --motors-any",
+            "every motor lacks data needed to build: " + "; ".join(lacks[:MOST_NAMED]),
+            hint="Fill in the data, name the motor with --motor, or allow incomplete motors with "
+            "--motors-any",
         )
     rated = tuple(found for found in complete if _highest_voltage(found) >= voltage)
     if not rated:
         highest = max(complete, key=_highest_voltage)
         raise SpecificationError(
-            f"no motor that can be built with is rated for {voltage:g} V: {highest.name}, at "
-            f"{_highest_voltage(highest):g} V, comes closest",
+            f"no motor that can be built with is rated for {voltage:g} V; the closest is "
+            f"{highest.name}, at {_highest_voltage(highest):g} V",
             hint="Lower --bus-voltage, or name the motor with --motor if its maker allows more",
         )
     return rated
 
 
 def _highest_voltage(found: Motor) -> float:
-    """Highest supply that a motor's maker allows [V]; 0: no source says."""
+    """Highest supply voltage that a motor's maker allows [V]; 0: unknown."""
     return found.voltage_max or found.rated_voltage or 0.0
 
 
 def any_motors(specification: Specification) -> tuple[Motor, ...]:
-    """Every motor on offer with its controller, those that nobody can build with among them."""
+    """Every motor on offer with its controller, including those that lack data needed to build."""
     offered = _motors(replace(specification, motor=replace(specification.motor, any=True)))
     return tuple(_controlled(each, specification) for each in offered)
 
 
 def doubts_about_motors(specification: Specification) -> tuple[str, ...]:
-    """Doubts about the figures in a user's file of motors, one sentence each.
+    """Warnings about the figures in the user's file of motors, one sentence each.
 
     Raises:
         SpecificationError: the file cannot be read, or has faults.
@@ -215,13 +215,13 @@ def doubts_about_motors(specification: Specification) -> tuple[str, ...]:
 
 
 def highest_known_voltage(specification: Specification) -> float:
-    """Highest supply that the maker of any known motor allows [V]; 0: no source says."""
+    """Highest supply voltage that the maker of any known motor allows [V]; 0: unknown."""
     known = known_motors(_path(specification.motor.motors)).values()
     return max(map(_highest_voltage, known), default=0.0)
 
 
 MOST_NAMED = 3
-"""Motors whose gaps a message names."""
+"""Most motors whose missing data a message lists."""
 
 
 def _gears(specification: Specification) -> tuple[Gear, ...]:
@@ -234,9 +234,9 @@ def _gears(specification: Specification) -> tuple[Gear, ...]:
 
 
 def gear_where_none_is_stated(specified: MotorSection) -> str:
-    """Direct drive, for no row says how a gear and a motor are fixed to each other.
+    """Default gear: direct drive, as no row says how a gear and a motor are fixed to each other.
 
-    Whoever brings gears wants them to be looked at.
+    If the user supplies a file of gears, any of them is a candidate.
     """
     return DIRECT.name if specified.gears is None else AUTO
 

@@ -1,8 +1,8 @@
-"""Defaults for any robot: the paper's maneuvers and room on Solo12, scaled by the Froude number.
+"""Defaults for any robot: the paper's maneuvers and rim limits for Solo12, Froude-scaled.
 
-Two legged robots move alike if v^2 / (g L) is the same (Alexander and Jayes, J. Zool. 201, 1983):
-lengths go with the standing height L of the trunk, times with sqrt(L / g), speeds with sqrt(g L),
-and a torque that turns both alike with I / T^2.
+Legged robots move alike if v^2 / (g L) is the same (Alexander and Jayes, J. Zool. 201, 1983):
+lengths scale with the standing height L of the trunk, times with sqrt(L / g), speeds with
+sqrt(g L), and the torque for the same turn with I / T^2.
 """
 
 from dataclasses import dataclass
@@ -16,25 +16,25 @@ from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.robot.robot import Robot
 
 LUNAR_GRAVITY = 1.62
-"""[m/s^2] of the paper's back-flip, which scales with the robot but stays on the Moon."""
+"""Gravity of the paper's back-flip [m/s^2], which is scaled to the robot but stays on the Moon."""
 
 WHEEL_SPEED_MAX = 7200.0 * pi / 30.0
-"""[rad/s], where no motor is named: Solo12's own, an Antigravity 4004 KV300, at 24 V."""
+"""Wheel speed limit without a motor [rad/s]: that of Solo12's Antigravity 4004 KV300 at 24 V."""
 
 RIM_MASS_SHARE = 0.1
-"""Largest mass of one rim over the robot's."""
+"""Largest mass of one rim as a share of the robot's."""
 
 STRESS_SAFETY = 2.0
-"""Yield strength over hoop stress at the highest speed."""
+"""Yield strength over hoop stress at the highest speed, by default."""
 
 
 @dataclass(frozen=True)
 class Reference:
-    """The robot that the paper's maneuvers were made for.
+    """The robot that the paper's maneuvers were designed for.
 
     Attributes:
         name: of the robot. source: of its figures.
-        standing_height: of the trunk over the soles [m].
+        standing_height: of the trunk above the soles [m].
         gyration_radius: of the standing robot [m] (`MassProperties.gyration_radius`).
         roll_inertia, pitch_inertia: of the standing robot about its centre of mass [kg m^2].
     """
@@ -59,11 +59,11 @@ SOLO12 = Reference(
 
 @dataclass(frozen=True)
 class Scale:
-    """How much larger than Solo12 a robot is; all ratios are 1 for Solo12 itself.
+    """Size of a robot relative to Solo12; all ratios are 1 for Solo12 itself.
 
     Attributes:
-        length: of the standing heights; of the radii of gyration for a robot without legs.
-        roll_inertia, pitch_inertia: of the robots' inertias.
+        length: ratio of standing heights; of radii of gyration for a robot without legs.
+        roll_inertia, pitch_inertia: ratios of the robots' inertias.
     """
 
     length: float
@@ -93,22 +93,22 @@ class Scale:
 
     @property
     def rim(self) -> float:
-        """Ratio of a rim's lengths that gives its spin inertia the ratio of the back-flip's demand.
+        """Ratio of a rim's lengths that scales its spin inertia like the back-flip's demand.
 
-        At the same wheel speed the demand goes with I_yy / T, and a rim of similar shape has a spin
-        inertia that goes with the fifth power of its lengths. Robots of one height differ tenfold
-        in mass: scaled by height alone, the rim of a heavy one would be out of reach by default.
+        At the same wheel speed the demand scales with I_yy / T, and the spin inertia of similar
+        rims with the fifth power of their lengths. Robots of the same height differ tenfold in
+        mass: scaled by height alone, a heavy robot's rim would be too small by default.
         """
         return float(f"{(self.pitch_inertia / sqrt(self.length)) ** 0.2:.6g}")
 
 
 def _ratio(figure: float, reference: float) -> float:
-    """`figure` over `reference` to six digits: a posture is solved to nine, and Solo12 is 1."""
+    """`figure / reference` to six digits: postures are solved to nine, and Solo12 must give 1."""
     return float(f"{figure / reference:.6g}")
 
 
 def standing_height(robot: Robot) -> float:
-    """Height of the trunk over the ground [m]; scaled from Solo12's for a robot without legs."""
+    """Height of the trunk above the ground [m]; scaled from Solo12's for a robot without legs."""
     if robot.standing_height is not None:
         return robot.standing_height
     return SOLO12.standing_height * Scale.of(robot).length
@@ -117,14 +117,14 @@ def standing_height(robot: Robot) -> float:
 def default_maneuvers(
     robot: Robot, gravity: float = STANDARD_GRAVITY
 ) -> tuple[Disturbance, Drop, Flip]:
-    """The paper's three tests, exactly so for Solo12 and scaled for every other robot.
+    """The paper's three tests, unchanged for Solo12 and scaled for every other robot.
 
-    The device does all three as it stands; the paper turns its modules to 0 deg by hand for the
+    The device does all three at one incidence; the paper turns its modules to 0 deg by hand for the
     back-flip.
 
     Args:
         robot: to scale to.
-        gravity: of the first two [m/s^2]; the back-flip is made on the Moon.
+        gravity: of the first two [m/s^2]; the back-flip is on the Moon.
     """
     scale = Scale.of(robot)
     drop = Drop(name="drop", gravity=gravity, height=1.0 * scale.length, pitch=radians(30.0))
@@ -141,7 +141,7 @@ def default_maneuvers(
 def jump_for(
     duration: float | None, height: float | None, default: float, share: float, gravity: float
 ) -> tuple[float, float]:
-    """Duration of a turn and height of its jump [s, m], of which both, one or none is stated."""
+    """Duration of a turn and height of its jump [s, m], from whichever of the two is given."""
     if duration is None:
         height = default if height is None else height
         return share * sqrt(8.0 * height / gravity), height
@@ -149,11 +149,10 @@ def jump_for(
 
 
 def example_maneuvers(robot: Robot, gravity: float = STANDARD_GRAVITY) -> tuple[Maneuver, ...]:
-    """One maneuver of each kind that is none of the paper's tests: figures to start from.
+    """One maneuver of each kind that is not among the paper's tests, as a starting point.
 
-    A shove: the torque of the first test on the robot that stands, for twice as long. A quarter of
-    a turn of the heading, on the Moon, and a stop. A catch and a climb on the line below the
-    trunk's middle.
+    A shove: the torque of the first test on the standing robot, for twice as long. A quarter turn
+    in yaw, on the Moon, and a catch. A balance and a stand-up on the line below the trunk's middle.
 
     Args:
         robot: to scale to. gravity: of all but the turn [m/s^2].
@@ -197,7 +196,7 @@ def example_maneuvers(robot: Robot, gravity: float = STANDARD_GRAVITY) -> tuple[
 
 
 def default_envelope(robot: Robot) -> Envelope:
-    """Room for a rim: Solo12's 100 mm by 10 mm, its lengths scaled with the demand, not rounded."""
+    """Default limits of a rim: Solo12's 100 mm by 10 mm, scaled with the demand, not rounded."""
     length = Scale.of(robot).rim
     return Envelope(
         outer_radius_max=0.050 * length,
@@ -211,9 +210,9 @@ def default_envelope(robot: Robot) -> Envelope:
 
 
 def _disturbance(scale: Scale, gravity: float) -> Disturbance:
-    """A torque that changes the rates by what the paper's changes Solo12's, over T.
+    """A torque whose change of the rates is that of the paper's on Solo12, over the ratio of times.
 
-    The paper states no lift-off speed; 2.4 m/s up is assumed
+    The paper gives no lift-off speed; 2.4 m/s up is assumed
     (docs/validation.md, Scenarios).
     """
     time, speed = scale.time(gravity), scale.speed(gravity)

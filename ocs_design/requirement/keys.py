@@ -1,4 +1,4 @@
-"""Keys of a specification: what each one is, how it is read and why one would state it."""
+"""Keys of a specification: what each one means, how it is parsed and when to set it."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
@@ -13,16 +13,16 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Key:
-    """What a field of a section means outside the program.
+    """Meaning of a section's field for the user.
 
     Attributes:
-        value: how it is read.
-        summary: what it is, for help and for messages.
+        value: its parser.
+        summary: what it is, for help and messages.
         option: its name on the command line; empty: the key's own, with dashes.
-        why: one line, when to state it, or what it changes.
-        default: what holds where nothing is stated, in words; empty: the value says it all.
-        assumed: the value that holds then, whatever the robot; None: it depends, or is found.
-        example: a value as it is written in TOML, where there is no default to show.
+        why: when to set it, or what it changes, in one line.
+        default: the default in words; empty: its value says it all.
+        assumed: default value for any robot; None: it depends on the robot, or is found.
+        example: a value as written in TOML, for a key that has no default to show.
     """
 
     value: Value[Any]
@@ -44,7 +44,7 @@ def keyed(
     assumed: T | None = None,
     example: str = "",
 ) -> T | None:
-    """A field of a section that is a key, None where it is not stated (`Key`)."""
+    """A field of a section that is a key, None where it is not specified (`Key`)."""
     key = Key(value, summary, option, why, default, assumed, example)
     return field(default=None, metadata={"key": key})
 
@@ -56,7 +56,7 @@ def keys_of(section: type) -> Mapping[str, Key]:
 
 
 def assumed_section(section: type, **others: object) -> Any:  # noqa: ANN401 - of that type
-    """A section with what holds where nothing is stated; `others` depend on the robot."""
+    """A section filled with its defaults; `others` are those that depend on the robot."""
     return section(**{name: key.assumed for name, key in keys_of(section).items()} | others)
 
 
@@ -64,7 +64,7 @@ class Faults(list[str]):
     """One line per fault, each with the path of its key."""
 
     def read(self, value: Value[T], raw: object, where: str) -> T | None:
-        """The value, or None with the fault kept."""
+        """The value; None, and the fault recorded, if it is invalid."""
         try:
             return value.read(raw, where)
         except OcsError as error:
@@ -74,7 +74,7 @@ class Faults(list[str]):
     def fields(
         self, table: Mapping[str, object], values: Mapping[str, Value[Any]], where: str
     ) -> dict[str, Any]:
-        """Value of each field of a table, None with the fault kept; unknown ones are faults."""
+        """Value of each field, None where invalid; faults and unknown keys are recorded."""
         found: dict[str, Any] = {}
         for name, raw in table.items():
             path = f"{where}.{name}"
@@ -85,13 +85,13 @@ class Faults(list[str]):
         return found
 
     def table(self, raw: object, where: str) -> Mapping[str, object]:
-        """A table as it is; an empty one, with the fault kept, for anything else."""
+        """`raw` if it is a table; otherwise an empty one, and the fault recorded."""
         if isinstance(raw, Mapping):
             return raw
         self.append(f"{where}: must be a table")
         return {}
 
     def unknown(self, where: str, key: str, known: Sequence[str]) -> None:
-        """Keep that `key` is none of `known`, with the closest of them."""
+        """Record that `key` is not among `known`, and suggest the closest of them."""
         hint = did_you_mean(key, tuple(known)) or f"Known: {', '.join(known)}."
         self.append(f"{where}: unknown key. {hint}")

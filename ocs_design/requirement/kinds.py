@@ -1,4 +1,4 @@
-"""Kinds of maneuvers: their words and keys in a specification, and more time for any of them."""
+"""Kinds of maneuver: their names and keys in a specification, and easier versions of each."""
 
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, fields, replace
@@ -15,11 +15,11 @@ from ocs_design.requirement.values import Quantities, Quantity, Value
 
 @dataclass(frozen=True)
 class ManeuverKind:
-    """A kind of maneuver as the file sees it.
+    """A kind of maneuver as it is written in a specification.
 
     Attributes:
         maneuver: the class; a field whose annotation has a `Value` and a note is a key of the file.
-        note: what it is, a sentence for the file.
+        note: a sentence that describes it, for the file.
     """
 
     maneuver: type[Maneuver]
@@ -27,7 +27,7 @@ class ManeuverKind:
 
     @cached_property
     def _said(self) -> Mapping[str, tuple[Any, ...]]:
-        """What the annotation of each key says: its type, how it is read, and the note, last."""
+        """Annotation of each key: its type, its parser and, last, the note."""
         hints = get_type_hints(self.maneuver, include_extras=True)
         said = {item.name: hints[item.name] for item in fields(self.maneuver)}
         return {
@@ -36,12 +36,12 @@ class ManeuverKind:
 
     @cached_property
     def values(self) -> Mapping[str, Value[Any]]:
-        """How each key is read, by its name."""
+        """Parser of each key, by name."""
         return {name: said[1] for name, said in self._said.items()}
 
     @cached_property
     def notes(self) -> Mapping[str, str]:
-        """What each key is, by its name."""
+        """Note on each key, by name."""
         return {name: said[-1] for name, said in self._said.items()}
 
     @property
@@ -53,34 +53,34 @@ class ManeuverKind:
 MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
     {
         "disturbance": ManeuverKind(
-            Disturbance, "A jump in which something hits the trunk; to stay level until touchdown."
+            Disturbance, "A jump in which something hits the trunk, which must stay level."
         ),
         "shove": ManeuverKind(
-            Shove, "A torque on the trunk of a robot that stands or trots; to be at rest soon."
+            Shove, "A torque on a standing or trotting robot, which must soon be at rest again."
         ),
         "drop": ManeuverKind(
-            Drop, "A fall from rest with the trunk tilted; to be level before touchdown."
+            Drop, "A fall from rest with the trunk tilted, which must be level before touchdown."
         ),
         "flip": ManeuverKind(
-            Flip, "A turn in pitch during a vertical jump; a back-flip is negative."
+            Flip, "A turn in pitch during a vertical jump; negative for a back-flip."
         ),
         "turn": ManeuverKind(
-            TurnTo, "A turn to any attitude during a vertical jump, heading included."
+            TurnTo, "A turn to any attitude, heading included, during a vertical jump."
         ),
-        "catch": ManeuverKind(Catch, "A stop of a trunk that turns as it leaves the ground."),
+        "catch": ManeuverKind(Catch, "A trunk that rotates at lift-off and must be stopped."),
         "balance": ManeuverKind(
-            Balance, "A tilt, rate or impulse of a robot on a pivot, which feedback alone undoes."
+            Balance, "A tilt, rate or impulse of a robot on a pivot, corrected by feedback alone."
         ),
         "stand-up": ManeuverKind(
             StandUp, "A climb from a tilt to upright about a pivot, by motors or by a brake."
         ),
     }
 )
-"""Every kind by the word that `kind` takes."""
+"""Every kind, by the value of the key `kind`."""
 
 
 def kind_of(maneuver: Maneuver) -> tuple[str, Mapping[str, Value[Any]]]:
-    """The word that `kind` takes for a maneuver, and how its fields are read."""
+    """Value of the key `kind` for a maneuver, and the parsers of its fields."""
     return next(
         (word, kind.values)
         for word, kind in MANEUVER_KINDS.items()
@@ -89,14 +89,14 @@ def kind_of(maneuver: Maneuver) -> tuple[str, Mapping[str, Value[Any]]]:
 
 
 _LONGER_THAN_ITS_TURN = 1.02
-"""Flight over turn, where a longer turn needs a longer flight."""
+"""Flight time over turn time, where a longer turn needs a longer flight."""
 
 
 def slower(maneuver: Maneuver, factor: float, standing_height: float) -> Maneuver:
     """Maneuver with `factor` times the time for its turn: a higher fall or jump, a longer turn.
 
     Args:
-        maneuver: as it is. factor: positive; below 1: less time.
+        maneuver: to change. factor: positive; below 1: less time.
         standing_height: of the trunk over the ground [m].
     """
     match maneuver:
@@ -131,21 +131,21 @@ _MILDER: Mapping[type[Maneuver], tuple[str, ...]] = MappingProxyType(
         Shove: ("torque",),
     }
 )
-"""Fields of which a maneuver may have a part."""
+"""Fields that `milder` scales."""
 
 
 def milder(maneuver: Maneuver, share: float) -> Maneuver:
-    """Maneuver with a share of its tilt or of its push; others as they are: part of a flip is none.
+    """Maneuver with part of its tilt or push; others unchanged, as part of a flip is no flip.
 
     Args:
-        maneuver: as it is. share: that is left, 0..1.
+        maneuver: to change. share: part that is left, 0..1.
     """
     names = _MILDER.get(type(maneuver))
     return maneuver.scaled(share, *names) if names else maneuver
 
 
 def change_text(before: Maneuver, after: Maneuver) -> str:
-    """The keys of `after` that are other than those of `before`, rounded up, as in `height 2 m`."""
+    """Keys of `after` that differ from those of `before`, rounded up, as in `height 2 m`."""
     changes = []
     for name, how in kind_of(after)[1].items():
         old, new = getattr(before, name), getattr(after, name)

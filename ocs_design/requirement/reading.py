@@ -1,4 +1,4 @@
-"""Reads specification files, strictly: all faults at once, each with its key's path."""
+"""Reads specification files strictly, and reports all faults at once, each with its key's path."""
 
 import os
 from collections.abc import Mapping
@@ -16,14 +16,14 @@ from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.specification import SECTIONS, Specification, with_files
 from ocs_design.requirement.values import Text
 
-# A specification takes a few thousand bytes.
+# A specification is a few thousand bytes long.
 _FILE = TextKind(
     "specification", 1 << 16, 1000, "check the path given with --spec", "r_max = '30mm'"
 )
 
 
 def read_specification(path: AnyPath) -> Specification:
-    """The specification in a TOML file; files that it names are taken from its own folder.
+    """The specification in a TOML file; paths in it are relative to its own folder.
 
     Raises:
         SpecificationError: it cannot be read, is not TOML, or has faults, all of which are listed.
@@ -32,7 +32,7 @@ def read_specification(path: AnyPath) -> Specification:
     content = _FILE.read(path)
     if content.lstrip().startswith("<"):
         raise SpecificationError(
-            f"{path} is a robot or other XML, no specification",
+            f"{path} is a robot or other XML, not a specification",
             hint=f"give the robot without --spec: ocs-design size {path} --spec mine.toml",
         )
     specification = parse_specification(content, str(path))
@@ -40,7 +40,7 @@ def read_specification(path: AnyPath) -> Specification:
 
 
 def parse_specification(text: str, name: str) -> Specification:
-    """The specification in `text`; `name` says whose text it is.
+    """The specification in `text`; messages call it `name`.
 
     Raises:
         SpecificationError: see `read_specification`.
@@ -49,12 +49,12 @@ def parse_specification(text: str, name: str) -> Specification:
 
 
 def specify(robot: AnyPath | None = None, /, **tables: object) -> Specification:
-    """The specification that a file with these tables would state.
+    """The specification that a file with these tables would give.
 
-    Files that it names are taken from the working directory.
+    Paths in it are relative to the working directory.
 
     Args:
-        robot: its file; None: `robot` has it, or mass and inertia in place of a file.
+        robot: its file; None: the table `robot` has the file, or mass and inertia.
         tables: sections as dictionaries and `maneuver` as a list of them, with the keys and values
             of the specification file: `flywheel={"r_max": "30mm"}`.
 
@@ -69,7 +69,7 @@ def specify(robot: AnyPath | None = None, /, **tables: object) -> Specification:
 
 
 def specification_of(source: Specification | AnyPath) -> Specification:
-    """A specification as it is, from its TOML file, or of a robot's file with nothing else stated.
+    """`source` itself, the specification in a TOML file, or one with a robot file alone.
 
     Raises:
         SpecificationError: the file of a specification cannot be read, or has faults.
@@ -90,7 +90,7 @@ def _plain(value: object) -> object:
 
 
 def _checked(content: Mapping[str, object], name: str) -> Specification:
-    """The specification with this content; `name` says whose it is."""
+    """The specification with this content; messages call it `name`."""
     faults, known = Faults(), (*SECTIONS, "maneuver")
     for key in content:
         if key not in known:
@@ -118,16 +118,14 @@ def _checked(content: Mapping[str, object], name: str) -> Specification:
         if maneuver is not None:
             maneuvers.append(maneuver)
 
-    # Maneuvers whose figures would be written to the same files.
+    # Maneuvers that would be written to the same files.
     of_file: dict[str, list[str]] = {}
     for maneuver in maneuvers:
         of_file.setdefault(comparable_name(maneuver.name), []).append(maneuver.name)
     for same in of_file.values():
         if len(set(same)) > 1:
             names = ", ".join(map(repr, same))
-            faults.append(
-                f"maneuver: {names} would have the same files, give each a name of its own"
-            )
+            faults.append(f"maneuver: {names} would write the same files; rename one of them")
         elif len(same) > 1:
             faults.append(f"maneuver: two are named {same[0]!r}")
     specification = Specification(**sections, maneuvers=tuple(maneuvers))
@@ -145,7 +143,7 @@ def _checked(content: Mapping[str, object], name: str) -> Specification:
 def _maneuver(
     table: Mapping[str, object], index: int, gravity: float, faults: Faults
 ) -> Maneuver | None:
-    """One maneuver, or None with its faults kept; people know it by its name, if it has one."""
+    """One maneuver, or None with its faults recorded; they cite its name, if it has one."""
     name = table.get("name")
     where = f"maneuver.{name}" if isinstance(name, str) else f"maneuver[{index}]"
     word = table.get("kind")

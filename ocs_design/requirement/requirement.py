@@ -1,4 +1,4 @@
-"""Everything that the flywheels must be able to do, and what is kept in reserve for it."""
+"""Requirement on the flywheels: maneuvers, rate change, and the reserve for each maneuver."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -14,14 +14,14 @@ from ocs_design.robot.mass import MassProperties
 
 @dataclass(frozen=True)
 class ManeuverReserve:
-    """What a device keeps for a maneuver that is not quite as designed.
+    """Reserve of a device for a maneuver that deviates from the design.
 
     Attributes:
-        demand: factor on what is asked of the wheels, at least 1.
-        rate: of roll and pitch that the trunk may begin with [rad/s].
-        begun: factor on what is asked with that rate; below 1 where there is enough to spare.
-        roll: rate of roll at lift-off that a flip undoes [rad/s], see `turned_roll`.
-        short: whether a device that keeps nothing lacks any of this.
+        demand: factor on the demand on the wheels, at least 1.
+        rate: initial roll and pitch rates of the trunk to allow for [rad/s].
+        begun: factor on the demand that includes this rate; below 1 where the margin is ample.
+        roll: roll rate at lift-off that a flip must cancel [rad/s], see `turned_roll`.
+        short: whether a device without this reserve falls short of it.
     """
 
     demand: float = 1.0
@@ -36,18 +36,18 @@ _NOTHING_KEPT = ManeuverReserve()
 
 @dataclass(frozen=True, eq=False)
 class Requirement:
-    """Everything that the flywheels must be able to do.
+    """What the flywheels must be able to do.
 
     Attributes:
         maneuvers: see `Maneuver`; may be empty.
-        rate_change: of the trunk, on roll and pitch one at a time [rad/s]; None: not asked.
+        rate_change: of the trunk about roll and pitch, one at a time [rad/s]; None: not required.
         wheel_speed_max: of a wheel relative to the trunk [rad/s].
-        spin_inertia: of one wheel, asked for in place of all else [kg m^2]; None: solved for.
-        standing_height: of the trunk over the ground, for maneuvers that end there [m].
-        reserves: kept for maneuvers by their names; none for those that are not in it.
+        spin_inertia: required of one wheel, in place of all else [kg m^2]; None: to be found.
+        standing_height: of the trunk above the ground, for maneuvers that end there [m].
+        reserves: reserve of each maneuver, by name; maneuvers that are not listed have none.
         free: whether the incidence is still to be chosen.
-        detection: time until it is known that a drive has stopped, where the wheels must do all
-            with any one of them left out [s]; None: they need not.
+        detection: time until a failed drive is detected [s], where the wheels must do everything
+            with any one of them failed; None: no drive fails.
     """
 
     maneuvers: tuple[Maneuver, ...]
@@ -60,18 +60,18 @@ class Requirement:
     detection: float | None = None
 
     def changed(self, change: Callable[[Maneuver], Maneuver]) -> "Requirement":
-        """Requirement with what becomes of each maneuver."""
+        """Requirement with `change` applied to each maneuver."""
         return replace(self, maneuvers=tuple(map(change, self.maneuvers)))
 
     def on(self, body: MassProperties) -> "Requirement":
-        """Requirement of a body, which kicks and pivots depend on (`Maneuver.on`)."""
+        """Requirement for a body, on which kicks and pivots depend (`Maneuver.on`)."""
         return self.changed(lambda each: each.on(body))
 
     @property
     def kicks(self) -> FloatArray:
-        """Momenta about roll and pitch that follow from the body [N m s], shape (n, 2).
+        """Momenta about roll and pitch that depend on the body [N m s], shape (n, 2).
 
-        They are the angular impulses of forces, and what wheels take about a pivot.
+        They are the angular impulses of forces, and the wheels' momenta about a pivot.
         """
         found = []
         for each in self.maneuvers:
@@ -82,16 +82,16 @@ class Requirement:
         return np.reshape(found, (-1, 2))
 
     def reserve(self, maneuver: Maneuver) -> ManeuverReserve:
-        """What is kept for a maneuver; nothing where there is no reserve."""
+        """Reserve for a maneuver; a neutral one where none is kept."""
         return self.reserves.get(maneuver.name, _NOTHING_KEPT)
 
     def slew(self, maneuver: Maneuver, inertia: TiltInertia, *, begun: bool = False) -> Slew:
-        """What a motor must do for a maneuver with its reserve (`Maneuver.slew`).
+        """Slew that the motors must make for a maneuver, with its reserve (`Maneuver.slew`).
 
         Args:
             maneuver: of this requirement. inertia: see there.
-            begun: whether the trunk begins with the rate of the reserve: momentum that the wheels
-                hold till the end, with the sense of what they hold anyway.
+            begun: whether the trunk starts at the reserve's rate, whose momentum the wheels hold to
+                the end, in the direction of the momentum they hold anyway.
         """
         slew, kept = maneuver.slew(inertia, self.standing_height), self.reserve(maneuver)
         factor, momentum = kept.demand, slew.momentum

@@ -1,4 +1,4 @@
-"""The specification: everything that a user stated, in the file or by options, as one value."""
+"""The specification: everything that the user set, in the file or by options, as one value."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -20,12 +20,12 @@ from ocs_design.requirement.uncertainty import UncertaintySection
 Section = TypeVar("Section")
 
 LONGEST_REPR = 200
-"""Characters of what is stated that are shown."""
+"""Longest `repr` of a specification, in characters."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Specification:
-    """Everything that a user stated; see the sections.
+    """Everything that the user set; see the sections.
 
     Attributes:
         maneuvers: the `[[maneuver]]` tables; empty if there are none.
@@ -43,17 +43,17 @@ class Specification:
 
     @property
     def takes_default_maneuvers(self) -> bool:
-        """Whether the paper's three hold: nothing is asked for, or they are, by name."""
+        """Whether the paper's three maneuvers apply: by default, or because the user names them."""
         asked = self.requirement
         if self.maneuvers or asked.maneuvers == "none":
             return False
-        # What is stated is the requirement: nothing is added to it unasked.
+        # A specified requirement is complete: nothing is added to it.
         nothing = asked.rate_change is None and asked.spin_inertia is None and not asked.is_worded
         return nothing or asked.maneuvers is not None
 
     @property
     def asks_nothing(self) -> bool:
-        """Whether the paper's three hold though nobody asked for them."""
+        """Whether the paper's three maneuvers apply by default only."""
         return self.takes_default_maneuvers and self.requirement.maneuvers is None
 
     def __repr__(self) -> str:
@@ -64,7 +64,7 @@ class Specification:
             if value is not None
         ]
         stated += [f"maneuver {each.name}" for each in self.maneuvers]
-        text = ", ".join(stated) or "nothing stated"
+        text = ", ".join(stated) or "nothing specified"
         more = " ..." if len(text) > LONGEST_REPR else ""
         return f"<Specification: {text[:LONGEST_REPR]}{more}>"
 
@@ -86,10 +86,10 @@ def all_keys() -> Mapping[str, Key]:
 
 
 def merge(base: Specification, override: Specification) -> Specification:
-    """`base`, with everything that `override` states in its place; joints are merged one by one.
+    """`base`, overridden by everything that `override` specifies; joints are merged one by one.
 
-    A robot by file replaces one by hand, and the other way round. Maneuvers that are asked for in
-    words replace all that `base` asks for: they are the requirement.
+    A robot file replaces a robot given by figures, and vice versa. Maneuvers requested in words
+    replace all those of `base`: they are the requirement.
     """
     for named in (("file",), ("mass", "inertia"), ("human",)):
         if any(getattr(override.robot, key) is not None for key in named):
@@ -106,10 +106,10 @@ def merge(base: Specification, override: Specification) -> Specification:
 
 
 def with_files(specification: Specification, renamed: Callable[[str], str]) -> Specification:
-    """Specification with other names of the files that it names; `-` is standard input."""
+    """Specification with its files renamed, except `-`, which is standard input."""
 
     def path(file: str | None) -> str | None:
-        """Path under its new name."""
+        """New path of a file."""
         return file if file is None or file == "-" else renamed(file)
 
     robot, motor, reality = specification.robot, specification.motor, specification.reality
@@ -122,7 +122,7 @@ def with_files(specification: Specification, renamed: Callable[[str], str]) -> S
 
 
 def merge_section(base: Section, override: Section) -> Section:
-    """One section, with everything that `override` states in its place."""
+    """One section, overridden by everything that `override` specifies."""
     changes: dict[str, Any] = {}
     for name, own in vars(base).items():
         other = getattr(override, name)
@@ -134,10 +134,10 @@ def merge_section(base: Section, override: Section) -> Section:
 
 
 def specification_from_options(options: Mapping[str, object]) -> Specification:
-    """The specification that options of the command line state, read as the file's keys are.
+    """The specification given by command-line options, parsed like the keys of a file.
 
     Args:
-        options: text or flag by the key's path, as in `flywheel.r_max`; None is not stated.
+        options: text or flag by the key's path, as in `flywheel.r_max`; None: not given.
 
     Raises:
         UsageError: all faults, each with its option.

@@ -1,4 +1,4 @@
-"""Turns to an attitude, heading included, and stops of a trunk that turns as it takes off."""
+"""Turns to an attitude, heading included, and stops of a trunk that rotates at lift-off."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ from ocs_design.requirement.maneuver import (
 from ocs_design.requirement.values import YAW, Choice
 
 LOOP_SHARE = 0.75
-"""Share of a loop of the tilt that wheels and motors are asked for, in that share of its time."""
+"""Fraction of the tilt loop that wheels and motors are sized for, in that fraction of its time."""
 
 _RateAtStart: TypeAlias = Annotated[Rate, "of the trunk at lift-off, about its x, y and z"]
 _End: TypeAlias = Annotated[
@@ -41,14 +41,14 @@ _ENDS: Mapping[str, str] = {
 
 
 def loop_length(heading: float) -> float:
-    """Shortest way of a trunk's vertical that changes the heading [rad], `sqrt(h (4 pi - h))`.
+    """Shortest path of a trunk's z axis that changes the heading [rad], `sqrt(h (4 pi - h))`.
 
-    A trunk whose wheels do not reach the vertical turns its heading h by the solid angle that its
-    z axis goes round, and of all ways round a circle is the shortest: the isoperimetric inequality
-    of the sphere (docs/theory.md, Yaw by two wheels).
+    Where the wheels cannot act about the vertical, the heading h changes by the solid angle that
+    the z axis encircles. The shortest path around it is a circle: the isoperimetric inequality on
+    the sphere (docs/theory.md, Yaw by two wheels).
 
     Args:
-        heading: within a turn [rad].
+        heading: at most one turn [rad].
     """
     return sqrt(abs(heading) * (4.0 * pi - abs(heading)))
 
@@ -63,8 +63,8 @@ class TurnTo(TimedTurn):
         rate: of the trunk at lift-off, in B [rad/s], shape (3,).
         wheel_speed: of all wheels at lift-off [rad/s].
         end: see `End`.
-        estimate: factor on what closed forms ask for; above 1 where a plan was found to need more.
-        direct: whether the wheels reach the vertical, and no loop of the tilt is needed.
+        estimate: factor on the closed-form demand; above 1 where a plan was found to need more.
+        direct: whether the wheels can act about the vertical, so that no tilt loop is needed.
     """
 
     jump_height: JumpHeight = 0.0
@@ -80,23 +80,23 @@ class TurnTo(TimedTurn):
 
     @property
     def headed(self) -> bool:
-        """Whether a heading is asked for and the wheels reach the vertical."""
+        """Whether a change of heading is required and the wheels can act about the vertical."""
         return self.direct and (bool(self.yaw) or bool(self.rate[2]))
 
     def heading(self, inertia: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """The turn about the vertical and the rate at lift-off; see `Maneuver.heading`."""
+        """Demand of the turn in yaw and of the yaw rate at lift-off; see `Maneuver.heading`."""
         asked = self.estimate * inertia
         turned = self.yaw if self.end == End.ATTITUDE else 0.0
         return asked * turned, asked * self.rate[2]
 
     @property
     def turn(self) -> FloatArray:
-        """Roll and pitch [rad], shape (2,), with what a change of heading asks of two wheels.
+        """Roll and pitch [rad], shape (2,), with the demand of a change of heading on two wheels.
 
-        On a circle of `loop_length` each axis turns by 2 / pi of it, at a rate that is steady but
-        for its start and end. It goes round, too, which takes torque: `LOOP_SHARE` of it, in that
-        share of the time, asks for 1.15 to 1.25 of the wheels that planned turns need, unless they
-        are at the limit of their torque (docs/theory.md, Yaw by two wheels).
+        On a circle of `loop_length` each axis turns by 2 / pi of it, at a steady rate except at its
+        start and end. Going round the circle takes torque, too: sizing for `LOOP_SHARE` of it, in
+        that share of the time, gives wheels 1.15 to 1.25 times as large as planned turns need,
+        unless they are limited by torque (docs/theory.md, Yaw by two wheels).
         """
         tilt = self._tilt
         return np.asarray(self.estimate * self._share * (tilt + np.copysign(self._loop, tilt)))
@@ -111,21 +111,21 @@ class TurnTo(TimedTurn):
 
     @property
     def _loop(self) -> float:
-        """Share of a change of heading on roll and on pitch [rad]."""
+        """Contribution of a change of heading to roll and to pitch [rad]."""
         return 0.0 if self.direct else loop_length(remainder(self.yaw, 2.0 * pi)) * 2.0 / pi
 
     def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
-        """Momentum of the tilt, half the time up and half down, of the loop and of the rate."""
+        """Momentum of the tilt, half the time up and half down, of loop and initial rates."""
         del standing_height
         peak = 2.0 * self._tilt + np.copysign(self._loop, self._tilt)
         turning = self.estimate * np.abs(inertia.momentum(peak)) / self.duration
         return np.asarray(turning + np.abs(self._begun(inertia)))
 
     def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
-        """The turn, and the momentum at lift-off, which the wheels hold till touchdown."""
+        """The turn, and the momentum at lift-off, which the wheels hold until touchdown."""
         turned, time = super().slew(inertia, standing_height), self._share * self.duration
-        # Wheels turn against the trunk, and with the rate that they take from it. A loop, and a
-        # turn with a rate, ask for both.
+        # Wheels spin against a turn of the trunk, but with a rate that they absorb. A loop, and a
+        # turn with a rate, need both.
         sense = any(self.rate) - any((self.roll, self.pitch, self.yaw))
         begins = 0.0 if self._loop else sense * self.wheel_speed
         return Slew(turned.swept, self._begun(inertia), time, begins)
@@ -149,9 +149,9 @@ class TurnTo(TimedTurn):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Catch(TurnTo):
-    """A stop of a trunk that turns as it leaves the ground."""
+    """A stop of a trunk that rotates at lift-off."""
 
     roll: Annotated[Turn, "at the end, where end is attitude"] = 0.0
-    duration: Annotated[Time, "from lift-off until it is stopped"]
+    duration: Annotated[Time, "from lift-off until it is at rest"]
     rate: _RateAtStart
     end: _End = End.LEVEL

@@ -1,17 +1,17 @@
-"""Words that keys of a specification take, and figures that hold where nothing is stated."""
+"""Words that keys of a specification accept, and default figures."""
 
 LIGHTEST = "lightest"
-"""Criterion of the incidence: whatever makes the device lightest, which only a real motor tells."""
+"""Criterion for the incidence: the lightest device, which takes a real motor to find."""
 
 CRITERIA = (LIGHTEST, "equal-rate", "weighted", "simultaneous", "pitch-only", "roll-only")
 """How the incidence may be chosen (docs/theory.md, Incidence angle)."""
 
 EQUAL_RATE = CRITERIA[1]
-"""Criterion of the incidence where none is stated: alpha* = atan(Ixx / Iyy), as in the paper."""
+"""Default criterion for the incidence: alpha* = atan(Ixx / Iyy), as in the paper."""
 
 PAIR, PYRAMID = "pair", "pyramid"
 MORE_PAIRS = ("double-pair", "triple-pair")
-"""What is tried in turn where none is stated and no pair does it."""
+"""Layouts tried in turn when none is specified and no pair is feasible."""
 
 WHEELS = {
     "single": 1,
@@ -22,71 +22,71 @@ WHEELS = {
     PYRAMID: 4,
 }
 LAYOUTS = tuple(WHEELS)
-"""How the wheels' axes may lie to each other (docs/layouts.md)."""
+"""Arrangements of the wheels' axes (docs/layouts.md)."""
 
 OF_WHEELS = tuple(3 * wheels for wheels in range(1, 7))
-"""Three numbers for each of one to six wheels."""
+"""Lengths of a row that has three numbers for each of one to six wheels."""
 
 ALL_LAYOUTS = "all"
-"""Compare them instead (`size --layout all`)."""
+"""Value of the layout that compares all of them (`size --layout all`)."""
 
 STEEL = "steel"
-"""In place of a material's name: the steel of the catalogue with which the device is lightest."""
+"""In place of a material's name: the catalogue steel that gives the lightest device."""
 
 AUTO = "auto"
-"""In place of a name: the one with which the device is lightest."""
+"""In place of a name: the one that gives the lightest device."""
 
 NO_CONTROLLERS = "none"
 """In place of a mass: motor controllers are not counted."""
 
 NO_MOTOR = "none"
-"""In place of a motor's name: size the wheels by the bound alone, as the paper does."""
+"""In place of a motor's name: size the wheels by the bound alone, as in the paper."""
 
 DISC = "disc"
-"""A rim's web: a thin disc with a hub, all of one piece."""
+"""Web of a rim: a thin disc with a hub, in one piece with the rim."""
 
 ALUMINIUM_WEB = "aluminium"
-"""A thin disc of aluminium with a hub, which the rim is shrunk on."""
+"""Web of a rim: a thin aluminium disc with a hub, onto which the rim is shrunk."""
 
 NO_WEB = "none"
 """In place of a web: massless spokes, as in the paper."""
 
 FINGERS, CONTAINING = GUARDS = "fingers", "containing"
-"""Guards: the printed housing alone, or a ring of mild steel in it."""
+"""Guards: the printed housing alone, or with a mild-steel ring inside it."""
 
 RING = "ring"
-"""A wheel that is a ring around the bell of its motor, bonded on; the other one is the disc."""
+"""Wheel that is a ring bonded around the bell of its motor, as opposed to a disc."""
 
 CONSTRUCTIONS = (DISC, RING)
 
 WEBS = (DISC, ALUMINIUM_WEB, NO_WEB)
 
 LIGHTENING, LIGHTENINGS = 6, (0, 5, 6, 7, 8)
-"""Holes in a web: how many, and how many there may be."""
+"""Lightening holes in a web: default number, and the numbers allowed."""
 
 CHAMFER, LARGEST_CHAMFER = 0.2e-3, 0.5e-3
-"""Of a wheel's edges, where nothing is stated and at most [m]: broken edges as ISO 13715 has them,
-and what hubs stand."""
+"""Chamfer of a wheel's edges, by default and at most [m]: broken edges as in ISO 13715, and the
+limit that hubs set."""
 
 BALANCING_DIAMETER, BALANCING_DEPTH = 1.6e-3, 1.0e-3
-"""Of balancing holes, where nothing is stated [m]: the core hole of M2, and shallow, for glue."""
+"""Default size of balancing holes [m]: the tap drill for M2, and shallow, for glue."""
 
 RELIABILITY = 0.99
-"""Share of robots that shall pass, where nothing is stated."""
+"""Default share of robots that must pass."""
 
 DRAWN = 2048
-"""Robots that a reserve is worked out for, each quantity by strata (Latin hypercube)."""
+"""Number of robots sampled to compute a reserve, stratified in each quantity (Latin hypercube)."""
 
 NONE_STOPS, ONE_STOPS = "none", "any one motor"
 SURVIVED = ("one", ONE_STOPS, NONE_STOPS)
-"""Drives that may stop in flight, the last word short for the one before."""
+"""Drives whose failure in flight must be survived; `one` abbreviates `any one motor`."""
 
 DETECTION = 0.02
-"""Until it is known that a drive has stopped, where nothing is stated [s]: four control steps, in
-which a wheel that should be driven changes its speed by less than it should."""
+"""Default time until a failed drive is detected [s]: four control steps, in which the speed of a
+driven wheel changes by less than it should."""
 
 CONTROL_PERIOD = 0.005
-"""Time from one torque of the wheels to the next, where nothing is stated [s]."""
+"""Default control period: time between two torque commands to the wheels [s]."""
 
 PROJECTIONS = ("pseudo-inverse", "transpose")
-"""How a torque on the trunk becomes torques of the wheels (docs/theory.md, The control law)."""
+"""Ways to distribute a torque on the trunk to the wheels (docs/theory.md, The control law)."""

@@ -241,7 +241,7 @@ def test_wheels_without_a_motor_are_certified_for_what_is_asked(folder):
     found = result.document["reliability"]
     assert (found["asked"], found["samples"]) == (0.9, 17)
     assert "certified for 90 %" in Path("ocs/report.html").read_text()
-    # With nothing stated, as before.
+    # With nothing specified, as before.
     again = run("validate", "ocs", "--certify", "--json").document["monte_carlo"]["certificate"]
     assert again["asked"] == 0.9
 

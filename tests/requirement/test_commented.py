@@ -41,7 +41,7 @@ def default(solo12):
 
 @pytest.fixture(scope="module")
 def empty(default):
-    """With nothing stated."""
+    """With nothing specified."""
     return commented_toml(Specification(), default, title="Anything", examples=EXAMPLES)
 
 

@@ -73,7 +73,7 @@ def test_a_motor_rated_for_less_than_the_supply_is_for_the_asking():
     assert weak.name not in names_of()
     assert weak.name in names_of(any=True)
     assert names_of(name=weak.name) == [weak.name]
-    with pytest.raises(SpecificationError, match=r"is rated for 500 V: .*, at 160 V"):
+    with pytest.raises(SpecificationError, match=r"is rated for 500 V; .*, at 160 V"):
         choice_of(supply={"voltage": 500.0})
 
 
@@ -211,7 +211,7 @@ def test_where_no_motor_can_be_built_with_that_is_said_and_what_it_lacks(own):
 
 @pytest.mark.parametrize(
     ("rows", "fault"),
-    [("", "has no motor"), (OWN_MOTOR, "no motor can be built with: Own 1 lacks")],
+    [("", "has no motors"), (OWN_MOTOR, "every motor lacks data needed to build: Own 1 lacks")],
 )
 def test_a_file_without_a_motor_to_build_with_is_at_fault_under_its_own_key(tmp_path, rows, fault):
     own = tmp_path / "own.toml"

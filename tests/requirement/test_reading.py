@@ -149,9 +149,9 @@ def test_all_faults_are_told_at_once_each_with_its_key():
         (DROP + DROP, "two are named 'fall'"),
         (
             DROP.replace("fall", "fall 1") + DROP.replace("fall", "Fall_1"),
-            "'fall 1', 'Fall_1' would have the same files",
+            "'fall 1', 'Fall_1' would write the same files",
         ),
-        (DROP.replace("fall", "跳") + DROP.replace("fall", "翻"), "would have the same files"),
+        (DROP.replace("fall", "跳") + DROP.replace("fall", "翻"), "would write the same files"),
         (FLIP.replace("duration=0.9", "duration='1.1s'"), "its turn ends 1.1 s .* lasts 0.903 s"),
         (PUSH.replace("2.4", "0.4"), "torque ends 0.15 s .* lasts 0.0815 s"),
         (PUSH.replace("0.05", "0.4"), "torque ends 0.5 s .* lasts 0.489 s"),
