@@ -1,6 +1,6 @@
-"""Sections of a specification about what the device may be: wheels, motors and their supply.
+"""Sections of a specification about the device: wheels, motors and their supply.
 
-A field is a key, as in `sections`.
+Each field is a key, as in `sections`.
 """
 
 from collections.abc import Mapping
@@ -52,34 +52,34 @@ from ocs_design.requirement.vocabulary import (
 
 @dataclass(frozen=True, kw_only=True)
 class OcsSection:
-    """`[ocs]`: how the device sits on the trunk, and what it may weigh [rad, m, kg]."""
+    """`[ocs]`: layout, position and mass limit of the device [rad, m, kg]."""
 
     layout: str | None = keyed(
         Choice((*LAYOUTS, ALL_LAYOUTS)),
-        "how the wheels' axes lie",
-        why="double-pair, triple-pair: four and six wheels at a pair's axes; single: on pitch; "
-        "triad: three in the horizontal plane; orthogonal: x, y, z; pyramid: four. All but "
-        "pairs and pyramid have no angle.",
+        "arrangement of the wheels' axes",
+        why="double-pair, triple-pair: four and six wheels on a pair's axes; single: on pitch; "
+        "triad: three in the horizontal plane; orthogonal: x, y, z; pyramid: four. Only "
+        "pairs and pyramid have an angle.",
         assumed=PAIR,
     )
     axes: tuple[float, ...] | None = keyed(
         Quantities(Dimension.RATIO, OF_WHEELS),
         "directions of the wheels' axes by hand, in place of a layout: x, y, z of each",
         why="x, y, z of each wheel's axis, of any length; in place of a layout.",
-        default="as the layout says",
+        default="those of the layout",
         example="[0, 1, 0, 1, 0, 0]",
     )
     alpha: float | None = keyed(
         INCIDENCE,
         "incidence of a pair's axes, or elevation of a pyramid's",
-        why="Where mounts for one angle exist already.",
+        why="If you already have mounts for one angle.",
         default="by the criterion below",
         example='"40 deg"',
     )
     alpha_criterion: str | None = keyed(
         Choice(CRITERIA),
         "how the incidence is chosen",
-        why="equal-rate is the paper's: the same change of rate about either axis; lightest: any.",
+        why="equal-rate, the paper's: equal change of rate about both axes; lightest: least mass.",
         assumed=EQUAL_RATE,
     )
     position: tuple[float, ...] | None = keyed(
@@ -92,47 +92,47 @@ class OcsSection:
     mass_max: float | None = keyed(
         MASS,
         "largest mass of the device, all modules",
-        why="What the robot may carry: if the lightest device is heavier, there is none.",
+        why="What the robot can carry: if the lightest device is heavier, there is no result.",
         default="not limited",
         example='"1 kg"',
     )
     lighter_by: float | None = keyed(
         MASS,
-        "to be told what must give for a device so much lighter",
-        why="Each answer is sized as a whole: it takes a minute.",
-        default="not asked",
+        "report what to change to save this mass",
+        why="Each change is a complete sizing: it takes a minute.",
+        default="not reported",
         example='"90 g"',
     )
     co_design: bool | None = keyed(
         true_or_false,
         "whether to refine all dimensions by optimal control in 3-D",
-        why="0 to 0.8 % lighter on the robots tried, and seconds slower to find.",
+        why="0 to 0.8 % lighter on the robots tried; takes some seconds more.",
         assumed=False,
     )
     guard: str | None = keyed(
         Choice(GUARDS),
-        "what the housings hold: fingers out, or also a wheel that bursts",
-        why="containing: a ring of mild steel in each housing that holds a third of the rim at "
-        "top speed, by a formula that nobody has tested on such rings.",
+        "what the housings protect from: touching, or also a bursting wheel",
+        why="containing: a mild-steel ring in each housing that stops a third of the rim at top "
+        "speed, by a formula that has not been tested on such rings.",
         assumed=FINGERS,
     )
     wheel: str | None = keyed(
         Choice(CONSTRUCTIONS),
         "a rim on a disc that sits on the motor, or a ring bonded around the motor's bell",
-        why="ring: bonded around the bell of an outrunner, as Mini Wheelbot has it; a flat "
-        "module, heavier where the wheel wants to be wide.",
+        why="ring: bonded around the bell of an outrunner, as on Mini Wheelbot; a flat module, "
+        "heavier where a wide wheel is best.",
         assumed=DISC,
     )
 
 
 @dataclass(frozen=True, kw_only=True)
 class FlywheelSection:
-    """`[flywheel]`: the room for a rim and what it is made of [m, kg]."""
+    """`[flywheel]`: limits and material of a rim [m, kg]."""
 
     r_max: float | None = keyed(
         LENGTH,
         "largest outer radius of a rim",
-        why="Of the rim: its housing adds 3.6 mm all around. The wider the rim, the lighter.",
+        why="Of the rim: its housing adds 3.6 mm all round. The wider the rim, the lighter.",
     )
     r_min: float | None = keyed(
         LENGTH,
@@ -142,76 +142,76 @@ class FlywheelSection:
     h_max: float | None = keyed(
         LENGTH,
         "largest height of a rim",
-        why="The room along the spin axis.",
+        why="The space along the spin axis.",
     )
     h_min: float | None = keyed(
         LENGTH,
         "smallest height of a rim",
-        why="What your lathe or printer still makes well.",
+        why="The least that your lathe or printer makes well.",
     )
     wall_min: float | None = keyed(
         LENGTH,
         "smallest wall, outer less bore radius",
-        why="The same across the rim.",
+        why="The same, across the rim.",
     )
     wheel_mass_max: float | None = keyed(
         MASS,
         "largest mass of a rim",
-        why="What the trunk may carry on each side.",
+        why="What the trunk can carry on each side.",
     )
     material: str | None = keyed(
         Text((STEEL, AUTO)),
-        "material of a rim, from the catalogue; steel or auto: of many",
-        why="steel: any; auto: any material; or one of `ocs-design catalogue materials`.",
+        "material of a rim, from the catalogue; steel or auto: the best of several",
+        why="steel: any steel; auto: any material; or one of `ocs-design catalogue materials`.",
         assumed=STEEL,
     )
     web: str | None = keyed(
         Choice(WEBS),
-        "what joins a rim to its motor: a disc of one piece with it, one of aluminium that "
-        "it is shrunk on, or none: massless spokes",
-        why="none is the paper's: spokes that weigh nothing.",
+        "what joins a rim to its motor: a disc in one piece with it, an aluminium disc that it "
+        "is shrunk on, or none: massless spokes",
+        why="none is the paper's: massless spokes.",
         assumed=DISC,
     )
     stress_safety: float | None = keyed(
         positive_number,
         "yield strength over hoop stress at the highest speed",
-        why="More where a burst rim could hurt someone.",
+        why="Larger where a burst rim could hurt someone.",
     )
     lightening: int | None = keyed(
         whole_number,
-        "holes in a web that has room for them; 0: none",
-        why="They take two fifths of the web, 3 mm of spoke is left; fewer parts to drill: 0.",
+        "lightening holes in a web that has room for them; 0: none",
+        why="They remove two fifths of the web and leave 3 mm spokes; 0: less drilling.",
         assumed=LIGHTENING,
     )
     chamfer: float | None = keyed(
         Quantity(Dimension.LENGTH, Sign.NOT_NEGATIVE, LARGEST_CHAMFER),
-        "broken edges of a wheel with a web, at 45 deg",
-        why="What your workshop breaks edges by; it is counted.",
+        "chamfer of the edges of a wheel with a web, at 45 deg",
+        why="As your workshop breaks edges; its mass is accounted for.",
         assumed=CHAMFER,
     )
     balancing_holes: int | None = keyed(
         whole_number,
-        "in each face of a rim with a web; 0: none",
-        why="At least three, where weights are to balance the wheel; its wall grows to fit them.",
+        "balancing holes in each face of a rim with a web; 0: none",
+        why="At least three, to balance the wheel with weights; its wall grows to fit them.",
         assumed=0,
     )
     balancing_hole_diameter: float | None = keyed(
         LENGTH,
-        "of each, on the rim's middle radius",
-        why="1.6 mm is the core hole of M2.",
+        "diameter of each balancing hole, on the rim's middle radius",
+        why="1.6 mm is the tap drill for M2.",
         assumed=BALANCING_DIAMETER,
     )
     balancing_hole_depth: float | None = keyed(
         LENGTH,
-        "of each, from its face",
-        why="A thread of M2 wants 2 mm; both faces have them, so that the rim grows too.",
+        "depth of each balancing hole, from its face",
+        why="An M2 thread needs 2 mm; both faces have holes, so the rim grows too.",
         assumed=BALANCING_DEPTH,
     )
 
 
 @dataclass(frozen=True)
 class Envelope:
-    """Limits of one flywheel rim, all SI.
+    """Limits of one flywheel rim, in SI.
 
     Attributes:
         outer_radius_max: [m]. inner_radius_min: the bore that the motor needs [m].
@@ -250,48 +250,48 @@ class MotorSection:
 
     name: str | None = keyed(
         several_names,
-        "motors to choose from, of the catalogue; auto, or none",
+        "motors of the catalogue to choose from; auto, or none",
         option="motor",
-        why="Those that you have: see `ocs-design catalogue motors`; none: the bound alone.",
+        why="The ones you have: see `ocs-design catalogue motors`; none: the bound alone.",
         assumed=AUTO,
     )
     gear: str | None = keyed(
         Text((AUTO, DIRECT.name)),
         "gear from the catalogue, direct, or auto",
-        why="auto: any of `ocs-design catalogue gears`; how they are held is not designed.",
+        why="auto: any of `ocs-design catalogue gears`; their mounting is not designed.",
         assumed=DIRECT.name,
     )
     any: bool | None = keyed(
         true_or_false,
-        "whether motors may lack what a builder needs",
+        "whether motors may lack data needed to build",
         option="motors-any",
-        why="true: what motors would do whose threads, say, no source gives; not to be built.",
+        why="true: also motors with missing data, such as threads, which cannot be built.",
         assumed=False,
     )
     motors: str | None = keyed(
         Text(),
         "file with motors to choose from instead, CSV or TOML",
-        why="Instead of the catalogue; from the folder of this file.",
+        why="Instead of the catalogue; path relative to this file.",
         default="none",
         example='"my_motors.csv"',
     )
     with_catalogue: bool | None = keyed(
         true_or_false,
-        "whether to choose from the catalogue too, beside that file",
+        "whether to choose from the catalogue too, in addition to that file",
         why="true: your file's motors and the catalogue's.",
         assumed=False,
     )
     gears: str | None = keyed(
         Text(),
         "file with gears of your own, CSV or TOML",
-        why="To choose from as well; from the folder of this file.",
+        why="To choose from as well; path relative to this file.",
         default="none",
         example='"my_gears.csv"',
     )
     torque_max: float | None = keyed(
         WHEEL_TORQUE,
         "largest torque on a wheel",
-        why="What your motor controller gives, at the wheel.",
+        why="The limit of your motor controller, at the wheel.",
         default="the motor's own",
         example='"1 N m"',
     )
@@ -303,27 +303,27 @@ class SupplySection:
 
     voltage: float | None = keyed(
         SUPPLY,
-        "of the supply of all motors",
+        "supply voltage of all motors",
         option="bus-voltage",
-        why="Your robot's battery under load, not its nameplate.",
+        why="Your robot's battery under load, not the nominal voltage.",
     )
     current_max: float | None = keyed(
         Quantity(Dimension.CURRENT),
-        "largest current of all motors, drawn or fed back",
+        "largest current of all motors together, drawn or fed back",
         option="bus-current",
-        why="What fuse, cables and battery stand, both ways.",
-        default="not limited but by power",
+        why="The limit of fuse, cables and battery, in both directions.",
+        default="limited by power only",
         example='"40 A"',
     )
     power_max: float | None = keyed(
         Quantity(Dimension.POWER),
-        "largest power of all motors, drawn or fed back",
+        "largest power of all motors together, drawn or fed back",
         option="bus-power",
-        why="Less where the legs draw at the same time.",
+        why="Less if the legs draw power at the same time.",
     )
     controllers: float | str | None = keyed(
         WordOr((AUTO, NO_CONTROLLERS), MASS),
         "mass of one motor controller; none: not counted",
-        why="auto: by their current; a mass where you have some; none: not counted.",
+        why="auto: from their current; a mass if you have controllers; none: not counted.",
         assumed=AUTO,
     )

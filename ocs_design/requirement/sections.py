@@ -1,7 +1,7 @@
-"""Sections of a specification about the robot, what is asked of its device, and the proof of it.
+"""Sections of a specification about the robot, the requirement and the validation.
 
-A field is a key: its name is the TOML key and, with dashes, the option; its value says how it is
-read. None means that it was not stated and that a default holds.
+Each field is a key: its name is the TOML key and, with dashes, the option; its value is the parser.
+None means that it was not specified and that a default applies.
 """
 
 from collections.abc import Mapping
@@ -57,41 +57,41 @@ from ocs_design.requirement.vocabulary import (
 
 @dataclass(frozen=True, kw_only=True)
 class RobotSection:
-    """`[robot]`: which robot and how it stands; mass [kg] and inertia [kg m^2] replace a file."""
+    """`[robot]`: the robot and its posture; mass [kg] and inertia [kg m^2] replace a file."""
 
     file: str | None = keyed(
         Text(),
         "robot file: URDF, xacro or MJCF",
-        why="Mass, inertia and legs are read from it; from the folder of this file.",
+        why="Mass, inertia and legs are read from it; path relative to this file.",
         default="the robot on the command line",
         example='"robot.urdf"',
     )
     name: str | None = keyed(
         Text(),
         "name of the robot",
-        why="Names the output folder of a robot by hand.",
+        why="Names the output folder of a robot without a file.",
         default="the file's own",
         example='"robot"',
     )
     trunk: str | None = keyed(
         Text(),
         "link that carries the device",
-        why="State it where the wrong link was found to carry the legs.",
+        why="Set it if the wrong link was recognised as the trunk.",
         default="found",
         example='"trunk"',
     )
     legs: tuple[str, ...] | None = keyed(
         link_names,
-        "a link of each foot; none: it has no legs",
-        why="State them where the wrong limbs were found to be legs.",
+        "a link of each foot; none: the robot has no legs",
+        why="Set them if the wrong limbs were recognised as legs.",
         default="found",
         example='["FL_FOOT", "FR_FOOT"]',
     )
     posture: str | None = keyed(
         Text(),
         "zero, stand, or a name from the file",
-        why="The inertia, and with it all else, is that of this posture.",
-        default="stand where legs are found",
+        why="The inertia, and all that follows from it, is that of this posture.",
+        default="stand if legs are found",
         example='"stand"',
     )
     joints: Mapping[str, float] | None = keyed(
@@ -118,15 +118,15 @@ class RobotSection:
     )
     human: Person | None = keyed(
         person_text,
-        "a person in place of a file, who wears the device",
+        "a person who wears the device, in place of a file",
         why="In place of a file: mass, height, payload.",
         default="read",
         example='"75kg 1.75m with 10kg"',
     )
     weighed: float | None = keyed(
         MASS,
-        "what the robot weighs on scales, to check its file's parts",
-        why="Tells when the parts in the file do not add up to it.",
+        "mass of the robot as weighed, to check the masses in its file",
+        why="Warns if the masses in the file do not add up to it.",
         default="not checked",
         example='"2.5 kg"',
     )
@@ -144,10 +144,10 @@ WORDS = (
     "balance",
     "stand_up",
 )
-"""Keys of `[requirement]` that ask for a maneuver (`worded_maneuvers`)."""
+"""Keys of `[requirement]` that request a maneuver (`worded_maneuvers`)."""
 
 TURNS = ("turn", "catch")
-"""Those of them that need no gravity."""
+"""Keys of `WORDS` whose maneuvers need no gravity."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -157,27 +157,27 @@ class RequirementSection:
     rate_change: float | None = keyed(
         TRUNK_RATE,
         "change of the trunk's rate",
-        why="The paper's requirement: asked of either axis, on top of the maneuvers.",
-        default="not asked",
+        why="The paper's requirement, about either axis, in addition to the maneuvers.",
+        default="not required",
         example='"2 rad/s"',
     )
     wheel_speed_max: float | None = keyed(
         WHEEL_SPEED,
         "highest speed of a wheel",
-        why="What bearings and balance stand, if less than the motor can do.",
+        why="The limit of bearings and balance, if below the motor's.",
         default="the motor's own; 7200 rpm without a motor",
         example='"7200 rpm"',
     )
     spin_inertia: float | None = keyed(
         Quantity(Dimension.INERTIA),
-        "spin inertia of one wheel, asked directly",
-        why="For a wheel that you have already; nothing else is then asked.",
+        "spin inertia of one wheel, specified directly",
+        why="For a wheel that you already have; nothing else is then required.",
         default="found",
         example='"7.11e-5 kg m2"',
     )
     gravity: float | None = keyed(
         GRAVITY,
-        "where maneuvers state none",
+        "gravity of maneuvers that give none of their own",
         why="1.62 m/s2 is the Moon's; the paper's back-flip stays there.",
         assumed=STANDARD_GRAVITY,
     )
@@ -191,21 +191,21 @@ class RequirementSection:
     kick: tuple[Kick, ...] | None = keyed(
         Several(kick_text),
         "impulse on the trunk during a jump",
-        why="On the trunk during a jump; one without `along` comes from the side.",
+        why="Without `along`, it comes from the side.",
         default="not asked",
         example='"12 N s at 0.1,0,0.2 along 0,1,0"',
     )
     fall: tuple[float, ...] | None = keyed(
         Several(HEIGHT),
-        "height of the trunk that a fall starts at",
-        why="The trunk is released at rest so high over the ground, tilted.",
+        "height of the trunk at the start of a fall",
+        why="The tilted trunk is released at rest at this height above the ground.",
         default="not asked",
         example='"1 m"',
     )
     tilt: tuple[Tilt, ...] | None = keyed(
         Several(tilt_text),
-        "of the trunk when a fall starts",
-        why="Of each fall, nose down; roll: to the right.",
+        "tilt of the trunk at the start of a fall",
+        why="For each fall; positive pitch is nose down, positive roll to the right.",
         default="not asked",
         example='"20 deg"',
     )
@@ -219,83 +219,83 @@ class RequirementSection:
     turn: tuple[About, ...] | None = keyed(
         Several(TURN_TEXT),
         "turn to any attitude during a jump",
-        why="To an attitude, heading included, in a time.",
+        why="To an attitude, heading included, within a time.",
         default="not asked",
         example='"yaw 90 deg in 2.9 s"',
     )
     catch: tuple[About, ...] | None = keyed(
         Several(CATCH_TEXT),
-        "rates at lift-off that the wheels stop",
-        why="Rates of the trunk at lift-off; to be level in a time.",
+        "rates at lift-off that the wheels must stop",
+        why="Rates of the trunk at lift-off; it must be level within a time.",
         default="not asked",
         example='"roll 20 deg/s pitch 45 deg/s in 0.5 s"',
     )
     pivot: Pivot | None = keyed(
         pivot_text,
-        "point or edge that balance and stand_up are about",
-        why="Of balance and stand_up, in the trunk's frame, below the centre of mass.",
+        "point or edge for balance and stand_up",
+        why="In the trunk's frame, below the centre of mass.",
         default="not asked",
         example='"0,0,-0.2 along left"',
     )
     balance: tuple[About | Kick, ...] | None = keyed(
         Several(upset_text),
-        "tilt or impulse to get over on the pivot",
-        why="To be upright again on the pivot: a tilt from where it balances, or an impulse.",
+        "tilt or impulse to recover from on the pivot",
+        why="The robot must be upright again: after a tilt from balance, or an impulse.",
         default="not asked",
         example='"pitch 5 deg in 1 s"',
     )
     stand_up: tuple[Climb, ...] | None = keyed(
         Several(climb_text),
         "tilt to stand up from on the pivot",
-        why="From a tilt to upright on the pivot, by the motors or by stopping the wheels.",
+        why="From a tilt to upright on the pivot, by the motors or by braking the wheels.",
         default="not asked",
         example='"pitch 45 deg by brake"',
     )
     maneuvers: str | None = keyed(
         Choice(("paper", "none")),
-        "the paper's three beside what else is asked, or none",
-        why="paper: beside a rate_change or a spin_inertia; leave it out where you state your own.",
+        "the paper's three in addition to other requirements, or none",
+        why="paper: in addition to a rate_change or a spin_inertia; leave it out with your own.",
         assumed="paper",
     )
     reliability: float | None = keyed(
         chance,
-        "share of robots that shall pass as built (`[reality]`)",
-        why="0.5: sized for a robot just as its file says; more keeps a reserve for [reality].",
+        "share of robots that must pass as built (`[reality]`)",
+        why="0.5: sized for a robot exactly as in its file; more keeps a reserve for [reality].",
         assumed=RELIABILITY,
     )
     survives: str | None = keyed(
         Choice(SURVIVED),
-        "whether it lands level though a drive stops in flight",
-        why="any one motor, or one: sized and flown so that it lands level whichever drive stops, "
-        "at any instant of a maneuver; its wheel runs on.",
+        "whether it must land level if a drive fails in flight",
+        why="any one motor, or one: sized and flown so that it lands level whichever drive fails, "
+        "at any instant of a maneuver; its wheel coasts on.",
         assumed=NONE_STOPS,
     )
     detection: float | None = keyed(
         TIME,
-        "time until it is known that a drive has stopped",
-        why="Until then the other drives go on as before.",
+        "time until a failed drive is detected",
+        why="Until then the other drives continue as before.",
         assumed=DETECTION,
     )
 
     @property
     def notices(self) -> float | None:
-        """Time until a stopped drive is known [s], where the device survives one; else None."""
+        """Time until a failed drive is detected [s], if the device must survive one; else None."""
         survives = self.survives not in {None, NONE_STOPS}
         return (self.detection or DETECTION) if survives else None
 
     @property
     def is_worded(self) -> bool:
-        """Whether a maneuver is asked for by a key of its own, such as `fall`."""
+        """Whether a maneuver is requested by a key of its own, such as `fall`."""
         return any(getattr(self, word) is not None for word in WORDS)
 
     def without_words(self) -> "RequirementSection":
-        """The section without maneuvers that are asked for by keys of their own."""
+        """The section without the keys that request maneuvers."""
         return replace(self, **dict.fromkeys(WORDS))
 
 
 @dataclass(frozen=True, kw_only=True)
 class ValidationSection:
-    """`[validation]`: the proof by simulation; gains [1/s^2, 1/s]."""
+    """`[validation]`: validation by simulation; gains [1/s^2, 1/s]."""
 
     enabled: bool | None = keyed(
         true_or_false,
@@ -306,14 +306,14 @@ class ValidationSection:
     )
     projection: str | None = keyed(
         Choice(PROJECTIONS),
-        "how the law's torque falls to the wheels",
+        "how the control torque is distributed to the wheels",
         why="transpose is the paper's, which scales the gains.",
         assumed=PROJECTIONS[0],
     )
     kp: float | None = keyed(
         positive_number,
         "gain on the attitude error",
-        why="Higher: quicker, and more torque.",
+        why="Higher: faster, with more torque.",
     )
     kd: float | None = keyed(
         positive_number,
@@ -323,7 +323,7 @@ class ValidationSection:
     ballistic: bool | None = keyed(
         true_or_false,
         "whether jumps start at lift-off, without a push-off",
-        why="true: the legs need not make the jumps.",
+        why="true: the legs need not be able to make the jumps.",
         assumed=False,
     )
     seed: int | None = keyed(
@@ -335,24 +335,24 @@ class ValidationSection:
     video: bool | None = keyed(
         true_or_false,
         "whether to film the flights",
-        why="true: each maneuver as a film, with the device and without.",
+        why="true: one film per maneuver, with the device and without.",
         assumed=False,
     )
     certify: bool | None = keyed(
         true_or_false,
-        "whether to fly robots as they might be built, until it is sure",
-        why="true: fly robots as they might be built until it is sure; it takes minutes.",
+        "whether to fly robots as they might be built, until the result is certain",
+        why="true: tests the reliability on robots as they might be built; takes minutes.",
         assumed=False,
     )
     control_period: float | None = keyed(
         Quantity(Dimension.TIME, most=0.1),
-        "from one torque to the next, whole milliseconds",
-        why="That of your controller; longer ones fly worse.",
+        "time between torque commands, whole milliseconds",
+        why="That of your controller; longer periods fly worse.",
         assumed=CONTROL_PERIOD,
     )
     desaturate: bool | None = keyed(
         true_or_false,
         "whether the wheels are braked while the robot stands",
-        why="true: wheels let go of their momentum after landing.",
+        why="true: the wheels shed their momentum after landing.",
         assumed=False,
     )

@@ -1,4 +1,4 @@
-"""Maneuvers that are asked for by keys of `[requirement]`, and what was filled in for each."""
+"""Maneuvers requested by keys of `[requirement]`, and the defaults filled in for each."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -23,26 +23,26 @@ from ocs_design.robot.robot import Robot
 
 @dataclass(frozen=True, eq=False)
 class Worded:
-    """Maneuvers that were asked for in words, and what was filled in, a sentence for each."""
+    """Maneuvers requested in words, with one sentence each on the defaults filled in."""
 
     maneuvers: tuple[Maneuver, ...]
     notes: tuple[str, ...]
 
 
 def worded_maneuvers(asked: RequirementSection, robot: Robot, taken: Iterable[str] = ()) -> Worded:
-    """Jumps, kicks, falls and flips that are asked for by keys of their own.
+    """Maneuvers requested by keys of their own, such as `kick` and `fall`.
 
-    Each kick is during each jump, each flip in each jump, each fall from each tilt; what is not
-    stated is as in the paper's tests, scaled to the robot.
+    Each kick is combined with each jump, each flip with each jump, each fall with each tilt;
+    unspecified figures are those of the paper's tests, scaled to the robot.
 
     Args:
-        asked: the words.
+        asked: the section with these keys.
         robot: to scale to.
-        taken: names that other maneuvers have already; none of these gets one of them, or one
-            that would have the same files.
+        taken: names of other maneuvers; the new names differ from them, and so do their files.
 
     Raises:
-        SpecificationError: a kick hits no link of the robot, or a point off it.
+        SpecificationError: the robot lacks the link that a kick hits; or a pivot is missing, or
+            given but not used.
     """
     gravity = STANDARD_GRAVITY if asked.gravity is None else asked.gravity
     disturbance, drop, back_flip = default_maneuvers(robot, gravity or STANDARD_GRAVITY)
@@ -51,7 +51,7 @@ def worded_maneuvers(asked: RequirementSection, robot: Robot, taken: Iterable[st
     files = {comparable_name(name) for name in taken}
 
     def add(maneuver: Maneuver, note: str, told: str = "") -> None:
-        """Add a maneuver with a note on it; a second one of the same name is numbered."""
+        """Add a maneuver with a note on it; if its name is taken, it gets a number."""
         name, number = maneuver.name, 2
         while comparable_name(name) in files:
             name, number = f"{maneuver.name} {number}", number + 1
@@ -61,7 +61,7 @@ def worded_maneuvers(asked: RequirementSection, robot: Robot, taken: Iterable[st
 
     highest = disturbance.takeoff_velocity[1] ** 2 / (2.0 * disturbance.gravity)
     for height in asked.jump_height or (highest,):
-        # A vertical jump with the torque of the paper's first test, at the same share of it.
+        # A vertical jump with the torque of the paper's first test, at the same part of the flight.
         upward = sqrt(2.0 * disturbance.gravity * height)
         longer = upward / disturbance.takeoff_velocity[1]
         roll, pitch, yaw = disturbance.torque
@@ -109,12 +109,12 @@ def worded_maneuvers(asked: RequirementSection, robot: Robot, taken: Iterable[st
 def _turns(
     asked: RequirementSection, gravity: float, share: float, heights: tuple[float, float]
 ) -> Iterator[TurnTo]:
-    """Turns and stops that are asked for, in every jump.
+    """Turns and catches requested, in every jump.
 
     Args:
         asked: see `worded_maneuvers`. gravity: [m/s^2].
-        share: of its flight that a turn takes where its time or its jump is not stated.
-        heights: of the jump of a turn and of a stop, where neither is [m].
+        share: of its flight that a turn takes, where its time or its jump is not specified.
+        heights: of the jump of a turn and of a catch, where neither is specified [m].
     """
     for height in asked.jump_height or (None,):
         for to in asked.turn or ():
@@ -140,38 +140,38 @@ def _turns(
 
 
 SETTLING, CLIMBING = 8.0, 4.0
-"""Times of a catch and of a climb where none is stated, over that in which a tilt grows e-fold."""
+"""Default times of a balance and of a climb, over the e-folding time of a tilt."""
 
 
 def _pivoted(
     asked: RequirementSection, gravity: float, robot: Robot
 ) -> Iterator[tuple[Pivoted, str]]:
-    """What is asked for about the pivot, and a note on the time that was assumed.
+    """Maneuvers requested about the pivot, each with a note on an assumed time.
 
     Raises:
-        SpecificationError: no pivot is stated, or nothing that happens on it.
+        SpecificationError: the pivot is missing, or given but not used.
     """
     if asked.pivot is None:
         if asked.balance or asked.stand_up:
             ground = format_quantity(-standing_height(robot), "mm", 3)
             raise SpecificationError(
-                "requirement.pivot: is missing: what does the robot balance or stand up on?",
-                hint="State a point in the trunk's frame, 'X,Y,Z', or an edge, 'X,Y,Z along left'; "
+                "requirement.pivot: is missing, but balance and stand_up need one",
+                hint="Give a point in the trunk's frame, 'X,Y,Z', or an edge, 'X,Y,Z along left'; "
                 f"the ground is at z = {ground}.",
             )
         return
     if not (asked.balance or asked.stand_up):
         raise SpecificationError(
-            "requirement.pivot: nothing happens on it",
-            hint="Ask for balance or stand_up, or leave it out.",
+            "requirement.pivot: given, but no maneuver uses it",
+            hint="Add balance or stand_up, or leave it out.",
         )
     pivot, edge = asked.pivot.point, asked.pivot.along or (0.0, 0.0, 0.0)
 
     def lasting(one: Pivoted, stated: float | None, times: float) -> tuple[Pivoted, str]:
-        """The maneuver in the time that is stated, or in so many e-foldings of a tilt."""
+        """The maneuver in the specified time, or in `times` e-folding times of a tilt."""
         one = one.on(robot.mass_properties)
         grows = format_quantity(1.0 / one.quickness, "ms", 3)
-        note = f"; the time is {times:g} times that in which a tilt grows e-fold, {grows}"
+        note = f"; the time is {times:g} times the e-folding time of a tilt, {grows}"
         return replace(one, duration=stated or times / one.quickness), "" if stated else note
 
     for upset in asked.balance or ():
@@ -198,10 +198,10 @@ def _pivoted(
 
 
 def _kicked(kick: Kick, jump: Disturbance, robot: Robot) -> tuple[Disturbance, str]:
-    """A kick during this jump, and how it was understood.
+    """A kick during this jump, and how it was interpreted.
 
     A force on a free robot turns it about its centre of mass with the angular impulse r x p, and
-    moves that by p / m. Here both are those of the robot without the device, whose joints hold.
+    changes its velocity by p / m: here, of the robot without the device and with locked joints.
     """
     point, along = _hit(kick, robot)
     impulse = tuple((kick.impulse * along).tolist())
@@ -210,22 +210,22 @@ def _kicked(kick: Kick, jump: Disturbance, robot: Robot) -> tuple[Disturbance, s
     moved = np.linalg.norm(kicked.velocity_change)
     where = ", ".join(f"{1e3 * each:.3g}" for each in point)
     direction = ", ".join(f"{each:.3g}" for each in along)
-    default = " (from the side: no direction is stated)" if kick.along is None else ""
+    default = " (from the side, as no direction is given)" if kick.along is None else ""
     named = f"{kick.point}, " if isinstance(kick.point, str) else ""
     roll, pitch, yaw = (f"{each:.3g}" for each in turned)
     spin = abs(np.linalg.solve(robot.inertia, turned)[2])
     rate = format_quantity(spin, "deg/s", 2)
-    heading = f" (no wheel stops the part about z, which turns it by {rate})"
+    heading = f" (the wheels cannot cancel the yaw part, which turns it at {rate})"
     return kicked, (
         f"{kick.impulse:.3g} N s at {named}({where}) mm along ({direction}){default}: "
         f"angular impulse ({roll}, {pitch}, {yaw}) N m s about the centre of mass without a device"
-        f"{heading if spin > _TURNS else ''}, which gets {moved:.3g} m/s; "
+        f"{heading if spin > _TURNS else ''}, which gains {moved:.3g} m/s; "
         f"{jump.onset:.3g} s after lift-off, for {jump.duration:.3g} s"
     )
 
 
 def told_with_device(assumption: str, maneuvers: Iterable[Maneuver]) -> str:
-    """An assumption; one about a kick also says what the kick does with the device on.
+    """An assumption; one about a kick is extended by what the kick does with the device on.
 
     Args:
         assumption: one sentence.
@@ -245,7 +245,7 @@ def told_with_device(assumption: str, maneuvers: Iterable[Maneuver]) -> str:
 def _hit(kick: Kick, robot: Robot) -> tuple[Vector3, FloatArray]:
     """Point that a kick hits, in B [m], and its unit vector, shape (3,).
 
-    Where no direction is stated, it is sideways towards the middle.
+    By default it acts sideways, towards the middle.
 
     Raises:
         SpecificationError: no link has this name.
@@ -274,10 +274,10 @@ def _frame_of(link: str, robot: Robot) -> Vector3:
 
 
 _MIDDLE = 1e-3
-"""Distance from the trunk's middle plane within which a point has no side [m]."""
+"""Distance from the trunk's middle plane within which a point counts as on it [m]."""
 
 _TURNS = 0.1
-"""Rate about z above which a kick is said to turn the robot [rad/s]."""
+"""Yaw rate above which a note says that a kick turns the robot [rad/s]."""
 
 _MOST_LINKS = 20
 """Most links that a message names."""

@@ -1,6 +1,6 @@
 """A specification as text: the same keys again, or a commented file to start from.
 
-What a key is, how it is read and why one would state it stand with the key, in `sections` and
+The meaning and the parser of a key, and when to set it, are with the key, in `sections` and
 `device_sections`.
 """
 
@@ -35,29 +35,29 @@ PEOPLE_UNITS: Mapping[Dimension, str] = {
     Dimension.ANGLE: "deg",
     Dimension.ANGULAR_SPEED: "deg/s",
 }
-"""Units that people think in, where they are not SI's; the trunk's for angular speeds."""
+"""Customary units where they are not SI's; for angular speeds, that of the trunk."""
 
 _SAME = 1e-12
-"""Relative; a degree is no finite number of radians."""
+"""Relative tolerance of a conversion; a degree is no finite number of radians."""
 
 
 class Figures(Enum):
-    """How numbers are written."""
+    """Format of numbers."""
 
     SI = auto()
-    """In SI, to the last bit."""
+    """In SI, with full precision."""
     EXACT = auto()
-    """In units that people think in if nothing is lost by it, else in SI."""
+    """In customary units if no precision is lost, else in SI."""
     ROUNDED = auto()
-    """In units that people think in, to four digits."""
+    """In customary units, to four digits."""
 
 
 def specification_to_toml(specification: Specification, comment: str = "") -> str:
-    """Everything that is stated, in SI with units and full digits.
+    """TOML of everything that is specified, in SI with units and full precision.
 
     Args:
-        specification: what to write; what it does not state is left out.
-        comment: for people, at the top; may have several lines.
+        specification: what to write; keys that are not specified are left out.
+        comment: at the top; may have several lines.
     """
     lines = [f"# {line}".rstrip() for line in comment.splitlines()]
     for name, section in SECTIONS.items():
@@ -76,7 +76,7 @@ def with_absolute_files(specification: Specification) -> Specification:
 
 
 def with_files_from(specification: Specification, folder: Path) -> Specification:
-    """Specification whose files are found from `folder`, also after both were moved together."""
+    """Specification whose files are found from `folder`, even after both are moved together."""
     return with_files(specification, lambda file: os.path.relpath(file, folder))
 
 
@@ -91,7 +91,7 @@ def _fields(specified: object, values: Mapping[str, Value[Any]]) -> Iterator[str
 def written(  # noqa: PLR0911
     value: object, how: Value[Any], figures: Figures = Figures.SI
 ) -> str:
-    """Value as TOML, a quantity with its unit: some are not believed without one."""
+    """Value as TOML, a quantity with its unit: some bare numbers would be refused."""
     match how, value:
         case WordOr(quantity=quantity), float() | int():
             return written(value, quantity, figures)
@@ -117,7 +117,7 @@ def written(  # noqa: PLR0911
 
 
 def _told(value: float, dimension: Dimension, unit: str, figures: Figures) -> str:
-    """Quantity in `unit` or in SI, as `figures` asks."""
+    """Quantity in `unit` or in SI, as `figures` says."""
     if figures is Figures.ROUNDED:
         return format_quantity(value, unit)
     told = format_quantity(value, unit, digits=12)
@@ -138,13 +138,13 @@ def _plain(value: object) -> str:
         case tuple():
             return f"[{', '.join(map(_plain, value))}]"
         case float():
-            # NumPy's own floats are floats too, and call themselves by their type.
+            # NumPy's floats are floats too, but their `repr` includes the type.
             return repr(float(value))
         case Mapping():
             joints = {}
             for name, entry in value.items():
                 dimension = entry.dimension if isinstance(entry, JointValue) else None
-                # A bare number beyond a turn would be taken for degrees, and refused.
+                # A bare number above one turn would be refused, as probably meant in degrees.
                 bare = dimension is None and abs(entry) <= ONE_TURN
                 unit = si_unit(dimension or Dimension.ANGLE)
                 joints[name] = _plain(entry) if bare else _text(f"{float(entry)!r} {unit}")
@@ -160,13 +160,12 @@ def _text(text: str) -> str:
 
 
 INTRODUCTION = """\
-Every key that there is. A line such as `# h_max = "10 mm"` shows what holds anyway, or an example
-where it says so: take away the `# ` to state it. A quantity is SI if it is a bare number, or text
-with one of the units in brackets. Whatever is left out is assumed for the robot, and `size` prints
-what it assumed."""
+Every key that there is. A line such as `# h_max = "10 mm"` shows the default, or an example where
+it says so: remove the `# ` to set the key. A quantity is a bare number in SI, or text with one of
+the units in brackets. Keys that are left out get defaults for the robot; `size` prints them."""
 
 _WIDTH = 40
-"""Columns from the start of a maneuver's line to its comment."""
+"""Column at which the comment of a maneuver's line starts."""
 
 
 def commented_toml(
@@ -177,14 +176,14 @@ def commented_toml(
     chosen: Collection[str] = (),
     examples: tuple[Maneuver, ...] = (),
 ) -> str:
-    """The text of the file; it is read back as `stated` with the chosen maneuvers.
+    """The text of the file; it reads back as `stated` with the chosen maneuvers.
 
     Args:
-        stated: is written as it is, to the last digit.
-        default: what holds where nothing is stated, to four digits, behind a `#`.
-        title: of the file, for people; may have several lines.
-        chosen: names of default maneuvers to state as well.
-        examples: maneuvers that are not assumed, shown behind a `#` where none of the kind is.
+        stated: written with full precision.
+        default: the defaults, to four digits, commented out.
+        title: of the file; may have several lines.
+        chosen: names of default maneuvers to include as well.
+        examples: maneuvers that are no defaults, commented out, of kinds not written otherwise.
     """
     lines = [f"# {line}".rstrip() for line in (*title.splitlines(), "", *INTRODUCTION.splitlines())]
     for name, section in SECTIONS.items():
@@ -204,8 +203,8 @@ def commented_toml(
 
     lines += [
         "",
-        "# What the device must do in the air, a table for each. As soon as one is stated, none",
-        "# is assumed any more; requirement.maneuvers must then be left out.",
+        "# What the device must do, one table per maneuver. If any is given, they replace the",
+        "# default ones, and requirement.maneuvers must be left out.",
     ]
     maneuvers = stated.maneuvers or default.maneuvers
     figures = Figures.EXACT if stated.maneuvers else Figures.ROUNDED
@@ -215,13 +214,13 @@ def commented_toml(
     kinds = {kind_of(maneuver)[0] for maneuver in maneuvers}
     for maneuver in examples:
         if kind_of(maneuver)[0] not in kinds:
-            lines += ["", "# Not assumed, an example:"]
+            lines += ["", "# No default, an example:"]
             lines += _commented_maneuver(maneuver, Figures.ROUNDED, "# ")
     return "\n".join(lines) + "\n"
 
 
 def rounded_text(specification: Specification, path: str) -> str:
-    """The value of the key at `path`, as in `flywheel.r_max`, for people."""
+    """The value of the key at `path`, as in `flywheel.r_max`, for display."""
     section, _, name = path.partition(".")
     value = getattr(getattr(specification, section), name)
     return written(value, all_keys()[path].value, Figures.ROUNDED).strip('"')
