@@ -40,7 +40,7 @@ from ocs_design.cli.app import app
 from ocs_design.requirement.keys import keys_of
 from ocs_design.requirement.kinds import MANEUVER_KINDS
 from ocs_design.requirement.specification import SECTIONS
-from ocs_design.requirement.uncertainty import entries, spreads
+from ocs_design.requirement.uncertainty import entries, parts_of, spreads
 from ocs_design.requirement.values import Choice, Value
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -114,8 +114,19 @@ def accepts(value: Value[object]) -> str:
 
 def distributions(_which: str) -> str:
     """Table of the package's own distributions."""
+    often = {
+        ("",): "once",
+        ("wheel",): "for each wheel",
+        ("x", "y", "z"): "for x, y and z",
+        ("roll", "pitch"): "for roll and pitch",
+    }
     rows = (
-        (f"`{name}`", entry.words(spreads()[name]), entry.drawn, entry.source)
+        (
+            f"`{name}`",
+            entry.words(spreads()[name]),
+            often[parts_of(name, ("wheel",))],
+            entry.source,
+        )
         for name, entry in entries().items()
     )
     return table(("key", "default", "drawn", "what it rests on"), rows)

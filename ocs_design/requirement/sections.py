@@ -340,7 +340,7 @@ class ValidationSection:
     )
     certify: bool | None = keyed(
         true_or_false,
-        "whether to fly robots as they might be built, until the result is certain",
+        "whether to fly robots as they might be built until the reliability is certified or not",
         why="true: tests the reliability on robots as they might be built; takes minutes.",
         assumed=False,
     )

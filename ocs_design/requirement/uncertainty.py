@@ -309,12 +309,11 @@ class Entry:
 
     Attributes:
         value: the distribution, of a share where `of` says what it is a share of.
-        of: one of `_SCALES`, or empty. drawn: how often. source: what it rests on.
+        of: one of `_SCALES`, or empty. source: what it rests on.
     """
 
     value: Distribution
     of: str = ""
-    drawn: str = ""
     source: str = ""
 
     def words(self, spread: Spread) -> str:
@@ -376,7 +375,7 @@ def _read_entries(file: Path) -> Mapping[str, Entry]:
     return MappingProxyType(found)
 
 
-_ENTRY_KEYS = ("value", "of", "drawn", "source")
+_ENTRY_KEYS = ("value", "of", "source")
 _SCALES = ("standing height", "pendulum rate", "no-load torque", "no-load friction")
 
 

@@ -1,6 +1,6 @@
 """`validate`: the flights of a design again, and many of them as they might come out.
 
-`size --certify` flies until it is sure; what falls short is sized anew.
+`size --certify` flies until the reliability is certified or not; what falls short is sized anew.
 """
 
 import csv

@@ -86,7 +86,6 @@ def test_every_default_has_a_source():
     assert entries().keys() == spreads().keys()
     for name, entry in entries().items():
         assert entry.source, name
-        assert entry.drawn, name
 
 
 def test_defaults_scale_with_the_robot():
