@@ -2,7 +2,7 @@
 
 from ocs_design.common.errors import Infeasible
 from ocs_design.device.answers import FrontDevice
-from ocs_design.requirement.froude import SOLO12
+from ocs_design.requirement.froude import SOLO12_PITCH_INERTIA, SOLO12_ROLL_INERTIA
 from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import sweep_of
@@ -12,7 +12,7 @@ from ocs_design.workflows.pareto import read_task
 
 def by_hand():
     """Solo12's figures without its file."""
-    inertia = (SOLO12.roll_inertia, SOLO12.pitch_inertia, 0.07)
+    inertia = (SOLO12_ROLL_INERTIA, SOLO12_PITCH_INERTIA, 0.07)
     return read_task(Specification(robot=RobotSection(mass=2.5, inertia=inertia)))
 
 

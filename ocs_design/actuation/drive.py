@@ -16,7 +16,7 @@ import numpy as np
 
 from ocs_design.actuation.motor import DIRECT, Gear, GearRoom, Motor, Mounting
 from ocs_design.actuation.supply import Supply
-from ocs_design.common.arrays import FloatArray, Table
+from ocs_design.common.arrays import FloatArray, Table, finite_or_none
 from ocs_design.common.errors import OcsError
 from ocs_design.common.records import recorded
 
@@ -279,10 +279,10 @@ class Drive:
             cls,
             motor,
             mass=motor.mass or 0.0,
-            stall_torque=_finite(line.stall_torque),
+            stall_torque=finite_or_none(line.stall_torque),
             no_load_speed=float(line.no_load_speed),
-            torque_limit=_finite(line.torque_limit),
-            speed_max=_finite(line.speed_max),
+            torque_limit=finite_or_none(line.torque_limit),
+            speed_max=finite_or_none(line.speed_max),
             rotor_inertia=rotor_share(rotor, gear),
             armature=armature(rotor, gear),
             continuous_torque=_geared(motor.continuous_torque, gain),
@@ -324,11 +324,6 @@ class Drive:
         """The drive before its own friction takes its part, for models that have it themselves."""
         limit = None if self.torque_limit is None else self.torque_limit + self.friction
         return replace(self, torque_limit=limit, no_load_current=None)
-
-
-def _finite(limit: float | FloatArray) -> float | None:
-    """Limit as a number; None for what is not limited."""
-    return float(limit) if np.isfinite(limit) else None
 
 
 def _geared(torque: float | None, gain: float) -> float | None:

@@ -37,6 +37,11 @@ def matrix(values: FloatArray) -> Matrix:
     return first, second, third
 
 
+def finite_or_none(limit: float | FloatArray) -> float | None:
+    """A limit as a number; None where it is infinite, for what is not limited."""
+    return float(limit) if np.isfinite(limit) else None
+
+
 class Table(DataclassInstance):
     """Equal-length columns: the base of frozen dataclasses whose arrays have one row per entry.
 

@@ -28,33 +28,15 @@ STRESS_SAFETY = 2.0
 """Yield strength over hoop stress at the highest speed, by default."""
 
 
-@dataclass(frozen=True)
-class Reference:
-    """The robot that the paper's maneuvers were designed for.
+SOLO12_HEIGHT = 0.272
+"""Height of Solo12's trunk above its soles [m], standing at 80 % of its stretched legs. These four
+are of examples/solo12.urdf."""
 
-    Attributes:
-        name: of the robot. source: of its figures.
-        standing_height: of the trunk above the soles [m].
-        gyration_radius: of the standing robot [m] (`MassProperties.gyration_radius`).
-        roll_inertia, pitch_inertia: of the standing robot about its centre of mass [kg m^2].
-    """
+SOLO12_GYRATION_RADIUS = 0.144559814
+"""[m], standing (`MassProperties.gyration_radius`)."""
 
-    name: str
-    source: str
-    standing_height: float
-    gyration_radius: float
-    roll_inertia: float
-    pitch_inertia: float
-
-
-SOLO12 = Reference(
-    name="Solo12",
-    source="examples/solo12.urdf, standing at 80 % of its stretched legs",
-    standing_height=0.272,
-    gyration_radius=0.144559814,
-    roll_inertia=0.0320385239,
-    pitch_inertia=0.0550873600,
-)
+SOLO12_ROLL_INERTIA, SOLO12_PITCH_INERTIA = 0.0320385239, 0.0550873600
+"""About its centre of mass, standing [kg m^2]."""
 
 
 @dataclass(frozen=True)
@@ -74,13 +56,13 @@ class Scale:
     def of(cls, robot: Robot) -> "Scale":
         """The scale of `robot`."""
         if robot.standing_height is None:
-            length = _ratio(robot.mass_properties.gyration_radius, SOLO12.gyration_radius)
+            length = _ratio(robot.mass_properties.gyration_radius, SOLO12_GYRATION_RADIUS)
         else:
-            length = _ratio(robot.standing_height, SOLO12.standing_height)
+            length = _ratio(robot.standing_height, SOLO12_HEIGHT)
         return cls(
             length,
-            roll_inertia=_ratio(robot.inertia[0, 0], SOLO12.roll_inertia),
-            pitch_inertia=_ratio(robot.inertia[1, 1], SOLO12.pitch_inertia),
+            roll_inertia=_ratio(robot.inertia[0, 0], SOLO12_ROLL_INERTIA),
+            pitch_inertia=_ratio(robot.inertia[1, 1], SOLO12_PITCH_INERTIA),
         )
 
     def time(self, gravity: float) -> float:
@@ -111,7 +93,7 @@ def standing_height(robot: Robot) -> float:
     """Height of the trunk above the ground [m]; scaled from Solo12's for a robot without legs."""
     if robot.standing_height is not None:
         return robot.standing_height
-    return SOLO12.standing_height * Scale.of(robot).length
+    return SOLO12_HEIGHT * Scale.of(robot).length
 
 
 def default_maneuvers(

@@ -35,7 +35,6 @@ from ocs_design.requirement.device_sections import (
 )
 from ocs_design.requirement.froude import (
     RIM_MASS_SHARE,
-    SOLO12,
     WHEEL_SPEED_MAX,
     Scale,
     default_envelope,
@@ -252,10 +251,10 @@ def _assumptions(
     landing = (each.gravity for each in requirement.maneuvers if not isinstance(each, Pivoted))
     if robot.standing_height is None and any(landing):
         height = format_quantity(requirement.standing_height, "mm", 3)
-        yield f"No legs: the trunk stands {height} high, {SOLO12.name}'s scaled by gyration radius."
+        yield f"No legs: the trunk stands {height} high, Solo12's scaled by gyration radius."
     if specification.takes_default_maneuvers:
         ratio = f"lengths x {scale.length:.3g}"
-        yield f"Maneuvers: the paper's three, scaled from {SOLO12.name} ({ratio})."
+        yield f"Maneuvers: the paper's three, scaled from Solo12 ({ratio})."
         paper = requirement.maneuvers[: -len(worded.maneuvers) or None]
         yield from (f"{item.name}: {item.summary}." for item in paper)
     yield from worded.notes
@@ -270,7 +269,7 @@ def _assumptions(
         if getattr(flywheel, key) is None
     ]
     if lengths:
-        yield f"Rim: {', '.join(lengths)} mm ({SOLO12.name} x {scale.rim:.3g})."
+        yield f"Rim: {', '.join(lengths)} mm (Solo12 x {scale.rim:.3g})."
     if flywheel.wheel_mass_max is None:
         mass = format_quantity(envelope.mass_max, "g" if envelope.mass_max < 1.0 else "kg", 3)
         yield f"Rim mass: at most {mass}, {RIM_MASS_SHARE:.0%} of the robot's."
@@ -305,7 +304,7 @@ def _assumptions(
         return
     if specification.requirement.wheel_speed_max is None:
         speed = rpm(requirement.wheel_speed_max)
-        yield f"Wheel speed: at most {speed}, that of {SOLO12.name}'s own motor at 24 V."
+        yield f"Wheel speed: at most {speed}, that of Solo12's own motor at 24 V."
     if motor.torque_max is None:
         yield "Motor torque: not limited."
 

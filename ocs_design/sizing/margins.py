@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ocs_design.actuation.drive import speed_limit
-from ocs_design.common.arrays import FloatArray
+from ocs_design.common.arrays import FloatArray, finite_or_none
 from ocs_design.device.joints import BEARING_MOMENT
 from ocs_design.device.records.device import Margin
 from ocs_design.parts.joints import OVERSPEED
@@ -278,17 +278,17 @@ def _drive_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
     """Current limit, voltage line and speeds (docs/theory.md, What a motor can do)."""
     line, gear = wheel.line, wheel.gear
     speed = _peak(motion.wheel_speed)
-    yield Margin(WHEEL_SPEED, speed, _finite(line.speed_max), "rad/s")
+    yield Margin(WHEEL_SPEED, speed, finite_or_none(line.speed_max), "rad/s")
     capacity = min(speed_limit(wheel.motor) or np.inf, gear.motor_speed_max)
     note = "" if wheel.motor.speed_max else "no limit stated: no-load speed at rated voltage"
-    yield Margin(MOTOR_SPEED, gear.ratio * speed, _finite(capacity), "rad/s", note=note)
+    yield Margin(MOTOR_SPEED, gear.ratio * speed, finite_or_none(capacity), "rad/s", note=note)
     # A motor in use also works against its own friction.
     rubbed = wheel.drive.friction
     asked = _peak(motion.wheel_torque)
     yield Margin(
         MOTOR_TORQUE,
         asked + rubbed if asked else 0.0,
-        _finite(line.torque_limit + rubbed),
+        finite_or_none(line.torque_limit + rubbed),
         "N m",
         note=f"at the wheel, {rubbed:.3g} N m of friction included" if rubbed else "at the wheel",
     )
@@ -311,7 +311,8 @@ def _electric_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin
     but requires a pause until the mean of i^2 is back at the rating's.
     """
     supply = wheel.supply.told
-    current_max, power_max = _finite(supply.power / supply.voltage), _finite(supply.power)
+    current_max = finite_or_none(supply.power / supply.voltage)
+    power_max = finite_or_none(supply.power)
     for name, power in (("", taken.power_drawn), (FED_BACK, taken.power_fed_back)):
         note = "" if name else ALL_MOTORS
         yield Margin(BUS_CURRENT + name, power / supply.voltage, current_max, "A", note=note)
@@ -346,9 +347,3 @@ def _electric_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin
 
 def _peak(values: FloatArray) -> float:
     return float(np.abs(values).max())
-
-
-def _finite(limit: float | FloatArray) -> float | None:
-    """None where there is no limit."""
-    figure = float(limit)
-    return figure if np.isfinite(figure) else None

@@ -9,7 +9,12 @@ from ocs_design.common.files import safe_name
 from ocs_design.common.units import STANDARD_GRAVITY
 from ocs_design.device.answers import Initialized
 from ocs_design.export.folder import write_whole
-from ocs_design.requirement.froude import SOLO12, example_maneuvers
+from ocs_design.requirement.froude import (
+    SOLO12_GYRATION_RADIUS,
+    SOLO12_PITCH_INERTIA,
+    SOLO12_ROLL_INERTIA,
+    example_maneuvers,
+)
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.resolving import default_specification, read_specified_robot
 from ocs_design.requirement.specification import Specification
@@ -65,10 +70,10 @@ def read_start(
     scaled_to = robot
     if scaled_to is None:
         # Solo12 as a rigid body: only its scale is asked for.
-        trace = 3.0 * SOLO12_MASS * SOLO12.gyration_radius**2
-        roll, pitch = SOLO12.roll_inertia, SOLO12.pitch_inertia
+        trace = 3.0 * SOLO12_MASS * SOLO12_GYRATION_RADIUS**2
+        roll, pitch = SOLO12_ROLL_INERTIA, SOLO12_PITCH_INERTIA
         inertia = (roll, pitch, trace - roll - pitch)
-        scaled_to = robot_by_hand(SOLO12_MASS, inertia, name=SOLO12.name)
+        scaled_to = robot_by_hand(SOLO12_MASS, inertia, name="Solo12")
     gains = wheel_gains(scaled_to)
     gravity = stated.requirement.gravity or STANDARD_GRAVITY
     default = default_specification(

@@ -23,8 +23,13 @@ def make_robot() -> Callable[..., Robot]:
 @pytest.fixture(scope="session")
 def solo12(make_robot) -> Robot:
     """The reference itself."""
-    from ocs_design.requirement.froude import SOLO12
+    from ocs_design.requirement.froude import (
+        SOLO12_GYRATION_RADIUS,
+        SOLO12_HEIGHT,
+        SOLO12_PITCH_INERTIA,
+        SOLO12_ROLL_INERTIA,
+    )
 
-    gyration = 7.5 * SOLO12.gyration_radius**2
-    yaw = gyration - SOLO12.roll_inertia - SOLO12.pitch_inertia
-    return make_robot(2.5, (SOLO12.roll_inertia, SOLO12.pitch_inertia, yaw), SOLO12.standing_height)
+    gyration = 7.5 * SOLO12_GYRATION_RADIUS**2
+    yaw = gyration - SOLO12_ROLL_INERTIA - SOLO12_PITCH_INERTIA
+    return make_robot(2.5, (SOLO12_ROLL_INERTIA, SOLO12_PITCH_INERTIA, yaw), SOLO12_HEIGHT)

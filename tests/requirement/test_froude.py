@@ -10,7 +10,10 @@ from hypothesis import strategies as st
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.requirement.froude import (
-    SOLO12,
+    SOLO12_GYRATION_RADIUS,
+    SOLO12_HEIGHT,
+    SOLO12_PITCH_INERTIA,
+    SOLO12_ROLL_INERTIA,
     Scale,
     default_envelope,
     default_maneuvers,
@@ -53,7 +56,7 @@ def test_a_larger_robot_moves_alike(length, mass):
     small, large = Scale(1.0, 1.0, 1.0), Scale(length, inertia, inertia)
     tests = zip(maneuvers_of(small), maneuvers_of(large), strict=True)
     for one, other in tests:
-        height, room = SOLO12.standing_height, SOLO12.standing_height * length
+        height, room = SOLO12_HEIGHT, SOLO12_HEIGHT * length
         rates = one.momentum(TiltInertia.uncoupled([0.03, 0.05]), height) / [0.03, 0.05]
         scaled = other.momentum(TiltInertia.uncoupled([0.03 * inertia, 0.05 * inertia]), room) / [
             0.03 * inertia,
@@ -67,7 +70,7 @@ def test_the_jump_keeps_its_froude_number(length, gravity):
     scale = Scale(length, 1.0, 1.0)
     push = maneuvers_of(scale, gravity)[0]
     forward, upward = push.takeoff_velocity
-    height = SOLO12.standing_height
+    height = SOLO12_HEIGHT
     assert upward**2 / (gravity * length * height) == pytest.approx(2.4**2 / (9.81 * height))
     assert forward / upward == pytest.approx(0.5 / 2.4)
     assert push.onset * upward / length == pytest.approx(0.24)
@@ -90,9 +93,9 @@ def test_examples_take_as_much_of_a_robots_own_time_as_on_solo12(length, gravity
 
 def test_without_legs_the_radius_of_gyration_scales(make_robot):
     robot = make_robot(2.5, (0.03, 0.05, 0.064), None)
-    ratio = np.sqrt(0.144 / 7.5) / SOLO12.gyration_radius
+    ratio = np.sqrt(0.144 / 7.5) / SOLO12_GYRATION_RADIUS
     assert Scale.of(robot).length == pytest.approx(ratio)
-    assert standing_height(robot) == pytest.approx(ratio * SOLO12.standing_height)
+    assert standing_height(robot) == pytest.approx(ratio * SOLO12_HEIGHT)
 
 
 def maneuvers_of(scale: Scale, gravity: float = 9.81):
@@ -104,8 +107,8 @@ def maneuvers_of(scale: Scale, gravity: float = 9.81):
 def test_the_reference_is_solo12_as_the_tool_reads_it():
     robot = read_robot(EXAMPLE)
     assert robot.posture_name == "stand"
-    assert robot.standing_height == pytest.approx(SOLO12.standing_height, rel=1e-8)
-    assert robot.inertia[0, 0] == pytest.approx(SOLO12.roll_inertia, rel=1e-8)
-    assert robot.inertia[1, 1] == pytest.approx(SOLO12.pitch_inertia, rel=1e-8)
-    assert robot.mass_properties.gyration_radius == pytest.approx(SOLO12.gyration_radius, rel=1e-8)
+    assert robot.standing_height == pytest.approx(SOLO12_HEIGHT, rel=1e-8)
+    assert robot.inertia[0, 0] == pytest.approx(SOLO12_ROLL_INERTIA, rel=1e-8)
+    assert robot.inertia[1, 1] == pytest.approx(SOLO12_PITCH_INERTIA, rel=1e-8)
+    assert robot.mass_properties.gyration_radius == pytest.approx(SOLO12_GYRATION_RADIUS, rel=1e-8)
     assert Scale.of(robot) == Scale(1.0, 1.0, 1.0)

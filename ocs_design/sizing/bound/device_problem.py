@@ -24,6 +24,7 @@ from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.rim_problem import (
+    OFF_THE_EDGE,
     RimProblem,
     RimShape,
     lightest_rim,
@@ -134,8 +135,6 @@ def design_momenta(requirement: Requirement, inertia: FloatArray) -> FloatArray:
 
 _CONVERGED = 1e-12
 _ITERATIONS_MAX = 1000
-# The smallest rim of all must not get lost to rounding.
-_OFF_THE_EDGE = 1.0 + 1e-10
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,4 +198,4 @@ def _follow(problem: DeviceProblem, shape: RimShape | None, incidence: float) ->
             hint="Ask for a rate change, for a maneuver, or for a spin inertia.",
         )
     smallest = smallest_rim_inertia(problem.rim_problem(largest).limits)
-    return DeviceFixedPoint(max(largest, float(smallest) * _OFF_THE_EDGE), incidence, demands)
+    return DeviceFixedPoint(max(largest, float(smallest) * OFF_THE_EDGE), incidence, demands)

@@ -291,6 +291,10 @@ def lightest_rim(spin_inertia: ArrayLike, limits: RimLimits) -> RimShape:
     return RimShape(*(np.where(fits, value, np.nan) for value in values))
 
 
+OFF_THE_EDGE = 1.0 + 1e-10
+"""Factor on the smallest rim of all, which must not get lost to rounding."""
+
+
 def smallest_rim_inertia(limits: RimLimits) -> FloatArray:
     """Spin inertia of the narrowest, thinnest and flattest rim within the lower limits [kg m^2].
 

@@ -28,6 +28,7 @@ from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.sizing.bound.rim_problem import (
     BORE_SHARE,
+    OFF_THE_EDGE,
     RimLimits,
     limits_with_web,
     smallest_rim_inertia,
@@ -48,7 +49,6 @@ CELLS = 18
 """Ranges of the incidence that are bounded one by one: 5 deg each."""
 
 _RIMS = 96
-_OFF_THE_EDGE = 1.0 + 1e-10
 _DIGITS, _SURELY = 4, 1.0 - 1e-4
 """Digits of the lightest rims, and the factor on their mass that a bound takes for it."""
 
@@ -139,7 +139,7 @@ class RimFloor:
         disc = np.pi * limits.density * room.height_max * room.outer_radius_max**4 / 2.0
         steps = np.tile(np.linspace(0.0, 1.0, _RIMS), materials * webs)
         least = smallest_rim_inertia(limits).reshape(webs, -1).min(axis=0)
-        least = np.maximum(np.tile(least, webs) * _OFF_THE_EDGE, 1e-9 * disc)
+        least = np.maximum(np.tile(least, webs) * OFF_THE_EDGE, 1e-9 * disc)
         inertia = least * np.maximum(disc / least, 1.0) ** steps
         # Where there is no room for holes the web is solid.
         shell = Printed(reach, foot_plate=problem.foot_plate)
@@ -242,7 +242,7 @@ def least_spin_inertias(
     stated = requirement.spin_inertia
     if stated is None:
         return needed
-    return np.where(needed > stated * _OFF_THE_EDGE, np.inf, stated)
+    return np.where(needed > stated * OFF_THE_EDGE, np.inf, stated)
 
 
 def bound_task(
@@ -293,7 +293,7 @@ def least_inertia(
         radius = zero + max(room.inner_radius_min + room.wall_min, closed)
         wheel = rim / widest**2 + PlainDrum().mass(radius, zero + room.height_min)
     else:
-        rim = np.maximum(rim, smallest_rim_inertia(limits) * _OFF_THE_EDGE)
+        rim = np.maximum(rim, smallest_rim_inertia(limits) * OFF_THE_EDGE)
         # A wheel of more spin inertia is no smaller.
         radius = np.minimum(smallest_radius(rim, limits), widest)
         wheel = _SURELY * np.nan_to_num(lightest_module(rim, limits, PlainDrum(), _DIGITS).mass)
@@ -341,7 +341,7 @@ def initial_guess(candidates: Candidates, spin_inertia: FloatArray) -> Guess:
     low, high = np.array([(cell.low, cell.high) for cell in cells])[needed.argmin(axis=1)].T
     spin = needed.min(axis=1)
     known = np.isfinite(spin)
-    least = smallest_rim_inertia(candidates.limits) * _OFF_THE_EDGE
+    least = smallest_rim_inertia(candidates.limits) * OFF_THE_EDGE
     rim = np.maximum(np.where(known, spin, 0.0) - candidates.drives.beside_rim, least)
     module = lightest_module(rim, candidates.limits, candidates.shell, _DIGITS).mass
     mass = len(candidates.problem.layout) * (candidates.drives.mass + _SURELY * module)

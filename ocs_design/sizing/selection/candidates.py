@@ -29,6 +29,7 @@ from ocs_design.parts.motor_mount import mount_of
 from ocs_design.parts.printed import CLEARANCE, PANEL, WALL, half_height
 from ocs_design.parts.rim import NO_HUB, cylinder_transverse_inertia
 from ocs_design.sizing.bound.rim_problem import (
+    OFF_THE_EDGE,
     RimLimits,
     RimProblem,
     limits_with_web,
@@ -40,9 +41,6 @@ from ocs_design.sizing.place import Size
 from ocs_design.sizing.selection.composite_inertia import CompositeInertia
 from ocs_design.sizing.selection.drives import Drives, Seat
 from ocs_design.sizing.selection.problem import SelectionProblem
-
-_OFF_THE_EDGE = 1.0 + 1e-10
-"""Factor on the smallest rim of all, which must not get lost to rounding."""
 
 _NO_HEIGHT, _LEAST_BELL = 1e-9, 1e-3
 """Height of a ring that there is no room for, and less than the radius of any bell [m]."""
@@ -131,7 +129,7 @@ class Candidates(Table):
 
         A rotor that turns against its wheel may have as much momentum as the smallest rim.
         """
-        least = smallest_rim_inertia(self.limits) * _OFF_THE_EDGE + self.drives.beside_rim
+        least = smallest_rim_inertia(self.limits) * OFF_THE_EDGE + self.drives.beside_rim
         return np.maximum(least, _NOTHING)
 
     def shapes_at(self, spin_inertia: FloatArray, radius: FloatArray) -> ModuleShape:
