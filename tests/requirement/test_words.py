@@ -281,7 +281,9 @@ def test_a_kick_without_a_direction_comes_from_its_side(solo12):
     for point, along in (("0,0.1,0", -1.0), ("0,-0.1,0", 1.0), ("0.1,0,0.1", 1.0)):
         worded = worded_maneuvers(asked(kick=[f"1 N s at {point}"]), solo12)
         assert np.sign(worded.maneuvers[0].velocity_change[1]) == along
-        assert f"along (0, {along:g}, 0) (from the side, as no direction is given)" in worded.notes[0]
+        assert (
+            f"along (0, {along:g}, 0) (from the side, as no direction is given)" in worded.notes[0]
+        )
 
 
 def test_a_kick_at_a_link_hits_its_frame(real):
