@@ -436,6 +436,13 @@ class _Search:
             return None
         offered = resolved.choice
         assert offered is not None, "wheels without motors are not made lighter"
+        motors = offered.motors
+        if not changed.motor.any:
+            # Those that the device was chosen from, as far as they are rated for the supply.
+            names = {motor.name for motor in offered.motors}
+            motors = tuple(motor for motor in asked.motors if motor.name in names)
+        if not motors:
+            return None
         any_material = changed.flywheel.material == AUTO
         free = stated.alpha is None and stated.alpha_criterion == LIGHTEST
         problem = replace(
@@ -443,7 +450,7 @@ class _Search:
             requirement=resolved.requirement.on(chosen.total),
             envelope=resolved.envelope,
             supply=offered.supply,
-            motors=offered.motors if changed.motor.any else asked.motors,
+            motors=motors,
             materials=offered.materials if any_material else (chosen.material,),
             incidence=None if free else chosen.incidence,
         )

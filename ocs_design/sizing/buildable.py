@@ -5,7 +5,6 @@ from collections.abc import Mapping, Sequence
 from ocs_design.actuation.motor import Motor, build_gaps
 from ocs_design.common.wording import listed, quantity, some_of
 from ocs_design.device.joints import (
-    BEARING_MOMENT,
     FLOOR_SHOCK,
     FOOT_SHOCK,
     RIM_JOINT,
@@ -45,7 +44,6 @@ CURES: Mapping[str, str] = {
     HOOP_STRESS: "choose a stronger material (--material), or a slower motor",
     BRAKED_SHAFT: "choose a motor with a lighter rotor or with threads in it (--motor)",
     BRAKED_RIM: "make the wheel in one piece (--web disc)",
-    BEARING_MOMENT: "choose a motor with stronger bearings (--motor)",
 }
 """Margins whose capacity must not be exceeded, by name, and the cure.
 

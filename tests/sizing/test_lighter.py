@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
+from math import inf
 
 import pytest
 from designed import design_of
@@ -10,7 +11,7 @@ from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.sections import RequirementSection
 from ocs_design.requirement.specification import Specification
-from ocs_design.sizing.alternatives import lighter_by, owed_to
+from ocs_design.sizing.alternatives import _Search, lighter_by, owed_to
 from ocs_design.sizing.design import design_device
 
 MOTORS = MotorSection(name="MN4014 KV400")
@@ -83,6 +84,19 @@ def test_every_answer_is_light_enough_and_the_smallest_change_that_is():
 def test_nothing_makes_it_lighter_than_nothing():
     task, designed, _ = made()
     assert lighter_by(10.0, task, designed.choice, "") == ()
+
+
+def test_no_motor_is_told_at_a_voltage_that_it_is_not_rated_for():
+    """MN4014 KV400 is rated for 33.6 V; others of the catalogue for more."""
+    task, designed, _ = made()
+    task = task.with_specification(replace(task.specification, motor=MotorSection()))
+    search = _Search(task, designed.choice, inf)
+
+    def selected(voltage):
+        return search._selected(task.with_key("supply", "voltage", voltage))
+
+    assert selected(33.0).motor.name == MOTORS.name
+    assert selected(34.0) is None
 
 
 def test_where_neither_does_alone_a_figure_is_tried_with_a_choice(monkeypatch):
