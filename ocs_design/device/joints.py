@@ -37,9 +37,7 @@ from ocs_design.parts.joints import (
     slip_fit_eccentricity,
     tightening_torque,
 )
-from ocs_design.parts.plate_strength import (
-    plate_screws_use,
-)
+from ocs_design.parts.plate_strength import plate_screws_use
 from ocs_design.parts.printed import SHOCK, WASHER_HEIGHT, trunk_screws
 from ocs_design.parts.rim import LIGAMENT
 from ocs_design.parts.turning_rings import Ring, TurningRings, holed_peaks
@@ -149,6 +147,8 @@ def _shocks(device: Device) -> Iterator[Margin]:
         use = plate_screws_use(plate, module, foot_of(device).wheel_height)
         count = len(plate.trunk)
         note = f"{shock} on all modules, until one of {count} {plate.thread} of class 8.8 breaks"
+        if max(plate.sleeves) > 0.0:
+            note += f", or a {'post' if plate.on_posts else 'sleeve'} gives way"
         yield Margin(SCREWS_SHOCK, SHOCK, SHOCK / use, "m/s2", note=note)
     cage = motor_mount(device).cage
     if cage is not None:

@@ -145,7 +145,8 @@ def plate_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
     """Largest share of strength that `SHOCK` along any one axis takes of a plate's screws.
 
     A push at the wheels' height shears all of them alike and pulls at each as far as it is off
-    their middle, M r / sum r^2; see `screw_use`.
+    their middle, M r / sum r^2; see `screw_use`. It bends their sleeves, whose ends cannot turn, by
+    half of the longest one's length, and presses on those of the other side.
     """
     if plate.mast is not None:
         return mast_screws_use(plate, mass, height)
@@ -158,7 +159,11 @@ def plate_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
     arm, off = max(plate.sleeves) + plate.thickness + height, np.abs(places).max(axis=0)
     pulled = share * len(places) * arm * off / (places**2).sum(axis=0)
     pushed = screw_use(plate.screw, pulled, np.full(2, share)).max()
-    return float(max(pushed, screw_use(plate.screw, np.asarray(share), np.asarray(0.0))))
+    lifted = screw_use(plate.screw, np.asarray(share), np.asarray(0.0))
+    gap, (area, section, _), bent = max(plate.sleeves), plate.sleeve_section, 0.0
+    if gap > 0.0:
+        bent = share * gap / 2.0 / section + float(pulled.max()) / area
+    return max(float(pushed), float(lifted), bent / (ALUMINIUM.strength / SAFETY))
 
 
 def posts_use(plate: CarrierPlate, mass: float, height: float) -> float:
