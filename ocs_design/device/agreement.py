@@ -17,7 +17,7 @@ from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.materials import materials
 from ocs_design.common.errors import OcsError
 from ocs_design.common.units import format_quantity
-from ocs_design.device.device import Device, Flywheel
+from ocs_design.device.device import Device
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.solids import foot_of
 from ocs_design.parts.module import standing
@@ -187,25 +187,6 @@ def _of_limits(design: OcsDesign, device: Device) -> Iterator[_Figure]:
             yield _Figure(key, stated, capacity - friction, unit, others)
 
 
-def _of_stress(wheel: Flywheel, speed: float) -> Iterator[_Figure]:
-    """Stress of the rim at the drive's top speed [rad/s], and what its material leaves of it."""
-    found = materials().get(wheel.material)
-    if wheel.hoop_stress is None or found is None or found.poisson_ratio is None:
-        return
-    stress = hoop_stress(
-        wheel.inner_radius,
-        wheel.outer_radius,
-        density=wheel.density,
-        poisson_ratio=found.poisson_ratio,
-        wheel_speed=speed,
-    )
-    made = "dimensions, material and top speed make it"
-    yield _Figure("ocs.flywheel.hoop_stress", wheel.hoop_stress, stress, "Pa", made)
-    if wheel.stress_margin is not None and found.yield_strength is not None:
-        margin = found.yield_strength / stress
-        yield _Figure("ocs.flywheel.stress_margin", wheel.stress_margin, margin, "", made)
-
-
 def _of_wheel(device: Device) -> Iterator[_Figure]:
     """Masses, inertias, energy and stress of the wheel."""
     wheel, motor, sizes = device.flywheel, device.motor, "its dimensions make it"
@@ -226,7 +207,21 @@ def _of_wheel(device: Device) -> Iterator[_Figure]:
     yield _Figure("ocs.flywheel.transverse_inertia", wheel.transverse_inertia, across, unit, sizes)
     energy, speed = stored_energy(spin, motor.top_speed), "inertia and top speed make it"
     yield _Figure("ocs.flywheel.stored_energy", wheel.stored_energy, energy, "J", speed)
-    yield from _of_stress(wheel, motor.top_speed)
+    found = materials().get(wheel.material)
+    if wheel.hoop_stress is None or found is None or found.poisson_ratio is None:
+        return
+    stress = hoop_stress(
+        wheel.inner_radius,
+        wheel.outer_radius,
+        density=wheel.density,
+        poisson_ratio=found.poisson_ratio,
+        wheel_speed=motor.top_speed,
+    )
+    made = "dimensions, material and top speed make it"
+    yield _Figure("ocs.flywheel.hoop_stress", wheel.hoop_stress, stress, "Pa", made)
+    if wheel.stress_margin is not None and found.yield_strength is not None:
+        margin = found.yield_strength / stress
+        yield _Figure("ocs.flywheel.stress_margin", wheel.stress_margin, margin, "", made)
 
 
 def _sizes(holes: WebHoles | None) -> tuple[float, ...]:

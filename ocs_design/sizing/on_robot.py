@@ -197,8 +197,19 @@ def on_its_footing(
     except Infeasible:
         problem = widest
         selection = select_by(problem, criterion)
-    if free:
-        problem, selection, reserve = _surer(search, problem, selection, reserve, (reality, plain))
+    # The first reserve was computed for a device without one, at that device's incidence: where
+    # this device needs a larger one, it keeps that.
+    for _ in range(_RESERVES_MAX if free else 0):
+        needed = reality.needed(plain, selection.best, reserve)
+        if needed.reliability >= reserve.reliability:
+            break
+        more = reserve.of(needed)
+        surer = replace(problem, requirement=more.kept(plain.requirement, free=True))
+        try:
+            selection = search.selected(surer, selection.best)
+        except Infeasible:
+            break
+        problem, reserve = surer, more
     selection = with_plates(selection, problem, criterion, robot, ranked=ranked)
     for _ in range(_FOOTINGS_MAX):
         best = selection.best
@@ -213,37 +224,6 @@ def on_its_footing(
         return lightest_near(plain, nominal, criterion) or nominal
 
     return problem, selection, reserve, least
-
-
-def _surer(
-    search: _Search,
-    problem: SelectionProblem,
-    selection: Selection,
-    reserve: Reserve,
-    told: tuple[Reality, SelectionProblem],
-) -> tuple[SelectionProblem, Selection, Reserve]:
-    """The selection with the reserve that its own device needs, where the first was too small.
-
-    The first reserve was computed for a device without a reserve, at that device's incidence.
-
-    Args:
-        search: the search that found it. problem: the problem solved, its incidence free.
-        selection, reserve: its result.
-        told: sampled errors, and the problem without a reserve.
-    """
-    reality, plain = told
-    for _ in range(_RESERVES_MAX):
-        needed = reality.needed(plain, selection.best, reserve)
-        if needed.reliability >= reserve.reliability:
-            break
-        own = reserve.of(needed)
-        surer = replace(problem, requirement=own.kept(plain.requirement, free=True))
-        try:
-            selection = search.selected(surer, selection.best)
-        except Infeasible:
-            break
-        problem, reserve = surer, own
-    return problem, selection, reserve
 
 
 def _own_footing(problem: SelectionProblem, best: Candidate, robot: Robot) -> SelectionProblem:

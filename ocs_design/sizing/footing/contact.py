@@ -190,7 +190,13 @@ def _plate_contacts(robot: Robot, plate: CarrierPlate) -> Iterator[FootContact]:
             outline = max(block, upright - mast.spacer)
             off = off_trunk(surface, plate)
             if off is not None:
-                yield _formed_contact(plate, off, upright - mast.spacer - plane)
+                # How far the trunk is off a block that has its form, all over its front.
+                known = np.nan_to_num(off, nan=inf)
+                gap = max(0.0, float(known.max()))
+                proud = max(0.0, -float(known.min()), upright - mast.spacer - plane)
+                share = float((np.abs(known) <= TOUCH).mean())
+                held = gap <= TOUCH and proud <= PROUD and steepest(plate) <= TILT_MAX
+                yield FootContact("mast's block", "trunk", share, gap, proud, held)
                 return
     what = "plate" if mast is None else "mast"
     for number, (hole, sleeve) in enumerate(zip(plate.trunk, plate.sleeves, strict=True), start=1):
@@ -200,20 +206,6 @@ def _plate_contacts(robot: Robot, plate: CarrierPlate) -> Iterator[FootContact]:
         found = contact_of(name, surface, middle, radius, plane=plane - sleeve, lands=(0.0, radius))
         proud = max(found.proud, outline - plane)
         yield replace(found, proud=proud, held=found.held and proud <= PROUD)
-
-
-def _formed_contact(plate: CarrierPlate, off: FloatArray, upright: float) -> FootContact:
-    """Contact of a formed block.
-
-    Args:
-        plate: whose block it is. off: how far it is off the trunk all over its front [m].
-        upright: height of the trunk over the upright's front [m].
-    """
-    known = np.nan_to_num(off, nan=inf)
-    gap, proud = max(0.0, float(known.max())), max(0.0, -float(known.min()), upright)
-    share = float((np.abs(known) <= TOUCH).mean())
-    held = gap <= TOUCH and proud <= PROUD and steepest(plate) <= TILT_MAX
-    return FootContact("mast's block", "trunk", share, gap, proud, held)
 
 
 def contact_of(
