@@ -78,7 +78,7 @@ def test_a_screw_that_is_longer_than_usual_is_a_special_order():
         return next(row for row in rows if row.remark.startswith("plate on trunk"))
 
     usual, long = trunk_screws(0.024), trunk_screws(0.0241)
-    assert usual.part == "screw ISO 4762 M3 x 30"
+    assert (usual.part, usual.material) == ("screw ISO 4762 M3 x 30", "steel, class 8.8")
     assert "special" not in usual.remark
     assert long.part == "screw ISO 4762 M3 x 35"
     assert long.remark.endswith("longer than M3 is usually sold (30 mm, ISO 4762): a special order")
