@@ -10,15 +10,33 @@ ROBOTS = SITE_PACKAGES / "cmeel.prefix" / "share" / "example-robot-data" / "robo
 SOLO12 = ROBOTS / "solo_description" / "robots" / "solo12.urdf"
 ALL_URDFS = sorted(ROBOTS.rglob("*.urdf"))
 
+LARGE = {
+    f"{family}_description"
+    for family in (
+        *("alex", "anymal_b_simple", "b1", "baxter", "borinot", "centauro", "g1", "hextilt"),
+        *("icub", "kinova", "pr2", "romeo", "tiago", "tiago_pro"),
+    )
+} | {"talos_data"}
+"""Folders of robots with so many joints or so fine meshes that to read one takes a while."""
+
+
+def marked(robots, *, each=True):
+    """Paths or names of robots as parameters, large ones slow.
+
+    `each`: all of them count; else the first of each folder does, and the rest is exhaustive.
+    """
+    seen, found = set(), []
+    for robot in robots:
+        name = str(robot.relative_to(ROBOTS)) if isinstance(robot, Path) else robot
+        folder = name.partition("/")[0]
+        marks = [pytest.mark.slow] * (folder in LARGE)
+        if folder in seen and not each:
+            marks = [pytest.mark.exhaustive]
+        found.append(pytest.param(robot, id=name, marks=marks))
+        seen.add(folder)
+    return found
+
 
 def one_of_each(robots):
     """Paths or names of robots as parameters: the first of each maker's, the rest exhaustive."""
-    seen, marked = set(), []
-    for robot in robots:
-        name = str(robot.relative_to(ROBOTS)) if isinstance(robot, Path) else robot
-        family = name.partition("/")[0]
-        marked.append(
-            pytest.param(robot, id=name, marks=[pytest.mark.exhaustive] if family in seen else [])
-        )
-        seen.add(family)
-    return marked
+    return marked(robots, each=False)

@@ -1,4 +1,4 @@
-"""Which of many alike cases the gate takes: the rest is for `-m exhaustive`."""
+"""Which of many alike cases are quick, and which the gate takes: the rest is exhaustive."""
 
 import pytest
 
@@ -8,4 +8,12 @@ def every(step, cases):
     return [
         pytest.param(case, marks=pytest.mark.exhaustive if index % step else pytest.mark.slow)
         for index, case in enumerate(cases)
+    ]
+
+
+def some(step, cases, rest=pytest.mark.slow):
+    """Each `step`-th case is quick, the others have this mark; a case of several is a tuple."""
+    return [
+        pytest.param(*(case if isinstance(case, tuple) else (case,)), marks=[rest] * bool(i % step))
+        for i, case in enumerate(cases)
     ]

@@ -139,7 +139,9 @@ def test_commands_that_the_docs_show_have_such_options(generate):
 
 def test_no_message_points_to_a_page_that_the_wheel_lacks():
     for path in (ROOT / "ocs_design").rglob("*.py"):
-        tree = ast.parse(path.read_text())
+        if "docs/" not in (source := path.read_text()):
+            continue
+        tree = ast.parse(source)
         prose = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
         texts = [
             node.value

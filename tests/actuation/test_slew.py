@@ -5,12 +5,13 @@ The course, on weak supplies too, is compared with the motor's equation and with
 
 from dataclasses import replace
 from fractions import Fraction
-from itertools import pairwise
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from sampled import some
 from scipy.integrate import solve_ivp
 from scipy.optimize import linprog
 from scipy.sparse import coo_array, vstack
@@ -373,13 +374,18 @@ def test_the_wheel_takes_all_that_the_supply_leaves(share, lam):
             assert own == pytest.approx(found, rel=2e-3, abs=6e-4 * most)
 
 
-@pytest.mark.parametrize("share", [0.02, 0.1])
-@pytest.mark.parametrize("lam", [0.07, 0.3])
-@pytest.mark.parametrize("speed_max", [INF, 700.0])
-@pytest.mark.parametrize(("phi", "final"), [(30.0, 0.0), (150.0, 100.0), (400.0, 0.0)])
-def test_the_motor_equation_gives_the_same_course_on_a_weak_supply(
-    share, lam, speed_max, phi, final
-):
+@pytest.mark.parametrize(
+    ("share", "lam", "speed_max", "slew"),
+    some(
+        5,
+        product(
+            (0.02, 0.1), (0.07, 0.3), (INF, 700.0), ((30.0, 0.0), (150.0, 100.0), (400.0, 0.0))
+        ),
+        pytest.mark.exhaustive,
+    ),
+)
+def test_the_motor_equation_gives_the_same_course_on_a_weak_supply(share, lam, speed_max, slew):
+    phi, final = slew
     line = DriveLine(STRONG, FAST, lam * STRONG, speed_max, share * WHOLE)
     profile = slew_profile(phi, INERTIA, line, final)
     peak, last, angle = integrated(line, profile, lambda *state: torque_at(line, *state).item())

@@ -56,7 +56,7 @@ def test_gears_in_words():
     assert "GP 42 C 203115: no inertia_kg_m2" in said
 
 
-@pytest.mark.parametrize("width", [80, 120])
+@pytest.mark.parametrize("width", [80, pytest.param(120, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("what", ["motors", "gears"])
 def test_no_row_of_the_table_wraps(what, width, monkeypatch):
     monkeypatch.setenv("COLUMNS", str(width))

@@ -87,7 +87,7 @@ TWICE = (signal.SIGINT, signal.SIGINT)
     [
         (started, (signal.SIGINT,)),
         (started, (signal.SIGTERM,)),
-        (loaded, (signal.SIGHUP,)),
+        pytest.param(loaded, (signal.SIGHUP,), marks=pytest.mark.slow),
     ],
     ids=lambda each: getattr(each, "__name__", None) or "-".join(number.name for number in each),
 )

@@ -36,6 +36,7 @@ def wide(product, tmp_path_factory):
     return Product(product.case, said, parent / "solo12-ocs")
 
 
+@pytest.mark.slow
 @SIZED_AGAIN
 def test_the_same_run_writes_the_same_bytes_on_any_number_of_threads(product, wide):
     for name in ("design.json", *FILES):
@@ -92,6 +93,7 @@ def test_the_whole_report_fits_its_terminal(width, product):
         assert note in " ".join(text.split()).replace(" - ", " ")
 
 
+@pytest.mark.slow
 @SIZED_AGAIN
 def test_a_wider_terminal_breaks_no_more_lines(product, wide):
     assert len(wide.said.stdout.splitlines()) <= len(product.said.stdout.splitlines())

@@ -17,7 +17,7 @@ NAMES = (
     "solo_description/robots/solo12",
     "anymal_c_simple_description/urdf/anymal",
     "bolt_description/robots/bolt",
-    "go1_description/urdf/go1",
+    pytest.param("go1_description/urdf/go1", marks=pytest.mark.slow),
 )
 
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from sampled import some
 from standing_parts import UPRIGHT, made_foot, standing_parts
 
 from ocs_design.actuation.motor import DIRECT, BoltCircle, Face, Motor, Mounting
@@ -45,7 +46,7 @@ def test_a_disc_without_its_length_and_a_point_without_its_diameter():
     assert (dot.axial_inertia, dot.transverse_inertia) == (0.0, 0.0)
 
 
-@pytest.mark.parametrize("thick", [0.005, 0.0084])
+@pytest.mark.parametrize("thick", some(2, [0.0084, 0.005]))
 @pytest.mark.parametrize("mounting", [None, AT_THE_OUTPUT, AT_THE_BACK])
 def test_it_is_what_the_meshes_weigh(mounting, thick):
     """Meshes have exact masses, and inertias that are out by what polygons are off circles."""

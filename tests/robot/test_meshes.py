@@ -198,10 +198,10 @@ def test_collada_with_y_up_is_turned_where_links_then_lie_in_their_meshes():
 @pytest.mark.parametrize(
     "robot",
     [
-        "tiago_description/robots/tiago",
+        pytest.param("tiago_description/robots/tiago", marks=pytest.mark.slow),
         "hextilt_description/urdf/hextilt_flying_arm_5",
         "borinot_description/urdf/borinot_flying_arm_2",
-        "go1_description/urdf/go1",
+        pytest.param("go1_description/urdf/go1", marks=pytest.mark.slow),
     ],
 )
 def test_collada_with_y_up_that_lies_right_is_left(robot):

@@ -17,7 +17,9 @@ SOME = [
     ROBOTS / "a1_description" / "urdf" / "a1.urdf",
     ROBOTS / "hyq_description" / "robots" / "hyq_no_sensors.urdf",
     ROBOTS / "bolt_description" / "robots" / "bolt.urdf",
-    ROBOTS / "icub_description" / "robots" / "icub.urdf",
+    pytest.param(
+        ROBOTS / "icub_description" / "robots" / "icub.urdf", marks=pytest.mark.slow, id="icub"
+    ),
 ]
 
 

@@ -25,7 +25,7 @@ from ocs_design.simulation.world_builder import Options, WorldBuilder
 from ocs_design.sizing.trajectory.plans import drive_line_of
 from ocs_design.sizing.trajectory.tracking import tracking_gains
 
-PERIOD, STATES = 0.005, 4_000
+PERIOD, STATES = 0.005, 1_000
 WOUND = replace(EC45, resistance=0.6, torque_constant=0.037)
 
 
@@ -48,7 +48,7 @@ def worlds_of(solo12, device, *, desaturate):
     return worlds
 
 
-SLOW = "ideal wheels", "wheels on all axes"
+SLOW = "one wheel", "ideal wheels", "wheels on all axes"
 CASES = {
     "one wheel": (layout_device(Layout(LayoutName.SINGLE)), False),
     "wheels on all axes": (layout_device(Layout(LayoutName.ORTHOGONAL)), False),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from mounted import MEASURED, contacts, flown_postures, mounted
 from robots import SOLO12
-from sampled import every
+from sampled import every, some
 from wheels import layout_device, paper_device
 
 from ocs_design.common.errors import SpecificationError
@@ -82,7 +82,7 @@ def test_a_stated_position_that_is_hit_is_a_warning_with_a_free_one_and_strictly
         (LayoutName.DOUBLE_PAIR, "--position, with x, y and z of every wheel"),
     ],
 )
-@pytest.mark.parametrize("stated", [True, False])
+@pytest.mark.parametrize("stated", some(2, [False, True]))
 def test_another_place_is_asked_for_as_its_layout_states_it(name, option, stated):
     """For none but a pair a free place is looked for where one is stated."""
     robot, device = read_robot(SOLO12), layout_device(Layout(name))
@@ -96,7 +96,7 @@ def test_another_place_is_asked_for_as_its_layout_states_it(name, option, stated
     assert hit.cure == f"give another place with {option}"
 
 
-@pytest.mark.parametrize("name", MEASURED[::2])
+@pytest.mark.parametrize("name", some(4, MEASURED[::2]))
 def test_mujoco_sees_no_contact_of_device_and_robot(name):
     """In the nominal posture and in postures of the landing ranges that were not drawn before."""
     robot, device, mounting = mounted(name)

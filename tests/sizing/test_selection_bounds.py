@@ -4,6 +4,7 @@ from dataclasses import astuple, fields, replace
 
 import numpy as np
 import pytest
+from sampled import some
 from selections import lopsided, random_problem
 
 from ocs_design.actuation.drive import DriveLine
@@ -111,7 +112,7 @@ def each(bodies, factors):
 
 
 @pytest.mark.parametrize("coupled", [0.0, 1e-4, 0.2])
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", some(3, range(3), pytest.mark.exhaustive))
 @pytest.mark.parametrize("kept", [None, ManeuverReserve(rate=(0.1, 0.02))])
 @pytest.mark.parametrize("layout", [PAIR, TRIAD, TILTED], ids=lambda layout: layout.name)
 def test_more_inertia_and_smaller_shares_ask_for_no_less(layout, kept, seed, coupled):

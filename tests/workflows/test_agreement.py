@@ -23,7 +23,7 @@ OUTRUNNER = MotorSection(name="Antigravity MN5008 KV400")
 FLAT = MotorSection(name=MOTOR)
 LITTLE = RequirementSection(rate_change=1.0)
 KINDS = {
-    "disc": Specification(motor=OUTRUNNER),
+    "disc": Specification(requirement=LITTLE, motor=OUTRUNNER),
     "shrunk on": Specification(motor=FLAT, flywheel=FlywheelSection(web="aluminium")),
     "spokes": Specification(motor=FLAT, flywheel=FlywheelSection(web="none")),
     "ring": Specification(motor=OUTRUNNER, ocs=OcsSection(wheel="ring")),

@@ -6,8 +6,8 @@ import msgspec
 import numpy as np
 import pytest
 from designed import MOTOR, as_recorded, designed
-from exported import LEGGED, LEGGED_PATHS
-from robots import ROBOTS
+from exported import LEGGED_PATHS
+from robots import ROBOTS, marked
 
 from ocs_design.common.errors import OcsError, RobotError
 from ocs_design.common.files import to_json
@@ -46,7 +46,7 @@ def check_same(again, robot):
     np.testing.assert_array_equal(again.inertia, robot.inertia)
 
 
-@pytest.mark.parametrize("path", [*LEGGED_PATHS, HUMAN], ids=[*LEGGED, "human"])
+@pytest.mark.parametrize("path", marked([*LEGGED_PATHS, HUMAN]))
 def test_a_robot_read_again_stands_as_it_did(path):
     robot = read_robot(path)
     again = robot_of(through_json(RobotRecord.of(robot)), path, {})

@@ -31,7 +31,7 @@ def problem_of(steels, **changes):
     return replace(random_problem(SEED, MOTORS), materials=steels, **changes)
 
 
-@pytest.mark.parametrize("incidence", [0.6, None])
+@pytest.mark.parametrize("incidence", [0.6, pytest.param(None, marks=pytest.mark.slow)])
 def test_the_stronger_steel_leads_the_ranking(steels, incidence):
     found = select(problem_of(steels, incidence=incidence))
     assert found.best.material.name == "strong"
@@ -44,6 +44,7 @@ def test_the_stronger_steel_leads_the_ranking(steels, incidence):
     assert set(twins) == {("strong", "weak")}
 
 
+@pytest.mark.slow
 def test_it_leads_at_the_incidence_of_a_criterion(steels):
     problem = problem_of(steels, incidence=None)
     assert select_by(problem, Criterion.EQUAL_RATE).best.material.name == "strong"

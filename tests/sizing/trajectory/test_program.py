@@ -46,7 +46,17 @@ CASES = {
 }
 
 
-@pytest.fixture(scope="module", params=[(name, h) for name in CASES for h in ("given", "least")])
+# In turn: each case is quick with one of both wheels.
+KINDS = [(name, ("given", "least")[(i + k) % 2]) for k in (0, 1) for i, name in enumerate(CASES)]
+
+
+@pytest.fixture(
+    scope="module",
+    params=[
+        pytest.param(kind, marks=[pytest.mark.slow] * (i >= len(CASES)), id=" ".join(kind))
+        for i, kind in enumerate(KINDS)
+    ],
+)
 def solved(request):
     """Smooth torques with the wheels that are given, switching ones with the smallest."""
     name, wheels = request.param

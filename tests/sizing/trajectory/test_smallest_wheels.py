@@ -42,8 +42,8 @@ def _closed_form(roll, pitch, incidence, duration=FALL):
     [
         (0.0, drop(30.0), 2e-4),
         pytest.param(30.0, drop(30.0), 2e-4, marks=pytest.mark.exhaustive),
-        (40.0, drop(30.0), 2e-4),
-        (0.0, BACK_FLIP, 3e-4),
+        pytest.param(40.0, drop(30.0), 2e-4, marks=pytest.mark.slow),
+        pytest.param(0.0, BACK_FLIP, 3e-4, marks=pytest.mark.slow),
     ],
 )
 def test_about_pitch_it_is_the_closed_form(degrees, maneuver, costs):
