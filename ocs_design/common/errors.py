@@ -35,6 +35,11 @@ class OcsError(Exception):
         self.message = message
         self.hint = hint
 
+    @property
+    def sentence(self) -> str:
+        """Message and hint in one line, as a fault among others."""
+        return f"{self.message}. {self.hint}" if self.hint else self.message
+
     def data(self) -> Mapping[str, Any]:
         """Further fields for the JSON form of the error."""
         return {}

@@ -21,7 +21,7 @@ from ocs_design.parts.motor_mount import (
 )
 from ocs_design.parts.pedestal import Pedestal, strengthened
 from ocs_design.parts.printed import CLEARANCE, LID_SCREW, PANEL, TRUNK_SCREW, WALL
-from ocs_design.robot.tree import Drum
+from ocs_design.robot.probe import Drum
 
 PLATE_DISCS = 0.5
 """Distance of the discs that stand for a plate's neck, over half its width."""

@@ -287,7 +287,7 @@ def unfit_for_robot(
         try:
             each.momentum(TiltInertia.of(robot.inertia), requirement.standing_height)
         except OcsError as error:
-            yield f"{error.message}. {error.hint}" if error.hint else error.message
+            yield error.sentence
     if requirement.rate_change is None and requirement.spin_inertia is None:
         if not requirement.maneuvers:
             yield "requirement: nothing is asked for: state a maneuver, rate_change or spin_inertia"
@@ -306,7 +306,7 @@ def unfit_for_robot(
         if chosen not in {None, STEEL, AUTO}:
             material(chosen)
     except SpecificationError as error:
-        yield f"flywheel.material: {error.message}. {error.hint}"
+        yield f"flywheel.material: {error.sentence}"
     yield from unknown_names(specification)
 
 

@@ -145,7 +145,7 @@ def unknown_names(specification: Specification) -> Iterator[str]:
         except SpecificationError as error:
             if error.problems:
                 raise
-            yield f"{path}: {error.message}. {error.hint}"
+            yield f"{path}: {error.sentence}"
 
 
 def _motors(specification: Specification, voltage: float = 0.0) -> tuple[Motor, ...]:

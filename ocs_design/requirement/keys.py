@@ -68,7 +68,7 @@ class Faults(list[str]):
         try:
             return value.read(raw, where)
         except OcsError as error:
-            self.append(f"{error.message}. {error.hint}" if error.hint else error.message)
+            self.append(error.sentence)
             return None
 
     def fields(

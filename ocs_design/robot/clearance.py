@@ -15,9 +15,9 @@ from ocs_design.robot.collision import (
     Part,
     Poses,
     Posture,
-    Probe,
 )
 from ocs_design.robot.leg_geometry import leg_geometries
+from ocs_design.robot.probe import Probe
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import JointKind
 

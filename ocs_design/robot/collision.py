@@ -21,11 +21,9 @@ from ocs_design.robot.meshes import solid_shapes
 from ocs_design.robot.mjcf import UNBOUNDED
 from ocs_design.robot.mujoco_bodies import body_names, quaternion
 from ocs_design.robot.mujoco_model import compile_spec, plain_spec, posture_qpos, trunk_body
+from ocs_design.robot.probe import Ball, Drum, Probe
 from ocs_design.robot.robot import Robot
-from ocs_design.robot.tree import Ball, Drum, Tree
-
-Probe = Ball | Drum
-"""Solid on the trunk, of which distances are measured."""
+from ocs_design.robot.tree import Tree
 
 BASE = "ocs_probe_base"
 """Site at the frame B."""

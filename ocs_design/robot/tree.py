@@ -67,45 +67,6 @@ class Shape:
 
 
 @dataclass(frozen=True, eq=False)
-class Ball:
-    """Ball that a module may sweep.
-
-    Attributes:
-        center: in B [m], shape (3,).
-        radius: [m].
-    """
-
-    center: FloatArray
-    radius: float
-
-    @property
-    def reach(self) -> float:
-        """Radius of the ball around it [m]."""
-        return self.radius
-
-
-@dataclass(frozen=True, eq=False)
-class Drum:
-    """Cylinder that a module is as it stands.
-
-    Attributes:
-        center: in B [m], shape (3,).
-        axis: unit vector in B, shape (3,).
-        radius, height: [m].
-    """
-
-    center: FloatArray
-    axis: FloatArray
-    radius: float
-    height: float
-
-    @property
-    def reach(self) -> float:
-        """Radius of the ball around it [m]."""
-        return float(np.hypot(self.radius, 0.5 * self.height))
-
-
-@dataclass(frozen=True, eq=False)
 class Joint:
     """A moving joint.
 

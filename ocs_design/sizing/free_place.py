@@ -13,8 +13,8 @@ from ocs_design.requirement.device_sections import Envelope
 from ocs_design.robot.clearance import nearest_in_landings
 from ocs_design.robot.collision import CollisionModel, collision_model
 from ocs_design.robot.meshes import trunk_extent, trunk_top
+from ocs_design.robot.probe import Ball, Drum
 from ocs_design.robot.robot import Robot
-from ocs_design.robot.tree import Ball, Drum
 from ocs_design.sizing.place import CLEARANCE, Place, Size, around, module_size, place_at
 
 

@@ -30,9 +30,9 @@ from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.clearance import Reach, nearest_in_landings, reaches
 from ocs_design.robot.collision import CollisionModel, Nearest, collision_model
 from ocs_design.robot.mass import MassProperties
+from ocs_design.robot.probe import Drum
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_surface
-from ocs_design.robot.tree import Drum
 from ocs_design.sizing.footing.contact import PROUD, FootContact, contacts_of
 from ocs_design.sizing.footing.feet import device_size, feet_of
 from ocs_design.sizing.footing.mast import Pads, pads_needed

@@ -100,10 +100,10 @@ def export_design(
         steps.step(f"write {', '.join(names or (each.name for each in chosen))}"),
         staged_folder(folder, force=force) as staging,
     ):
-        alone = [each for each in chosen if not each.needs_robot]
-        notes = export_formats(subject, alone, staging)
-        whole = [each for each in chosen if each.needs_robot]
-        remarks = export_formats(subject, whole, staging)
+        notes, remarks = (
+            export_formats(subject, [x for x in chosen if x.needs_robot is needs], staging)
+            for needs in (False, True)
+        )
         if CONTROLLER in rest:
             try:
                 _write_controller(name, where, staging / CONTROLLER)
@@ -113,10 +113,15 @@ def export_design(
                 remarks = (*remarks, f"without the controller: {error.message}")
         story = None
         if set(rest) - {CONTROLLER}:
+            # They need the simulator's values, which parts and snippets do without.
+            from ocs_design.report.charts.figures import FOLDER, all_charts  # noqa: PLC0415
+            from ocs_design.report.charts.svg import write_charts  # noqa: PLC0415
+            from ocs_design.report.html.page import write_report  # noqa: PLC0415
+
             story, more = _read_story(known, where, staging, command)
             remarks += more
-        if story is not None and FIGURES in rest:
-            remarks += _write_figures(story, staging)
+            if FIGURES in rest:
+                remarks += write_charts(tuple(all_charts(story)), staging / FOLDER)
         new = set(file_hashes(staging))
         if folder.exists() and folder.samefile(path.parent):
             # If all usual files are made anew, those of before may have had other names.
@@ -127,7 +132,7 @@ def export_design(
         # All other files are there now: the report, which holds the design, has their hashes too.
         again = replace(known, files=recorded_hashes(staging))
         if story is not None and REPORT in rest:
-            _write_report(replace(story, design=again), staging)
+            write_report(replace(story, design=again), staging)
             new.add(REPORT_FILE)
         made = {name: value for name, value in file_hashes(staging).items() if name in new}
         (staging / DESIGN_FILE).write_bytes(to_json(again))
@@ -159,23 +164,6 @@ def _read_story(
         remarks = (f"without the chart of incidence over postures: {error.message}",)
     folders = [folder, where.design.parent]
     return story_in(folders, design, postures=postures, command=command), remarks
-
-
-def _write_figures(story: "Story", folder: Path) -> tuple[str, ...]:
-    """Write every chart; gives remarks."""
-    # As for the story.
-    from ocs_design.report.charts.figures import FOLDER, all_charts  # noqa: PLC0415
-    from ocs_design.report.charts.svg import write_charts  # noqa: PLC0415
-
-    return write_charts(tuple(all_charts(story)), folder / FOLDER)
-
-
-def _write_report(story: "Story", folder: Path) -> None:
-    """Write the page."""
-    # As for the story.
-    from ocs_design.report.html.page import write_report  # noqa: PLC0415
-
-    write_report(story, folder)
 
 
 def _write_controller(name: str, where: Whereabouts, folder: Path) -> None:

@@ -17,8 +17,8 @@ from robots import ROBOTS
 from ocs_design.robot.clearance import drawn, full_ranges, landing_poses, reaches
 from ocs_design.robot.collision import CollisionModel
 from ocs_design.robot.meshes import trunk_extent
+from ocs_design.robot.probe import Ball, Drum
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.tree import Ball, Drum
 
 SOLO12, A1, BOLT = (
     "solo_description/robots/solo12",

@@ -13,8 +13,8 @@ from ocs_design.requirement.froude import default_envelope
 from ocs_design.robot.clearance import drawn, landing_ranges
 from ocs_design.robot.collision import collision_model
 from ocs_design.robot.manual import robot_by_hand
+from ocs_design.robot.probe import Ball
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.tree import Ball
 from ocs_design.sizing.free_place import Sizes, place_free, place_on_top, specified_place
 from ocs_design.sizing.place import CLEARANCE, Place, Size, module_size, place_at, wheel_size
 

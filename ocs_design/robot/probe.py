@@ -1,0 +1,54 @@
+"""Solids on a trunk that distances from the robot's links are measured of.
+
+Devices are made of them without MuJoCo, which measures the distances (`collision.py`).
+"""
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from ocs_design.common.arrays import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Ball:
+    """Ball that a module may sweep.
+
+    Attributes:
+        center: in B [m], shape (3,).
+        radius: [m].
+    """
+
+    center: FloatArray
+    radius: float
+
+    @property
+    def reach(self) -> float:
+        """Radius of the ball around it [m]."""
+        return self.radius
+
+
+@dataclass(frozen=True, eq=False)
+class Drum:
+    """Cylinder that a module is as it stands.
+
+    Attributes:
+        center: in B [m], shape (3,).
+        axis: unit vector in B, shape (3,).
+        radius, height: [m].
+    """
+
+    center: FloatArray
+    axis: FloatArray
+    radius: float
+    height: float
+
+    @property
+    def reach(self) -> float:
+        """Radius of the ball around it [m]."""
+        return float(np.hypot(self.radius, 0.5 * self.height))
+
+
+Probe: TypeAlias = Ball | Drum
+"""Solid on the trunk."""
