@@ -1,4 +1,4 @@
-"""Keys of a specification that contradict each other, or cannot be meant for the robot."""
+"""Checks for keys of a specification that contradict each other, or do not fit the robot."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import cycle
@@ -55,22 +55,22 @@ OF_WEBS = (
     "balancing_hole_diameter",
     "balancing_hole_depth",
 )
-"""Keys of `[flywheel]` that plain rims on massless spokes have nothing of."""
+"""Keys of `[flywheel]` that do not apply to rims on massless spokes."""
 
 FEWEST_HOLES, MOST_HOLES = 3, 100
-"""Holes in a face: fewer leave a rim with two inertias across its axis."""
+"""Balancing holes in a face: fewer make the inertia across the axis depend on direction."""
 
 
 def contradictions(specification: Specification) -> Iterator[str]:
-    """What no single key shows: keys that do not go together, one line each."""
+    """Keys that contradict each other, one line each."""
     flywheel, robot = specification.flywheel, specification.robot
     yield from _empty_room(flywheel, vars(flywheel))
     if (robot.mass is None) != (robot.inertia is None):
-        yield "robot: mass and inertia come together"
+        yield "robot: give both mass and inertia, or neither"
     if robot.file is not None and robot.mass is not None:
-        yield "robot: state either a file or mass and inertia, not both"
+        yield "robot: give either a file or mass and inertia, not both"
     if robot.human is not None and (robot.file is not None or robot.mass is not None):
-        yield "robot: human is in place of a file, and of mass and inertia"
+        yield "robot: give either human, or a file, or mass and inertia"
 
     yield from _without_motor(specification)
     yield from _of_layouts(specification)
@@ -79,11 +79,11 @@ def contradictions(specification: Specification) -> Iterator[str]:
         yield f"flywheel.balancing_holes: {holes} is not {FEWEST_HOLES} to {MOST_HOLES}, or 0"
     if flywheel.lightening is not None and flywheel.lightening not in LIGHTENINGS:
         some = ", ".join(map(str, LIGHTENINGS))
-        yield f"flywheel.lightening: {flywheel.lightening} is none of {some}"
+        yield f"flywheel.lightening: {flywheel.lightening} is not one of {some}"
     if flywheel.lightening and flywheel.web == ALUMINIUM_WEB:
         yield (
-            f"flywheel.lightening: a web of {ALUMINIUM_WEB} that a rim is shrunk on has no holes: "
-            "it is pressed together"
+            f"flywheel.lightening: an {ALUMINIUM_WEB} web has no holes, because the shrunk-on rim "
+            "compresses it"
         )
     if specification.ocs.wheel == RING:
         no_web = "a ring around the motor's bell has no web (ocs.wheel)"
@@ -91,7 +91,7 @@ def contradictions(specification: Specification) -> Iterator[str]:
         if specification.motor.gear not in {None, DIRECT.name}:
             yield "motor.gear: a ring turns with the motor's bell, without a gear (ocs.wheel)"
         if specification.ocs.co_design:
-            yield "ocs.co_design: changes the bore, which the motor's bell sets (ocs.wheel)"
+            yield "ocs.co_design: changes the bore, but the motor's bell sets it (ocs.wheel)"
     if flywheel.web == NO_WEB:
         spokes = f"has no effect where flywheel.web is {NO_WEB!r}"
         yield from _pointless(specification, "flywheel", OF_WEBS, spokes)
@@ -105,34 +105,34 @@ def contradictions(specification: Specification) -> Iterator[str]:
 def _pointless(
     specification: Specification, table: str, keys: Iterable[str], why: str
 ) -> Iterator[str]:
-    """Keys of a section that are stated where they mean nothing, one line each."""
+    """Keys of a section that are specified but have no effect, one line each."""
     section = getattr(specification, table)
     return (f"{table}.{key}: {why}" for key in keys if getattr(section, key) is not None)
 
 
 def _empty_room(stated: FlywheelSection, limits: Mapping[str, float | None]) -> Iterator[str]:
-    """Limits of a rim by their keys, stated or assumed, that leave no room between them."""
+    """Limits of a rim, specified or default, that leave no space between them."""
 
     def limit(key: str) -> str:
-        """Key and figure, with a note where it was assumed."""
-        note = " (assumed: state it too)" if getattr(stated, key) is None else ""
+        """Key and figure, with a note if it is a default."""
+        note = " (default: set it too)" if getattr(stated, key) is None else ""
         return f"{key}, {format_quantity(limits[key] or 0.0, 'mm')}{note}"
 
     bore, radius = limits["r_min"], limits["r_max"]
     if bore is not None and radius is not None and bore >= radius:
-        yield f"flywheel: {limit('r_max')}, leaves no room over {limit('r_min')}"
+        yield f"flywheel: {limit('r_max')}, leaves no room above {limit('r_min')}"
     low, high = limits["h_min"], limits["h_max"]
     if low is not None and high is not None and low > high:
         yield f"flywheel: {limit('h_max')}, is below {limit('h_min')}"
 
 
 def _off_its_pivot(maneuver: Pivoted, stated: OcsSection) -> Iterator[str]:
-    """What no pivot, or none of these wheels, allows, one line each."""
+    """What the pivot or these wheels do not allow, one line each."""
     where, axis = f"maneuver.{maneuver.name}", maneuver.axis
     tilt = float(np.linalg.norm(maneuver.tilt))
     if tilt > pi / 2.0:
         yield (
-            f"{where}: tilted by {format_quantity(tilt, 'deg')} it would lie below its pivot: "
+            f"{where}: tilted by {format_quantity(tilt, 'deg')}, it would be below its pivot: "
             "90 deg at most"
         )
     if axis is None:
@@ -142,8 +142,8 @@ def _off_its_pivot(maneuver: Pivoted, stated: OcsSection) -> Iterator[str]:
         )
         if alone:
             yield (
-                f"{where}: on a point it falls about roll and pitch, and these wheels act about "
-                "one of them: state the edge that it stands on, or ocs.layout with more wheels"
+                f"{where}: on a point it falls about roll and pitch, but these wheels act about "
+                "only one: give the edge that it stands on, or an ocs.layout with more wheels"
             )
         return
     if abs(axis[2]) > _LEVEL:
@@ -152,36 +152,36 @@ def _off_its_pivot(maneuver: Pivoted, stated: OcsSection) -> Iterator[str]:
         along = ", ".join(f"{each:.3g}" for each in axis)
         yield (
             f"{where}: roll and pitch tilt it about an axis other than the edge, which is along "
-            f"({along}): it turns about its edge alone"
+            f"({along}): it can turn about its edge only"
         )
 
 
 _LEVEL = 1e-6
-"""Of a direction, rounding."""
+"""Tolerance of a direction's components, for rounding."""
 
 
 def _without_gravity(specification: Specification) -> Iterator[str]:
-    """Jumps and falls in orbit, and turns whose jump or time is not stated, one line each."""
+    """Jumps and falls in orbit, and turns without a jump or a time, one line each."""
     asked = specification.requirement
     if asked.gravity == 0.0:
         falling = [word for word in WORDS if word not in TURNS and getattr(asked, word)]
         if specification.takes_default_maneuvers:
             falling.append("maneuvers")
         for word in falling:
-            yield f"requirement.{word}: nothing jumps or falls in orbit: ask for a turn or a catch"
+            yield f"requirement.{word}: nothing jumps or falls in orbit: use a turn or a catch"
         if any(each.duration is None for word in TURNS for each in getattr(asked, word) or ()):
-            yield "requirement: in orbit a turn needs its time: 'yaw 90deg in 60s'"
+            yield "requirement: in orbit a turn needs a time: 'yaw 90deg in 60s'"
     for maneuver in specification.maneuvers:
         if not isinstance(maneuver, TurnTo):
             if not maneuver.gravity:
-                yield f"maneuver.{maneuver.name}: nothing falls in orbit: ask for a turn or a catch"
+                yield f"maneuver.{maneuver.name}: nothing falls in orbit: use a turn or a catch"
         elif bool(maneuver.gravity) != bool(maneuver.jump_height):
             told = "is missing" if maneuver.gravity else "there is no jump in orbit"
             yield f"maneuver.{maneuver.name}.jump_height: {told}"
 
 
 def _too_short_flights(maneuvers: Iterable[Maneuver]) -> Iterator[str]:
-    """Jumps that end before what they are for."""
+    """Jumps that end before their torque or turn does, one line each."""
     for maneuver in maneuvers:
         match maneuver:
             case Maneuver(gravity=0.0) | TurnTo(jump_height=0.0):
@@ -201,23 +201,22 @@ def _too_short_flights(maneuvers: Iterable[Maneuver]) -> Iterator[str]:
 
 
 def _of_layouts(specification: Specification) -> Iterator[str]:
-    """Axes that are none, places that are not one per wheel, and what only pairs have."""
+    """Faulty axes or positions, and keys of pairs for other layouts, one line each."""
     stated = specification.ocs
     places = 1 if stated.layout in {None, PAIR, ALL_LAYOUTS} else WHEELS[stated.layout]
     if stated.axes is not None:
         if stated.layout is not None:
-            yield "ocs.axes: by hand, so leave out ocs.layout"
+            yield "ocs.axes: takes the place of ocs.layout, so leave that out"
         rows = [stated.axes[first : first + 3] for first in range(0, len(stated.axes), 3)]
         if not all(map(any, rows)):
             yield "ocs.axes: an axis of length 0 has no direction"
         places = len(rows)
     if stated.position is not None and len(stated.position) != 3 * places:
         yield (
-            f"ocs.position: {3 * places} coordinates state the places of this layout's wheels, "
-            f"not {len(stated.position)}"
+            f"ocs.position: this layout needs {3 * places} coordinates, not {len(stated.position)}"
         )
     if stated.co_design and specification.requirement.notices is not None:
-        yield "ocs.co_design: plans with all wheels, and requirement.survives wants one left out"
+        yield "ocs.co_design: plans with all wheels, but requirement.survives has one fail"
     layout = stated.layout if stated.axes is None else "by hand"
     if layout in {None, PAIR, ALL_LAYOUTS}:
         return
@@ -225,21 +224,21 @@ def _of_layouts(specification: Specification) -> Iterator[str]:
     if stated.alpha is not None and not pairs and layout != PYRAMID:
         yield f"ocs.alpha: has no effect where ocs.layout is {layout!r}"
     if stated.alpha_criterion and not pairs:
-        yield f"ocs.alpha_criterion: of pairs only, and ocs.layout is {layout!r}"
+        yield f"ocs.alpha_criterion: for pairs only, but ocs.layout is {layout!r}"
     if stated.co_design:
-        yield f"ocs.co_design: of a pair only, and ocs.layout is {layout!r}"
+        yield f"ocs.co_design: for a pair only, but ocs.layout is {layout!r}"
     if specification.motor.name == NO_MOTOR:
-        yield f"ocs.layout: {layout!r} needs a motor: motor.name is {NO_MOTOR!r}"
+        yield f"ocs.layout: {layout!r} needs a motor, but motor.name is {NO_MOTOR!r}"
     yield from (
-        f"maneuver.{maneuver.name}: only pairs are turned to another incidence by hand, "
-        f"and ocs.layout is {layout!r}"
+        f"maneuver.{maneuver.name}: only pairs can be turned to another incidence by hand, "
+        f"but ocs.layout is {layout!r}"
         for maneuver in specification.maneuvers
         if maneuver.incidence is not None and not pairs
     )
 
 
 def _without_motor(specification: Specification) -> Iterator[str]:
-    """What only a motor gives a meaning to, where none is wanted, one line each."""
+    """Keys that need a motor where none is wanted, one line each."""
     if specification.motor.name != NO_MOTOR:
         return
     of_motors: Mapping[str, Iterable[str]] = {
@@ -258,7 +257,7 @@ def _without_motor(specification: Specification) -> Iterator[str]:
         "requirement.survives:": specification.requirement.notices is not None,
         "ocs.co_design:": asked.co_design,
     }
-    yield from (f"{what} needs a motor: {where}" for what, holds in needs.items() if holds)
+    yield from (f"{what} needs a motor, but {where}" for what, holds in needs.items() if holds)
 
 
 def unfit_for_robot(
@@ -290,15 +289,15 @@ def unfit_for_robot(
             yield error.sentence
     if requirement.rate_change is None and requirement.spin_inertia is None:
         if not requirement.maneuvers:
-            yield "requirement: nothing is asked for: state a maneuver, rate_change or spin_inertia"
+            yield "requirement: nothing is required: add a maneuver, rate_change or spin_inertia"
         idle = {maneuver.name: _zeros(maneuver) for maneuver in requirement.maneuvers}
         if all(idle.values()):
             for name, zeros in idle.items():
-                yield f"maneuver.{name}: {zeros}: this asks nothing of the device"
+                yield f"maneuver.{name}: {zeros}, which requires nothing of the device"
     for each in requirement.maneuvers:
         if isinstance(each, Pivoted):
             yield from _off_its_pivot(each, stated)
-    # Tables were looked at before; what is asked for in words has its jump only now.
+    # Tables were checked before; maneuvers requested in words have their jump only now.
     yield from _too_short_flights(requirement.maneuvers)
     yield from _misfed(specification, robot)
     chosen = specification.flywheel.material
@@ -311,7 +310,7 @@ def unfit_for_robot(
 
 
 def _oversized(specification: Specification, robot: Robot, size: float) -> Iterator[str]:
-    """Bare numbers that were meant in another unit: larger than the robot itself."""
+    """Lengths larger than the robot itself, as if meant in another unit, one line each."""
     for key in ("r_max", "r_min", "h_max", "h_min", "wall_min"):
         length = getattr(specification.flywheel, key)
         if length is not None and length > size:
@@ -352,29 +351,29 @@ def _oversized(specification: Specification, robot: Robot, size: float) -> Itera
 
 
 OVERFED = 1.25
-"""Times the highest voltage of any known motor: more was meant with its point elsewhere."""
+"""Ratio to the highest voltage of known motors; above it, the decimal point was misplaced."""
 
 EMPTY_CELL = 3.0
-"""[V] of one empty lithium cell: no robot is fed with less."""
+"""Voltage of one empty lithium cell [V]: no robot has a lower supply."""
 
 LEAST_POWER = 1.0
-"""[W] per kg of the robot; less turns no wheel in time, so kilowatts were meant."""
+"""Least supply power over the robot's mass [W/kg]: with less, kilowatts were meant."""
 
 
 def _misfed(specification: Specification, robot: Robot) -> Iterator[str]:
-    """A voltage that no known motor comes near, and a supply with which nothing turns."""
+    """Supply voltage or power that is implausibly high or low, one line each."""
     voltage, power = specification.supply.voltage, specification.supply.power_max
     most = highest_known_voltage(specification)
     if voltage is not None and most and voltage > OVERFED * most:
         meant = next(volts for place in range(1, 9) if (volts := voltage / 10**place) <= most)
         yield (
-            f"supply.voltage: {voltage:g} V, and no known motor takes more than {most:g} V: "
+            f"supply.voltage: {voltage:g} V, but no known motor takes more than {most:g} V: "
             f"did you mean {meant:g}V?"
         )
     if voltage is not None and voltage < EMPTY_CELL:
         meant = next(volts for place in range(1, 99) if (volts := voltage * 10**place) > EMPTY_CELL)
         yield (
-            f"supply.voltage: {voltage:g} V is less than an empty lithium cell has: did you mean "
+            f"supply.voltage: {voltage:g} V is less than one empty lithium cell: did you mean "
             f"{meant:g}V?"
         )
     if power is not None and power < LEAST_POWER * robot.mass:
@@ -385,7 +384,7 @@ def _misfed(specification: Specification, robot: Robot) -> Iterator[str]:
 
 
 def _zeros(maneuver: Maneuver) -> str:
-    """Which keys are zero, so that nothing is asked; empty: something is. Yaw never is."""
+    """Keys that are zero, so that nothing is required of roll and pitch; empty: something is."""
     match maneuver:
         case Drop(roll=0.0, pitch=0.0) | StandUp(roll=0.0, pitch=0.0):
             return "roll and pitch are 0"

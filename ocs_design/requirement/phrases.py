@@ -1,4 +1,4 @@
-"""What a user says of a maneuver in one text: a kick, a tilt, a turn, a planet."""
+"""Parts of a maneuver that a user writes as one text: a kick, a tilt, a turn, a planet."""
 
 import re
 from collections.abc import Mapping
@@ -37,7 +37,7 @@ DIRECTIONS: Mapping[str, Vector3] = MappingProxyType(
         "down": (0.0, 0.0, -1.0),
     }
 )
-"""Unit vectors in B by their names."""
+"""Unit vectors in B, by name."""
 
 SIDES: Mapping[str, Vector3] = MappingProxyType(
     {
@@ -49,14 +49,14 @@ SIDES: Mapping[str, Vector3] = MappingProxyType(
         "below": DIRECTIONS["up"],
     }
 )
-"""Directions of a kick by where it comes from."""
+"""Directions of a kick, by the side it comes from."""
 
 GRAVITY = NamedQuantity(
     Dimension.ACCELERATION,
     Sign.NOT_NEGATIVE,
     words={"earth": 9.81, "moon": 1.62, "mars": 3.71, "orbit": 0.0},
 )
-"""Earth's and the Moon's as the paper takes them; Mars: NASA, Mars Fact Sheet."""
+"""Gravity: of the Earth and the Moon as in the paper; of Mars, NASA, Mars Fact Sheet."""
 
 FLIP = NamedQuantity(
     Dimension.ANGLE,
@@ -69,7 +69,7 @@ FLIP = NamedQuantity(
 
 
 def _placed(point: Vector3 | str, along: Vector3 | None) -> str:
-    """A point, or a link, and a direction if there is one, as they are read."""
+    """A point or a link, with its direction if there is one, in the form that is parsed."""
     at = point if isinstance(point, str) else ",".join(map(repr, point))
     return at if along is None else f"{at} along {','.join(map(repr, along))}"
 
@@ -100,22 +100,22 @@ _SPACED = re.compile(r"(?:[-+.\d][^\s,]*\s+){2}[-+.\d][^\s,]*")
 
 
 @form(
-    "IMPULSE at X,Y,Z or LINK, and if you like along X,Y,Z or a word such as left, or from a "
-    "side such as behind"
+    "IMPULSE at X,Y,Z or LINK, optionally along X,Y,Z or a word such as left, or from a side "
+    "such as behind"
 )
 def kick_text(raw: object, where: str) -> Kick:
     """A kick: how much, where, and in which direction."""
     parts = _KICK.fullmatch(raw) if isinstance(raw, str) else None
     if parts is None:
         raise SpecificationError(
-            f"{where}: {shortened(raw)} does not say how much, and where",
+            f"{where}: {shortened(raw)} must give an impulse and where it acts",
             hint="Write '12 N s at 0.1,0,0.2', '12 N s at FL_hip' or "
             "'12 N s at 0.1,0,0.2 along 0,1,0'; metres in the trunk's frame.",
         )
     impulse, at, along, side = parts.groups()
     if _FORCE.fullmatch(impulse):
         raise SpecificationError(
-            f"{where}: {impulse} is a force, and a kick is a force times a time",
+            f"{where}: {impulse} is a force, but a kick is an impulse: force times time",
             hint="Write 50 N for 10 ms as '0.5 N s'.",
         )
     if _SPACED.fullmatch(at):
@@ -124,7 +124,7 @@ def kick_text(raw: object, where: str) -> Kick:
     if side is not None:
         if side.casefold() not in SIDES:
             raise SpecificationError(
-                f"{where}: {shortened(side)} is no side that a kick comes from",
+                f"{where}: {shortened(side)} is not a side",
                 hint=f"Write one of {', '.join(SIDES)}, or 'along 0,1,0'.",
             )
         direction = SIDES[side.casefold()]
@@ -151,13 +151,13 @@ class Person:
 _PERSON = re.compile(r"\s*([\d.]+ *[a-z]+)[\s,]+([\d.]+ *[a-z]+)(?:\s+with\s+(.+?))?\s*", re.I)
 
 
-@form("MASS HEIGHT, and if you like with PAYLOAD")
+@form("MASS HEIGHT, optionally with PAYLOAD")
 def person_text(raw: object, where: str) -> Person:
     """A person: mass, height and, if there is any, payload."""
     parts = _PERSON.fullmatch(raw) if isinstance(raw, str) else None
     if parts is None:
         raise SpecificationError(
-            f"{where}: {shortened(raw)} does not say how heavy and how tall",
+            f"{where}: {shortened(raw)} must give a mass and a height",
             hint="Write '75kg 1.75m', or '75kg 1.75m with 10kg'.",
         )
     mass, height, payload = parts.groups()
@@ -189,7 +189,7 @@ TILTED: Mapping[str, tuple[str, float]] = MappingProxyType(
         "backward": ("pitch", -1.0),
     }
 )
-"""Axis and sign of a tilt by its name, or by the side that is lower."""
+"""Axis and sign of a tilt, by the axis's name or the lower side."""
 
 
 _TILT = re.compile(rf"\s*(.+?)\s*\b({'|'.join(TILTED)})\b", re.IGNORECASE)
@@ -205,7 +205,7 @@ def tilt_text(raw: object, where: str) -> Tilt:
         axis, sign = TILTED[word.casefold()]
         if axis in found:
             raise SpecificationError(
-                f"{where}: {shortened(raw)} has two angles of {axis}",
+                f"{where}: {shortened(raw)} gives {axis} twice",
                 hint="Write '20deg roll', or '10deg roll 20deg pitch'.",
             )
         found[axis] = sign * TILT.read(angle, where)
@@ -214,18 +214,18 @@ def tilt_text(raw: object, where: str) -> Tilt:
         return Tilt(0.0, TILT.read(raw, where))
     if isinstance(rest, str) and rest.strip():
         raise SpecificationError(
-            f"{where}: {shortened(raw)} is no tilt", hint="Write '20deg' or '20deg roll'."
+            f"{where}: {shortened(raw)} is not a tilt", hint="Write '20deg' or '20deg roll'."
         )
     return Tilt(found.get("roll", 0.0), found.get("pitch", 0.0))
 
 
 @dataclass(frozen=True)
 class About:
-    """Angles or rates about roll, pitch and yaw, and in what time.
+    """Angles or rates about roll, pitch and yaw, and the time allowed.
 
     Attributes:
         roll, pitch, yaw: [rad] or [rad/s].
-        duration: [s]; None: not stated.
+        duration: [s]; None: not given.
         unit: of the three.
     """
 
@@ -243,10 +243,10 @@ class About:
 
 @dataclass(frozen=True)
 class AboutText:
-    """Angles or rates, each with its axis before or behind it, and a time behind all.
+    """Angles or rates, each with its axis before or after it, and a time at the end.
 
     Attributes:
-        values: how the value of each axis is read. unit: that it is in once read.
+        values: parser of each axis's value. unit: of the parsed values.
         example: of such a text.
     """
 
@@ -263,14 +263,14 @@ class AboutText:
         """Value that `raw` stands for (`Value.read`)."""
         said, _, time = raw.partition(" in ") if isinstance(raw, str) else ("", "", "")
         parts = [part.strip() for part in re.split(r"\b(roll|pitch|yaw)\b", said, flags=re.I)]
-        # The axis stands before its value, or behind it.
+        # The axis comes before its value, or after it.
         before = not parts[0]
         axes, stated = parts[1::2], parts[2::2] if before else parts[:-1:2]
         rest = "" if before else parts[-1]
         words = [axis.casefold() for axis in axes]
         if not axes or rest or not all(stated) or len(set(words)) < len(words):
             raise SpecificationError(
-                f"{where}: {shortened(raw)} does not say how far about which axis",
+                f"{where}: {shortened(raw)} must give each value with its axis",
                 hint=f"Write {self.example!r}.",
             )
         found = {
@@ -300,25 +300,25 @@ TILT_TEXT = AboutText(
 
 
 def _tilt(raw: object, where: str) -> About:
-    """A tilt from upright; a heading is none."""
+    """A tilt from upright, without yaw."""
     tilt = TILT_TEXT.read(raw, where)
     if tilt.yaw:
         raise SpecificationError(
-            f"{where}: yaw is no tilt", hint=f"Write {TILT_TEXT.example!r}, or roll."
+            f"{where}: yaw is not a tilt", hint=f"Write {TILT_TEXT.example!r}, or roll."
         )
     return tilt
 
 
 @form(f"{TILT_TEXT.takes}, or {kick_text.takes}")
 def upset_text(raw: object, where: str) -> About | Kick:
-    """What a robot on a pivot is to get over: a tilt, or an impulse."""
+    """Disturbance that a robot on a pivot must recover from: a tilt, or an impulse."""
     kicked = isinstance(raw, str) and " at " in raw
     return kick_text.read(raw, where) if kicked else _tilt(raw, where)
 
 
 @dataclass(frozen=True)
 class Climb:
-    """A tilt that a robot stands up from, and whether a brake gives it the momentum."""
+    """A tilt that a robot stands up from, and whether by braking its wheels."""
 
     tilt: About
     brake: bool
@@ -332,7 +332,7 @@ _BY_BRAKE = " by brake"
 
 @form("as in 'roll 45deg in 0.5s', 'roll 45deg by brake'")
 def climb_text(raw: object, where: str) -> Climb:
-    """A tilt, a time if one is stated, and `by brake` if it is."""
+    """A tilt, optionally with a time and with `by brake`."""
     brake = isinstance(raw, str) and raw.casefold().rstrip().endswith(_BY_BRAKE)
     tilt = str(raw).rstrip()[: -len(_BY_BRAKE)] if brake else raw
     return Climb(_tilt(tilt, where), brake)
@@ -349,13 +349,13 @@ class Pivot:
         return _placed(self.point, self.along)
 
 
-@form("X,Y,Z, and for an edge along X,Y,Z or a word such as left")
+@form("X,Y,Z; for an edge, also along X,Y,Z or a word such as left")
 def pivot_text(raw: object, where: str) -> Pivot:
     """A point, and the direction of an edge through it."""
     point, _, along = raw.partition(" along ") if isinstance(raw, str) else ("", "", "")
     if "," not in point:
         raise SpecificationError(
-            f"{where}: {shortened(raw)} is no point that a robot stands on",
+            f"{where}: {shortened(raw)} is not a point",
             hint="Write '0,0,-0.2', or '0,0,-0.2 along left' for an edge; metres in the "
             "trunk's frame.",
         )
@@ -369,12 +369,12 @@ def _direction(text: str, where: str) -> Vector3:
         return DIRECTIONS[text.casefold()]
     if "," not in text:
         raise SpecificationError(
-            f"{where}: {shortened(text)} is no direction",
+            f"{where}: {shortened(text)} is not a direction",
             hint=f"Write 0,1,0, or one of {', '.join(DIRECTIONS)}.",
         )
     row = _row(text, Dimension.RATIO, where)
     if not any(row):
-        raise SpecificationError(f"{where}: {text} is no direction", hint="Write 0,1,0.")
+        raise SpecificationError(f"{where}: {text} is not a direction", hint="Write 0,1,0.")
     return row
 
 

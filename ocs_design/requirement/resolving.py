@@ -1,4 +1,4 @@
-"""From what was specified to what is designed for: robot, defaults, and what was assumed."""
+"""Resolves a specification: reads its robot, fills in defaults and lists the assumptions."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -75,9 +75,9 @@ from ocs_design.robot.tree import JointKind
 def default_specification(
     robot: Robot, *, kp: float, kd: float, gravity: float = STANDARD_GRAVITY
 ) -> Specification:
-    """What `resolve` fills in for `robot`, as if a user had stated it.
+    """Defaults of `resolve` for `robot`, as a specification.
 
-    Keys that have no default, or whose default is found while sizing, are None.
+    Keys without a default, or whose default is found while sizing, are None.
 
     Args:
         robot: to scale to.
@@ -100,7 +100,7 @@ def default_specification(
 
 
 SCALES = 0.02
-"""Error of a robot's mass, relative: a battery or a harness that its file lacks is more."""
+"""Relative tolerance of a robot's mass: a battery or a harness missing in its file is more."""
 
 
 def read_specified_robot(
@@ -110,18 +110,18 @@ def read_specified_robot(
     strict: bool = False,
     sure: bool = True,
 ) -> Robot:
-    """The robot that a specification names, read or made by hand.
+    """The robot of a specification, read from its file or made from figures.
 
     Args:
-        specification: that states a file, or mass and inertia.
-        package_paths: folder of each package that `package://` addresses name.
+        specification: with a file, a person, or mass and inertia.
+        package_paths: folder of each package, for `package://` addresses.
         strict: whether warnings are errors.
-        sure: whether trunk and legs must be clear, or stated.
+        sure: whether trunk and legs must be specified, or recognised without doubt.
 
     Raises:
-        UsageError: neither or both are stated.
-        RobotError: it cannot be read; trunk and legs are not clear; with `strict`, also if there is
-            any warning.
+        UsageError: no robot is given, or more than one.
+        RobotError: the file cannot be read; trunk or legs are in doubt; with `strict`, also if
+            there is any warning.
     """
     stated = specification.robot
     if stated.file is not None and (stated.mass is not None or stated.inertia is not None):
@@ -153,7 +153,7 @@ def read_specified_robot(
         robot = robot_by_hand(stated.mass, stated.inertia, name=stated.name or "robot")
     elif stated.mass is not None or stated.inertia is not None:
         raise UsageError(
-            "a robot by hand needs both its mass and its inertia",
+            "a robot without a file needs both mass and inertia",
             hint="give --mass MASS and --inertia IXX,IYY,IZZ, or both keys under [robot]",
         )
     else:
@@ -166,7 +166,7 @@ def read_specified_robot(
     if weighed is not None and not 1e-2 < weighed / robot.mass < 1e2:
         unit = "g" if weighed > robot.mass else "kg"
         raise UsageError(
-            f"the robot weighs {weighed:.6g} kg by the scales and {robot.mass:.4g} kg by its file",
+            f"the robot weighs {weighed:.6g} kg, but {robot.mass:.4g} kg according to its file",
             hint=f"did you mean {to_unit(weighed, 'kg' if unit == 'g' else 'g'):g}{unit}?",
         )
     if weighed is not None and abs(robot.mass - weighed) > SCALES * weighed:
@@ -179,7 +179,7 @@ def read_specified_robot(
     robot = replace(robot, warnings=(*robot.warnings, *doubts_about_motors(specification)))
     if strict and robot.warnings:
         raise RobotError(
-            "--strict: " + "; ".join(robot.warnings), hint="mend the files of robot and motors"
+            "--strict: " + "; ".join(robot.warnings), hint="fix the files of robot and motors"
         )
     return robot
 
@@ -200,17 +200,17 @@ def _check_units(joints: Mapping[str, float], robot: Robot) -> None:
 
 @dataclass(frozen=True, eq=False)
 class Resolved:
-    """A specification with nothing left open.
+    """A specification with its defaults filled in.
 
     Attributes:
         requirement: what the wheels must do.
-        envelope: the room for a rim.
+        envelope: limits of a rim.
         material: of a rim.
         torque_max: of a wheel [N m]; None: not limited.
-        choice: of motors, gears and materials; None: no motor is wanted, and `material` holds.
-        reliability: share of robots that shall pass as built; None: no motor is wanted, and none is
-            stated.
-        assumptions: what was not stated and what holds in its place, one sentence each.
+        choice: of motors, gears and materials; None: no motor is wanted, and `material` applies.
+        reliability: share of robots that must pass as built; None: no motor is wanted, and no
+            reliability is specified.
+        assumptions: defaults that apply, one sentence each.
     """
 
     requirement: Requirement
@@ -222,7 +222,7 @@ class Resolved:
     reliability: float | None = None
 
     def estimated(self, factors: Mapping[str, float]) -> "Resolved":
-        """Requirement with these factors on what turns are estimated to ask for, by name."""
+        """Requirement with these factors on the estimated demand of turns, by name of maneuver."""
         estimated = self.requirement.changed(
             lambda each: (
                 replace(each, estimate=factors.get(each.name, 1.0))
@@ -233,7 +233,7 @@ class Resolved:
         return replace(self, requirement=estimated)
 
     def carrying(self, requirement: Requirement) -> "Resolved":
-        """Requirement of the robot with its device; what kicks do to both is told too.
+        """Requirement for robot and device; notes on kicks are extended by what they do to both.
 
         Args:
             requirement: of robot and device.
@@ -245,13 +245,13 @@ class Resolved:
 def _assumptions(
     specification: Specification, robot: Robot, resolved: Resolved, worded: Worded
 ) -> Iterator[str]:
-    """One sentence for everything that was not specified and is in `resolved` all the same."""
+    """One sentence on each default in `resolved`."""
     flywheel, motor, scale = specification.flywheel, specification.motor, Scale.of(robot)
     requirement, envelope, choice = resolved.requirement, resolved.envelope, resolved.choice
     landing = (each.gravity for each in requirement.maneuvers if not isinstance(each, Pivoted))
     if robot.standing_height is None and any(landing):
         height = format_quantity(requirement.standing_height, "mm", 3)
-        yield f"No legs: the trunk stands {height} high, Solo12's scaled by gyration radius."
+        yield f"No legs: standing height {height}, Solo12's scaled by radius of gyration."
     if specification.takes_default_maneuvers:
         ratio = f"lengths x {scale.length:.3g}"
         yield f"Maneuvers: the paper's three, scaled from Solo12 ({ratio})."
@@ -277,27 +277,27 @@ def _assumptions(
     if choice is not None:
         yield from _assumed_supply(specification.supply, choice.supply)
         if motor.name in {None, AUTO}:
-            which = "with enough figures" if motor.any else "that can be built with"
-            yield f"Motor: the lightest device of all motors {which}."
+            which = "with enough data" if motor.any else "that can be built with"
+            yield f"Motor: the one that gives the lightest device, of all {which}."
         if motor.gear in {None, AUTO}:
             stages = len(choice.gears) - 1
             yield (
                 f"Gear: none, or one of {stages} stages in the catalogue."
                 if stages
-                else ("Gear: none, for how a gear and a motor are held together is not designed.")
+                else "Gear: none, because gear mountings are not designed."
             )
 
     yield from _assumed_wheel(flywheel, resolved, ring=specification.ocs.wheel == RING)
     if choice is not None:
         yield (
             f"Reserve: a design uses {RESERVE:.0%} of voltage, current and speed limit; "
-            "the rest is the feedback's."
+            "the rest is left to feedback."
         )
         asked, noticed = specification.requirement, requirement.detection or 0.0
         assumed = {
-            f"Reliability: {RELIABILITY:.0%} of robots shall pass with what is drawn "
-            "(`[reality]`).": asked.reliability is None,
-            f"Detection: that a drive has stopped is known {format_quantity(noticed, 'ms')} later."
+            f"Reliability: {RELIABILITY:.0%} of robots sampled from `[reality]` must "
+            "pass.": asked.reliability is None,
+            f"Detection: a failed drive is detected after {format_quantity(noticed, 'ms')}."
             "": asked.notices is not None and asked.detection is None,
         }
         yield from (text for text, holds in assumed.items() if holds)
@@ -310,7 +310,7 @@ def _assumptions(
 
 
 def _assumed_supply(stated: SupplySection, supply: Supply) -> Iterator[str]:
-    """What was not specified about the supply."""
+    """Defaults of the supply, one sentence each."""
     assumed = []
     if stated.voltage is None:
         assumed.append(f"{supply.voltage:g} V")
@@ -323,13 +323,13 @@ def _assumed_supply(stated: SupplySection, supply: Supply) -> Iterator[str]:
         base, per_current = (
             format_quantity(each, "g", 3) for each in (BASE_MASS, MASS_PER_CURRENT)
         )
-        yield f"Controllers: {base} each and {per_current} for each ampere of peak phase current."
+        yield f"Controllers: {base} each, plus {per_current} per ampere of peak phase current."
 
 
 def _assumed_wheel(flywheel: FlywheelSection, resolved: Resolved, *, ring: bool) -> Iterator[str]:
-    """One sentence for everything about the wheels that was not specified."""
+    """One sentence on each default of the wheels."""
     choice = resolved.choice
-    # Without a motor only the rim has a mass, and one material is as good as chosen.
+    # Without a motor only the rim has a mass, and its material is already decided.
     chosen = resolved.material if choice is None else choice.materials[0]
     if flywheel.web is None and not ring:
         yield "Wheel: one piece; a thin disc with a hub joins the rim to its motor."
@@ -351,14 +351,14 @@ def _assumed_wheel(flywheel: FlywheelSection, resolved: Resolved, *, ring: bool)
             else f"Material: one of {len(choice.materials)} {kinds}."
         )
     if chosen.yield_strength is None:
-        yield f"Stress: not checked, for no strength of {chosen.name} is known."
+        yield f"Stress: not checked, because the strength of {chosen.name} is not known."
     elif flywheel.stress_safety is None:
         safety = resolved.envelope.stress_safety
         yield f"Stress: yield strength over hoop stress at least {safety:g}."
 
 
 def resolve(specification: Specification, robot: Robot, robot_size: float) -> Resolved:
-    """What to design for, with the defaults of `froude` where nothing is stated.
+    """What to design for: the specification, and for the rest the defaults of `froude`.
 
     Args:
         specification: file and options merged.
@@ -369,9 +369,9 @@ def resolve(specification: Specification, robot: Robot, robot_size: float) -> Re
         SpecificationError: keys that contradict each other or the robot; all are listed.
     """
     flywheel, asked = specification.flywheel, specification.requirement
-    # Options of a command and arguments of Python come by no file that was checked.
+    # Unlike files, options of a command and arguments of Python have not been checked.
     if against := tuple(contradictions(specification)):
-        raise SpecificationError("what is asked for does not go together:", problems=against)
+        raise SpecificationError("these requirements contradict each other:", problems=against)
     if robot.standing_height is not None and robot.standing_height <= 0.0:
         raise SpecificationError(
             f"the frame of the trunk {robot.trunk!r} is {-1e3 * robot.standing_height:.0f} mm "
@@ -399,7 +399,7 @@ def resolve(specification: Specification, robot: Robot, robot_size: float) -> Re
     faults = tuple(unfit_for_robot(specification, robot, robot_size, requirement, envelope))
     if faults:
         raise SpecificationError(f"the specification does not fit {robot.name}:", problems=faults)
-    # What is wrong with a file of distributions is told before anything is sized.
+    # Faults of a file of distributions are reported before anything is sized.
     default_uncertainty(requirement.standing_height, file=specification.reality.file)
     choice = motor_choice(specification, robot)
     name = flywheel.material

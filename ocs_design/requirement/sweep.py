@@ -1,4 +1,4 @@
-"""One figure of a specification that is varied while all else stays as it is."""
+"""One figure of a specification, varied while everything else stays fixed."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Mapping
@@ -23,11 +23,11 @@ from ocs_design.robot.robot import Robot
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """What is designed for as it stands, before anything is varied.
+    """What is designed for, before anything is varied.
 
     Attributes:
-        specification: as stated. resolved: the same with nothing left open.
-        robot: that it is for. robot_size: its largest extent [m].
+        specification: as given. resolved: the same with its defaults filled in.
+        robot: to design for. robot_size: its largest extent [m].
     """
 
     specification: Specification
@@ -69,7 +69,7 @@ class Task:
     ) -> Specification:
         """The specification with the maneuvers of these names changed.
 
-        All are written out, and then no longer asked for by name or in words.
+        All maneuvers are written out, and no longer requested by name or in words.
         """
         maneuvers = tuple(
             change(maneuver) if maneuver.name in names else maneuver for maneuver in self.maneuvers
@@ -79,17 +79,17 @@ class Task:
 
     @property
     def maneuvers(self) -> tuple[Maneuver, ...]:
-        """Maneuvers, stated or assumed."""
+        """Maneuvers, specified or default."""
         return self.resolved.requirement.maneuvers
 
     @property
     def standing_height(self) -> float:
-        """Height of the trunk over the ground [m]."""
+        """Height of the trunk above the ground [m]."""
         return self.resolved.requirement.standing_height
 
 
 FEWEST, MOST = 2, 200
-"""Points of a front."""
+"""Fewest and most points of a front."""
 
 
 @dataclass(frozen=True)
@@ -97,9 +97,9 @@ class Sweep(ABC):
     """A figure of a specification that is varied.
 
     Attributes:
-        name: on the command line. label: of the figure, for people.
-        dimension: of the figure. unit: in which people read it.
-        span: lowest and highest value where none are stated, over the specification's own.
+        name: on the command line. label: of the figure, for display.
+        dimension: of the figure. unit: for display.
+        span: default lowest and highest values, over the specification's own.
     """
 
     name: str
@@ -121,22 +121,22 @@ class Sweep(ABC):
         """The specification with this value [SI] in place of its own.
 
         Raises:
-            SpecificationError: nothing has this value.
+            SpecificationError: no maneuver can have this value.
         """
 
     def values(
         self, task: Task, *, low: str | None, high: str | None, points: int
     ) -> tuple[float, ...]:
-        """Values of the figure that is varied, at equal distances [SI].
+        """Equally spaced values of the figure that is varied [SI].
 
         Args:
-            task: as it stands.
-            low, high: from and to, with units; None: around the specification's own value, which
-                is then one of the values if there are nine of them.
+            task: to vary.
+            low, high: first and last value, with units; None: around the specification's own
+                value, which is one of the values if there are nine.
             points: how many.
 
         Raises:
-            QuantityError, UsageError: they cannot be read, or make no range.
+            QuantityError, UsageError: they cannot be parsed, or form no range.
         """
         if not FEWEST <= points <= MOST:
             raise UsageError(f"--points {points}: must lie between {FEWEST} and {MOST}")
@@ -154,18 +154,18 @@ class Sweep(ABC):
         return tuple(float(value) for value in np.linspace(start, end, points))
 
     def remarks(self, task: Task) -> tuple[str, ...]:
-        """What else moves, and what does not."""
+        """Sentences on what else changes, and what does not."""
         del task
         return ()
 
 
 @dataclass(frozen=True)
 class KeySweep(Sweep):
-    """A figure that is one key of the file; nothing else moves.
+    """A figure that is one key of the file; nothing else changes.
 
     Attributes:
         section, key: of the file.
-        value: stated or assumed.
+        value: specified or default.
     """
 
     section: str
@@ -186,9 +186,9 @@ class ManeuverSweep(Sweep):
     """A figure of the maneuvers that turn the trunk.
 
     Attributes:
-        figure: of a maneuver, at the trunk's standing height [m]; None where it has none.
-        scaled: a maneuver that has it, with so many times as much, at that height.
-        maneuver: which one varies alone; empty: all in one ratio, and the first gives the value.
+        figure: of a maneuver, for the trunk's standing height [m]; None where it has none.
+        scaled: a maneuver with its figure multiplied by a ratio, for that height.
+        maneuver: the only one to vary; empty: all, in proportion, and the first gives the value.
     """
 
     figure: Callable[[Maneuver, float], float | None]
@@ -208,7 +208,7 @@ class ManeuverSweep(Sweep):
             )
         raise UsageError(
             f"--against {self.name}: {self.maneuver or 'the specification'} has no turn to vary",
-            hint="state a drop or a flip, or vary the radius, the height or the voltage",
+            hint="add a drop or a flip, or vary the radius, the height or the voltage",
         )
 
     def at(self, value: float, task: Task) -> Specification:
@@ -219,15 +219,15 @@ class ManeuverSweep(Sweep):
         )
 
     def remarks(self, task: Task) -> tuple[str, ...]:
-        """Which maneuver the value is of, which follow and which stay."""
+        """Sentences on which maneuver gives the value, which vary with it and which do not."""
         first, *others = self._figures(task)
         kept = [
             maneuver.name for maneuver in task.maneuvers if maneuver.name not in (first, *others)
         ]
         return (
             f"The {self.name} is that of {first!r}.",
-            *([f"In the same ratio: {', '.join(others)}."] if others else []),
-            *([f"As specified: {', '.join(kept)}."] if kept else []),
+            *([f"Varied in proportion: {', '.join(others)}."] if others else []),
+            *([f"Not varied: {', '.join(kept)}."] if kept else []),
         )
 
     def _figures(self, task: Task) -> Mapping[str, float]:
@@ -246,7 +246,7 @@ def _time(maneuver: Maneuver, standing_height: float) -> float | None:
 
 
 def _in_time(maneuver: Maneuver, ratio: float, standing_height: float) -> Maneuver:
-    """Maneuver that takes so many times as long: a fall from higher, a longer jump."""
+    """Maneuver that takes `ratio` times as long: a higher fall, a longer jump."""
     if isinstance(maneuver, Flip):
         return maneuver.scaled(ratio, "duration").scaled(ratio**2, "jump_height")
     return slower(maneuver, ratio, standing_height)
@@ -260,7 +260,7 @@ def _angle(maneuver: Maneuver, _: float) -> float | None:
 
 
 def _by_angle(maneuver: Maneuver, ratio: float, _: float) -> Maneuver:
-    """Maneuver by so many times the angle; roll and pitch of a tilt keep their proportion."""
+    """Maneuver with `ratio` times the angle; roll and pitch of a tilt keep their proportion."""
     turned = ("angle",) if isinstance(maneuver, Flip) else ("roll", "pitch")
     return maneuver.scaled(ratio, *turned)
 
@@ -303,20 +303,20 @@ _SWEEPS = (
 )
 
 SWEEPS: Mapping[str, Sweep] = MappingProxyType({sweep.name: sweep for sweep in _SWEEPS})
-"""Everything that can be varied, by the word that `--against` takes."""
+"""Everything that can be varied, by the value of `--against`."""
 
 
 def sweep_of(name: str, maneuver: str = "") -> Sweep:
     """The sweep called `name`, of one maneuver alone if that is named.
 
     Raises:
-        UsageError: there is none, or it is not of maneuvers.
+        UsageError: there is none, or it does not vary maneuvers.
     """
     sweep = SWEEPS.get(name)
     if sweep is None:
-        raise UsageError(f"--against {name}: is none of {', '.join(SWEEPS)}")
+        raise UsageError(f"--against {name}: is not one of {', '.join(SWEEPS)}")
     if not maneuver:
         return sweep
     if not isinstance(sweep, ManeuverSweep):
-        raise UsageError(f"--maneuver {maneuver}: the {name} is not that of a maneuver")
+        raise UsageError(f"--maneuver {maneuver}: the {name} is no figure of a maneuver")
     return replace(sweep, maneuver=maneuver)

@@ -114,7 +114,7 @@ def test_a_robot_cannot_stand_on_what_is_above_it():
         ('roll = "120deg"', "below its pivot: 90 deg at most"),
         ('end = "at rest"', "one of level, attitude"),
         ("edge = [1, 0, 1]", "edge: must be level"),
-        ("edge = [0, 0, 0]", "state the edge that it stands on"),
+        ("edge = [0, 0, 0]", "give the edge that it stands on"),
         ('actuation = "spring"', "one of motor, brake"),
     ],
 )

@@ -28,7 +28,7 @@ def stated(text: str) -> Specification:
 @pytest.mark.parametrize("asked", [{}, {"fall": "1m"}, {"flip": "back"}])
 def test_options_that_contradict_each_other_are_refused_as_in_a_file(solo12, asked):
     keys = {f"requirement.{key}": value for key, value in asked.items()}
-    with pytest.raises(SpecificationError, match="does not go together") as caught:
+    with pytest.raises(SpecificationError, match="contradict each other") as caught:
         resolve(specification_from_options({"requirement.gravity": "orbit", **keys}), solo12, SIZE)
     key = next(iter(asked), "maneuvers")
     assert caught.value.problems[0].startswith(f"requirement.{key}: nothing jumps or falls")
@@ -47,8 +47,8 @@ def test_nothing_stated_is_everything_assumed(solo12):
         resolved,
         "the paper's three",
         "Supply: 24 V, at most 1 kW (400 W per kg of robot).",
-        "lightest device of all motors that can be built with",
-        "Gear: none, for how a gear and a motor are held together is not designed.",
+        "gives the lightest device, of all that can be built with",
+        "Gear: none, because gear mountings are not designed.",
         "Incidence: alpha* = atan(Ixx/Iyy) of robot and device (equal-rate).",
         "Material: one of 5 steels.",
         "at least 2.",
@@ -86,7 +86,7 @@ def test_what_is_stated_is_not_assumed(solo12):
     assert "rpm" not in told
     assert "r_max" not in told
     assert "h_min 2, wall_min 2 mm" in told
-    assert "not checked, for no strength of stainless-paper is known" in told
+    assert "not checked, because the strength of stainless-paper is not known" in told
 
 
 def test_the_papers_wheel_needs_the_speed_that_the_example_allows(solo12):
@@ -117,11 +117,11 @@ def test_a_robot_without_legs_is_told_its_height(make_robot):
          "[0, 0.1, 0.1, 0, -0.1, 0.1, -0.1, 0, 0.1, 0.1, 80, 0.1]",
          "y = 80 m is off the robot (0.45 m): did you mean 80mm?"),
         ("[ocs]\nposition = [0, '-50mm', '80mm']", "y > 0"),
-        ("[flywheel]\nr_max = '4mm'", "flywheel: r_max, 4 mm, leaves no room over r_min, "
-         "5 mm (assumed: state it too)"),
-        ("[flywheel]\nh_max = '1mm'", "h_max, 1 mm, is below h_min, 2 mm (assumed: state it too)"),
-        ("[flywheel]\nr_min = '60mm'", "r_max, 50 mm (assumed: state it too), leaves no room"),
-        ("[requirement]\nmaneuvers = 'none'", "nothing is asked for"),
+        ("[flywheel]\nr_max = '4mm'", "flywheel: r_max, 4 mm, leaves no room above r_min, "
+         "5 mm (default: set it too)"),
+        ("[flywheel]\nh_max = '1mm'", "h_max, 1 mm, is below h_min, 2 mm (default: set it too)"),
+        ("[flywheel]\nr_min = '60mm'", "r_max, 50 mm (default: set it too), leaves no room"),
+        ("[requirement]\nmaneuvers = 'none'", "nothing is required"),
         ("[flywheel]\nmaterial = 'stainless'", "flywheel.material: there is no material"),
         ("[[maneuver]]\nkind='drop'\nname='d'\nheight='10cm'\npitch=1",
          "there is no fall. Release it higher."),
@@ -191,7 +191,7 @@ def test_what_asks_nothing_of_the_device_is_told_by_its_name_and_its_keys(solo12
         ("twist", "torque about roll and pitch is 0"),
         ("calm", "torque about roll and pitch is 0"),
     ):
-        told = f"maneuver.{name}: {keys}: this asks nothing of the device"
+        told = f"maneuver.{name}: {keys}, which requires nothing of the device"
         assert told in caught.value.problems
 
 

@@ -99,10 +99,10 @@ def test_one_maneuver_alone(task):
 def test_what_else_moves_is_said(task):
     remarks = " ".join(SWEEPS["time"].remarks(task(ROLLED)))
     assert remarks == (
-        "The time is that of 'drop'. In the same ratio: back-flip. As specified: push."
+        "The time is that of 'drop'. Varied in proportion: back-flip. Not varied: push."
     )
     alone = " ".join(sweep_of("angle", "back-flip").remarks(task(ROLLED)))
-    assert alone == "The angle is that of 'back-flip'. As specified: push, drop."
+    assert alone == "The angle is that of 'back-flip'. Not varied: push, drop."
     assert SWEEPS["radius"].remarks(task()) == ()
 
 
@@ -117,8 +117,8 @@ def test_the_paper_s_three_are_written_out(task):
 @pytest.mark.parametrize(
     ("name", "maneuver", "text", "message"),
     [
-        ("speed", "", "", "--against speed: is none of time, angle"),
-        ("radius", "drop", "", "the radius is not that of a maneuver"),
+        ("speed", "", "", "--against speed: is not one of time, angle"),
+        ("radius", "drop", "", "the radius is no figure of a maneuver"),
         ("time", "somersault", "", "there is no such maneuver"),
         ("time", "disturbance", "", "disturbance has no turn"),
         (
