@@ -1,7 +1,7 @@
-"""Maneuvers as data: what the device must do, and how the proof by simulation starts.
+"""Maneuvers as data: what the device must do, and how its validation by simulation starts.
 
-They are the `[[maneuver]]` tables of a specification. Here is what all have in common, and those of
-the paper: a jump that is disturbed, a shove, a drop and a flip.
+They are the `[[maneuver]]` tables of a specification. This module has their common part and the
+paper's maneuvers: a disturbed jump, a shove, a drop and a flip.
 """
 
 from abc import ABC, abstractmethod
@@ -35,15 +35,15 @@ from ocs_design.robot.mass import MassProperties
 
 @dataclass(frozen=True, eq=False)
 class Slew:
-    """What both wheels together must do to the trunk in a given time, roll and pitch.
+    """What both wheels together must do to the trunk in a given time, about roll and pitch.
 
     Attributes:
-        swept: momentum that must pass through the wheels, over time: inertia times angle of a turn
-            from rest to rest [N m s^2], shape (..., 2).
+        swept: time integral of the momentum that the wheels must take: inertia times angle of a
+            turn from rest to rest [N m s^2], shape (..., 2).
         momentum: that the wheels still hold at the end [N m s], shape (..., 2).
-            Signs count, but for that of all together.
+            Relative signs matter; the overall sign does not.
         duration: in which it must be done [s].
-        begins: speed of all wheels at the start, where they turn as swept and momentum say [rad/s].
+        begins: initial speed of all wheels, in the direction of swept and momentum [rad/s].
     """
 
     swept: FloatArray
@@ -53,12 +53,12 @@ class Slew:
 
 
 class End(StrEnum):
-    """What must hold when a turn ends; about the axes that the wheels reach it ends at rest.
+    """Condition at the end of a turn; about the axes that the wheels reach, it ends at rest.
 
     Attributes:
         LEVEL: the trunk is upright, whatever its heading.
-        ATTITUDE: it has the attitude that is stated, heading included.
-        AT_REST: it turns no more, whatever its attitude.
+        ATTITUDE: it has the specified attitude, heading included.
+        AT_REST: it no longer turns, whatever its attitude.
     """
 
     LEVEL = "level"
@@ -85,20 +85,20 @@ Point: TypeAlias = Annotated[
 Rate: TypeAlias = Annotated[Vector3, Quantities(Dimension.ANGULAR_SPEED, (3,))]
 
 _LONGEST_STRIDE = 5.0
-"""[s]: a giraffe's takes one; a robot is watched for several."""
+"""Longest stride [s]: a giraffe's takes one second; a robot is observed for several strides."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Maneuver(ABC):
-    """One thing that the device must do in the air.
+    """One task of the device.
 
     Attributes:
         name: unique in a specification.
-        gravity: [m/s^2]; 0 in orbit, where only turns and catches are known.
-        incidence: angle that the device is set to by hand [rad]; None: the design's.
+        gravity: [m/s^2]; 0 in orbit, where only turns and catches are possible.
+        incidence: angle to which the modules are turned by hand [rad]; None: the design's.
     """
 
-    name: Annotated[str, Text(), "yours, of each maneuver another"]
+    name: Annotated[str, Text(), "of your choice, different for each maneuver"]
     gravity: Annotated[
         float,
         Quantity(Dimension.ACCELERATION, Sign.NOT_NEGATIVE),
@@ -108,7 +108,7 @@ class Maneuver(ABC):
 
     @property
     def turn(self) -> FloatArray:
-        """Turn about roll and pitch [rad], shape (2,); zero where a push leaves it open."""
+        """Turn about roll and pitch [rad], shape (2,); zero where a push does not prescribe it."""
         return np.zeros(2)
 
     @property
@@ -122,7 +122,7 @@ class Maneuver(ABC):
         return False
 
     def heading(self, inertia: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Momentum over time about the vertical, and what wheels hold of it at the end, (...) each.
+        """Time integral of the momentum about the vertical, and that held at the end, (...) each.
 
         Args:
             inertia: I_zz of the robot with its device, wheels braked [kg m^2], shape (...).
@@ -131,24 +131,24 @@ class Maneuver(ABC):
 
     @property
     def stray(self) -> float:
-        """Tilt at the end for each radian that the trunk has drifted about the other axis [1].
+        """Tilt at the end per radian that the trunk has drifted about the other axis [1].
 
-        The chord of the turn [rad]: a whole one ends where it began (`TiltInertia.within_reach`).
+        The chord of the turn [rad]: a whole turn ends where it began (`TiltInertia.within_reach`).
         """
         return float(2.0 * abs(np.sin(np.hypot(*self.turn) / 2.0)))
 
     def on(self, body: MassProperties) -> Self:
-        """The maneuver of a body, in B, where it depends on which one it is."""
+        """The maneuver for a body, in B, where it depends on the body."""
         del body
         return self
 
     def turned(self, inertia: TiltInertia) -> TiltInertia:
-        """Inertia that is turned, of that about the centre of mass."""
+        """Inertia that is turned, from that about the centre of mass."""
         return inertia
 
     @abstractmethod
     def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
-        """Largest roll and pitch momentum that both wheels take at once, none below zero [N m s].
+        """Largest roll and pitch momentum of both wheels together, as magnitudes [N m s].
 
         Args:
             inertia: of the robot with its device, wheels braked.
@@ -158,7 +158,7 @@ class Maneuver(ABC):
     def least_torque(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
         """Least torque of both wheels together on roll and on pitch [N m], shape (2,).
 
-        Less than that cannot finish a turn in time, whatever the wheel; zero where no time is set
+        A smaller torque cannot finish a turn in time, whatever the wheel; zero without a time limit
         (docs/theory.md, What a motor can do).
 
         Args:
@@ -170,15 +170,15 @@ class Maneuver(ABC):
 
     @abstractmethod
     def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
-        """What a motor must do for it (docs/theory.md, What a motor can do).
+        """Slew that the motors must make for it (docs/theory.md, What a motor can do).
 
         Args:
-            inertia: of the robot with its device, wheels braked, or of many such.
+            inertia: of the robot with its device, wheels braked; or of many of them.
             standing_height: of the trunk over the ground [m].
         """
 
     def scaled(self, factor: float, *names: str) -> Self:
-        """The maneuver with so many times what these fields are, numbers or rows of them."""
+        """The maneuver with these fields, numbers or rows of them, multiplied by `factor`."""
         changes: dict[str, Any] = {}
         for name in names:
             value = getattr(self, name)
@@ -189,11 +189,11 @@ class Maneuver(ABC):
     @property
     @abstractmethod
     def summary(self) -> str:
-        """What happens, for people, with units."""
+        """What happens, in words with units."""
 
 
 class Unforeseen(Maneuver):
-    """A torque on the trunk that nobody knows beforehand.
+    """A torque on the trunk that is not known in advance.
 
     Attributes:
         torque: in B [N m], shape (3,).
@@ -209,15 +209,15 @@ class Unforeseen(Maneuver):
         """Time from the end of the torque until the trunk must be level and at rest again [s]."""
 
     def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
-        """The impulse, which the wheels hold till touchdown (docs/theory.md, Disturbances)."""
+        """The impulse, which the wheels hold until touchdown (docs/theory.md, Disturbances)."""
         del inertia, standing_height
         return np.abs(self._impulse)
 
     def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
         """Stop the trunk, turn it back and hold its momentum, from the end of the torque on.
 
-        A torque on a free trunk has tilted it by half its impulse times its duration over the
-        inertia when it ends.
+        When a torque on a free trunk ends, it has tilted the trunk by half its impulse times its
+        duration over the inertia.
         """
         del standing_height
         momentum, shape = self._impulse, np.shape(inertia.diagonal)
@@ -244,8 +244,8 @@ class Disturbance(Unforeseen):
         duration: of the torque [s].
         velocity_change: of the centre of mass by a force of the same duration, in B [m/s], shape
             (3,); the torque is then the one about the centre of mass.
-        impulse: of that force, where torque and change of velocity are to follow from it (`on`),
-            in B [N s], shape (3,). point: where it hits the trunk, in B [m], shape (3,).
+        impulse: of that force, if torque and change of velocity follow from it (`on`), in B [N s],
+            shape (3,). point: where it hits the trunk, in B [m], shape (3,).
     """
 
     takeoff_velocity: Annotated[
@@ -257,7 +257,7 @@ class Disturbance(Unforeseen):
     velocity_change: Annotated[
         Vector3,
         Quantities(Dimension.SPEED, (3,)),
-        "of the centre of mass, by a force beside the torque",
+        "of the centre of mass, by a force in addition to the torque",
     ] = (0.0, 0.0, 0.0)
     impulse: Annotated[Impulse, "of a force, from which torque and velocity_change follow"] = (
         0.0,
@@ -270,7 +270,7 @@ class Disturbance(Unforeseen):
         """Disturbance of a body: the angular impulse r x p about its centre of mass, and p / m."""
         if not any(self.impulse):
             return self
-        # Without the rounding errors of zeros.
+        # Rounded, so that zeros are exact.
         turned = np.round(np.cross(np.subtract(self.point, body.com), self.impulse), 12) + 0.0
         return replace(
             self,
@@ -290,7 +290,7 @@ class Disturbance(Unforeseen):
 
     @property
     def flight_time(self) -> float:
-        """Time until a rigid robot lands as high as it took off [s].
+        """Time until a rigid robot lands at the height of its take-off [s].
 
         An upward change of velocity w in the middle of the push, at t', shifts the parabola:
         v t - g t^2 / 2 + w (t - t') = 0.
@@ -316,9 +316,9 @@ class Disturbance(Unforeseen):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Shove(Unforeseen):
-    """A torque on the trunk of a robot that stands or trots, to be calmed (paper, section 5).
+    """A torque on the trunk of a standing or trotting robot, to be absorbed (paper, section 5).
 
-    What the legs do about it is not counted: the device is sized to do it alone.
+    The legs are not relied on: the device is sized to absorb it alone.
 
     Attributes:
         torque: on the trunk in B [N m], shape (3,).
@@ -352,30 +352,30 @@ class Shove(Unforeseen):
 
 
 def row_text(values: Iterable[float], factor: float = 1.0) -> str:
-    """Row of numbers for people, each times a factor, as in `(0, 0.2, 0)`."""
+    """Row of numbers for display, each times a factor, as in `(0, 0.2, 0)`."""
     return f"({', '.join(f'{factor * value:.3g}' for value in values)})"
 
 
 def rates_text(rates: Vector3) -> str:
-    """Row of rates [rad/s] for people, as in `(0, 30, 0) deg/s`."""
+    """Row of rates [rad/s] for display, as in `(0, 30, 0) deg/s`."""
     return f"{row_text(np.degrees(rates))} deg/s"
 
 
 def angles_text(**angles: float) -> str:
-    """Angles by name [rad] for people but those that are zero, as in `roll 5 deg and yaw 2 deg`."""
+    """Nonzero angles by name [rad] for display, as in `roll 5 deg and yaw 2 deg`."""
     told = (f"{name} {format_quantity(angle, 'deg')}" for name, angle in angles.items() if angle)
     return " and ".join(told)
 
 
 class Reorientation(Maneuver):
-    """A turn of the trunk from level by an angle that is stated, rest to rest."""
+    """A rest-to-rest turn of the trunk from level by a specified angle."""
 
     @abstractmethod
     def time(self, standing_height: float) -> float:
         """Time that the turn may take [s]."""
 
     def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
-        """Half the time up, half the time down: a peak rate of 2 theta / T."""
+        """Half the time speeding up, half slowing down: a peak rate of 2 theta / T."""
         peak = 2.0 / self.time(standing_height)
         return np.abs(inertia.momentum(self.turn)) * peak
 
@@ -394,18 +394,18 @@ class Drop(Reorientation):
     """A fall from rest with the trunk tilted (paper, section 4, second test).
 
     Attributes:
-        height: of the trunk frame's origin over the ground [m]. roll, pitch: at release [rad].
+        height: of the trunk frame's origin above the ground [m]. roll, pitch: at release [rad].
     """
 
-    height: Annotated[Height, "of the trunk over the ground"]
+    height: Annotated[Height, "of the trunk above the ground"]
     roll: Annotated[Tilt, "at release"] = 0.0
     pitch: Annotated[Tilt, "at release"]
 
     def time(self, standing_height: float) -> float:
-        """Time from release until the feet of the levelled robot meet the ground [s].
+        """Time from release until the feet of the levelled robot touch the ground [s].
 
         Raises:
-            SpecificationError: the robot would stand on the ground already.
+            SpecificationError: the robot would already stand on the ground.
         """
         fall = self.height - standing_height
         if fall <= 0.0:
@@ -418,11 +418,11 @@ class Drop(Reorientation):
 
     @property
     def turn(self) -> FloatArray:
-        """What the trunk is turned about roll and pitch from level [rad], shape (2,).
+        """Turn of the trunk from level about roll and pitch [rad], shape (2,).
 
-        The smallest turn that does it: its way back brings the vertical of the world,
-        (-sin p, cos p sin r, cos p cos r) as seen from a trunk that was pitched by p and then
-        rolled by r, to the trunk's own; the heading is free.
+        The smallest turn that gives this tilt: its inverse brings the vertical of the world,
+        (-sin p, cos p sin r, cos p cos r) as seen from a trunk pitched by p and then rolled by r,
+        to the trunk's own; the heading is free.
         """
         forward, left = np.sin(self.pitch), np.cos(self.pitch) * np.sin(self.roll)
         sine = np.hypot(forward, left)
@@ -437,10 +437,10 @@ class Drop(Reorientation):
 
 
 class TimedTurn(Reorientation):
-    """A turn whose time is stated, in a vertical jump or in orbit.
+    """A turn in a specified time, in a vertical jump or in orbit.
 
     Attributes:
-        jump_height: of the centre of mass over its height at lift-off [m]; 0 in orbit.
+        jump_height: of the centre of mass above its height at lift-off [m]; 0 in orbit.
         duration: from lift-off [s].
     """
 

@@ -1,4 +1,4 @@
-"""Maneuvers about a pivot: to balance on a point or an edge, and to stand up on it."""
+"""Maneuvers about a pivot: balancing on a point or an edge, and standing up on it."""
 
 from dataclasses import dataclass, replace
 from enum import StrEnum
@@ -31,12 +31,12 @@ from ocs_design.robot.mass import MassProperties
 
 
 class Actuation(StrEnum):
-    """What gives a wheel's momentum to a robot that stands up.
+    """How a robot that stands up gets its momentum from the wheels.
 
     Attributes:
-        MOTOR: the motor, from the start.
-        BRAKE: a brake that stops, in an instant, wheels which the motor has spun up slowly before;
-            the motor holds the robot at the top.
+        MOTOR: by the motor, from the start.
+        BRAKE: by a brake that stops, in an instant, wheels that the motor has slowly spun up;
+            the motor then holds the robot at the top.
     """
 
     MOTOR = "motor"
@@ -44,20 +44,20 @@ class Actuation(StrEnum):
 
 
 SPIN_UP = 60.0
-"""Time in which wheels get to the speed that a brake stops them from [s]."""
+"""Time for spinning wheels up to the speed from which a brake stops them [s]."""
 
 
 _INSTANT = 0.02
-"""Share of the momentum of a climb that gravity takes at the most while a brake stops its wheels in
-what counts as an instant."""
+"""Largest share of a climb's momentum that gravity may take while a brake stops its wheels, if that
+is to count as an instant."""
 
 
 class Swing(NamedTuple):
-    """Least torque that takes a pendulum from a tilt and a rate to rest at the top in a time.
+    """Least torque that brings a pendulum from a tilt and a rate to rest at the top in a time.
 
     Attributes:
-        torque: on the way there, and then the other way round [N m].
-        switch: when it changes its sign [s].
+        torque: at first, and then with the opposite sign [N m].
+        switch: time at which the sign changes [s].
     """
 
     torque: float
@@ -77,7 +77,7 @@ def swing(stiffness: float, inertia: float, tilt: float, rate: float, time: floa
 
     Args:
         stiffness: K, weight times lever [N m]. inertia: I about the pivot [kg m^2].
-        tilt: theta at the start [rad]. rate: theta' then [rad/s]. time: T [s].
+        tilt: theta at the start [rad]. rate: theta' at the start [rad/s]. time: T [s].
     """
     quickness = sqrt(stiffness / inertia)
     x, y = tilt + rate / quickness, tilt - rate / quickness
@@ -95,9 +95,9 @@ def swing(stiffness: float, inertia: float, tilt: float, rate: float, time: floa
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Pivoted(Maneuver):
-    """A robot that stands on a point or on an edge and is to be upright and at rest again.
+    """A robot on a point or an edge that must be upright and at rest again.
 
-    Upright is where the centre of mass is above the pivot. All joints of the robot are held.
+    Upright means that the centre of mass is above the pivot. All joints of the robot are locked.
 
     Attributes:
         pivot: in B [m], shape (3,).
@@ -106,36 +106,36 @@ class Pivoted(Maneuver):
             a B that stands upright [rad].
         duration: until it is upright and at rest [s].
         wheel_speed: of all wheels at the start [rad/s].
-        end: see `End`; at rest but not upright is nowhere that a robot can stay.
-        estimate: factor on what closed forms ask for; above 1 where a plan was found to need more.
-        slower: factor on the longest time of the estimate; more of it takes less torque and more
+        end: see `End`; not `at rest`, as a robot that is not upright cannot stay at rest.
+        estimate: factor on the closed-form demand; above 1 where a plan was found to need more.
+        slower: factor on the longest time of the estimate; a larger one needs less torque and more
             momentum (`Pivoted.calmer`).
-        body: that stands, in B; None: not known yet (`on`).
+        body: the robot, in B; None: not known yet (`on`).
     """
 
-    pivot: Annotated[Point, "that it stands on, in the trunk's frame"]
+    pivot: Annotated[Point, "on which it stands, in the trunk's frame"]
     edge: Annotated[
         Vector3,
         Quantities(Dimension.RATIO, (3,)),
-        "direction of the edge that it stands on; zeros: a point",
+        "direction of the edge on which it stands; zeros: a point",
     ] = (0.0, 0.0, 0.0)
     roll: Annotated[Tilt, "at the start, from where it balances"] = 0.0
     pitch: Annotated[Tilt, "at the start"] = 0.0
     duration: Annotated[Time, "until it is upright and at rest"]
     wheel_speed: Annotated[Spin, "of all wheels at the start"] = 0.0
     end: Annotated[
-        str, Choice((End.LEVEL, End.ATTITUDE)), "level, or attitude: with its heading too"
+        str, Choice((End.LEVEL, End.ATTITUDE)), "level, or attitude (heading included)"
     ] = End.LEVEL
     estimate: float = 1.0
     slower: float = 1.0
     body: MassProperties | None = None
 
     def calmer(self) -> Self:
-        """This maneuver by nearly the least torque, for motors that have no more."""
+        """This maneuver with nearly the least torque, for motors that have no more."""
         return replace(self, slower=4.0 / self._longest)
 
     def on(self, body: MassProperties) -> Self:
-        """The maneuver of a body that stands.
+        """The maneuver for a body that stands on the pivot.
 
         Raises:
             SpecificationError: its centre of mass is not above the pivot.
@@ -143,14 +143,14 @@ class Pivoted(Maneuver):
         own = replace(self, body=body)
         if any(self.edge) and not any(self.edge[:2]):
             raise SpecificationError(
-                f"maneuver {self.name!r}: its edge is vertical, and nothing stands up about it",
+                f"maneuver {self.name!r}: its edge is vertical: the robot cannot stand up about it",
                 hint="Write an edge in the level plane, as 'along left' or 'along forward'.",
             )
         height = float(own.lever[2])
         if height <= 0.0:
             raise SpecificationError(
                 f"maneuver {self.name!r}: the pivot is {format_quantity(-height, 'mm')} above the "
-                f"centre of mass, where the robot hangs and does not stand",
+                f"centre of mass, so the robot would hang instead of standing",
                 hint=f"The centre of mass is at z = {format_quantity(body.com[2], 'mm')} in the "
                 f"trunk's frame: put the pivot below it.",
             )
@@ -159,12 +159,12 @@ class Pivoted(Maneuver):
     @property
     def _stands(self) -> MassProperties:
         """The body, once it is known."""
-        assert self.body is not None, "no body stands yet"
+        assert self.body is not None, "the body is not known yet"
         return self.body
 
     @property
     def lever(self) -> FloatArray:
-        """Centre of mass from the pivot in B, across the edge [m], shape (3,)."""
+        """Vector from the pivot to the centre of mass in B, across the edge [m], shape (3,)."""
         lever, axis = self._stands.com - np.array(self.pivot), self.axis
         return np.asarray(lever if axis is None else lever - axis * (axis @ lever))
 
@@ -180,7 +180,7 @@ class Pivoted(Maneuver):
         return self._stands.inertia_about(np.array(self.pivot))
 
     def turned(self, inertia: TiltInertia) -> TiltInertia:
-        """Inertia about the pivot, of that about the centre of mass: parallel axes."""
+        """Inertia about the pivot, from that about the centre of mass: parallel axes."""
         mass, (x, y, z) = self._stands.mass, self._stands.com - np.array(self.pivot)
         further = mass * np.array([y * y + z * z, x * x + z * z])
         return TiltInertia(inertia.diagonal + further, inertia.product - mass * x * y)
@@ -207,7 +207,7 @@ class Pivoted(Maneuver):
 
     @property
     def mobility(self) -> FloatArray:
-        """Rate per momentum about the pivot, in B [1/(kg m^2)], shape (3, 3)."""
+        """Rate per angular momentum about the pivot, in B [1/(kg m^2)], shape (3, 3)."""
         axis = self.axis
         if axis is None:
             return np.asarray(np.linalg.inv(self.inertia))
@@ -215,7 +215,7 @@ class Pivoted(Maneuver):
 
     @property
     def _pendulum(self) -> tuple[FloatArray, float, float, float, float]:
-        """Axis of the tilt, and about it inertia, stiffness, tilt and rate.
+        """Axis of the tilt; inertia, stiffness, tilt and rate about it.
 
         The stiffness K is that of the linear pendulum with the energy of the true one at the tilt:
         `K theta^2 / 2 = m g l (1 - cos theta)`.
@@ -238,7 +238,7 @@ class Pivoted(Maneuver):
         return sqrt(float(np.linalg.norm(self.pull)) / inertia)
 
     def _swing(self) -> tuple[FloatArray, Swing]:
-        """Axis about which the wheels speed up first, on roll and pitch, and how."""
+        """Axis about which the wheels first speed up, its roll and pitch parts, and the swing."""
         axis, inertia, stiffness, tilt, rate = self._pendulum
         axis = np.copysign(1.0, tilt + rate * sqrt(inertia / stiffness)) * axis
         longest = self.slower * self._longest / sqrt(stiffness / inertia)
@@ -247,16 +247,16 @@ class Pivoted(Maneuver):
         return axis[:2], Swing(self.estimate * found.torque, found.switch)
 
     _longest: ClassVar[float] = 3.0
-    """Time that the wheels are estimated with at most, over that in which a tilt grows e-fold."""
+    """Longest time used in the estimate, over the e-folding time of a tilt."""
 
     def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
-        """What the wheels hold where the torque changes its sign."""
+        """Momentum of the wheels when the torque changes its sign."""
         del inertia, standing_height
         axis, found = self._swing()
         return np.abs(axis) * found.torque * found.switch
 
     def least_torque(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
-        """Least torque that does it in the time, of the linear pendulum [N m], shape (2,)."""
+        """Least torque that does it in time, for the linear pendulum [N m], shape (2,)."""
         del inertia, standing_height
         axis, found = self._swing()
         return np.abs(axis) * found.torque
@@ -264,7 +264,7 @@ class Pivoted(Maneuver):
     def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
         """A turn from rest to rest without gravity, with the same torque and largest momentum.
 
-        A torque tau up and down again in T_1 each turns an inertia by tau T_1^2 over it.
+        A torque tau, and then -tau, for T_1 each turns an inertia I by tau T_1^2 / I.
         """
         del standing_height
         axis, found = self._swing()
@@ -274,7 +274,7 @@ class Pivoted(Maneuver):
 
     @property
     def _place(self) -> str:
-        """Pivot and tilt, for people."""
+        """Pivot and tilt, in words."""
         point = row_text(self.pivot, 1e3)
         on = f"stands on a point at {point} mm"
         if self.axis is not None:
@@ -290,11 +290,11 @@ _STRAIGHT = 1e-6
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Balance(Pivoted):
-    """A tilt, a rate or an impulse that nobody knows beforehand, and that feedback alone undoes.
+    """A tilt, a rate or an impulse, not known in advance, that feedback alone corrects.
 
     Attributes:
         rate: at the start, in B [rad/s], shape (3,).
-        impulse: of a force right then, in B [N s], shape (3,). point: where it hits, in B [m].
+        impulse: of a force at that time, in B [N s], shape (3,). point: where it hits, in B [m].
     """
 
     rate: Annotated[Rate, "of the trunk at the start, about its x, y and z"] = (0.0, 0.0, 0.0)
@@ -305,12 +305,12 @@ class Balance(Pivoted):
 
     @property
     def struck(self) -> FloatArray:
-        """The rate that is stated and that of the impulse, in B [rad/s], shape (3,)."""
+        """The specified rate plus that of the impulse, in B [rad/s], shape (3,)."""
         turned = np.cross(np.subtract(self.point, self.pivot), self.impulse)
         return np.asarray(np.array(self.rate) + self.mobility @ turned)
 
     def times(self, factor: float) -> Self:
-        """The maneuver with so many times the tilt, the rate and the impulse."""
+        """The maneuver with tilt, rate and impulse multiplied by `factor`."""
         return self.scaled(factor, "roll", "pitch", "rate", "impulse")
 
     @property
@@ -337,7 +337,7 @@ class Balance(Pivoted):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class StandUp(Pivoted):
-    """A climb from a tilt at rest to upright, as planned.
+    """A planned climb from rest in a tilt to upright.
 
     Attributes:
         actuation: see `Actuation`.
@@ -346,7 +346,7 @@ class StandUp(Pivoted):
     actuation: Annotated[
         str,
         Choice(tuple(Actuation)),
-        "motor, or brake: wheels spun up before are stopped in an instant",
+        "motor, or brake: wheels spun up beforehand are stopped in an instant",
     ] = Actuation.MOTOR
 
     @property
@@ -367,32 +367,32 @@ class StandUp(Pivoted):
 
     @property
     def begun(self) -> FloatArray:
-        """Rate right after the brake, which leaves the momentum as it is; zero without one."""
+        """Rate right after braking, which conserves the momentum; zero without a brake."""
         return np.asarray(self.mobility @ self._climb) if self.braked else np.zeros(3)
 
     @property
     def stop(self) -> float:
         """Time in which a brake stops the wheels [s].
 
-        Gravity takes m g l t sin theta of sqrt(m g l I) theta: kappa t of it, with `quickness`.
-        The Cubli's wheels (`_climb`) stop in 2.1 ms by that.
+        Meanwhile gravity takes m g l t sin theta of the momentum sqrt(m g l I) theta, about kappa t
+        of it, where kappa is `quickness`. For the Cubli's wheels (`_climb`) this gives 2.1 ms.
         """
         return _INSTANT / self.quickness
 
     def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
-        """What the wheels hold before the brake, or where the torque changes its sign."""
+        """Momentum of the wheels before braking, or when the torque changes its sign."""
         if self.braked:
             return self.estimate * np.abs(self._climb[:2])
         return super().momentum(inertia, standing_height)
 
     def least_torque(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
-        """Least torque of the motor [N m], shape (2,): none where a brake does it."""
+        """Least torque of the motor [N m], shape (2,); zero with a brake."""
         if self.braked:
             return np.zeros(2)
         return super().least_torque(inertia, standing_height)
 
     def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
-        """Slew that the wheels make; before a brake stops them, the slow one up to their speed."""
+        """Slew of the wheels; with a brake, the slow spin-up to their speed before it."""
         if not self.braked:
             return super().slew(inertia, standing_height)
         shape = np.shape(inertia.diagonal)
@@ -401,6 +401,6 @@ class StandUp(Pivoted):
 
     @property
     def summary(self) -> str:
-        """Pivot, tilt, time and what drives it."""
+        """Pivot, tilt, time and actuation."""
         by = ", by braking its wheels in an instant" if self.braked else ""
         return f"{self._place}; stands up in {self.duration:.3g} s{by}"

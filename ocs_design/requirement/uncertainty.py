@@ -1,8 +1,8 @@
-"""The section `[reality]`: how what is built and met differs from what was designed, key by key.
+"""The section `[reality]`: how robot and surroundings differ from the design, key by key.
 
-Drawn by the inverse of its distribution function from one number between 0 and 1: then another
-distribution of one quantity leaves what is drawn of the others as it was. What holds where nothing
-is stated, and what it rests on, is data: `reality.toml`.
+Each quantity is sampled by the inverse of its distribution function, from one number between 0 and
+1: another distribution of one quantity then leaves the samples of all others unchanged. The
+defaults and their sources are data: `reality.toml`.
 """
 
 import math
@@ -25,7 +25,7 @@ from ocs_design.requirement.keys import Faults, keyed, keys_of
 from ocs_design.requirement.values import Quantity, Text
 
 CUT = 3.0
-"""Standard deviations at which a normal distribution ends: no part is off by ten."""
+"""Standard deviations at which a normal distribution is cut off: no part is off by ten."""
 
 _STANDARD = NormalDist()
 _TAIL = _STANDARD.cdf(-CUT)
@@ -37,10 +37,10 @@ class Distribution(ABC):
 
     @abstractmethod
     def at(self, part: float) -> float:
-        """The value that a `part` of all, 0..1, lie below."""
+        """Value below which a `part` of all samples, 0..1, lie."""
 
     def times(self, factor: float) -> Self:
-        """The distribution of `factor` > 0 times the quantity."""
+        """Distribution of the quantity times `factor` > 0."""
         return replace(self, **{name: factor * value for name, value in vars(self).items()})
 
     def written(self, quantity: Callable[[float], str] = repr) -> str:
@@ -93,12 +93,12 @@ _FORM = re.compile(r"\s*(normal|uniform)\s*\(([^,()]*),([^,()]*)\)\s*")
 
 @dataclass(frozen=True)
 class Spread:
-    """A quantity, or how it is spread.
+    """A quantity, or its distribution.
 
     Attributes:
         dimension: what it measures.
-        unit: that people think in.
-        least, most: that it can be at all (SI).
+        unit: for display.
+        least, most: limits of what is possible (SI).
     """
 
     dimension: Dimension
@@ -109,7 +109,7 @@ class Spread:
     @property
     def takes(self) -> str:
         """What may be written, in words (`Value.takes`)."""
-        return f"{Quantity(self.dimension).takes}; or how it is spread"
+        return f"{Quantity(self.dimension).takes}; or a distribution"
 
     def read(self, raw: object, where: str) -> Distribution:
         """Value that `raw` stands for (`Value.read`)."""
@@ -123,10 +123,10 @@ class Spread:
             if isinstance(found, Normal) and found.deviation < 0.0:
                 raise QuantityError(f"{where}: {raw}: the deviation must be zero or positive")
             if isinstance(found, Uniform) and found.high < found.low:
-                raise QuantityError(f"{where}: {raw}: the low end comes first")
+                raise QuantityError(f"{where}: {raw}: the lower end comes first")
         elif isinstance(raw, str) and "(" in raw:
             raise QuantityError(
-                f"{where}: {raw!r} is no distribution",
+                f"{where}: {raw!r} is not a distribution",
                 hint="Write normal(MEAN, DEVIATION), uniform(LOW, HIGH) or one quantity.",
             )
         else:
@@ -139,16 +139,16 @@ class Spread:
                 reached, bound = (format_quantity(value, self.unit) for value in (end, limit))
                 raise QuantityError(
                     f"{where}: {raw} reaches {reached}, beyond {bound}",
-                    hint="Make it narrower; a normal distribution ends at three deviations.",
+                    hint="Make it narrower; a normal distribution is cut off at three deviations.",
                 )
         return found
 
 
 _MOST_OFF = 0.9
-"""Largest relative error that leaves anything of a mass or a motor."""
+"""Largest relative error; a larger one could leave nothing of a mass or a motor."""
 
 _MOST_ASKEW = pi / 4
-"""[rad], of a mount or a sensor; more is a number in degrees without its unit."""
+"""Largest misalignment of a mount or a sensor [rad]; more was meant in degrees."""
 
 _RELATIVE = Spread(Dimension.RATIO, "%", -_MOST_OFF, _MOST_OFF)
 _ANGLE = Spread(Dimension.ANGLE, "deg", -_MOST_ASKEW, _MOST_ASKEW)
@@ -159,7 +159,7 @@ _RATE_SPREAD = Spread(Dimension.ANGULAR_SPEED, "deg/s", 0.0)
 
 @dataclass(frozen=True, kw_only=True)
 class UncertaintySection:
-    """`[reality]`: distributions that `validate --samples` draws from; None: the default."""
+    """`[reality]`: distributions that `validate --samples` samples from; None: the default."""
 
     file: str | None = keyed(
         Text(),
@@ -171,92 +171,92 @@ class UncertaintySection:
     )
     mass_error: Distribution | None = keyed(
         _RELATIVE,
-        "relative, of all of the robot's masses alike",
-        why="After weighing the robot: the balance's error.",
+        "relative error of all of the robot's masses, the same for each",
+        why="If you weighed the robot: the error of the scales.",
     )
     inertia_error: Distribution | None = keyed(
         _RELATIVE,
-        "relative, of the trunk's second moments of mass along x, y and z",
-        why="From CAD 5 % is common, from a pendulum 1 %.",
+        "relative error of the trunk's second moments of mass along x, y and z",
+        why="Typically 5 % from CAD, 1 % from a pendulum test.",
     )
     com_error: Distribution | None = keyed(
         Spread(Dimension.LENGTH, "mm"),
-        "of the trunk's centre of mass along x, y and z",
+        "error of the trunk's centre of mass along x, y and z",
         why="Batteries and cables are seldom where CAD has them.",
     )
     incidence_error: Distribution | None = keyed(
         _ANGLE,
-        "of each wheel's incidence angle",
+        "error of each wheel's incidence angle",
         why="Play and tolerance of the mounts.",
     )
     torque_constant_error: Distribution | None = keyed(
         _RELATIVE,
-        "relative, of each motor's torque constant",
+        "relative error of each motor's torque constant",
         why="Makers state 5 to 10 % at most.",
     )
     resistance_error: Distribution | None = keyed(
         _RELATIVE,
-        "relative, of each motor's resistance",
-        why="A warm winding has 0.4 % more for each degree.",
+        "relative error of each motor's resistance",
+        why="It rises by 0.4 % for each degree of the winding.",
     )
     bus_voltage_error: Distribution | None = keyed(
         _RELATIVE,
-        "relative, of the supply's voltage",
-        why="From a full battery to one that is to be charged.",
+        "relative error of the supply voltage",
+        why="From a full battery to one that needs charging.",
     )
     coulomb_friction: Distribution | None = keyed(
         Spread(Dimension.TORQUE, "mN m", 0.0),
-        "of each wheel at any speed",
+        "friction torque of each wheel at any speed",
         why="Measure it: run the wheel down.",
         default="half of the motor's no-load torque",
         example='"5 mN m"',
     )
     viscous_friction: Distribution | None = keyed(
         Spread(Dimension.DAMPING, "uN m s/rad", 0.0),
-        "of each wheel, over its speed",
-        why="The same at speed.",
-        default="the other half at the speed it is stated for",
+        "friction torque of each wheel over its speed",
+        why="Measure it in the same run, at speed.",
+        default="the other half of the no-load torque, at no-load speed",
         example='"3 uN m s/rad"',
     )
     air_drag: Distribution | None = keyed(
         Spread(Dimension.RATIO, "%", 0.0),
-        "of the wheels, over what the formulas say",
+        "air drag of the wheels, relative to the formulas",
         why="0: a vacuum, as on the Moon.",
     )
     torque_delay: Distribution | None = keyed(
         Spread(Dimension.TIME, "ms", 0.0, 0.1),
-        "from measurement to torque, whole milliseconds",
+        "delay from measurement to torque, whole milliseconds",
         why="Bus, filters and the motor's own controller.",
     )
     attitude_noise: Distribution | None = keyed(
         _ANGLE_SPREAD,
         "standard deviation of each measurement of attitude",
-        why="The data sheet of your inertial sensor has it.",
+        why="See the data sheet of your inertial sensor.",
     )
     attitude_bias: Distribution | None = keyed(
         _ANGLE,
         "constant error of measured roll and pitch",
-        why="Most of what a flight is off level by.",
+        why="The main cause of landings off level.",
     )
     gyro_noise: Distribution | None = keyed(
         _RATE_SPREAD,
         "standard deviation of each measured rate",
-        why="Noise density times the root of the bandwidth.",
+        why="Noise density times the square root of the bandwidth.",
     )
     gyro_bias: Distribution | None = keyed(
         _RATE,
         "constant error of the measured rates about x, y and z",
-        why="What is left after it was calibrated.",
+        why="The residual after calibration.",
     )
     contact_friction: Distribution | None = keyed(
         Spread(Dimension.RATIO, "%", 0.01),
-        "coefficient between feet and floor",
+        "friction coefficient between feet and floor",
         why="Of your feet on your floor.",
     )
     takeoff_rate: Distribution | None = keyed(
         _RATE,
-        "that a push-off leaves about roll and pitch beyond what it was planned to",
-        why="Film jumps without the device; 0: legs as planned.",
+        "rates about roll and pitch after a push-off, beyond the planned ones",
+        why="Film jumps without the device to measure it; 0: legs as planned.",
     )
 
 
@@ -284,7 +284,7 @@ _OF_EACH_WHEEL = frozenset(
 
 
 def parts_of(key: str, wheels: Sequence[str]) -> tuple[str, ...]:
-    """What a key is drawn for, each by itself; `("",)` where it is drawn once.
+    """Components for which a key is sampled independently; `("",)` where it is sampled once.
 
     Args:
         key: of `[reality]`. wheels: names of the device's modules.
@@ -293,14 +293,14 @@ def parts_of(key: str, wheels: Sequence[str]) -> tuple[str, ...]:
 
 
 DEFAULTS = Path(__file__).with_name("reality.toml")
-"""What holds where nothing is stated."""
+"""File of the default distributions."""
 
 _FILE = TextKind(
     "file of distributions", 1 << 16, 1000, "check --reality", 'mass_error = "normal(0, 2%)"'
 )
 
 FRICTION_SHARE = 0.01
-"""No-load torque over the torque limit of a motor whose maker does not state its current."""
+"""No-load torque over torque limit of a motor without a published no-load current."""
 
 
 @dataclass(frozen=True)
@@ -308,8 +308,8 @@ class Entry:
     """One distribution of a file.
 
     Attributes:
-        value: the distribution, of a share where `of` says what it is a share of.
-        of: one of `_SCALES`, or empty. source: what it rests on.
+        value: the distribution, relative to `of` unless that is empty.
+        of: one of `_SCALES`, or empty. source: of the value.
     """
 
     value: Distribution
@@ -324,7 +324,7 @@ class Entry:
 
 
 def entries(file: Path = DEFAULTS) -> Mapping[str, Entry]:
-    """Every key's entry: of `file`, and of the package's own where that has none.
+    """Entry of every key: from `file`, or from the package's own where that has none.
 
     Raises:
         SpecificationError: the file cannot be read, or has faults, all of which are listed.
@@ -336,18 +336,18 @@ def entries(file: Path = DEFAULTS) -> Mapping[str, Entry]:
         plain = file.is_file()
     except OSError:
         plain = False
-    # A file may be edited between two calls, and a pipe can be read but once.
+    # A file may be edited between two calls, but a pipe can be read only once.
     return MappingProxyType({**own, **(_read_entries(file) if plain else _entries_once(file))})
 
 
 @cache
 def _entries_once(file: Path) -> Mapping[str, Entry]:
-    """Entries of a file that is read on the first call alone."""
+    """Entries of a file, which is read on the first call only."""
     return _read_entries(file)
 
 
 def _read_entries(file: Path) -> Mapping[str, Entry]:
-    """Entries that a file states, by key; see `entries`."""
+    """Entries in a file, by key; see `entries`."""
     content = _FILE.parse_toml(_FILE.read(file), str(file))
     faults, found = Faults(), {}
     for name in sorted(content.keys() - {"reality"}):
@@ -380,7 +380,7 @@ _SCALES = ("standing height", "pendulum rate", "no-load torque", "no-load fricti
 
 
 def no_load_torque(motor: Drive) -> float:
-    """Torque that a motor takes to turn freely, at its wheel [N m]; 0 where it is not known."""
+    """Torque that a motor needs to turn freely, at its wheel [N m]; 0 if not known."""
     if motor.no_load_current is not None and motor.torque_constant is not None:
         return motor.gear_ratio * motor.torque_constant * motor.no_load_current
     return FRICTION_SHARE * (motor.torque_limit or 0.0)
@@ -389,15 +389,15 @@ def no_load_torque(motor: Drive) -> float:
 def default_uncertainty(
     standing_height: float, motor: Drive | None = None, file: str | None = None
 ) -> UncertaintySection:
-    """Distributions that hold where nothing is stated.
+    """Distributions that apply by default.
 
     Args:
         standing_height: of the robot [m].
-        motor: that turns the wheels; None: its friction is left open.
-        file: in place of the package's own; None: that.
+        motor: that turns the wheels; None: their friction is left open.
+        file: in place of the package's own; None: the package's own.
 
     Raises:
-        SpecificationError: see `entries`; or a distribution goes beyond what there can be.
+        SpecificationError: see `entries`; or a distribution exceeds its limits.
     """
     scales = {
         "standing height": standing_height,
@@ -425,10 +425,10 @@ def default_uncertainty(
 def complete_uncertainty(
     stated: UncertaintySection, standing_height: float, motor: Drive
 ) -> UncertaintySection:
-    """Distributions that are stated, and in place of the rest those of its file or of the package.
+    """Specified distributions, and for the rest those of their file or of the package.
 
     Args:
-        stated: by a user. standing_height: of the robot [m]. motor: that turns the wheels.
+        stated: by the user. standing_height: of the robot [m]. motor: that turns the wheels.
 
     Raises:
         SpecificationError: see `default_uncertainty`.
@@ -440,26 +440,26 @@ def complete_uncertainty(
 
 
 def uncertainty_texts(section: UncertaintySection) -> Mapping[str, str]:
-    """Every distribution that is stated, by key, as `design.json` keeps it: SI, to the last bit."""
+    """Specified distributions by key, as in `design.json`: SI, with full precision."""
     stated = {name: getattr(section, name) for name in spreads()}
     return {name: spread.written() for name, spread in stated.items() if spread is not None}
 
 
 def uncertainty_of_texts(texts: Mapping[str, str], where: str) -> UncertaintySection:
-    """The section that texts say; `where` says whose they are.
+    """The section of these texts; messages call their source `where`.
 
     Raises:
-        OcsError: one is no distribution, or of no key.
+        OcsError: one is not a distribution, or its key is unknown.
     """
     faults = Faults()
     read = faults.fields(texts, spreads(), f"{where}: reality")
     if faults:
-        raise SpecificationError(f"{where} states what cannot be read:", problems=faults)
+        raise SpecificationError(f"{where} has distributions that cannot be read:", problems=faults)
     return UncertaintySection(**read)
 
 
 @cache
 def spreads() -> Mapping[str, Spread]:
-    """How each distribution is read, by its key."""
+    """Parser of each distribution, by key."""
     how = {name: key.value for name, key in keys_of(UncertaintySection).items()}
     return {name: value for name, value in how.items() if isinstance(value, Spread)}

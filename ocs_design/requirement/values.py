@@ -1,6 +1,6 @@
-"""How one value of the specification is read, its key, and what is wrong with it.
+"""Parsers of the specification's values, and messages on what is wrong with a value.
 
-One class per kind of value; each reads or raises an `OcsError` that names the place.
+One class per kind of value; each parses it or raises an `OcsError` that names the key.
 """
 
 import math
@@ -29,14 +29,14 @@ T_co = TypeVar("T_co", covariant=True)
 Vector3: TypeAlias = tuple[float, float, float]
 
 ONE_TURN = 6.3
-"""[rad], to two digits: a larger bare number was meant in degrees."""
+"""One turn [rad], to two digits: a larger bare number was meant in degrees."""
 
 SMALLEST = 1e-15
-"""In SI, of what must be positive; less is a slip, and its powers would vanish."""
+"""Least positive quantity (SI); a smaller one is a slip, and its powers would underflow."""
 
 
 class Sign(Enum):
-    """Which numbers make sense; the value completes 'must be ...'."""
+    """Allowed sign of a number; the value completes 'must be ...'."""
 
     ANY = "a number"
     NOT_NEGATIVE = "zero or positive"
@@ -50,7 +50,7 @@ class Sign(Enum):
 
 
 class Value(Protocol[T_co]):
-    """How a value of a specification is read."""
+    """Parser of a value of a specification."""
 
     @property
     def takes(self) -> str:
@@ -64,33 +64,33 @@ class Value(Protocol[T_co]):
             where: key or option, for the message.
 
         Raises:
-            OcsError: `raw` is nothing of this kind.
+            OcsError: `raw` is not of this kind.
         """
 
 
 @dataclass(frozen=True)
 class Form(Generic[T]):
-    """A `Value` of which nothing but its reader has to be known."""
+    """A `Value` made from a function that parses it."""
 
     takes: str
     read: Callable[[object, str], T]
 
 
 def form(takes: str) -> Callable[[Callable[[object, str], T]], Form[T]]:
-    """Decorator of a reader that makes it a `Form`; `takes` says what may be written."""
+    """Decorator that makes a parsing function a `Form`; `takes` says what may be written."""
     return lambda read: Form(takes, read)
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number with or without its unit, in SI once read.
+    """A number with or without its unit, parsed to SI.
 
     Attributes:
         dimension: what it measures.
-        sign: which numbers make sense.
-        most: largest that makes sense, of either sign (SI).
-        most_bare: largest that is believed without its unit, likewise.
-        likely: unit that a larger bare number was probably meant in.
+        sign: allowed sign.
+        most: largest magnitude allowed (SI).
+        most_bare: largest magnitude accepted without a unit (SI).
+        likely: unit in which a larger bare number was probably meant.
     """
 
     dimension: Dimension
@@ -110,9 +110,9 @@ class Quantity:
         if not self.sign.allows(number):
             raise QuantityError(f"{where}: {raw} must be {self.sign.value}")
         if 0.0 < number < SMALLEST:
-            raise QuantityError(f"{where}: {raw} is next to nothing", hint="Check its unit.")
+            raise QuantityError(f"{where}: {raw} is practically zero", hint="Check its unit.")
         if abs(number) > self.most:
-            # In the unit that it was written in; a bare number's is named.
+            # In the unit that it was written in; for a bare number, the unit is named.
             unit = written_unit(raw) or si_unit(self.dimension)
             limit = format_quantity(math.copysign(self.most, number), unit)
             given = raw if written_unit(raw) else f"{raw} {unit}"
@@ -126,14 +126,14 @@ class Quantity:
         return number
 
     def _hint(self, raw: object) -> str:
-        """The cure where a bare number was meant in another unit."""
+        """Suggestion where a bare number was probably meant in another unit."""
         bare = not written_unit(raw)
         return f"Did you mean {raw}{self.likely}?" if bare and self.likely else ""
 
 
 @dataclass(frozen=True)
 class NamedQuantity(Quantity):
-    """A quantity, or a word that stands for one, in capitals or not.
+    """A quantity, or a word that stands for one, in any case.
 
     Attributes:
         words: value of each word [SI].
@@ -158,12 +158,12 @@ class NamedQuantity(Quantity):
 
 
 def angle(sign: Sign, most: float, most_bare: float = math.inf) -> Quantity:
-    """An angle of at most that size [rad], which is soon given in degrees without saying so."""
+    """An angle of at most this magnitude [rad]; bare numbers are often meant in degrees."""
     return Quantity(Dimension.ANGLE, sign, most, most_bare, "deg")
 
 
 _DECIMAL_COMMA = re.compile(r",0[0-9]")
-"""Nobody begins a number with a zero and a digit, unless they are its decimals."""
+"""A decimal comma: nobody starts a number with a zero and a digit, unless they are decimals."""
 
 
 @dataclass(frozen=True)
@@ -172,7 +172,7 @@ class Quantities:
 
     Attributes:
         dimension: of each.
-        counts: how many there may be.
+        counts: numbers of entries allowed.
     """
 
     dimension: Dimension
@@ -197,7 +197,7 @@ class Quantities:
         entries = raw.split(",") if isinstance(raw, str) else raw
         if isinstance(raw, str) and _DECIMAL_COMMA.search(raw):
             raise QuantityError(
-                f"{where}: in {raw} commas stand between values",
+                f"{where}: commas separate values in {raw}",
                 hint="Write decimals with a point, as in 0.03,0.05,0.07.",
             )
         if not isinstance(entries, (list, tuple)) or len(entries) not in self.counts:
@@ -211,7 +211,7 @@ class Quantities:
 
 @dataclass(frozen=True)
 class Several:
-    """One value, or a list of such.
+    """One value, or a list of them.
 
     Attributes:
         each: how one is read.
@@ -222,10 +222,10 @@ class Several:
     @property
     def takes(self) -> str:
         """What may be written, in words (`Value.takes`)."""
-        return f"{self.each.takes}; or a list of such"
+        return f"{self.each.takes}; or a list of these"
 
     def read(self, raw: object, where: str) -> tuple[Any, ...]:
-        """Value that `raw` stands for (`Value.read`); each once."""
+        """Value that `raw` stands for (`Value.read`), without duplicates."""
         entries = raw if isinstance(raw, list) else [raw]
         return tuple(dict.fromkeys(self.each.read(entry, where) for entry in entries))
 
@@ -238,13 +238,13 @@ def positive_number(raw: object, where: str) -> float:
 
 @form("number from 0.5 to below 1, or 50% to below 100%")
 def chance(raw: object, where: str) -> float:
-    """A share of all flights, from an even chance to all but certain: 0.99 or 99%."""
+    """A reliability from 0.5 to below 1, written as 0.99 or 99%."""
     share = parse_quantity(raw, Dimension.RATIO, where)
     if not 0.5 <= share < 1.0:
         meant = f"Did you mean {raw}%? " if 50.0 <= share < 100.0 else ""
         raise QuantityError(
             f"{where}: {raw} must be at least 0.5 and below 1",
-            hint=f"{meant}0.5 is the design for a robot just as its file says; nothing is certain.",
+            hint=f"{meant}0.5 sizes for a robot exactly as in its file; nothing is certain.",
         )
     return share
 
@@ -259,7 +259,7 @@ def whole_number(raw: object, where: str) -> int:
 
 
 def _as_written(raw: str, words: Sequence[str]) -> str:
-    """The word that this is, whatever its capitals; empty if it is none."""
+    """The word that `raw` is, in any case; empty if it is none."""
     return next((word for word in words if word.casefold() == raw.strip().casefold()), "")
 
 
@@ -268,7 +268,7 @@ class Text:
     """Any text but an empty one.
 
     Attributes:
-        words: that stand for something else than a name, taken with any capitals.
+        words: with a special meaning, accepted in any case.
     """
 
     words: tuple[str, ...] = ()
@@ -277,16 +277,16 @@ class Text:
 
     def read(self, raw: object, where: str) -> str:
         """Value that `raw` stands for (`Value.read`)."""
-        # A zero character ends a path for the operating system.
+        # A null character ends a path for the operating system.
         if not isinstance(raw, str) or not raw.strip() or "\0" in raw:
             what = "is empty" if raw == "" else f"{shortened(raw)} is not a text in quotes"
             raise SpecificationError(f"{where}: {what}")
         return _as_written(raw, self.words) or raw
 
 
-@form("name, or several with commas between them")
+@form("name, or several separated by commas")
 def several_names(raw: object, where: str) -> str:
-    """One name, or several: a list, or one text with commas between them. Twice is once."""
+    """One name, or several: a list, or one text separated by commas; duplicates are dropped."""
     texts = [
         Text(("auto", "none")).read(each, where)
         for each in (raw if isinstance(raw, list) else [raw])
@@ -296,25 +296,25 @@ def several_names(raw: object, where: str) -> str:
 
 
 NAME_SEPARATOR = ", "
-"""Text between names that `several_names` has read."""
+"""Separator of the names in a result of `several_names`."""
 
 
 def names_in(text: str) -> tuple[str, ...]:
-    """Names of a text that `several_names` has read."""
+    """Names in a result of `several_names`."""
     return tuple(name.strip() for name in text.split(",") if name.strip())
 
 
 @form("names, or none")
 def link_names(raw: object, where: str) -> tuple[str, ...]:
-    """Some names: a TOML array, or text with commas; the word `none` stands for no name."""
+    """Names: a TOML array, or text with commas; the word `none` means no names."""
     if raw == "none":
         return ()
     entries = raw.split(",") if isinstance(raw, str) else raw
     if not isinstance(entries, (list, tuple)):
-        raise SpecificationError(f"{where}: {shortened(raw)} is no list of names")
+        raise SpecificationError(f"{where}: {shortened(raw)} is not a list of names")
     names = tuple(Text().read(entry, where).strip() for entry in entries)
     if len(set(names)) < len(names):
-        raise SpecificationError(f"{where}: {shortened(raw)} has a name twice")
+        raise SpecificationError(f"{where}: {shortened(raw)} contains a name twice")
     return names
 
 
@@ -334,17 +334,17 @@ class Choice:
         if isinstance(raw, str) and (word := _as_written(raw, self.words)):
             return word
         raise SpecificationError(
-            f"{where}: {shortened(raw)} is none of {', '.join(self.words)}",
+            f"{where}: {shortened(raw)} is not one of {', '.join(self.words)}",
             hint=did_you_mean(raw, self.words),
         )
 
 
 @dataclass(frozen=True)
 class WordOr:
-    """One of a few words, taken with any capitals, or a quantity.
+    """One of a few words, in any case, or a quantity.
 
     Attributes:
-        words: that stand for something else. quantity: what else may be written.
+        words: with a special meaning. quantity: parser of anything else.
     """
 
     words: tuple[str, ...]
@@ -393,7 +393,7 @@ class JointValue(float):
 
 @form("table of joint = angle or length")
 def joint_values(raw: object, where: str) -> Mapping[str, JointValue]:
-    """Values of joints by name: angles, or lengths where a unit of length says so.
+    """Values of joints by name: angles, or lengths if given with a unit of length.
 
     A table, or texts `NAME=VALUE` from the command line.
     """
@@ -434,32 +434,32 @@ _BARE_JOINT = angle(Sign.ANY, math.inf, ONE_TURN)
 
 
 def did_you_mean(word: object, known: tuple[str, ...]) -> str:
-    """A question that offers the closest of `known`; empty if none is close."""
+    """Question that suggests the closest of `known`; empty if none is close."""
     folded = {each.casefold(): each for each in known}
     close = get_close_matches(word.casefold(), folded, n=1) if isinstance(word, str) else ()
     return f"Did you mean {folded[close[0]]!r}?" if close else ""
 
 
 FASTEST_BARE = 4000.0
-"""[rad/s], 38,000 rpm: a larger wheel speed without a unit was meant in rpm."""
+"""Largest wheel speed accepted without a unit [rad/s], 38,000 rpm: more was meant in rpm."""
 
 FASTEST_TURN = 4.0 * pi
-"""[rad/s], two turns a second: a larger rate without a unit was meant in degrees."""
+"""Largest rate accepted without a unit [rad/s], two turns a second: more was meant in degrees."""
 
 MOST_BARE_TORQUE = 100.0
-"""[N m]: a larger torque of a wheel without a unit was meant in millinewton metres."""
+"""Largest wheel torque accepted without a unit [N m]: more was meant in mN m."""
 
 HIGHEST_VOLTAGE = 1000.0
-"""[V], beyond any robot's supply."""
+"""Highest supply voltage accepted [V], beyond any robot's."""
 
 MOST_TURNS = 10
-"""Most turns of a flip; no animal and no machine comes near."""
+"""Most turns of a flip; no animal or machine comes near."""
 
 LENGTH, MASS = Quantity(Dimension.LENGTH), Quantity(Dimension.MASS)
 TIME = Quantity(Dimension.TIME)
 
 HEIGHT = Quantity(Dimension.LENGTH, most_bare=20.0, likely="mm")
-"""Height of a jump or a fall: from higher than a house nothing with legs lands."""
+"""Height of a jump or a fall: nothing with legs lands from higher than a house."""
 
 WHEEL_SPEED = Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_BARE, likely="rpm")
 TRUNK_RATE = Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_TURN, likely="deg/s")
@@ -470,7 +470,7 @@ INCIDENCE = angle(Sign.NOT_NEGATIVE, pi / 2)
 TURN = angle(Sign.ANY, MOST_TURNS * 2.0 * pi, ONE_TURN)
 
 TILT = angle(Sign.ANY, pi, pi / 2)
-"""Upside down at most."""
+"""A tilt, upside down at most."""
 
 YAW = angle(Sign.ANY, 2.0 * pi, ONE_TURN)
 SPIN = Quantity(Dimension.ANGULAR_SPEED, Sign.ANY, most_bare=FASTEST_BARE, likely="rpm")

@@ -60,9 +60,9 @@ def test_ends_may_have_units():
     [
         ("normal(0, 40%)", "reaches -120%, beyond -90%"),
         ("normal(0, -1%)", "deviation"),
-        ("uniform(1%, 0%)", "low end"),
-        ("uniform(0)", "no distribution"),
-        ("gamma(1, 2)", "no distribution"),
+        ("uniform(1%, 0%)", "lower end"),
+        ("uniform(0)", "not a distribution"),
+        ("gamma(1, 2)", "not a distribution"),
         ("normal(0, 1deg)", "angle"),
         ("2", "reaches 200%, beyond 90%"),
     ],

@@ -165,7 +165,7 @@ def test_all_faults_are_told_at_once_each_with_its_key():
         ("[requirement]\nreliability = '49%'", "at least 0.5 and below 1"),
         ("[robot]\nfile = ' '", "not a text"),
         ("[validation]\nkp = 1979-05-27", "not a number"),
-        ("[ocs]\nalpha_criterion = ['equal-rate']", "is none of"),
+        ("[ocs]\nalpha_criterion = ['equal-rate']", "is not one of"),
         ("[[maneuver]]\nkind = ['drop']", "unknown"),
         ("[[maneuver]]\nname = " + "[\n" * 300 + "]" * 300, r"maneuver\[0\].kind: is missing"),
         ("[flywheel]\n" + "r_max." * 100 + "a = 1", "flywheel.r_max: {'r_max': .* is not a number"),

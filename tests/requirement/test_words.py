@@ -154,7 +154,7 @@ def test_words_stand_for_gravity_and_whole_turns():
 
 def test_what_may_be_several_says_so_last():
     assert TURN_TEXT.takes == "as in 'yaw 90deg in 2.9s'"
-    assert Several(TURN_TEXT).takes == "as in 'yaw 90deg in 2.9s'; or a list of such"
+    assert Several(TURN_TEXT).takes == "as in 'yaw 90deg in 2.9s'; or a list of these"
 
 
 def test_options_and_keys_say_the_same():
