@@ -1,8 +1,9 @@
-"""The reserve that a device keeps for what is drawn, so that it works as built and not as designed.
+"""The reserve for sampled errors: margin so that the device works as built, not only as designed.
 
-Each robot drawn asks the closed forms of the selection what its wheels do within the time, and what
-is asked of them: the factor by which they must do more than a device that is designed for the mean.
-The reserve is the factor that enough of all robots do with (docs/theory.md, From possible to sure).
+For each sampled robot, the closed forms of the selection give what its wheels can do within the
+time and what is required of them: the factor by which they must exceed a device designed for the
+mean. The reserve is the factor with which enough of all robots pass (docs/theory.md, From possible
+to sure).
 """
 
 from collections.abc import Callable, Mapping
@@ -32,42 +33,44 @@ LEVEL = np.radians(5.0)
 """Largest roll and pitch at touchdown [rad], by the pass rule of the flights."""
 
 PUSH_OFF = 0.08
-"""Share of m v d, the momentum about roll or pitch of a push-off at the speed v with the centre of
-mass d off, that is left at lift-off: legs that track their plan take up the rest."""
+"""Fraction of m v d, the momentum about roll or pitch of a push-off at speed v with the centre of
+mass off by d, that remains at lift-off: legs that track their plan absorb the rest."""
 
 FLIGHT = 1.03
-"""Flight of a robot that pushes off with four legs over that of a rigid one: its feet leave a bit
-faster and higher than they land. Solo12 1.058 as designed and 1.042 in the mean of 128 samples, A1
-1.038, Go1 1.039, Go2 1.031; the least is taken."""
+"""Flight time of a robot that pushes off with four legs, relative to a rigid one's: its feet leave
+slightly faster and higher than they land. Solo12 1.058 as designed and 1.042 in the mean of 128
+samples, A1 1.038, Go1 1.039, Go2 1.031; the smallest is used."""
 
 ARRIVES = 0.4
-"""Tilt at touchdown of a robot whose wheels are too weak, over the tilt if it stopped turning in
-time. The law lets it turn on, at up to 1 rad/s, so it lands nearer to level. Flown: 0.3 in drops
-that would be up to 9 deg off (Solo12, Romeo), 0.45 beyond, 0.3 to 0.4 in back-flips of Solo12. For
-back-flips it is taken on four legs only."""
+"""Tilt at touchdown of a robot whose wheels are too weak, relative to the tilt if it stopped
+turning in time. The control law lets it keep turning at up to 1 rad/s, so it lands closer to level.
+In simulation: 0.3 in drops that would be up to 9 deg off (Solo12, Romeo), 0.45 beyond, 0.3 to 0.4
+in back-flips of Solo12. For back-flips it is used only with four legs or more."""
 
 RELIABILITIES = (0.5, 0.8, 0.9, 0.95, 0.99, 0.999)
-"""Reliabilities whose masses are told."""
+"""Reliabilities for which the mass is reported."""
 
 NOMINAL = 0.5
-"""Reliability of a device that is designed for the mean of all that is drawn, and keeps nothing."""
+"""Reliability of a device that is designed for the mean of all sampled errors, without a
+reserve."""
 
 _SEED = 0x5EED0F5E
-"""Key of their generator, which no flight has: a device never sees what certifies it."""
+"""Key of the random generator; no flight uses it, so a device is never sized on the samples that
+certify it."""
 
 _KNOTS = np.linspace(0.0, 1.0, 257)
 _LEAST, _MOST = 0.25, 4.0
-"""Factors on what is asked between which a device is looked for."""
+"""Range of factors on the demand that is searched."""
 
 
 @dataclass(frozen=True)
 class Reserve:
-    """What is kept for the errors of `[reality]`.
+    """Reserve for the errors of `[reality]`.
 
     Attributes:
-        reliability: share of robots that shall pass, each in every maneuver.
-        scale: factor on every deviation from the mean; above 1 where flights showed more.
-        maneuvers: what it comes to for each, by name; empty until it is `settled`.
+        reliability: fraction of robots that must pass every maneuver.
+        scale: factor on every deviation from the mean; above 1 where simulated flights need more.
+        maneuvers: the resulting reserve of each, by name; empty until it is `settled`.
     """
 
     reliability: float
@@ -75,7 +78,7 @@ class Reserve:
     maneuvers: Mapping[str, ManeuverReserve] = field(default_factory=dict)
 
     def raised(self, factor: float) -> "Reserve":
-        """A reserve for deviations that are this much larger, to be worked out anew."""
+        """A reserve for deviations larger by this factor, not settled yet."""
         return replace(self, scale=self.scale * factor, maneuvers={})
 
     def kept(self, requirement: Requirement, *, free: bool) -> Requirement:
@@ -85,11 +88,11 @@ class Reserve:
     def settled(
         self, reality: "Reality", problem: SelectionProblem, device: Candidate
     ) -> "Reserve":
-        """The reserve of the problem that a device which does the nominal maneuvers tells.
+        """The reserve computed for a device that does the nominal maneuvers.
 
         Args:
-            reality: what is drawn.
-            problem: without a reserve. device: that does it.
+            reality: sampled errors.
+            problem: without a reserve. device: device that solves it.
         """
         if self.reliability <= NOMINAL or not problem.requirement.maneuvers:
             return self
@@ -115,17 +118,18 @@ class Reserve:
 
 @dataclass(frozen=True, eq=False)
 class Needed:
-    """What robots that are drawn need.
+    """What sampled robots need.
 
     Attributes:
-        factors: on what the nominal maneuver asks, shape (robots, maneuvers).
-        rates: of roll and pitch that the reserve is for [rad/s], by name.
-        has: factor that the device has, shape (maneuvers,).
-        left: part of that which it has with these rates, shape (maneuvers,).
-        blind: whether a robot ends off level about an axis out of the wheels' reach, whatever they
-            do, shape (robots, maneuvers).
-        rolls: rates of roll at lift-off that flips undo [rad/s], shape (robots, maneuvers).
-        room: the largest that the device undoes [rad/s], shape (maneuvers,); inf: none is asked.
+        factors: on the nominal maneuver's demand, shape (robots, maneuvers).
+        rates: roll and pitch rates that the reserve covers [rad/s], by name.
+        has: factor that the device achieves, shape (maneuvers,).
+        left: fraction of `has` that is left with these rates, shape (maneuvers,).
+        blind: whether a robot ends off level about an axis that the wheels cannot control, shape
+            (robots, maneuvers).
+        rolls: roll rates at lift-off that flips must cancel [rad/s], shape (robots, maneuvers).
+        room: largest roll rate that the device can cancel [rad/s], shape (maneuvers,); inf: none is
+            required.
     """
 
     factors: FloatArray
@@ -138,15 +142,15 @@ class Needed:
 
     @property
     def reliability(self) -> float:
-        """Share of the robots that pass every maneuver."""
+        """Fraction of the robots that pass every maneuver."""
         passes = (self.factors <= self.has) & (self.rolls <= self.room) & ~self.blind
         return float(passes.all(axis=1).mean())
 
     def for_all(self, reliability: float) -> tuple[FloatArray, FloatArray]:
-        """Factors and rolls with which this share passes every maneuver, all as sure alone.
+        """Factors and rolls with which this fraction passes all maneuvers, each equally reliable.
 
-        Where a factor less than 1 would do, the nominal demand is met all the same, and where the
-        device has room for more roll, it has. Both have the shape (maneuvers,).
+        The nominal demand is always met, even where a factor below 1 would do, and the device's own
+        capacity for roll is always used. Both have the shape (maneuvers,).
         """
         both = np.hstack([self.factors, self.rolls])
         met = np.hstack([np.maximum(self.factors, 1.0), np.maximum(self.rolls, self.room)])
@@ -160,7 +164,7 @@ class Needed:
         return factors, rolls
 
     def worst(self, reliability: float) -> float:
-        """Factor over what the device has that this share of robots needs at most, log."""
+        """Logarithm of the factor, relative to the device's, that suffices at this reliability."""
         most = np.maximum(self.factors / self.has, self.rolls / self.room)
         return float(np.quantile(np.log(most.max(axis=1)), reliability))
 
@@ -174,13 +178,13 @@ def account(
     *,
     nominal: float,
 ) -> ReserveRecord | None:
-    """What is kept, and what it costs; None without maneuvers.
+    """The reserve and its cost; None without maneuvers.
 
     Args:
-        reserve: that the device was selected with. reality: what is drawn.
-        problem: that was solved. device: that came of it.
-        resized: mass of the device of the same parts with another reserve [kg], if there is one.
-        nominal: mass of the lightest device without one, before it is refined [kg].
+        reserve: with which the device was selected. reality: sampled errors.
+        problem: the problem solved. device: its solution.
+        resized: mass of the device of the same parts with another reserve [kg]; None: infeasible.
+        nominal: mass of the lightest device without a reserve, before refinement [kg].
     """
     if not problem.requirement.maneuvers:
         return None
@@ -236,14 +240,15 @@ def account(
 
 @dataclass(frozen=True, eq=False)
 class Reality:
-    """What is drawn of a robot and its device, as far as the closed forms feel it.
+    """Sampled errors of a robot and its device, as far as the closed forms depend on them.
 
     Attributes:
-        stated: section `[reality]`; its file's or the package's holds in place of the rest.
-        height: that the robot stands at [m].
+        stated: section `[reality]`; missing values come from its file or the package.
+        height: standing height of the robot [m].
         trunk: second moments of the trunk's mass along x, y and z [kg m^2], shape (3,).
-        pushes_off: whether jumps start on the ground. flight: over that of a rigid robot.
-        known: keys that are measured, and always at their mean.
+        pushes_off: whether jumps start on the ground.
+        flight: flight time relative to a rigid robot's.
+        known: keys that are measured, so always at their mean.
     """
 
     stated: UncertaintySection
@@ -257,7 +262,7 @@ class Reality:
     def of(
         cls, stated: UncertaintySection, robot: Robot, height: float, *, ballistic: bool
     ) -> "Reality":
-        """What is drawn of a robot that stands at this height; `ballistic`: it never pushes off."""
+        """Errors of a robot that stands at this height [m]; `ballistic`: it never pushes off."""
         index = robot.tree.body_of_link[robot.trunk]
         placed = robot.tree.placements_from(robot.trunk, robot.posture)[index].rotation
         inertia = placed @ robot.tree.bodies[index].mass_properties.inertia @ placed.T
@@ -270,7 +275,7 @@ class Reality:
         return replace(self, known=self.known | {key})
 
     def drawn(self, problem: SelectionProblem, device: Candidate) -> Mapping[str, FloatArray]:
-        """Values of each key, strata in random order, shape (robots, parts)."""
+        """Sampled values of each key, strata in random order, shape (robots, parts)."""
         motor = Drive.of(device.motor, device.gear, problem.bus_voltage)
         spreads = complete_uncertainty(self.stated, self.height, motor)
         random = np.random.Generator(np.random.Philox(key=_SEED))
@@ -284,20 +289,20 @@ class Reality:
         return found
 
     def needed(self, problem: SelectionProblem, device: Candidate, reserve: Reserve) -> Needed:
-        """What the robots need of a device, and what it has.
+        """What the robots need of a device, and what it can do.
 
         Args:
-            problem: that it was selected for. device: see `Candidate`.
-            reserve: whose `scale` holds, and whose reliability sets the rates.
+            problem: for which it was selected. device: see `Candidate`.
+            reserve: its `scale` multiplies the deviations, its reliability sets the rates.
         """
         drawn = {
             key: mean + reserve.scale * (values - mean)
             for key, values in self.drawn(problem, device).items()
             for mean in [values.mean(axis=0)]
         }
-        # Lines of all wheels as built: the law commands what the nominal motor can do, and the real
-        # one gives k_t / k_t0 times that within its own line. Friction is in the torque limit
-        # already, at its mean.
+        # Torque-speed lines of all wheels as built: the law commands what the nominal motor can do,
+        # and the real one gives k_t / k_t0 times that within its own line. The torque limit already
+        # includes mean friction.
         constant = 1.0 + drawn["torque_constant_error"]
         voltage, resistance = 1.0 + drawn["bus_voltage_error"], 1.0 + drawn["resistance_error"]
         nominal, left = device.line, np.minimum(voltage / resistance, 1.0)
@@ -322,7 +327,7 @@ class Reality:
         ]
         asked = np.stack(factors, axis=1)
         if reserve.scale > 1.0:
-            # Flights fell short of what is worked out here: nothing is to spare any more.
+            # Simulated flights needed more than computed here, so factors below 1 are no margin.
             once = self.needed(problem, device, replace(reserve, scale=1.0))
             asked = asked / np.minimum(once.for_all(reserve.reliability)[0], 1.0)
         return Needed(
@@ -350,25 +355,25 @@ _FELT = (
     "attitude_bias",
     "takeoff_rate",
 )
-"""Keys that the closed forms feel."""
+"""Keys on which the closed forms depend."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Flown:
-    """One maneuver of the robots that are drawn.
+    """One maneuver of the sampled robots.
 
     Attributes:
         maneuver, requirement, device: what is flown.
-        designed: axes of the wheels, shape (3, n).
+        designed: axes of the wheels as designed, shape (3, n).
         nominal: inertia of robot and device as designed.
-        inertia: as built [kg m^2], (robots, 2).
-        swept, momentum: that the wheels must take about roll and pitch, shape (robots, 2).
+        inertia: about roll and pitch as built [kg m^2], shape (robots, 2).
+        swept, momentum: about roll and pitch, that the wheels must absorb, shape (robots, 2).
         rates: of roll and pitch at lift-off [rad/s], shape (robots, 2).
         duration: in which it must be done [s], shape (robots, 1).
-        share: of the drives that does it.
-        tilted: share of what wheels miss that is left as tilt at touchdown, see `ARRIVES`.
+        share: fraction of the drives' capability that is used.
+        tilted: fraction of what the wheels miss that remains as tilt at touchdown, see `ARRIVES`.
         axes: of the wheels as built, shape (robots, 2, n).
-        bias: of measured roll and pitch [rad], shape (robots, 2).
+        bias: error of measured roll and pitch [rad], shape (robots, 2).
     """
 
     maneuver: Maneuver
@@ -395,7 +400,7 @@ class _Flown:
         maneuver: Maneuver,
         drawn: Mapping[str, FloatArray],
     ) -> "_Flown":
-        """One maneuver of the robots that are drawn."""
+        """The maneuver of the sampled robots."""
         at = device.incidence if maneuver.incidence is None else maneuver.incidence
         reached = np.abs(device.layout.axes(at)[:2]).max(axis=1)
         nominal = inertia_at(problem, device, at).within_reach(reached, maneuver.stray)
@@ -407,26 +412,27 @@ class _Flown:
         inertia = TiltInertia(diagonal, np.broadcast_to(nominal.product, len(diagonal)))
         slew = maneuver.slew(inertia, problem.requirement.standing_height)
         speed = maneuver.lift_off
-        # Forward of the middle the push pitches, left of it it rolls.
+        # A centre of mass off forward pitches the robot in push-off; one off to the left rolls it.
         off = drawn["com_error"][:, 1::-1] if reality.pushes_off else 0.0
         rates = PUSH_OFF * device.total.mass * speed * off / diagonal
         rates = rates + (drawn["takeoff_rate"] if speed else 0.0)
         time, share = slew.duration, 1.0
         arrives = isinstance(maneuver, Unforeseen | Drop)
         if isinstance(maneuver, Flip):
-            # Who is behind the plan may take the whole flight, but brakes late, and ends in time
-            # only where the supply takes the wheels' energy in what the flight lasts beyond it.
+            # A robot behind its plan may use the whole flight, but then brakes late, and finishes
+            # in time only if the supply absorbs the wheels' energy in the part of the flight after
+            # the planned turn.
             energy = 0.5 * device.spin_inertia * device.line.top_speed**2
             whole = reality.flight * maneuver.flight_time
             late = energy <= device.line.power_max * (whole - time)
             arrives = bool(late) and reality.flight > 1.0
             time, share = (whole, 1.0) if late else (time, PLANNED)
-        # Each module is turned by hand on its foot, (robots, 2, n).
+        # Each module is turned by hand on its foot; shape (robots, 2, n).
         built, off = device.layout.axes(at), drawn["incidence_error"][:, None]
         across = np.cross(device.layout.feet(built), built, axis=0)
         axes = (np.cos(off) * built + np.sin(off) * across)[:, :2]
         if problem.requirement.detection is not None:
-            # One robot after the other loses another wheel, at once.
+            # Each robot in turn loses another wheel, from the start.
             lost = np.arange(len(axes)) % len(device.layout)
             axes = axes * (np.arange(len(device.layout)) != lost[:, None])[:, None]
             time -= problem.requirement.detection
@@ -438,7 +444,7 @@ class _Flown:
             designed=device.layout.axes(at),
             nominal=nominal,
             inertia=diagonal,
-            # A turn undoes a tilt of the other sense.
+            # A turn cancels a tilt of the opposite sense.
             swept=slew.swept * (1.0 if isinstance(maneuver, Unforeseen) else -1.0),
             momentum=slew.momentum + diagonal * rates,
             rates=rates,
@@ -456,22 +462,22 @@ class _Flown:
 
     @property
     def _turns_over(self) -> bool:
-        """Whether a roll at lift-off turns with the trunk, and its wheels do not reach yaw."""
+        """Whether roll turns with the trunk (a flip) and the wheels cannot control yaw."""
         blind = bool((np.abs(self.designed[2]) <= OUT_OF_REACH).all())
         return isinstance(self.maneuver, Flip) and blind
 
     @property
     def _undoes_roll(self) -> bool:
-        """Whether wheels undo a roll at lift-off; at an incidence of its own a flip may let it."""
+        """Whether wheels must cancel roll at lift-off; a flip at its own incidence may leave it."""
         return self._turns_over and bool(self._reached[0] or self.maneuver.incidence is None)
 
     @property
     def _reached(self) -> NDArray[np.bool_]:
-        """Whether the wheels reach roll and pitch, shape (2,)."""
+        """Whether the wheels control roll and pitch, shape (2,)."""
         return np.asarray(np.abs(self.designed[:2]).max(axis=1) > OUT_OF_REACH)
 
     def rate_kept(self, sure: float) -> tuple[float, float]:
-        """Rates of so many deviations [rad/s]; none about an axis that its own incidence blinds."""
+        """Roll and pitch rates covered [rad/s]: `sure` standard deviations; 0 if out of reach."""
         kept = self._reached | (self.maneuver.incidence is None)
         kept[0] &= not self._turns_over
         roll, pitch = np.where(kept, sure * self.rates.std(axis=0), 0.0).tolist()
@@ -485,7 +491,7 @@ class _Flown:
         return wheel_task([self.maneuver], requirement, self.nominal, upright, axes, begun=[True])
 
     def has(self, rate: tuple[float, float]) -> float:
-        """What the device does over what is asked, by the selection's own formula."""
+        """What the device can do, relative to the demand, by the selection's own formula."""
         demand = spin_demand(
             self._task(rate), self.device.line.reserved(), self.device.drive.armature
         )
@@ -493,18 +499,18 @@ class _Flown:
         return (can.sweep / demand.sweep).item()
 
     def _each(self, asked: FloatArray) -> FloatArray:
-        """Momentum of each wheel for one about roll and pitch, shape (robots, n).
+        """Momentum of each wheel for a given momentum about roll and pitch, shape (robots, n).
 
-        The other axis is left to itself where one is out of reach.
+        Axes that the wheels cannot control are ignored.
         """
         reached = self._reached
         return held_by_each(self.axes * reached[:, None], asked * reached)
 
     def wheels(self, line: DriveLine, reliability: float) -> tuple[FloatArray, FloatArray]:
-        """What each wheel must sweep and what it can [N m s^2], with its sense, (robots, n)."""
+        """Sweep required of each wheel and possible [N m s^2], signed, shape (robots, n)."""
         momentum = self.momentum
         if np.quantile(self.rolls, reliability) > self.room:
-            # Other wheels or another incidence undo the roll: larger ones here would not.
+            # Larger wheels would not cancel the roll; that takes other wheels or another incidence.
             momentum = momentum - self.inertia * self.rates * [1.0, 0.0]
         held, load = self._each(momentum), self._task((0.0, 0.0)).load()
         asked = self._each(self.swept + momentum * self.duration)
@@ -521,10 +527,11 @@ class _Flown:
         return asked, np.copysign(can, asked)
 
     def factors(self, wheels: tuple[FloatArray, FloatArray], has: float) -> FloatArray:
-        """Factor on what the nominal maneuver asks with which each robot lands level, (robots,).
+        """Factor on the nominal demand with which each robot lands level, shape (robots,).
 
         Args:
-            wheels: what they must sweep and can. has: factor of the device that they are of.
+            wheels: required and possible sweep, from `wheels`.
+            has: factor that the device achieves.
         """
         asked, can = wheels
         low, high = np.full(len(asked), _LEAST), np.full(len(asked), _MOST)
@@ -540,20 +547,20 @@ class _Flown:
 
     @property
     def rolls(self) -> FloatArray:
-        """Rates of roll at lift-off that a flip undoes [rad/s], shape (robots,)."""
+        """Roll rates at lift-off that a flip must cancel [rad/s], shape (robots,)."""
         undone = np.abs(self.rates[:, 0]) * turned_roll(self.inertia[:, 0], self.upright)
         alike = turned_roll(self.nominal.diagonal[..., 0], self.upright)
         return undone / alike if self._undoes_roll else np.zeros(len(undone))
 
     @property
     def room(self) -> float:
-        """The largest rate of roll at lift-off that the device undoes in a flip [rad/s]."""
+        """The largest roll rate at lift-off that the device can cancel in a flip [rad/s]."""
         per_rate = held_in_roll(1.0, self.nominal, self.upright, self.designed, self.requirement)
         most = self.device.spin_inertia * float(self.device.line.reserved().top_speed)
         return most / float(per_rate) if self._undoes_roll and per_rate > 0.0 else np.inf
 
     @property
     def lost(self) -> NDArray[np.bool_]:
-        """Whether a robot drifts off level about an axis out of the wheels' reach, (robots,)."""
+        """Whether a robot drifts off level about an uncontrolled axis, shape (robots,)."""
         drift = self.rates * self.duration - self.bias
         return np.asarray(((np.abs(drift) > LEVEL) & ~self._reached).any(axis=1))

@@ -1,4 +1,4 @@
-"""A sized device and the figures behind it, of wheels by the bound alone or of a selected one."""
+"""A sized device, by the bound alone or selected with motors, and the figures behind it."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -26,7 +26,7 @@ from ocs_design.sizing.selection.problem import Candidate, Selection, SelectionP
 METHOD = "branch and bound over the catalogue, each module in closed form"
 
 _STEP = 1e-5
-"""Half the distance of the two points of a difference, relative."""
+"""Relative step of the central differences."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,11 +34,11 @@ class Sized:
     """The figures behind a design.
 
     Attributes:
-        wheel_speed_max: that the design may use [rad/s].
+        wheel_speed_max: highest wheel speed that the design may use [rad/s].
         incidence_by_criterion: the best one under each criterion, with the device [rad].
         incidence_by_criterion_robot: the same for the robot alone.
-        demands: what each part of the requirement asks of a wheel.
-        total: robot and device, braked, in B.
+        demands: demand on a wheel of each part of the requirement. total: robot and device, braked,
+            in B.
         optimum: how it was found.
     """
 
@@ -73,14 +73,14 @@ def sized_selection(problem: SelectionProblem, chosen: Candidate, robot: MassPro
     """Figures behind the selected, or the co-designed, device.
 
     Args:
-        problem: that was solved; its robot carries the plate or the mast already.
+        problem: the problem solved; its robot already carries the plate or the mast.
         chosen: the device. robot: the robot alone, in B.
     """
     inertia = chosen.total.inertia
     requirement = problem.requirement
 
     def by_criterion(of: FloatArray) -> Mapping[Criterion, float]:
-        """Best incidence of pairs; nothing of other layouts."""
+        """Best incidence of pairs; empty for other layouts."""
         pairs = problem.layout.pairs
         return incidence_by_criterion(of, design_momenta(requirement, of)) if pairs else {}
 
@@ -103,7 +103,7 @@ def sized_selection(problem: SelectionProblem, chosen: Candidate, robot: MassPro
 
 
 def _spin_demands(problem: SelectionProblem, chosen: Candidate) -> Iterator[SpinDemand]:
-    """Demands that the motors' figures make of each part of the requirement."""
+    """Demands of each part of the requirement, given the motors' data."""
     requirement = problem.requirement
     maneuvers = {maneuver.name: maneuver for maneuver in requirement.maneuvers}
     height = requirement.standing_height
@@ -123,9 +123,9 @@ def _spin_demands(problem: SelectionProblem, chosen: Candidate) -> Iterator[Spin
 
 
 def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, float]:
-    """Change of one module's mass per limit that holds it, at the spin inertia that was found.
+    """Change of one module's mass per change of each active limit, at the spin inertia found.
 
-    Central differences of the closed form; one-sided where only one side has a module.
+    Central differences of the closed form; one-sided where only one side is feasible.
     """
     rim_inertia = chosen.spin_inertia - chosen.drive.rotor_inertia - chosen.hub_share
     rim = RimProblem(rim_inertia, problem.envelope, chosen.material, chosen.overspeed)
@@ -142,7 +142,7 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
         masses = np.array([float(lightest_module(rim_inertia, c, shell).mass) for c in changed])
         known = np.isfinite(masses)
         masses, steps = masses[known], steps[known]
-        if steps.size < 2:  # The smallest wheel there is, on the edge of what closes.
+        if steps.size < 2:  # The smallest wheel, on the edge of feasibility.
             continue
         slope = float((masses[-1] - masses[0]) / (steps[-1] - steps[0]))
         prices[name] = slope * (rim.stretch_max / rim.hoop_stress_max if limit is STRESS else 1.0)
@@ -154,10 +154,10 @@ class Choice:
     """How motor, gear and material were chosen.
 
     Attributes:
-        problem: what there was to choose from. selection: what came of it.
-        chosen: the lightest one, or what the co-design made of it.
-        co_design: None: not asked for.
-        hangs: whether nothing of the trunk's shapes holds it; False where they are not known.
+        problem: candidates and requirement. selection: its solution.
+        chosen: the lightest device, or the co-design based on it.
+        co_design: the co-design; None: not required.
+        hangs: whether nothing on the trunk can hold it; False where the trunk's shapes are unknown.
     """
 
     problem: SelectionProblem
@@ -173,10 +173,11 @@ class Designed:
 
     Attributes:
         device: see `Device`. sized: see `Sized`.
-        criterion: that the incidence goes by.
-        choice: None where no motor was wanted.
-        reserve: that it keeps; None likewise. account: of what that comes to, and costs.
-        requirement: what the robot is asked for with this device on it; None: not settled yet.
+        criterion: criterion of the incidence.
+        choice: how its parts were chosen; None without a motor.
+        reserve: reserve that it keeps; None without a motor.
+        account: function that computes the reserve's amounts and costs.
+        requirement: requirement of the robot with this device on it; None: not determined yet.
     """
 
     device: Device
@@ -189,7 +190,7 @@ class Designed:
 
     @cached_property
     def kept(self) -> ReserveRecord | None:
-        """What the reserve comes to, and costs: as long to find as the device.
+        """Amounts and costs of the reserve, which take as long to compute as the device.
 
         None without a motor or maneuvers.
         """

@@ -1,4 +1,4 @@
-"""The selection's problem that a specification poses, and its layout, criterion, webs and cuts."""
+"""From a specification to the selection's problem, with its layout, criterion, webs and cuts."""
 
 from dataclasses import replace
 from math import inf, isfinite
@@ -45,7 +45,7 @@ from ocs_design.sizing.selection.problem import SelectionProblem
 
 
 def selection_problem(task: Task) -> SelectionProblem | None:
-    """The problem that a specification poses; None where it wants no motor."""
+    """The problem that a specification poses; None where it has no motor."""
     specification, robot, resolved = task.specification, task.robot, task.resolved
     choice = resolved.choice
     if choice is None:
@@ -79,7 +79,7 @@ def selection_problem(task: Task) -> SelectionProblem | None:
 
 
 def on_bells(problem: SelectionProblem, choice: MotorChoice) -> SelectionProblem:
-    """The problem with rings around the bells of those motors that have one, on direct drive.
+    """The problem with rings around suitable motors' bells, on direct drive.
 
     Raises:
         UsageError: none has.
@@ -90,8 +90,8 @@ def on_bells(problem: SelectionProblem, choice: MotorChoice) -> SelectionProblem
         more = " ..." if len(choice.motors) > _NAMED else ""
         raise UsageError(
             f"no ring fits around the bell of {some}{more}: it "
-            "takes an outrunner that is screwed on by its back, of known diameter and length, with "
-            "a bell longer than its shaft stands out",
+            "needs a back-mounted outrunner of known diameter and length whose bell is longer than "
+            "its protruding shaft",
             hint="Name another motor with --motor, or leave out --wheel ring.",
         )
     return replace(
@@ -126,25 +126,25 @@ def other_construction(task: Task, problem: SelectionProblem) -> SelectionProble
 
 
 _NAMED = 3
-"""Motors that a message names."""
+"""Number of motors that a message names."""
 
 _SPANS = 1e-3
-"""Least singular value of axes that reach roll, pitch and yaw."""
+"""Least singular value of axes that span roll, pitch and yaw."""
 
 
 def _held(
     specification: Specification, resolved: Resolved, choice: MotorChoice
 ) -> tuple[Motor, ...]:
-    """Motors to choose from: of those that nobody named, the ones that are held and hold a wheel.
+    """Motors to choose from; unless named, only those that can be mounted and can hold a wheel.
 
-    All of them where none is, whose open points then say why. Where a brake stops the wheels, each
-    turns no faster than its joint takes.
+    All of them where none can, whose open points then say why. Where a brake stops the wheels, each
+    motor is limited to the speed that its joint withstands.
     """
     stated, motors = specification.motor, choice.motors
     if not (stated.any or stated.name not in {None, AUTO} or any(g.room for g in choice.gears)):
 
         def holds_wheel(motor: Motor) -> bool:
-            """Whether the joint of hub and motor carries its peak torque, with some to spare."""
+            """Whether the joint of hub and motor carries its peak torque with margin."""
             carried = _carried(motor)
             return carried is not None and carried >= SERVICE * (motor.peak_torque or 0.0)
 
@@ -167,15 +167,15 @@ def _held(
 
 
 def _carried(motor: Motor) -> float | None:
-    """Torque that the joint of hub and motor carries [N m]; None: nothing that is known does."""
+    """Torque that the joint of hub and motor carries [N m]; None: no known joint does."""
     mounting = motor.mounting or Mounting()
     return hub_joint(mounting, hub_height(mounting) - 2.0 * LARGEST_CHAMFER)
 
 
 def specified_lightenings(stated: FlywheelSection) -> tuple[int, ...]:
-    """Numbers of lightening holes to choose from, 0 a solid web; webs under shrunk rims are solid.
+    """Numbers of lightening holes to choose from, 0 for a solid web, as under shrunk-on rims.
 
-    A small wheel of a fast motor has no room for holes, and may yet be the lightest.
+    A small wheel of a fast motor has no room for holes and may still be the lightest.
     """
     holes = LIGHTENING if stated.lightening is None else stated.lightening
     return (0, holes) if holes and stated.web not in {NO_WEB, ALUMINIUM_WEB} else (0,)
@@ -185,7 +185,7 @@ def specified_cuts(stated: FlywheelSection, room: Envelope) -> RimCuts:
     """Chamfers and balancing holes of wheels with a web.
 
     Raises:
-        SpecificationError: no rim in this room is large enough for them.
+        SpecificationError: no rim within the envelope is large enough for them.
     """
     if stated.web == NO_WEB:
         return NO_CUTS
@@ -202,28 +202,30 @@ def specified_cuts(stated: FlywheelSection, room: Envelope) -> RimCuts:
     wall = room.outer_radius_max - bore
     if cuts.wall_min > wall:
         faults.append(
-            f"flywheel.{name}: a wall of {format_quantity(cuts.wall_min, 'mm')} is the least, and "
-            f"{format_quantity(max(wall, 0.0), 'mm')} is between r_max and the bore: allow a "
-            "larger r_max, or fewer and smaller holes"
+            f"flywheel.{name}: the wall must be at least {format_quantity(cuts.wall_min, 'mm')}, "
+            f"and {format_quantity(max(wall, 0.0), 'mm')} is left between r_max and the bore: "
+            "allow a larger r_max, or fewer and smaller holes"
         )
     if cuts.height_min > room.height_max:
         faults.append(
-            f"flywheel.{name}: a height of {format_quantity(cuts.height_min, 'mm')} is the least, "
-            f"and h_max is {format_quantity(room.height_max, 'mm')}: allow a larger h_max, or "
-            "less depth"
+            f"flywheel.{name}: the height must be at least "
+            f"{format_quantity(cuts.height_min, 'mm')}, and h_max is "
+            f"{format_quantity(room.height_max, 'mm')}: allow a larger h_max, or less depth"
         )
     if faults:
-        raise SpecificationError("the rim has no room for what is cut off it:", problems=faults)
+        raise SpecificationError(
+            "the rim is too small for its chamfers and holes:", problems=faults
+        )
     return cuts
 
 
 def specified_layout(specification: Specification) -> Layout:
-    """Layout of the wheels' axes: a pair where none is stated."""
+    """Layout of the wheels' axes; by default a pair."""
     stated = specification.ocs.layout
     if stated == ALL_LAYOUTS:
         raise UsageError(
-            f"ocs.layout: {ALL_LAYOUTS!r} is no layout of one device",
-            hint="`size --layout all` compares all layouts; state one of them here.",
+            f"ocs.layout: {ALL_LAYOUTS!r} is not the layout of a single device",
+            hint="`size --layout all` compares all layouts; name one of them here.",
         )
     if specification.ocs.axes is not None:
         axes = np.reshape(specification.ocs.axes, (-1, 3))
@@ -239,11 +241,11 @@ def specified_criterion(specification: Specification) -> Criterion | None:
 
 
 class CannotSurvive(Infeasible):
-    """The layout cannot do without any one of its wheels, whatever they weigh."""
+    """The layout cannot do without every one of its wheels, whatever they weigh."""
 
 
 def require_survival(problem: SelectionProblem) -> None:
-    """Refuse a layout that cannot do a maneuver with a wheel left out, if that is asked.
+    """Refuse a layout that cannot do a maneuver without a wheel, if it has to survive that.
 
     Raises:
         CannotSurvive: it cannot.
@@ -263,21 +265,22 @@ def require_survival(problem: SelectionProblem) -> None:
     for name, (own, momentum) in asked.items():
         at = problem.incidence if own is None else own
         axes = layout.axes(_SOME_ANGLE if at is None else at)[:2]
-        # Of either sense: that of roll and pitch together may lie along an axis by chance.
+        # Both signs, as roll and pitch momentum together may lie along an axis by chance.
         both = momentum * np.array([[1.0, 1.0], [1.0, -1.0]])
         for wheel, left in zip(layout.names, without_each(axes), strict=True):
             if not np.isfinite(held(left, both).most).all():
                 lost.setdefault(wheel, []).append(name)
     if lost:
         wheel, names = next(iter(lost.items()))
-        rest = "the others do" if len(layout.names) > 1 else "it does"
+        rest = "the others" if len(layout.names) > 1 else "it"
         raise CannotSurvive(
-            f"{layout.text[0].upper()}{layout.text[1:]} does not survive that any one drive stops: "
-            f"without wheel {wheel!r} {rest} not hold the momentum about roll and pitch that "
-            f"{some_of(names)} ask{'s' if len(names) == 1 else ''} for.",
+            f"{layout.text[0].upper()}{layout.text[1:]} cannot tolerate the failure of a drive: "
+            f"without wheel {wheel!r} {rest} cannot absorb the momentum about roll and pitch that "
+            f"{some_of(names)} require{'s' if len(names) == 1 else ''}.",
             binding=["survives"],
         )
 
 
 _SOME_ANGLE = np.pi / 4.0
-"""Of a layout whose angle is still to be chosen [rad]: whether axes span is the same at all."""
+"""Angle for a layout whose angle is still to be chosen [rad]; whether axes span does not depend on
+it."""

@@ -153,7 +153,7 @@ def test_less_than_the_smallest_rim_gives_the_smallest_rim():
 
 
 def test_nothing_asked():
-    with pytest.raises(UsageError, match="nothing is asked"):
+    with pytest.raises(UsageError, match="nothing is required"):
         size(asks())
 
 
@@ -165,7 +165,7 @@ def test_infeasible_by_its_robot():
     with pytest.raises(Infeasible) as caught:
         size(requirement, envelope)
     error = caught.value
-    assert error.message.startswith("Back-flip asks for too much: no rim of steel within")
+    assert error.message.startswith("Back-flip requires too much: no rim of steel within")
     assert error.required_spin_inertia > error.largest_spin_inertia > 0.0
     assert "wheel_speed_max" in error.relaxations
     assert "r_max" in error.relaxations

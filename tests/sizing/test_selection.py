@@ -228,7 +228,7 @@ def test_infeasible_says_what_would_do():
 def test_nothing_to_do_and_nothing_to_choose_from():
     problem = random_problem(9)
     nothing = Requirement((), None, 1.0, None, 0.3)
-    with pytest.raises(UsageError, match="nothing is asked"):
+    with pytest.raises(UsageError, match="nothing is required"):
         select(replace(problem, requirement=nothing))
     with pytest.raises(UsageError, match="no motors"):
         select(replace(problem, motors=()))

@@ -57,7 +57,7 @@ def test_what_layouts_reach(layout, angle, all_wheels, one_lost):
 def test_every_layout_of_the_specification_is_one():
     assert {*LAYOUTS, "by-hand"} == set(LayoutName)
     assert specified_layout(Specification()) == PAIR
-    with pytest.raises(UsageError, match="no layout of one device"):
+    with pytest.raises(UsageError, match="not the layout of a single device"):
         specified_layout(Specification(ocs=OcsSection(layout="all")))
 
 

@@ -1,9 +1,9 @@
-"""The device to be sized by the bound, and its fixed point with the robot that carries it.
+"""The sizing problem of a device by the bound, and its fixed point with the robot that carries it.
 
-A heavier wheel asks for more momentum, and the axes lie where robot and wheels together want them:
-spin inertia and incidence are the fixed point of rim -> total inertia -> incidence -> demand. It is
-approached from below, from the robot alone. As heavier wheels ask for more, the first spin inertia
-that no rim has proves that there is no device.
+A heavier wheel needs more momentum, and the incidence depends on the inertia of robot and wheels
+together: spin inertia and incidence are the fixed point of rim -> total inertia -> incidence ->
+demand. It is approached from below, starting with the robot alone. As heavier wheels need more, the
+first spin inertia that no rim reaches proves that no device is feasible.
 """
 
 from collections.abc import Callable, Mapping
@@ -76,14 +76,13 @@ def braked_total(
 def device_demands(
     problem: DeviceProblem, shape: RimShape | None, incidence: float
 ) -> tuple[SpinDemand, ...]:
-    """What each part of the requirement asks of a wheel, with the inertia at its own incidence.
+    """Demand on a wheel of each part of the requirement, with the inertia at its own incidence.
 
     A maneuver with an incidence of its own turns the wheels, and with them their inertia.
 
     Args:
         problem: requirement and robot.
-        shape: of both rims; None: of the robot alone.
-        incidence: of the design [rad].
+        shape: of both rims; None: robot alone. incidence: of the design [rad].
     """
 
     @cache
@@ -104,7 +103,7 @@ def device_demands(
 def best_incidences(
     problem: DeviceProblem, shape: RimShape | None, incidence: float
 ) -> Mapping[Criterion, float]:
-    """The best incidence under each criterion [rad], with the wheels standing at `incidence`."""
+    """The best incidence under each criterion [rad], with the wheels at `incidence`."""
     inertia = braked_total(problem, shape, incidence).inertia
     return incidence_by_criterion(inertia, design_momenta(problem.requirement, inertia))
 
@@ -112,9 +111,9 @@ def best_incidences(
 def design_momenta(requirement: Requirement, inertia: FloatArray) -> FloatArray:
     """Largest roll and largest pitch momentum [N m s], shape (2,).
 
-    Maneuvers for which the device is turned by hand have no say in the design's incidence. What is
-    asked about an axis for the sake of the coupling alone counts where the turn would else end off
-    level: the cube root of next to nothing is much.
+    Maneuvers for which the device is turned by hand do not affect the design's incidence. Demand
+    about an axis that is due to coupling alone counts only where the turn would otherwise end off
+    level: the cube root of a tiny figure is large.
 
     Args:
         requirement: maneuvers and rate change.
@@ -139,16 +138,16 @@ _ITERATIONS_MAX = 1000
 
 @dataclass(frozen=True, eq=False)
 class DeviceFixedPoint:
-    """What robot and device together ask for, and a rim that has it.
+    """Fixed point of the demand of robot and device together, and a rim that meets it.
 
     Attributes:
         spin_inertia: of each wheel [kg m^2]; inf if an axis is out of reach.
         incidence: [rad].
         demands: on the wheels.
-        shape: of their rims; None: no rim has so much, and there is no device.
+        shape: of their rims; None: no rim reaches the spin inertia, so no device is feasible.
         residual: relative change of the spin inertia or change of the incidence [rad] in one more
-            iteration, the larger one.
-        iterations: taken.
+            iteration, whichever is larger.
+        iterations: number of iterations.
     """
 
     spin_inertia: float
@@ -160,10 +159,10 @@ class DeviceFixedPoint:
 
 
 def find_fixed_point(problem: DeviceProblem) -> DeviceFixedPoint:
-    """Iterate from the robot alone until nothing moves.
+    """Iterate from the robot alone to convergence.
 
     Raises:
-        UsageError: the requirement asks for nothing.
+        UsageError: the requirement is empty.
     """
     guess = _follow(problem, None, incidence_by_criterion(problem.robot.inertia)[problem.criterion])
     for iterations in range(1, _ITERATIONS_MAX + 1):
@@ -194,8 +193,8 @@ def _follow(problem: DeviceProblem, shape: RimShape | None, incidence: float) ->
     largest = max((demand.spin_inertia for demand in demands), default=0.0)
     if largest == 0.0:
         raise UsageError(
-            "nothing is asked of the wheels",
-            hint="Ask for a rate change, for a maneuver, or for a spin inertia.",
+            "nothing is required of the wheels",
+            hint="Specify a rate change, a maneuver, or a spin inertia.",
         )
     smallest = smallest_rim_inertia(problem.rim_problem(largest).limits)
     return DeviceFixedPoint(max(largest, float(smallest) * OFF_THE_EDGE), incidence, demands)

@@ -20,7 +20,7 @@ from ocs_design.sizing.bound.rim_program import RimSolution, solve_rim
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class DeviceSizing(DeviceFixedPoint):
-    """Two sized wheels on their robot, where what they are asked for is settled.
+    """Two sized wheels on their robot, at the converged fixed point.
 
     Attributes:
         total: robot and wheels, braked, in B.
@@ -40,11 +40,11 @@ class DeviceSizing(DeviceFixedPoint):
 def size_device(problem: DeviceProblem) -> DeviceSizing:
     """The lightest wheels that meet the requirement on their robot.
 
-    The fixed point in closed form, and the proof of its rim by the convex program.
+    The fixed point is in closed form; the convex program proves its rim.
 
     Raises:
         Infeasible: no rim within the envelope will do, or an axis is out of the wheels' reach.
-        UsageError: the requirement asks for nothing, or a limit is no positive number.
+        UsageError: the requirement is empty, or a limit is not a positive number.
     """
     check_limits(problem.envelope, problem.material, problem.requirement.wheel_speed_max)
     found = find_fixed_point(problem)

@@ -1,4 +1,4 @@
-"""Why no rim, or no device of two rims, meets its limits, and which single changes would do."""
+"""Reasons why no rim, or no device of two rims, meets its limits, and single changes that help."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
@@ -28,18 +28,18 @@ from ocs_design.sizing.limits import (
 )
 
 DEVICE_PRECISION = 1e-4
-"""Precision of a device's changes, relative: they are reported to three digits, and each step of
-the search sizes a whole device."""
+"""Relative precision of a device's changes: they are reported to three digits, and each step of the
+search sizes a whole device."""
 
 Problem = TypeVar("Problem", RimProblem, DeviceProblem)
 
 
 def infeasible_rim(problem: RimProblem, solve: Callable[[RimProblem], object]) -> Infeasible:
-    """The error for a rim that cannot be.
+    """The error for an infeasible rim.
 
     Args:
         problem: of the rim.
-        solve: proves each change by solving with it; raises where it fails.
+        solve: verifies each change by solving with it; raises where that fails.
     """
     changes = _changes(problem, limits_set(problem), is_feasible, PRECISION)
     return _infeasible(problem, problem, changes, solve, binding=conflicting_limits(problem))
@@ -48,36 +48,36 @@ def infeasible_rim(problem: RimProblem, solve: Callable[[RimProblem], object]) -
 def infeasible_device(
     problem: DeviceProblem, dead_end: DeviceFixedPoint, solve: Callable[[DeviceProblem], object]
 ) -> Infeasible:
-    """The error for a device that cannot be.
+    """The error for an infeasible device.
 
     Args:
         problem: of the device.
         dead_end: where its iteration ended.
-        solve: proves each change by sizing again with it; raises where it fails.
+        solve: verifies each change by sizing with it; raises where that fails.
     """
     demands = dead_end.demands
     if isinf(dead_end.spin_inertia):
         blind = next(demand for demand in demands if isinf(demand.spin_inertia))
         axes = " and ".join(blind.unreachable_axes)
-        # The largest of the others: infinity is no number in JSON.
+        # The largest of the others: JSON has no infinity.
         finite = filter(isfinite, (demand.spin_inertia for demand in demands))
         return Infeasible(
-            f"{capitalised(blind.source)} asks for {axes} momentum, which wheels at an incidence "
-            f"of {degrees(blind.incidence):.4g} deg cannot give.",
+            f"{capitalised(blind.source)} requires {axes} momentum, which wheels at an incidence "
+            f"of {degrees(blind.incidence):.4g} deg cannot provide.",
             binding=["incidence"],
             required_spin_inertia=max(finite, default=0.0),
             largest_spin_inertia=largest_spin_inertia(problem.rim_problem(1.0)),
             hint="Choose an incidence between 0 and 90 deg, another criterion, "
-            "or drop what asks for that axis.",
+            "or drop the requirement about that axis.",
         )
     rim = problem.rim_problem(dead_end.spin_inertia)
     limits, asked_by = limits_set(rim), ""
     if problem.requirement.spin_inertia is None:
-        # The wheel speed is a limit only where it decides on the spin inertia.
+        # The wheel speed is a limit only where it affects the spin inertia.
         limits = (*limits, WHEEL_SPEED)
         if largest_spin_inertia(rim) > 0.0:
             most = max(demands, key=lambda demand: demand.spin_inertia)
-            asked_by = f"{most.source} asks for too much: "
+            asked_by = f"{most.source} requires too much: "
 
     def possible(changed: DeviceProblem) -> bool:
         return find_fixed_point(changed).shape is not None
@@ -92,10 +92,10 @@ def _changes(
     possible: Callable[[Problem], bool],
     precision: float,
 ) -> dict[Limit, float]:
-    """Values of the limits that can mend the problem alone and just do [SI]."""
+    """Values of single limits that just make the problem feasible [SI]."""
 
     def mends(limit: Limit, value: float) -> bool:
-        """Whether a value does just inside: on the edge itself no solver can prove it."""
+        """Whether a value just inside is feasible: at the edge no solver can verify it."""
         return possible(with_limit(problem, limit, limit.loosened(value, 1.0 - precision / 3.0)))
 
     values = {
@@ -116,14 +116,14 @@ def _infeasible(
     binding: Sequence[Limit],
     asked_by: str = "",
 ) -> Infeasible:
-    """The error with the changes that would do, each proved by solving with it."""
+    """The error with the changes that would help, each verified by solving with it."""
     texts, relaxations = [], {}
     for limit, value in changes.items():
         solve(with_limit(problem, limit, value))
         text, relaxations[limit.name] = limit.loose_text(value), value
         if limit is STRESS:
             safety = rim.envelope.stress_safety
-            # Told is the stress to allow [Pa].
+            # The stress to allow is reported [Pa].
             relaxations[limit.name] = rim.hoop_stress_max * safety / value
             needed = round_outwards(relaxations[limit.name] * safety / 1e6, upwards=True)
             stronger = f"a material that yields at {needed:g} MPa"
@@ -135,7 +135,7 @@ def _infeasible(
         required_spin_inertia=rim.spin_inertia,
         largest_spin_inertia=largest_spin_inertia(rim),
         relaxations=relaxations,
-        hint=advice(texts, "loosen several, or ask for less."),
+        hint=advice(texts, "loosen several, or require less."),
     )
 
 
@@ -152,7 +152,7 @@ def is_feasible(problem: RimProblem) -> bool:
 
 
 def limits_set(problem: RimProblem) -> tuple[Limit, ...]:
-    """Limits of a rim that limit anything."""
+    """Limits of a rim that have an effect."""
     limited = np.isfinite(problem.hoop_stress_max)
     return tuple(
         limit
@@ -162,9 +162,9 @@ def limits_set(problem: RimProblem) -> tuple[Limit, ...]:
 
 
 def conflicting_limits(problem: RimProblem) -> tuple[Limit, ...]:
-    """A set of limits that forbids the rim and of which none can be spared.
+    """An irreducible set of limits that makes the rim infeasible.
 
-    The deletion filter: loosen one after the other and leave it so if no rim fits even then
+    The deletion filter: loosen one after the other and leave it loose if still no rim fits
     (Chinneck, Feasibility and Infeasibility in Optimization, 2008, section 6.1).
     """
     needed = []
@@ -199,7 +199,7 @@ def largest_spin_inertia(problem: RimProblem) -> float:
 
 
 def shortfall(problem: RimProblem) -> str:
-    """Clause on what is asked for, what stands against it and how much is possible."""
+    """Clause on what is required, which limits conflict with it and how much is possible."""
     asked = f"{problem.spin_inertia:.5g} kg m^2"
     texts = [limit.text(limit.value(problem.envelope)) for limit in in_the_way(problem)]
     room = " and ".join(filter(None, [", ".join(texts[:-1]), *texts[-1:]]))
@@ -216,7 +216,7 @@ def shortfall(problem: RimProblem) -> str:
 
 
 def in_the_way(problem: RimProblem) -> Sequence[Limit]:
-    """The limits that conflict; all of them where the demand is beyond what can be told apart."""
+    """The conflicting limits; all limits where the conflict is below numerical resolution."""
     return conflicting_limits(problem) or limits_set(problem)
 
 

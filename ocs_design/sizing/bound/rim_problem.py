@@ -10,23 +10,23 @@ limits are
     (3 + nu) R^2 + (1 - nu) r^2 <= S                 (hoop stress, S = 4 sigma / (rho w^2))
 
 The best bore at a given R is the largest, r(R), the smallest of the three upper limits on r. Two of
-them rise with R (h_max and wall), so that R^2 + r^2 rises with R as long as one of these is the
-smallest. Once the hoop stress is, R^2 + r^2 = S / (1 - nu) - 2 (1 + nu) / (1 - nu) R^2 falls. R is
-therefore best where the hoop stress meets the larger of the two crossings
+them increase with R (h_max and wall), so R^2 + r^2 increases with R as long as one of these is the
+smallest. Once the hoop stress is, R^2 + r^2 = S / (1 - nu) - 2 (1 + nu) / (1 - nu) R^2 decreases.
+The best R is therefore the larger of the two crossings with the hoop stress
 
     h_max: (3 + nu) a + (1 - nu) sqrt(a^2 - P) = S,  a = R^2
     wall:  (3 + nu) R^2 + (1 - nu) (R - t)^2 = S,
 
-unless one of two limits stops it earlier: R_max, or h_min. The latter forbids only walls so thick
-that even h_min gives too much inertia: along r = R - t the difference R^4 - r^4 rises with R and
-meets Q at 4 t c^3 + t^3 c = Q, c = R - t / 2 (a cubic with one real root). So
+unless R_max or h_min stops it earlier. The latter forbids only walls so thick that even h_min gives
+too much inertia: along r = R - t the difference R^4 - r^4 increases with R and meets Q at 4 t c^3 +
+t^3 c = Q, c = R - t / 2 (a cubic with one real root). So
 
     R = min(R_max, max(crossings), h_min on the wall),   r = min(h_max, wall at R),
 
 a vertex where two limits meet: r_max or hoop_stress with h_max or wall_min, or h_min with wall_min.
-If this r is below r_min, or below 1 % of R and thus no bore, no other R mends it: a smaller one
+If this r is below r_min, or below 1 % of R and thus not a bore, no other R helps: a smaller one
 lowers r(R), a larger one is forbidden or lowers it too. If the mass is above m_max, no rim is
-lighter. The vertex decides feasibility.
+lighter. So the vertex decides feasibility.
 """
 
 from dataclasses import dataclass, replace
@@ -55,7 +55,7 @@ from ocs_design.requirement.device_sections import Envelope
 
 @dataclass(frozen=True, eq=False)
 class RimLimits(Table):
-    """Everything that bounds a rim, as plain numbers: scalars, or arrays that broadcast.
+    """Limits of a rim as plain numbers: scalars, or arrays that broadcast.
 
     Attributes:
         density: [kg/m^3].
@@ -63,15 +63,15 @@ class RimLimits(Table):
         mass_max: [kg].
         stretch_max: largest (3 + nu) R^2 + (1 - nu) r^2 that the allowed hoop stress admits, which
             is 4 sigma / (rho w^2) [m^2]; inf: not limited.
-        poisson_ratio: nu; of no account where the hoop stress is not limited.
+        poisson_ratio: nu; unused where the hoop stress is not limited.
         web: thickness of a disc of the rim's material that has the web's spin inertia and fills
             the bore [m]; 0: massless spokes.
-        outer_radius_min: that leaves room for a motor's mount [m]; 0: any.
-        cuts: chamfers and holes, the same of all; the other limits leave room for them.
-        web_weight: mass of the web over that of the disc; below 1 with lightening holes.
-        lightened_bore: least bore with room for those [m]; 0: none. `inner_radius_min` has it.
-        stretch_left: share of the stretch that they leave; `stretch_max` has it.
-        inner_radius_max: [m]; of a ring around a bell what `inner_radius_min` is; inf: any.
+        outer_radius_min: least outer radius with room for a motor's mount [m]; 0: any.
+        cuts: chamfers and holes, the same for all; the other limits leave room for them.
+        web_weight: ratio of the web's mass to that of the disc; below 1 with lightening holes.
+        lightened_bore: least bore with room for those [m]; 0: none. `inner_radius_min` includes it.
+        stretch_left: fraction of the stretch that they leave; `stretch_max` includes it.
+        inner_radius_max: [m]; equal to `inner_radius_min` for a ring around a bell; inf: any.
     """
 
     density: float | FloatArray
@@ -108,9 +108,8 @@ class RimProblem:
 
     Attributes:
         spin_inertia: of one wheel [kg m^2].
-        envelope: the room that it may take.
-        material: what it is made of.
-        wheel_speed: highest, at which the hoop stress is limited [rad/s].
+        envelope: limits of its dimensions. material: its material.
+        wheel_speed: highest speed, at which the hoop stress is limited [rad/s].
     """
 
     spin_inertia: float
@@ -120,7 +119,7 @@ class RimProblem:
 
     @property
     def hoop_stress_max(self) -> float:
-        """Yield strength over the safety [Pa]; inf if the material's figures are not known."""
+        """Yield strength over the safety factor [Pa]; inf if the material's data are unknown."""
         strength, safety = self.material.yield_strength, self.envelope.stress_safety
         if strength is None or self.material.poisson_ratio is None:
             return float("inf")
@@ -159,20 +158,20 @@ def limits_with_web(
     lightened_bore: float | FloatArray = 0.0,
     stretch_left: float | FloatArray = 1.0,
 ) -> RimLimits:
-    """Limits of rims around a web, with a hub of that radius [m] in it.
+    """Limits of rims around a web with a hub.
 
-    They are taller than the web, leave room for what is cut off them, and, where they are shrunk
-    on, have a shoulder and are taller than as much of the web in their own material.
+    The rims are taller than the web and leave room for their cuts. Shrunk-on rims have a shoulder
+    and are taller than a web of equal mass would be in their own material.
 
     Args:
         limits: of the rims alone.
         hub_radius: [m].
-        cuts: off the rims.
-        web_density: of web and hub [kg/m^3]; None: of one piece with the rim.
-        rim_height_min: that leaves room for the hub's screws (`Hub.rim_height_min`) [m].
-        lightened: share of the web that holes take (`Hub.lightened`).
-        lightened_bore: that leaves room for them (`Hub.bore_min`) [m].
-        stretch_left: share of the allowed hoop stress with which they stand theirs.
+        cuts: chamfers and holes of the rims.
+        web_density: of web and hub [kg/m^3]; None: in one piece with the rim.
+        rim_height_min: least height with room for the hub's screws (`Hub.rim_height_min`) [m].
+        lightened: fraction of the web that holes remove (`Hub.lightened`).
+        lightened_bore: least bore with room for them (`Hub.bore_min`) [m].
+        stretch_left: fraction of the allowed hoop stress at which the holes do not yield.
     """
     spread = spread_left(np.asarray(lightened, dtype=np.float64))
     web = np.full_like(np.asarray(limits.density, dtype=np.float64), WEB_THICKNESS)
@@ -200,17 +199,17 @@ def limits_with_web(
 
 
 def stretch_beside_holes(stress: float | FloatArray, stress_safety: float) -> float | FloatArray:
-    """Share of the allowed hoop stress at which holes in the web yield, or all of it.
+    """Fraction of the allowed hoop stress at which holes in the web yield; at most 1.
 
     Args:
-        stress: of the holes over the hoop stress (`Hub.lightened_stress`).
+        stress: ratio of the stress at the holes to the hoop stress (`Hub.lightened_stress`).
         stress_safety: yield strength over the allowed hoop stress.
     """
     return stress_safety / np.maximum(stress, stress_safety)
 
 
 def check_limits(envelope: Envelope, material: Material, wheel_speed: float) -> None:
-    """Refuse limits that are no limits.
+    """Refuse invalid limits.
 
     Raises:
         UsageError: a number is not positive where it must be, or not finite.
@@ -221,7 +220,7 @@ def check_limits(envelope: Envelope, material: Material, wheel_speed: float) -> 
         _require_positive(name, getattr(envelope, name))
     for name in ("inner_radius_min", "height_min", "wall_min", "mass_max"):
         value = getattr(envelope, name)
-        # An infinite mass is a mass without limit; NaN is neither.
+        # An infinite mass means no limit; NaN is invalid.
         if not value >= 0.0:
             raise UsageError(f"{name} is {value:g}; it must not be negative")
 
@@ -231,12 +230,12 @@ def _require_positive(name: str, value: float) -> None:
         raise UsageError(f"{name} is {value:g}; it must be positive and finite")
 
 
-# Limits that meet in one point stay compatible when their figures are rounded.
+# Tolerance that keeps limits which meet in one point compatible after rounding.
 _ROUNDING = 1e-12
 
 BORE_SHARE = 0.01
-"""A rim is no disc: its bore is at least this share of its outer radius. As a bore closes, the
-shadow prices grow without limit, and no solver can tell them."""
+"""Least ratio of a rim's bore to its outer radius: a rim is not a disc. As a bore closes, the
+shadow prices grow without bound, and no solver can compute them."""
 
 
 class RimShape(NamedTuple):
@@ -254,13 +253,13 @@ class RimShape(NamedTuple):
 
 
 def lightest_rim(spin_inertia: ArrayLike, limits: RimLimits) -> RimShape:
-    """The lightest rim of each spin inertia [kg m^2] within its limits; see the module's text."""
+    """The lightest rim of each spin inertia [kg m^2] within limits; see the module's docstring."""
     inertia = np.asarray(spin_inertia, dtype=np.float64)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         tall = 2.0 * inertia / (np.pi * limits.density * limits.height_max)
         flat = np.divide(2.0 * inertia, np.pi * limits.density * np.asarray(limits.height_min))
-        # Radius beyond which the hoop stress costs more bore than it gains, written so that an
-        # unlimited one (inf) gives inf.
+        # Radius beyond which the hoop stress costs more bore than the radius gains, written so that
+        # an unlimited stress (inf) gives inf.
         (p, n), stretch, wall = limits.hoop_weights, np.asarray(limits.stretch_max), limits.wall_min
         root = np.sqrt(np.maximum(1.0 - (p**2 - n**2) * tall / stretch**2, 0.0))
         by_height = (stretch + n**2 * tall / stretch) / (p + n * root)
@@ -276,9 +275,9 @@ def lightest_rim(spin_inertia: ArrayLike, limits: RimLimits) -> RimShape:
         )
         height = 2.0 * inertia / (np.pi * limits.density * spread)
         mass = 2.0 * inertia / (outer**2 + inner**2)
-        # The limits that did not shape the vertex. Of the hoop stress it is enough that it leaves
-        # any bore: up to the crossing r(R) is below its line, and a crossing that lies beyond
-        # S = (3 + nu) R^2 is one with the negative root.
+        # The limits that did not define the vertex. For the hoop stress it is enough that it leaves
+        # any bore: up to the crossing, r(R) is below its line, and a crossing beyond S = (3 + nu)
+        # R^2 belongs to the negative root.
         slack = 1.0 + _ROUNDING
         fits = (
             (tall <= flat * slack)
@@ -298,7 +297,7 @@ OFF_THE_EDGE = 1.0 + 1e-10
 def smallest_rim_inertia(limits: RimLimits) -> FloatArray:
     """Spin inertia of the narrowest, thinnest and flattest rim within the lower limits [kg m^2].
 
-    With its web, if it has one, and without what is cut off it.
+    Its web is included, its cuts are not.
     """
     bore = np.maximum(limits.inner_radius_min, limits.wall_min * BORE_SHARE / (1.0 - BORE_SHARE))
     bore = np.maximum(bore, np.asarray(limits.outer_radius_min) - limits.wall_min)
@@ -311,8 +310,9 @@ def smallest_rim_inertia(limits: RimLimits) -> FloatArray:
 def largest_spin_inertia(limits: RimLimits) -> FloatArray:
     """Largest spin inertia of any rim within the limits [kg m^2]; 0 where none has room.
 
-    With its web. As wide and tall as room and hoop stress let it be around the least bore; and with
-    its mass as far out as it may be, its web to the same radius.
+    An upper bound, with the web: the smaller of the inertias of a rim as wide and tall as envelope
+    and hoop stress allow around the least bore, and of one with all its mass at the largest radius,
+    with a web to the same radius.
     """
     web, bore = np.asarray(limits.web), np.asarray(limits.inner_radius_min)
     p, n = limits.hoop_weights
@@ -329,7 +329,7 @@ def largest_spin_inertia(limits: RimLimits) -> FloatArray:
 
 
 def flat_wall_radius(flat: FloatArray, wall: float | FloatArray) -> FloatArray:
-    """Outer radius at which a rim of the least wall and the least height has the inertia [m].
+    """Outer radius at which a rim of the least wall and the least height has this inertia [m].
 
     The real root of c^3 + t^2/4 c = Q / (4 t) by the hyperbolic sine.
     """

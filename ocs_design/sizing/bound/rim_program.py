@@ -1,12 +1,12 @@
 """The lightest rim as a convex program in CVXPY, solved by Clarabel (docs/theory.md, The rim).
 
 Variables are a = (R / s)^2 and b = (r / s)^2 with a scale s, so that both are of the order of one,
-and limits that may be far away are divided by their own size: else the solver loses digits. By
-Lagrange, the optimal mass changes with a limit as the constraint g(a, b; limit) <= 0 does, times
-its multiplier. All limits are convex but wall and least height, for which tangents at the last
-solution stand, the convex-concave procedure: where the solutions stop moving, the multipliers of
-the last convex program are those of the rim itself (Yuille and Rangarajan, Neural Computation 15,
-2003; Lipp and Boyd, Optim. Eng. 17, 2016).
+and limits that may be far away are divided by their own size; otherwise the solver loses digits. By
+Lagrange, the sensitivity of the optimal mass to a limit is that of the constraint g(a, b; limit) <=
+0 times its multiplier. All limits are convex except wall and least height, which are replaced by
+tangents at the last solution (the convex-concave procedure): where the solutions converge, the
+multipliers of the last convex program are those of the rim itself (Yuille and Rangarajan, Neural
+Computation 15, 2003; Lipp and Boyd, Optim. Eng. 17, 2016).
 """
 
 import warnings
@@ -35,7 +35,8 @@ class Constraint(NamedTuple):
 
     Attributes:
         convex: the CVXPY constraint.
-        derivative: of g by the limit where it binds, at (a, b) [1 / SI unit of the limit].
+        derivative: of g with respect to the limit where it is active, at (a, b) [1 / SI unit of the
+            limit].
     """
 
     convex: "CvxpyConstraint"
@@ -47,12 +48,12 @@ class RimConstraints:
 
     Attributes:
         a, b: CVXPY variables.
-        by_name: the limits that are set, in the words of the specification; the derivative of the
-            hoop stress is by the allowed stress [1 / Pa].
+        by_name: the limits that are set, by the specification's names; the derivative of the hoop
+            stress is with respect to the allowed stress [1 / Pa].
     """
 
     def __init__(self, problem: RimProblem, scale: float) -> None:
-        # Importing CVXPY takes a second, which only those pay who solve.
+        # Importing CVXPY takes a second, so it is imported only to solve.
         cvxpy = import_module("cvxpy")
         self.a: Variable
         self.b: Variable
@@ -64,8 +65,8 @@ class RimConstraints:
         # Differences a^2 - b^2 of the tallest rim and of the flattest one.
         tall = per_height / room.height_max
         flat = per_height / room.height_min if room.height_min > 0.0 else np.inf
-        # The limit of the height is a second-order cone. The geometric mean of a - b and a + b is
-        # the same one, but costs Clarabel four digits of the multipliers.
+        # The height limit is a second-order cone. The geometric mean of a - b and a + b would
+        # express the same cone, but costs Clarabel four digits of the multipliers.
         norm = cvxpy.norm(cvxpy.hstack([self.b, np.sqrt(tall)]))
         self.by_name = {
             "r_max": Constraint(
@@ -119,13 +120,13 @@ class RimConstraints:
             move()
 
     def point(self) -> FloatArray:
-        """The values of a and b, shape (2,); never below zero, as a solver's last digit may be."""
+        """The values of a and b, shape (2,); clipped at zero against a solver's rounding."""
         return np.maximum([np.asarray(x.value).item() for x in (self.a, self.b)], 0.0)
 
     def _tangent(
         self, x: "Variable", function: Callable[[float], tuple[float, float]]
     ) -> "Expression":
-        """The tangent of a convex function, which returns its value and its slope, at `touch`."""
+        """The tangent, at `touch`, of a convex function that returns its value and slope."""
         cvxpy = import_module("cvxpy")
         slope, offset = cvxpy.Parameter(), cvxpy.Parameter()
 
@@ -142,20 +143,19 @@ class RimConstraints:
 _SOLVER_OPTIONS = {"tol_gap_abs": 1e-10, "tol_gap_rel": 1e-10, "tol_feas": 1e-10}
 _STEP_TOLERANCE = 1e-8
 _ITERATIONS_MAX = 50
-# A multiplier below this belongs to a limit that does not bind; those that do are of order one.
+# A multiplier below this belongs to an inactive limit; those of active limits are of order one.
 _IDLE = 1e-6
 
 
 @dataclass(frozen=True)
 class RimOptimum:
-    """What the convex program found.
+    """Solution of the convex program.
 
     Attributes:
         outer_radius: [m].
         mass: [kg].
         prices: change of the mass per change of each limit that is set [kg per SI unit].
-        gap: primal less dual objective, over the primal one.
-        status: CVXPY's.
+        gap: duality gap relative to the primal objective. status: CVXPY's.
     """
 
     outer_radius: float
@@ -166,7 +166,7 @@ class RimOptimum:
 
 
 def optimise_rim(problem: RimProblem, outer_radius: float, inner_radius: float) -> RimOptimum:
-    """Improve on a feasible rim until nothing moves any more.
+    """Improve a feasible rim until the iteration converges.
 
     Args:
         problem: of the rim.
@@ -204,7 +204,7 @@ def optimise_rim(problem: RimProblem, outer_radius: float, inner_radius: float) 
 
 
 def load_solver() -> "ModuleType":
-    """CVXPY, whose import takes seconds, at a time of the caller's choice.
+    """The module CVXPY, imported when called, as that takes seconds.
 
     Raises:
         MissingToolError: it is not installed.
@@ -220,16 +220,16 @@ def load_solver() -> "ModuleType":
 
 def _solved_gap(program: "Problem") -> float:
     """Solve in place; returns the relative gap between the primal and the dual objective."""
-    # Not `program.solve()`, which throws the dual objective away.
+    # Not `program.solve()`, which discards the dual objective.
     data, chain, inverse = program.get_problem_data("CLARABEL", solver_opts=_SOLVER_OPTIONS)
     raw = chain.solve_via_data(program, data, solver_opts=_SOLVER_OPTIONS)
     with warnings.catch_warnings():
-        # An inaccurate solution shows in the gap and in the status.
+        # An inaccurate solution is visible in the gap and in the status.
         warnings.filterwarnings("ignore", message="Solution may be inaccurate")
         program.unpack_results(raw, chain, inverse)
     if program.status not in ("optimal", "optimal_inaccurate"):
         raise RuntimeError(
-            f"Clarabel calls a rim {program.status} that has been built: {raw.status}"
+            f"Clarabel calls a rim that is known to exist {program.status}: {raw.status}"
         )
     return float(abs(raw.obj_val - raw.obj_val_dual) / abs(raw.obj_val))
 
@@ -247,7 +247,7 @@ class RimSolution:
     Attributes:
         inner_radius, outer_radius, height: of the vertex in closed form, to full digits [m].
         mass: [kg]. spin_inertia, transverse_inertia: [kg m^2].
-        binding: names of the limits that hold the mass up.
+        binding: names of the active limits.
         shadow_prices: change of the mass per change of each limit [kg per SI unit of the limit];
             negative where a larger limit saves mass; per allowed stress for `hoop_stress`.
         gap: relative duality gap of the convex program.
@@ -271,7 +271,7 @@ class RimSolution:
 
 
 def solve_rim(problem: RimProblem) -> RimSolution:
-    """The lightest rim of the spin inertia asked for.
+    """The lightest rim of the required spin inertia.
 
     The closed form gives the numbers; the convex program, started there, must agree and gives the
     multipliers.

@@ -1,1 +1,1 @@
-"""What holds the feet: the trunk itself, plates, posts, a mast or pedestals."""
+"""Footing: what holds the feet, be it the trunk itself, plates, posts, a mast or pedestals."""

@@ -1,8 +1,9 @@
-"""Contact of feet, plates, masts and pedestals with what is below them, looked at by points.
+"""Contact of feet, plates, masts and pedestals with the surface below them, sampled at points.
 
-A foot is held where the ring that its screws' lands sweep, whatever the incidence, lies on the
-trunk whole: within `FLATNESS` below the plane that it stands on, and nothing above that plane under
-its base. A plate is held by four screws, where the trunk is as flat under each head or sleeve.
+A foot is held where the ring that its screws' lands sweep over all incidences lies entirely on the
+trunk: nowhere more than `FLATNESS` below the plane that it stands on, with nothing above that plane
+under its base. A plate is held by four screws where the trunk is equally flat under each head or
+sleeve.
 """
 
 from collections.abc import Iterator, Sequence
@@ -28,10 +29,10 @@ from ocs_design.sizing.footing.feet import feet_of, leans
 from ocs_design.sizing.footing.formed import TILT_MAX, off_trunk
 
 FLATNESS = 1e-3
-"""Largest depth of a trunk's surface below what stands on it [m]: a washer's thickness."""
+"""Largest depth of a trunk's surface below the part that stands on it [m]: a washer's thickness."""
 
 PROUD = 1e-4
-"""Largest height of a trunk's surface above what stands on it [m]: rounding of meshes."""
+"""Largest height of a trunk's surface above the part's underside [m]: rounding of meshes."""
 
 
 def heights_at(surface: Surface, points: FloatArray) -> FloatArray:
@@ -45,12 +46,12 @@ def highest_of(surface: Surface, points: FloatArray) -> float:
 
 
 def disc_points(middle: Sequence[float], radius: float) -> FloatArray:
-    """Points that stand for equal shares of a disc [m], shape (n, 2)."""
+    """Points that represent equal areas of a disc [m], shape (n, 2)."""
     return ring_points(middle, 0.0, radius)
 
 
 def ring_points(middle: Sequence[float], inner: float, outer: float) -> FloatArray:
-    """Points that stand for equal shares of a ring [m], shape (n, 2)."""
+    """Points that represent equal areas of a ring [m], shape (n, 2)."""
     inner = max(inner, 0.0)
     rings = max(4, min(48, round((outer - inner) / 1e-3)))
     around = max(16, min(180, round(2.0 * pi * outer / 1e-3)))
@@ -58,14 +59,14 @@ def ring_points(middle: Sequence[float], inner: float, outer: float) -> FloatArr
 
 
 def plate_points(plate: CarrierPlate) -> FloatArray:
-    """Points all over a plate in B [m], shape (n, 2)."""
+    """Points covering a plate in B [m], shape (n, 2)."""
     places = _within(plate.shape) + np.array(plate.position[:2])
     return np.concatenate([places + np.array([row, 0.0]) for row in plate.rows])
 
 
 @lru_cache(maxsize=64)
 def _within(shape: DogBone) -> FloatArray:
-    """Points all over an outline [m], shape (n, 2)."""
+    """Points covering an outline [m], shape (n, 2)."""
     wide = shape.half_length if shape.arms > 2 else shape.radius
     xs, ys = (
         np.linspace(-half, half, 1 + int(np.ceil(2.0 * half / max(1e-3, shape.radius / 40.0))))
@@ -76,7 +77,7 @@ def _within(shape: DogBone) -> FloatArray:
 
 
 def base_points(pedestal: Pedestal) -> FloatArray:
-    """Points all over a pedestal's underside in B [m], shape (n, 2)."""
+    """Points covering a pedestal's underside in B [m], shape (n, 2)."""
     half, place = pedestal.width / 2.0, pedestal.placement
     ends = (-half, half), (-pedestal.flange, pedestal.length + pedestal.flange)
     grid = [np.linspace(low, high, 2 + int((high - low) / 1e-3)) for low, high in ends]
@@ -86,17 +87,16 @@ def base_points(pedestal: Pedestal) -> FloatArray:
 
 @dataclass(frozen=True)
 class FootContact:
-    """How something stands on what is below it.
+    """Contact of a part with the surface below it.
 
     Attributes:
-        name: what stands, as in "left foot" or "foot 1".
-        on: what it stands on, as in "trunk".
-        share: of its underside that is in contact; None: not known.
-        gap: largest under its screws' lands [m]; inf: nothing is there; None: not known.
-        proud: height of what is below over its underside [m]; 0: nothing is in its way.
-        held: whether all its screws' lands are in contact and nothing is in its way; None: not
-            known.
-        leans: whether the module leans, and stands on nothing.
+        name: the part, such as "left foot" or "foot 1".
+        on: what it stands on, such as "trunk".
+        share: fraction of its underside that is in contact; None: unknown.
+        gap: largest gap under its screws' lands [m]; inf: nothing is there; None: unknown.
+        proud: height of the surface above its underside [m]; 0: no interference.
+        held: whether all its screws' lands are in contact without interference; None: unknown.
+        leans: whether the module is tilted and has no support.
     """
 
     name: str
@@ -111,8 +111,8 @@ class FootContact:
 def contacts_of(robot: Robot, device: Device) -> tuple[FootContact, ...]:
     """What the feet stand on, and each screw of the plate where there is one.
 
-    Empty for wheels without feet. A foot whose wheel's axis is not horizontal stands on its
-    pedestal, and that on the trunk; without one it stands on nothing.
+    Empty for wheels without feet. A foot whose wheel's axis is not horizontal stands on a pedestal,
+    and that on the trunk; without a pedestal it has no support.
     """
     if device.carrier.mass == 0.0:
         return ()
@@ -126,7 +126,7 @@ def contacts_of(robot: Robot, device: Device) -> tuple[FootContact, ...]:
         elif leans(module):
             found.append(FootContact(name, "trunk", 0.0, inf, 0.0, held=False, leans=True))
         elif plate is not None:
-            # It carries a foot around the circle of its screws.
+            # A plate supports a foot around its screw circle.
             gap = min(abs(underside - plate.top - level) for level in plate.heights)
             share = float(_over_plate(plate, disc_points(middle, feet.radius)).mean())
             lands = ring_points(middle, *feet.lands)
@@ -144,7 +144,7 @@ def contacts_of(robot: Robot, device: Device) -> tuple[FootContact, ...]:
 def under_pedestal(
     surface: Surface | None, device: Device, module: Module, pedestal: Pedestal
 ) -> FootContact:
-    """Contact of a pedestal with the trunk, which also has to bear the foot where it is."""
+    """Contact of a pedestal with the trunk; held only if the foot is seated on the pedestal."""
     place = pedestal.placement
     lands = [disc_points(hole, AROUND_SLOT) for hole in pedestal.in_base(pedestal.holes)]
     points = base_points(pedestal), np.concatenate(lands)
@@ -159,7 +159,7 @@ def under_pedestal(
 
 
 def _over_plate(plate: CarrierPlate, points: FloatArray) -> NDArray[np.bool_]:
-    """Whether points of B are over a plate's aluminium, its holes for screws counted as full."""
+    """Whether points of B are over a plate's aluminium, screw holes counted as solid."""
     own, over = points - np.array(plate.position[:2]), np.zeros(len(points), dtype=bool)
     for shape in plate.shapes:
         inside = shape.holds(own)
@@ -172,7 +172,7 @@ def _over_plate(plate: CarrierPlate, points: FloatArray) -> NDArray[np.bool_]:
 def _plate_contacts(robot: Robot, plate: CarrierPlate) -> Iterator[FootContact]:
     """Contact of each of a plate's screws, or of its sleeve, with the trunk.
 
-    Of a block that has the trunk's form, that of its front.
+    For a formed block, the contact of its front.
     """
     (x, y, z), mast = plate.position, plate.mast
     if mast is None:
@@ -228,10 +228,10 @@ def _contact(
     points: tuple[FloatArray, FloatArray],
     plane: float,
 ) -> FootContact:
-    """Contact with the trunk of what stands in a plane.
+    """Contact with the trunk of a part whose underside is a plane.
 
     Args:
-        name: of it. surface: of the trunk; None: not known.
+        name: of the part. surface: of the trunk; None: unknown.
         points: of its underside and of its screws' lands, shape (n, 2) each.
         plane: its height in B [m].
     """

@@ -1,4 +1,4 @@
-"""Feet of a device before what holds them is known, and the footing that is found for them."""
+"""Feet of a device before their support is known, and the footing that is found for them."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -26,13 +26,13 @@ Found = TypeVar("Found")
 SENSES = (1.0, -1.0)
 
 SAME = 1e-9
-"""Distance between places that are the same but for rounding [m]."""
+"""Distance between places that are equal except for rounding [m]."""
 
 _ALIKE = 1.02
-"""Ratio of sizes, or of masses, of modules that are nearly equal."""
+"""Ratio of sizes, or of masses, of modules that count as nearly equal."""
 
 _FIGURES = "radius", "slot_radius", "reach", "height", "mass"
-"""Fields of feet that make modules harder to hold the more of it there is."""
+"""Fields of feet whose increase makes modules harder to hold."""
 
 
 @dataclass(frozen=True)
@@ -40,14 +40,15 @@ class Feet:
     """Feet of a device.
 
     Attributes:
-        x: forward coordinate of what `bases` count from, in B [m].
-        bases: middles of the feet's bases over (x, 0) [m]; a pair's are left and right.
-        slopes: 1 where a base's screws are before it on its left, -1 on its right; empty where any
-            foot leans.
+        x: forward coordinate of the origin of `bases`, in B [m].
+        bases: centres of the feet's bases relative to (x, 0) [m]; those of a pair are left and
+            right.
+        slopes: 1 where a base's front screw is on its left, -1 where it is on its right; empty
+            where any foot is tilted.
         radius: of the bases [m].
-        slot_radius: of the circle that their screws are on [m].
+        slot_radius: radius of the screw circle [m].
         reach: radius around each that its module stays within [m].
-        height: of the wheels' middles above their undersides [m].
+        height: of the wheels' centres above the undersides [m].
         mass: of one module [kg].
     """
 
@@ -62,12 +63,12 @@ class Feet:
 
     @property
     def size(self) -> Size[float]:
-        """The room that each module takes."""
+        """Space that each module takes."""
         return Size(self.reach, self.height)
 
     @property
     def middles(self) -> list[Point]:
-        """Middles of the bases in B [m]."""
+        """Centres of the bases in B [m]."""
         return [(self.x + along, across) for along, across in self.bases]
 
     @property
@@ -77,14 +78,14 @@ class Feet:
 
     @property
     def y(self) -> float:
-        """How far left the first base stands [m]."""
+        """Lateral coordinate of the first base, positive left [m]."""
         return self.bases[0][1]
 
     @cached_property
     def rows(self) -> tuple[float, ...]:
-        """How far before x the middle of each plate is [m]; none where no plate carries them.
+        """Distance of each plate's centre ahead of x [m]; empty where no plate can carry the feet.
 
-        A pair has one plate, and a ring of more.
+        Each pair has one plate, and so has a ring of three or more.
         """
         if self.arms > 2:
             return (0.0,)
@@ -95,7 +96,7 @@ class Feet:
 
     @cached_property
     def arms(self) -> int:
-        """How many feet stand on each plate: all where they are evenly around, else pairs."""
+        """Number of feet on each plate: all where they are evenly spaced on a circle, else two."""
         count = len(self.bases)
         upright = count > 2 and len(self.slopes) == count
         ring = upright and np.allclose(self.y * directions(count), self.bases, atol=SAME)
@@ -103,7 +104,7 @@ class Feet:
 
     @property
     def screws(self) -> tuple[Point, ...]:
-        """Places of their screws over (x, 0) [m]: at 45 degrees to the lateral direction."""
+        """Positions of their screws from (x, 0) [m], at 45 degrees to the lateral direction."""
         off = self.slot_radius / sqrt(2.0)
         return tuple(
             (x + sense * off, y + sense * slope * off)
@@ -114,12 +115,12 @@ class Feet:
 
 @dataclass(frozen=True, eq=False)
 class Footing:
-    """Place and plate of modules before they are chosen.
+    """Place of modules and their plate or pedestals, before the modules are chosen.
 
     Attributes:
-        place: of the modules by their size.
-        plate: what they would stand on, were they as large as they may be; None: the trunk.
-        pedestals: under those that lean.
+        place: of the modules, as a function of their size.
+        plate: plate for the largest possible modules; None: they stand on the trunk.
+        pedestals: pedestals under tilted modules.
     """
 
     place: Place
@@ -127,13 +128,13 @@ class Footing:
     pedestals: tuple[Pedestal, ...] = ()
 
     def carried(self, robot: MassProperties) -> MassProperties:
-        """The robot with plate and pedestals, which the chosen device's own replace."""
+        """The robot with plate and pedestals, later replaced by the chosen device's own."""
         under = [*(() if self.plate is None else (self.plate,)), *self.pedestals]
         return combine([robot, *(each.mass_properties() for each in under)]) if under else robot
 
 
 def device_size(device: Device) -> Size[float]:
-    """The room that each module takes."""
+    """Space that each module takes."""
     wheel, mount = device.flywheel, motor_mount(device)
     if device.carrier.mass == 0.0:
         return wheel_size(wheel.outer_radius, wheel.height)
@@ -160,25 +161,25 @@ def feet_of(device: Device) -> Feet:
 
 
 def ring_of(layout: Layout, reach: float) -> tuple[Point, ...]:
-    """Middles of the feet's bases of modules of this radius around theirs [m]."""
+    """Centres of the feet's bases, around their common centre, for modules of this radius [m]."""
     return tuple((CLEARANCE * reach * x, CLEARANCE * reach * y) for x, y, _ in layout.ring)
 
 
 def slopes_of(axes: FloatArray) -> tuple[float, ...]:
-    """Sides on which the screws of each foot are (`Feet`); axes in B, shape (3, n)."""
+    """Sides of each foot's screws (`Feet.slopes`); axes in B, shape (3, n)."""
     if np.abs(axes[2]).max() > OUT_OF_REACH:
         return ()
     return tuple(copysign(1.0, x * y) for x, y in axes[:2].T.tolist())
 
 
 def leans(module: Module) -> bool:
-    """Whether a module's foot does not stand upright."""
+    """Whether a module's foot is tilted."""
     return float(module.frame[2, 2]) < 1.0 - OUT_OF_REACH
 
 
 @lru_cache(maxsize=64)
 def in_vain(robot: Robot, layout: Layout, *search: str | bool) -> list[Feet]:
-    """Feet that a search, by its name and options, failed for since `in_vain.cache_clear()`."""
+    """Feet for which a search, by name and options, has failed since `in_vain.cache_clear()`."""
     del robot, layout, search
     return []
 
@@ -191,12 +192,13 @@ def looked_for(
     *options: bool,
     to: Callable[[float], int] = ceil,
 ) -> Found | None:
-    """What a search finds for modules nearly as large, wherever they stood.
+    """Cached result of a search for modules of nearly this size, at any position.
 
-    Sizes and mass are rounded up by 2 % at most (`to`), or down (`floor`), so that nearly equal
+    Sizes and mass are rounded up by at most 2 % (`to`), or down (`floor`), so that nearly equal
     modules share one search.
-    It takes longest where it fails: what is larger and heavier in all than what it failed for is
-    taken to fail too, and is not looked for.
+
+    A search takes longest where it fails: modules that are larger and heavier in every respect than
+    ones for which it failed are assumed to fail too, without a search.
     """
     figures: dict[str, Any] = {
         name: _ALIKE ** to(log(getattr(feet, name), _ALIKE)) for name in _FIGURES

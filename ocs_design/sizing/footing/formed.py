@@ -1,7 +1,7 @@
-"""Fronts of blocks that have a trunk's own form, where it is nowhere flat enough for a mast.
+"""Fronts of blocks shaped to the trunk, where it is nowhere flat enough for a mast.
 
-The block is milled along the axes of its screws, drilled with the mast, and is the jig through
-which the trunk is drilled.
+The block is milled along the axes of its screws, drilled together with the mast, and serves as the
+jig for drilling the trunk.
 """
 
 from functools import lru_cache
@@ -16,38 +16,38 @@ from ocs_design.parts.solids import Relief
 from ocs_design.robot.surface import Surface
 
 TILT_MAX = pi / 9.0
-"""Steepest that a trunk may be under a screw's head, off square to it [rad].
+"""Largest slope of a trunk under a screw's head, from square to the screw [rad].
 
-At 20 degrees a thread is cut all around only 0.36 diameters behind where the drill enters, which
-the screws are longer by; a preload pushes downhill by 0.36 of itself, which they are counted with;
-and a drill wanders, which the block as a jig prevents.
+At 20 degrees, the thread is complete only 0.36 diameters behind the drill's entry, so the screws
+are longer by that; 0.36 of the preload acts downhill, which the screws are sized for; and the drill
+would wander, which the block prevents as a jig.
 """
 
 DEPTH_MAX = 0.025
-"""Largest difference of a formed block's thickness [m]: three diameters of M8, and what a ball
-cutter of 10 mm reaches down to without a longer one."""
+"""Largest difference of a formed block's thickness [m]: three diameters of M8, and the reach of a
+standard 10 mm ball cutter."""
 
 BED = 0.1e-3
-"""How far it stays off the trunk, so that it nowhere cuts into it [m]."""
+"""Gap between block and trunk, so that it nowhere interferes [m]."""
 
 STEP = 2e-3
-"""Distance of the corners of its front, at the most [m]."""
+"""Largest distance between grid points of its front [m]."""
 
 LEAST = 6e-3
-"""Thickness of a formed block where it is thinnest [m]: to weld it on a tube's wall of 5 mm."""
+"""Least thickness of a formed block [m]: enough to weld it to a tube's wall of 5 mm."""
 
 _FINE = 4
-"""Places in a cell at which the trunk is looked at, along either side."""
+"""Sampling points of the trunk along each side of a cell."""
 
 _DIGITS = 5
-"""Digits of thicknesses [m]: a hundredth of a millimetre, as a mill has it."""
+"""Digits of thicknesses [m]: a hundredth of a millimetre, the resolution of a mill."""
 
 
 @lru_cache(maxsize=4096)
 def front_of(back: Surface, half: float, low: float, high: float) -> FloatArray | None:
-    """How far back the front of a block is, to the left and upwards [m], shape (m, n).
+    """Backward distances of a block's front on a grid to the left and upwards [m], shape (m, n).
 
-    None: the trunk is not everywhere beneath it, too deep, or has an edge that it cannot follow.
+    None: the trunk is not everywhere behind it, is too deep, or has an edge that it cannot follow.
 
     Args:
         back: of the trunk. half: of the block's width [m]. low, high: its ends in B [m].
@@ -61,7 +61,8 @@ def front_of(back: Surface, half: float, low: float, high: float) -> FloatArray 
     if not np.isfinite(trunk).all():
         return None
     corners = trunk[::_FINE, ::_FINE]
-    # Between its corners a trunk that bulges is higher: they go back by as much as in any cell.
+    # Between grid points a bulging trunk is higher: they move back by as much as in any adjacent
+    # cell.
     over = trunk - _between(corners, half, (low, high), left, up)
     highest = maximum_filter(over, 2 * _FINE + 1, mode="constant")[::_FINE, ::_FINE]
     front = corners + np.maximum(highest, 0.0) + BED
@@ -74,15 +75,15 @@ def front_of(back: Surface, half: float, low: float, high: float) -> FloatArray 
 def _between(
     corners: FloatArray, half: float, ends: tuple[float, float], left: FloatArray, up: FloatArray
 ) -> FloatArray:
-    """A front between its corners."""
+    """A front interpolated between its grid points."""
     return Relief(-half, half, *ends, corners).height(left[:, None], up)
 
 
 def thicknesses(front: FloatArray, spacer: float) -> tuple[float, tuple[tuple[float, ...], ...]]:
-    """Beginning of a flat block of that thickness, and the thickness of the formed one [m].
+    """Plane where a flat block of that thickness starts, and thicknesses of the formed one [m].
 
     Args:
-        front: see `front_of`. spacer: thickness where it is thinnest [m].
+        front: see `front_of`. spacer: least thickness [m].
     """
     plane = round(float(front.max()), 6)
     thick = np.floor((spacer + plane - front) * 10**_DIGITS + 1e-6) / 10**_DIGITS
@@ -91,7 +92,7 @@ def thicknesses(front: FloatArray, spacer: float) -> tuple[float, tuple[tuple[fl
 
 
 def off_trunk(back: Surface, plate: CarrierPlate) -> FloatArray | None:
-    """How far the front of a plate's formed block is off the trunk, all over it [m]; None: none."""
+    """Distances of a plate's formed block from the trunk all over its front [m]; None: no block."""
     relief, mast, (x, y, z) = plate.relief, plate.mast, plate.position
     if relief is None or mast is None:
         return None

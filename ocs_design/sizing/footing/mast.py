@@ -53,20 +53,20 @@ from ocs_design.sizing.place import CLEARANCE, Place, Size
 MAST_SCREWS = tuple(map(screw, ("M4", "M5", "M6", "M8")))
 
 SPACERS = (0.0, 0.02, 0.04, 0.06, 0.08)
-"""Blocks between a mast and the trunk that are tried, where a limb is in its way [m]."""
+"""Thicknesses of blocks between a mast and the trunk to try, where a limb is in the way [m]."""
 
 FORMED_SPACERS = (LEAST, *SPACERS[1:])
-"""The same of blocks that have the trunk's form, where they are thinnest [m]."""
+"""Least thicknesses of formed blocks to try [m]."""
 
 SPREAD_MAX = 0.15
-"""Largest distance of a mast's screws, up and down [m]."""
+"""Largest vertical distance of a mast's screws [m]."""
 
 _STEPS = 1.0 / 4.0, 1.0 / 12.0
-"""Steps between heights of a mast's lowest plate over a module's reach: the second where the first
-finds none that hold."""
+"""Steps between heights of a mast's lowest plate, relative to a module's reach; the second is used
+where the first finds no place."""
 
 _PATTERNS = 8
-"""Patterns of a mast's screws that are tried."""
+"""Number of screw patterns of a mast that are tried."""
 
 
 @dataclass(frozen=True)
@@ -76,8 +76,8 @@ class _Spot:
     Attributes:
         far: whether its arms are long. height: of its lowest plate in B [m].
         spacer: thickness of the block before its upright [m].
-        formed: whether that block has the trunk's form, which is nowhere flat.
-        lowest: that the upright may reach, as seen to be free of limbs [m].
+        formed: whether that block is shaped to the trunk, which is nowhere flat.
+        lowest: lowest point of the upright that is known to be clear of limbs [m].
     """
 
     far: bool
@@ -90,10 +90,10 @@ class _Spot:
 def footing_behind(
     robot: Robot, feet: Feet, layout: Layout, *, formed: bool = False
 ) -> Footing | None:
-    """The place behind the trunk nearest to the robot's middle where a mast carries pairs.
+    """The place behind the trunk nearest to the robot's centre where a mast carries pairs.
 
-    They stand one above the other, on plates of one kind, by the lightest tube that bears them.
-    Where none does, a block that has the trunk's form may be before it (`formed`).
+    They stand one above the other, on plates of one kind, on the lightest tube that is strong
+    enough. Where none fits, a block shaped to the trunk may be put before it (`formed`).
     """
     back = trunk_back(robot)
     if back is None:
@@ -111,12 +111,12 @@ def footing_behind(
 
 @dataclass(frozen=True)
 class Pads:
-    """Flat spots on a trunk's back that the four screws of a mast would do with.
+    """Flat spots on a trunk's back that would suffice for the four screws of a mast.
 
     Attributes:
-        screw: by name. diameter: of each spot [m].
-        aside, up: their distances, sideways and, at the least, up and down [m].
-        there: whether the trunk's back has them, so that what lacks is room behind.
+        screw: its name. diameter: of each spot [m].
+        aside, up: their lateral distance and least vertical distance [m].
+        there: whether the trunk's back has them, so that only room behind it is lacking.
     """
 
     screw: str
@@ -127,7 +127,7 @@ class Pads:
 
 
 def pads_needed(robot: Robot, feet: Feet, layout: Layout) -> Pads | None:
-    """Spots for a mast level with its modules and right on the trunk; None: no mast bears them."""
+    """Spots for a mast level with its modules, directly on the trunk; None: no mast will do."""
     back = trunk_back(robot)
     if back is None or not layout.pairs:
         return None
@@ -157,9 +157,9 @@ def _stacked(feet: Feet, layout: Layout) -> Feet:
 
 @lru_cache(maxsize=64)
 def _mast_spot(robot: Robot, feet: Feet, layout: Layout, is_formed: bool) -> _Spot | None:
-    """Place of a mast whose modules no limb reaches while the legs give way; None: nowhere.
+    """Place of a mast whose modules no limb reaches while the legs give way; None: there is none.
 
-    With a block that has the trunk's form (`is_formed`) or without.
+    With a block shaped to the trunk (`is_formed`) or without.
     """
     back = trunk_back(robot)
     if back is None or not layout.pairs:
@@ -180,7 +180,7 @@ def _mast_spot(robot: Robot, feet: Feet, layout: Layout, is_formed: bool) -> _Sp
             (_placed(back, plates[0], size, height, face + spacer), far, height, spacer)
             for (far, plates), height, spacer in product(arms.items(), heights, spacers)
         ]
-        # A block is heavier than a longer way up.
+        # A thicker block is heavier than a longer upright.
         return sorted(found, key=lambda each: (each[3], search.cost(each[0])))
 
     each_step = (spots(share * size.reach) for share in _STEPS)
@@ -200,7 +200,7 @@ def _mast_spot(robot: Robot, feet: Feet, layout: Layout, is_formed: bool) -> _Sp
         spot = _Spot(far, height, spacer, is_formed)
         masted = (_masted(back, feet, plate, search, spot) for plate in arms[far])
         for footing in (each for each in masted if each is not None):
-            # A wider tube moves modules by less than what is kept free around them.
+            # A wider tube moves modules by less than the clearance around them.
             if not search.is_free(footing.place):
                 break
             if not any(map(search.touches, plate_solids(footing.plate))):
@@ -211,9 +211,9 @@ def _mast_spot(robot: Robot, feet: Feet, layout: Layout, is_formed: bool) -> _Sp
 
 
 def _all_arms(feet: Feet, *, far: bool) -> Iterator[CarrierPlate]:
-    """Plates on the arms of each tube in stock that bears them, as short as may be or longer.
+    """Plates on arms, short or long (`far`), for each tube in stock that is strong enough.
 
-    On the shortest, pairs stand to both sides of the upright; on the longer ones behind it.
+    On short arms, pairs stand on both sides of the upright; on long ones behind it.
     """
     ring = feet.slot_radius + SLOT_EDGE
     for side, wall in TUBES:
@@ -242,11 +242,11 @@ def _placed(
 
     Args:
         back: of the trunk. plate: on arms. size: of a module.
-        height: of the lowest plate in B [m]. face: how far back the upright's front is [m].
+        height: of the lowest plate in B [m]. face: distance of the upright's front backwards [m].
     """
     mast, out = plate.mast, CLEARANCE * size.reach
     assert mast is not None, "a plate on arms"
-    # Arms reach down between the modules below, and these to both sides of the upright.
+    # Arms reach down between the modules below, which stand on both sides of the upright.
     room = max(0.0, sqrt(2.0) * mast.side - out + _between(mast.side, size.reach)) + plate.thickness
     apart = size.standing / size.reach + CLEARANCE
     rows = range(len(plate.rows))
@@ -263,9 +263,9 @@ def _placed(
 
 
 def _between(side: float, reach: float) -> float:
-    """How far off a tube modules to both its sides must be to be clear of it [m].
+    """Distance from a tube at which modules on both its sides clear it [m].
 
-    It is as wide as across its corners.
+    Its width counts across the corners.
     """
     aside = CLEARANCE * reach - side / sqrt(2.0)
     return sqrt(max(0.0, reach**2 - aside**2))
@@ -278,7 +278,7 @@ def _masted(
     search: Search,
     spot: _Spot,
 ) -> Footing | None:
-    """Pairs on a mast behind the trunk; None: it does not hold them there.
+    """Pairs on a mast behind the trunk; None: the mast cannot hold them there.
 
     Args:
         back, plate: see `_placed`. feet: of all modules. search: of the largest, and of limbs.
@@ -289,14 +289,14 @@ def _masted(
     half, best, size = mast.side / 2.0, None, search.sizes.largest
     centers = _placed(back, plate, size, height, 0.0).centers(size)[:: len(SENSES)]
     levels = tuple((centers[:, 2] - centers[0, 2]).tolist())
-    # Where the strongest screws do not hold no others do, but they need the widest tube.
+    # Where the strongest screws do not hold, no others do; but they need the widest tube.
     for held in reversed(MAST_SCREWS):
         edge, blank, before = EDGE * held.clearance_hole, replace(plate, thread=held.name), best
         for low, high, aside, pads in _patterns(back, feet, blank, spot, centers):
             bottom, top = min(low - edge, height - mast.side), max(high + edge, height + levels[-1])
             if bottom < spot.lowest:
                 continue
-            # The block lies on what is farthest back beneath it.
+            # The block rests on the rearmost point of the trunk beneath it.
             plane = round(back.farthest(low - edge, high + edge, half), 6)
             front: tuple[tuple[float, ...], ...] = ()
             if spot.formed:
@@ -348,10 +348,10 @@ def _masted(
 def _patterns(
     back: Surface, feet: Feet, plate: CarrierPlate, spot: _Spot, centers: FloatArray
 ) -> list[tuple[float, float, float, tuple[Point, Point]]]:
-    """Patterns of four screws that a trunk's back takes and that bear, of the shortest mast first.
+    """Patterns of four screws that fit the trunk's back and are strong enough, shortest mast first.
 
-    Lower and upper height, how far to both sides, and how far back the trunk is at both heights, at
-    the least and at the most.
+    Each is the lower and the upper height, the distance to both sides, and for both heights the
+    least and largest distance of the trunk backwards.
 
     Args:
         back: of the trunk. feet: of all modules. plate: on arms.
@@ -385,10 +385,10 @@ class _Pairs(NamedTuple):
     """Lower and upper heights of a mast's screws, a row each.
 
     Attributes:
-        aside: of the screws to both sides [m], shape (n,).
+        aside: distance of the screws to both sides [m], shape (n,).
         z: both heights [m], shape (n, 2).
-        deep, far: how far back the trunk is there, at the least and at the most [m], shape (n, 2).
-        slope: of a formed block under all four, shape (n,); 0: it is flat.
+        deep, far: least and largest distance of the trunk backwards there [m], shape (n, 2).
+        slope: mean slope of a formed block under all four, shape (n,); 0: flat.
     """
 
     aside: FloatArray
@@ -402,18 +402,19 @@ class _Pairs(NamedTuple):
 def _pairs(
     back: Surface, radius: float, least: float, most: float, *, is_formed: bool = False
 ) -> _Pairs | None:
-    """Heights at which a trunk's back takes screws to both sides; None: they do not fit the tube.
+    """Heights at which a trunk's back takes screws on both sides; None: they do not fit the tube.
 
-    They are as far apart as screws may be, and the trunk is flat under a sleeve on either side.
+    Their distances are within the limits for screws, and the trunk is flat under a sleeve on either
+    side.
 
     Args:
         back: of the trunk. radius: of the sleeves [m].
-        least, most: how far their middles are to both sides [m].
-        is_formed: whether a block has the trunk's form there, so that it may be steep.
+        least, most: range of the distance of their centres to both sides [m].
+        is_formed: whether a block is shaped to the trunk there, which may then be steep.
     """
     down, up = back.x_range
     every, around = np.arange(down, up, PATTERN_STEP), disc_points((0.0, 0.0), radius)
-    # A map is out by its step on slopes; they are looked at again.
+    # On slopes the height map is off by its step; they are checked again later.
     steep = 2.0 * (radius + back.step) * tan(TILT_MAX)
     found = []
     for aside in np.arange(least, most, PATTERN_STEP).tolist():
@@ -422,7 +423,7 @@ def _pairs(
         top, low = behind.max(axis=1), behind.min(axis=1)
         with np.errstate(invalid="ignore"):
             flat = top - low <= (steep if is_formed else FLATNESS)
-            # Upwards and to the left, in the mean of both sides.
+            # Slope upwards and to the left, averaged over both sides.
             slope = behind @ np.tile(around, (len(SENSES), 1)) / (around**2).sum(axis=0)
         z, low, top, slope = every[flat], low[flat], top[flat], slope[flat] / len(SENSES)
         both = np.stack(np.triu_indices(len(z), 1), axis=1)

@@ -36,20 +36,20 @@ from ocs_design.sizing.free_place import Search, place_on_top
 from ocs_design.sizing.place import around, place_at
 
 ASIDE = (0.04, 0.08)
-"""How much farther to both sides pairs are tried, where a limb lies over the trunk's middle [m]."""
+"""Extra distances to both sides to try for pairs, where a limb lies over the trunk's middle [m]."""
 
 STEP = 4e-3
 """Step between places along the trunk [m], or a sixteenth of a module's reach."""
 
 SPARE = 1e-3
-"""Height by which a pedestal may be higher than it must be [m], so that places settle."""
+"""Excess height of a pedestal that is tolerated [m], so that places converge."""
 
 _ENDLESS = 1e3
-"""Step of a surface of one place [m]."""
+"""Grid step of a surface of one point [m]."""
 
 
 def footing_on_top(surface: Surface, feet: Feet, search: Search) -> Footing | None:
-    """The nearest place of the feet, as close together as they fit; pairs also farther apart."""
+    """The nearest place that holds the feet, as close together as possible; pairs also apart."""
     robot, layout = search.collision.robot, search.layout
     if looked_for(_as_usual, robot, feet, layout, to=floor):
         found = _nearest_footing(surface, feet, search, 0.0, PLATE_SCREW)
@@ -61,7 +61,7 @@ def footing_on_top(surface: Surface, feet: Feet, search: Search) -> Footing | No
 
 @lru_cache(maxsize=64)
 def _as_usual(robot: Robot, feet: Feet, layout: Layout) -> Footing | None:
-    """The nearest place of feet as close together as they fit, with the usual screws."""
+    """The nearest place of feet as close together as possible, with the usual screws."""
     surface, search = trunk_surface(robot), Search.of(robot, feet.size, layout)
     if surface is None:
         return None
@@ -70,10 +70,9 @@ def _as_usual(robot: Robot, feet: Feet, layout: Layout) -> Footing | None:
 
 @lru_cache(maxsize=64)
 def _way(robot: Robot, feet: Feet, layout: Layout) -> tuple[float, Screw] | None:
-    """How much farther apart pairs stand than they must, and what screws hold their plate.
+    """Extra lateral distance of pairs and the screws of their plate; None: no footing is found.
 
-    With stronger screws first, then farther apart, then on posts, over what stands up from the
-    trunk; None: none does.
+    Tried in turn: stronger screws, farther apart, and on posts over what protrudes from the trunk.
     """
     surface, search = trunk_surface(robot), Search.of(robot, feet.size, layout)
     feet = _at_com(robot, feet, layout)
@@ -86,7 +85,7 @@ def _way(robot: Robot, feet: Feet, layout: Layout) -> tuple[float, Screw] | None
 
 
 def _at_com(robot: Robot, feet: Feet, layout: Layout) -> Feet:
-    """Feet as close together as they fit, around the robot's centre of mass."""
+    """Feet as close together as possible, around the robot's centre of mass."""
     x = round(float(robot.com[0]), 6) + 0.0
     return replace(feet, x=x, bases=ring_of(layout, feet.reach))
 
@@ -94,13 +93,13 @@ def _at_com(robot: Robot, feet: Feet, layout: Layout) -> Feet:
 def _nearest_footing(
     surface: Surface, feet: Feet, search: Search, aside: float, held_by: Screw
 ) -> Footing | None:
-    """The nearest place to that of the feet where they are held and no leg comes near.
+    """The place nearest to that of the feet where they are held and no leg comes near.
 
-    A longer sleeve is as bad as as far a way forward, and so is a plate as its thickness.
+    The cost is the distance forward or back plus the thickness of the plate and its longest sleeve.
 
     Args:
-        surface: of the trunk. feet: on it, as near to each other as may be. search: of places.
-        aside: how much farther to its side each stands [m]. held_by: screws of a plate.
+        surface: of the trunk. feet: on it, as close together as possible. search: of places.
+        aside: extra distance of each to its side [m]. held_by: screws of a plate.
     """
     bases = tuple((x, y + copysign(aside, y)) for x, y in feet.bases)
     feet = replace(feet, bases=bases)
@@ -109,10 +108,10 @@ def _nearest_footing(
     steps = np.arange(np.ceil((low - feet.x) / step), (high - feet.x) / step)
     waiting: list[tuple[float, Footing]] = []
     for shift in (*sorted((steps * step).tolist(), key=abs), np.inf):
-        # Nothing farther away can be better than what is nearer than that.
+        # No place farther away can have a lower cost than those waiting.
         while waiting and waiting[0][0] <= abs(shift):
             _, footing = waiting.pop(0)
-            # Farther apart, modules leave room for a limb between them, but not a plate.
+            # Modules that stand apart leave room for a limb between them; a plate does not.
             posts = held_by is POST_SCREW
             between = plate_solids(footing.plate) if aside or posts else ()
             if search.is_free(footing.place) and not any(map(search.touches, between)):
@@ -121,8 +120,8 @@ def _nearest_footing(
             break
         moved = replace(feet, x=feet.x + shift)
         if len(moved.rows) > 1:
-            # A limb may be where modules of several pairs would stand on the trunk itself. A plate,
-            # which takes long to look for, would lift them by its thickness only.
+            # A limb may be where modules of several pairs would stand directly on the trunk. A
+            # plate, which takes long to search for, would lift them only by its thickness.
             beneath = [disc_points(middle, moved.radius) for middle in moved.middles]
             top = highest_of(surface, np.concatenate(beneath))
             on_trunk = around((moved.x, 0.0, top), search.layout, aside)
@@ -141,11 +140,10 @@ def _nearest_footing(
 def footing_on_pedestals(
     robot: Robot, surface: Surface | None, device: Device, *, stated: bool
 ) -> Footing | None:
-    """The nearest place where the trunk holds the pedestals of those that lean, and other feet.
+    """The nearest place where the trunk holds the pedestals of tilted modules, and the other feet.
 
-    Each stands on what the trunk has beneath it, and no limb comes near. Stated places stay, and a
-    pedestal is as high as there is room under its foot. A trunk whose shapes are not known counts
-    as flat.
+    Each stands on the trunk beneath it, and no limb comes near. Specified positions are kept, and a
+    pedestal then fills the height under its foot. A trunk of unknown shape counts as flat.
     """
     layout, size = device.layout, device_size(device)
     if surface is None:
@@ -172,7 +170,7 @@ def footing_on_pedestals(
             continue
         heights, pedestals = held
         around_it = around((x, 0.0, 0.0), layout)
-        # Not rounded: a pedestal's seat is where its foot is.
+        # Not rounded, so that a pedestal's seat coincides with its foot.
         origins = tuple((x, 0.0, height - size.standing) for height in heights)
         place = replace(around_it, origins=origins)
         solids = [solid for each in pedestals for solid in pedestal_solids(each)]
@@ -187,8 +185,8 @@ def _all_held(
     """Heights of the modules in B and the pedestals under them; None: the trunk does not hold all.
 
     Args:
-        surface: of the trunk. device: with its modules over the places that they shall have.
-        fixed: whether their heights are theirs as well.
+        surface: of the trunk. device: with its modules above their intended places.
+        fixed: whether their heights are fixed too.
     """
     heights, found, foot = [], [], foot_of(device)
     for module in device.modules:
@@ -201,7 +199,7 @@ def _all_held(
             return None
         least = plane + (foot.wheel_height if low is None else float(low.wheel[2]))
         if fixed and own < least - SPARE:
-            # Stated lower than anything under it.
+            # Specified too low for any support under it.
             return None
         if low is None:
             lands = foot.slot_radius - AROUND_SLOT, foot.slot_radius + AROUND_SLOT
@@ -209,7 +207,7 @@ def _all_held(
             under = height - foot.wheel_height
             on = contact_of("", surface, middle, foot.base_radius, plane=under, lands=lands)
         else:
-            # As high as it is, where that does, so that places settle.
+            # The present height is kept where it fits, so that places converge.
             within = least <= own <= least + SPARE
             height = own if fixed or within else round(least + SPARE / 2.0, 5)
             placed = replace(module, position=frozen([*module.position[:2], height]))

@@ -1,8 +1,8 @@
 """The trunk itself, or the lightest carrier plate screwed on it, under feet at one place.
 
-Two screws are in each arm of a plate, as far from its middle line on either side. Of three arms and
-more each may share its screws with the next ones. Heads stay clear of the feet and of the next
-arm's.
+Each arm of a plate has two screws, at equal distances on either side of its middle line. With three
+or more arms, each may share its screws with its neighbours. Heads stay clear of the feet and of the
+next arm's heads.
 """
 
 from collections.abc import Iterator, Sequence
@@ -42,41 +42,42 @@ from ocs_design.sizing.footing.contact import (
 from ocs_design.sizing.footing.feet import SAME, SENSES, Feet
 
 HEAD_ROOM = 0.5e-3
-"""Room between a screw's head and a foot's base [m]."""
+"""Clearance between a screw's head and a foot's base [m]."""
 
 PLATE_SCREW, STRONG_SCREW, POST_SCREW = screw("M3"), screw("M5"), screw("M8")
-"""Screws that hold a plate on the trunk: through sleeves at the most, where those do not bear 20 g,
-and through posts."""
+"""Screws that hold a plate on the trunk: usual ones, stronger ones where those do not withstand 20
+g, and ones through posts."""
 
 SPREAD = 0.02
 """Least distance of a plate's screws, forward and sideways [m]: four heads of M5 and a key."""
 
 POST_WALL, POST_MAX, POST_SCREW_MAX = 4e-3, 0.17, 0.2
-"""Wall of a post, longest one and longest screw through one [m]: that leaves plates of 12 mm."""
+"""Wall of a post, longest post and longest screw through one [m], which leaves room for 12 mm
+plates."""
 
 PATTERN_STEP = 2e-3
 """Step between patterns of screws [m], or a fortieth of a module's reach."""
 
 
 _SOME = 8
-"""Points of each screw's land that are looked at first."""
+"""Number of points of each screw's land that are checked first."""
 
 _AT_ONCE = 16
-"""Patterns whose lands are looked at whole at once."""
+"""Number of patterns whose lands are checked in full at once."""
 
 
 @dataclass(frozen=True, eq=False)
 class Patterns(Table):
-    """Patterns of screws that may be flat on the trunk under every screw, by a few points of each.
+    """Screw patterns under which the trunk may be flat, judged by a few points of each screw.
 
     Attributes:
-        along, across: of a screw from the middle line of its arm and from the plate's middle [m],
-            shape (n,).
+        along, across: distance of a screw from the middle line of its arm and from the plate's
+            centre [m], shape (n,).
         shared: whether neighbouring arms share it, shape (n,).
-        widest: number of the plate at whose neck's edge it is; -1: of the grid that all have.
-        most: largest of `along` of each plate [m].
-        places: of the screws over the plate's middle [m], shape (n, m, 2).
-        top, low: of the trunk at those points of each screw in B [m], shape (n, m).
+        widest: index of the plate at whose neck's edge it is; -1: on the grid common to all plates.
+        most: largest `along` of each plate [m].
+        places: of the screws relative to the plate's centre [m], shape (n, m, 2).
+        top, low: height of the trunk at those points of each screw in B [m], shape (n, m).
     """
 
     along: FloatArray
@@ -100,11 +101,12 @@ class Patterns(Table):
 def flat_patterns(
     surface: Surface, feet: Feet, row: float, plates: Sequence[CarrierPlate]
 ) -> Patterns:
-    """Patterns of screws at which the trunk may be flat, whatever its height.
+    """Screw patterns at which the trunk may be flat, whatever its height.
 
     Args:
-        surface: of the trunk. feet: on it. row: of the plates' middle before that of the feet [m].
-        plates: that differ in their necks alone, the narrowest first.
+        surface: of the trunk. feet: on it. row: distance of the plates' centre ahead of the feet's
+            [m].
+        plates: plates that differ only in their necks, the narrowest first.
     """
     grid = _pattern_grid(
         feet.y,
@@ -115,7 +117,7 @@ def flat_patterns(
     )
     lands, middle = disc_points((0.0, 0.0), plates[0].sleeve_radius), np.array([feet.x + row, 0.0])
     some, kept = lands[:: max(1, len(lands) // _SOME)], np.arange(len(grid))
-    # Most patterns fail at a few points of their first screw already.
+    # Most patterns already fail at a few points of their first screw.
     for screw_places in grid.places.swapaxes(0, 1):
         top, low = _top_and_low(surface, screw_places[kept, None] + some + middle)
         with np.errstate(invalid="ignore"):
@@ -136,13 +138,13 @@ def _top_and_low(surface: Surface, points: FloatArray) -> tuple[FloatArray, Floa
 def _pattern_grid(
     aside: float, step: float, apart: float, most: tuple[float, ...], arms: int
 ) -> Patterns:
-    """Patterns of screws that stand clear of the feet, whatever is below them.
+    """Screw patterns clear of the feet, regardless of the surface below them.
 
     Args:
-        aside: of a foot's middle from that of its plate [m]. step: between patterns [m].
-        apart: least distance of a screw from the middle of a foot [m].
-        most: farthest of a screw from the middle line of its arm, for each plate [m].
-        arms: of each plate.
+        aside: distance of a foot's centre from its plate's [m]. step: between patterns [m].
+        apart: least distance of a screw from the centre of a foot [m].
+        most: largest distance of a screw from the middle line of its arm, for each plate [m].
+        arms: number of arms of each plate.
     """
     steps = np.concatenate([np.arange(SPREAD / 2.0, max(most), step), most])
     widest = np.concatenate([np.full(len(steps) - len(most), -1), np.arange(len(most))])
@@ -164,7 +166,7 @@ def _pattern_grid(
             np.stack([y * side * along + x * across, y * across - x * side * along], axis=1)
             for sense in SENSES
             for x, y in directions(arms)
-            # Of both arms of a pair the same side: forward.
+            # On both arms of a pair the same side counts first: forward.
             for side in (sense * y if arms == len(SENSES) else sense,)
         ],
         axis=1,
@@ -182,7 +184,7 @@ def screwed(
     Patterns without sleeves come first.
 
     Args:
-        surface: of the trunk. plate: in its place. patterns: that may be flat, of each row.
+        surface: of the trunk. plate: in its place. patterns: candidates for each row.
     """
     trunk: list[Point] = []
     sleeves: list[float] = []
@@ -202,7 +204,7 @@ def screwed(
 def _widest(
     surface: Surface, plate: CarrierPlate, x: float, patterns: Patterns
 ) -> tuple[int, FloatArray] | None:
-    """Number of the widest pattern that holds one row of a plate, and its sleeves [m].
+    """Index of the widest pattern that holds one row of a plate, and its sleeves' lengths [m].
 
     Args:
         surface, plate, patterns: see `screwed`, of one row. x: of its middle in B [m].
@@ -210,7 +212,7 @@ def _widest(
     z, longest = plate.position[2], POST_MAX if plate.on_posts else SLEEVE_MAX
     spread = np.minimum(patterns.along, patterns.across) + 0.1 * (patterns.along + patterns.across)
     may_reach = patterns.top <= z + PROUD
-    # What is flat is nowhere higher than a few of its points by more than that.
+    # A flat land is nowhere higher than a few of its points by more than that.
     may_reach &= z - patterns.top <= longest + FLATNESS
     at_most = spread + (z - patterns.low <= FLATNESS).all(axis=1)
     order = np.flatnonzero(may_reach.all(axis=1))
@@ -226,7 +228,7 @@ def _widest(
             held = (top - low <= FLATNESS) & (top <= z + PROUD) & (z - top <= longest)
         direct = (z - low <= FLATNESS).all(axis=1)
         scores = np.where(held.all(axis=1), spread[some] + direct, -1.0)
-        # Of equals the first one.
+        # Among equals, the first one.
         for one, index in enumerate(some.tolist()):
             if scores[one] > score or (scores[one] == score and index < best):
                 best, score = index, float(scores[one])
@@ -235,16 +237,16 @@ def _widest(
 
 
 def room_to_foot(feet: Feet, held_by: Screw) -> float:
-    """Least distance of a plate's screws from the middle of a foot [m]."""
+    """Least distance of a plate's screws from the centre of a foot [m]."""
     return feet.radius + held_by.head_diameter / 2.0 + HEAD_ROOM
 
 
 WIDER = (0.0, 5e-3, 10e-3, 15e-3, 20e-3)
-"""Steps by which half a neck's width may grow, to find where the trunk takes its screws or to bear
-what the narrowest does not [m]."""
+"""Increments of half a neck's width to try [m], where the trunk does not take the narrowest plate's
+screws or that plate is too weak."""
 
 _FEW = 29
-"""Of so many points of a screw's land one is looked at first."""
+"""One in this many points of a foot's screw lands is checked first."""
 
 
 def held_at(
@@ -255,16 +257,16 @@ def held_at(
 ) -> tuple[float, CarrierPlate | None]:
     """Height at which the trunk, or a plate on it, holds the feet [m], and that plate.
 
-    The height is nan where nothing does.
+    The height is NaN where neither does.
 
     Args:
         surface: of the trunk. feet: on it.
-        underside: height of the feet in B, where it is stated [m]; None: what the trunk has.
+        underside: specified height of the feet in B [m]; None: the trunk's height.
         held_by: screws of a plate, tried in turn.
     """
     plane = nan if underside is None else underside
     if underside is None:
-        # A few points of the screws' lands tell of most places that they are not at one height.
+        # A few points of the screws' lands rule out most places, where they are not level.
         few = np.concatenate([ring_points(side, *feet.lands)[::_FEW] for side in feet.middles])
         heights = heights_at(surface, few)
         with np.errstate(invalid="ignore"):
@@ -284,9 +286,9 @@ def held_at(
 def _plate(
     surface: Surface, feet: Feet, underside: float | None, held_by: Screw
 ) -> CarrierPlate | None:
-    """The lightest plate of its necks in stock that carries all modules; None: there is none.
+    """The lightest plate, over all necks and stock thicknesses, that carries all modules; or None.
 
-    Each pair of them has a plate of its own, all alike and at one height. A ring has one.
+    Each pair has its own plate, all identical and at one height. A ring has a single plate.
     """
     outlines = _outlines(replace(feet, x=0.0), held_by)
     if not outlines:
@@ -298,7 +300,8 @@ def _plate(
         if not all(len(row) for row in patterns):
             continue
         if isnan(beside):
-            # Beside the plate the trunk may be as high as its top: modules begin above that.
+            # Beside the plate the trunk may be as high as the plate's top: modules begin above
+            # that.
             beneath = np.concatenate([disc_points(middle, feet.reach) for middle in feet.middles])
             beside = highest_of(surface, beneath) - STOCK[0]
         plate = replace(outline, position=(feet.x, 0.0, 0.0))
@@ -306,7 +309,7 @@ def _plate(
         borne = _borne(surface, feet, plate, patterns, (underside, level))
         if borne is not None and (mass := borne.mass) < lightest:
             best, lightest = borne, mass
-        # What is wider and as thick is heavier.
+        # Wider plates of the same thickness are heavier.
         if best is not None and best.thickness == STOCK[0]:
             return best
     return best
@@ -322,7 +325,7 @@ def blank_plate(feet: Feet, radius: float, neck: float) -> CarrierPlate:
         position=(0.0, 0.0, 0.0),
         radius=radius,
         half_length=feet.y + radius,
-        # A rounding this flat is none.
+        # A neck of nearly full width counts as no neck.
         neck=neck if neck < radius - PATTERN_STEP else radius,
         thickness=STOCK[0],
         across=feet.y,
@@ -338,7 +341,7 @@ def blank_plate(feet: Feet, radius: float, neck: float) -> CarrierPlate:
 def _outlines(feet: Feet, held_by: Screw) -> tuple[CarrierPlate, ...]:
     """Plates of all necks under feet around the origin, without screws, the narrowest first."""
     ring = feet.slot_radius + SLOT_EDGE
-    # Heads stand clear of the feet, before and behind where these are nearest to each other.
+    # Heads clear the feet in front of and behind the point where these are closest to each other.
     inside = max(0.0, feet.y - SPREAD / 2.0)
     off = room_to_foot(feet, held_by)
     ahead = sqrt(max(0.0, off**2 - inside**2)) if feet.arms == len(SENSES) else 0.0
@@ -364,19 +367,19 @@ def _borne(
     patterns: Sequence[Patterns],
     heights: tuple[float | None, float],
 ) -> CarrierPlate | None:
-    """The thinnest plate of this outline that the trunk holds and that bears the modules.
+    """The thinnest plate of this outline that the trunk holds and that is strong enough.
 
     Args:
         surface: of the trunk. feet: on it. blank: the plate without screws.
-        patterns: of screws that may be flat on the trunk, of each row.
-        heights: of the feet in B, where it is stated, and the least one of the plate, for what is
-            beneath and beside it [m].
+        patterns: candidate screw patterns of each row.
+        heights: specified height of the feet in B, or None, and least height of the plate's
+            underside, given what is beneath and beside it [m].
     """
     underside, highest = heights
     if not np.isfinite(highest):
         return None
     x, y, _ = blank.position
-    # Where the feet's height is stated, a thicker plate is lower.
+    # Where the feet's height is specified, a thicker plate is lower.
     levels: list[tuple[float, tuple[float, ...]]] = [(round(highest, 6), STOCK)]
     if underside is not None:
         levels = [(underside - thickness, (thickness,)) for thickness in STOCK]
@@ -385,7 +388,7 @@ def _borne(
             return None
         held = screwed(surface, replace(blank, position=(x, y, height)), patterns)
         if held is None:
-            # Under a thicker plate sleeves are shorter, and another pattern may be in reach.
+            # Under a thicker plate sleeves are shorter, so another pattern may be within reach.
             continue
         for plate in thick_enough(held, feet, ALUMINIUM.strength / SAFETY, thicknesses):
             if plate.on_posts and max(plate.screw_lengths) > POST_SCREW_MAX:
@@ -398,7 +401,7 @@ def _borne(
 def thick_enough(
     blank: CarrierPlate, feet: Feet, stress: float, thicknesses: tuple[float, ...] = STOCK
 ) -> Iterator[CarrierPlate]:
-    """The plate in those of some thicknesses [m] that keep it below a stress, in their order.
+    """The plate in each of the thicknesses [m] that keep it below a stress, in order.
 
     Args:
         blank: of any thickness. feet: on it. stress: allowed [Pa].

@@ -1,4 +1,4 @@
-"""What holds the feet of a device on its robot, before it is chosen and after."""
+"""Footing of a device on its robot, before the device is chosen and after."""
 
 from dataclasses import replace
 
@@ -30,7 +30,8 @@ from ocs_design.sizing.free_place import Search, Sizes, place_free
 from ocs_design.sizing.place import place_at
 
 MODULE_SHARE = 0.1
-"""Mass of a module over its robot's, for the plate's estimate before one is chosen: Solo12's."""
+"""Ratio of a module's mass to the robot's, to estimate the plate before a module is chosen:
+Solo12's."""
 
 
 def footing_of(
@@ -41,15 +42,15 @@ def footing_of(
 ) -> Footing:
     """Place of modules with feet, and the plate under them where the trunk does not hold them.
 
-    The nearest place on top of the trunk over the centre of mass where the largest module's feet
-    are held, by the trunk or by a plate, and where no leg comes near. Where there is none, or the
-    trunk's shapes are not known, it is that of `place_free`: a mast, whose place and mass go with
-    the modules', is looked for under a chosen device (`footing_under`). Plates are those
-    of pairs, and of rings of three and more.
+    The place is the nearest one on top of the trunk over the centre of mass where the largest
+    module's feet are held, by the trunk or by a plate, and where no leg comes near. Where there is
+    none, or the trunk's shapes are unknown, it is that of `place_free`: a mast, whose place and
+    mass depend on the modules, is searched for only for a chosen device (`footing_under`). Plates
+    carry pairs and rings of three or more.
 
     Args:
         robot: that carries them. envelope: room for a rim.
-        position: as stated in B [m] (`place_at`); None: free.
+        position: as specified in B [m] (`place_at`); None: free.
         layout: of the modules.
     """
     sizes, surface = Sizes.of(envelope), trunk_surface(robot)
@@ -76,21 +77,21 @@ def footing_of(
 def stand_on_trunk(device: Device, robot: Robot, *, stated: bool, formed: bool = False) -> Device:
     """The device with its feet on the trunk, and a plate under them where they are not held.
 
-    Modules whose place is not stated go to the height of what they stand on, and forward or back
-    to the nearest place where they are held. Where there is none the device stays as it is: see
+    Modules whose place is not specified move to the height of their support, and forward or back to
+    the nearest place where they are held. Where there is none, the device stays as it is: see
     `contacts_of`.
 
     Args:
         device: as selected. robot: that carries it.
-        stated: whether the modules' places are.
-        formed: whether a mast may stand by a block that has the trunk's form.
+        stated: whether the modules' positions are specified.
+        formed: whether a mast may stand on a block shaped to the trunk.
     """
     found = footing_under(device, robot, stated=stated, formed=formed)
     return device if found is None else standing_on(device, found)
 
 
 def standing_on(device: Device, found: Footing) -> Device:
-    """The device with its modules where its footing has them."""
+    """The device with its modules at the positions of its footing."""
     centers = found.place.centers(device_size(device))
     modules = (
         replace(module, position=frozen(center))
@@ -102,7 +103,7 @@ def standing_on(device: Device, found: Footing) -> Device:
 def footing_under(
     device: Device, robot: Robot, *, stated: bool, formed: bool = False
 ) -> Footing | None:
-    """Footing of a chosen device; see `stand_on_trunk`. None: where it is, on nothing known."""
+    """Footing of a chosen device; see `stand_on_trunk`. None: no known support."""
     surface = trunk_surface(robot)
     if device.carrier.mass == 0.0:
         return None

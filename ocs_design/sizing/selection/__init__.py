@@ -1,1 +1,1 @@
-"""The lightest device that does all maneuvers, over motors, gears, materials and incidences."""
+"""Selection of the lightest device, over motors, gears, materials and incidences."""

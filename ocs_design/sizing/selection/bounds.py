@@ -1,7 +1,7 @@
-"""Lower bounds on the mass of every candidate, and where to look for it first.
+"""Lower bounds on the mass of every candidate, and an initial guess for its incidence.
 
-Each is proved by terms that only grow (docs/theory.md, The selection): a bound on the spin inertia
-gives one on the mass, that one on the inertia, and that a better one on the spin inertia.
+Each is proved by monotone terms (docs/theory.md, The selection): a bound on the spin inertia gives
+one on the mass, that gives one on the composite inertia, and that a better one on the spin inertia.
 """
 
 from collections.abc import Sequence
@@ -46,22 +46,22 @@ from ocs_design.sizing.selection.drives import Drives
 from ocs_design.sizing.selection.problem import SelectionProblem
 
 CELLS = 18
-"""Ranges of the incidence that are bounded one by one: 5 deg each."""
+"""Number of intervals of the incidence that are bounded separately: 5 deg each."""
 
 _RIMS = 96
 _DIGITS, _SURELY = 4, 1.0 - 1e-4
-"""Digits of the lightest rims, and the factor on their mass that a bound takes for it."""
+"""Digits of the lightest rims, and the factor on their mass that makes it a safe bound."""
 
 
 class Cell(NamedTuple):
-    """A range of a layout's angle [rad]; a single one if both are equal."""
+    """An interval of a layout's angle [rad]; a single angle if both ends are equal."""
 
     low: float
     high: float
 
 
 def cells_of(incidence: float | None, count: int = CELLS) -> tuple[Cell, ...]:
-    """All incidences in `count` equal ranges; the one that is stated by itself."""
+    """All incidences in `count` equal intervals; a specified one by itself."""
     if incidence is not None:
         return (Cell(incidence, incidence),)
     edges = np.linspace(0.0, np.pi / 2.0, count + 1)
@@ -70,7 +70,7 @@ def cells_of(incidence: float | None, count: int = CELLS) -> tuple[Cell, ...]:
 
 @dataclass(frozen=True)
 class _Kept:
-    """A problem that is the same as another if its key is."""
+    """A problem that compares by its key."""
 
     key: tuple[object, ...]
     problem: SelectionProblem = field(compare=False)
@@ -78,14 +78,14 @@ class _Kept:
 
 @dataclass(frozen=True, eq=False)
 class RimFloor:
-    """Least mass of a rim with what stands around it by spin inertia, for every material.
+    """Least mass of a rim with housing and foot as a function of spin inertia, for every material.
 
     Attributes:
         spin_inertia: of the rim [kg m^2], increasing along axis 1, shape (materials, rims).
         mass: of the lightest rim with its housing and foot [kg], never decreasing, inf where there
             is none.
         web_density: of their webs and hubs [kg/m^3], shape (materials,).
-        wheels: of a device.
+        wheels: number of wheels of a device.
     """
 
     spin_inertia: FloatArray
@@ -97,7 +97,8 @@ class RimFloor:
     def of(cls, problem: SelectionProblem) -> "RimFloor":
         """Rims that turn slowly, around the narrowest hub: no hoop stress adds to their mass.
 
-        Robot, maneuvers, supply and angle have no say: alternatives that differ in them share one.
+        They do not depend on robot, maneuvers, supply and angle: alternatives that differ only in
+        those share one result.
         """
         parts = problem.motors, problem.gears, problem.materials, problem.lightenings
         room = problem.envelope, problem.web, problem.on_bell, problem.cuts, problem.web_material
@@ -116,10 +117,10 @@ class RimFloor:
             for motor in problem.motors
         ]
         geared = any(gear.room is not None for gear in problem.gears)
-        # The holes of no motor's mount are nearer to the axis, and no wheel's hub is narrower.
+        # No motor's mount has holes nearer to the axis, and no wheel has a narrower hub.
         reach = 0.0 if geared else min(mount.holes.reach for mount in mounts)
         slow, mount = (np.full(kinds.size, value) for value in (1e-3, reach))
-        # No ring around any bell is lighter than a plain rim of any bore.
+        # No ring around a bell is lighter than a plain rim of free bore.
         limits = rim_limits(problem, kinds, slow, mount)
         if problem.web:
             held = zip(problem.motors, mounts, strict=True)
@@ -141,17 +142,17 @@ class RimFloor:
         least = smallest_rim_inertia(limits).reshape(webs, -1).min(axis=0)
         least = np.maximum(np.tile(least, webs) * OFF_THE_EDGE, 1e-9 * disc)
         inertia = least * np.maximum(disc / least, 1.0) ** steps
-        # Where there is no room for holes the web is solid.
+        # Where there is no room for holes, the web is solid.
         shell = Printed(reach, foot_plate=problem.foot_plate)
         mass = lightest_module(inertia, limits, shell, _DIGITS).mass
         mass = _SURELY * np.nan_to_num(mass, nan=np.inf)
         inertia, mass = (each.reshape(webs, materials, _RIMS) for each in (inertia, mass))
-        # What needs little may have more: the smallest rims may not fit around any hub.
+        # A small demand may still get a larger rim, since the smallest fit no hub.
         mass = np.minimum.accumulate(mass.min(axis=0)[:, ::-1], axis=1)[:, ::-1]
         return cls(inertia[0], mass, problem.web_densities, len(problem.layout))
 
     def at(self, spin_inertia: FloatArray) -> FloatArray:
-        """Mass of no more spin inertia than that [kg], both of shape (materials, n)."""
+        """Lower bound of the mass [kg] for this spin inertia [kg m^2], shape (materials, n)."""
         rows = [
             mass[np.maximum(np.searchsorted(grid, asked, side="right") - 1, 0)]
             for grid, mass, asked in zip(self.spin_inertia, self.mass, spin_inertia, strict=True)
@@ -162,13 +163,13 @@ class RimFloor:
 
 @dataclass(eq=False)
 class PairBounds:
-    """Lower bounds of every motor behind every gear, shape (motors, gears) each.
+    """Lower bounds for every motor with every gear, each of shape (motors, gears).
 
     Attributes:
-        problem: that is searched. floor: of its rims.
-        known: whether the pair has all figures.
-        least: of the mass of any device of the pair [kg]; inf: there is none.
-        spin_inertia: of its wheels [kg m^2], as far as it was looked for.
+        problem: the problem. floor: least masses of its rims.
+        known: whether all data of the pair are known.
+        least: lower bound of the mass of any device with the pair [kg]; inf: there is none.
+        spin_inertia: lower bound for its wheels [kg m^2], as far as computed.
     """
 
     problem: SelectionProblem
@@ -179,7 +180,7 @@ class PairBounds:
 
     @classmethod
     def of(cls, problem: SelectionProblem) -> Self:
-        """What motor, gear and the smallest wheel weigh."""
+        """Bounds from the masses of motor, gear and the smallest wheel."""
         floor = RimFloor.of(problem)
         motors = np.array([motor.mass or 0.0 for motor in problem.motors])
         plate, on_bell = problem.foot_plate, problem.on_bell
@@ -195,13 +196,13 @@ class PairBounds:
 
 @lru_cache(maxsize=512)
 def _held_mass(motor: Motor, foot_plate: float, on_bell: bool) -> float:
-    """Mass of screws and cage at the least, less the holes [kg]."""
+    """Least mass of screws and cage, less the holes [kg]."""
     mount = mount_of(motor, None, foot_plate, on_bell=on_bell)
     return mount.by_floor().mass + mount.by_wheel().mass
 
 
 def least_masses(floor: RimFloor, drives: Drives, spin_inertia: FloatArray) -> FloatArray:
-    """Masses that no device is below [kg] in every material, shape (materials, n); inf: none."""
+    """Lower bounds of the device's mass [kg], shape (materials, n); inf: no device."""
     on_webs = drives.of_webs(floor.web_density[:, None])
     rim = spin_inertia - on_webs.beside_rim
     lightest = np.where(np.isfinite(rim), floor.at(np.where(np.isfinite(rim), rim, 0.0)), np.inf)
@@ -215,13 +216,13 @@ def least_spin_inertias(
     below: FloatArray,
     limits: RimLimits | None = None,
 ) -> FloatArray:
-    """Better lower bounds of what each drive's wheels need in each cell [kg m^2], shape (n, k).
+    """Improved lower bounds of the spin inertia of each drive in each cell [kg m^2], shape (n, k).
 
     Args:
         problem: robot, requirement, envelope, place.
         drives: n of them. cells: k of them.
-        below: a lower bound over all cells, as far as it is known [kg m^2], shape (n,).
-        limits: of their rims; None: any of the problem.
+        below: the best lower bound known over all cells [kg m^2], shape (n,).
+        limits: of their rims; None: those of the problem as a whole.
     """
     requirement, least = problem.requirement, least_inertia(problem, drives, below, limits)
     line, armature = columns(drives.line), drives.armature[:, None]
@@ -252,10 +253,10 @@ def bound_task(
     cells: Sequence[Cell],
     layout: Layout,
 ) -> WheelBound:
-    """A maneuver as what wheels must do at the least, fields of shape (n, k, ...).
+    """The least that a maneuver requires of the wheels, fields of shape (n, k, ...).
 
     Args:
-        least: what they turn, n of them.
+        least: lower bound of the inertia that they turn, n of them.
         cells: of the layout's angle, k of them.
     """
     inertia = column(least.inertia)
@@ -269,7 +270,7 @@ def bound_task(
         axes=np.stack([layout.hull(*cell) for cell in cells]),
         turn=np.asarray(maneuver.turn),
         spread=least.spread[:, None],
-        # Of a range, either end has the least of an axis.
+        # Over an interval, each axis is least at one of the ends.
         reached=(ends.max(axis=-1) > OUT_OF_REACH).all(axis=1),
         begins=slew.begins,
     )
@@ -283,7 +284,7 @@ def least_inertia(
 ) -> LeastInertia:
     """Inertia of the robot with modules whose wheels have at least that spin inertia [kg m^2].
 
-    Limits of their rims make the bound a better one, at the cost of the lightest rims.
+    Limits of their rims improve the bound, at the cost of computing the lightest rims.
     """
     room, density = problem.envelope, max(material.density for material in problem.materials)
     rim = np.maximum(np.where(np.isfinite(spin_inertia), spin_inertia - drives.beside_rim, 0.0), 0)
@@ -294,14 +295,14 @@ def least_inertia(
         wheel = rim / widest**2 + PlainDrum().mass(radius, zero + room.height_min)
     else:
         rim = np.maximum(rim, smallest_rim_inertia(limits) * OFF_THE_EDGE)
-        # A wheel of more spin inertia is no smaller.
+        # A wheel of more spin inertia is not smaller.
         radius = np.minimum(smallest_radius(rim, limits), widest)
         wheel = _SURELY * np.nan_to_num(lightest_module(rim, limits, PlainDrum(), _DIGITS).mass)
     seat = drives.seat
     at_floor, at_wheel = seat.by_floor, seat.by_wheel
     stands = at_floor.mass + seat.holes
     behind = stands + at_wheel.mass
-    # The holes stand by less than that behind the floor.
+    # The holes are at most this far behind the floor.
     holes = seat.holes * problem.foot_plate
     fullest = np.minimum(room.mass_max, np.pi * density * widest**2 * room.height_max)
     web = np.pi * problem.web_thickness * drives.web_most * widest**2
@@ -311,7 +312,7 @@ def least_inertia(
     shell = around.mass(widest, tallest) + seat.posts.mass(zero)
     least = Least(
         mass=np.maximum(wheel + drives.hub_mass - seat.holes, 0.0),
-        # No body of revolution has less across its axis than half of what it has about it.
+        # A body of revolution has at least half its axial inertia across its axis.
         inertia=drives.hub_inertia + rim / 2.0,
         behind=behind,
         depth=(half_height(tallest) * stands + holes - at_floor.y - at_wheel.y) / behind,
@@ -324,10 +325,10 @@ def least_inertia(
 
 
 def initial_guess(candidates: Candidates, spin_inertia: FloatArray) -> Guess:
-    """Bounds of candidates by their own hubs, mounts and stresses, at their best incidences.
+    """Bounds of candidates with their own hubs, mounts and stresses, at their best incidences.
 
-    The bounds on masses above hold for every wheel of a problem at once. The lightest module of a
-    single candidate takes a hundredth of the time of its fixed point.
+    The bounds on masses above hold for all wheels of a problem. The lightest module of a single
+    candidate takes a hundredth of the time of its fixed point.
 
     Args:
         candidates: n of them.
@@ -337,7 +338,8 @@ def initial_guess(candidates: Candidates, spin_inertia: FloatArray) -> Guess:
     needed = least_spin_inertias(
         candidates.problem, candidates.drives, cells, spin_inertia, candidates.limits
     )
-    # Beyond the best range, as a bound need not lie where the best incidence does.
+    # The uncertainty extends beyond the best interval, as that of the bound need not contain the
+    # best incidence.
     low, high = np.array([(cell.low, cell.high) for cell in cells])[needed.argmin(axis=1)].T
     spin = needed.min(axis=1)
     known = np.isfinite(spin)

@@ -136,8 +136,8 @@ class SelectionProblem:
         asked = self.requirement
         if not any((asked.maneuvers, asked.rate_change, asked.spin_inertia)):
             raise UsageError(
-                "nothing is asked of the wheels",
-                hint="Ask for a rate change, for a maneuver, or for a spin inertia.",
+                "nothing is required of the wheels",
+                hint="Specify a rate change, a maneuver, or a spin inertia.",
             )
         speed = 1.0 if self.wheel_speed_max is None else self.wheel_speed_max
         for each in self.materials:
