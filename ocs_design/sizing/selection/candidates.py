@@ -1,4 +1,4 @@
-"""Candidates as arrays: every motor behind every gear, on its robot, with a rim of any material."""
+"""Candidates as arrays: motors with gears, on the robot, each with a rim of one material."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
@@ -43,15 +43,15 @@ from ocs_design.sizing.selection.drives import Drives, Seat
 from ocs_design.sizing.selection.problem import SelectionProblem
 
 _NO_HEIGHT, _LEAST_BELL = 1e-9, 1e-3
-"""Height of a ring that there is no room for, and less than the radius of any bell [m]."""
+"""Largest height of a ring that has no room, and a radius smaller than any bell's [m]."""
 
 _NOTHING = 1e-12
-"""Spin inertia below that of any wheel [kg m^2]."""
+"""A spin inertia smaller than any wheel's [kg m^2]."""
 
 
 @lru_cache(maxsize=1024)
 def _seat(motor: Motor, room: GearRoom | None, foot_plate: float, *, on_bell: bool) -> Seat[float]:
-    """Place of one motor: the same whatever the problem."""
+    """Seat of one motor, which does not depend on the problem."""
     mount = mount_of(motor, room, foot_plate, on_bell=on_bell)
     return Seat(
         by_floor=by_floor(motor, DIRECT, mount),
@@ -72,8 +72,8 @@ class Candidates(Table):
     """Drives with a rim of one material each, one per row.
 
     Attributes:
-        problem: robot, requirement and room, shared by all.
-        pairs: motor and gear of each, with a hub of any material.
+        problem: robot, requirement and envelope, shared by all.
+        pairs: motor and gear of each; the hub's material is still open.
         material: its index in the problem's sequence.
     """
 
@@ -86,7 +86,7 @@ class Candidates(Table):
 
     @classmethod
     def of_each_material(cls, problem: SelectionProblem, drives: Drives) -> "Candidates":
-        """Every drive with a rim of every material of the problem, one drive after the other."""
+        """Every drive with a rim of every material of the problem, drive by drive."""
         kinds, rows = np.arange(len(problem.materials)), np.arange(len(drives))
         material, row = (each.ravel() for each in np.meshgrid(kinds, rows))
         return cls(problem, drives.take(row), material)
@@ -125,9 +125,9 @@ class Candidates(Table):
 
     @cached_property
     def least_spin_inertia(self) -> FloatArray:
-        """Spin inertia with the smallest rim that the lower limits leave [kg m^2], positive.
+        """Spin inertia with the smallest rim within the lower limits [kg m^2], positive.
 
-        A rotor that turns against its wheel may have as much momentum as the smallest rim.
+        A rotor that turns against its wheel may cancel the momentum of the smallest rim.
         """
         least = smallest_rim_inertia(self.limits) * OFF_THE_EDGE + self.drives.beside_rim
         return np.maximum(least, _NOTHING)
@@ -140,7 +140,8 @@ class Candidates(Table):
     def modules(
         self, spin_inertia: FloatArray, shapes: ModuleShape
     ) -> tuple[MassMoments[FloatArray], Size[FloatArray]]:
-        """One module of each candidate, braked: its moments about the wheel's centre, its room."""
+        """Moments of one module of each candidate, braked, about the wheel's centre, and its
+        size."""
         drives, wheel = self.drives, spin_inertia - self.drives.rotor_share
         seat, guard = drives.seat, self.problem.guard_wall
         inner, outer, height = shapes.inner_radius, shapes.outer_radius, shapes.height
@@ -161,7 +162,7 @@ class Candidates(Table):
         return whole, drives.size(outer + guard, height)
 
     def on_robot(self, spin_inertia: FloatArray, shapes: ModuleShape) -> CompositeInertia:
-        """Robot and modules of each candidate as one."""
+        """Composite inertia of robot and modules of each candidate."""
         problem, (module, size) = self.problem, self.modules(spin_inertia, shapes)
         centers = problem.place.centers(size) - problem.robot.com
         return CompositeInertia(problem.robot, problem.layout, module, centers)
@@ -173,8 +174,8 @@ class Guess(Table):
 
     Attributes:
         spin_inertia: a lower bound [kg m^2].
-        mass: a lower bound, of all modules [kg]; inf: there is none.
-        angle: incidence [rad]. width: how far around it [rad]; 0: there only.
+        mass: a lower bound of all modules' mass [kg]; inf: infeasible.
+        angle: incidence [rad]. width: range around it to search [rad]; 0: only there.
     """
 
     spin_inertia: FloatArray
@@ -198,8 +199,8 @@ def rim_limits(
 
     Args:
         problem: room and materials.
-        material: index of each. overspeed: at which its hoop stress is limited [rad/s].
-        mount_reach: of the holes in its housing's floor [m].
+        material: index of each. overspeed: speed at which its hoop stress is limited [rad/s].
+        mount_reach: radius of the holes in its housing's floor [m].
     """
     room = problem.envelope
     each = [RimProblem(0.0, room, kind, 1.0).limits for kind in problem.materials]
@@ -210,7 +211,7 @@ def rim_limits(
         density=density,
         inner_radius_min=np.full_like(density, room.inner_radius_min),
         height_min=np.full_like(density, room.height_min),
-        # The hoop stress grows with the square of the speed, from that at 1 rad/s.
+        # The hoop stress scales with the square of the speed, here from 1 rad/s.
         stretch_max=stretch / overspeed**2,
         poisson_ratio=poisson_ratio,
         web=np.zeros_like(density),
@@ -220,10 +221,10 @@ def rim_limits(
 
 
 def _around_bells(candidates: "Candidates", plain: RimLimits) -> RimLimits:
-    """Limits of rings around the bells of their motors, of those of plain rims."""
+    """Limits of rings around the bells of their motors, derived from those of plain rims."""
     problem, material = candidates.problem, candidates.material
     bore, cuts, room = candidates.drives.seat.bell, problem.cuts, problem.envelope
-    # Without all of a material's figures the temperature is left out, and its joint is not known.
+    # Where a material's data are incomplete, temperature is left out, and its joint is unknown.
     warm = np.array(
         [
             (kind.elastic_modulus, kind.thermal_expansion)
@@ -256,9 +257,9 @@ def _around_bells(candidates: "Candidates", plain: RimLimits) -> RimLimits:
 
 
 def known_pairs(problem: SelectionProblem) -> NDArray[np.bool_]:
-    """Whether all figures are known that a motor behind a gear needs, shape (motors, gears)."""
+    """Whether all required data of a motor with a gear are known, shape (motors, gears)."""
     motors, gears = problem.motors, problem.gears
-    # Which figures are needed depends on no more of a gear than this.
+    # Which figures are needed depends only on this about a gear.
     kinds = {(gear.ratio <= 1.0, gear.reverses): gear for gear in gears}
     known = {
         kind: [not missing_figures(motor, gear) for motor in motors] for kind, gear in kinds.items()
@@ -273,14 +274,14 @@ def drives_of(
     """Drives of the problem.
 
     Args:
-        problem: motors, gears, bus voltage, stated highest speed of a wheel.
-        pairs: indices of motor and gear, whose figures are known, shape (n, 2).
-        webs: index of each one's web, shape (n,); None: the first of all.
+        problem: motors, gears, bus voltage, specified highest wheel speed.
+        pairs: indices of motors and gears whose data are known, shape (n, 2).
+        webs: index of each one's web, shape (n,); None: the first for all.
     """
     motors, gears = pairs.T
     kinds = np.zeros_like(motors) if webs is None else webs
     figures: list[tuple[float, ...]] = []
-    # Where one of them stops, the others share what it leaves.
+    # Where one drive fails, the others share its power.
     busy = max(problem.layout.tilting - (problem.requirement.detection is not None), 1)
     for (index, gear_index), kind in zip(pairs.tolist(), kinds.tolist(), strict=True):
         motor, gear = problem.motors[index], problem.gears[gear_index]
@@ -320,10 +321,10 @@ def drives_of(
 
 
 def _seats(problem: SelectionProblem, pairs: NDArray[np.intp]) -> Seat[FloatArray]:
-    """Each motor is looked at once on its wheel and once behind any gear, each gear once."""
+    """Seats of the drives, computed once per motor with and without a gear, and once per gear."""
     known, of_motor = np.unique(pairs[:, 0], return_inverse=True)
     motors = [problem.motors[m] for m in known.tolist()] or problem.motors[:1]
-    # One row per motor behind a gear, and the next for the motor with the wheel on its shaft.
+    # One row per motor with a gear, the next for the same motor with the wheel on its shaft.
     rooms, plate, on_bell = (GearRoom(), None), problem.foot_plate, problem.on_bell
     held: list[Seat[Any]] = [
         _seat(motor, room, plate, on_bell=on_bell) for motor in motors for room in rooms
@@ -331,7 +332,7 @@ def _seats(problem: SelectionProblem, pairs: NDArray[np.intp]) -> Seat[FloatArra
     gears = [problem.gears[g] for g in pairs[:, 1].tolist()]
     row = 2 * of_motor + np.array([gear.room is None for gear in gears], dtype=np.intp)
     seats = stacked(held).take(row)
-    # Behind a gear a motor stands as far back as that is deep.
+    # A motor behind a gear is set back by the gear's depth.
     depth = np.array([0.0 if gear.room is None else gear.room.depth for gear in gears])
     up = np.array([0.0 if gear.room is None else gear.room.offset for gear in gears])
     stages: list[MassMoments[Any]] = [gear_moments(gear, plate) for gear in problem.gears]

@@ -1,4 +1,4 @@
-"""Composite inertia of robot and all modules, braked, for many devices, and its lower bound."""
+"""Composite inertia of robot and all braked modules, for many devices, and its lower bound."""
 
 from dataclasses import dataclass
 from itertools import combinations_with_replacement
@@ -20,8 +20,8 @@ class CompositeInertia:
 
     Attributes:
         robot: without the modules, in B. layout: of the modules.
-        module: moments of one of each device about its wheel's centre, in its own frame.
-        centers: of the wheels in B, from the robot's centre of mass [m], shape (n, w, 3).
+        module: moments of one module of each device about its wheel's centre, in its own frame.
+        centers: of the wheels relative to the robot's centre of mass, in B [m], shape (n, w, 3).
     """
 
     robot: MassProperties
@@ -32,15 +32,16 @@ class CompositeInertia:
     def at(self, angle: FloatArray) -> tuple[TiltInertia, FloatArray]:
         """Inertia about roll and pitch with the modules at angles [rad], and I_zz [kg m^2].
 
-        Of the shape of `angle`, (n, k) or (1, k). By parallel axes of second moments, with a
-        module's mass m, first moment f_i = R_i f and second moments S about its wheel's centre c_i,
-        all from the robot's centre of mass:
-        S = S_robot + sum_i (m c_i c_i^T + c_i f_i^T + f_i c_i^T + R_i S R_i^T)
-        - F F^T / (M + sum_i m), F = sum_i (m c_i + f_i).
+        The result has shape (n, k) for angles of shape (n, k) or (1, k). By the parallel axis
+        theorem for second moments, with a module's mass m, first moment f_i = R_i f and second
+        moments S about its wheel's centre c_i, all relative to the robot's centre of mass: S =
+        S_robot + sum_i (m c_i c_i^T + c_i f_i^T + f_i c_i^T + R_i S R_i^T) - F F^T / (M + sum_i m),
+        F = sum_i (m c_i + f_i).
         """
         one = MassMoments(*(np.asarray(each)[..., None] for each in vars(self.module).values()))
         frames = self.layout.frames(angle)
-        # Components of outward and upward, and places of the wheels, shape (3, w, n, k).
+        # Components of the outward and upward axes, and positions of the wheels, shape (3, w, n,
+        # k).
         y, z = np.ascontiguousarray(frames.T[1:].swapaxes(-1, -2))
         place, first = self.centers.T[..., None], one.y * y + one.z * z
         count = frames.shape[-3]
@@ -68,11 +69,11 @@ _Range: TypeAlias = tuple[FloatArray, FloatArray]
 
 
 class LeastInertia(NamedTuple):
-    """Inertia about roll and pitch that no device is below, and how much it couples them.
+    """Lower bound of the inertia about roll and pitch, and the range of their coupling.
 
     Attributes:
-        inertia: the least about either axis, coupled as the robot alone, shape (n, 2).
-        spread: that J_xy differs by from that at most [kg m^2], shape (n,).
+        inertia: the least about either axis, with the coupling of the robot alone, shape (n, 2).
+        spread: largest difference of J_xy from that coupling [kg m^2], shape (n,).
     """
 
     inertia: TiltInertia
@@ -80,15 +81,15 @@ class LeastInertia(NamedTuple):
 
 
 class Least(NamedTuple):
-    """What no module of a kind is below, all of shape (n,), and what it is not beyond.
+    """Lower and upper bounds for one module of a kind, all of shape (n,).
 
     Attributes:
-        mass: of what stands about the wheel's centre, wheel and drum [kg].
-        inertia: of that about any axis [kg m^2].
-        behind: of what stands behind it [kg].
-        depth, above: of its middle from the wheel's, at most [m].
-        smallest, largest: rooms that modules take.
-        heaviest: [kg].
+        mass: least mass of the parts centred on the wheel, wheel and drum [kg].
+        inertia: least inertia of those about any axis [kg m^2].
+        behind: least mass of the parts behind them [kg].
+        depth, above: largest offset of their centre of mass from the wheel's centre [m].
+        smallest, largest: bounds of the module's size.
+        heaviest: largest mass [kg].
     """
 
     mass: FloatArray
@@ -101,10 +102,11 @@ class Least(NamedTuple):
     heaviest: FloatArray
 
     def lopsidedness(self, apart: FloatArray, layout: Layout) -> FloatArray:
-        """Most that modules which are no mirror images add to I_xy about their middle [kg m^2].
+        """Upper bound on I_xy about their middle of modules that are not mirror images [kg m^2].
 
         Args:
-            apart: of the wheels from their middle at each corner of the sizes [m], (..., n, w, 3).
+            apart: positions of the wheels from their middle at each corner of the sizes [m], shape
+                (..., n, w, 3).
             layout: of the modules.
         """
         _, outward, upward = np.moveaxis(layout.frames(layout.angle or 0.0), -1, 0)
@@ -120,9 +122,9 @@ class Least(NamedTuple):
     def coupling_spread(
         self, robot: MassProperties, x: _Range, z: _Range, wheels: int
     ) -> FloatArray:
-        """Most that a device changes J_xy by, term by term [kg m^2], shape (n,).
+        """Upper bound on a device's change of J_xy, term by term [kg m^2], shape (n,).
 
-        A module's own products are no more than its mass times its room around its wheel squared.
+        A module's own products of inertia are at most its mass times the square of its size.
         """
         reach, standing = self.largest
         room, mass = reach + standing + np.abs(self.above), wheels * self.heaviest
@@ -133,7 +135,7 @@ class Least(NamedTuple):
         )
         left, (xz, yz) = abs(robot.com[1]), np.abs(robot.inertia[:2, 2])
         aslant, sideways = reduced * forward * up + mass * room**2, reduced * left * up
-        # Of I_xz I_yz / I_zz, the last term because I_zz grows too.
+        # Change of I_xz I_yz / I_zz; the last term is there because I_zz grows too.
         yaw = aslant * yz + xz * sideways + aslant * sideways + xz * yz
         return np.asarray(reduced * left * forward + yaw / robot.inertia[2, 2])
 
@@ -141,11 +143,11 @@ class Least(NamedTuple):
 def least_composite_inertia(
     robot: MassProperties, place: Place, least: Least, layout: Layout = PAIR
 ) -> LeastInertia:
-    """Inertia that no device is below whose modules are no smaller and no lighter.
+    """Lower bound of the inertia with modules no smaller and no lighter than the given bounds.
 
-    Every term grows with mass, inertia or a distance; each distance is at its own least between
-    where the smallest and where the largest module stands, at any incidence. What is not looked at,
-    the foot, would only add to the inertia about the common centre of mass.
+    Every term increases with mass, inertia or a distance; each distance takes its own minimum over
+    the positions from the smallest to the largest module, at any incidence. The foot, which is left
+    out, would only add to the inertia about the common centre of mass.
     """
     corners = np.stack(
         [
@@ -159,12 +161,13 @@ def least_composite_inertia(
     apart = corners - middle[..., None, :]
     wheels, mass = corners.shape[-2], least.mass + least.behind
     off, risen = least.behind * least.depth / mass, least.behind * least.above / mass
-    # What stands behind a pair's wheels, which face away from each other, leaves their middle.
+    # A pair's wheels face away from each other, so the parts behind them do not move their middle
+    # sideways.
     aside, sunk = (0.0 * off, 0.0 * off) if layout.pairs else (off, off + np.abs(risen))
     forward = _least_square((x[0] - off, x[1] + aside), robot.com[0])
     left = _least_square((y[0] - aside, y[1] + aside), robot.com[1])
     up = _least_square((z[0] - sunk, z[1] + risen + sunk), robot.com[2])
-    # Of the wheels about their own middle, what stands behind them left out.
+    # Spread of the wheels about their own middle, without the parts behind them.
     spread = _least_square((apart.min(axis=0), apart.max(axis=0)), 0.0).sum(axis=-2)
     along, across, above = least.mass * spread.T
     reduced = robot.mass * wheels * mass / (robot.mass + wheels * mass)
@@ -180,7 +183,7 @@ def least_composite_inertia(
 
 
 def _least_square(between: _Range, about: float) -> FloatArray:
-    """Least square of the distance from `about` of anything in a range."""
+    """Least squared distance from `about` to any value in a range."""
     low, high = between[0] - about, between[1] - about
     least: FloatArray = np.maximum(np.maximum(low, -high), 0.0) ** 2
     return least

@@ -1,4 +1,4 @@
-"""What a requirement asks of wheels and their drives, for many candidates at once."""
+"""Demand of a requirement on wheels and their drives, for many candidates at once."""
 
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
@@ -20,18 +20,19 @@ from ocs_design.sizing.selection.drives import Drives
 from ocs_design.sizing.selection.problem import Candidate
 
 UNDOES = 0.35
-"""Share of the momentum about roll of all wheels at top speed that undoes a roll at lift-off while
-they turn a flip. Flown (docs/theory.md, A roll at lift-off): robots fail from 0.36 on with Solo12's
-lightest device, 0.40 and 0.45 with Romeo's of two and four wheels, 0.47 with TALOS's of four."""
+"""Fraction of all wheels' roll momentum at top speed that can cancel a roll at lift-off while they
+turn a flip. In simulation (docs/theory.md, A roll at lift-off): robots fail above 0.36 with
+Solo12's lightest device, 0.40 and 0.45 with Romeo's of two and four wheels, 0.47 with TALOS's of
+four."""
 
 
 class Margins(NamedTuple):
-    """How wheels of some spin inertia do in one part of the requirement.
+    """Margin of wheels of some spin inertia in one part of the requirement.
 
     Attributes:
-        margin: what they do over what is asked for; at least 1 if they are in time.
-        following: a better guess at the smallest spin inertia that is [kg m^2]: from below no
-            larger than it; inf: there is none.
+        margin: capability relative to the demand; at least 1 if they are in time.
+        following: improved estimate of the smallest sufficient spin inertia [kg m^2]; from below it
+            does not overshoot; inf: none suffices.
     """
 
     margin: FloatArray
@@ -54,16 +55,16 @@ def margins_of(
         angle: of the design's layout [rad], shape (n, k).
 
     Returns:
-        Parts that are done at the design's angle, shape (n, k), and those that are done at an
-        incidence of their own, shape (n, 1).
+        Margins of the parts at the design's angle, shape (n, k), and of those at an incidence of
+            their own, shape (n, 1).
     """
     spin, begun = spin_inertia[:, None], bool(requirement.reserves)
 
     def tried(maneuvers: Sequence[Maneuver], at: FloatArray, *, begun: bool) -> list[Margins]:
-        """Margins of each maneuver, and of each that begins with a rate if any shall."""
+        """Margins of each maneuver, and with `begun` also of each starting with a rate."""
         if not maneuvers:
             return []
-        # All at once, as a call of numpy costs more than its work on few.
+        # All at once: for few candidates, a NumPy call costs more than its work.
         starts = [False] * len(maneuvers) + [True] * (len(maneuvers) * begun)
         every = [*maneuvers, *maneuvers] if begun else maneuvers
         inertia, upright = whole.at(at)
@@ -102,7 +103,7 @@ def margins_of(
 
 
 def worst(parts: Sequence[Margins], shape: tuple[int, ...]) -> Margins:
-    """Least margin and most that is asked for; infinite and none where there is no part."""
+    """Least margin and largest demand; infinity and 0 where there is no part."""
     margin, following = np.full(shape, np.inf), np.zeros(shape)
     for part in parts:
         margin = np.minimum(margin, part.margin)
@@ -119,15 +120,16 @@ def wheel_task(
     *,
     begun: Sequence[bool] | None = None,
 ) -> WheelTask:
-    """Maneuvers as what wheels must do, fields of shape (m, n, k, ...).
+    """Wheel tasks of maneuvers, fields of shape (m, n, k, ...).
 
     Args:
         maneuvers: m of them, all headed or none.
-        requirement: that they are part of.
-        inertia: of what they turn, shapes that broadcast against (n, k, 2) and (n, k).
-        upright: I_zz of what they turn, shapes likewise [kg m^2]; of account where it is headed.
+        requirement: of which they are part.
+        inertia: of robot and device, shapes that broadcast against (n, k, 2) and (n, k).
+        upright: I_zz of robot and device, broadcasting against (n, k) [kg m^2]; used only if
+            headed.
         axes: of the wheels, shape (n, k, 3, w).
-        begun: see `Requirement.slew`, for each; None: no.
+        begun: see `Requirement.slew`, for each; None: False for all.
     """
     headed = maneuvers[0].headed
     axes = axes if headed else axes[..., :2, :]
@@ -170,8 +172,8 @@ def needed_by_rate(
 ) -> FloatArray:
     """Spin inertia for a change of rate about either axis, one at a time [kg m^2], shape (n, k).
 
-    h = phi(J_i d) / W at the highest speed; no time is set (docs/theory.md, Lower bound on the
-    wheels' inertia).
+    h = phi(J_i d) / W at the highest speed, without a time limit (docs/theory.md, Lower bound on
+    the wheels' inertia).
     """
     most = held_by_rate(rate_change, inertia, axes, one_stops=one_stops).max(axis=-1)
     needed: FloatArray = most / drives.top_speed[:, None]
@@ -181,12 +183,12 @@ def needed_by_rate(
 def held_by_rate(
     rate_change: float, inertia: TiltInertia, axes: FloatArray, *, one_stops: bool = False
 ) -> FloatArray:
-    """Momentum of the busiest wheel for a change of the rate of roll, and of pitch, (..., 2).
+    """Momentum of the busiest wheel for a change of roll rate, and of pitch rate, (..., 2).
 
-    `one_stops`: with any one of the wheels left out.
+    `one_stops`: with any one of the wheels missing.
     """
     momenta = rate_momenta(inertia, rate_change)
-    # Of either sense of the rates.
+    # Both relative signs of the momenta.
     both = momenta[..., None, :] * np.array([[1.0, 1.0], [1.0, -1.0]])
     left = without_each(axes) if one_stops else (axes,)
     most = [held(each[..., None, None, :, :], both).most.max(axis=-1) for each in left]
@@ -196,7 +198,7 @@ def held_by_rate(
 def rate_demands(
     requirement: Requirement, device: Candidate, inertia: TiltInertia
 ) -> Iterator[TaskDemand]:
-    """What a change of rate takes of the device, about roll and about pitch; none is none."""
+    """Demand of a change of rate on the device, about roll and pitch; empty without one."""
     if requirement.rate_change is None:
         return
     at, one_stops = device.incidence, requirement.detection is not None
@@ -214,19 +216,18 @@ def held_in_roll(
     axes: FloatArray,
     requirement: Requirement,
 ) -> FloatArray:
-    """Momentum that wheels must be able to hold to undo a roll at lift-off in a flip, of each.
+    """Momentum that each wheel must be able to absorb to cancel a roll at lift-off in a flip.
 
-    None where they reach yaw and hold what comes there as well. Where they leave roll to itself it
-    is inf while the incidence is still to be chosen, and none where that is as stated.
+    It is 0 if the wheels also control yaw. If they do not control roll, it is inf while the
+    incidence is still to be chosen, and 0 at a specified incidence.
 
     Args:
         rate: of roll at lift-off [rad/s].
-        inertia, upright: of what they turn, and its I_zz [kg m^2], shapes (..., 2) and (...).
+        inertia, upright: of robot and device, and its I_zz [kg m^2], shapes (..., 2) and (...).
         axes: of the wheels, shape (..., 3, n).
         requirement: of which the flip is a part.
 
-    Returns:
-        [N m s], shape (...).
+    Returns: Momentum of each wheel [N m s], shape (...).
     """
     rolled = turned_roll(inertia.diagonal[..., 0], upright) * rate / UNDOES
     left = (axes,) if requirement.detection is None else without_each(axes)
@@ -238,10 +239,10 @@ def held_in_roll(
 
 
 def column(inertia: TiltInertia) -> TiltInertia:
-    """Inertia of n trunks against a second axis, of incidences."""
+    """Inertia of n trunks with a second array axis for incidences."""
     return TiltInertia(inertia.diagonal[:, None, :], inertia.product[:, None])
 
 
 def columns(line: DriveLine) -> DriveLine:
-    """Lines of n drives against a second axis, of incidences."""
+    """Torque-speed lines of n drives with a second array axis for incidences."""
     return DriveLine(*(np.asarray(value)[:, None] for value in vars(line).values()))

@@ -55,9 +55,9 @@ def device_of(solved: Solved) -> Candidate:
 
 
 def with_demands(problem: SelectionProblem, device: Candidate) -> Candidate:
-    """The device with what each part of the requirement takes of it, which takes some time.
+    """The device with the demands of each part of the requirement, which take time to compute.
 
-    The inertia is that at its own incidence.
+    Each demand uses the inertia at its own incidence.
     """
     demands: list[TaskDemand] = []
     requirement, line, spin = problem.requirement, device.line.reserved(), device.spin_inertia
@@ -101,10 +101,10 @@ def _task_of(
 
 
 def survived(problem: SelectionProblem, device: Candidate, detection: float) -> tuple[str, ...]:
-    """Names of the maneuvers that the device does with any one wheel left out, by closed form.
+    """Names of the maneuvers that the device does with any one wheel missing, by closed form.
 
-    On the safe side: that wheel is taken to be missing from the start, and what it knows of that
-    only after the `detection` [s].
+    Conservatively, that wheel is assumed missing from the start, and the others to respond only
+    after `detection` [s].
     """
     requirement, names = replace(problem.requirement, detection=detection, reserves={}), []
     for maneuver in requirement.maneuvers:
@@ -119,4 +119,4 @@ def survived(problem: SelectionProblem, device: Candidate, detection: float) -> 
 
 
 _ROUNDED = 1e-6
-"""Share of what is asked that a device which was sized for it may seem to miss."""
+"""Relative shortfall that counts as rounding for a device sized exactly for the demand."""

@@ -1,4 +1,4 @@
-"""Motors behind gears as arrays, each with its place behind the housing's floor and its hub."""
+"""Motors with gears as arrays, each with its seat behind the housing's floor and its hub."""
 
 from dataclasses import dataclass, replace
 from typing import Generic
@@ -17,18 +17,18 @@ from ocs_design.sizing.place import Size, module_size
 
 @dataclass(frozen=True, eq=False)
 class Seat(Table, Generic[Real]):
-    """Place of a motor behind its floor, whatever the wheel.
+    """Mounting of a motor behind its housing's floor, independent of the wheel.
 
     Attributes:
         by_floor: moments about the middle of the outside of the housing's floor, see
             `module.by_floor`. by_wheel: about the wheel's middle, see `module.by_wheel`.
-        behind: how far back it reaches.
+        behind: extent behind the floor.
         posts: of its cage.
-        reach, holes: radius of the mount's holes [m], and the mass that they take [kg].
-        height_max: of a rim that the mount leaves room for [m].
-        room: least height of a rim that the housing is made for (`MotorMount.room`) [m].
+        reach, holes: radius of the mount's holes [m], and the mass that they remove [kg].
+        height_max: largest height of a rim for which the mount leaves room [m].
+        room: least rim height for which the housing is made (`MotorMount.room`) [m].
         bell: radius of the bore of a ring around the motor's bell [m]; 0: there is none.
-        head_reach: of the screws in the housing [m].
+        head_reach: radius that the heads of the screws in the housing reach [m].
     """
 
     by_floor: MassMoments[Real]
@@ -45,23 +45,23 @@ class Seat(Table, Generic[Real]):
 
 @dataclass(frozen=True, eq=False)
 class Drives(Table):
-    """Motors behind gears, one per row.
+    """Motors with gears, one per row.
 
     Attributes:
         motor, gear, web: indices in the problem's motors, gears and lightenings.
-        seat: place of the motor.
-        whole: voltage line and limits at the wheel, nothing held back.
-        rotor_share: of the spin inertia [kg m^2].
-        armature: what the motor accelerates beyond the spin inertia [kg m^2].
+        seat: mounting of the motor.
+        whole: torque-speed line and limits at the wheel, without reserve.
+        rotor_share: rotor's share of the spin inertia [kg m^2].
+        armature: inertia that the motor accelerates beyond the spin inertia [kg m^2].
         hub_volume: mass of the wheel's hub, over its density [m^3].
-        hub_radius: of that, or of the screws' heads beside it [m]; 0 without a web.
-        rim_height: least one that leaves room for the hub's screws [m]; 0: any.
-        lightened: share of its web that holes take. lightened_bore: least one of a rim with room
-            for them [m]; 0: any. lightened_stress: see `Hub`.
-        hub_spread: of the spin inertia. hub_across: about any axis across; both over its density
-            [m^5].
-        web_least, web_most: density of web and hub, which is any of the problem's as long as no
-            material is chosen [kg/m^3].
+        hub_radius: of the hub, or of the screw heads beside it [m]; 0 without a web.
+        rim_height: least rim height with room for the hub's screws [m]; 0: any.
+        lightened: fraction of its web that holes remove. lightened_bore: least bore of a rim with
+            room for them [m]; 0: any. lightened_stress: see `Hub`.
+        hub_spread: hub's share of the spin inertia. hub_across: its inertia about any transverse
+            axis; both over its density [m^5].
+        web_least, web_most: bounds of the density of web and hub [kg/m^3], over all materials of
+            the problem until one is chosen.
     """
 
     motor: NDArray[np.intp]
@@ -91,22 +91,22 @@ class Drives(Table):
 
     @property
     def hub_mass(self) -> FloatArray:
-        """Mass of the wheel's hub beyond its web, at the least [kg]."""
+        """Least mass of the wheel's hub beyond its web [kg]."""
         return np.minimum(*self._of_hub(self.hub_volume))
 
     @property
     def hub_mass_most(self) -> FloatArray:
-        """Mass of the wheel's hub beyond its web, at the most [kg]."""
+        """Largest mass of the wheel's hub beyond its web [kg]."""
         return np.maximum(*self._of_hub(self.hub_volume))
 
     @property
     def hub_inertia(self) -> FloatArray:
-        """Inertia of the wheel's hub about any axis, at the least [kg m^2]."""
+        """Least inertia of the wheel's hub about any axis [kg m^2]."""
         return np.minimum(*self._of_hub(np.minimum(self.hub_spread, self.hub_across)))
 
     @property
     def mass(self) -> FloatArray:
-        """Mass of motor, gear and hub, less the mount's holes, without posts, at the least [kg]."""
+        """Least mass of motor, gear and hub, less the mount's holes, without posts [kg]."""
         return self.seat.by_floor.mass + self.seat.by_wheel.mass + self.hub_mass
 
     def size(self, outer_radius: FloatArray, height: FloatArray) -> Size[FloatArray]:
@@ -117,21 +117,21 @@ class Drives(Table):
 
     @property
     def beside_rim(self) -> FloatArray:
-        """Part of the spin inertia that rim and web need not have, at the most [kg m^2]."""
+        """Largest part of the spin inertia that rim and web need not provide [kg m^2]."""
         return self.rotor_share + np.maximum(*self._of_hub(self.hub_spread))
 
     def _of_hub(self, figure: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """A figure per density at either. A hub of a wide bore has less than the web beneath it."""
+        """A figure per density at either density; negative where the hub replaces more web."""
         return figure * self.web_least, figure * self.web_most
 
     @property
     def line(self) -> DriveLine:
-        """Voltage lines and limits that a design may use."""
+        """Torque-speed lines and limits that a design may use."""
         return self.whole.reserved()
 
     @property
     def top_speed(self) -> FloatArray:
-        """Speed of the wheel that a design may use [rad/s]."""
+        """Highest wheel speed that a design may use [rad/s]."""
         return np.asarray(self.line.top_speed)
 
     @property

@@ -1,13 +1,13 @@
 """Wheel, incidence and robot at their fixed point, for many candidates at once.
 
-A heavier module asks for a larger wheel. What is asked for is iterated to its fixed point, from a
-lower bound up (docs/theory.md, The selection). Each iteration looks at some incidences around the
-best so far and takes one step of Newton's method towards what is asked for at the best of them; it
-closes in on the incidence as it goes.
+A heavier module needs a larger wheel. The demand is iterated to its fixed point, from a lower bound
+upwards (docs/theory.md, The selection). Each iteration tries some incidences around the best so far
+and takes one Newton step towards the demand at the best of them, narrowing the range of incidences
+as it goes.
 
-The lightest module of a given spin inertia has one valley over its radius (`lightest_module`), but
-a smaller one stands nearer to the robot and may ask for less, and where the torque hardly does it
-may be the only one that can be. So masses are compared at their fixed points.
+The mass of a module of given spin inertia has one minimum over its radius (`lightest_module`), but
+a smaller module is closer to the robot and may need less, and where the torque barely suffices it
+may be the only feasible one. So masses are compared at their fixed points.
 """
 
 from collections.abc import Iterator
@@ -26,31 +26,36 @@ from ocs_design.sizing.selection.demand import margins_of, worst
 
 _ITERATIONS_MAX = 40
 _POINTS = np.linspace(-1.0, 1.0, 5)
-"""Incidences that one iteration looks at, over the width around the best so far."""
+"""Incidences that one iteration tries, relative to the width around the best so far."""
 
 _CLOSE_IN = 0.55
-"""Factor on the width: the next incidences reach a little beyond the neighbours of the best."""
+"""Factor on the width per iteration: the next incidences reach slightly beyond the best one's
+neighbours."""
 
 _STEEPEST, _STEEPEST_NEAR = 0.9, 0.9995
-"""Slope of what is asked for over the spin inertia up to which a secant is trusted."""
+"""Slope of the demand over the spin inertia up to which a secant is trusted, far from and near the
+last iteration."""
 
 _NEAR = 0.02
-"""Relative distance of two iterations that are near each other."""
+"""Relative difference of two iterations that count as near."""
 
 _SPANS = (1.0, 0.2)
-"""Shares of all radii that are searched, each a little beyond the neighbours of the best so far."""
+"""Fractions of the range of radii searched in turn; each reaches slightly beyond the best one's
+neighbours."""
 
 _RADII = 13
 _BEYOND, _NOTHING = 1e9, 1e-9
-"""Beyond any spin inertia [kg m^2] and any mass [kg], and below any margin."""
+"""Larger than any spin inertia [kg m^2] and mass [kg], and smaller than any margin."""
 
 
 class Design(NamedTuple):
-    """Radius and incidence of candidates, shape (n,) each; the rest follows by spin inertia.
+    """Radius and incidence of candidates, shape (n,) each; the spin inertia gives the rest.
+
+
 
     Attributes:
-        radius: outer radius of the rim [m]; the nearest possible is taken.
-        angle: incidence [rad]. width: how far around it to look for a better one [rad].
+        radius: outer radius of the rim [m]; the nearest feasible one is used.
+        angle: incidence [rad]. width: range around it to search [rad].
     """
 
     radius: FloatArray
@@ -62,7 +67,7 @@ class Tolerance(NamedTuple):
     """When a fixed point counts as reached.
 
     Attributes:
-        residual: of the spin inertia, relative. width: of the incidence, over the first one.
+        residual: of the spin inertia, relative. width: of the incidence, relative to the first one.
     """
 
     residual: float
@@ -78,14 +83,15 @@ class FixedPoint(Table):
     """Candidates at their fixed points, shape (n,) each.
 
     Attributes:
-        spin_inertia: of each wheel [kg m^2]; of what is not feasible, that of the largest margin.
-        radius: outer radius that was asked for [m]; the nearest possible is taken.
+        spin_inertia: of each wheel [kg m^2]; of an infeasible candidate, that with the largest
+            margin.
+        radius: outer radius requested [m]; the nearest feasible one is used.
         angle: the best incidence [rad].
         shapes: rims and housings.
-        feasible: whether the candidate can be.
-        margin: of the worst part of the requirement, see `Margins`.
+        feasible: whether the candidate is feasible. margin: of the worst part of the requirement,
+            see `Margins`.
         residual: relative change of the spin inertia in one more iteration.
-        iterations: that were taken.
+        iterations: number of iterations.
     """
 
     spin_inertia: FloatArray
@@ -103,8 +109,8 @@ class Solved(Table):
     """Candidates near their best radius and incidence, one per row.
 
     Attributes:
-        candidates: what they are made of. guess: where they were looked for.
-        point: what they come to.
+        candidates: their parts. guess: where the search started.
+        point: the result.
     """
 
     candidates: Candidates
@@ -127,13 +133,13 @@ class Solved(Table):
 
 
 def solve_stepwise(candidates: Candidates, guess: Guess) -> Iterator[Solved]:
-    """A device of each candidate that does what is required, if one is found.
+    """Devices of the candidates that meet the requirement, where found, in steps of precision.
 
-    At the best radius so far, each time it is better known; rough but the last, which is up to some
-    per cent heavier than it would have to be (`refinement`).
+    Each step is at the best radius so far. All but the last are rough; the last is at most a few
+    per cent heavier than necessary (`refinement`).
     """
     start = np.maximum(guess.spin_inertia, candidates.least_spin_inertia)
-    # A larger wheel than that of the start may be needed, and may have a larger radius.
+    # A larger wheel than the starting one may be needed, possibly of larger radius.
     rim = np.maximum(start - candidates.drives.beside_rim, smallest_rim_inertia(candidates.limits))
     high = candidates.problem.envelope.outer_radius_max
     low = np.minimum(smallest_radius(rim, candidates.limits), high)
@@ -157,14 +163,14 @@ def solve_stepwise(candidates: Candidates, guess: Guess) -> Iterator[Solved]:
     design = Design(best.point.radius, best.point.angle, np.zeros_like(start))
     near = np.where(best.point.feasible, best.point.spin_inertia, start)
     point = fixed_point(candidates, near, design, FINE)
-    # The lightest radius may be the last that is feasible: there the iteration runs away again.
+    # The lightest radius may be the last feasible one, where the fine iteration may diverge.
     lost = np.flatnonzero(best.point.feasible & ~point.feasible)
     rough = replace(best.point.take(lost), feasible=np.zeros(lost.size, dtype=np.bool_))
     yield replace(best, point=point.put(lost, rough))
 
 
 class _Step(NamedTuple):
-    """Result of one iteration: the best incidence, what is asked for there, and the margin."""
+    """Result of one iteration: the best incidence, the demand there, and the margin."""
 
     angle: FloatArray
     width: FloatArray
@@ -178,7 +184,7 @@ def fixed_point(
     design: Design,
     tolerance: Tolerance,
 ) -> FixedPoint:
-    """The smallest wheels that do everything that is required.
+    """The smallest wheels that meet the whole requirement.
 
     Args:
         candidates: n of them.
@@ -209,9 +215,9 @@ def fixed_point(
         if ended.all() or iterations == _ITERATIONS_MAX:
             break
         last_spin, last_asked = spin, asked
-        # At a poor incidence too much is asked for: once it is better, begin anew.
+        # At a poor incidence the demand is too high: restart once the incidence is better.
         spin = np.where(ended, spin, np.where(possible, following, start))
-    # A residual leaves as much of the margin open.
+    # The margin is uncertain by about the residual.
     solved = ended & arrived & (step.margin >= 1.0 - 10.0 * tolerance.residual)
     spin = np.where(solved, spin, best_spin)
     return FixedPoint(
@@ -227,17 +233,17 @@ def fixed_point(
 
 
 def _step(candidates: Candidates, spin: FloatArray, shapes: ModuleShape, design: Design) -> _Step:
-    """Look at the incidences around the best so far, and ask for a better spin inertia.
+    """Try the incidences around the best so far, and estimate the required spin inertia.
 
-    Turned maneuvers have no say in the incidence of the design.
+    Maneuvers at an incidence of their own do not affect the incidence of the design.
     """
     problem, whole = candidates.problem, candidates.on_robot(spin, shapes)
     offsets = design.width[:, None] * (_POINTS if design.width.any() else np.zeros(1))
     angles = np.clip(design.angle[:, None] + offsets, 0.0, np.pi / 2.0)
     by_design, turned = margins_of(problem.requirement, candidates.drives, whole, spin, angles)
     tried, fixed = worst(by_design, angles.shape), worst(turned, (spin.size, 1))
-    # The least that is asked for; where nothing is enough, what comes closest. Where nothing is
-    # asked for, one is as good as the other, and the middle is kept.
+    # The least demand; where nothing suffices, the closest. Where there is no demand, all
+    # incidences are equal, and the middle one is kept.
     penalty = _BEYOND / np.maximum(tried.margin, _NOTHING)
     score = np.where(np.isfinite(tried.following), tried.following, penalty)
     score[:, score.shape[1] // 2] *= 1.0 - 1e-15
@@ -256,11 +262,11 @@ def _step(candidates: Candidates, spin: FloatArray, shapes: ModuleShape, design:
 def _along_secant(
     spin: FloatArray, asked: FloatArray, last_spin: FloatArray, last_asked: FloatArray
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
-    """Spin inertia that meets what is asked for, by a secant of the last two; whether none does.
+    """Spin inertia that meets the demand, by a secant of the last two; and whether none does.
 
-    Close to each other, the last two tell how steeply what is asked for rises, which it does ever
-    more steeply: a secant from below leads no further than to the fixed point, and none is ahead
-    where it is steeper than one. Farther apart, they may still tell how Newton's method went.
+    Two close iterations give the slope of the demand, which increases: a secant from below does not
+    overshoot the fixed point, and with a slope above one there is no fixed point ahead. Two distant
+    iterations still show how Newton's method progressed.
     """
     with np.errstate(divide="ignore", invalid="ignore"):
         steepness = (asked - last_asked) / (spin - last_spin)

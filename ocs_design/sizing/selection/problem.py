@@ -1,4 +1,4 @@
-"""The problem of the selection and its result: what there is to choose from, and what was."""
+"""The problem of the selection, with what there is to choose from, and its result."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -43,27 +43,27 @@ from ocs_design.sizing.place import Place, braked, module_size
 
 @dataclass(frozen=True, eq=False)
 class SelectionProblem:
-    """Find the lightest device that does everything that is required.
+    """Find the lightest device that meets the whole requirement.
 
     Attributes:
         robot: without the modules, with the plate that they stand on, in B.
-        requirement: what the device must do; its `wheel_speed_max` is not looked at here. A stated
-            spin inertia is kept, and the motors must do with it what is required.
-        envelope: room for one rim; its housing stands around it.
-        place: of the modules, by outer radius and height of their housings.
+        requirement: what the device must do; its `wheel_speed_max` is ignored here. A specified
+            spin inertia is kept, and the motors must meet the rest with it.
+        envelope: room for one rim; its housing stands around it. place: of the modules, by outer
+            radius and height of their housings.
         layout: of their axes.
         motors, gears, materials: to choose from; direct drive is the gear `DIRECT`.
-        supply: of all motors; each of the wheels may take its share of the power.
-        incidence: of a pair's wheel axes, or the angle of another layout [rad]; None: the best.
-        wheel_speed_max: stated highest speed of a wheel [rad/s]; None: what the drive can do.
+        supply: of all motors; each wheel may use its share of the power. incidence: of a pair's
+            wheel axes, or the angle of another layout [rad]; None: the best.
+        wheel_speed_max: specified highest speed of a wheel [rad/s]; None: the drive's own limit.
         web: whether wheels have a web and a hub; massless spokes otherwise.
         on_bell: whether they are rings around the bells of the motors, without web or gear.
         cuts: chamfers and balancing holes of wheels with a web; those without are plain rims.
-        web_material: of web and hub; None: of one piece with the rim.
-        lightenings: numbers of holes in a web to choose from, 0 a solid one.
-        guard_wall: of the steel rings in the housings [m]; 0: none.
+        web_material: of web and hub; None: in one piece with the rim.
+        lightenings: numbers of holes in a web to choose from, 0 for a solid one.
+        guard_wall: wall thickness of the steel rings in the housings [m]; 0: none.
         foot_plate: thickness of the feet's plates [m].
-        formed: whether a mast may stand by a block that has the trunk's form.
+        formed: whether a mast may stand on a block shaped to the trunk.
     """
 
     robot: MassProperties
@@ -107,9 +107,9 @@ class SelectionProblem:
         return WEB_THICKNESS if self.web_material is None else SHRUNK_WEB_THICKNESS
 
     def hub(self, motor: Motor, gear: Gear, lightening: int) -> Hub | None:
-        """Hub of a wheel on this motor behind this gear; None: massless spokes.
+        """Hub of a wheel on this motor with this gear; None: massless spokes.
 
-        Its web is solid where the largest rim leaves no room for so many holes.
+        Its web is solid where the largest rim leaves no room for that many holes.
         """
         if not self.web:
             return None
@@ -125,10 +125,10 @@ class SelectionProblem:
         return hub if fits else replace(hub, lightening=0)
 
     def check(self) -> None:
-        """Refuse a problem that cannot be solved as it is stated.
+        """Refuse an invalid problem.
 
         Raises:
-            UsageError: there is nothing to choose from or nothing to do, or a limit is no limit.
+            UsageError: there is nothing to choose from or nothing to do, or a limit is invalid.
         """
         for name in ("motors", "gears", "materials"):
             if not getattr(self, name):
@@ -145,7 +145,7 @@ class SelectionProblem:
 
 
 def limits_of(problem: SelectionProblem) -> dict[Limit, float]:
-    """Values of all limits that may stand in the way [SI]."""
+    """Values of all limits that may be active [SI]."""
     speed = {} if problem.wheel_speed_max is None else {WHEEL_SPEED: problem.wheel_speed_max}
     power = {BUS_POWER: problem.supply.power} if isfinite(problem.supply.power) else {}
     return {
@@ -162,7 +162,7 @@ def with_limit(problem: SelectionProblem, limit: Limit, value: float) -> Selecti
     if limit is BUS_VOLTAGE:
         return replace(problem, supply=replace(problem.supply, voltage=value))
     if limit is BUS_POWER:
-        # The current gives way with it, where it is the smaller limit of the two.
+        # The current limit is raised with it, where it is the tighter of the two.
         supply = problem.supply
         current = max(supply.current_max, value / supply.voltage)
         return replace(problem, supply=Supply(supply.voltage, current, value))
@@ -191,16 +191,16 @@ class Candidate(DrivenWheel):
         incidence: of the wheel axes [rad].
         spin_inertia: of each wheel, the rotor's share included [kg m^2].
         rim_mass: of one module [kg].
-        overspeed: at which the hoop stress is limited [rad/s].
-        limits: of its rim.
-        robot, place, guard_wall, foot_plate, layout, on_bell: see `SelectionProblem`.
-        demands: of all parts of the requirement; empty where nobody looked at them.
-        binding: limits that hold the mass up, as named in the specification; "housing" where a
-            larger rim would be lighter, but its housing heavier.
+        overspeed: speed at which the hoop stress is limited [rad/s].
+        limits: of its rim. robot, place, guard_wall, foot_plate, layout, on_bell: see
+            `SelectionProblem`.
+        demands: of all parts of the requirement; empty until computed.
+        binding: active limits, as named in the specification; "housing" where a larger rim would be
+            lighter, but its housing heavier.
         residual: relative change of the spin inertia in one more iteration of the fixed point.
-        iterations: taken.
-        plate: that it stands on; None: the trunk itself, or not looked for yet.
-        pedestals: under feet that lean; empty: none, or not looked for yet.
+        iterations: number of iterations.
+        plate: that it stands on; None: the trunk itself, or not determined yet.
+        pedestals: under tilted feet; empty: none, or not determined yet.
     """
 
     incidence: float
@@ -231,12 +231,12 @@ class Candidate(DrivenWheel):
 
     @property
     def mount(self) -> MotorMount:
-        """How the motor is held."""
+        """Mount of the motor."""
         return mount_of(self.motor, self.gear.room, self.foot_plate, on_bell=self.on_bell)
 
     @cached_property
     def carrier(self) -> Carrier:
-        """What stands still of one module: motor, gear, housing and foot."""
+        """Stationary part of one module: motor, gear, housing and foot."""
         return standing(
             self.motor,
             self.gear,
@@ -276,7 +276,7 @@ class Candidate(DrivenWheel):
 
     @property
     def mass(self) -> float:
-        """Mass of all modules and of what is under them [kg]."""
+        """Mass of all modules with their plate or pedestals [kg]."""
         return self.modules_mass + self.plate_mass
 
     @property
@@ -292,7 +292,7 @@ class Candidate(DrivenWheel):
 
     @property
     def printed_mass(self) -> float:
-        """Mass of one housing with its foot, what holds the motor, and all screws [kg]."""
+        """Mass of one housing with its foot, the motor's mount, and all screws [kg]."""
         bought = (self.motor.mass or 0.0) + self.motor.controller_mass + self.gear.mass
         return self.carrier.mass - bought
 
@@ -308,9 +308,9 @@ class Candidate(DrivenWheel):
 
     @property
     def binding_maneuver(self) -> str:
-        """Maneuver that asks for the most; "" where the smallest rim or a stated one has more.
+        """Maneuver that requires the most; "" where the smallest or a specified rim has more.
 
-        Of several that ask for as much, the first: no rounding decides which of them is named.
+        Among equals the first, so that rounding does not decide.
         """
         most = max((demand.spin_inertia for demand in self.demands), default=0.0)
         asked = (each.source for each in self.demands if each.spin_inertia >= most * (1.0 - 1e-9))
@@ -318,7 +318,7 @@ class Candidate(DrivenWheel):
 
 
 def of_parts(problem: SelectionProblem, *devices: Candidate) -> SelectionProblem:
-    """The problem with motor, gear, material and web of each device alone to choose from."""
+    """The problem with only these devices' motors, gears, materials and webs to choose from."""
     hubs = [device.hub for device in devices]
     return replace(
         problem,
@@ -330,8 +330,8 @@ def of_parts(problem: SelectionProblem, *devices: Candidate) -> SelectionProblem
 
 
 SAME_MASS = 1e-5
-"""Relative difference of two masses that is none: materials of one density make devices of one mass
-but for rounding, which differs from processor to processor."""
+"""Relative difference of two masses that count as equal: materials of equal density give equal
+masses except for rounding, which differs between processors."""
 
 Entry = TypeVar("Entry")
 
@@ -339,7 +339,7 @@ Entry = TypeVar("Entry")
 def lightest_first(
     entries: Iterable[Entry], mass: Callable[[Entry], float], preference: Callable[[Entry], Any]
 ) -> list[Entry]:
-    """Entries by mass; of those that are equally heavy, the preferred ones first.
+    """Entries by mass; among equally heavy ones, the preferred first.
 
     Args:
         preference: sorts entries whose masses differ by less than `SAME_MASS`, smallest first.
@@ -354,10 +354,10 @@ def lightest_first(
 
 
 def devices_by_mass(devices: Iterable[Candidate]) -> list[Candidate]:
-    """Devices, the lightest first; of equally heavy ones, the safest.
+    """Devices, the lightest first; among equally heavy ones, the safest.
 
-    That is the one whose bond allows the wider ring, where it has one, then that of the material
-    which yields last.
+    That is the one whose bond, if any, allows the wider ring, then the one of the stronger
+    material.
     """
 
     def preference(device: Candidate) -> tuple[float, float, str, str, str]:
@@ -369,16 +369,16 @@ def devices_by_mass(devices: Iterable[Candidate]) -> list[Candidate]:
 
 
 class Reason(StrEnum):
-    """Why a motor has no place among the lightest devices.
+    """Why a motor is not among the lightest devices.
 
     Attributes:
-        FIGURES: its source lacks what the choice needs.
-        HEAVIER: it can do it, or may be able to, but its device is heavier than those listed.
+        FIGURES: its source lacks data that the choice needs.
+        HEAVIER: it is feasible, or may be, but its device is heavier than those listed.
         TORQUE: too weak, whatever the wheel. SPEED: too slow, whatever the wheel.
-        ENVELOPE: the wheel that it needs has no room. MASS: that wheel is heavier than allowed.
+        ENVELOPE: the wheel that it needs does not fit. MASS: that wheel is heavier than allowed.
         STRESS: that wheel would burst.
-        INCIDENCE: the stated one leaves an axis out of reach.
-        OWN_WEIGHT: it could turn the robot alone, but not with the device on it.
+        INCIDENCE: the specified one leaves an axis uncontrolled. OWN_WEIGHT: it could turn the
+            robot alone, but not with the device on it.
     """
 
     FIGURES = "missing figures"
@@ -398,14 +398,15 @@ class Rejection:
 
     Attributes:
         motor: its name.
-        reason: the first thing in the way of its most promising combination.
+        reason: the first obstacle for its most promising combination.
         detail: the same with figures.
-        shortfall: by how much it fails: time with the largest wheel that fits over the time given,
-            or wheel needed over the largest, whichever is less, over 1, or what the least radius
-            around the motor makes of it; inf if not known.
-        needed: spin inertia of the smallest wheel that would do [kg m^2]; None: none would, however
-            large, or it is not known.
-        largest: of the largest wheel that fits, its rotor included [kg m^2]; None: not looked at.
+        shortfall: factor by which it fails: time needed with the largest wheel that fits over the
+            time given, or wheel needed over the largest, whichever is smaller, in excess of 1, or
+            that due to the least radius around the motor; inf if unknown.
+        needed: spin inertia of the smallest wheel that would do [kg m^2]; None: no wheel would, or
+            unknown.
+        largest: spin inertia of the largest wheel that fits, with its rotor [kg m^2]; None: not
+            computed.
     """
 
     motor: str
@@ -423,9 +424,9 @@ class Selection:
     Attributes:
         ranking: the ten lightest that differ in motor, gear or material, and the lightest of each
             of the five best motors, lightest first; without their demands.
-        candidates: combinations of motor, gear, material and 5 deg of incidence that were decided;
-            without those whose figures do not suffice.
-        reasons: of the `rejections`, which take some time to find.
+        candidates: number of combinations of motor, gear, material and 5 deg of incidence that were
+            decided, without those whose data are incomplete.
+        reasons: computes the `rejections`, which takes some time.
     """
 
     ranking: tuple[Candidate, ...]
@@ -434,12 +435,12 @@ class Selection:
 
     @cached_property
     def rejections(self) -> tuple[Rejection, ...]:
-        """One for each motor that has no place in the ranking, in the order of the problem."""
+        """One for each motor that is not in the ranking, in the order of the problem."""
         return self.reasons()
 
     @property
     def best(self) -> Candidate:
-        """The lightest."""
+        """The lightest device."""
         return self.ranking[0]
 
 

@@ -1,4 +1,4 @@
-"""One candidate as a smooth nonlinear programme without a fixed point, and what limits cost by it.
+"""One candidate as a smooth nonlinear programme without a fixed point, and the prices of limits.
 
 Over the logarithms of outer radius, height and wall, and the incidence, the mass is the smallest
 for which every part of the requirement is met on the robot with the device; SciPy's SLSQP solves it
@@ -35,23 +35,23 @@ from ocs_design.sizing.selection.problem import (
 )
 
 _FEASIBLE = 1e-10
-"""Relative violation of a limit that is rounding."""
+"""Relative violation of a limit that counts as rounding."""
 
 _LEAST, _MOST = 1e-6, 1e6
-"""Ratios beyond which a limit tells nothing."""
+"""Range to which the limits' ratios are clipped."""
 
 _DIFFERENCE = 1e-6
-"""Half the distance of the two points of a central difference."""
+"""Step of the central differences."""
 
 _DIGITS = 1e-11
 """Change of the logarithm of the mass at which SLSQP stops."""
 
 _ITERATIONS_MAX = 40
 _PATIENCE = 12
-"""Evaluations without progress after which SLSQP is stopped; it may try a hundred at a jump."""
+"""Evaluations without progress after which SLSQP is stopped; at a jump it may try a hundred."""
 
 _PENALTY = 10.0
-"""Logarithm of the mass that a violation counts for, to tell progress: prices are about one."""
+"""Logarithm of the mass per unit of violation, to measure progress: prices are about one."""
 
 _AROUND = 0.7
 """Largest change of the logarithms of radius, height and wall."""
@@ -62,7 +62,7 @@ class Optimum(NamedTuple):
 
     Attributes:
         point: see `coordinates`. value: logarithm of the mass of a module [log kg].
-        violation: how far below zero the worst limit is; 0: all hold.
+        violation: largest violation of a limit; 0: all hold.
     """
 
     point: FloatArray
@@ -71,21 +71,21 @@ class Optimum(NamedTuple):
 
 
 def refine(candidates: Candidates, point: FixedPoint) -> FixedPoint:
-    """The lightest device of one candidate near a point; not feasible where none is found."""
+    """The lightest device of one candidate near a point; infeasible where none is found."""
     programme = Programme(candidates)
     shape = point.shapes.take(0)
     outer, height, inner = map(float, (shape.outer_radius, shape.height, shape.inner_radius))
     optimum = lightest(programme, coordinates(outer, height, inner, float(point.angle[0])))
     if optimum.violation <= _FEASIBLE:
         return programme.fixed_point(optimum.point)
-    # SLSQP comes no closer where a slope jumps: the device beside it has the same radius.
+    # SLSQP gets no closer where a slope jumps: the fixed point at the same radius is used.
     radius, angle = np.exp(optimum.point[:1]), optimum.point[3:]
     return fixed_point(candidates, np.zeros(1), Design(radius, angle, np.zeros(1)), FINE)
 
 
 def lightest(programme: "Programme", start: FloatArray) -> Optimum:
     """The lightest device near a start, feasible or not; see `coordinates`."""
-    # Importing takes longer than a selection.
+    # The import takes longer than a selection.
     from scipy.optimize import Bounds, NonlinearConstraint, minimize  # noqa: PLC0415
 
     held, angle = programme.holds_incidence(start), float(start[-1])
@@ -95,7 +95,7 @@ def lightest(programme: "Programme", start: FloatArray) -> Optimum:
 
     best, cost, idle = Optimum(start, np.inf, np.inf), np.inf, 0
 
-    # The last one is kept: SLSQP asks for each in parts.
+    # The last point is cached: SLSQP requests its value, slope and limits separately.
     @lru_cache(maxsize=1)
     def evaluation(point: bytes) -> _Evaluation:
         nonlocal best, cost, idle
@@ -147,10 +147,10 @@ class _StalledError(Exception):
 
 @cache
 def _libraries() -> ThreadpoolController:
-    """The libraries of linear algebra that are loaded, SciPy's among them.
+    """The linear algebra libraries that are loaded, SciPy's among them.
 
-    SLSQP multiplies by packed triangles (DTPMV), which OpenBLAS splits among its threads however
-    small they are: with another number of them it rounds otherwise, and so ends elsewhere.
+    SLSQP multiplies by packed triangular matrices (DTPMV), which OpenBLAS splits among its threads
+    however small they are: a different number of threads rounds differently, so the result differs.
     """
     return ThreadpoolController()
 
@@ -166,21 +166,21 @@ class _Evaluation(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Programme:
-    """Mass and limits of one candidate on its robot at points as `coordinates` gives them."""
+    """Mass and limits of one candidate on its robot as functions of `coordinates`."""
 
     candidates: Candidates
 
     def __call__(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Logarithm of a module's mass, shape (k,), and what must not be negative, shape (k, m).
+        """Logarithm of a module's mass, shape (k,), and constraints c >= 0, shape (k, m).
 
-        Where a spin inertia is stated, the first of these must be zero.
+        Where a spin inertia is specified, the first constraint is an equality.
         """
         candidates, shapes = self.candidates.repeat(len(points)), self._shapes(points)
         spin, whole = self._on_robot(candidates, shapes)
         requirement = candidates.problem.requirement
         by_design, turned = margins_of(requirement, candidates.drives, whole, spin, points[:, 3:])
         margins = [part.margin[:, 0] for part in (*by_design, *turned)]
-        # Ratios by which rims stay within their limits.
+        # Ratios of the rims' limits to their values.
         at = self.candidates.limits
         inner, outer, height = shapes.inner_radius, shapes.outer_radius, shapes.height
         weight, bore_weight = at.hoop_weights
@@ -202,25 +202,25 @@ class Programme:
         return np.log(candidates.drives.mass + shapes.mass), limits.T
 
     def evaluation(self, point: FloatArray, low: FloatArray, high: FloatArray) -> _Evaluation:
-        """The programme at a point, with all of a central difference in one call.
+        """The programme at a point, with all points of the central differences in one call.
 
-        Differences stay within the bounds: beyond, there may be nothing to evaluate.
+        They stay within the bounds, as there may be nothing to evaluate beyond.
         """
         n, width = point.size, _DIFFERENCE * np.eye(point.size)
         ahead, behind = np.minimum(point + width, high), np.maximum(point - width, low)
         values, limits = self(np.concatenate([point[None], ahead, behind]))
         apart = np.diag(ahead - behind)
-        # A held variable has no slope.
+        # A fixed variable has no slope.
         over = np.where(apart > 0.0, apart, np.inf)
         slope = (values[1 : n + 1] - values[n + 1 :]) / over
         slopes = ((limits[1 : n + 1] - limits[n + 1 :]) / over[:, None]).T
         return _Evaluation(float(values[0]), limits[0], slope, slopes)
 
     def holds_incidence(self, point: FloatArray) -> bool:
-        """Whether the incidence is stated, or no other one is near it.
+        """Whether the incidence is specified, or isolated from its neighbours.
 
-        Beside the one that leaves an axis out of reach, and to itself, the wheels would have to
-        take what the coupling asks there, with next to no lever.
+        At an isolated incidence an axis is out of reach and ignored; beside it, the wheels would
+        have to meet the demand of the coupling about that axis with hardly any leverage.
         """
         axes, angle = self.candidates.problem.layout.axes(point[3]), point[None, 3:]
         _, whole = self._on_robot(self.candidates, self._shapes(point[None]))
@@ -229,7 +229,7 @@ class Programme:
         return self.candidates.problem.incidence is not None or alone
 
     def fixed_point(self, point: FloatArray) -> FixedPoint:
-        """A single point at which all limits hold as a fixed point."""
+        """A single point at which all limits hold, as a fixed point."""
         shapes, angle = self._shapes(point[None]), point[3:]
         spin, whole = self._on_robot(self.candidates, shapes)
         requirement = self.candidates.problem.requirement
@@ -241,8 +241,8 @@ class Programme:
         asked = np.max(
             [self.candidates.least_spin_inertia, *(part.following[:, 0] for part in parts)], axis=0
         )
-        # Where no larger wheel would do either, a margin that rounding leaves below one asks for
-        # an infinite one.
+        # Where no larger wheel would do either, a margin slightly below one due to rounding
+        # requests an infinite wheel.
         missed = np.where(np.isfinite(asked), np.abs(asked / spin - 1.0), np.abs(margin - 1.0))
         return FixedPoint(
             spin_inertia=spin,
@@ -258,7 +258,7 @@ class Programme:
     def _on_robot(
         self, candidates: Candidates, shapes: ModuleShape
     ) -> tuple[FloatArray, CompositeInertia]:
-        """Spin inertias of the wheels [kg m^2], and what they turn."""
+        """Spin inertias of the wheels [kg m^2], and the composite inertia that they turn."""
         limits = candidates.limits
         dimensions = (shapes.inner_radius, shapes.outer_radius, shapes.height)
         cut = limits.cuts.axial_inertia(shapes.inner_radius, shapes.outer_radius, 1.0)
@@ -269,10 +269,10 @@ class Programme:
 
     def _shapes(self, points: FloatArray) -> ModuleShape:
         outer, height, wall = np.exp(points[:, :3]).T
-        # A wall is at most the radius; one that is thicker is refused as too small a bore.
+        # A wall is at most the radius; a thicker one fails as too small a bore.
         inner = np.maximum(outer - wall, BORE_SHARE * outer / 2.0)
         limits = self.candidates.limits
-        # A ring around a bell has its bore, whatever the wall.
+        # The bore of a ring around a bell is given, whatever the wall.
         bell = np.asarray(limits.inner_radius_max)
         inner = np.where(np.isfinite(bell), bell, inner)
         density = np.asarray(limits.density)
@@ -289,20 +289,20 @@ def coordinates(outer: float, height: float, inner: float, angle: float) -> Floa
 
 
 _UNITS = {STRESS: 0.1, TIME: 0.01, WHEEL_SPEED: 100.0}
-"""Changes that an engineer would make, in the limit's own unit; all others by one."""
+"""Realistic changes in the limit's own unit; all other limits change by one."""
 
 _LEAST_LEFT = 0.5
-"""Share of a limit that is left where it is loosened downwards."""
+"""Least fraction of a limit that is left where it is loosened downwards."""
 
 _FEASIBLE_TO_PRICE = 1e-6
-"""Relative violation of a limit that does not matter to a price."""
+"""Relative violation of a limit that is tolerated in a price."""
 
 _HOLDS, _MOVES = 1e-6, 1e-9
 """Slack of an active limit, and change of it that counts as moved; logarithms of ratios."""
 
 
 def mass_prices(problem: SelectionProblem, chosen: Candidate) -> Iterator[PriceRecord]:
-    """Prices of all limits that are stated, with the same motor, gear and material."""
+    """Prices of all specified limits, with the same motor, gear and material."""
     alone = of_parts(problem, chosen)
     sizes = chosen.outer_radius, chosen.height, chosen.inner_radius
     start = coordinates(*sizes, chosen.incidence)
