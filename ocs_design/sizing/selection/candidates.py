@@ -140,8 +140,7 @@ class Candidates(Table):
     def modules(
         self, spin_inertia: FloatArray, shapes: ModuleShape
     ) -> tuple[MassMoments[FloatArray], Size[FloatArray]]:
-        """Moments of one module of each candidate, braked, about the wheel's centre, and its
-        size."""
+        """Moments about the wheel's centre and size of one module of each candidate, braked."""
         drives, wheel = self.drives, spin_inertia - self.drives.rotor_share
         seat, guard = drives.seat, self.problem.guard_wall
         inner, outer, height = shapes.inner_radius, shapes.outer_radius, shapes.height

@@ -51,8 +51,6 @@ _BEYOND, _NOTHING = 1e9, 1e-9
 class Design(NamedTuple):
     """Radius and incidence of candidates, shape (n,) each; the spin inertia gives the rest.
 
-
-
     Attributes:
         radius: outer radius of the rim [m]; the nearest feasible one is used.
         angle: incidence [rad]. width: range around it to search [rad].
