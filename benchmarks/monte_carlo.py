@@ -34,7 +34,7 @@ from ocs_design.requirement.uncertainty import UncertaintySection
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scenario import Flights
-from ocs_design.workflows.flying import read_task
+from ocs_design.workflows.flying import read_flights
 
 WORLDS, SECONDS = 1024, 0.2
 DROPS, SHORT = 10_000, 0.01
@@ -141,11 +141,11 @@ def growth():
 
 def humanoid(design):
     """Processor seconds of a sample and the peak of this process, on one thread and on two."""
-    task = read_task(Path(design), Specification())
+    flights = read_flights(Path(design), Specification())
     campaign = make_campaign(
-        task,
-        can_stand=[False for _ in task.maneuvers],
-        uncertainty=Uncertainty.of(task.uncertainty, task.robot, task.device),
+        flights,
+        can_stand=[False for _ in flights.maneuvers],
+        uncertainty=Uncertainty.of(flights.uncertainty, flights.robot, flights.device),
         seed=0,
     )
     for count in (1, 2):

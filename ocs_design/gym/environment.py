@@ -25,7 +25,7 @@ from ocs_design.simulation.metrics import measure
 from ocs_design.simulation.piloted import PilotedFlight
 from ocs_design.simulation.run import Metrics
 from ocs_design.simulation.verdict import landing_attitude
-from ocs_design.workflows.flying import read_task
+from ocs_design.workflows.flying import read_flights
 from ocs_design.workflows.validate import campaign_of
 
 Observation: TypeAlias = NDArray[np.float32]
@@ -82,24 +82,24 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
                 has no motor.
             UsageError: it has no such maneuver.
         """
-        task = read_task(design, Specification(), robot_file=robot_file)
+        flights = read_flights(design, Specification(), robot_file=robot_file)
         # What its legs bear is in the record, unless it was not flown.
-        flown = task.design.validation or task.fly(Steps())
-        self._campaign = campaign_of(task, flown)
+        flown = flights.design.validation or flights.fly(Steps())
+        self._campaign = campaign_of(flights, flown)
         names = [flight.maneuver.name for flight in self._campaign.flights]
         if maneuver is not None and maneuver not in names:
             raise UsageError(f"the design has no maneuver {maneuver!r}", hint=f"it has {names}")
         self._names = names if maneuver is None else [maneuver]
-        self._top_speed = task.device.motor.top_speed
-        if task.design.selection is None or not np.isfinite(self._top_speed):
+        self._top_speed = flights.device.motor.top_speed
+        if flights.design.selection is None or not np.isfinite(self._top_speed):
             raise OcsError(
-                f"{task.path}: no motor was chosen, so an action would have no scale",
+                f"{flights.path}: no motor was chosen, so an action would have no scale",
                 hint="size it with a motor",
             )
-        self._task, self._randomise, self.render_mode = task, randomise, render_mode
-        self._period = task.control.period
+        self._flights, self._randomise, self.render_mode = flights, randomise, render_mode
+        self._period = flights.control.period
         self.metadata = {**self.metadata, "render_fps": round(1.0 / self._period)}
-        count = len(task.device.modules)
+        count = len(flights.device.modules)
         self.action_space = spaces.Box(-1.0, 1.0, (count,), np.float32)
         self.observation_space = spaces.Box(-BOUND, BOUND, (11 + count,), np.float32)
         self.metrics: Metrics | None = None
@@ -180,10 +180,10 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         self._flying()
         if self.render_mode is None:
             return None
-        name, task = self._maneuver.name, self._task
+        name, flights = self._maneuver.name, self._flights
         if name not in self._models:
-            device = task.device.as_flown(self._maneuver)
-            self._models[name] = film_model(task.robot, device, ocs=True)
+            device = flights.device.as_flown(self._maneuver)
+            self._models[name] = film_model(flights.robot, device, ocs=True)
         whole = self.render_mode == "rgb_array_list"
         poses = self._poses if whole else self._poses[-1:]
         (pictures,) = render_takes([Take(self._models[name], np.stack(poses))])

@@ -176,22 +176,22 @@ def _write_controller(name: str, where: Whereabouts, folder: Path) -> None:
     from ocs_design.requirement.sections import ValidationSection  # noqa: PLC0415
     from ocs_design.requirement.specification import Specification  # noqa: PLC0415
     from ocs_design.simulation.firmware import write_controller  # noqa: PLC0415
-    from ocs_design.workflows.flying import read_task  # noqa: PLC0415
+    from ocs_design.workflows.flying import read_flights  # noqa: PLC0415
 
     # How the legs make the flight is not the wheels' business.
-    task = read_task(
+    flights = read_flights(
         where.design,
         Specification(validation=ValidationSection(ballistic=True)),
         robot_file=where.robot_file,
         package_paths=where.package_paths,
     )
-    delay = task.uncertainty.torque_delay
+    delay = flights.uncertainty.torque_delay
     folder.mkdir()
     write_controller(
         name,
-        {each.name: task.driven(each) for each in task.maneuvers},
+        {each.name: flights.driven(each) for each in flights.maneuvers},
         folder,
-        joints=joint_names(task.device),
-        period=task.control.period,
+        joints=joint_names(flights.device),
+        period=flights.control.period,
         delay=None if delay is None else (delay.at(0.0), delay.at(1.0)),
     )

@@ -118,7 +118,7 @@ class Planned(Flights):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Task(Planned):
+class DesignFlights(Planned):
     """Flights of a design that was read, of at least one maneuver.
 
     Attributes:
@@ -138,14 +138,14 @@ class Task(Planned):
         return flown_hash(self.design, self.control, self.detection)
 
 
-def read_task(
+def read_flights(
     path: AnyPath,
     stated: Specification,
     *,
     robot_file: AnyPath | None = None,
     package_paths: Mapping[str, AnyPath] | None = None,
     strict: bool = False,
-) -> Task:
+) -> DesignFlights:
     """Read a design and its robot, and plan what device and legs track, as when it was sized.
 
     Args:
@@ -188,7 +188,7 @@ def read_task(
         from ocs_design.jumping.planning import plan_jumps  # noqa: PLC0415
 
         jumps = plan_jumps(robot, device, maneuvers)
-    return Task(
+    return DesignFlights(
         path=path,
         design=design,
         robot=robot,

@@ -37,7 +37,7 @@ from ocs_design.simulation.engine import POSE_RATE
 from ocs_design.simulation.physics import Engine, EngineName
 from ocs_design.simulation.run import Run
 from ocs_design.simulation.warp_engine import warp_engine
-from ocs_design.workflows.flying import Task, read_task
+from ocs_design.workflows.flying import DesignFlights, read_flights
 from ocs_design.workflows.recording import record_run, write_runs
 
 SAMPLES_VERSION = 2
@@ -131,13 +131,13 @@ class Validation:
 
     Attributes:
         found: the record. folder: that was written to, if any. files: in it.
-        task: that was flown. runs: that came of it.
+        flights: that were flown. runs: that came of them.
     """
 
     found: Validated
     folder: Path | None
     files: tuple[str, ...]
-    task: Task
+    flights: DesignFlights
     runs: tuple[Run, ...]
 
     @property
@@ -217,36 +217,36 @@ def validate_design(
     if request.out is not None and not request.many:
         check_target(request.out, force=force)
     with steps.step("read the design, plan its flights") as step:
-        task = read_task(
+        flights = read_flights(
             design,
             request.stated,
             robot_file=robot_file,
             package_paths=package_paths,
             strict=strict,
         )
-        step.note = task.robot.name
-    if case is not None and case.design != task.flown_hash:
+        step.note = flights.robot.name
+    if case is not None and case.design != flights.flown_hash:
         raise OcsError(
-            f"{replay}: is a case of another design than {task.path}",
+            f"{replay}: is a case of another design than {flights.path}",
             hint="give the design that it was kept for, flown under the same law",
         )
-    steps.doubt(task.warnings)
+    steps.doubt(flights.warnings)
     pose_rate = POSE_RATE if view else None
-    runs = task.fly(steps, pose_rate=pose_rate)
+    runs = flights.fly(steps, pose_rate=pose_rate)
     found = Validated(
-        design=str(task.path),
-        robot=task.robot.name,
-        warnings=task.warnings,
+        design=str(flights.path),
+        robot=flights.robot.name,
+        warnings=flights.warnings,
         validation=tuple(map(record_run, runs)),
     )
     if request.many:
-        record, files = _fly_samples(request, task, runs, steps, physics)
-        return Validation(replace(found, monte_carlo=record), request.out, files, task, runs)
+        record, files = _fly_samples(request, flights, runs, steps, physics)
+        return Validation(replace(found, monte_carlo=record), request.out, files, flights, runs)
     if request.alone:
-        campaign = campaign_of(task, runs, request.stated.validation.seed)
+        campaign = campaign_of(flights, runs, request.stated.validation.seed)
         drawn = campaign.sample(sample or 0)
         if case is not None:
-            drawn = case.drawn(task.device.layout, task.detection)
+            drawn = case.drawn(flights.device.layout, flights.detection)
         with steps.step(f"fly sample {drawn.index} of seed {drawn.seed}"):
             runs = replayed(campaign, drawn, pose_rate=pose_rate)
         found = replace(
@@ -255,25 +255,25 @@ def validate_design(
             sample=SampleRecord(seed=drawn.seed, index=drawn.index, values=drawn.by_name),
         )
     else:
-        found = replace(found, survival=task.fly_stopped(steps))
+        found = replace(found, survival=flights.fly_stopped(steps))
     if request.out is None:
-        return Validation(found, None, (), task, runs)
+        return Validation(found, None, (), flights, runs)
     # The time series, and the design with these flights in place of its own.
     with staged_folder(request.out, force=force) as staging:
         write_runs(runs, staging, found.survival)
         again = replace(
-            task.design,
+            flights.design,
             validation=found.validation,
-            control=task.control,
-            requirement=replace(task.design.requirement, detection=task.detection),
+            control=flights.control,
+            requirement=replace(flights.design.requirement, detection=flights.detection),
             files=file_hashes(staging),
         )
         if found.survival is not None:
-            before = task.design.survival
+            before = flights.design.survival
             alone = None if before is None else before.mass_without
             again = replace(again, survival=replace(found.survival, mass_without=alone))
         (staging / DESIGN_FILE).write_bytes(to_json(again))
-    return Validation(found, request.out, tuple(again.files), task, runs)
+    return Validation(found, request.out, tuple(again.files), flights, runs)
 
 
 def watch(answer: Validation) -> None:
@@ -282,11 +282,11 @@ def watch(answer: Validation) -> None:
     Raises:
         MissingToolError: no window can be opened.
     """
-    task, shown = answer.task, [run for run in answer.runs if run.ocs]
-    device_of = {each.name: task.device.as_flown(each) for each in task.maneuvers}
+    flights, shown = answer.flights, [run for run in answer.runs if run.ocs]
+    device_of = {each.name: flights.device.as_flown(each) for each in flights.maneuvers}
     posed = [(run.scenario, run.poses) for run in shown if run.poses is not None]
     takes = [
-        Take(film_model(task.robot, device_of[scenario], ocs=True), poses.qpos)
+        Take(film_model(flights.robot, device_of[scenario], ocs=True), poses.qpos)
         for scenario, poses in posed
     ]
     # Poses are whole control steps apart, so that these are not at `POSE_RATE`.
@@ -295,17 +295,21 @@ def watch(answer: Validation) -> None:
 
 
 def _fly_samples(
-    request: _Request, task: Task, runs: tuple[Run, ...], steps: Steps, engine: Engine | None
+    request: _Request,
+    flights: DesignFlights,
+    runs: tuple[Run, ...],
+    steps: Steps,
+    engine: Engine | None,
 ) -> tuple[MonteCarloRecord, tuple[str, ...]]:
     """Fly samples of the design as it might be built; the record and the files."""
     test = None
     if request.stated.validation.certify:
-        test = SequentialTest(task.design.requirement.reliability or RELIABILITY)
+        test = SequentialTest(flights.design.requirement.reliability or RELIABILITY)
     asked, folder = request.samples or (0 if test is None else test.most), request.out
-    campaign = replace(campaign_of(task, runs, request.stated.validation.seed), engine=engine)
+    campaign = replace(campaign_of(flights, runs, request.stated.validation.seed), engine=engine)
     enough = None if request.until_width is None else narrow(request.until_width)
     enough = enough if test is None else test.decided
-    flown, storage = task.flown_hash, None
+    flown, storage = flights.flown_hash, None
     if folder is not None:
         # What the numbers of a campaign follow from.
         identity = Identity(
@@ -313,11 +317,11 @@ def _fly_samples(
             tool=__version__,
             simulator=version("mujoco") if engine is None else engine.name,
             design=flown,
-            robot=task.robot.sha256,
+            robot=flights.robot.sha256,
             reality=campaign.uncertainty.written(),
             seed=campaign.seed,
             hold=campaign.hold,
-            desaturate=task.control.desaturate,
+            desaturate=flights.control.desaturate,
         )
         storage = Storage(folder, identity, force=request.force)
     at_once = AT_ONCE if enough is None else 1
@@ -347,15 +351,17 @@ def _fly_samples(
 
 
 def campaign_of(
-    task: Task, runs: Sequence[Run | ValidationRecord], seed: int | None = None
+    flights: DesignFlights, runs: Sequence[Run | ValidationRecord], seed: int | None = None
 ) -> Campaign:
     """Everything that samples of this design follow from.
 
     Args:
-        task: that is flown. runs: as designed, which show what the legs bear.
+        flights: of the design. runs: as designed, which show what the legs bear.
         seed: of all samples; None: the design's.
 
     Raises:
         OcsError: no flight of this robot says anything.
     """
-    return task.campaign(runs, task.uncertainty, task.design.seed if seed is None else seed)
+    return flights.campaign(
+        runs, flights.uncertainty, flights.design.seed if seed is None else seed
+    )

@@ -105,7 +105,7 @@ def test_idle_wheels_do_not_level_a_tilted_fall_and_the_law_does(flight):
 
 def test_full_action_is_what_the_motor_can_give(flight):
     flight.reset(options={"maneuver": "drop", "sample": 0})
-    motor = flight._task.device.motor.at_the_air_gap
+    motor = flight._flights.device.motor.at_the_air_gap
     for _ in range(40):
         seen = flight._pilot.seen
         limit = seen.highest
