@@ -10,9 +10,12 @@ import sys
 import time
 from contextlib import redirect_stderr, redirect_stdout, suppress
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryFile
 from unittest import mock
+
+import typer
 
 from ocs_design.cli import errors
 from ocs_design.cli.app import app
@@ -26,6 +29,9 @@ BOUND = ("--motor", "none")
 BY_HAND = ("--mass", "2.5", "--inertia", "0.032,0.055,0.07")
 MADE = ("cad", "robot", "snippets")
 """Folders of a design that `export` answers for."""
+
+COMMAND_OF = cache(typer.main.get_command)
+"""The command line is made once: that takes longer than most of what is asked of it."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +66,7 @@ def run(*arguments, stdin=b"", piped=False):
         redirect_stderr(streams[1]),
         mock.patch.object(sys, "stdin", given),
         mock.patch.dict(os.environ, width),
+        mock.patch.object(typer.main, "get_command", COMMAND_OF),
     ):
         if piped:
             del os.environ["COLUMNS"]

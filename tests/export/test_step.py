@@ -64,7 +64,16 @@ def integrated(shape: TopoDS_Shape) -> Volume:
     return Volume(properties.Mass() * 1e-9, centre * 1e-3, np.array(entries) * 1e-15)
 
 
-@pytest.mark.parametrize("part", PARTS.values(), ids=PARTS)
+SMALL = "wheel", "foot", "slotted", "tube"
+
+
+@pytest.mark.parametrize(
+    "part",
+    [
+        pytest.param(part, marks=[pytest.mark.slow] * (name not in SMALL), id=name)
+        for name, part in PARTS.items()
+    ],
+)
 def test_solid_weighs_what_the_closed_form_says(part, tmp_path, record_property):
     (tmp_path / "part.step").write_bytes(step_bytes(part))
     shape = read(tmp_path / "part.step")

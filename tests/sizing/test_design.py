@@ -75,7 +75,7 @@ def test_what_was_minimised_is_the_device_or_one_rim():
     assert chosen.device.motor.name == MOTOR
 
 
-@pytest.mark.parametrize("motor", ["none", MOTOR])
+@pytest.mark.parametrize("motor", ["none", pytest.param(MOTOR, marks=pytest.mark.slow)])
 def test_an_incidence_by_hand_is_kept(motor):
     _, found = designed(motor, alpha=0.4)
     assert (found.criterion, found.device.incidence) == ("by hand", 0.4)
@@ -90,6 +90,7 @@ def test_equal_rate_is_that_of_robot_and_device(motor):
     assert found.device.incidence == pytest.approx(np.arctan(roll / pitch), abs=1e-8)
 
 
+@pytest.mark.slow
 def test_a_motor_weighs_more_than_wheels_alone():
     """And what it weighs, the wheels have to turn too."""
     _, bound = designed("none", alpha=0.4)

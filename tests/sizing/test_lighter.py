@@ -99,6 +99,7 @@ def test_no_motor_is_told_at_a_voltage_that_it_is_not_rated_for():
     assert selected(34.0) is None
 
 
+@pytest.mark.slow
 def test_where_neither_does_alone_a_figure_is_tried_with_a_choice(monkeypatch):
     task, designed, _ = made(fall=(1.0,))
     asked = {}

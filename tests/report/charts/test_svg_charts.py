@@ -253,7 +253,7 @@ def test_a_chart_is_drawn_twice_as_large_as_in_svg_and_always_to_the_same_bytes(
     assert png_of(svg_file(drawn).decode()) == png_of(svg_file(replace(drawn)).decode())
 
 
-@pytest.mark.parametrize("letters", ["Maß α*", "10⁻⁴ m²", "−1 …", "Ж", "A"])
+@pytest.mark.parametrize("letters", ["Maß α*", "10⁻⁴ m² −1 …", "Ж"])
 def test_every_letter_has_a_shape_in_our_font(letters):
     """Only the title differs, and each letter leaves ink of its own on it."""
     blank = picture(chart(title=""))
