@@ -368,7 +368,7 @@ def _bell_joints(device: Device) -> Iterator[Margin]:
 
 
 @dataclass(frozen=True)
-class Balance:
+class WheelBalance:
     """How one wheel is balanced: assembled on its motor, as what holds it leaves it off centre.
 
     Attributes:
@@ -393,7 +393,7 @@ def permissible_eccentricity(speed: float) -> float:
     return 1e-3 * GRADE / speed
 
 
-def balance_of(device: Device) -> Balance:
+def balance_of(device: Device) -> WheelBalance:
     """Balance of one wheel at the highest speed of its drive."""
     wheel = device.flywheel
     eccentricity = permissible_eccentricity(device.motor.top_speed)
@@ -410,7 +410,7 @@ def balance_of(device: Device) -> Balance:
         # In clearance holes it may sit farther off at first.
         off_centre, shifted = RUN_OUT / 2.0, True
         by = f"its screws, once it is shifted until it runs true to {2e3 * RUN_OUT:g} mm"
-    return Balance(
+    return WheelBalance(
         eccentricity=eccentricity,
         unbalance=eccentricity * wheel.mass,
         off_centre=None if off_centre is None else RUN_OUT / 2.0 + off_centre,

@@ -19,7 +19,7 @@ from ocs_design.sizing.margins import (
     HOOP_STRESS,
     MOTOR_TORQUE,
     WHEEL_SPEED,
-    Motion,
+    SampledMotion,
     margins,
     worst,
 )
@@ -62,7 +62,9 @@ def record_margins(
     return (*found, *room)
 
 
-def _motions(plans: Mapping[str, "Reference"], runs: Sequence[Run]) -> Iterator[tuple[str, Motion]]:
+def _motions(
+    plans: Mapping[str, "Reference"], runs: Sequence[Run]
+) -> Iterator[tuple[str, SampledMotion]]:
     """Each plan; then each run from its start to its end, and from lift-off to touchdown once more.
 
     What the wheels do as the robot lands and while they are damped is asked of the drive too. Means
@@ -71,13 +73,13 @@ def _motions(plans: Mapping[str, "Reference"], runs: Sequence[Run]) -> Iterator[
     for name, reference in plans.items():
         if reference.trajectory is None:
             continue
-        motion = Motion.along(reference.trajectory)
+        motion = SampledMotion.along(reference.trajectory)
         yield name, motion
         if reference.spun:
             # Before the brake stops them in an instant all wheels run at up to this speed.
             wheels = np.full((2, motion.wheel_speed.shape[1]), reference.spun)
             still = np.zeros((2, 3))
-            yield name, Motion(np.array([0.0, 1e-3]), wheels, 0.0 * wheels, still, still)
+            yield name, SampledMotion(np.array([0.0, 1e-3]), wheels, 0.0 * wheels, still, still)
     for run in runs:
         if not run.ocs or run.metrics is None:
             continue
@@ -89,7 +91,7 @@ def _motions(plans: Mapping[str, "Reference"], runs: Sequence[Run]) -> Iterator[
             if np.count_nonzero(part) > 1:
                 yield (
                     run.scenario,
-                    Motion.flown(
+                    SampledMotion.flown(
                         series.time[part],
                         series.wheel_speed[part],
                         series.wheel_torque[part],

@@ -15,7 +15,7 @@ from ocs_design.robot.collision import CollisionModel, collision_model
 from ocs_design.robot.meshes import trunk_extent, trunk_top
 from ocs_design.robot.probe import Ball, Drum
 from ocs_design.robot.robot import Robot
-from ocs_design.sizing.place import CLEARANCE, Place, Size, around, module_size, place_at
+from ocs_design.sizing.place import SPACING, Place, Size, around, module_size, place_at
 
 
 def place_on_top(robot: Robot, layout: Layout = PAIR) -> Place:
@@ -81,7 +81,7 @@ class Face:
             return around((x, y, z), self.layout)
         outward: list[Direction] = []
         for row, _, _ in self.layout.ring[::2]:
-            out_x, out_y, out_z = vector(self.outward + CLEARANCE * row * self.along)
+            out_x, out_y, out_z = vector(self.outward + SPACING * row * self.along)
             outward += [(out_x, out_y, out_z), (out_x, -out_y, out_z)]
         origins = ((x, y, z), (x, -y, z)) * self.layout.pairs
         return Place(origins, tuple(outward), self.upright)
@@ -111,7 +111,7 @@ def faces(robot: Robot, layout: Layout = PAIR) -> tuple[Face, ...]:
     found = (
         _sagittal_face(robot, ON_TOP, UP, FORWARD),
         _sagittal_face(robot, "behind", -FORWARD, UP),
-        Face("beside", LEFT, FORWARD, UP, CLEARANCE * LEFT, flank, shifts, offsets),
+        Face("beside", LEFT, FORWARD, UP, SPACING * LEFT, flank, shifts, offsets),
     )
     return tuple(replace(face, layout=layout) for face in found)
 
@@ -125,7 +125,7 @@ def _sagittal_face(robot: Robot, name: str, normal: FloatArray, along: FloatArra
         normal,
         along,
         LEFT,
-        CLEARANCE * (LEFT if upright else normal + LEFT),
+        SPACING * (LEFT if upright else normal + LEFT),
         _plane(robot, normal) * normal + shift * along,
         shifts,
         (0.0, max(_plane(robot, LEFT), _plane(robot, -LEFT))),
@@ -290,7 +290,7 @@ class Search:
     def touches(self, solid: Ball | Drum) -> bool:
         """Whether a solid touches anything during landings, or between the sampled postures."""
         # Thin tubes are checked as closely as the modules on them.
-        gap = _NEAR * max(solid.radius, CLEARANCE * self.sizes.smallest.reach)
+        gap = _NEAR * max(solid.radius, SPACING * self.sizes.smallest.reach)
         near = nearest_in_landings(
             self.collision, solid, within=gap, enough=-_ROUNDING, on_feet=self.on_feet
         )
@@ -298,7 +298,7 @@ class Search:
 
     def _balls(self, place: Place, size: Size[float]) -> list[Ball]:
         """Balls around all modules of one size, with the room that they need."""
-        return [Ball(center, CLEARANCE * size.reach) for center in place.centers(size)]
+        return [Ball(center, SPACING * size.reach) for center in place.centers(size)]
 
     def cost(self, place: Place) -> float:
         """Inertia about roll and pitch that the largest module adds, relative to the robot's."""

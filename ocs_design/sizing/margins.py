@@ -20,7 +20,7 @@ from ocs_design.sizing.trajectory.motion import Trajectory
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class SampledMotion:
     """Motion of trunk and m wheels, linear between samples; two samples at one time are a jump.
 
     Attributes:
@@ -38,7 +38,7 @@ class Motion:
     acceleration: FloatArray
 
     @classmethod
-    def along(cls, trajectory: Trajectory) -> "Motion":
+    def along(cls, trajectory: Trajectory) -> "SampledMotion":
         """Motion along a reference, which is linear between its samples and may jump at them."""
         samples = [
             trajectory.time,
@@ -59,14 +59,14 @@ class Motion:
         wheel_speed: FloatArray,
         wheel_torque: FloatArray,
         rate: FloatArray,
-    ) -> "Motion":
+    ) -> "SampledMotion":
         """Motion of a recorded flight, whose torque is held from each sample to the next.
 
         The trunk's acceleration is the mean between two samples; in a landing it is briefly larger.
 
         Args:
             time: [s], increasing, shape (n,), n >= 2.
-            wheel_speed, wheel_torque, rate: see `Motion`; the last torque is not used.
+            wheel_speed, wheel_torque, rate: see `SampledMotion`; the last torque is not used.
         """
         acceleration = np.diff(rate, axis=0) / np.diff(time)[:, None]
         return cls(
@@ -77,13 +77,13 @@ class Motion:
             np.repeat(acceleration, 2, axis=0),
         )
 
-    def between(self) -> "Motion":
+    def between(self) -> "SampledMotion":
         """Samples with the midpoint of each interval inserted, shape (2 n - 1, ...)."""
         found = {}
         for name, values in vars(self).items():
             found[name] = np.repeat(values, 2, axis=0)[:-1]
             found[name][1::2] = 0.5 * (values[:-1] + values[1:])
-        return Motion(**found)
+        return SampledMotion(**found)
 
 
 def integral(values: FloatArray, time: FloatArray) -> float:
@@ -91,7 +91,7 @@ def integral(values: FloatArray, time: FloatArray) -> float:
 
     Args:
         values: shape (2 n - 1,).
-        time: as from `Motion.between`, shape (2 n - 1,).
+        time: as from `SampledMotion.between`, shape (2 n - 1,).
     """
     step = time[2::2] - time[:-2:2]
     return float(step @ (values[:-2:2] + 4.0 * values[1::2] + values[2::2]) / 6.0)
@@ -128,7 +128,7 @@ class Consumption:
     power_fed_back: float
 
 
-def consumption(motion: Motion, wheel: DrivenWheel) -> Consumption:
+def consumption(motion: SampledMotion, wheel: DrivenWheel) -> Consumption:
     """Currents, heat, powers and energies of a motion with equal wheels."""
     fine = motion.between()
     current = winding_current(fine, wheel)
@@ -152,7 +152,9 @@ def consumption(motion: Motion, wheel: DrivenWheel) -> Consumption:
     )
 
 
-def winding_current(motion: Motion, wheel: DrivenWheel, *, friction: bool = True) -> FloatArray:
+def winding_current(
+    motion: SampledMotion, wheel: DrivenWheel, *, friction: bool = True
+) -> FloatArray:
     """i = tau / (N eta k_t) [A], as in the drive's torque-speed line, plus I_0; shape (n, m).
 
     Losses of gear and bearings are counted against the motor even in braking, where they really
@@ -167,7 +169,7 @@ def winding_current(motion: Motion, wheel: DrivenWheel, *, friction: bool = True
     return current
 
 
-def shaft_power(motion: Motion, wheel: DrivenWheel) -> FloatArray:
+def shaft_power(motion: SampledMotion, wheel: DrivenWheel) -> FloatArray:
     """Power at the motors' shafts [W], shape (n, m): tau W / eta driving, eta tau W braking.
 
     Unlike the current, the returned energy is not conservative: a gear that loses power in one
@@ -178,7 +180,7 @@ def shaft_power(motion: Motion, wheel: DrivenWheel) -> FloatArray:
     return np.where(power > 0.0, power / efficiency, power * efficiency)
 
 
-def bus_power(motion: Motion, wheel: DrivenWheel, *, friction: bool = True) -> FloatArray:
+def bus_power(motion: SampledMotion, wheel: DrivenWheel, *, friction: bool = True) -> FloatArray:
     """Power of all motors together [W], shape (n,): R i^2, shaft power, and friction.
 
     For direct drive that is V i with V = R i + k_t w. Friction is k_t I_0 at the motor's speed.
@@ -212,7 +214,7 @@ def worst(by_scenario: Iterable[tuple[str, Iterable[Margin]]]) -> tuple[Margin, 
     return tuple(found.values())
 
 
-def bearing_moment(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> FloatArray:
+def bearing_moment(motion: SampledMotion, axes: FloatArray, wheel: DrivenWheel) -> FloatArray:
     """Moment of the trunk on each wheel, perpendicular to its axis [N m], shape (n, m).
 
     With a the axis, w the trunk's rate and W the wheel's speed relative to it, a rotor has the
@@ -249,7 +251,7 @@ FED_BACK = ", fed back"
 ALL_MOTORS = "all motors together, ideal inverter, friction included"
 
 
-def margins(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> tuple[Margin, ...]:
+def margins(motion: SampledMotion, axes: FloatArray, wheel: DrivenWheel) -> tuple[Margin, ...]:
     """Margins of drive, rim, supply and bearings for one motion.
 
     Args:
@@ -274,7 +276,7 @@ def margins(motion: Motion, axes: FloatArray, wheel: DrivenWheel) -> tuple[Margi
     )
 
 
-def _drive_margins(motion: Motion, wheel: DrivenWheel) -> Iterator[Margin]:
+def _drive_margins(motion: SampledMotion, wheel: DrivenWheel) -> Iterator[Margin]:
     """Current limit, voltage line and speeds (docs/theory.md, What a motor can do)."""
     line, gear = wheel.line, wheel.gear
     speed = _peak(motion.wheel_speed)

@@ -15,7 +15,7 @@ from ocs_design.parts.printed import PLATE_THICKNESS, MountHoles
 from ocs_design.parts.solids import Carrier
 from ocs_design.robot.mass import MassProperties, combine
 
-CLEARANCE = 1.1
+SPACING = 1.1
 """Space kept around a wheel, relative to the radius of the sphere that it sweeps at any
 incidence."""
 
@@ -37,7 +37,7 @@ class Size(NamedTuple, Generic[Real]):
 def wheel_size(outer_radius: Real, height: Real) -> Size[Real]:
     """Size of a bare wheel that turns freely above its support."""
     reach: Real = (outer_radius**2 + height**2 / 4.0) ** 0.5
-    return Size(reach, CLEARANCE * reach)
+    return Size(reach, SPACING * reach)
 
 
 def module_size(
@@ -103,7 +103,7 @@ def around(middle: Direction, layout: Layout, aside: float = 0.0) -> Place:
         aside: extra distance of each to its side, beyond what it needs [m].
     """
     x, y, z = middle
-    outward = tuple(vector(each) for each in np.array(layout.ring) * CLEARANCE)
+    outward = tuple(vector(each) for each in np.array(layout.ring) * SPACING)
     origins = tuple((x, y + float(np.sign(out)) * aside, z) for _, out, _ in outward)
     return Place(origins, outward, upright=True)
 

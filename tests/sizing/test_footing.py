@@ -53,7 +53,7 @@ from ocs_design.sizing.footing.plate import POST_SCREW, held_at
 from ocs_design.sizing.footing.standing import footing_of, stand_on_trunk
 from ocs_design.sizing.free_place import place_free, place_on_top
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points
-from ocs_design.sizing.place import CLEARANCE
+from ocs_design.sizing.place import SPACING
 
 DEVICE = driven_device()
 FOOT = foot_of(DEVICE)
@@ -453,7 +453,7 @@ def test_to_both_sides_of_an_arm_over_the_trunk(tmp_path, name, width):
     assert (device.plate is not None) == (width < 0.5)
     mounting_without_faults(robot, device)
     (least,) = {round(float(abs(each.position[1])), 9) for each in device.modules}
-    reach = CLEARANCE * device_size(device).reach
+    reach = SPACING * device_size(device).reach
     assert min(abs(least - reach - each) for each in ASIDE) < 1e-9
     arm = block((-0.3, 0.3), (-0.03, 0.03), (0.1, 0.16))
     assert max((solid ^ arm).volume() for solid in built(device).values()) < 1e-12

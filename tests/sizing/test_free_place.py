@@ -16,7 +16,7 @@ from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.probe import Ball
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.free_place import Sizes, place_free, place_on_top, specified_place
-from ocs_design.sizing.place import CLEARANCE, Place, Size, module_size, place_at, wheel_size
+from ocs_design.sizing.place import SPACING, Place, Size, module_size, place_at, wheel_size
 
 ON_TOP = {
     "a1", "anymal", "anymal-kinova", "b1", "bolt", "go1", "go2", "hyq_no_sensors", "laikago",
@@ -69,7 +69,7 @@ def test_a_mast_in_the_middle_goes_between_the_modules(masted):
     for share in np.linspace(0.0, 1.0, 30):
         reach, standing = (1.0 - share) * np.array(sizes.smallest) + share * np.array(sizes.largest)
         x, y, _ = found.place.centers(Size(reach, standing))[0]
-        assert np.hypot(x, y) - 0.02 >= CLEARANCE * reach - 1e-5
+        assert np.hypot(x, y) - 0.02 >= SPACING * reach - 1e-5
 
 
 def test_nearer_than_the_grid(masted):
@@ -78,7 +78,7 @@ def test_nearer_than_the_grid(masted):
     largest = Sizes.of(default_envelope(robot)).largest
     found = place_free(robot, default_envelope(robot))
     x, y, _ = found.place.origins[0]
-    least = np.sqrt(2.0 * CLEARANCE * largest.reach * 0.02 + 0.02**2)
+    least = np.sqrt(2.0 * SPACING * largest.reach * 0.02 + 0.02**2)
     assert y == 0.0
     assert least - 1e-5 <= abs(x) <= least + 0.5 * largest.reach / 16.0
 
@@ -118,10 +118,10 @@ def test_on_top_the_modules_touch_neither_the_trunk_nor_each_other():
     robot = robot_by_hand(2.5, (0.03, 0.05, 0.07))
     centers = place_on_top(robot)(0.05, 0.02)
     reach = np.hypot(0.05, 0.01)
-    assert np.linalg.norm(centers[0] - centers[1]) == pytest.approx(2.0 * CLEARANCE * reach)
+    assert np.linalg.norm(centers[0] - centers[1]) == pytest.approx(2.0 * SPACING * reach)
     assert centers[0, 0] == pytest.approx(robot.com[0], abs=1e-6)
     low = place_on_top(robot)(0.0, 0.0)[0, 2]
-    assert centers[0, 2] - low == pytest.approx(CLEARANCE * reach)
+    assert centers[0, 2] - low == pytest.approx(SPACING * reach)
 
 
 def test_at_a_stated_position_nothing_moves():

@@ -19,7 +19,7 @@ from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import AROUND_SLOT
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.robot import Robot
-from ocs_design.sizing.place import CLEARANCE, Place, Size, module_size, wheel_size
+from ocs_design.sizing.place import SPACING, Place, Size, module_size, wheel_size
 
 Found = TypeVar("Found")
 
@@ -162,7 +162,7 @@ def feet_of(device: Device) -> Feet:
 
 def ring_of(layout: Layout, reach: float) -> tuple[Point, ...]:
     """Centres of the feet's bases, around their common centre, for modules of this radius [m]."""
-    return tuple((CLEARANCE * reach * x, CLEARANCE * reach * y) for x, y, _ in layout.ring)
+    return tuple((SPACING * reach * x, SPACING * reach * y) for x, y, _ in layout.ring)
 
 
 def slopes_of(axes: FloatArray) -> tuple[float, ...]:

@@ -48,7 +48,7 @@ from ocs_design.sizing.footing.plate import (
     thick_enough,
 )
 from ocs_design.sizing.free_place import Search
-from ocs_design.sizing.place import CLEARANCE, Place, Size
+from ocs_design.sizing.place import SPACING, Place, Size
 
 MAST_SCREWS = tuple(map(screw, ("M4", "M5", "M6", "M8")))
 
@@ -151,7 +151,7 @@ def pads_needed(robot: Robot, feet: Feet, layout: Layout) -> Pads | None:
 
 def _stacked(feet: Feet, layout: Layout) -> Feet:
     """Feet of pairs one above the other."""
-    out = CLEARANCE * feet.reach
+    out = SPACING * feet.reach
     return replace(feet, bases=((0.0, out), (0.0, -out)) * layout.pairs)
 
 
@@ -244,17 +244,17 @@ def _placed(
         back: of the trunk. plate: on arms. size: of a module.
         height: of the lowest plate in B [m]. face: distance of the upright's front backwards [m].
     """
-    mast, out = plate.mast, CLEARANCE * size.reach
+    mast, out = plate.mast, SPACING * size.reach
     assert mast is not None, "a plate on arms"
     # Arms reach down between the modules below, which stand on both sides of the upright.
     room = max(0.0, sqrt(2.0) * mast.side - out + _between(mast.side, size.reach)) + plate.thickness
-    apart = size.standing / size.reach + CLEARANCE
+    apart = size.standing / size.reach + SPACING
     rows = range(len(plate.rows))
     top = height + rows[-1] * (room + apart * size.reach) + plate.thickness + size.standing + out
     behind = max(back.farthest(height, top, 2.0 * out), face + mast.face - out)
     x = -round(behind, 6)
     origins = [(x, 0.0, height + plate.thickness + row * room) for row in rows]
-    sides = [(-CLEARANCE, sense * CLEARANCE) for sense in SENSES]
+    sides = [(-SPACING, sense * SPACING) for sense in SENSES]
     return Place(
         tuple(origin for origin in origins for _ in SENSES),
         tuple((*side, row * apart) for row in rows for side in sides),
@@ -267,7 +267,7 @@ def _between(side: float, reach: float) -> float:
 
     Its width counts across the corners.
     """
-    aside = CLEARANCE * reach - side / sqrt(2.0)
+    aside = SPACING * reach - side / sqrt(2.0)
     return sqrt(max(0.0, reach**2 - aside**2))
 
 

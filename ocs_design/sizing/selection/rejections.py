@@ -126,7 +126,7 @@ def promising_gears(found: PairBounds, motor: int) -> Iterable[int]:
     return {lightest, wheel, gain}
 
 
-class Part(NamedTuple):
+class RequirementPart(NamedTuple):
     """One part of the requirement, as the lightest modules with n drives do it at k incidences.
 
     Attributes:
@@ -146,10 +146,12 @@ class Part(NamedTuple):
     late: FloatArray
     reason: NDArray[np.int_]
 
-    def at(self, row: int, angle: int) -> "Part":
+    def at(self, row: int, angle: int) -> "RequirementPart":
         """The part of one drive at one incidence, all as single figures."""
         _, incidence, _, *of_each = self
-        return Part(self.name, incidence[angle], self.time, *(one[row, angle] for one in of_each))
+        return RequirementPart(
+            self.name, incidence[angle], self.time, *(one[row, angle] for one in of_each)
+        )
 
 
 def _unable(found: PairBounds, motors: Sequence[int]) -> dict[int, Rejection]:
@@ -196,7 +198,9 @@ def _unable(found: PairBounds, motors: Sequence[int]) -> dict[int, Rejection]:
     return reasons
 
 
-def _parts(problem: SelectionProblem, drives: Drives, largest: FloatArray) -> Iterator[Part]:
+def _parts(
+    problem: SelectionProblem, drives: Drives, largest: FloatArray
+) -> Iterator[RequirementPart]:
     """Parts of the requirement with the largest wheels that fit, their spin inertias [kg m^2]."""
     requirement, cells = problem.requirement, cells_of(problem.incidence)
     angles = np.array([(cell.low + cell.high) / 2.0 for cell in cells])
@@ -221,25 +225,27 @@ def _parts(problem: SelectionProblem, drives: Drives, largest: FloatArray) -> It
             # The closed forms take a loop for part of it in part of its time, and a swing for a
             # turn there and back.
             time = maneuver.duration
-        yield Part(maneuver.name, at, time, needed, late, slew_reason(task, line)[0])
+        yield RequirementPart(maneuver.name, at, time, needed, late, slew_reason(task, line)[0])
         kept = requirement.reserve(maneuver)
         if kept.roll > 0.0:
             axes = problem.layout.axes(at)
             most = held_in_roll(kept.roll, inertia, upright, axes, requirement)
             needed = most / drives.top_speed[:, None]
             late, reason = needed / largest[:, None], np.full(shape, SlewReason.SPEED)
-            yield Part(f"a roll at lift-off in {maneuver.name}", at, np.inf, needed, late, reason)
+            yield RequirementPart(
+                f"a roll at lift-off in {maneuver.name}", at, np.inf, needed, late, reason
+            )
     if requirement.rate_change is not None:
         axes = problem.layout.axes(angles)[..., :2, :]
         one_stops = requirement.detection is not None
         needed = needed_by_rate(requirement.rate_change, drives, inertia, axes, one_stops=one_stops)
         reason = np.where(np.isinf(needed), SlewReason.AXIS, SlewReason.SPEED)
         late = needed / largest[:, None]
-        yield Part("the rate change", angles, np.inf, needed, late, reason)
+        yield RequirementPart("the rate change", angles, np.inf, needed, late, reason)
 
 
 def _reason(
-    problem: SelectionProblem, drive: Drives, part: Part, fitting: tuple[float, float]
+    problem: SelectionProblem, drive: Drives, part: RequirementPart, fitting: tuple[float, float]
 ) -> tuple[Reason, str]:
     """The first obstacle, with figures.
 

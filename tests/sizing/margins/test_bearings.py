@@ -6,7 +6,7 @@ from driven_wheels import EC45, driven_wheel
 from scipy.spatial.transform import Rotation
 
 from ocs_design.device.layout import module_axes
-from ocs_design.sizing.margins import Motion, bearing_moment
+from ocs_design.sizing.margins import SampledMotion, bearing_moment
 
 AXES = module_axes(np.radians(35.0))
 
@@ -15,7 +15,7 @@ def steady(rate, speed):
     """One instant, no acceleration."""
     rate = np.asarray([rate], dtype=float)
     speeds = np.full((1, 2), speed)
-    return Motion(np.zeros(1), speeds, np.zeros((1, 2)), rate, np.zeros((1, 3)))
+    return SampledMotion(np.zeros(1), speeds, np.zeros((1, 2)), rate, np.zeros((1, 3)))
 
 
 def test_a_fast_wheel_on_a_trunk_that_rolls():
@@ -78,5 +78,7 @@ def test_against_the_momentum_of_a_solid_wheel_in_the_world(side):
 
     acceleration = (rate(t + step) - rate(t - step)) / (2.0 * step)
     speed = np.full((1, 2), 40.0 + 30.0 * t)
-    motion = Motion(np.array([t]), speed, np.zeros((1, 2)), rate(t)[None], acceleration[None])
+    motion = SampledMotion(
+        np.array([t]), speed, np.zeros((1, 2)), rate(t)[None], acceleration[None]
+    )
     assert bearing_moment(motion, AXES, wheel)[0, side] == pytest.approx(across, rel=1e-5)

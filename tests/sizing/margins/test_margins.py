@@ -8,7 +8,7 @@ from driven_wheels import BELT, EC45, STEEL, driven_wheel
 
 from ocs_design.device.layout import module_axes
 from ocs_design.device.records.device import Margin
-from ocs_design.sizing.margins import Motion, margins, worst
+from ocs_design.sizing.margins import SampledMotion, margins, worst
 
 AXES = module_axes(np.radians(30.0))
 
@@ -19,7 +19,7 @@ def turn(torque=0.4, speed=300.0, rate=4.0):
     shape = np.array([0.0, 1.0, 1.0, 0.0])
     drive = torque * np.array([1.0, 1.0, -1.0, -1.0])
     zero = np.zeros(4)
-    return Motion(
+    return SampledMotion(
         time,
         np.column_stack([speed * shape] * 2),
         np.column_stack([drive] * 2),
@@ -89,7 +89,7 @@ def test_what_no_source_states_is_noted(change, name, note):
 def test_braking_takes_less_of_the_line_than_driving():
     """It ends at rest with tau alone; at full speed it is |300 / 650.4 - 0.4 / 1.4566|."""
     for part, share in ((slice(0, 2), 0.73586), (slice(2, 4), 0.4 / 1.4566)):
-        motion = Motion(**{name: values[part] for name, values in vars(turn()).items()})
+        motion = SampledMotion(**{name: values[part] for name, values in vars(turn()).items()})
         found = by_name(motion, driven_wheel())["voltage line"]
         assert found.demand == pytest.approx(share, rel=1e-4)
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ocs_design.sizing.margins import Motion, integral
+from ocs_design.sizing.margins import SampledMotion, integral
 from ocs_design.sizing.trajectory.motion import Trajectory
 
 
@@ -22,7 +22,7 @@ def trajectory(n=4):
 
 def test_a_reference_is_taken_as_it_is():
     reference = trajectory()
-    motion = Motion.along(reference)
+    motion = SampledMotion.along(reference)
     assert np.array_equal(motion.wheel_torque, reference.wheel_torque)
     assert np.ptp(motion.time) == 1.0
 
@@ -32,7 +32,7 @@ def test_a_flown_torque_is_held_and_its_last_value_is_not_used():
     speed = np.array([[0.0, 0.0], [1.0, 2.0], [5.0, 6.0]])
     torque = np.array([[1.0, 2.0], [3.0, 4.0], [np.nan, np.nan]])
     rate = np.array([[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.1, 0.4, 0.0]])
-    motion = Motion.flown(time, speed, torque, rate)
+    motion = SampledMotion.flown(time, speed, torque, rate)
     assert np.array_equal(motion.time, [0.0, 0.1, 0.1, 0.3])
     assert np.array_equal(motion.wheel_speed[:, 1], [0.0, 2.0, 2.0, 6.0])
     assert np.array_equal(motion.wheel_torque[:, 0], [1.0, 1.0, 3.0, 3.0])
@@ -42,7 +42,7 @@ def test_a_flown_torque_is_held_and_its_last_value_is_not_used():
 
 
 def test_work_of_a_held_torque_is_torque_times_angle():
-    motion = Motion.flown(
+    motion = SampledMotion.flown(
         np.array([0.0, 0.1, 0.3]),
         np.array([[0.0, 0.0], [1.0, 0.0], [5.0, 0.0]]),
         np.array([[1.0, 0.0], [3.0, 0.0], [0.0, 0.0]]),
@@ -56,6 +56,6 @@ def test_products_of_linear_signals_are_exact():
     """Two straight lines over one interval: the integral of (1 - t)(2 + 4 t) is 7/3 - 2/3."""
     ends = np.array([[1.0, 2.0], [0.0, 6.0]])
     zero = np.zeros((2, 3))
-    fine = Motion(np.array([0.0, 1.0]), ends, ends, zero, zero).between()
+    fine = SampledMotion(np.array([0.0, 1.0]), ends, ends, zero, zero).between()
     product = fine.wheel_speed[:, 0] * fine.wheel_torque[:, 1]
     assert integral(product, fine.time) == pytest.approx(5.0 / 3.0, rel=1e-15)

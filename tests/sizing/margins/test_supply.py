@@ -10,14 +10,16 @@ from scipy.integrate import solve_ivp
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.common.errors import OcsError
 from ocs_design.device.layout import module_axes
-from ocs_design.sizing.margins import Motion, bus_power, consumption, winding_current
+from ocs_design.sizing.margins import SampledMotion, bus_power, consumption, winding_current
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
 
 def resting_trunk(time, speed, torque):
     """Both wheels alike, the trunk held."""
     still = np.zeros((len(time), 3))
-    return Motion(time, np.column_stack([speed] * 2), np.column_stack([torque] * 2), still, still)
+    return SampledMotion(
+        time, np.column_stack([speed] * 2), np.column_stack([torque] * 2), still, still
+    )
 
 
 def spin_up(wheel, time_constants, samples=4001):
@@ -120,7 +122,7 @@ def test_energy_balance_of_a_tumbling_trunk(gear):
     time = np.linspace(0.0, 0.1, 2001)
     flown = solve_ivp(change, (0.0, 0.1), np.zeros(5), "DOP853", time, rtol=1e-12, atol=1e-12)
     speed, rate = flown.y[3:].T, flown.y[:3].T
-    motion = Motion(time, speed, torque(speed), rate, np.gradient(rate, time, axis=0))
+    motion = SampledMotion(time, speed, torque(speed), rate, np.gradient(rate, time, axis=0))
     taken = consumption(motion, wheel)
     final = flown.y[:, -1]
     kinetic_energy = 0.5 * final @ body.mass_matrix @ final
