@@ -203,10 +203,19 @@ class Quantities:
         if not isinstance(entries, (list, tuple)) or len(entries) not in self.counts:
             count = f", not {len(entries)}" if isinstance(entries, (list, tuple)) else ""
             raise QuantityError(f"{where}: needs {self._wanted} values{count}, as in 0.1,0,0")
-        return tuple(
+        values = tuple(
             parse_quantity(entry, self.dimension, f"{where}[{index}]")
             for index, entry in enumerate(entries)
         )
+        *others, unit = map(written_unit, entries)
+        unit_at_end = isinstance(raw, str) and unit and any(values[:-1]) and not any(others)
+        if unit_at_end and parse_quantity(f"1{unit}", self.dimension, where) != 1.0:
+            meant = [*(f"{entry.strip()}{unit}" for entry in entries[:-1]), entries[-1].strip()]
+            raise QuantityError(
+                f"{where}: only the last value of {raw} has a unit",
+                hint=f"Write {','.join(meant)}.",
+            )
+        return values
 
 
 @dataclass(frozen=True)

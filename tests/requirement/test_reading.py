@@ -7,10 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ocs_design.common.errors import OcsError, SpecificationError, UsageError
+from ocs_design.common.errors import OcsError, QuantityError, SpecificationError, UsageError
+from ocs_design.common.units import Dimension
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.reading import parse_specification, read_specification
 from ocs_design.requirement.specification import Specification, specification_from_options
+from ocs_design.requirement.values import Quantities
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -294,3 +296,23 @@ def test_controllers_are_words_or_a_mass():
         with pytest.raises(SpecificationError) as caught:
             parse_specification(f'supply.controllers = "{text}"', "s.toml")
         assert f"supply.controllers: {told}" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "cure"),
+    [("0,90,45deg/s", "0deg/s,90deg/s,45deg/s"), ("0,800,0mN m", "0mN m,800mN m,0mN m")],
+)
+def test_a_unit_at_the_end_of_a_row_is_not_taken_for_that_of_its_last_value(text, cure):
+    dimension = Dimension.TORQUE if "N" in text else Dimension.ANGULAR_SPEED
+    row = Quantities(dimension, (3,))
+    with pytest.raises(QuantityError, match="only the last value") as caught:
+        row.read(text, "x")
+    assert row.read(cure, "x")[1] > 0.0
+    assert cure in str(caught.value.hint)
+    assert row.read([*text.split(",")[:2], "1"], "x")[2] == 1.0
+
+
+@pytest.mark.parametrize("unit", ["", "kg m2", " kg*m^2"])
+def test_where_it_makes_no_difference_it_may_stand_at_the_end(unit):
+    row = Quantities(Dimension.INERTIA, (3,))
+    assert row.read(f"0.03,0.05,0.07{unit}", "x") == (0.03, 0.05, 0.07)
