@@ -186,6 +186,7 @@ class MotorSheet:
             Motor,
             self,
             mass=self.mass_kg,
+            controller_mass=0.0,
             diameter=self.diameter_m,
             length=self.length_m,
             rated_voltage=self.rated_voltage_v,

@@ -7,8 +7,12 @@ Record = TypeVar("Record")
 
 
 def recorded(kind: type[Record], live: object, /, **other: object) -> Record:
-    """Record of a live value: its figures of the same names, and `other` in place of the rest."""
+    """Record of a live value: its figures of the same names, and `other` in place of the rest.
+
+    Raises:
+        AttributeError: a field is in neither, whether it has a default or not: a figure that is
+            renamed in one of the two must not become the default in the file.
+    """
     record: Any = kind
-    names = {each.name for each in fields(record)} - set(other)
-    same = {name: getattr(live, name) for name in names if hasattr(live, name)}
-    return kind(**same, **other)
+    names = {each.name for each in fields(record) if each.init} - set(other)
+    return kind(**{name: getattr(live, name) for name in names}, **other)

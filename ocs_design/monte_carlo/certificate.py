@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ocs_design.device.records.flights import Conclusion, ReliabilityRecord
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import Outcomes, share
-from ocs_design.simulation.run import LANDING_TOLERANCE
+from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.simulation.verdict import ends_anyhow, landing_attitude
 
 ERROR = 0.05

@@ -21,7 +21,7 @@ from ocs_design.device.answers import (
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import FAULTS, Outcomes, share, shares
 from ocs_design.requirement.maneuver import Flip, Maneuver, Shove
-from ocs_design.simulation.run import LANDING_TOLERANCE
+from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.simulation.scenario import fly
 from ocs_design.simulation.verdict import Fault, ends_anyhow, landing_attitude, off_asked
 from ocs_design.simulation.world import World

@@ -20,7 +20,8 @@ from ocs_design.device.records.requirement import DemandRecord
 from ocs_design.report.table import Cell, Table, Tone, Toned, columns
 from ocs_design.requirement.maneuver import Flip, Maneuver
 from ocs_design.requirement.turns import TurnTo
-from ocs_design.simulation.run import LANDING_TOLERANCE, UPRIGHT_TILT
+from ocs_design.robot.stance import LANDING_TOLERANCE
+from ocs_design.simulation.run import UPRIGHT_TILT
 from ocs_design.simulation.verdict import ends_anyhow, landing_attitude, off_asked
 
 WORSE = np.radians(1.0)

@@ -19,6 +19,7 @@ from ocs_design.robot.collision import (
 from ocs_design.robot.leg_geometry import leg_geometries
 from ocs_design.robot.probe import Probe
 from ocs_design.robot.robot import Robot
+from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.robot.tree import JointKind
 
 GIVE = 0.4
@@ -88,10 +89,6 @@ def drawn(ranges: Ranges, count: int = SAMPLES) -> Sequence[Posture]:
     return [dict(zip(ranges, map(float, row), strict=True)) for row in values]
 
 
-LEVEL = np.pi / 36.0
-"""Farthest that a robot lands off level [rad]: 5 degrees are allowed."""
-
-
 @dataclass(frozen=True, eq=False)
 class _Standing:
     """A leg that stands on its foot.
@@ -108,12 +105,12 @@ class _Standing:
     def holds(self, collision: CollisionModel, poses: Poses) -> NDArray[np.bool_]:
         """Whether in each posture nothing of leg or trunk is lower than its foot, shape (n,).
 
-        On a robot that is off level by `LEVEL`, as well.
+        On a robot that is off level by `LANDING_TOLERANCE`, as well.
         """
         foot, found = collision.lowest(poses, self.foot), np.ones(len(poses.postures), dtype=bool)
         for part in self.above:
             off = foot - collision.lowest(poses, part)
-            found &= off[:, 2] <= np.tan(LEVEL) * np.hypot(off[:, 0], off[:, 1])
+            found &= off[:, 2] <= np.tan(LANDING_TOLERANCE) * np.hypot(off[:, 0], off[:, 1])
         return found
 
 

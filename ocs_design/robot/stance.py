@@ -17,8 +17,11 @@ from ocs_design.robot.tree import Tree
 REACHED = 1e-3
 """Distance within which a foot is in place [m]."""
 
-LEVEL = 1e-2
+FLAT = 1e-2
 """Angle within which a sole is flat [rad]."""
+
+LANDING_TOLERANCE = np.radians(5.0)
+"""Largest roll and pitch at touchdown, and largest angle that a flip may fall short of [rad]."""
 
 _SIMPLICITY = 1e-3
 """Weight of staying near the start, relative to the foot's error over the leg's length.
@@ -46,7 +49,7 @@ class Stance:
     @property
     def good(self) -> bool:
         """Whether foot and sole are where they should be."""
-        return self.miss < REACHED and self.tilt < LEVEL
+        return self.miss < REACHED and self.tilt < FLAT
 
 
 @dataclass(frozen=True, eq=False)

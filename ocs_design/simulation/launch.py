@@ -14,7 +14,7 @@ from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, S
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.reference import LEVEL, Profile, Quintic, Turn
+from ocs_design.simulation.reference import NO_TURN, Profile, Quintic, Turn
 from ocs_design.sizing.trajectory.boundary import pivot_boundary
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
@@ -96,10 +96,10 @@ def launch(maneuver: Maneuver, standing_height: float, profile: Profile) -> Laun
                 np.array(maneuver.impulse) / maneuver.duration,
                 np.array(maneuver.point),
             )
-            return Launch(np.eye(3), None, np.array([forward, 0.0, up]), LEVEL, push)
+            return Launch(np.eye(3), None, np.array([forward, 0.0, up]), NO_TURN, push)
         case Shove():
             push = Push(np.array(maneuver.torque), 0.0, maneuver.duration)
-            return Launch(np.eye(3), standing_height, np.zeros(3), LEVEL, push)
+            return Launch(np.eye(3), standing_height, np.zeros(3), NO_TURN, push)
         case Drop():
             if maneuver.height <= standing_height:
                 raise SpecificationError(
@@ -122,7 +122,7 @@ def launch(maneuver: Maneuver, standing_height: float, profile: Profile) -> Laun
             up = maneuver.gravity * maneuver.flight_time / 2.0
             vector = np.array([maneuver.roll, maneuver.pitch, 0.0])
             angle = float(np.linalg.norm(vector))
-            turn = LEVEL
+            turn = NO_TURN
             if angle > 0.0:
                 turn = Turn(vector / angle, 0.0, angle, maneuver.duration, Quintic())
             rate, spin = np.array(maneuver.rate), maneuver.wheel_speed
@@ -142,7 +142,7 @@ def on_pivot(maneuver: Pivoted, gyrostat: Gyrostat) -> Launch:
     rotation = quaternions.matrix(asked.attitude)
     height = -float((rotation @ np.array(maneuver.pivot))[2])
     speed = maneuver.wheel_speed
-    return Launch(rotation, height, np.zeros(3), LEVEL, NO_PUSH, asked.rate, speed)
+    return Launch(rotation, height, np.zeros(3), NO_TURN, NO_PUSH, asked.rate, speed)
 
 
 def flight_time(maneuver: Maneuver, start: Launch, standing_height: float) -> float:

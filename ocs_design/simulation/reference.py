@@ -136,7 +136,8 @@ class Turn:
         return np.clip(np.asarray(time) / self.duration, 0.0, 1.0)
 
 
-LEVEL = Turn(np.array([0.0, 1.0, 0.0]), 0.0, 0.0, 1.0, Step())
+NO_TURN = Turn(np.array([0.0, 1.0, 0.0]), 0.0, 0.0, 1.0, Step())
+"""The trunk stays level."""
 
 
 def fit_turn(turn: Turn, body: Gyrostat, limits: MotorLimits) -> Turn:

@@ -10,9 +10,6 @@ from ocs_design.common.arrays import FloatArray
 UPRIGHT_TILT = np.radians(45.0)
 """Largest angle between the trunk's z axis and the vertical of a robot that stands [rad]."""
 
-LANDING_TOLERANCE = np.radians(5.0)
-"""Largest roll and pitch at touchdown, and largest angle that a flip may fall short of [rad]."""
-
 
 @dataclass(frozen=True, eq=False)
 class Series:

@@ -12,7 +12,8 @@ from ocs_design.export.physics import STEADY_LEGS
 from ocs_design.requirement.maneuver import End, Flip, Maneuver, Shove
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.requirement.turns import TurnTo
-from ocs_design.simulation.run import LANDING_TOLERANCE, UPRIGHT_TILT, Metrics
+from ocs_design.robot.stance import LANDING_TOLERANCE
+from ocs_design.simulation.run import UPRIGHT_TILT, Metrics
 from ocs_design.sizing.trajectory.boundary import boundary
 
 REST_RATE = np.radians(5.0)

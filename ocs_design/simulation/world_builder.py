@@ -29,7 +29,7 @@ from ocs_design.simulation.desaturation import Desaturation
 from ocs_design.simulation.launch import NO_PUSH, Launch, flight_time, launch, on_pivot, place
 from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.physics import Engine
-from ocs_design.simulation.reference import LEVEL, Profile, Quintic, fit_turn
+from ocs_design.simulation.reference import NO_TURN, Profile, Quintic, fit_turn
 from ocs_design.simulation.scene import (
     JUMP_STEP,
     Sensor,
@@ -147,7 +147,7 @@ class WorldBuilder:
         else:
             start = launch(maneuver, standing, self._options.drop_profile)
             if level:
-                start = Launch(np.eye(3), start.height, start.velocity, LEVEL, NO_PUSH)
+                start = Launch(np.eye(3), start.height, start.velocity, NO_TURN, NO_PUSH)
         flight = flight_time(maneuver, start, standing)
         # For how long it is watched after touchdown: one second for Solo12 on Earth.
         settling = Scale.of(self._robot).time(maneuver.gravity or STANDARD_GRAVITY)

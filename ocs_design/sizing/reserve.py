@@ -21,16 +21,19 @@ from ocs_design.actuation.wheel_load import WheelTask, held_by_each, spin_demand
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.records.selection import KeptRecord, ReserveRecord, UncertaintyCost
 from ocs_design.requirement.bound import turned_roll
-from ocs_design.requirement.maneuver import Drop, Flip, Maneuver, Unforeseen
+from ocs_design.requirement.maneuver import (
+    Drop,
+    Flip,
+    Maneuver,
+    Unforeseen,
+)
 from ocs_design.requirement.requirement import ManeuverReserve, Requirement
 from ocs_design.requirement.uncertainty import UncertaintySection, complete_uncertainty, parts_of
 from ocs_design.requirement.vocabulary import DRAWN, RELIABILITY
 from ocs_design.robot.robot import Robot
+from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.sizing.selection.demand import held_in_roll, wheel_task
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem, inertia_at
-
-LEVEL = np.radians(5.0)
-"""Largest roll and pitch at touchdown [rad], by the pass rule of the flights."""
 
 PUSH_OFF = 0.08
 """Fraction of m v d, the momentum about roll or pitch of a push-off at speed v with the centre of
@@ -541,7 +544,7 @@ class _Flown:
             missing = np.where(missing * np.sign(asked) > 0.0, missing, 0.0)
             short = (self.axes * missing[:, None]).sum(axis=2)
             off = self.tilted * short / self.inertia * self._reached - self.bias
-            level = (np.abs(off) <= LEVEL).all(axis=1)
+            level = (np.abs(off) <= LANDING_TOLERANCE).all(axis=1)
             low, high = np.where(level, low, factor), np.where(level, factor, high)
         return high
 
@@ -563,4 +566,4 @@ class _Flown:
     def lost(self) -> NDArray[np.bool_]:
         """Whether a robot drifts off level about an uncontrolled axis, shape (robots,)."""
         drift = self.rates * self.duration - self.bias
-        return np.asarray(((np.abs(drift) > LEVEL) & ~self._reached).any(axis=1))
+        return np.asarray(((np.abs(drift) > LANDING_TOLERANCE) & ~self._reached).any(axis=1))

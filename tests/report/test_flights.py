@@ -18,7 +18,7 @@ from ocs_design.report.flights import flight_remarks, flight_table, flights_titl
 from ocs_design.report.text.front import NONE, OWN, print_front
 from ocs_design.requirement.maneuver import Drop, End, Flip
 from ocs_design.requirement.turns import TurnTo
-from ocs_design.simulation.run import LANDING_TOLERANCE
+from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.simulation.verdict import off_at_touchdown
 
 LEVEL = {"roll_swing": 0.0, "final_roll": 0.0, "final_wheel_speed": 0.0}

@@ -21,9 +21,10 @@ from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.requirement import ManeuverReserve, Requirement
 from ocs_design.requirement.specification import merge
 from ocs_design.requirement.uncertainty import Constant
+from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.simulation.scenario import Flights
 from ocs_design.sizing.design import design_device
-from ocs_design.sizing.reserve import LEVEL, Needed, Reserve
+from ocs_design.sizing.reserve import Needed, Reserve
 from ocs_design.sizing.selection.demand import UNDOES, held_in_roll
 from ocs_design.sizing.trajectory.plans import plan
 
@@ -284,7 +285,7 @@ def test_a_turn_by_hand_is_told_how_often_it_drifts_off_level():
     more = ONLY_FLIP + 'incidence = 0\n[reality]\ntakeoff_rate = "normal(0, 0.05rad/s)"\n'
     more += 'com_error = "0"\nattitude_bias = "0"\n'
     (flip,) = solo12(more).kept.maneuvers
-    expected = 2.0 * NormalDist().cdf(-LEVEL / (0.05 * FLIP.flight_time))
+    expected = 2.0 * NormalDist().cdf(-LANDING_TOLERANCE / (0.05 * FLIP.flight_time))
     assert flip.lost == pytest.approx(expected, abs=0.02)
     assert flip.roll_rate == flip.undone == 0.0
     free = f'{more}[ocs]\nalpha_criterion = "lightest"\n{ONLY_DROP}'
@@ -299,7 +300,7 @@ def test_wheels_that_are_late_leave_a_third_of_what_they_miss():
     more = f'{ONLY_DROP}[reality]\ntorque_constant_error = "uniform(-70%, 0%)"\n'
     found, campaign = flights(more)
     (drop,) = found.choice.problem.requirement.maneuvers
-    level = attitude_error(fly_samples(campaign, range(48)), drop, 0) <= LEVEL
+    level = attitude_error(fly_samples(campaign, range(48)), drop, 0) <= LANDING_TOLERANCE
     expected = found.kept.predicted
     assert 0.2 < expected < 0.8
     assert level.mean() == pytest.approx(
@@ -329,12 +330,12 @@ def test_what_costs_the_most_reliability_rescues_the_most_flights_when_it_is_kno
         flown = fly_samples(replace(campaign, uncertainty=drawn), indices)
         return attitude_error(flown, maneuver, 0)
 
-    failing = np.flatnonzero(off_level(range(40)) > LEVEL).tolist()
+    failing = np.flatnonzero(off_level(range(40)) > LANDING_TOLERANCE).tolist()
     assert len(failing) >= 8
     share = {cost.key: cost.share for cost in found.kept.costs}
     order = ["bus_voltage_error", "inertia_error", "com_error"]
     assert share[order[0]] > 3.0 * share[order[1]] > 9.0 * share[order[2]]
     known = [off_level(failing, key) for key in order]
-    assert (known[0] <= LEVEL).mean() > 0.6
-    assert all((each <= LEVEL).mean() < 0.3 for each in known[1:])
+    assert (known[0] <= LANDING_TOLERANCE).mean() > 0.6
+    assert all((each <= LANDING_TOLERANCE).mean() < 0.3 for each in known[1:])
     assert known[0].mean() < known[1].mean() < known[2].mean()

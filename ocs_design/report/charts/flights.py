@@ -13,7 +13,7 @@ from ocs_design.device.answers import MonteCarloRecord
 from ocs_design.parts.module import part_name
 from ocs_design.report.charts.chart import SERIES, Area, Axis, Chart, Ink, Line, Mark, Rule
 from ocs_design.report.story import RecordedFlight
-from ocs_design.simulation.run import LANDING_TOLERANCE
+from ocs_design.robot.stance import LANDING_TOLERANCE
 
 _HEIGHT, _HISTOGRAM = 236.0, 200.0
 """Heights of the charts [px]."""

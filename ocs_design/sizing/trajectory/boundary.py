@@ -15,7 +15,7 @@ from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
-LEVEL = np.array([1.0, 0.0, 0.0, 0.0])
+UPRIGHT = np.array([1.0, 0.0, 0.0, 0.0])
 """Trunk upright, its x axis along the world's."""
 
 HELD_ON = 1.5
@@ -81,10 +81,10 @@ def boundary(maneuver: Maneuver, standing_height: float) -> Boundary:
         length = float(np.linalg.norm(axis))
         axis = axis / length if length > 0.0 else _PITCH
         angle, duration = float(np.arctan2(length, vertical[2])), maneuver.time(standing_height)
-        return Boundary(maneuver.name, attitude, LEVEL, axis, angle, duration)
+        return Boundary(maneuver.name, attitude, UPRIGHT, axis, angle, duration)
     if isinstance(maneuver, Flip):
         angle, final = maneuver.angle, from_axis_angle(_PITCH, maneuver.angle)
-        return Boundary(maneuver.name, LEVEL, final, _PITCH, angle, maneuver.duration)
+        return Boundary(maneuver.name, UPRIGHT, final, _PITCH, angle, maneuver.duration)
     if isinstance(maneuver, Unforeseen):
         if maneuver.time_left <= 0.0:
             raise SpecificationError(
@@ -94,8 +94,8 @@ def boundary(maneuver: Maneuver, standing_height: float) -> Boundary:
         # Back to level in the time after a torque, from level at its onset.
         return Boundary(
             maneuver.name,
-            LEVEL,
-            LEVEL,
+            UPRIGHT,
+            UPRIGHT,
             _PITCH,
             0.0,
             maneuver.time_left,
@@ -119,7 +119,7 @@ def boundary(maneuver: Maneuver, standing_height: float) -> Boundary:
         angle = 2.0 * float(np.arctan2(sine, final[0]))
     return Boundary(
         maneuver.name,
-        LEVEL,
+        UPRIGHT,
         final,
         axis,
         angle,

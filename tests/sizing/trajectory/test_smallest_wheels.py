@@ -20,7 +20,7 @@ from gyrostats import (
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_load import WheelTask, smallest_spin_inertia
 from ocs_design.device.layout import Layout, LayoutName, module_axes
-from ocs_design.sizing.trajectory.boundary import LEVEL, Boundary
+from ocs_design.sizing.trajectory.boundary import UPRIGHT, Boundary
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.motion import HeadingLoop
 
@@ -196,7 +196,7 @@ QUARTER = np.array([np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5)])
 )
 def test_wheels_about_the_vertical_turn_the_heading(axes, stated):
     up = np.array([0.0, 0.0, 1.0])
-    yaw = Boundary("yaw", LEVEL, QUARTER, up, np.pi / 2.0, 2.0, end="attitude")
+    yaw = Boundary("yaw", UPRIGHT, QUARTER, up, np.pi / 2.0, 2.0, end="attitude")
     found = smallest_wheels(Gyrostat(DIAGONAL, axes, 1.2e-4), yaw)
     assert not found.failure
     assert missed(yaw, found.trajectory) < 1e-6
@@ -216,8 +216,8 @@ def test_two_wheels_turn_the_heading_by_a_loop_of_the_tilt(duration, stated):
     """Without momentum a pair's trunk never turns about its own vertical, and yet ends turned."""
     guess = Gyrostat(DIAGONAL, module_axes(np.radians(39.0)), 2e-4)
     up = np.array([0.0, 0.0, 1.0])
-    yaw = Boundary("yaw", LEVEL, QUARTER, up, 0.0, duration, end="attitude")
-    loop = HeadingLoop(LEVEL, np.zeros(3), np.pi / 2.0, 0.0, duration)
+    yaw = Boundary("yaw", UPRIGHT, QUARTER, up, 0.0, duration, end="attitude")
+    loop = HeadingLoop(UPRIGHT, np.zeros(3), np.pi / 2.0, 0.0, duration)
     found = smallest_wheels(guess, yaw, start=loop.motion(guess, 16))
     assert not found.failure
     assert missed(yaw, found.trajectory) < 1e-5
