@@ -201,7 +201,7 @@ def _screw_row(held: Fastening, modules: int) -> BillRow:
     remark, kind = held.purpose, held.screw
     if held.length > kind.usual_length + 1e-9:
         usual = f"{1e3 * kind.usual_length:.0f} mm, ISO 4762"
-        remark += f"; longer than {kind.name} is usually sold ({usual}): a special order"
+        remark += f"; longer than {kind.name} is usually sold ({usual}): may be a special order"
     # What a joint bears is that of its class: stainless A2-70 yields at 450 MPa, 8.8 at 640.
     steel = f"steel, class {held.strength}"
     return BillRow(name, count, steel, "", kind.mass(held.length), remark, source)
