@@ -1,6 +1,7 @@
 """Wheels to draw, and what must hold of a sheet."""
 
 import math
+from dataclasses import replace
 from itertools import combinations
 
 from hypothesis import assume
@@ -47,6 +48,16 @@ REFUSED = (
     "a place on the trunk's back (--position), or leave it to the program."
 )
 """Words that a sheet of what cannot be built begins with."""
+
+CROWDED = replace(
+    FLAT,
+    wheel=Wheel(
+        Rim(0.5, 1.0, 1.0, "steel", 1000.0, chamfer=0.0),
+        WheelCentre(0.5, 0.25, 1.0, 0.0, "EN AW-6082", 2700.0),
+    ),
+    refused=REFUSED,
+)
+"""With more notes than there is room for."""
 
 
 @st.composite

@@ -50,7 +50,13 @@ from ocs_design.common.units import MILLIMETRES
 from ocs_design.device.bodies import carrier_placement, wheel_placement
 from ocs_design.device.device import Device
 from ocs_design.export.assembly.placed import placed_parts
-from ocs_design.export.device_parts import metal_pieces, pedestal_kinds, printed_parts, wheel_pieces
+from ocs_design.export.device_parts import (
+    metal_pieces,
+    pedestal_kinds,
+    printed_parts,
+    ring_fixture,
+    wheel_pieces,
+)
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.export.meshes import Color
 from ocs_design.export.visuals import ALUMINIUM, PRINT, piece_color
@@ -74,7 +80,8 @@ _TIMESTAMP = "2000-01-01T00:00:00"
 def write(subject: Subject, folder: Path) -> Notes:
     """Write `flywheel.step`, or one file for each of its pieces, and one for each other part.
 
-    `plate.step` or `pedestal*.step` is what feet stand on, where that is designed; `module.step`
+    `plate.step` or `pedestal*.step` is what feet stand on, where that is designed;
+    `ring_fixture.step` is what a ring is bonded in; `module.step`
     has all of one module in its place, motor and gear as cylinders, and `device.step` all modules
     and what is under them.
     """
@@ -82,6 +89,9 @@ def write(subject: Subject, folder: Path) -> Notes:
     printed = {f"housing_{part.name}": part for part in printed_parts(device)}
     metal = {**wheel_pieces(device.flywheel), **metal_pieces(device)}
     printed |= {kind.name: kind.part for kind in pedestal_kinds(device)}
+    fixture = ring_fixture(device)
+    if fixture is not None:
+        printed[fixture.name] = fixture
     for name, part in {**metal, **printed}.items():
         (folder / f"{name}.step").write_bytes(step_bytes(part))
     (folder / "module.step").write_bytes(module_bytes(device))

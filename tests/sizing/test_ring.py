@@ -1,6 +1,7 @@
 """Wheels that are rings around the bells of their motors, chosen, built and compared."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -105,6 +106,14 @@ def test_no_ring_on_a_grid_is_lighter():
     own = chosen.rim_mass + float(shell.mass(*map(np.array, (chosen.outer_radius, chosen.height))))
     assert found <= own * (1.0 + 1e-12)
     assert own <= found * 1.01
+
+
+def test_its_fixture_has_an_exact_solid_too(tmp_path, monkeypatch):
+    step = pytest.importorskip("ocs_design.export.step", reason="the extra [step]")
+    for whole in ("module_bytes", "device_bytes"):
+        monkeypatch.setattr(step, whole, lambda _: b"")
+    step.write(SimpleNamespace(device=made()[1].device), tmp_path)
+    assert (tmp_path / "ring_fixture.step").read_bytes().startswith(b"ISO-10303-21;")
 
 
 def test_it_turns_free_of_all_that_stands_but_its_motor():

@@ -336,7 +336,8 @@ def piece_rows(assembly: Assembly) -> Iterator[PieceRow]:
     for piece in drawn.values():
         number, count = assembly.numbers[piece.name], _count(assembly, piece)
         if piece.fastening is not None:
-            what = piece.fastening.designation
+            washers = assembly.screws[piece.name].with_washers
+            what = f"{piece.fastening.designation}{washers}"
             yield PieceRow(number, count, f"screw, {short(piece.name)}", f"bought: {what}", "")
         else:
             label = _LABELS.get(piece.name, piece.name.replace("_", " "))

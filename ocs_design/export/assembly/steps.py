@@ -145,26 +145,7 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
             f"Bond the guard ring{assembly.number('guard')} into the drum{assembly.number('drum')} "
             "with epoxy, down to its floor; its seam, if it has one, is welded through."
         )
-    if "motor" in assembly.numbers and not any(
-        name.startswith("motor") for name in assembly.screws
-    ):
-        # Its threads are not known, and behind a gear neither is a hole for it.
-        if device.motor.gear_room is not None:
-            yield (
-                f"Fix gear{assembly.number('gear')} and motor{assembly.number('motor')} as said "
-                f"above, the gear's output within {1e3 * RUN_OUT:g} mm of the wheel's axis."
-            )
-        else:
-            yield (
-                f"Fix the motor{assembly.number('motor')} to plate and drum, its axis within "
-                f"{1e3 * RUN_OUT:g} mm of the middle of their hole, as said above."
-            )
-    for name in assembly.screws:
-        if name not in assembly.late:
-            caged = name.startswith("motor in its cage")
-            wires = " Its wires come out between two posts, tied to one." if caged else ""
-            yield f"{assembly.screwed(name)}{wires}"
-    yield from _joint_steps(assembly)
+    yield from _drive_steps(assembly)
     if "lid" in assembly.numbers:
         loose = " Nothing but its screws centres it: loosen them, shift it and tighten them again."
         yield (
@@ -180,6 +161,46 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
         yield (
             f"Weigh the module with all its screws, without its controller: {1e3 * mass:.0f} g. If "
             "it is 2 % off, weigh its parts against cad/bill_of_materials.csv."
+        )
+
+
+def _drive_steps(assembly: Assembly) -> Iterator[str]:
+    """How motor, housing, foot and wheel are held together."""
+    device = assembly.device
+    if "motor" in assembly.numbers and not any(
+        name.startswith("motor") for name in assembly.screws
+    ):
+        # Its threads are not known, and behind a gear neither is a hole for it.
+        if device.motor.gear_room is not None:
+            yield (
+                f"Fix gear{assembly.number('gear')} and motor{assembly.number('motor')} as said "
+                f"above, the gear's output within {1e3 * RUN_OUT:g} mm of the wheel's axis."
+            )
+        else:
+            yield (
+                f"Fix the motor{assembly.number('motor')} to plate and drum, its axis within "
+                f"{1e3 * RUN_OUT:g} mm of the middle of their hole, as said above."
+            )
+    # What holds the wheel on its drive; a ring around a bell is bonded already.
+    joint = None
+    if "drum" in assembly.numbers and not device.on_bell:
+        joint = next((each for each in joints_of(device) if each.name == SHAFT_JOINT), None)
+    for name in assembly.screws:
+        if name not in assembly.late:
+            told = ""
+            if name.startswith("motor in its cage"):
+                told = " Its wires come out between two posts, tied to one."
+            elif name.startswith("wheel") and joint is not None and joint.capacity is not None:
+                told = f" They carry the wheel by {joint.note}."
+            yield f"{assembly.screwed(name)}{told}"
+    if joint is not None and joint.capacity is None:
+        yield f"Hold the wheel on its drive by a joint of your own: {joint.note}."
+    elif joint is not None and not any(name.startswith("wheel") for name in assembly.screws):
+        room = foot_of(device).housing.rim_height - device.flywheel.height
+        yield (
+            f"Put the wheel on the motor's shaft: {joint.note}. Strips of "
+            f"{1e3 * (CLEARANCE + room / 2.0):.1f} mm between rim and floor set its height; they "
+            "come out when the compound is hard."
         )
 
 
@@ -260,25 +281,6 @@ def _wheel_steps(assembly: Assembly) -> Iterator[str]:
         "bell out of the ring with a punch on its front, clean both and bond them again in a "
         "new fixture. If it runs true, fill the other edge of the gap with epoxy too."
     )
-
-
-def _joint_steps(assembly: Assembly) -> Iterator[str]:
-    """What the joints of the wheel rest on, and how a wheel is put on a shaft."""
-    if "drum" not in assembly.numbers or assembly.device.on_bell:
-        return
-    screwed = any(name.startswith("wheel") for name in assembly.screws)
-    for joint in joints_of(assembly.device):
-        if joint.name == SHAFT_JOINT and joint.capacity is None:
-            yield f"Hold the wheel on its drive by a joint of your own: {joint.note}."
-        elif joint.name == SHAFT_JOINT and not screwed:
-            room = foot_of(assembly.device).housing.rim_height - assembly.device.flywheel.height
-            yield (
-                f"Put the wheel on the motor's shaft: {joint.note}. Strips of "
-                f"{1e3 * (CLEARANCE + room / 2.0):.1f} mm between rim and floor set its "
-                "height; they come out when the compound is hard."
-            )
-        elif joint.name == SHAFT_JOINT:
-            yield f"That joint carries the wheel by {joint.note}."
 
 
 def _trunk_steps(assembly: Assembly) -> Iterator[str]:

@@ -197,9 +197,10 @@ def rectangle(left: float, top: float, right: float, bottom: float) -> tuple[Poi
 
 
 def cross(at: Point, half: float) -> list[Item]:
-    """Centre lines of a hole, so far to each side [mm]."""
+    """Centre lines of a hole, so far to each side [mm]; they cross in dashes (ISO 128-2)."""
     x, y = at
-    return [Line((x - half, y), (x + half, y), CENTRE), Line((x, y - half), (x, y + half), CENTRE)]
+    ends = (x + half, y), (x - half, y), (x, y + half), (x, y - half)
+    return [Line(at, end, CENTRE) for end in ends]
 
 
 def hatching(

@@ -39,6 +39,12 @@ BLOCK_LEFT, BLOCK_TOP = RIGHT - BLOCK_WIDTH, BOTTOM - ROWS * ROW_HEIGHT
 NOTES_LEFT, NOTES_TOP = MARGIN_LEFT + 3.0, 145.0
 """Place of the notes' first line [mm]."""
 
+NOTE, SMALL_NOTE = 2.5, 1.8
+"""Heights of the notes' lettering, and where there are too many for that [mm] (ISO 3098)."""
+
+TIGHTEST = 1.35
+"""Distance of lines over the height of their capitals at which brackets almost touch."""
+
 NUMBER_WIDTH = 5.0
 """Width of a note's number before its text [mm]."""
 
@@ -184,20 +190,23 @@ def _numbered(sentences: Sequence[str], block: float) -> list[Item]:
     """Numbered notes at the lower left, wrapped to the room; no line ends at a tilde.
 
     Those that end above `block`, the top of what stands beside them [mm], are as wide as the sheet.
-    Where they would run out of the frame, lines are nearer to each other.
+    Where they would run out of the frame, lines are nearer to each other, and smaller before they
+    would touch.
     """
-    leading = LEADING
+    height, leading = NOTE, LEADING
     while True:
         items: list[Item] = []
         y, left = NOTES_TOP, NOTES_LEFT + NUMBER_WIDTH
         for number, sentence in enumerate(sentences, start=1):
-            items.append(Text((NOTES_LEFT, y), f"{number}"))
-            lines = wrapped(sentence, RIGHT - left - 2.0, 2.5)
+            items.append(Text((NOTES_LEFT, y), f"{number}", height))
+            lines = wrapped(sentence, RIGHT - left - 2.0, height)
             if y + (len(lines) - 1) * leading + 2.0 > block:
-                lines = wrapped(sentence, BLOCK_LEFT - left - 2.0, 2.5)
+                lines = wrapped(sentence, BLOCK_LEFT - left - 2.0, height)
             for line in lines:
-                items.append(Text((left, y), line.replace("~", " ")))
+                items.append(Text((left, y), line.replace("~", " "), height))
                 y += leading
         if y - leading + 2.0 < FRAME_BOX[3]:
             return items
         leading *= 0.95
+        if height == NOTE and leading < TIGHTEST * height:
+            height, leading = SMALL_NOTE, LEADING * SMALL_NOTE / NOTE

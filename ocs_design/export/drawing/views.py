@@ -128,13 +128,18 @@ def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
             half=scale(radius),
             outline_x=x - scale(width) / 2.0,
         )
-    # Width of the rim above the view; those of web and hub between hub and rim, on either side of
-    # the axis.
+    # Width of the rim above the view; those of web and hub on either side of the axis, where the
+    # web is whole: in the wider of its parts inside and outside its holes.
     label, top = toleranced(rim.height, Grade.IT11), y - edge
     items += _width(label, rim.height, wheel, layout, y=top - ABOVE, start=top)
     hub = wheel.hub
     if hub is not None:
-        away = max(NEAREST, scale(hub.radius + rim.inner_radius) / 2.0)
+        inside, outside, cut = hub.radius, rim.inner_radius, hub.lightening
+        if cut is not None and 2.0 * cut.radius > inside + outside:
+            outside = cut.radius - cut.hole_radius
+        elif cut is not None:
+            inside = cut.radius + cut.hole_radius
+        away = max(NEAREST, scale(inside + outside) / 2.0)
         items += _width(plain(hub.web_thickness), hub.web_thickness, wheel, layout, y=y - away)
         items += _width(
             plain(hub.height), hub.height, wheel, layout, y=y + away, start=y + scale(hub.radius)

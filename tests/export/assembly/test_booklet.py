@@ -524,6 +524,14 @@ def test_a_wheel_that_only_its_screws_centre_is_shifted(shaft, told):
     assert ("Nothing but its screws centres it" in said) == told
 
 
+def test_what_carries_the_wheel_is_told_with_its_screws_and_is_no_step():
+    steps = next(
+        each.texts for each in chapters(Assembly("dog", DEVICES["caged"])) if each.numbered
+    )
+    (told,) = (each for each in steps if "They carry the wheel by friction" in each)
+    assert told.startswith("Wheel on rotor: ")
+
+
 def test_each_foot_of_a_ring_is_turned_to_its_own_axis():
     for device, angles in ((TRIAD, "0 deg (1), 60 deg (2), 60 deg (3)"), (AT_30_DEGREES, "30 deg")):
         assert f"meets the scale at {angles}," in texts(Assembly("solo12", device), "Steps")

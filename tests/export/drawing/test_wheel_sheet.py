@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from built import DEVICES
 from drawn_wheels import (
+    CROWDED,
     FLAT,
     HOLED,
     HUB,
@@ -21,7 +22,7 @@ from drawn_wheels import (
     overlap,
     texts,
 )
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from scipy.integrate import quad
 from wheels import paper_device
 
@@ -30,6 +31,7 @@ from ocs_design.device.device import Web
 from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.sheet import FRAME_BOX, OUTLINE, Circle, Line, Text
 from ocs_design.export.drawing.title_block import device_hash
+from ocs_design.export.drawing.views import AXIS_Y, lay_out, section_view
 from ocs_design.export.drawing.wheel import inside_corners
 from ocs_design.export.drawing.wheel_sheet import draw_wheel, wheel_drawing, wheel_sheet
 from ocs_design.export.drawing.writers import pdf_of_pages
@@ -47,6 +49,7 @@ def words(wheel):
 @pytest.mark.slow
 @settings(max_examples=25, suppress_health_check=[HealthCheck.filter_too_much])
 @given(drawings())
+@example(CROWDED)
 def test_any_sheet_is_legible_within_its_frame_and_well_formed(drawing):
     """No text stands on another or on a line; both formats are the same bytes every time."""
     items = wheel_sheet(drawing)
@@ -96,6 +99,14 @@ def test_every_size_and_hole_is_written_once(drawing, once, besides):
     for label in once:
         assert found.count(label) == 1, label
     assert set(besides) <= set(found)
+
+
+def test_the_webs_thickness_is_measured_where_no_hole_is():
+    hub, layout = HOLED.wheel.hub, lay_out(HOLED.wheel)
+    shown = section_view(HOLED.wheel, layout)
+    ((_, y),) = (each.place for each in shown if isinstance(each, Text) and each.text == "1.5")
+    off = abs(AXIS_Y - y) - layout.scale(hub.lightening.radius)
+    assert abs(off) > layout.scale(hub.lightening.hole_radius) + 1.0
 
 
 def test_the_title_block_says_mass_and_inertia():
