@@ -95,6 +95,10 @@ def robot_of(record: RobotRecord, path: AnyPath, package_paths: Mapping[str, Any
     )
 
 
+_SAME = 1e-6
+"""Largest difference of mass and inertia, over the largest figure, of a robot that is the same."""
+
+
 @dataclass(frozen=True)
 class Whereabouts:
     """Places to look for a robot, and what to say if it is not there.
@@ -147,12 +151,19 @@ def read_recorded_robot(
             )
     robot = robot_of(record, source, {**folders, **where.package_paths})
     warnings = tuple(warning for warning in robot.warnings if warning not in record.warnings)
+    inertia = np.array(record.inertia)
+    apart = np.abs(robot.inertia - inertia).max() / np.abs(inertia).max()
+    masses = f"mass {robot.mass:.4g} kg, then {record.mass:.4g} kg"
     if robot.sha256 != record.sha256:
-        changed = (
-            f"{robot.source}: not the file that the device was sized for; mass {robot.mass:.4g} "
-            f"kg, then {record.mass:.4g} kg"
-        )
+        changed = f"{robot.source}: not the file that the device was sized for; {masses}"
         warnings = (changed, *warnings)
+    elif max(apart, abs(robot.mass / record.mass - 1.0)) > _SAME:
+        # The hash is of the robot's own file alone.
+        raise RobotError(
+            f"{robot.source}: a file that it includes has changed since the device was sized for "
+            f"it; {masses}",
+            hint="size it again, or put back what it included then",
+        )
     if strict and warnings:
         raise RobotError("--strict: " + "; ".join(warnings), hint="mend the robot's file")
     return robot, warnings

@@ -16,7 +16,7 @@ from ocs_design.device.records.requirement import ManeuverRecord, RobotRecord
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.posture import OUTSIDE
 from ocs_design.robot.reader import read_robot
-from ocs_design.workflows.restoring import robot_of, seat_of
+from ocs_design.workflows.restoring import Whereabouts, read_recorded_robot, robot_of, seat_of
 
 HUMAN = next(ROBOTS.rglob("human.urdf"))
 MIMIC = """<robot name="gripper">
@@ -92,6 +92,18 @@ def test_a_robot_that_lacks_a_joint_is_refused(tmp_path):
     (tmp_path / "g.urdf").write_text(MIMIC.replace("lead", "other"))
     with pytest.raises(RobotError, match="no joint or link 'lead'"):
         robot_of(record, tmp_path / "g.urdf", {})
+
+
+def test_a_robot_whose_included_file_has_changed_is_refused(tmp_path):
+    body = '<mujoco><worldbody><body name="trunk"><freejoint/>{}</body></worldbody></mujoco>'
+    (tmp_path / "robot.xml").write_text('<mujoco><include file="trunk.xml"/></mujoco>')
+    (tmp_path / "trunk.xml").write_text(body.format('<geom size="0.1" mass="2"/>'))
+    record = RobotRecord.of(read_robot(tmp_path / "robot.xml"))
+    where = Whereabouts(tmp_path / "out" / "design.json", None, {}, "")
+    assert read_recorded_robot(record, where, strict=True)[0].mass == 2.0
+    (tmp_path / "trunk.xml").write_text(body.format('<geom size="0.1" mass="3"/>'))
+    with pytest.raises(RobotError, match="includes has changed"):
+        read_recorded_robot(record, where, strict=False)
 
 
 @pytest.mark.parametrize("motor", [MOTOR, "none"])
