@@ -1,1 +1,1 @@
-"""A motor at a voltage behind a gear, and what it can do in a time."""
+"""Actuation: a motor at a voltage with a gear, and what it can do in a given time."""

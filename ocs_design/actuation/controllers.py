@@ -1,9 +1,9 @@
 """Motor controllers: the current that each must carry, and its mass.
 
-The mass is a straight line over the peak phase current, the least squares of seven boards that can
-be bought (`tests/actuation/test_controllers.py` has them), from bare ones to one in a heat
-spreader: the rule is 0.5 to 2.3 times their mass. Flights last a second or two, so that what heats
-a board for good does not choose it.
+The mass is a straight line over the peak phase current, a least-squares fit to seven commercial
+boards (listed in `tests/actuation/test_controllers.py`), from bare ones to one with a heat
+spreader; the fit gives 0.5 to 2.3 times their mass. Flights last a second or two, so the continuous
+rating does not determine the board.
 """
 
 from math import sqrt
@@ -11,15 +11,16 @@ from math import sqrt
 from ocs_design.actuation.motor import Motor
 
 PHASE_PER_LINE = 2.0 / sqrt(3.0)
-"""Amplitude of a phase's sine over the current of `Motor`: see the text of `actuation.motor`."""
+"""Ratio of a phase's sine amplitude to the current of `Motor`: see the docstring of
+`actuation.motor`."""
 
 
 BASE_MASS, MASS_PER_CURRENT = 0.0081, 0.000232
-"""Mass at no current, and what each ampere adds, of the rule [kg, kg/A]."""
+"""Mass at zero current and mass per ampere of the fit [kg, kg/A]."""
 
 
 def controller_mass(phase_current: float) -> float:
-    """Mass of a controller by its peak phase current [kg]."""
+    """Mass of a controller for a peak phase current [A], in kg."""
     return BASE_MASS + MASS_PER_CURRENT * phase_current
 
 

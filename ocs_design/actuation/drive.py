@@ -1,11 +1,11 @@
 """Torque and speed of a motor at a bus voltage, seen at the wheel behind its gear.
 
-With N = motor speed / wheel speed and the gear's efficiency eta, taken as a loss whichever way the
-power flows, so that braking is not counted stronger than it is:
+With N = motor speed / wheel speed and the gear's efficiency eta, which counts as a loss in both
+directions of power flow, so that braking is not overestimated:
 
     tau_s = N eta V k_t / R        w_0 = V / (k_t N)        tau_L = N eta (peak torque - k_t I_0)
 
-(`V = R i + k_t w`, docs/theory.md, What a motor can do). I_0 is the current of the motor's own
+(`V = R i + k_t w`, docs/theory.md, What a motor can do). I_0 is the motor's no-load current due to
 friction, where its source gives it.
 """
 
@@ -21,34 +21,34 @@ from ocs_design.common.errors import OcsError
 from ocs_design.common.records import recorded
 
 RESERVE = 0.95
-"""Share of voltage, current and mechanical speed that a design may use; the rest is left to the
-feedback, and to a robot that is not quite the one in its file."""
+"""Fraction of voltage, current and mechanical speed that a design may use; the rest is margin for
+the feedback and for a robot that differs from its file."""
 
 PLANNED = (1.0 + RESERVE) / 2.0
-"""Share of voltage, current, speed limit and power that a plan may use. A device is sized so that
-its hardest maneuver just takes `RESERVE` of them: half of the rest lets a plan be smoother than
-that, the other half is left to the feedback."""
+"""Fraction of voltage, current, speed limit and power that a plan may use. A device is sized so
+that its hardest maneuver takes exactly `RESERVE` of them: half of the rest allows a smoother plan,
+the other half is left to the feedback."""
 
 _NO_SPEED = 1e-9
-"""Share of its line, or [rad/s], that is left to a wheel which begins at its top speed."""
+"""Fraction of the line, and speed [rad/s], left to a wheel that starts at its top speed."""
 
 FIGURES_HINT = (
-    "Choose another motor, or state its figures in a file of your own with --motors FILE; "
+    "Choose another motor, or give its figures in your own file with --motors FILE; "
     "`ocs-design catalogue --help` says how"
 )
-"""Cure where a motor's source does not give what is needed."""
+"""Hint where a motor's source lacks required data."""
 
 
 @dataclass(frozen=True, eq=False)
 class DriveLine(Table):
-    """Voltage line and limits at the wheel: scalars, or arrays that broadcast.
+    """Torque-speed line and limits at the wheel: scalars, or arrays that broadcast.
 
     Attributes:
-        stall_torque: tau_s, of the voltage line at rest [N m]; inf: no line, full torque to w_0.
+        stall_torque: tau_s, torque of the line at rest [N m]; inf: no line, full torque up to w_0.
         no_load_speed: w_0 [rad/s], finite.
         torque_limit: tau_L, at the current limit [N m]; inf: not limited.
-        speed_max: mechanical, of wheel, motor and gear [rad/s]; inf: not limited.
-        power_max: at the bus, drawn or fed back, times the gear's efficiency [W]; inf: not limited.
+        speed_max: mechanical limit of wheel, motor and gear [rad/s]; inf: not limited.
+        power_max: bus power, drawn or fed back, times the gear's efficiency [W]; inf: not limited.
     """
 
     stall_torque: float | FloatArray
@@ -59,23 +59,24 @@ class DriveLine(Table):
 
     @property
     def top_speed(self) -> float | FloatArray:
-        """Highest speed without a load, by voltage or mechanics [rad/s]."""
+        """Highest speed without load, limited by voltage or mechanics [rad/s]."""
         return np.minimum(self.no_load_speed, self.speed_max)
 
     def reserved(self, share: float | FloatArray = RESERVE) -> "DriveLine":
-        """Line with a part of voltage, current, power and mechanical speed."""
+        """The line with a fraction of voltage, current, power and mechanical speed."""
         return replace(self, **{name: limit * share for name, limit in vars(self).items()})
 
     def divided(self, factor: float) -> "DriveLine":
-        """The line within which torque and speed may grow by this factor; power stays."""
+        """The line with torque and speed divided by a factor, and power unchanged."""
         less = {name: limit / factor for name, limit in vars(self).items() if name != "power_max"}
         return replace(self, **less)
 
     def begun(self, speed: float | FloatArray) -> "DriveLine":
-        """The line over the change of a wheel's speed, from one that it begins with [rad/s].
+        """The line for the change of a wheel's speed from an initial one [rad/s].
 
-        It is that of the same winding at a voltage that is less by the one of that speed. Braking
-        counts as stronger than it is by as much.
+        It is that of the same winding at a voltage reduced by the back EMF at the initial speed.
+        Braking torque comes out too low for an initial speed in the direction of the change, and
+        too high for one against it.
         """
         left = np.maximum(1.0 - speed / np.asarray(self.no_load_speed), _NO_SPEED)
         return replace(
@@ -87,10 +88,10 @@ class DriveLine(Table):
 
 
 def drive_line(motor: Motor, gear: Gear, bus_voltage: float) -> DriveLine:
-    """Whole line of the motor at `bus_voltage` [V] behind its gear; see the module's text.
+    """Full line of the motor at `bus_voltage` [V] with its gear; see the module's docstring.
 
     Raises:
-        OcsError: figures are missing that this needs; `missing_figures` has them.
+        OcsError: required figures are missing; `missing_figures` lists them.
     """
     k_t, resistance = motor.torque_constant, motor.resistance
     peak, speed = motor.peak_torque, speed_limit(motor)
@@ -111,10 +112,10 @@ def drive_line(motor: Motor, gear: Gear, bus_voltage: float) -> DriveLine:
 
 
 def speed_limit(motor: Motor) -> float | None:
-    """Highest speed that the motor may turn at [rad/s].
+    """Highest allowed speed of the motor [rad/s].
 
-    What its maker states; else no faster than without load at its rated voltage, for which it was
-    built. None if the source gives neither.
+    The maker's limit, else the no-load speed at the rated voltage, for which it was built. None if
+    the source gives neither.
     """
     if motor.speed_max is not None:
         return motor.speed_max
@@ -126,11 +127,11 @@ def speed_limit(motor: Motor) -> float | None:
 
 
 def missing_figures(motor: Motor, gear: Gear) -> tuple[str, ...]:
-    """Names of the figures that this motor behind this gear needs and its source does not give.
+    """Names of required figures of this motor with this gear that its source does not give.
 
-    The rotor's inertia may be left out, or be the least that it can be, where that is conservative:
-    where the rotor turns with the wheel and no faster, it adds at least as much to the momentum as
-    to what must be accelerated. Elsewhere its source must state it.
+    The rotor's inertia may be missing, or be a lower bound, where that is conservative: where the
+    rotor turns with the wheel and no faster, it adds at least as much to the momentum as to the
+    inertia to be accelerated. Otherwise its source must state it.
     """
     helps = gear.ratio <= 1.0 and not gear.reverses
     stated_inertia = None if motor.rotor_inertia_source else motor.rotor_inertia
@@ -154,10 +155,10 @@ def rotor_share(rotor_inertia: float, gear: Gear) -> float:
 
 
 def armature(rotor_inertia: float, gear: Gear) -> float:
-    """What the motor accelerates beyond the spin inertia h, N (N - s) J_r + J_gear [kg m^2].
+    """Inertia accelerated beyond the spin inertia h, N (N - s) J_r + J_gear [kg m^2].
 
-    The motor accelerates I_m = I_rim + N^2 J_r + J_gear = h + armature; zero without a gear,
-    negative where a gear that does not reverse speeds the wheel up.
+    The motor accelerates I_m = I_rim + N^2 J_r + J_gear = h + armature; it is zero without a gear,
+    and negative for a non-reversing gear that speeds the wheel up.
     """
     return gear.ratio * (gear.ratio - _sense(gear)) * rotor_inertia + gear.inertia
 
@@ -170,13 +171,13 @@ def _sense(gear: Gear) -> float:
 def power_less_friction(
     supply: Supply, motors: int, motor: "Motor | Drive", peak_current: float
 ) -> float:
-    """Power of a supply that the friction of its motors leaves at the least [W].
+    """Least power of a supply that remains after the motors' friction [W].
 
-    (R (i + I_0) + k_t w) (i + I_0) is by at most I_0 (V + R (i + I_0)) more than (R i + k_t w) i.
+    (R (i + I_0) + k_t w) (i + I_0) exceeds (R i + k_t w) i by at most I_0 (V + R (i + I_0)).
 
     Args:
-        supply: of all motors. motors: how many.
-        motor: each of them. peak_current: through its winding [A]; inf: not known.
+        supply: of all motors. motors: number of motors.
+        motor: each of them. peak_current: through its winding [A]; inf: unknown.
     """
     friction, drop = motor.no_load_current or 0.0, 0.0
     if np.isfinite(peak_current) and motor.resistance is not None:
@@ -186,42 +187,43 @@ def power_less_friction(
 
 @dataclass(frozen=True)
 class Drive:
-    """Motor at a voltage behind a gear: its voltage line, limits and inertia, all at the wheel.
+    """Motor at a voltage with a gear: its torque-speed line, limits and inertia, all at the wheel.
 
-    `design.json` holds it as it is. None is what is not limited or not known; with the assumed
-    motor that is all but its speed and, where one was specified, its torque.
+    It is written to `design.json` unchanged. None means not limited or unknown; for the assumed
+    motor that is everything except its speed and, where specified, its torque.
 
     Attributes:
         name: in the catalogue, or "assumed".
         mass: of the motor alone, without its gear [kg].
-        stall_torque: torque of the voltage line at rest [N m]; None: full torque to the top speed.
-        no_load_speed: of the voltage line [rad/s].
+        stall_torque: torque of the torque-speed line at rest [N m]; None: full torque up to the top
+            speed.
+        no_load_speed: of the torque-speed line [rad/s].
         torque_limit: at the current limit of motor and drive, or of the gear [N m].
         rotor_inertia: what the rotor adds to the spin inertia of the wheel [kg m^2]: its own times
             the gear ratio, negative where the gear reverses.
-        rotor_inertia_source: empty: the maker's; else the estimate and its spread.
-        source: where the figures come from.
+        rotor_inertia_source: empty: the maker's figure; otherwise the estimate and its uncertainty.
+        source: source of the figures.
         gear: name in the catalogue, or "direct".
         gear_ratio: motor speed over wheel speed.
-        gear_efficiency: of the torque, 0..1, taken as a loss both ways.
+        gear_efficiency: of the torque, 0..1, counted as a loss in both directions.
         gear_mass: [kg].
         bus_voltage: [V].
-        rated_voltage: that the motor is made for [V].
+        rated_voltage: of the motor [V].
         diameter, length: of its body [m].
-        speed_max: mechanical, of wheel, gear and motor [rad/s].
-        armature: what the motor accelerates beyond the spin inertia of the wheel, at the wheel
-            [kg m^2]; 0 without a gear.
-        torque_constant: of the motor itself, six-step, between two lines [N m/A].
-        resistance: of the motor between two lines [ohm].
-        continuous_torque: that the winding stands for good [N m].
-        continuous_torque_source: empty: the maker's; else the estimate.
+        speed_max: mechanical limit of wheel, gear and motor [rad/s].
+        armature: inertia that the motor accelerates beyond the spin inertia of the wheel, at the
+            wheel [kg m^2]; 0 without a gear.
+        torque_constant: of the motor itself, six-step, line to line [N m/A].
+        resistance: of the motor, line to line [ohm].
+        continuous_torque: thermally sustainable torque of the winding [N m].
+        continuous_torque_source: empty: the maker's figure; otherwise the estimate.
         confidence: in the motor's figures, in words.
-        mounting: its shaft and threads, where the wheel sits on it without a gear and any is known.
-        no_load_current: that the motor itself draws turning freely at its rated voltage [A].
-        gear_room: that its gear takes; None: there is no gear.
-        saturation_torque: at the wheel, above which the motor's k_t falls off [N m].
-        controller_mass: of the controller that stands with the motor [kg]; 0: not counted.
-        maker: of the motor; empty: not known.
+        mounting: its shaft and threads, where known and the wheel sits on the motor without a gear.
+        no_load_current: drawn by the motor alone, turning freely at its rated voltage [A].
+        gear_room: space that its gear takes; None: no gear.
+        saturation_torque: torque at the wheel above which the motor's k_t decreases [N m].
+        controller_mass: of the controller mounted with the motor [kg]; 0: not counted.
+        maker: of the motor; empty: unknown.
     """
 
     name: str
@@ -256,22 +258,22 @@ class Drive:
 
     @property
     def full_name(self) -> str:
-        """Maker and name, as one orders it."""
+        """Maker and name, as in an order."""
         return f"{self.maker} {self.name}".lstrip()
 
     @classmethod
     def of(
         cls, motor: Motor, gear: Gear, bus_voltage: float, line: DriveLine | None = None
     ) -> "Drive":
-        """The motor behind its gear at `bus_voltage` [V].
+        """The motor with its gear at `bus_voltage` [V].
 
-        A field that `Motor` has too is copied by its name, unless gear or supply change it.
+        Fields that `Motor` has too are copied by name, unless gear or supply change them.
 
         Args:
-            line: what the drive may do at the wheel; None: all that motor and gear can.
+            line: usable torque-speed line at the wheel; None: the full line of motor and gear.
 
         Raises:
-            OcsError: the motor lacks a figure that every drive needs.
+            OcsError: the motor lacks a required figure.
         """
         line = drive_line(motor, gear, bus_voltage) if line is None else line
         rotor, gain = motor.rotor_inertia or 0.0, gear.ratio * gear.efficiency
@@ -298,34 +300,34 @@ class Drive:
 
     @property
     def top_speed(self) -> float:
-        """Speed of the wheel at which voltage or mechanics end [rad/s]; inf: not limited."""
+        """Highest wheel speed, limited by voltage or mechanics [rad/s]; inf: not limited."""
         return min(self.no_load_speed, self.speed_max or inf)
 
     @property
     def line_left(self) -> float:
-        """Share of the voltage line that the motor's friction leaves, 1 - N eta k_t I_0 / tau_s.
+        """Fraction of the line left by the motor's friction, 1 - N eta k_t I_0 / tau_s.
 
-        Both its torque at rest and its speed without load shrink by it: the slope stays.
+        Both stall torque and no-load speed are reduced by this factor; the slope stays the same.
         """
         return 1.0 if self.stall_torque is None else 1.0 - self.friction / self.stall_torque
 
     @property
     def friction(self) -> float:
-        """N eta k_t I_0, what the motor's own friction takes of the torque at the wheel [N m]."""
+        """N eta k_t I_0, torque lost to the motor's own friction, at the wheel [N m]."""
         return self.torque_per_current * (self.no_load_current or 0.0)
 
     @property
     def torque_per_current(self) -> float:
-        """N eta k_t, torque at the wheel per current in the winding [N m/A]; 0: not known."""
+        """N eta k_t, torque at the wheel per current in the winding [N m/A]; 0: unknown."""
         return self.gear_ratio * self.gear_efficiency * (self.torque_constant or 0.0)
 
     @property
     def at_the_air_gap(self) -> "Drive":
-        """The drive before its own friction takes its part, for models that have it themselves."""
+        """The drive without its own friction, for models that include friction themselves."""
         limit = None if self.torque_limit is None else self.torque_limit + self.friction
         return replace(self, torque_limit=limit, no_load_current=None)
 
 
 def _geared(torque: float | None, gain: float) -> float | None:
-    """Torque at the wheel [N m]; None if it is not known."""
+    """Torque at the wheel [N m]; None if unknown."""
     return None if torque is None else gain * torque

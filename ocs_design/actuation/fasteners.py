@@ -13,11 +13,11 @@ class Screw:
     Attributes:
         name: such as "M3".
         diameter: of the thread [m].
-        clearance_hole: diameter that it passes through, medium fit of ISO 273 [m].
-        tapping_drill: diameter of the hole that its thread is cut into, ISO 2306 [m].
-        head_diameter, head_height: largest [m].
+        clearance_hole: its diameter, medium fit of ISO 273 [m].
+        tapping_drill: diameter of the drill for its thread, ISO 2306 [m].
+        head_diameter, head_height: largest values [m].
         pitch: of the thread [m].
-        key, key_depth: across the flats of its hexagon socket, and how deep that is at least [m].
+        key, key_depth: width across flats and least depth of its hexagon socket [m].
     """
 
     name: str
@@ -31,16 +31,16 @@ class Screw:
     key_depth: float
 
     def length_through(self, thickness: float, depth: float = 1.0) -> float:
-        """Long enough for parts of that thickness and a thread behind them [m].
+        """Standard length for parts of that thickness and a thread behind them [m].
 
         Args:
             thickness: of the parts [m].
-            depth: of the thread over its diameter, at least: 1 holds in aluminium and steel,
-                `IN_PLASTIC` where it is cut into a print.
+            depth: least thread engagement in diameters: 1 suffices in aluminium and steel,
+                `IN_PLASTIC` in a printed part.
         """
         least = 1e3 * (thickness + depth * self.diameter)
         long_enough = (length for length in LENGTHS if length >= least - 1e-9)
-        # Nothing that is sized asks for one beyond them.
+        # Sized parts never need a longer one.
         return 1e-3 * next(long_enough, 20 * ceil(least / 20.0 - 1e-9))
 
     @property
@@ -53,10 +53,11 @@ class Screw:
         return f"ISO 4762 {self.name} x {1e3 * length:.0f}"
 
     def mass(self, length: float) -> float:
-        """Mass of a steel screw of this length [m], all of it thread [kg].
+        """Mass of a steel screw of this length [m], fully threaded [kg].
 
-        Head and thread as cylinders, that of the thread with its stress area (ISO 898-1, 9.1.6.1:
-        about the mean of its profile), less the socket. Within a tenth or so of makers' tables.
+        Head and thread are cylinders, less the socket; the thread has its stress area (ISO 898-1,
+        9.1.6.1: about the mean of its profile). The result is within about a tenth of makers'
+        tables.
         """
         return self._head_mass + self._thread_mass(length)
 
@@ -72,7 +73,7 @@ class Screw:
 
     @property
     def preload(self) -> float:
-        """Preload of a screw of class 8.8 that is tightened to 90 % of its yield strength [N].
+        """Preload of a class 8.8 screw tightened to 90 % of its yield strength [N].
 
         VDI 2230-1:2015, with `MU` in the thread: `0.9 R_p A_s / sqrt(1 + 3 (3/2 d_2/d_0 (P / (pi
         d_2) + 1.155 mu))^2)`, d_0 that of the stress area.
@@ -91,13 +92,13 @@ class Screw:
 
     @property
     def head_area(self) -> float:
-        """What its head presses on, around a medium clearance hole [m^2]."""
+        """Bearing area of its head around a medium clearance hole [m^2]."""
         return pi / 4.0 * (self.head_diameter**2 - self.clearance_hole**2)
 
     def slot_area(self, across: float) -> float:
-        """What a head or washer presses on beside a slot as wide as a clearance hole [m^2].
+        """Bearing area of a head or washer over a slot as wide as a clearance hole [m^2].
 
-        Disc of the head less the strip that the slot takes.
+        It is the disc of the head less the strip of the slot.
 
         Args:
             across: diameter of the head or washer [m].
@@ -131,7 +132,7 @@ class PropertyClass:
 
     Attributes:
         proof: stress under proof load [Pa]. yields: least yield strength [Pa].
-        depth: of thread in aluminium over the diameter, at least: it grows with the preload.
+        depth: least thread engagement in aluminium, in diameters, which grows with the preload.
     """
 
     proof: float
@@ -140,7 +141,7 @@ class PropertyClass:
 
 
 USUAL_CLASS = "8.8"
-"""Of screws where nothing asks for more."""
+"""Default property class of screws."""
 
 CLASSES = {
     USUAL_CLASS: PropertyClass(580e6, 640e6, 1.0),
@@ -154,12 +155,12 @@ class Fastening:
     """Equal screws of one module.
 
     Attributes:
-        screw: what they are. count: how many.
-        thickness: of what they go through [m].
-        purpose: what they hold, and what to mind.
-        depth: of their threads over their diameter, at least.
+        screw: type of screw. count: number of screws.
+        thickness: of the parts that they go through [m].
+        purpose: what they hold, with any caution.
+        depth: least thread engagement in diameters.
         strength: their property class.
-        least: by which they reach into what they are screwed in, where its maker says so [m].
+        least: least engagement in the part they are screwed into, where its maker gives one [m].
     """
 
     screw: Screw
@@ -172,7 +173,7 @@ class Fastening:
 
     @property
     def designation(self) -> str:
-        """Designation of the screw, with its class where it is not the usual one."""
+        """Designation of the screw, with its class if not the default."""
         strength = "" if self.strength == USUAL_CLASS else f" - {self.strength}"
         return self.screw.designation(self.length) + strength
 
@@ -194,14 +195,14 @@ class Fastening:
 
 
 IN_PLASTIC = 2.0
-"""Diameters of thread in a print, at least."""
+"""Least thread engagement in a printed part, in diameters."""
 
 STEEL = 7850.0
 """[kg/m^3]."""
 
 MU = 0.12
-"""Friction of plain or zinc-plated screws, a little oil (VDI 2230-1, table A5, class B: 0.08 to
-0.16)."""
+"""Friction coefficient of plain or zinc-plated screws, lightly oiled (VDI 2230-1, table A5, class
+B: 0.08 to 0.16)."""
 
 LENGTHS = (4, 5, 6, 8, 10, 12, 16, *range(20, 71, 5), *range(80, 161, 10), *range(180, 301, 20))
 """Standard lengths from 4 mm up [mm]: ISO 4762:2004, table 1."""

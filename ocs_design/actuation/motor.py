@@ -1,17 +1,18 @@
-"""A motor, its mounting and its gear, as their data sheets give them, in one convention.
+"""A motor, its mounting and its gear from their data sheets, in one convention.
 
-`Motor` has what a six-step drive sees: torque per current through two lines and the resistance
-between two lines, so that `V = R i + k_t w` holds with the voltage of the supply.
+`Motor` has the figures seen by a six-step drive: torque per line current and line-to-line
+resistance, so that `V = R i + k_t w` holds with the supply voltage.
 
-A motor's back-EMF has the amplitude E between a line and the star point. Driven by sines of
-amplitude I it takes the power 3/2 E I. Of a supply V, sines reach sqrt(3) E = V between two lines
-(space-vector modulation), so that its no-load speed is Kv V with `1 / Kv = sqrt(3) E / w`. As one
-direct current i through two lines, the same power, torque and heat come to
+A motor's back-EMF has the amplitude E between a line and the star point. Driven by sinusoidal
+currents of amplitude I, it takes the power 3/2 E I. From a supply V, sinusoidal drive reaches
+sqrt(3) E = V line to line (space-vector modulation), so the no-load speed is Kv V with `1 / Kv =
+sqrt(3) E / w`. Expressed as one direct current i through two lines, the same power, torque and heat
+give
 
     k_t = sqrt(3) E / w = 1 / Kv        3/2 E I = k_t w i, so i = sqrt(3)/2 I
     3/2 R_phase I^2 = R i^2,            so R = 2 R_phase
 
-The conventions of k_t differ by these factors of the current alone; the torque is the same.
+The conventions of k_t differ only by these factors of the current; the torque is the same.
 """
 
 import math
@@ -23,14 +24,14 @@ from ocs_design.actuation.fasteners import USUAL_CLASS, screw
 
 
 class TorqueConstantConvention(StrEnum):
-    """Which current the stated torque constant is per."""
+    """Current to which a stated torque constant refers."""
 
     SIX_STEP = "six-step"
-    """Through two lines, or of the supply at full voltage: `k_t = 30 / (pi Kv)`, 9.549/Kv."""
+    """Line current, or supply current at full voltage: `k_t = 30 / (pi Kv)`, 9.549/Kv."""
     FOC = "foc"
-    """Amplitude of a phase's sine, as field-oriented drives count it: 8.270/Kv."""
+    """Amplitude of the sinusoidal phase current, as in field-oriented drives: 8.270/Kv."""
     FOC_RMS = "foc-rms"
-    """Root mean square of a phase's sine: 11.695/Kv."""
+    """RMS of the sinusoidal phase current: 11.695/Kv."""
 
 
 class ResistanceConvention(StrEnum):
@@ -49,12 +50,12 @@ _PER_SIX_STEP = {
 
 
 def six_step_torque_constant(stated: float, convention: TorqueConstantConvention) -> float:
-    """k_t of `Motor` [N m/A] from one in that convention; see the module's text."""
+    """k_t of `Motor` [N m/A] from one in that convention; see the module's docstring."""
     return stated / _PER_SIX_STEP[convention]
 
 
 def six_step_current(stated: float, convention: TorqueConstantConvention) -> float:
-    """Current of `Motor` [A] of the same torque; that of the supply at full voltage."""
+    """Current of `Motor` [A] for the same torque; equals the supply current at full voltage."""
     return stated * _PER_SIX_STEP[convention]
 
 
@@ -64,38 +65,38 @@ def line_to_line_resistance(stated: float, between: ResistanceConvention) -> flo
 
 
 class Face(StrEnum):
-    """Face of a motor that its own threads are in."""
+    """Face of a motor that has its mounting threads."""
 
     OUTPUT = "output"
-    """The one that its shaft comes out of: flat motors, inrunners."""
+    """The side of the shaft: flat motors, inrunners."""
     BACK = "back"
-    """The other: outrunners of aircraft."""
+    """The opposite side: outrunners of aircraft."""
 
 
 BY_CONVENTION = "threads by convention"
-"""Words in `Motor.confidence`: threads are those that makers use for motors of that size."""
+"""Text in `Motor.confidence`: the threads are those that makers commonly use for that size."""
 
 
 class MotorKind(StrEnum):
-    """Which part of a motor turns, and what comes with it."""
+    """Kind of motor, by the part that turns."""
 
     OUTRUNNER = "outrunner"
-    """The bell around the stator turns: motors of aircraft, gimbals, flat motors."""
+    """The bell around the stator turns: aircraft and gimbal motors, flat motors."""
     INRUNNER = "inrunner"
-    """The rotor turns inside a housing that stands still."""
+    """The rotor turns inside a stationary housing."""
     FRAMELESS = "frameless"
     """Stator and rotor without bearings, shaft and housing."""
 
 
 class ShaftForm(StrEnum):
-    """What a wheel's hub can hold on to."""
+    """Form of the shaft, for a wheel's hub."""
 
     PLAIN = "plain"
     """A cylinder, for a clamp or a collet."""
     FLAT = "d-flat"
     """Shaft with a flat, for a set screw beside the clamp."""
     THREAD = "thread"
-    """Shaft with a thread, for a nut that presses the wheel on a shoulder."""
+    """Threaded shaft, for a nut that presses the wheel against a shoulder."""
 
 
 @dataclass(frozen=True)
@@ -103,11 +104,11 @@ class BoltCircle:
     """Threads around a motor's axis, evenly spaced.
 
     Attributes:
-        diameter: of the circle that they are on [m].
-        bolts: how many.
+        diameter: of the circle [m].
+        bolts: number of threads.
         thread: of each, such as "M3".
-        screws: property class of the screws in them.
-        depth, depth_max: by which its maker wants them in the motor, at least and at most [m].
+        screws: property class of their screws.
+        depth, depth_max: least and largest depth of engagement that the maker allows [m].
     """
 
     diameter: float
@@ -118,7 +119,7 @@ class BoltCircle:
     depth_max: float | None = None
 
     def __str__(self) -> str:
-        """Text for people, as in `4 x M3 on 25 mm`."""
+        """Text such as `4 x M3 on 25 mm`."""
         return f"{self.bolts} x {self.thread} on {1e3 * self.diameter:.4g} mm"
 
     @property
@@ -133,12 +134,12 @@ class BoltCircle:
 
     @property
     def inside(self) -> float:
-        """Radius that the holes stay outside of [m]."""
+        """Radius to the inner edge of the holes [m]."""
         return self.radius - self.hole_radius
 
     @property
     def reach(self) -> float:
-        """Radius that the holes stay within [m]."""
+        """Radius to the outer edge of the holes [m]."""
         return self.radius + self.hole_radius
 
     @property
@@ -149,16 +150,16 @@ class BoltCircle:
 
 @dataclass(frozen=True)
 class Mounting:
-    """What holds a wheel on a motor, and the motor on what stands still.
+    """Interfaces of a motor to the wheel and to its stationary mount.
 
-    None is what no source gives.
+    None means that no source gives the figure.
 
     Attributes:
-        shaft_diameter: of the shaft where it comes out of the motor on the wheel's side [m].
-        rotor: threads in what turns, on the wheel's side.
-        stator: threads in what stands still. stator_face: where they are.
-        shaft_length: by which the shaft stands out there, from the motor's face [m].
-        shaft_form: what a hub can hold on to.
+        shaft_diameter: of the shaft on the wheel's side [m].
+        rotor: threads in the rotor, on the wheel's side.
+        stator: threads in the stator. stator_face: face that they are in.
+        shaft_length: protrusion of the shaft from the motor's face on the wheel's side [m].
+        shaft_form: form of the shaft.
     """
 
     shaft_diameter: float | None = None
@@ -171,14 +172,14 @@ class Mounting:
 
 @dataclass(frozen=True)
 class GearRoom:
-    """What a stage takes between the plate behind a wheel and the motor; 0: not known.
+    """Space that a gear stage takes between the plate behind a wheel and the motor; 0: unknown.
 
     Attributes:
         depth: along the wheel's axis [m].
-        offset: of the motor's axis from the wheel's [m].
-        wheel_radius, motor_radius: of what turns with the wheel and with the motor [m]; of a stage
-            on one axis the same.
-        center: of its mass, from the wheel's axis towards the motor's [m].
+        offset: distance of the motor's axis from the wheel's [m].
+        wheel_radius, motor_radius: of the parts that turn with the wheel and with the motor [m];
+            equal for a coaxial stage.
+        center: centre of its mass, from the wheel's axis towards the motor's [m].
     """
 
     depth: float = 0.0
@@ -190,19 +191,19 @@ class GearRoom:
 
 @dataclass(frozen=True)
 class Gear:
-    """One stage with a fixed ratio; a stage that may have any ratio is one `Gear` per ratio.
+    """One stage with a fixed ratio; a stage with several ratios is one `Gear` per ratio.
 
     Attributes:
         name: in the catalogue; "direct" for none.
         ratio: N, motor speed over wheel speed; below 1 the wheel turns faster than the motor.
-        efficiency: of the torque, 0..1, taken as a loss in both directions.
+        efficiency: of the torque, 0..1, counted as a loss in both directions.
         mass: of the whole stage [kg].
         inertia: of its turning parts, seen at the wheel [kg m^2].
         motor_speed_max, wheel_speed_max: of its input and its output [rad/s]; inf: not limited.
         torque_max: at its output, short-term [N m]; inf: not limited.
-        reverses: whether the wheel turns against the motor, as behind a pair of spur gears.
-        source: where the figures come from.
-        room: that it takes; None: there is no gear.
+        reverses: whether the wheel turns against the motor, as with a pair of spur gears.
+        source: source of the figures.
+        room: space that it takes; None: no gear.
     """
 
     name: str
@@ -231,41 +232,42 @@ DIRECT = Gear(
     source="the wheel sits on the motor's shaft",
     room=None,
 )
-"""No gear."""
+"""Direct drive, without a gear."""
 
 
 @dataclass(frozen=True)
 class Motor:
-    """A brushless motor, as one equivalent DC motor: `V = R i + k_t w` (docs/theory.md, The motor).
+    """A brushless motor as an equivalent DC motor: `V = R i + k_t w` (docs/theory.md, The motor).
 
-    None is what its source does not give.
+    None means that its source does not give the figure.
 
     Attributes:
         name: in the catalogue, unique. maker: of the motor.
         mass: [kg]. diameter, length: of its body [m].
-        torque_constant: k_t, torque per current and voltage per speed between two lines (six-step
+        torque_constant: k_t, torque per current and voltage per speed, line to line (six-step
             commutation) [N m/A].
-        resistance: between two lines [ohm].
-        rated_voltage: at which the figures hold, or the highest of the maker's range [V].
-        no_load_speed: stated, at the rated voltage [rad/s].
-        speed_max: highest that bearings and rotor stand, if stated [rad/s].
+        resistance: line to line [ohm].
+        rated_voltage: voltage at which the figures hold, or the highest of the maker's range [V].
+        no_load_speed: as stated, at the rated voltage [rad/s].
+        speed_max: highest speed for bearings and rotor, if stated [rad/s].
         peak_torque: at the highest short-term current [N m].
         peak_current: of the supply line, in the same convention [A].
-        continuous_torque: that the winding stands for good [N m].
+        continuous_torque: thermally sustainable torque of the winding [N m].
         rotor_inertia: [kg m^2].
-        source: where the figures come from. confidence: good, second-hand, ...
-        peak_basis: what `peak_torque` rests on: the maker's peak torque, k_t times its peak
-            current, or the stall torque of its data sheet.
-        remark: what a reader of the figures must know.
+        source: source of the figures. confidence: good, second-hand, ...
+        peak_basis: basis of `peak_torque`: the maker's peak torque, k_t times its peak current, or
+            the stall torque of its data sheet.
+        remark: note on the figures.
         mounting: shaft and threads, if any of them is known.
-        no_load_current: that it draws turning freely, at the rated voltage [A].
-        saturation_torque: above which k_t falls off [N m]; no bound on the torque, for the maker's
-            peak torque is measured with it.
-        kind: which part turns.
-        voltage_max: highest supply that the maker allows, if it is not the rated one [V].
-        rotor_inertia_source: empty: the source's own; else the estimate and its spread.
+        no_load_current: drawn when turning freely at the rated voltage [A].
+        saturation_torque: torque above which k_t decreases [N m]; not a limit of the torque, as the
+            maker's peak torque is measured with saturation.
+        kind: kind of motor.
+        voltage_max: highest supply voltage that the maker allows, if not the rated one [V].
+        rotor_inertia_source: empty: the source's own figure; otherwise the estimate and its
+            uncertainty.
         continuous_torque_source: the same of the continuous torque.
-        controller_mass: of the controller that comes with it [kg].
+        controller_mass: of the controller supplied with it [kg].
     """
 
     name: str
@@ -300,23 +302,23 @@ INERTIA_SHARE = {
     MotorKind.OUTRUNNER: (0.050, 0.085),
     MotorKind.FRAMELESS: (0.018, 0.028),
 }
-"""Rotor inertia over mass times diameter squared, least and most of the motors where it is known.
+"""Range of rotor inertia over mass times diameter squared, for motors where it is known.
 
 A thin bell with half of an outrunner's mass at 0.4 of its diameter would have 0.08. The catalogue's
-tests hold every known row within; docs/catalogue.md, Rotor inertia.
+tests check that every known row lies within; see docs/catalogue.md, Rotor inertia.
 """
 
 
 def estimated_rotor_inertia(
     kind: MotorKind | None, mass: float | None, diameter: float | None
 ) -> tuple[float | None, str]:
-    """Least rotor inertia of a motor of that kind, mass [kg] and diameter [m], and how it is known.
+    """Least rotor inertia of a motor of that kind, mass [kg] and diameter [m], and its basis.
 
-    The least, `INERTIA_SHARE` m D^2, is the safe side where the rotor turns with the wheel: the
-    wheel makes up for what is missing.
+    The least, `INERTIA_SHARE` m D^2, is conservative where the rotor turns with the wheel: the
+    wheel makes up for the rest.
 
-    Returns:
-        [kg m^2], and a text that names the estimate; None and no text where it cannot be told.
+    Returns: The inertia [kg m^2] and a text that names the estimate; None and an empty text if
+    unknown.
     """
     share = None if kind is None else INERTIA_SHARE.get(kind)
     if share is None or mass is None or diameter is None:
@@ -328,17 +330,19 @@ def estimated_rotor_inertia(
 
 
 CONVECTION = 10.0
-"""Heat that leaves a motor's surface in still air, radiation included [W/(m^2 K)].
+"""Heat transfer coefficient of a motor's surface in still air, with radiation [W/(m^2 K)].
 
-Free convection of gases gives 2 to 25 (Incropera, Fundamentals of Heat and Mass Transfer,
-table 1.1). Continuous torques of the catalogue's rows ask for 10 and more.
+Free convection of gases gives 2 to 25 (Incropera, Fundamentals of Heat and Mass Transfer, table
+1.1). Continuous torques of the catalogue's rows imply 10 and more.
 """
 
 TEMPERATURE_RISE = 75.0
-"""Rise of the winding above air of 25 degrees [K]; insulation of class B stands 130 (IEC 60085)."""
+"""Temperature rise of the winding above air at 25 degrees C [K]; insulation class B allows 130
+degrees C (IEC 60085)."""
 
 COPPER_COEFFICIENT = 0.00393
-"""Change of copper's resistance per degree, over that at 20 degrees [1/K] (IEC 60028)."""
+"""Temperature coefficient of copper's resistance, relative to that at 20 degrees C [1/K] (IEC
+60028)."""
 
 
 def estimated_continuous_torque(
@@ -347,12 +351,12 @@ def estimated_continuous_torque(
     diameter: float | None,
     length: float | None,
 ) -> tuple[float | None, str]:
-    """Torque that a motor's own surface keeps cool [N m], and how it is known.
+    """Torque whose heat a motor's own surface can dissipate [N m], and its basis.
 
     `R (1 + a dT) i^2 = h A dT` with the surface A of its body: a cylinder and both ends.
 
     Args:
-        torque_constant: [N m/A]. resistance: between two lines, cold [ohm].
+        torque_constant: [N m/A]. resistance: line to line, cold [ohm].
         diameter, length: of its body [m].
     """
     if torque_constant is None or resistance is None or diameter is None or length is None:
@@ -367,9 +371,9 @@ def estimated_continuous_torque(
 
 
 def build_gaps(motor: Motor) -> tuple[str, ...]:
-    """Figures that anybody who builds with this motor needs and that are missing, in plain words.
+    """Names of missing data that are needed to build with this motor.
 
-    How it is held and how it holds a wheel, its size, winding, limits, rotor inertia and heat.
+    They cover its mounting and the wheel's, its size, winding, limits, rotor inertia and heat.
     """
     mounting = motor.mounting or Mounting()
     shaft = mounting.shaft_diameter, mounting.shaft_length

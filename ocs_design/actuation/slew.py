@@ -1,10 +1,10 @@
-"""The quickest slew of a wheel: how long it takes, and the speed and torque that it peaks at.
+"""The quickest slew of a wheel: its duration, peak speed and peak torque.
 
-A wheel starts at rest relative to the trunk. Its motor accelerates the reduced inertia I_red on
-min(tau_L, tau_s (1 - W / w_0)), holds it at the highest speed if it gets there, brakes with
+A wheel starts at rest relative to the trunk. Its motor accelerates the reduced inertia I_red with
+the torque min(tau_L, tau_s (1 - W / w_0)), holds the highest speed if it is reached, brakes with
 min(tau_L, tau_s (1 + W / w_0)), full reverse voltage within the current limit, and ends at the
-speed W_f. What counts is the wheel's angle beyond W_f: phi, the integral of (W - W_f) over time
-(docs/theory.md, What a motor can do).
+speed W_f. The relevant quantity is the wheel's angle beyond W_f: phi, the integral of (W - W_f)
+over time (docs/theory.md, What a motor can do).
 
 All functions take arrays that broadcast, with those of the line too.
 
@@ -33,8 +33,9 @@ def slew_time(
     """Least time in which the wheel turns by `phi` beyond its final speed [s]; inf: never.
 
     Args:
-        phi: integral of the wheel's speed over its final speed [rad], at least 0.
-        reduced_inertia: I_red, what the motor accelerates while the trunk gives way [kg m^2].
+        phi: integral of the wheel's speed in excess of its final speed [rad], at least 0.
+        reduced_inertia: I_red, effective inertia that the motor accelerates on the free trunk [kg
+            m^2].
         line: of the drive at the wheel.
         final_speed: W_f [rad/s], at least 0.
     """
@@ -42,7 +43,7 @@ def slew_time(
     final = np.asarray(final_speed) / drive.no_load_speed
     excess = np.asarray(phi) / (drive.no_load_speed * unit)
     excess, final = np.broadcast_arrays(excess, final)
-    # A supply whose power the friction takes whole leaves no torque.
+    # Where friction takes all of the supply's power, no torque is left.
     moves = (drive.torque > 0.0) | ((excess == 0.0) & (final == 0.0))
     possible = (final < drive.highest) & np.isfinite(excess) & moves
     time = quickest_time(drive, np.where(possible, excess, 0.0), np.where(possible, final, 0.0))
@@ -52,7 +53,7 @@ def slew_time(
 def in_units(line: DriveLine, reduced_inertia: ArrayLike) -> tuple[UnitDrive, FloatArray]:
     """The shape of the drive, and its unit of time T_0 = I_red w_0 / a_0 [s].
 
-    Without torque that of 1 N m, which nothing lasts.
+    Without torque, the unit is that of 1 N m, and is not used.
     """
     drive = UnitDrive.of(line)
     torque = positive(drive.torque)
@@ -61,13 +62,13 @@ def in_units(line: DriveLine, reduced_inertia: ArrayLike) -> tuple[UnitDrive, Fl
 
 @dataclass(frozen=True, eq=False)
 class SlewProfile:
-    """Course of the quickest slew from rest; arrays of one shape, NaN where it cannot be done.
+    """Profile of the quickest slew from rest; arrays of one shape, NaN where infeasible.
 
     Attributes:
-        brake_from, end: times [s].
+        brake_from, end: times of the start of braking and of the end [s].
         peak_speed: of the wheel [rad/s].
-        peak_torque: of the motor at the wheel, at the start or as it begins to brake [N m]: a
-            torque falls with the speed while it pushes and rises with it while it brakes.
+        peak_torque: of the motor at the wheel, at the start or where braking starts [N m]: the
+            torque falls with speed while accelerating and rises with it while braking.
     """
 
     brake_from: FloatArray

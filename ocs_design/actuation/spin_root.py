@@ -1,14 +1,14 @@
-"""The root behind the smallest spin inertia: h with which the busiest wheel is in time.
+"""Root finding for the smallest spin inertia h with which the busiest wheel is in time.
 
-Within the time T a wheel of spin inertia h turns by at most Phi(h), ending at its final speed
-W_f = momentum / h, and sweeps M(h) = h Phi. It must sweep phi(P) + phi(L) T (`wheel_load`), the
-excess and what the final speed itself sweeps. From `dA/dt = x` (`unit_drive`) the slope is exact,
+Within the time T a wheel of spin inertia h turns by at most Phi(h), ending at its final speed W_f =
+momentum / h, and sweeps M(h) = h Phi. It must sweep phi(P) + phi(L) T (`wheel_load`), the excess
+plus the sweep of the final speed itself. From `dA/dt = x` (`unit_drive`) the slope is exact,
 
     dM/dh = Phi + h w_0 T_0 (A - x t) (1 - 2 kappa h) / I_red - w_0 T_0 f (x - f) / b(f).
 
-1/M over 1/h bends upwards from its level of full torque to its slope of full speed, so that
-Newton's method on it climbs from the least h that speed alone would need without overshooting, to
-the smallest root. It is fenced in all the same, by the largest h below and the smallest above.
+1/M as a function of 1/h is convex, from its level at full torque to its slope at full speed, so
+Newton's method on it climbs, without overshooting, from the least h that speed alone would need to
+the smallest root. It is bracketed nevertheless, by the largest h below and the smallest above.
 """
 
 from collections.abc import Sequence
@@ -30,22 +30,22 @@ from ocs_design.common.arrays import FloatArray, Table
 
 _STEPS = 80
 _DIGITS = 1e-14
-# Lanes that are worked on at once: few enough for the processor's cache.
+# Number of lanes processed at once: few enough for the processor's cache.
 _BLOCK = 32768
 
 
 @dataclass(frozen=True, eq=False)
 class SweepDemand(Table):
-    """What the busiest wheel must do; all fields broadcast.
+    """Demand on the busiest wheel; all fields broadcast.
 
     Attributes:
-        sweep: momentum over time that must pass it [N m s^2]; inf: out of reach.
+        sweep: time integral of its momentum [N m s^2]; inf: out of reach.
         momentum: left in it at the end [N m s].
         duration: T [s].
         coupling: kappa [1 / (kg m^2)].
         armature: I_m - h [kg m^2].
         least: smallest spin inertia to consider [kg m^2].
-        drive: of each wheel.
+        drive: drive of each wheel.
     """
 
     sweep: FloatArray
@@ -58,7 +58,7 @@ class SweepDemand(Table):
 
 
 class Capability(NamedTuple):
-    """What a wheel of a spin inertia does in the time of their demand.
+    """Capability of a wheel of a spin inertia within the time of the demand.
 
     Attributes:
         sweep: M [N m s^2].
@@ -70,9 +70,9 @@ class Capability(NamedTuple):
 
 
 def capability(demand: SweepDemand, spin_inertia: FloatArray) -> Capability:
-    """What wheels of that spin inertia sweep; see the module's text.
+    """Sweep of wheels of that spin inertia; see the module's docstring.
 
-    Where the final speed is out of reach within the time, they accelerate all the time.
+    Where the final speed cannot be reached in time, they accelerate all the time.
     """
     h, drive = spin_inertia, demand.drive
     reduced = h + demand.armature - demand.coupling * h**2
@@ -91,14 +91,14 @@ def capability(demand: SweepDemand, spin_inertia: FloatArray) -> Capability:
 
 
 def newton_step(demand: SweepDemand, spin_inertia: FloatArray, can: Capability) -> FloatArray:
-    """Newton's step of 1/M over 1/h [kg m^2]; inf where it would have to go beyond every h.
+    """Newton step of 1/M over 1/h [kg m^2]; inf where it would go beyond every h.
 
     Args:
         demand: to be met.
         spin_inertia: h where it is tried [kg m^2].
         can: what wheels of that spin inertia do.
     """
-    # Where nothing is to be swept the lack is infinitely negative, and the step leads to zero.
+    # Where nothing is to be swept, the lack is minus infinity, and the step leads to zero.
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         lack = can.sweep * (1.0 - can.sweep / demand.sweep)
         gain = lack / (can.slope * spin_inertia)
@@ -109,7 +109,7 @@ def newton_step(demand: SweepDemand, spin_inertia: FloatArray, can: Capability) 
 def smallest_roots(demands: Sequence[SweepDemand]) -> list[FloatArray]:
     """The smallest spin inertia that meets each demand [kg m^2]; inf where none does.
 
-    All are looked for at once, as a call of numpy costs more than its work on few.
+    All are solved at once: for few demands, a NumPy call costs more than its work.
     """
     of_drive = [field.name for field in fields(UnitDrive)]
     own = [field.name for field in fields(SweepDemand) if field.name != "drive"]
@@ -158,13 +158,13 @@ def _roots(demand: SweepDemand) -> FloatArray:
 
 @dataclass(frozen=True, eq=False)
 class _Search(Table):
-    """Demands that are not met yet, one lane each.
+    """Demands that are not solved yet, one lane each.
 
     Attributes:
-        lane: place of each in the answer. demand: of each.
-        h: to be tried. low: largest known to be too small, or the start.
-        high: smallest known to do, or the top. top: largest allowed.
-        found: whether any h is known to do.
+        lane: index of each in the answer. demand: of each.
+        h: value to try. low: largest known to be too small, or the start.
+        high: smallest known to suffice, or the top. top: largest allowed.
+        found: whether any h is known to suffice.
     """
 
     lane: NDArray[np.intp]
@@ -176,7 +176,7 @@ class _Search(Table):
     found: NDArray[np.bool_]
 
     def advance(self, answer: FloatArray) -> "_Search":
-        """Try h, write what is solved or impossible into `answer`, and keep the rest."""
+        """Try h, write solved lanes into `answer`, and keep the undecided ones."""
         can = capability(self.demand, self.h)
         enough = can.sweep >= self.demand.sweep
         low, high = np.where(enough, self.low, self.h), np.where(enough, self.h, self.high)
@@ -184,7 +184,8 @@ class _Search(Table):
         newton = newton_step(self.demand, self.h, can)
         inside = (newton > low) & (newton < high)
         following = np.where(found & ~inside, np.sqrt(low * high), np.minimum(newton, self.top))
-        # Nothing below the start is looked for; and where the fence closes, its upper end does.
+        # Nothing below the start is considered; where the bracket closes, its upper end is the
+        # root.
         closed = (enough & (self.h <= low)) | (found & (high - low <= _DIGITS * high))
         solved = closed | (np.abs(newton - self.h) <= _DIGITS * self.h)
         answer[self.lane[solved]] = np.where(closed, high, newton)[solved]

@@ -6,7 +6,7 @@ from math import inf
 
 @dataclass(frozen=True)
 class Supply:
-    """A battery or a power supply, which gives and takes back no more than this.
+    """A battery or power supply, with limits on what it delivers and accepts back.
 
     Attributes:
         voltage: [V].
@@ -25,5 +25,5 @@ class Supply:
 
     @property
     def told(self) -> "Supply":
-        """Supply with both limits as figures, for records that have no infinity."""
+        """The supply with both limits made explicit, for records."""
         return replace(self, current_max=self.power / self.voltage, power_max=self.power)

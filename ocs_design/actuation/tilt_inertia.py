@@ -1,12 +1,12 @@
-"""The inertia about roll and pitch of a body whose heading is left to itself.
+"""Inertia about roll and pitch of a body whose heading is free.
 
-Two wheels with horizontal axes command no yaw, and at zero momentum yaw follows roll and pitch
-(docs/theory.md, Heading drift). Eliminated, it leaves the coupling of roll and pitch
+Two wheels with horizontal axes cannot command yaw, and at zero momentum yaw follows roll and pitch
+(docs/theory.md, Heading drift). Eliminating it leaves the coupling of roll and pitch
 
     J_xy = I_xy - I_xz I_yz / I_zz
 
-and takes I_xz^2 / I_zz and I_yz^2 / I_zz off I_xx and I_yy, which is left out: no turn about one
-axis is asked for less than it takes (docs/theory.md, Two wheels on a trunk).
+and reduces I_xx and I_yy by I_xz^2 / I_zz and I_yz^2 / I_zz, which is neglected: that is
+conservative for a turn about one axis (docs/theory.md, Two wheels on a trunk).
 """
 
 from typing import NamedTuple
@@ -17,11 +17,11 @@ from numpy.typing import ArrayLike, NDArray
 from ocs_design.common.arrays import FloatArray
 
 OUT_OF_REACH = 1e-9
-"""Sine or cosine of an incidence below which the wheels do not reach an axis; cos(pi/2) is 6e-17.
+"""Sine or cosine of an incidence below which the wheels do not control an axis; cos(pi/2) is 6e-17.
 """
 
 STRAY_MAX = float(np.radians(1.0))
-"""Largest angle off level about an axis that the wheels do not reach, at a turn's end [rad]."""
+"""Largest angle off level at a turn's end about an axis that the wheels do not control [rad]."""
 
 
 class TiltInertia(NamedTuple):
@@ -29,7 +29,7 @@ class TiltInertia(NamedTuple):
 
     Attributes:
         diagonal: I_xx and I_yy [kg m^2], shape (..., 2).
-        product: J_xy, the element of the tensor off its diagonal [kg m^2], shape (...).
+        product: J_xy, off-diagonal element of the tensor [kg m^2], shape (...).
     """
 
     diagonal: FloatArray
@@ -55,7 +55,7 @@ class TiltInertia(NamedTuple):
         )
 
     def momentum(self, rate: FloatArray) -> FloatArray:
-        """Momentum about roll and pitch at these rates of them [N m s], shape (..., 2)."""
+        """Momentum about roll and pitch at these rates [N m s], shape (..., 2)."""
         across = self.product[..., None] * rate[..., ::-1]
         return np.asarray(self.diagonal * rate + across)
 
@@ -66,27 +66,27 @@ class TiltInertia(NamedTuple):
 
     @property
     def drift(self) -> FloatArray:
-        """Roll per pitch and pitch per roll of a body that nothing holds there, shape (..., 2)."""
+        """Roll per pitch and pitch per roll of a body free about that axis, shape (..., 2)."""
         return np.asarray(np.abs(self.product)[..., None] / self.diagonal)
 
     def strays(self, stray: float) -> NDArray[np.bool_]:
-        """Whether a turn ends off level about an axis that nothing holds, shape (..., 2).
+        """Whether a turn ends off level about an uncontrolled axis, shape (..., 2).
 
         Args:
-            stray: by how much it ends off level, per drift [rad].
+            stray: angle off level at the end, per unit of drift [rad].
         """
         return np.asarray(self.drift * stray > STRAY_MAX)
 
     def within_reach(self, shares: FloatArray, stray: float) -> "TiltInertia":
-        """What wheels turn that leave an axis they do not reach to itself, as they leave yaw.
+        """Inertia to be turned by wheels that leave an uncontrolled axis free, like yaw.
 
-        The body then drifts about that axis by J_xy over its inertia; what is turned about the
-        other one is less by J_xy^2 over it. Where a turn `strays` the coupling stays: it asks for
-        momentum that these wheels cannot take.
+        The body then drifts about that axis by J_xy over its inertia, and the inertia about the
+        other one is reduced by J_xy^2 over it. Where a turn `strays`, the coupling stays: it
+        requires momentum that these wheels cannot absorb.
 
         Args:
-            shares: of a wheel's momentum on roll and on pitch, shape (..., 2).
-            stray: by how much a turn ends off level, per drift [rad].
+            shares: components of a wheel's axis about roll and pitch, shape (..., 2).
+            stray: angle off level at a turn's end, per unit of drift [rad].
         """
         blind = shares <= OUT_OF_REACH
         if not blind.any():

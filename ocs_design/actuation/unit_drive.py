@@ -1,4 +1,4 @@
-"""A drive in its own units, and the farthest and quickest slews in these units.
+"""A drive in normalised units, and the farthest and quickest slews in these units.
 
 Speeds x are in units of w_0, torques in units of a_0 = min(tau_L, tau_s), the torque at rest. With
 lam = tau_L / tau_s,
@@ -10,23 +10,23 @@ The current limits the acceleration up to x_c = 1 - l, and the braking from x_b 
 
 Times are in units of T_0 = I_red w_0 / a_0, wheel angles in units of w_0 T_0, so that dx/dt = a(x)
 up and -b(x) down. Up to the peak x the wheel takes the time r + l z: first r = min(x, x_c) at the
-current limit, then l z on the voltage line, x = x_c + l (1 - e^-z).
-Then it may coast, at its cap, and it brakes to the final speed f. z is what is solved for: close to
-w_0 it tells speeds apart that x cannot.
+current limit, then l z on the voltage-limited line, x = x_c + l (1 - e^-z). Then it may coast, at
+its cap, and brakes to the final speed f. The unknown is z: close to w_0 it resolves speeds that x
+cannot.
 
-A supply gives no more than the power p, in units of tau_s w_0: a current j, in units of that at
-stall, takes j^2 + x j to speed a wheel up, and x j - j^2 comes back as it slows down. At p itself,
-with c = sqrt(p),
+A supply delivers at most the power p, in units of tau_s w_0: a current j, in units of that at
+stall, draws j^2 + x j to accelerate a wheel, and returns x j - j^2 as it slows down. At the limit
+p, with c = sqrt(p),
 
     up    x = 2 c sinh u   j = c e^-u   dt = l (e^2u + 1) du   t = l (e^2u / 2 + u)
     down  x = 2 c cosh u   j = c e^-u   dt = l (e^2u - 1) du   t = l (e^2u / 2 - u)
 
-and either way the angle is l c (e^3u / 3 + e^-u). Up that holds where p < l, from p / l - l to
-where the line takes over at 1 - p, and down from p / k + k, with k the current limit. At rest the
-power is all heat: a current above c is not used at all.
+and in both cases the angle is l c (e^3u / 3 + e^-u). Accelerating, this applies where p < l, from p
+/ l - l to where the line takes over at 1 - p; braking, from p / k + k upwards, with k the current
+limit. At rest the power is all heat, so a current above c is never used.
 
-With A the largest angle within the time t, dA/dt = x: a little more time is a little more time at
-the peak. So A is convex in t, and Newton's method finds the time for an angle from any start.
+With A the largest angle within the time t, dA/dt = x: a little more time is spent at the peak. So A
+is convex in t, and Newton's method finds the time for an angle from any start.
 """
 
 from dataclasses import dataclass, fields
@@ -40,7 +40,7 @@ from scipy.special import wrightomega
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.arrays import FloatArray, Table
 
-# Below this the series is used; above it the cancellation costs less than one digit.
+# Below this a series is used; above it, cancellation costs less than one digit.
 _SMALL = 0.3
 _EXP_TERMS = tuple(1.0 / n for n in range(13, 2, -1))
 _LOG_TERMS = tuple(1.0 / n for n in range(19, 1, -2))
@@ -66,7 +66,7 @@ def log_remainder(y: FloatArray) -> FloatArray:
     return np.where(y < _SMALL, ratio * (small - 2.0 * series), y - np.log1p(y))
 
 
-# Stands for a torque without limit: its square is finite, and its times are zero to all digits.
+# Represents an unlimited torque: its square is finite, and its times are zero to all digits.
 _UNLIMITED = 1e100
 
 
@@ -76,10 +76,11 @@ class UnitDrive(Table):
 
     Attributes:
         no_load_speed: w_0, the unit of speed [rad/s].
-        torque: a_0, the unit of torque [N m]; 0: nothing moves, and the rest is of no use.
-        knee: l, of the torque at rest over that of the voltage line, 0..1; 0: no line.
-        brake: q, of the torque at rest over the current limit, 0..1; 0: no current limit.
-        clamp: x_b, from which up the current limits the braking; 1 at most, as every peak.
+        torque: a_0, the unit of torque [N m]; 0: nothing moves, and the other fields are
+            meaningless.
+        knee: l, ratio of the torque at rest to tau_s, 0..1; 0: no line.
+        brake: q, ratio of the torque at rest to the current limit, 0..1; 0: no current limit.
+        clamp: x_b, above which the current limits the braking; at most 1, like every peak.
         cap: highest speed [w_0]; at most 1 without a line, inf: not limited below 1.
         power: p [tau_s w_0]; inf: not limited, as without a line.
     """
@@ -101,7 +102,7 @@ class UnitDrive(Table):
         with np.errstate(invalid="ignore"):
             power = np.where(np.isinf(stall), np.inf, line.power_max / (stall * speed))
             limit = np.where(np.isfinite(power), np.minimum(limit, np.sqrt(power) * stall), limit)
-        # Without any torque, as where friction takes all the power, the shape is of no use.
+        # Without torque, as where friction takes all the power, the shape is meaningless.
         endless = np.isinf(stall) | (limit == 0.0)
         power = np.where(endless, np.inf, power)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -120,24 +121,24 @@ class UnitDrive(Table):
 
     @property
     def highest(self) -> FloatArray:
-        """Speed that no slew exceeds [w_0]."""
+        """Upper bound of the speed of any slew [w_0]."""
         return np.minimum(self.cap, 1.0)
 
     @cached_property
     def end_of_limit(self) -> FloatArray:
-        """x_c, up to which the current limits the acceleration."""
+        """x_c, below which the current limits the acceleration."""
         limited = self.power < self.knee
         by_power = np.where(limited, self.power, 0.0) / positive(self.knee) - self.knee
         return np.where(limited, by_power, 1.0 - self.knee)
 
     @cached_property
     def spare(self) -> FloatArray:
-        """1 - x where the voltage line takes over."""
+        """1 - x at the point where the voltage-limited line takes over."""
         return np.minimum(self.power, self.knee)
 
     @cached_property
     def regenerating(self) -> FloatArray:
-        """Speed from which up the supply limits the braking [w_0]; inf: nowhere."""
+        """Speed above which the supply limits the braking [w_0]; inf: nowhere."""
         finite = np.isfinite(self.power)
         current = self.knee / positive(self.brake)
         limited = np.where(finite, self.power, 0.0) / positive(current) + current
@@ -145,24 +146,25 @@ class UnitDrive(Table):
 
     @cached_property
     def entry(self) -> FloatArray:
-        """w + e^w, w = 2u, where the limit of power takes over; 1 where none is felt."""
+        """w + e^w, w = 2u, where the power limit takes over; 1 where it has no effect."""
         first = np.arcsinh(self.end_of_limit / (2.0 * self.current))
         return np.where(self.power < self.knee, np.exp(2.0 * first) + 2.0 * first, 1.0)
 
     @cached_property
     def to_line(self) -> FloatArray:
-        """Time from rest to where the voltage line takes over from the limit of power [T_0]."""
+        """Time from rest to where the voltage-limited line takes over from the power limit
+        [T_0]."""
         begin = self.end_of_limit
         gain = np.maximum(1.0 - self.spare - begin, 0.0)
         return rise_sweep(self, Rise(begin, gain, 0.0 * begin)).time
 
     @cached_property
     def current(self) -> FloatArray:
-        """c, whose heat takes all the power; 1 where no power is limited."""
+        """c, current whose heat takes all the power; 1 without a power limit."""
         return np.sqrt(np.where(np.isfinite(self.power), self.power, 1.0))
 
     def accelerating(self, speed: FloatArray) -> FloatArray:
-        """a(x) [a_0]."""
+        """Torque while accelerating, a(x) [a_0]."""
         c, knee = self.current, positive(self.knee)
         on_line = np.where(speed > 1.0 - self.spare, (1.0 - speed) / knee, 1.0)
         by_power = 2.0 * c**2 / (speed + np.sqrt(speed**2 + 4.0 * c**2)) / knee
@@ -170,7 +172,7 @@ class UnitDrive(Table):
         return np.where(felt, np.minimum(by_power, on_line), on_line)
 
     def braking(self, speed: FloatArray) -> FloatArray:
-        """b(x), positive [a_0]."""
+        """Braking torque b(x), positive [a_0]."""
         c, knee = self.current, positive(self.knee)
         reverse = (1.0 + speed) / knee
         braked = np.where(speed < self.clamp, reverse, 1.0 / positive(self.brake))
@@ -184,13 +186,13 @@ def positive(value: FloatArray) -> FloatArray:
     return np.where(value > 0.0, value, 1.0)
 
 
-# Newton's steps: six and four bring every digit, whatever the drive. More cannot mend the rounding
-# where the peak is hardly above the final speed.
+# Newton steps: six and four give all digits for any drive. More cannot reduce the rounding error
+# where the peak is barely above the final speed.
 _TIME_STEPS = 8
 _LINE_STEPS = 4
 _POWER_STEPS = 12
 _DIGITS = 1e-13
-# Of a last step of Newton's method, whose own error is its square.
+# Relative size of the last Newton step; the remaining error is its square.
 _LAST_STEP = 1e-8
 
 
@@ -198,9 +200,9 @@ class Rise(NamedTuple):
     """An acceleration from rest.
 
     Attributes:
-        ramp: r, at the current limit [T_0].
-        gain: of speed at the limit of power [w_0].
-        line: z, on the voltage line [l T_0].
+        ramp: r, time at the current limit [T_0].
+        gain: gain of speed at the power limit [w_0].
+        line: z, time on the voltage-limited line [l T_0].
     """
 
     ramp: FloatArray
@@ -209,7 +211,7 @@ class Rise(NamedTuple):
 
 
 class Sweep(NamedTuple):
-    """What a part of a slew takes.
+    """Duration and angle of a part of a slew.
 
     Attributes:
         time: [T_0].
@@ -224,10 +226,9 @@ class UnitSlew(NamedTuple):
     """A slew from rest to its final speed.
 
     Attributes:
-        rise: up to the peak.
-        peak: x [w_0].
-        coast: at the cap [T_0].
-        angle: of the wheel, all in all [w_0 T_0].
+        rise: up to the peak. peak: x [w_0].
+        coast: time at the cap [T_0].
+        angle: total angle of the wheel [w_0 T_0].
     """
 
     rise: Rise
@@ -254,10 +255,10 @@ def rise_sweep(drive: UnitDrive, rise: Rise) -> Sweep:
 
 
 def _powered_sweep(drive: UnitDrive, first: FloatArray, last: FloatArray, sense: float) -> Sweep:
-    """Sweep at the limit of power from one u to another; `sense` is 1 up and -1 down."""
+    """Sweep at the power limit from one u to another; `sense` is 1 up and -1 down."""
 
     def reached(u: FloatArray) -> Sweep:
-        """Sweep since u = 0, but for a constant."""
+        """Sweep since u = 0, up to a constant."""
         grown = np.exp(u)
         return Sweep(grown**2 / 2.0 + sense * u, drive.current * (grown**3 / 3.0 + 1.0 / grown))
 
@@ -270,7 +271,7 @@ def _powered_sweep(drive: UnitDrive, first: FloatArray, last: FloatArray, sense:
 
 
 def brake_sweep(drive: UnitDrive, peak: FloatArray, final: FloatArray) -> Sweep:
-    """Braking from the peak to the final speed: within the power, the current, then the voltage."""
+    """Braking from peak to final speed, limited by the power, the current, then the voltage."""
     top = np.minimum(np.maximum(drive.regenerating, final), peak)
     c, fed_back = 2.0 * drive.current, peak > top
     first, last = (np.arccosh(np.maximum(speed / c, 1.0)) for speed in (top, peak))
@@ -291,7 +292,7 @@ def rise_for(drive: UnitDrive, time: FloatArray) -> Rise:
     begin, knee = drive.end_of_limit, positive(drive.knee)
     ramp = np.minimum(time, begin)
     limited = drive.power < drive.knee
-    # At the limit of power e^w + w = 2 t / l with w = 2u, so that e^w is Wright's omega of it.
+    # At the power limit e^w + w = 2 t / l with w = 2u, so that e^w is the Wright omega of it.
     asked = drive.entry + np.where(limited, 2.0 * (time - ramp) / knee, 0.0)
     grown = np.sqrt(wrightomega(np.minimum(asked, _UNLIMITED)))
     gain = drive.current * (grown - 1.0 / grown) - begin
@@ -302,7 +303,7 @@ def rise_for(drive: UnitDrive, time: FloatArray) -> Rise:
 
 
 def rise_to(drive: UnitDrive, speed: FloatArray) -> Rise:
-    """Rise to `speed` [w_0]; an endless line phase where that is not below 1."""
+    """Rise to `speed` [w_0]; an infinite line phase where that is not below 1."""
     begin, spare = drive.end_of_limit, drive.spare
     ramp = np.minimum(speed, begin)
     gain = np.where(drive.power < drive.knee, np.minimum(speed, 1.0 - spare) - ramp, 0.0)
@@ -312,16 +313,16 @@ def rise_to(drive: UnitDrive, speed: FloatArray) -> Rise:
 
 
 def farthest_slew(drive: UnitDrive, time: FloatArray, final: FloatArray) -> UnitSlew:
-    """How to turn the wheel farthest in `time` [T_0], ending at `final` [w_0].
+    """Slew that turns the wheel farthest in `time` [T_0], ending at `final` [w_0].
 
-    The time must be enough to get to the final speed at all.
+    The time must suffice to reach the final speed.
     """
     capped = rise_to(drive, drive.cap)
     ramp = np.minimum((time + final) / 2.0, drive.end_of_limit)
     line = np.where(time + final > 2.0 * drive.end_of_limit, _line_phase(drive, time, final), 0.0)
     rise = Rise(ramp, np.zeros_like(ramp), line)
     beyond = np.isfinite(time) & (time + final > 2.0 * drive.end_of_limit)
-    # What limits only the braking from a higher peak is not felt.
+    # A limit that applies only to braking from a higher peak has no effect.
     limited = (drive.power < drive.knee) | (risen_speed(drive, rise) > drive.regenerating)
     felt = limited & beyond
     if felt.any():
@@ -337,10 +338,11 @@ def farthest_slew(drive: UnitDrive, time: FloatArray, final: FloatArray) -> Unit
 def _powered_rise(
     drive: UnitDrive, time: FloatArray, final: FloatArray, felt: NDArray[np.bool_], rise: Rise
 ) -> Rise:
-    """Rises without a cap where the supply may limit the slew, by Newton's method; others stay.
+    """Rises without a cap where the supply may limit the slew, by Newton's method.
 
-    The times up to the peak and down from it are all the time. The time down grows by no more than
-    that up, so that the sum's slope over the time up is 1 to 2.
+    Others stay unchanged. The times up to the peak and down from it add up to the whole time. The
+    time down grows by no more than the time up, so the sum's slope over the time up is between 1
+    and 2.
     """
     shape = felt.shape
 
@@ -374,9 +376,9 @@ def _powered_rise(
 def quickest_time(drive: UnitDrive, excess: FloatArray, final: FloatArray) -> FloatArray:
     """Least time [T_0] in which the wheel turns by `excess` [w_0 T_0] more than at `final` speed.
 
-    Newton's method on the convex A(t) - f t; see the module's text. It starts from below, with the
-    time that torque alone would take from the final speed on if the wheel braked as hard as at
-    no-load speed all the time, and overshoots once.
+    Newton's method on the convex A(t) - f t; see the module's docstring. It starts from below, with
+    the time that torque alone would take from the final speed if the wheel always braked as hard as
+    at no-load speed, and overshoots once.
     """
     start = rise_sweep(drive, rise_to(drive, final))
     deficit = np.maximum(final * start.time - start.angle, 0.0)
@@ -400,7 +402,8 @@ def _line_phase(drive: UnitDrive, time: FloatArray, final: FloatArray) -> FloatA
     middle = np.maximum(drive.clamp, final)
     fixed = drive.end_of_limit + drive.brake * (drive.end_of_limit - middle)
     fixed = fixed + drive.knee * np.log1p((middle - final) / (1.0 + final))
-    # Else z + q (1 - e^-z) = the rest: a concave rise, so that Newton's method climbs it.
+    # Otherwise z + q (1 - e^-z) = rest: increasing and concave, so Newton's method converges from
+    # below.
     rest = np.maximum((time - fixed) / positive(drive.knee), 0.0)
     z = np.maximum(rest - drive.brake, rest / (1.0 + drive.brake))
     for _ in range(_LINE_STEPS):

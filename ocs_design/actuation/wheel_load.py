@@ -1,26 +1,26 @@
 """Wheels that turn a trunk about roll and pitch: the smallest spin inertia that is in time.
 
-All wheels are alike; a_i are their axes about roll and pitch, W_i their speeds relative to the
-trunk, h the spin inertia of each (momentum per speed, the motor's rotor included) and I_m = h +
-armature what its motor accelerates. With J of the whole about roll and pitch with its wheels
-braked, momentum is
+All wheels are equal; a_i are their axes about roll and pitch, W_i their speeds relative to the
+trunk, h the spin inertia of each (momentum per speed, including the motor's rotor) and I_m = h +
+armature the inertia that its motor accelerates. With J the inertia of the whole about roll and
+pitch, wheels braked, momentum is
 
     J w + h sum_i a_i W_i = L
 
-so that a turn that sweeps P, inertia times angle, and leaves L in the wheels, asks the busiest
-wheel for phi(P) / h, an angle, and phi(L) / h, its final speed, where
+A turn that sweeps P, inertia times angle, and leaves L in the wheels, therefore requires of the
+busiest wheel the angle phi(P) / h and the final speed phi(L) / h, where
 
     phi(b) = min |x|_inf subject to sum_i a_i x_i = b
            = max over facet normals m of |m . b| / sum_i |m . a_i|
 
-is the gauge of the axes' zonotope. The others do their parts x_i / phi in proportion. The wheel's
+is the gauge of the axes' zonotope. The others do their parts in proportion x_i / phi. The wheel's
 own equation, d/dt (h a_i . w + I_m W_i) = tau, then reads I_red dW/dt = tau with
 
     I_red = h + armature - kappa h^2,        kappa = a_b . K P / x_b,        K = J^-1,
 
-of the busiest wheel b that the trunk helps least. The less busy wheels need no more torque, and
-have more (docs/theory.md, Two wheels on a trunk). Where P and L are not in proportion, the parts
-are those of P.
+for that busiest wheel b which the trunk helps least. Less busy wheels need no more torque, and have
+more (docs/theory.md, Two wheels on a trunk). Where P and L are not proportional, the parts are
+those of P.
 """
 
 from dataclasses import dataclass, replace
@@ -37,37 +37,37 @@ from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.actuation.unit_drive import UnitDrive, positive
 from ocs_design.common.arrays import FloatArray
 
-# |J_xy| over sqrt(I_xx I_yy) beyond which a bound says nothing.
+# |J_xy| over sqrt(I_xx I_yy) beyond which a bound is useless.
 _LOOSE = 0.5
 
-# Share of what the trunk helps a wheel that turns alone, at the least.
+# Least trunk assistance, relative to that for a wheel that turns alone.
 _UNHELPED = 1e-3
 
-# Relative, of products of unit vectors: what is less is rounding.
+# Relative magnitude of products of unit vectors below which they are rounding.
 _ROUNDING = 1e-12
 
-# Relative difference of two facets' figures at a demand that lies on both.
+# Relative difference of two facets' values at a demand that counts as lying on both.
 _EDGE = 1e-9
 
 
 class SlewReason(IntEnum):
-    """What stands in the way of a slew."""
+    """Obstacle to a slew."""
 
     AXIS = 1
-    """The wheels leave an axis out of reach that is asked for."""
+    """The wheels cannot control a required axis."""
     TORQUE = 2
-    """The torque at rest, all the time, is too slow with any wheel."""
+    """Even constant stall torque is too slow with any wheel."""
     SPEED = 3
-    """The torque would do; how fast the drive turns decides how large its wheel must be."""
+    """The torque suffices; the drive's speed determines how large its wheel must be."""
 
 
 class Held(NamedTuple):
-    """How wheels hold a momentum with the least for the busiest of them.
+    """Distribution of a momentum over wheels that minimises the busiest one's share.
 
     Attributes:
-        most: phi, of the busiest wheel, shape (...); inf: their axes do not span it.
-        sense: sign of the momentum of each wheel that holds as much, shape (..., n); 0: it may
-            hold less, or there is nothing to hold.
+        most: phi, momentum of the busiest wheel, shape (...); inf: the axes do not span it.
+        sense: sign of the momentum of each wheel that is among the busiest, shape (..., n); 0: it
+            may have less, or there is nothing to hold.
     """
 
     most: FloatArray
@@ -75,11 +75,11 @@ class Held(NamedTuple):
 
 
 def held(axes: ArrayLike, momentum: ArrayLike) -> Held:
-    """The gauge of the zonotope of axes in closed form; see the module's text.
+    """The gauge of the zonotope of axes in closed form; see the module's docstring.
 
-    Every direction m gives a lower bound, |m . b| <= sum_i |m . a_i| |x_i|, so that directions
-    beside the facets' normals do no harm: of parallel axes, or axes in a plane, those along them
-    are the facets'.
+    Every direction m gives a lower bound, |m . b| <= sum_i |m . a_i| |x_i|, so directions that are
+    not normals of facets do no harm; for parallel or coplanar axes, directions along them are the
+    normals.
 
     Args:
         axes: of the wheels as columns, in two or three dimensions, shape (..., d, n).
@@ -109,15 +109,15 @@ def held(axes: ArrayLike, momentum: ArrayLike) -> Held:
 
 
 def without_each(axes: FloatArray) -> tuple[FloatArray, ...]:
-    """Axes with one column after the other zero: n times the shape (..., d, n).
+    """Axes with each column in turn set to zero: n arrays of shape (..., d, n).
 
-    A zero axis reaches nothing: the zonotope is that of the others.
+    A zero axis contributes nothing: the zonotope is that of the others.
     """
     return tuple(axes * row for row in 1.0 - np.eye(axes.shape[-1]))
 
 
 def reach(axes: FloatArray) -> FloatArray:
-    """Momentum about roll, pitch and yaw, each alone, over a wheel's largest, shape (3,).
+    """Largest momentum about roll, pitch and yaw, each alone, relative to one wheel's, shape (3,).
 
     Args:
         axes: of the wheels as columns, shape (3, n).
@@ -131,12 +131,13 @@ def reach_without_one(axes: FloatArray) -> FloatArray:
 
 
 def held_by_each(axes: FloatArray, momentum: FloatArray) -> FloatArray:
-    """Momentum of each wheel with the least for the busiest, about roll and pitch, (..., n).
+    """Momentum of each wheel with least effort of the busiest, shape (..., n).
 
-    Those that are not among the busiest are parallel, and share what is left.
+    Wheels that are not among the busiest are parallel, and share the rest.
 
     Args:
-        axes: that span the momentum, shape (..., 2, n). momentum: shape (..., 2).
+        axes: about roll and pitch, spanning the momentum, shape (..., 2, n).
+        momentum: shape (..., 2).
     """
     most, sense = held(axes, momentum)
     busy = sense * most[..., None]
@@ -148,13 +149,13 @@ def held_by_each(axes: FloatArray, momentum: FloatArray) -> FloatArray:
 
 
 def _wheels_first(axes: FloatArray, depth: int) -> FloatArray:
-    """Axes of `depth` further dimensions that broadcast, (d, n, ...): short last axes are slow."""
+    """Axes with `depth` trailing dimensions, (d, n, ...), as short last axes are slow."""
     axes = axes.reshape(*(1,) * (depth + 2 - axes.ndim), *axes.shape)
     return np.ascontiguousarray(np.moveaxis(axes, (-2, -1), (0, 1)))
 
 
 def _normals(axes: FloatArray) -> FloatArray:
-    """Directions of which some are normal to each facet of the axes' zonotope, (d, m, ...)."""
+    """Directions that include the normals of all facets of the axes' zonotope, (d, m, ...)."""
     if len(axes) == 2:
         across = np.stack([-axes[1], axes[0]])
         parallel = np.abs(across[0, 0] * axes[0] + across[1, 0] * axes[1]).max(axis=0)
@@ -162,11 +163,11 @@ def _normals(axes: FloatArray) -> FloatArray:
         return np.concatenate([across, axes], axis=1) if flat else across
     first, second = np.triu_indices(axes.shape[1], 1)
     across = np.cross(axes[:, first], axes[:, second], axis=0)
-    # Of nearly parallel axes, only rounding is left.
+    # For nearly parallel axes, only rounding is left.
     across = np.where(np.abs(across).max(axis=0) > OUT_OF_REACH, across, 0.0)
     in_plane = np.cross(across[:, :, None], axes[:, None], axis=0)
     in_plane = in_plane.reshape(3, -1, *axes.shape[2:])
-    # Across a single axis, what it does not span.
+    # Directions across a single axis, which it does not span.
     beside = np.stack([np.cross(each, axes, axis=0) for each in np.eye(3)], axis=1)
     beside = beside.reshape(3, -1, *axes.shape[2:])
     return np.concatenate([across, in_plane, axes, beside], axis=1)
@@ -174,21 +175,21 @@ def _normals(axes: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True, eq=False)
 class WheelTask:
-    """A turn that wheels must do; arrays that broadcast but for their last axes.
+    """A turn that wheels must do; arrays that broadcast except for their last axes.
 
     Attributes:
-        swept: P, momentum over time that must pass the wheels about roll and pitch [N m s^2],
-            shape (..., 2); its sign counts.
-        momentum: L, that they hold at the end [N m s], shape (..., 2).
+        swept: P, time integral of the wheels' momentum about roll and pitch [N m s^2], shape (...,
+            2); its sign matters.
+        momentum: L, held by the wheels at the end [N m s], shape (..., 2).
         duration: T [s], shape (...).
         inertia: of the whole, wheels braked.
         axes: of the wheels about roll and pitch, as columns, shape (..., 2, n).
-        one_stops: whether the others must do it with any one of the wheels left out.
-        upright: I_zz of the whole [kg m^2], shape (...), where a heading is asked too of wheels
-            that reach it, and swept, momentum and axes have a third component; None: they have
-            not, and the heading is left to itself.
-        begins: speed of all wheels at the start, where they turn as swept and momentum say
-            [rad/s], shape (...).
+        one_stops: whether the others must do it with any one of the wheels missing.
+        upright: I_zz of the whole [kg m^2], shape (...), where a heading is required too and the
+            wheels control it; swept, momentum and axes then have a third component. None: the
+            heading is free.
+        begins: speed of all wheels at the start, in their direction for swept and momentum [rad/s],
+            shape (...).
     """
 
     swept: ArrayLike
@@ -201,9 +202,9 @@ class WheelTask:
     begins: ArrayLike = 0.0
 
     def load(self) -> "WheelLoad":
-        """What it asks of the busiest wheel; see the module's text.
+        """Load on the busiest wheel; see the module's docstring.
 
-        With any one of them left out it is the most that any asks for, in each figure.
+        With any one wheel missing, each figure is the worst over the missing wheels.
         """
         if self.one_stops:
             lefts = without_each(self.axes)
@@ -238,11 +239,12 @@ class WheelTask:
             parts = parts + yawed[0] / self.upright * up[0]
         parts = sense * parts / np.where(usable, most, 1.0)
         least = np.where(sense == 0.0, np.inf, parts).min(axis=0)
-        # A wheel that the trunk works against is as good as one that it does not help.
+        # Treat opposing trunk motion as no help.
         coupling = np.maximum(np.where(usable, least, alone), _UNHELPED * alone)
         begins = np.zeros(())
         if np.any(self.begins):
-            # Of the busiest wheels, the one that has begun most of its change can do the least.
+            # Among the busiest wheels, the one already farthest along its change has the least
+            # capability left.
             begins = np.where(sense == 0.0, -np.inf, sense * self.begins).max(axis=0)
             begins = np.where(np.isfinite(begins), begins, 0.0)
         return WheelLoad(turned, kept, coupling, begins)
@@ -250,16 +252,16 @@ class WheelTask:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class WheelBound(WheelTask):
-    """Lower bound of what a turn asks, on any trunk no lighter and about as much coupled.
+    """Lower bound of a turn's demand, over trunks no lighter and of similar coupling.
 
     Attributes:
         swept: P without the coupling [N m s^2], shape (..., 2).
         inertia: no larger than theirs about either axis.
-        axes: of a zonotope around theirs that is as wide to both sides of roll and of pitch.
-        turn: theta, that P comes from; 0: a push left it [rad], shape (..., 2).
-        spread: that J_xy differs by from theirs at most [kg m^2], shape (...).
-        reached: whether the wheels reach roll and pitch at every incidence of theirs, or the
-            trunk may drift there, shape (..., 2).
+        axes: of a zonotope that contains theirs and is symmetric in roll and in pitch.
+        turn: theta, from which P follows; 0: P is due to a push [rad], shape (..., 2).
+        spread: largest difference of J_xy from theirs [kg m^2], shape (...).
+        reached: whether the wheels control roll and pitch at all of their incidences; where not,
+            the trunk may drift, shape (..., 2).
     """
 
     turn: ArrayLike
@@ -267,14 +269,14 @@ class WheelBound(WheelTask):
     reached: NDArray[np.bool_]
 
     def load(self) -> "WheelLoad":
-        """No more than is asked of the busiest wheel (docs/theory.md, The selection)."""
+        """Lower bound of the load on the busiest wheel (docs/theory.md, The selection)."""
         diagonal, product = self.inertia
         most = TiltInertia(diagonal, np.abs(product) + self.spread)
         share = most.share[..., None]
         known = share < _LOOSE
 
-        # Coupling takes from the sweep at most; an axis that may be left to itself adds none, and
-        # takes from the other one.
+        # Assume that coupling reduces the sweep as much as it can; an axis that may be left free
+        # adds none, and reduces that of the other one.
         turn, uncoupled = np.asarray(self.turn), np.abs(self.swept)
         both = turn.prod(axis=-1)
         sense = np.where(both == 0.0, 1.0, np.sign(both * product))
@@ -295,13 +297,13 @@ class WheelBound(WheelTask):
 
 @dataclass(frozen=True, eq=False)
 class WheelLoad:
-    """What a turn asks of the busiest wheel, shape (...) each.
+    """Load of a turn on the busiest wheel, each of shape (...).
 
     Attributes:
         excess: phi(P) [N m s^2]; inf: an axis is out of reach.
-        held: phi(L) [N m s]; likewise.
+        held: phi(L) [N m s]; inf: an axis is out of reach.
         coupling: kappa [1 / (kg m^2)].
-        begins: its speed at the start, positive where it has begun what it must do [rad/s].
+        begins: its speed at the start, positive in the direction of its change [rad/s].
     """
 
     excess: FloatArray
@@ -314,11 +316,11 @@ class WheelLoad:
         return np.asarray(self.excess / np.asarray(spin_inertia))
 
     def final_speed(self, spin_inertia: ArrayLike) -> FloatArray:
-        """W_f [rad/s]."""
+        """Final speed W_f [rad/s]."""
         return np.asarray(self.held / np.asarray(spin_inertia))
 
     def reduced_inertia(self, spin_inertia: ArrayLike, armature: ArrayLike = 0.0) -> FloatArray:
-        """I_red, what the motor accelerates while the trunk gives way [kg m^2]."""
+        """I_red, effective inertia that the motor accelerates on the free trunk [kg m^2]."""
         h = np.asarray(spin_inertia)
         return np.asarray(h + np.asarray(armature) - self.coupling * h**2)
 
@@ -326,12 +328,12 @@ class WheelLoad:
 def wheel_slew_time(
     task: WheelTask, spin_inertia: ArrayLike, line: DriveLine, armature: ArrayLike = 0.0
 ) -> FloatArray:
-    """How long wheels of that spin inertia take for the turn [s], shape (...); inf: for ever.
+    """Time that wheels of that spin inertia take for the turn [s], shape (...); inf: never done.
 
     Args:
         task: its duration is not used.
-        spin_inertia: h of each wheel [kg m^2], shape (...); 0 or inf: no wheel. Wheels of more
-            than 1 / (2 kappa) would carry most of the inertia that they turn, and count as that.
+        spin_inertia: h of each wheel [kg m^2], shape (...); 0 or inf: no wheel. Values are clipped
+            to 1 / (2 kappa), beyond which wheels would hold most of the inertia that they turn.
         line: of the drive at the wheel, shape (...).
         armature: I_m - h [kg m^2], shape (...).
     """
@@ -349,13 +351,13 @@ def smallest_spin_inertia(
 ) -> FloatArray:
     """The smallest h per wheel that does the turn in time [kg m^2], shape (...); inf: none does.
 
-    The time falls as h grows, up to h = 1 / (2 kappa), where the wheels carry half the inertia that
-    they turn and the search ends. Only a negative armature (a gear that speeds the wheel up) lets
-    the time rise again for a while. A larger h, which another turn needs, must then be tried anew,
-    as `least` of `spin_demand`.
+    The time falls as h grows, up to h = 1 / (2 kappa), where the wheels hold half the inertia that
+    they turn and the search ends. Only a negative armature (a gear that speeds the wheel up) can
+    make the time rise again temporarily. A larger h, required by another turn, must then be checked
+    again, as `least` of `spin_demand`.
 
     Args:
-        task: the inertia is taken as given, whatever h.
+        task: its inertia is fixed, independent of h.
         line: of the drive at the wheel, shape (...).
         armature: I_m - h [kg m^2], shape (...).
     """
@@ -365,7 +367,7 @@ def smallest_spin_inertia(
 def spin_demand(
     task: WheelTask, line: DriveLine, armature: ArrayLike = 0.0, least: ArrayLike = 0.0
 ) -> SweepDemand:
-    """What `smallest_spin_inertia` solves for; arguments as there.
+    """Demand that `smallest_spin_inertia` solves for; arguments as there.
 
     `least` is the smallest h to consider [kg m^2], shape (...).
     """
@@ -383,18 +385,19 @@ def spin_demand(
 
 
 def slew_reason(task: WheelTask, line: DriveLine) -> NDArray[np.int_]:
-    """Why there is no wheel for a turn, or none that fits, as values of `SlewReason`, shape (...).
+    """Reason why no wheel, or none that fits, does a turn, as `SlewReason` values, shape (...).
 
-    The time falls as the wheel grows, towards that of the torque at rest, there and back. A wheel
-    so large that it takes much of the given inertia upon itself (I_red falls short of h) may still
-    beat that; it counts as out of reach for want of torque.
+    The time falls as the wheel grows, towards that of constant stall torque, there and back. A
+    wheel so large that it holds much of the given inertia itself (I_red below h) may still be
+    faster; this is ignored, and the reason is lack of torque.
     """
     load = task.load()
     torque = UnitDrive.of(line.begun(load.begins)).torque
     duration = np.maximum(np.asarray(task.duration, dtype=np.float64), 0.0)
     final = load.held
     with np.errstate(invalid="ignore"):
-        # Constant torque raises a wheel's momentum by tau t to its peak, and back to the final one.
+        # Constant torque changes a wheel's momentum by tau t, up to its peak and back to the final
+        # one.
         peak = (torque * duration + final) / 2.0
         swept = (peak**2 - final**2 / 2.0) / positive(torque)
         done = np.where(torque > 0.0, swept, 0.0) - load.held * duration

@@ -1,1 +1,1 @@
-"""What can be chosen, each row with its source."""
+"""Catalogue of parts to choose from, each row with its source."""

@@ -1,7 +1,7 @@
-"""Gears that can stand between a motor and its wheel, belts among them, each with its source.
+"""Gears between a motor and its wheel, including belts, each with its source.
 
-Nothing here is measured. Pulleys are solid discs of the pitch diameter, a flange's thickness
-wider than the belt on either side; the belt is the shortest that clears them. Webbed pulleys are
+Nothing here is measured. Pulleys are solid discs of the pitch diameter, wider than the belt by a
+flange's thickness on either side; the belt is the shortest that fits them. Webbed pulleys are
 lighter.
 """
 
@@ -28,7 +28,7 @@ CLEARANCE = 5e-3
 """Least distance between the pitch circles of the two pulleys [m]."""
 
 TEETH_IN_MESH = 6
-"""Teeth on the smaller pulley below which a fifth of the working tension is lost per tooth
+"""Teeth in mesh on the smaller pulley below which a fifth of the working tension is lost per tooth
 (SDP/SI, Handbook of timing belts, section 13.3)."""
 
 LOSS_PER_TOOTH = 0.2
@@ -44,7 +44,7 @@ class BeltStage:
         width: of the belt [m].
         belt_density: mass of the belt per length [kg/m].
         pulley_density: of the pulleys' material [kg/m^3].
-        working_tension: that the belt stands for good, at its width [N].
+        working_tension: permanent working tension of the belt, at its width [N].
     """
 
     motor_teeth: int
@@ -99,7 +99,7 @@ class BeltStage:
 
     @property
     def torque_max(self) -> float:
-        """Largest torque at the wheel, by the working tension and the teeth that mesh [N m]."""
+        """Largest torque at the wheel, from the working tension and the teeth in mesh [N m]."""
         missing = max(0, TEETH_IN_MESH - self.teeth_in_mesh)
         share = max(0.0, 1.0 - LOSS_PER_TOOTH * missing)
         return share * self.working_tension * self.wheel_radius
@@ -116,9 +116,10 @@ class BeltStage:
 
     @property
     def room(self) -> GearRoom:
-        """Room that the stage takes, the motor's axis beside the wheel's; no axle, no bearings.
+        """Space that the stage takes, with the motor's axis beside the wheel's, without axle and
+        bearings.
 
-        The pulleys are where they are as wide as their flanges, with no gap on either side.
+        The depth is that of the pulleys with their flanges, with no gap on either side.
         """
         motor = self._pulley_mass(self.motor_radius)
         moment = motor * self._least_distance() + self.belt_mass * self._least_distance() / 2.0
@@ -142,16 +143,16 @@ class BeltStage:
 
 
 class GearKind(StrEnum):
-    """What turns the wheel."""
+    """Kind of gear."""
 
     BELT = "belt"
-    """A timing belt: any two of the pulleys in `teeth`."""
+    """A timing belt on any two of the pulleys in `teeth`."""
     FIXED = "fixed"
-    """Toothed wheels with the ratios in `ratios`: a planetary gearhead, a spur pair."""
+    """Gear wheels with the ratios in `ratios`, such as a planetary gearhead or a spur pair."""
 
 
 class InertiaAt(StrEnum):
-    """Shaft at which the stated inertia is seen."""
+    """Shaft to which the stated inertia refers."""
 
     MOTOR = "motor"
     WHEEL = "wheel"
@@ -159,28 +160,26 @@ class InertiaAt(StrEnum):
 
 @dataclass(frozen=True)
 class GearSheet:
-    """What a source says of a gear; a field is a column, its unit at the end of its name.
+    """A gear's data as given by its source; each field is a column, with its unit as suffix.
 
-    A column is read as its type asks (`catalogue.rows.columns_of`).
-
-    None is what the source does not give.
+    Each column is parsed by its type (`catalogue.rows.columns_of`). None means not given.
 
     Attributes:
-        name: unique. maker: of the gear. kind: decides which columns count.
+        name: unique. maker: of the gear. kind: determines which columns apply.
         efficiency: of the torque, 0..1.
         reverses: whether the wheel turns against the motor.
-        ratios: motor speed over wheel speed, of each stage on offer (fixed).
-        mass_kg: of the whole stage; of a belt's what its pulleys need besides: axle and bearings.
-        inertia_kg_m2: of the turning parts, seen at `inertia_at` (fixed).
+        ratios: motor speed over wheel speed of each available stage (fixed).
+        mass_kg: of the whole stage; for a belt, of axle and bearings in addition to the pulleys.
+        inertia_kg_m2: of the turning parts, referred to `inertia_at` (fixed).
         torque_max_nm: at the output, short-term (fixed).
         motor_speed_max_rpm: of the input.
-        teeth: of the pulleys on offer (belt).
+        teeth: of the available pulleys (belt).
         pitch_m, width_m, belt_mass_kg_per_m: of the belt; the mass is that of its whole width.
-        working_tension_n: that the belt stands, at its width (belt).
+        working_tension_n: of the belt, at its width (belt).
         belt_speed_max_m_s: of the belt.
         pulley_density_kg_m3: of the pulleys' material (belt).
-        source: where the figures come from. confidence: good, second-hand, computed, ...
-        remark: what a reader of the figures must know.
+        source: source of the figures. confidence: good, second-hand, computed, ...
+        remark: note on the figures.
     """
 
     name: str
@@ -207,18 +206,18 @@ class GearSheet:
 
     @property
     def missing(self) -> tuple[str, ...]:
-        """Columns that its stages need and that are empty."""
+        """Empty columns that its stages need."""
         needed = _NEEDED[self.kind]
         return tuple(column for column in needed if getattr(self, column) in (None, ()))
 
     def stages(self) -> tuple[Gear, ...]:
-        """Every stage on offer, by rising ratio; none if figures are missing."""
+        """Every available stage, by increasing ratio; empty if figures are missing."""
         if self.missing:
             return ()
         motor_speed = math.inf
         if self.motor_speed_max_rpm is not None:
             motor_speed = self.motor_speed_max_rpm * math.pi / 30.0
-        # What all stages of one gear share; the rest follows.
+        # Fields that all stages of one gear share; the others follow.
         shared = Gear(
             name=self.name,
             ratio=1.0,
@@ -232,7 +231,7 @@ class GearSheet:
             source=self.source,
         )
         found = []
-        # Of every two different pulleys; two of a size would only add mass.
+        # For every two different pulleys; two of equal size would only add mass.
         for pair in itertools.permutations(self.teeth, 2) if self.kind is GearKind.BELT else ():
             belt = BeltStage(
                 *pair,
@@ -255,7 +254,8 @@ class GearSheet:
             )
             found.append(stage)
         for ratio in self.ratios if self.kind is GearKind.FIXED else ():
-            # Seen at the wheel, what turns with the motor counts with the square of the ratio.
+            # Referred to the wheel, inertia on the motor's shaft is multiplied by the ratio
+            # squared.
             scale = ratio**2 if self.inertia_at is InertiaAt.MOTOR else 1.0
             fixed = replace(
                 shared,
@@ -269,7 +269,7 @@ class GearSheet:
 
 
 def _stated(figure: float | None) -> float:
-    """A figure that `missing` has found to be stated."""
+    """A figure that `missing` has confirmed to be given."""
     assert figure is not None
     return figure
 
@@ -305,7 +305,7 @@ def gears() -> Mapping[str, GearSheet]:
 
 
 def known_gears(file: Path | None = None) -> Mapping[str, GearSheet]:
-    """The catalogue and the gears of a user's file, which replace those of the same name.
+    """The catalogue's gears and those of a user's file, which replace ones of the same name.
 
     Raises:
         SpecificationError: see `load_entries`.
@@ -314,7 +314,7 @@ def known_gears(file: Path | None = None) -> Mapping[str, GearSheet]:
 
 
 def gear(name: str, known: Mapping[str, GearSheet] | None = None) -> GearSheet:
-    """The gear called `name`, of the catalogue or of `known`.
+    """The gear called `name`, from the catalogue or from `known`.
 
     Raises:
         SpecificationError: there is none; the hint names the closest.
@@ -323,10 +323,10 @@ def gear(name: str, known: Mapping[str, GearSheet] | None = None) -> GearSheet:
 
 
 def named_stages(name: str, known: Mapping[str, GearSheet] | None = None) -> tuple[Gear, ...]:
-    """Every stage of the gear called `name`, or the one stage that is: a gear's with its ratio.
+    """Every stage of the gear called `name`, or the single stage of that name with its ratio.
 
     Raises:
-        SpecificationError: see `gear`; or figures are missing that its stages need.
+        SpecificationError: see `gear`; or figures that its stages need are missing.
     """
     sheets = gears() if known is None else known
     one = tuple(stage for stage in stages(sheets.values()) if stage.name == name)
@@ -336,8 +336,8 @@ def named_stages(name: str, known: Mapping[str, GearSheet] | None = None) -> tup
     if not named.stages():
         lacks = ", ".join(named.missing) or "teeth of a second pulley"
         raise SpecificationError(
-            f"no stage of the gear {named.name!r} can be computed, for its row lacks {lacks}",
-            hint="State it with these figures in a file with --gears, or name another gear: "
+            f"no stage of the gear {named.name!r} can be computed: its row lacks {lacks}",
+            hint="Give these figures in a file with --gears, or name another gear: "
             "`ocs-design catalogue gears` lists all.",
         )
     return named.stages()
@@ -353,12 +353,12 @@ def load_gears(path: Path) -> Mapping[str, GearSheet]:
 
 
 def stages(sheets: Iterable[GearSheet]) -> tuple[Gear, ...]:
-    """Every stage that these gears offer, without direct drive (`actuation.motor.DIRECT`)."""
+    """Every stage of these gears, without direct drive (`actuation.motor.DIRECT`)."""
     return tuple(stage for sheet in sheets for stage in sheet.stages())
 
 
 def gears_to_json(found: Iterable[GearSheet]) -> bytes:
-    """Gears as indented UTF-8 JSON: each row as stated, and its stages in SI; null: not limited."""
+    """Gears as indented UTF-8 JSON: each row as given, and its stages in SI; null: not limited."""
     rows = [
         {**msgspec.to_builtins(sheet), "missing": sheet.missing, "stages": sheet.stages()}
         for sheet in found

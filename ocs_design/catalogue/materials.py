@@ -1,4 +1,4 @@
-"""Materials of flywheels, each with where its figures come from."""
+"""Materials of flywheels, each with the source of its figures."""
 
 import csv
 import math
@@ -14,7 +14,7 @@ from ocs_design.common.errors import OcsError
 from ocs_design.common.files import to_json
 
 DEFAULT_MATERIAL = "stainless-304"
-"""Dense, cheap, does not rust, sold as tube."""
+"""Dense, cheap, rust-free, and sold as tube."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ _COLUMNS = {
     "elastic_modulus": "elastic_modulus_pa",
     "thermal_expansion": "thermal_expansion_per_k",
 }
-"""Column of each figure, whose cell is empty where the source does not give it."""
+"""Column of each figure; its cell is empty where the source gives none."""
 
 
 @cache
@@ -98,11 +98,11 @@ def material(name: str) -> Material:
 
 
 _STEELS = ("stainless-", "steel-")
-"""What the names of the catalogue's steels begin with."""
+"""Prefixes of the names of the catalogue's steels."""
 
 
 def strong_materials(*, steel: bool = False) -> tuple[Material, ...]:
-    """Materials whose stress can be checked, all or the steels alone."""
+    """Materials whose stress can be checked, all of them or only steels."""
     return tuple(
         found
         for found in materials().values()

@@ -71,14 +71,14 @@ def test_a_brake_stands_a_robot_up_whose_motors_cannot():
     assert found["braked"].trajectory.rate[0, 0] > 0.0
     refused = plan(ROBOT.mass_properties, heavy, [by_motor], 0.2)["motor"]
     assert refused.trajectory is None
-    assert "do not make it stand up from 45 deg in 0.7 s: from" in refused.note
+    assert "cannot stand it up from 45 deg in 0.7 s: from" in refused.note
 
 
 def test_a_brake_cannot_stop_wheels_that_no_motor_spins_that_fast():
     refused = plan(ROBOT.mass_properties, driven_device(), [BRAKED], 0.2)["braked"]
     assert refused.trajectory is None
     told = re.fullmatch(
-        r"the brake would have to stop the wheels from ([\d,]+) rpm, and the motors reach only "
+        r"the brake would have to stop the wheels from ([\d,]+) rpm, but the motors reach only "
         r"([\d,]+) rpm",
         refused.note,
     )

@@ -1,4 +1,4 @@
-"""Why motors are rejected: one reason each, at the most promising gear and incidence."""
+"""Reasons why motors are rejected, one each, at the most promising gear and incidence."""
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
@@ -39,24 +39,24 @@ from ocs_design.sizing.selection.drives import Drives
 from ocs_design.sizing.selection.problem import Reason, Rejection, SelectionProblem
 
 _NEVER = 1e9
-"""Beyond any time that is finite."""
+"""Score larger than any finite one."""
 
 _NOTHING = 1e-15
-"""Spin inertia below that of any wheel [kg m^2]."""
+"""A spin inertia smaller than any wheel's [kg m^2]."""
 
 NO_ROOM = frozenset({Reason.ENVELOPE, Reason.STRESS, Reason.MASS})
-"""Reasons that are a wheel's, not a motor's."""
+"""Reasons that concern the wheel rather than the motor."""
 
 
 class Refused(Infeasible):
-    """No motor can do it; what would do is not looked for here: that takes longer than the search.
+    """No motor can do it; remedies are not included, as finding them takes longer than the search.
 
     Attributes:
-        problem: that no motor solves. nearest: the motor that comes closest.
+        problem: problem that no motor solves. nearest: the motor that comes closest.
     """
 
     def __init__(self, problem: SelectionProblem, rejections: Iterable[Rejection]) -> None:
-        # How far a motor is from being possible; last, those whose figures are missing.
+        # By distance from feasibility; motors with missing data last.
         nearest = min(rejections, key=lambda one: (one.reason is Reason.FIGURES, one.shortfall))
         largest = nearest.largest
         count, voltage = len(problem.motors), f"{problem.bus_voltage:g} V"
@@ -79,12 +79,12 @@ class Refused(Infeasible):
 
     @property
     def for_reserve(self) -> bool:
-        """Whether there would be a device if it kept no reserve."""
+        """Whether a reserve that a device must keep may be the only obstacle."""
         return any(kept.short for kept in self.problem.requirement.reserves.values())
 
 
 def rejections(found: PairBounds, ranked: Collection[int]) -> tuple[Rejection, ...]:
-    """Reasons of all motors but those of these indices, in the order of the problem."""
+    """Reasons for all motors except the ranked indices, in the order of the problem."""
     reasons: dict[int, Rejection | None] = {}
     for index, motor in enumerate(found.problem.motors):
         if index in ranked:
@@ -109,13 +109,13 @@ def _at_least(found: PairBounds, motor: int) -> str:
 
 
 def _lightest_gear(found: PairBounds, motor: int) -> int:
-    """Index of the lightest whose figures are known with this motor; as a rule, direct drive."""
+    """Index of the lightest gear with known data for this motor; usually direct drive."""
     mass = np.array([gear.mass for gear in found.problem.gears])
     return int(np.argmin(np.where(found.known[motor], mass, np.inf)))
 
 
 def promising_gears(found: PairBounds, motor: int) -> Iterable[int]:
-    """The lightest gear; if none will do, also that of the least wheel, and of most torque."""
+    """The lightest gear; if none will do, also those of the smallest wheel and most torque."""
     lightest = _lightest_gear(found, motor)
     if np.isfinite(found.least[motor]).any():
         return {lightest}
@@ -127,15 +127,16 @@ def promising_gears(found: PairBounds, motor: int) -> Iterable[int]:
 
 
 class RequirementPart(NamedTuple):
-    """One part of the requirement, as the lightest modules with n drives do it at k incidences.
+    """One part of the requirement, done by the lightest modules with n drives at k incidences.
 
     Attributes:
         name: of the maneuver, or "the rate change".
         incidence: at which it is done [rad], shape (k,).
-        time: asked for [s]; inf: none is set.
+        time: time given [s]; inf: no limit.
         needed: smallest spin inertia that does it [kg m^2], shape (n, k); inf: none does.
-        late: time with the largest wheel over that asked for, shape (n, k), or momentum asked for
-            over that of the largest wheel, or a tilt to balance over what that wheel catches.
+        late: ratio of the time with the largest wheel to that given, shape (n, k), or of the
+            required momentum to that of the largest wheel, or of a tilt to balance to the tilt that
+            this wheel can recover.
         reason: see `SlewReason`, shape (n, k).
     """
 
@@ -147,7 +148,7 @@ class RequirementPart(NamedTuple):
     reason: NDArray[np.int_]
 
     def at(self, row: int, angle: int) -> "RequirementPart":
-        """The part of one drive at one incidence, all as single figures."""
+        """The part for one drive at one incidence, as scalars."""
         _, incidence, _, *of_each = self
         return RequirementPart(
             self.name, incidence[angle], self.time, *(one[row, angle] for one in of_each)
@@ -155,7 +156,7 @@ class RequirementPart(NamedTuple):
 
 
 def _unable(found: PairBounds, motors: Sequence[int]) -> dict[int, Rejection]:
-    """Reasons of motors that cannot do it with their lightest gear; another's mass is added."""
+    """Reasons for motors that fail with promising gears; with the mass if another works."""
     if not motors:
         return {}
     problem = found.problem
@@ -169,7 +170,7 @@ def _unable(found: PairBounds, motors: Sequence[int]) -> dict[int, Rejection]:
     parts = tuple(_parts(problem, drives, largest))
     late = np.max([part.late for part in parts], axis=0)
     needed = np.max([part.needed for part in parts], axis=0)
-    # The least late; of those that are never in time, what needs the least wheel.
+    # The least late; among those never in time, the one that needs the smallest wheel.
     score = np.where(np.isfinite(late), late, _NEVER * (1.0 + needed))
     reasons = {}
     for motor in motors:
@@ -184,7 +185,7 @@ def _unable(found: PairBounds, motors: Sequence[int]) -> dict[int, Rejection]:
         if np.isfinite(found.least[motor]).any():
             detail = f"{detail}; {_at_least(found, motor)}"
         beyond = float(needed[row, angle] / max(largest[row], _NOTHING))
-        # An inertia goes with the fourth power of the radius.
+        # Inertia scales with the fourth power of the radius.
         limits = Candidates.of_each_material(problem, drive).limits
         narrow = (_narrowest(limits)[1] / problem.envelope.outer_radius_max) ** 4
         reasons[motor] = Rejection(
@@ -216,13 +217,13 @@ def _parts(
         taken = wheel_slew_time(task, largest[:, None], line, armature)[0]
         late = np.divide(taken, time, out=np.full(taken.shape, np.inf), where=time > 0.0)
         if isinstance(maneuver, Balance):
-            # All that is asked grows with the tilt, and the time is not the user's.
+            # The whole demand is proportional to the tilt, and the time is not set by the user.
             demand = spin_demand(task, line, armature)
             wheel = np.minimum(largest[:, None], 0.5 / demand.coupling)
             can = capability(demand, np.maximum(wheel, _NOTHING)).sweep
             late = np.divide(demand.sweep, can, out=np.full(can.shape, np.inf), where=can > 0.0)[0]
         if isinstance(maneuver, TurnTo | Pivoted):
-            # The closed forms take a loop for part of it in part of its time, and a swing for a
+            # The closed forms treat a full loop as part of it in part of the time, and a swing as a
             # turn there and back.
             time = maneuver.duration
         yield RequirementPart(maneuver.name, at, time, needed, late, slew_reason(task, line)[0])
@@ -250,24 +251,24 @@ def _reason(
     """The first obstacle, with figures.
 
     Args:
-        problem: that was searched. drive: alone. part: that is worst for it, single figures.
-        fitting: spin inertias of the largest wheel that fits, 0 where not even a rim does, and of
-            that if rims might weigh anything [kg m^2].
+        problem: the problem searched. drive: a single one. part: the worst one for it, scalars.
+        fitting: spin inertia of the largest wheel that fits, 0 where not even a rim does, and the
+            same without a mass limit [kg m^2].
     """
     fits, weighty = fitting
     wheel = f"{part.name} needs a wheel of {part.needed:.3g} kg m^2"
     if part.reason == SlewReason.AXIS:
         at = np.degrees(part.incidence)
         place = f"at {at:.4g} deg" if problem.layout.pairs else f"of {problem.layout.text}"
-        return Reason.INCIDENCE, f"{part.name} asks for an axis out of reach {place}"
+        return Reason.INCIDENCE, f"{part.name} requires an axis out of reach {place}"
     if not part.late > 1.0:
-        # A wheel would fit, but for its hoop stress, or for what it adds to the robot's inertia.
+        # A wheel would fit except for its hoop stress, or for what it adds to the robot's inertia.
         limits = Candidates.of_each_material(problem, drive).limits
         rims = np.maximum(
             part.needed - drive.beside_rim, smallest_rim_inertia(limits) * (1.0 + 1e-9)
         )
         if not _any_rim(rims, replace(limits, stretch_max=np.inf)):
-            # What a rim is too narrow to go around, if there is anything.
+            # The part that the rim is too narrow to go around, if any.
             (where, radius), most = _narrowest(limits), float(np.max(limits.outer_radius_max))
             narrow = ""
             if radius > most:
@@ -280,8 +281,11 @@ def _reason(
             return Reason.ENVELOPE, f"{wheel}, and no rim of that size fits{narrow}"
         if not _any_rim(rims, limits):
             rpm = drive.overspeed[0] * 30.0 / np.pi
-            return Reason.STRESS, f"{wheel}, and no rim of that size stands {rpm:,.0f} rpm"
-        return Reason.OWN_WEIGHT, f"{wheel} on the robot alone, and none that fits with its device"
+            return Reason.STRESS, f"{wheel}, and no rim of that size withstands {rpm:,.0f} rpm"
+        return (
+            Reason.OWN_WEIGHT,
+            f"{wheel} on the robot alone, and with the device on it no wheel that fits suffices",
+        )
     weak = part.reason == SlewReason.TORQUE
     if np.isfinite(part.needed) and not weak:
         reason = Reason.ENVELOPE if part.needed > weighty else Reason.MASS
@@ -300,8 +304,8 @@ def _reason(
 def largest_wheel(problem: SelectionProblem, room: Envelope) -> float:
     """Spin inertia of the largest rim of any material, whatever its hoop stress [kg m^2].
 
-    With its web, without its hub and what is cut off it. As wide and tall as may be, and as thick
-    as its mass allows; if it must be thicker, lower.
+    With its web, without its hub and less its cuts. It is as wide and tall as allowed, and as thick
+    as its mass allows; if it must be thicker, it is lower.
     """
     density = np.array([material.density for material in problem.materials])
     outer, layer = room.outer_radius_max, np.pi * density * room.height_max
@@ -319,12 +323,12 @@ def largest_wheel(problem: SelectionProblem, room: Envelope) -> float:
 
 
 def _any_rim(spin_inertia: FloatArray, limits: RimLimits) -> bool:
-    """Whether there is a rim of any material."""
+    """Whether a rim of any material is feasible."""
     return bool((lightest_module(spin_inertia, limits, PlainDrum()).mass > 0.0).any())
 
 
 def _narrowest(limits: RimLimits) -> tuple[str, float]:
-    """What a rim must go around, and its least outer radius by that [m]."""
+    """The part that a rim must go around, and the least outer radius that results [m]."""
     around = np.asarray(limits.inner_radius_min) + limits.wall_min
     hub = "around its hub, or with the least bore allowed,"
     least = {

@@ -25,32 +25,32 @@ from ocs_design.sizing.selection.fixed_point import FixedPoint, Solved, solve_st
 from ocs_design.sizing.selection.problem import SelectionProblem, lightest_first
 
 RANKED = 10
-"""Devices that a selection lists at least."""
+"""Least number of devices that a selection lists."""
 
 MOTORS = 5
-"""Motors of which it lists the lightest device: not every motor can be bought."""
+"""Number of motors whose lightest device it lists: not every motor can be bought."""
 
 _BATCH = 24
 _AHEAD = 256
-"""Candidates that are bounded at once before the next are solved."""
+"""Number of candidates bounded at once before the next are solved."""
 
 _CHUNK = 1024
 _PROMISING = 0.998
-"""Margin of a candidate that is not feasible where it was solved, but may be nearby."""
+"""Margin above which a candidate that is infeasible where it was solved may be feasible nearby."""
 
 _FALL, _FALL_STATED = 0.03, 0.003
-"""Share of the mass that a refinement may save at most, and where the incidence is stated: there it
-saved at most 1e-4 on the robots tried."""
+"""Largest fraction of the mass that a refinement may save, and the same at a specified incidence,
+where it saved at most 1e-4 on the robots tried."""
 
 
 @dataclass(frozen=True)
 class Rank:
-    """Place of one of the lightest devices: mass [kg], batch and row where it is, and its parts.
+    """Entry of one of the lightest devices: mass [kg], batch and row where it is stored, and parts.
 
     Attributes:
         parts: indices of motor, gear and material.
         widest: largest outer radius of its rim, or of a ring that its bond holds [m].
-        strength: of the material [Pa]; 0: not known.
+        strength: of the material [Pa]; 0: unknown.
     """
 
     mass: float
@@ -68,12 +68,12 @@ class Rank:
 
 @dataclass(eq=False)
 class Found(PairBounds):
-    """What a search has found so far.
+    """Results of a search so far.
 
     Attributes:
-        batches: solved candidates. places: of the lightest, lightest first.
-        below: mass of what is heavier than anybody asks for [kg].
-        ranks: whether the next lightest are looked for too.
+        batches: solved candidates. places: entries of the lightest, lightest first.
+        below: mass above which devices are of no interest [kg].
+        ranks: whether the next lightest are searched for too.
     """
 
     batches: list[Solved] = field(default_factory=list)
@@ -88,11 +88,11 @@ class Found(PairBounds):
 
     @property
     def enough(self) -> FloatArray:
-        """Mass that a device of each motor must stay below to be listed [kg], shape (motors,)."""
+        """Mass below which a device of each motor is listed [kg], shape (motors,)."""
         if not self.ranks:
             return np.full(len(self.problem.motors), min(self.lightest, self.below))
         best = _best_of_motors(self.places)
-        # A motor is listed below the last that is, and then with what is lighter yet.
+        # A new motor must be lighter than the last one listed; a listed one must improve on itself.
         last = best[-1].mass if len(best) >= MOTORS else np.inf
         masses = np.full(len(self.problem.motors), last)
         for rank in best:
@@ -103,7 +103,7 @@ class Found(PairBounds):
 
     @property
     def devices(self) -> list[Solved]:
-        """The lightest, lightest first, one row each."""
+        """The lightest devices, in order of mass, one row each."""
         return [self.batches[rank.batch].take(np.array([rank.row])) for rank in self.places]
 
     def add(self, solved: Solved) -> None:
@@ -137,10 +137,10 @@ class Found(PairBounds):
         bound[material, row] = guess.mass
 
     def refine(self, by: Callable[[Candidates, FixedPoint], FixedPoint]) -> None:
-        """Refine what may be the lightest of all, and what may be feasible and lighter.
+        """Refine candidates that may be the lightest of all, or may be feasible and lighter.
 
         Args:
-            by: the lightest device of one candidate near a point (`refinement.refine`).
+            by: finds the lightest device of one candidate near a point (`refinement.refine`).
         """
         fall = _FALL if self.problem.incidence is None else _FALL_STATED
         for index, batch in enumerate(self.batches):
@@ -158,7 +158,7 @@ class Found(PairBounds):
         self._list([rank for i, batch in enumerate(self.batches) for rank in _ranks(i, batch)])
 
     def _list(self, ranks: Sequence[Rank]) -> None:
-        """The lightest of these, and the lightest of each of the best motors."""
+        """List the lightest of these, and the lightest of each of the best motors."""
         lightest: dict[tuple[int, int, int], Rank] = {}
         for rank in _ordered(ranks):
             lightest.setdefault(rank.parts, rank)
@@ -180,7 +180,7 @@ def _ranks(batch: int, solved: Solved) -> Iterator[Rank]:
 
 
 def _ordered(ranks: Iterable[Rank]) -> list[Rank]:
-    """The lightest first; of equally heavy ones the safest, as in `devices_by_mass`."""
+    """The lightest first; among equally heavy ones the safest, as in `devices_by_mass`."""
 
     def preference(rank: Rank) -> tuple[float, float, tuple[int, int, int], float, int, int]:
         return -rank.widest, -rank.strength, rank.parts, rank.mass, rank.batch, rank.row
@@ -197,15 +197,16 @@ def _best_of_motors(ordered: Sequence[Rank]) -> list[Rank]:
 
 
 def search(problem: SelectionProblem, below: float = np.inf, *, ranks: bool = True) -> Found:
-    """The lightest devices, and for every motor and gear how light its lightest is at least.
+    """The lightest devices, and a lower bound of the mass for every motor with every gear.
 
-    Every motor behind every gear is examined whose bound leaves it a place in the list. None is
-    refined yet (`Found.refine`): at a stated incidence the lightest is so to 0.1 % of its mass.
+    Every motor with every gear is examined whose bound may put it in the list. None is refined yet
+    (`Found.refine`): at a specified incidence the result is the lightest to within 0.1 % of its
+    mass.
 
     Args:
         problem: see `SelectionProblem`.
-        below: what is no lighter need not be found [kg].
-        ranks: False: the lightest alone is looked for.
+        below: only lighter devices need to be found [kg]. ranks: False: only the lightest is
+            searched for.
     """
     found = Found.of(problem)
     found.below, found.ranks = below, ranks
@@ -218,7 +219,7 @@ def search(problem: SelectionProblem, below: float = np.inf, *, ranks: bool = Tr
     chunks = (rest[start : start + _CHUNK] for start in range(0, len(rest), _CHUNK))
     webs = np.arange(len(problem.lightenings))
     for some in (pairs[first], *chunks):
-        # Bound those that may be listed, then solve those that still may.
+        # Bound those that may be listed, then solve those that still may be.
         asked = some[found.least[tuple(some.T)] < found.enough[some[:, 0]]]
         if not asked.size:
             continue

@@ -1,4 +1,4 @@
-"""The lightest device that does everything that is required, at the best or a stated incidence."""
+"""The lightest device that meets the requirement, at the best or a specified incidence."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -27,15 +27,15 @@ from ocs_design.sizing.selection.rejections import Refused, rejections
 from ocs_design.sizing.selection.search import Found, search
 
 _CONVERGED = 1e-7
-"""Error of an incidence [rad], with which a mass is right to nine digits."""
+"""Error of an incidence [rad] at which the mass is accurate to nine digits."""
 _ITERATIONS_MAX = 50
 _WINNERS_MAX = 8
 _ABOUT = 1e-4
-"""Relative difference of masses that an incidence which is about right may make."""
+"""Relative difference of masses that a nearly converged incidence may cause."""
 
 
 def select(problem: SelectionProblem) -> Selection:
-    """The lightest devices, those of the best motors among them, and why the others are rejected.
+    """The lightest devices, including those of the best motors, and why the others are rejected.
 
     No device of these motors, gears and materials that does every maneuver in time is lighter by
     0.1 %, at any incidence, with any rim within the envelope (docs/theory.md, The selection).
@@ -55,7 +55,7 @@ def select(problem: SelectionProblem) -> Selection:
 
 
 def _found(problem: SelectionProblem, *, refined: bool) -> Found:
-    """Devices that a search finds, at least one (`select`); not refined, the lightest alone."""
+    """Devices that a search finds, at least one (`select`); unrefined, only the lightest."""
     problem.check()
     found = search(problem, ranks=refined)
     if refined:
@@ -72,17 +72,18 @@ def select_by(
 ) -> Selection:
     """The lightest devices at the incidence that a criterion sets.
 
-    The criterion looks at robot and device together, so that the incidence is solved for one
-    device at a time: for the lightest, then the selection is made anew at that incidence until the
-    same device wins. Where none wins at its own incidence, the lightest of those that won at
-    another's leads, each at its own; what would be lighter there is not at its own incidence, and
-    has fallen out. Where none of them can be at its own, the last selection stands.
+    The criterion applies to robot and device together, so the incidence is solved for one device at
+    a time: for the lightest, then the selection is repeated at that incidence until the same device
+    wins. Where none wins at its own incidence, the previous winners are compared, each at its own,
+    and the lightest is first; devices that would be lighter at its incidence are not at their own,
+    and are rejected. Where no winner is feasible at its own incidence, the last selection is
+    returned.
 
     Args:
-        problem: its own incidence goes first.
-        criterion: None: whatever makes the device lightest.
-        winner: device of this problem that is likely to win; None: the lightest at the robot's own
-            incidence.
+        problem: an incidence given there takes precedence.
+        criterion: None: the incidence that makes the device lightest.
+        winner: device of this problem that is likely to win; None: the lightest at the incidence
+            for the robot alone.
 
     Raises:
         Refused, UsageError: see `select`.
@@ -90,7 +91,7 @@ def select_by(
     if problem.incidence is not None or criterion is None:
         return select(problem)
     if winner is None:
-        # Only its winner is of use, and a refined one would be at the wrong incidence too.
+        # Only its winner is used, and refining it would not correct its incidence.
         found = _found(_at_robots(problem, criterion), refined=False)
         winner = device_of(found.devices[0])
     winners: list[Candidate] = []
@@ -102,7 +103,7 @@ def select_by(
             _, exact = at_own_incidence(problem, selection.best, criterion)
             if exact is None:
                 return selection
-            # What is about as light is compared at exactly its incidence.
+            # Devices that are about as light are compared at exactly this incidence.
             about, others = exact.mass * (1.0 + _ABOUT), selection.ranking[1:]
             near = [entry for entry in others if entry.mass < about]
             turned = devices_at(problem, near, exact.incidence) if near else ()
@@ -118,13 +119,15 @@ def select_by(
         return selection
     lightest = devices_by_mass(own)[0]
     there = select(replace(problem, incidence=lightest.incidence))
-    # It leads; motors that are lighter at this incidence, which is not their own, have fallen out.
+    # It is first; motors that are lighter at this incidence, which is not their own, are rejected.
     heavier = [entry for entry in there.ranking if entry.mass > lightest.mass]
     ranking = (lightest, *(entry for entry in heavier if not same_parts(entry, lightest)))
     listed = {entry.motor.name for entry in ranking}
     lighter = {entry.motor.name: entry.mass for entry in reversed(there.ranking)}
     fallen = [
-        Rejection(name, Reason.INCIDENCE, f"{1e3 * mass:.0f} g, at another than its own", 0.0)
+        Rejection(
+            name, Reason.INCIDENCE, f"{1e3 * mass:.0f} g, only at another device's incidence", 0.0
+        )
         for name, mass in lighter.items()
         if name not in listed
     ]
@@ -133,7 +136,7 @@ def select_by(
 
 
 def lightest_by(problem: SelectionProblem, criterion: Criterion | None) -> Candidate | None:
-    """The lightest device alone, not refined; None: only the whole selection can tell."""
+    """The lightest device alone, unrefined; None: the full selection must decide."""
     problem.check()
     stated = problem.incidence is not None
     at = problem if stated or criterion is None else _at_robots(problem, criterion)
@@ -147,13 +150,13 @@ def lightest_by(problem: SelectionProblem, criterion: Criterion | None) -> Candi
 
 
 def lightest_below(problem: SelectionProblem, below: float) -> Candidate | None:
-    """The lightest device, if there is one that is lighter than this [kg]."""
+    """The lightest device, if it is lighter than this [kg]."""
     found = search(problem, below, ranks=False)
     if not found.places:
         return None
     solved = found.devices[0]
     if problem.incidence is None:
-        # There a search leaves up to 3 % of the mass.
+        # With free incidence, a search is up to 3 % too heavy.
         point = refine(solved.candidates, solved.point)
         better = replace(solved, point=point)
         solved = better if better.mass[0] < solved.mass[0] else solved
@@ -170,8 +173,8 @@ def at_own_incidence(
 ) -> tuple[float, Candidate | None]:
     """The incidence [rad] that the criterion sets for the device of these parts, and that device.
 
-    It keeps its radius, which hardly depends on the incidence, as far as it can there. Where these
-    parts make no device on the way there, the first incidence at which they do not, and None.
+    It keeps its radius, which hardly depends on the incidence, as far as possible. Where these
+    parts become infeasible on the way, the result is the first such incidence and None.
     """
     found, angle, last = winner, winner.incidence, None
     for _ in range(_ITERATIONS_MAX):
@@ -183,10 +186,10 @@ def at_own_incidence(
         last = angle, change
         # The device's inertia hardly changes with the incidence: the slope is about -1.
         angle -= change / (slope if -2.0 < slope < -0.5 else -1.0)
-        # From its own radius each time: one that is lost beyond that incidence would stay lost.
+        # Start from its own radius each time: a radius changed at one incidence would not return.
         turned = device_at(problem, winner, min(max(angle, 0.0), pi / 2.0))
         if turned is None:
-            # Not of these parts, then: whether of others, the whole selection tells.
+            # Infeasible with these parts; the full selection decides about others.
             return angle, None
         found = turned
     return angle, found
@@ -200,7 +203,7 @@ def lightest_near(
     None: there is none near it.
 
     Args:
-        device: to begin with. criterion: see `select_by`.
+        device: start of the search. criterion: see `select_by`.
     """
     free = problem.incidence is None and criterion is None
     solved = _solved_at(problem, [device], None if free else device.incidence)
@@ -231,7 +234,7 @@ def devices_at(
     for row in range(len(devices)):
         one = solved.take(np.array([row]))
         if not one.point.feasible[0]:
-            # The iteration runs away where a device can only just carry itself; a programme not.
+            # Fixed-point iteration diverges for marginal devices; the nonlinear programme does not.
             one = replace(one, point=refine(one.candidates, one.point))
         yield device_of(one) if one.point.feasible[0] else None
 

@@ -1,1 +1,1 @@
-"""Maneuvers in 3-D: one trajectory program for planned flights and for the device's dimensions."""
+"""Maneuvers in 3-D: one trajectory program for planned flights and for co-design."""

@@ -1,4 +1,4 @@
-"""Maneuvers as boundary value problems: how trunk and wheels start, and what must hold at the end.
+"""Maneuvers as boundary value problems: initial state of trunk and wheels, and final conditions.
 
 Attitudes are unit quaternions (w, x, y, z) that turn B into the world.
 """
@@ -19,23 +19,24 @@ UPRIGHT = np.array([1.0, 0.0, 0.0, 0.0])
 """Trunk upright, its x axis along the world's."""
 
 HELD_ON = 1.5
-"""How long a robot that has stood up, or was caught, is held upright, over the time asked for."""
+"""Time for which a robot that has stood up or recovered is held upright, relative to the time
+given."""
 
 _PITCH = np.array([0.0, 1.0, 0.0])
 
 
 @dataclass(frozen=True, eq=False)
 class Boundary:
-    """A turn of the trunk that ends at rest about all axes which the wheels reach.
+    """A turn of the trunk that ends at rest about all axes that the wheels control.
 
     Attributes:
         name: of the maneuver.
         attitude: at the start, shape (4,).
-        final_attitude: at the end, shape (4,), of which `end` says what counts.
+        final_attitude: at the end, shape (4,); `end` says which part of it counts.
         axis: unit vector about which the trunk mainly turns, in B, shape (3,).
-        angle: of that turn [rad], signed; past half a turn it tells how often the trunk goes round.
-        duration: time that the turn takes [s].
-        end: what must hold then, one of `End`.
+        angle: of that turn [rad], signed; beyond half a turn it gives the number of revolutions.
+        duration: duration of the turn [s].
+        end: final condition, one of `End`.
         rate: of the trunk at the start, in B [rad/s], shape (3,).
         wheel_speed: at the start [rad/s], shape (n,) or one for all.
         push: torque on the trunk before the turn, in B [N m], shape (3,).
@@ -64,10 +65,10 @@ def boundary(maneuver: Maneuver, standing_height: float) -> Boundary:
     """The boundary value problem of a maneuver in the air.
 
     Args:
-        standing_height: of the trunk over the ground [m].
+        standing_height: of the trunk above the ground [m].
 
     Raises:
-        SpecificationError: no time is left after the torque of one that nobody foresees.
+        SpecificationError: no time is left after the torque of an unforeseen maneuver.
     """
     x, _, z = np.eye(3)
     if isinstance(maneuver, Drop):
@@ -76,7 +77,7 @@ def boundary(maneuver: Maneuver, standing_height: float) -> Boundary:
             from_axis_angle(_PITCH, maneuver.pitch), from_axis_angle(x, maneuver.roll)
         )
         vertical = vertical_of(attitude)
-        # A rate w moves the vertical by -w x v.
+        # A rate w changes the vertical v by -w x v.
         axis = np.cross([0.0, 0.0, 1.0], vertical)
         length = float(np.linalg.norm(axis))
         axis = axis / length if length > 0.0 else _PITCH
@@ -91,7 +92,7 @@ def boundary(maneuver: Maneuver, standing_height: float) -> Boundary:
                 f"maneuver {maneuver.name!r}: no time is left after its torque",
                 hint="Let the torque start earlier, or the robot jump higher.",
             )
-        # Back to level in the time after a torque, from level at its onset.
+        # Back to level in the time left after the torque, from level at its onset.
         return Boundary(
             maneuver.name,
             UPRIGHT,
@@ -110,7 +111,7 @@ def boundary(maneuver: Maneuver, standing_height: float) -> Boundary:
         product(from_axis_angle(_PITCH, maneuver.pitch), from_axis_angle(x, maneuver.roll)),
     )
     if np.count_nonzero(angles) == 1:
-        # About one axis: it may be more than half a turn.
+        # About one axis, it may be more than half a turn.
         axis, angle = np.sign(angles), float(np.abs(angles).sum())
     else:
         final = final * np.copysign(1.0, final[0])

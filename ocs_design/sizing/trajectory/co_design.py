@@ -1,8 +1,8 @@
 """Co-design: the lightest wheels and incidence of the selected parts, with all maneuvers in 3-D.
 
-Motor, gear and material stand. A wheel is free in its spin inertia and its outer radius; bore and
-height are those of the lightest module that has both. A smaller module may weigh more and yet be
-easier to carry. The incidence is free beside them.
+Motor, gear and material are fixed. A wheel is free in its spin inertia and its outer radius; bore
+and height are those of the lightest module with both. A smaller module may weigh more and still be
+easier to carry. The incidence is free too.
 """
 
 from collections.abc import Iterator
@@ -27,16 +27,17 @@ from ocs_design.sizing.trajectory.program import Dimensions, solve
 from ocs_design.sizing.trajectory.transcription import Plant, Turn
 
 LEAST_GAIN = 1e-4
-"""Share of the mass below which a gain is the program's own error, and the selection stands."""
+"""Fraction of the mass below which a gain is within the program's error, and the selection
+stands."""
 
 PASSES = (16, 48)
-"""Intervals of each maneuver."""
+"""Number of intervals of each maneuver, in successive passes."""
 
 _WHEELS, _RADII = np.linspace(0.85, 1.15, 21), np.linspace(0.85, 1.15, 21)
-"""Spin inertias and outer radii that are looked at, over the selected ones."""
+"""Spin inertias and outer radii that are tabulated, relative to the selected ones."""
 
 _FEWEST = 4
-"""Values that a cubic spline goes through at the least."""
+"""Least number of points of a cubic spline."""
 
 _NEAREST = np.radians(1.0)
 """Distance of a free incidence to 0 and to a right angle, where an axis is out of reach [rad]."""
@@ -49,10 +50,10 @@ class CoDesign:
     Attributes:
         adopted: whether `device` is the co-design's; otherwise the selection stands.
         note: one sentence on that.
-        device: to build.
-        found_mass: of what the program ended with, adopted or not [kg].
+        device: the device to build.
+        found_mass: mass of the program's result, adopted or not [kg].
         selected_mass: of the selection [kg].
-        status: IPOPT's own word. iterations: taken.
+        status: IPOPT's return status. iterations: number of iterations.
         flights: of all maneuvers, on the finer grid.
     """
 
@@ -67,25 +68,25 @@ class CoDesign:
 
     @property
     def gain(self) -> float:
-        """Mass saved, over the selection's; negative where what was found is heavier."""
+        """Mass saved, relative to the selection's; negative where the result is heavier."""
         return 1.0 - self.found_mass / self.selected_mass
 
     @property
     def fine_violation(self) -> float:
-        """Largest overstepping of a drive's limit on the fine grid, relative."""
+        """Largest relative violation of a drive's limit on the fine grid."""
         return max((flight.violation for flight in self.flights), default=0.0)
 
 
 def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
     """The lightest device of the selected motor, gear and material that flies its maneuvers.
 
-    Never heavier than the selection: where IPOPT fails, finds nothing lighter, or the fine grid
-    does not bear its answer out, the selection stands and the note says why.
+    It is never heavier than the selection: where IPOPT fails, finds nothing lighter, or the fine
+    grid does not confirm its result, the selection stands and the note says why.
     """
     mass = float(selected.mass)
     stands = CoDesign(
         adopted=False,
-        note="the selection stands: the spin inertia is stated",
+        note="the selection stands: the spin inertia is specified",
         device=selected,
         found_mass=mass,
         selected_mass=mass,
@@ -99,7 +100,8 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
         return replace(stands, note="the selection stands: a robot on a pivot is not co-designed")
     device = FreeDevice.of(problem, selected)
     if device is None:
-        return replace(stands, note="the selection stands: its room leaves the wheels no choice")
+        note = "the selection stands: the envelope leaves the wheels no choice"
+        return replace(stands, note=note)
     turns = list(device.turns())
     solution = solve(turns, _usable(problem, selected), PASSES, device.dimensions())
     found = device.at(*solution.dimensions.tolist())
@@ -129,8 +131,8 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
     )
     if wrong:
         return outcome
-    # Each maneuver takes what it does in 3-D, and all the time that it has. Its smallest spin
-    # inertia is the closed form's, or the device's own where it does with less.
+    # Each maneuver needs what it takes in 3-D, and all the time given. Its smallest spin inertia is
+    # that of the closed form, or the device's own where a smaller one suffices.
     demands = [
         replace(
             demand,
@@ -160,13 +162,14 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
 class FreeDevice:
     """A selected device whose wheels and incidence are free.
 
-    Its dimensions are spin inertia and outer radius over the selected ones, and incidence [rad].
+    Its dimensions are spin inertia and outer radius relative to the selected ones, and incidence
+    [rad].
 
     Attributes:
-        problem: that it was selected for. selected: the selection's outcome.
-        lower, upper: of the first two dimensions, shape (2,).
-        figures: from those two to the mass over the selected one and to the coefficients of 1, s,
-            c, s^2 and s c in the inertia of robot and device [kg m^2], (46, 1): with sine s and
+        problem: for which it was selected. selected: the selection's outcome.
+        lower, upper: bounds of the first two dimensions, shape (2,).
+        figures: function of those two: mass relative to the selected one, and coefficients of 1, s,
+            c, s^2 and s c in the inertia of robot and device [kg m^2], (46, 1); with sine s and
             cosine c of the incidence, bodies that turn about the vertical have no other terms.
     """
 
@@ -178,12 +181,12 @@ class FreeDevice:
 
     @classmethod
     def of(cls, problem: SelectionProblem, selected: Candidate) -> "FreeDevice | None":
-        """The device with splines through wheels around the selected one; None: there are few."""
+        """The device with splines through wheels around the selected one; None: too few."""
         angles = np.linspace(0.0, np.pi / 2.0, 5)
         sine, cosine = np.sin(angles), np.cos(angles)
         terms = np.column_stack([np.ones(5), sine, cosine, sine**2, sine * cosine])
         room = float(selected.limits.outer_radius_max) / selected.outer_radius
-        # Spin inertias over the selected one of which there is a module in the room.
+        # Relative spin inertias for which a module fits the envelope.
         modules = with_wheels(problem, selected, _WHEELS, np.ones_like(_WHEELS))
         factors = np.array([each.spin_inertia for each in modules]) / selected.spin_inertia
         radii = np.linspace(_RADII[0], max(min(_RADII[-1], room), 1.0), _RADII.size)
@@ -205,14 +208,14 @@ class FreeDevice:
         return cls(problem, selected, lower, upper, figures)
 
     def at(self, factor: float, radius: float, incidence: float) -> Candidate:
-        """The device of some dimensions."""
+        """The device with these dimensions."""
         found = next(
             with_wheels(self.problem, self.selected, np.array([factor]), np.array([radius]))
         )
         return replace(found, incidence=incidence, robot=self.problem.robot)
 
     def plant(self, dimensions: ca.MX, own: float | None = None) -> Plant:
-        """Robot and device of symbols, at the incidence among them or at one of its own [rad]."""
+        """Symbolic robot and device, at the incidence among the dimensions or at `own` [rad]."""
         incidence = dimensions[2] if own is None else ca.MX(own)
         sine, cosine = ca.sin(incidence), ca.cos(incidence)
         terms = ca.vertcat(1.0, sine, cosine, sine**2, sine * cosine)
@@ -225,7 +228,7 @@ class FreeDevice:
         )
 
     def turns(self) -> Iterator[Turn]:
-        """Every maneuver at its own incidence, if it has one, else at that of the device."""
+        """Every maneuver, at its own incidence if it has one, else at that of the device."""
         start = self.at(*self.dimensions().start.tolist())
         requirement = self.problem.requirement
         for maneuver in requirement.maneuvers:
@@ -235,13 +238,13 @@ class FreeDevice:
             yield Turn(asked, gyrostat, partial(self.plant, own=own))
 
     def dimensions(self) -> Dimensions:
-        """The limits of all three, and the mass to be minimised."""
+        """Bounds of all three dimensions, and the mass to be minimised."""
         incidence, requirement = self.selected.incidence, self.problem.requirement
         nearest, farthest = _NEAREST, np.pi / 2.0 - _NEAREST
-        # A device for one axis alone stays one: else the other axis would ask for being stopped.
+        # A device for one axis stays one: otherwise the other axis would have to be stopped too.
         if self.problem.incidence is not None or not nearest < incidence < farthest:
             nearest = farthest = incidence
-        # At an incidence of its own a flip asks nothing of the design's.
+        # A flip at an incidence of its own does not constrain the design's.
         rolls = (
             requirement.reserves[each.name].roll
             for each in requirement.maneuvers
@@ -249,12 +252,13 @@ class FreeDevice:
         )
         change, roll = requirement.rate_change or 0.0, max(rolls, default=0.0)
         top, robot = float(self.selected.line.reserved().top_speed), self.problem.robot.inertia
-        # Either wheel is the busier one; which of them does not change with the device.
+        # One wheel is the busier one; which of the two does not depend on the dimensions.
         sense = np.sign(TiltInertia.of(self.selected.total.inertia).product)
 
         def excess(dimensions: ca.MX) -> ca.MX:
-            """Momentum that the wheels lack, over the robot's: to change its rate, and to undo a
-            roll at lift-off (`held_in_roll`)."""
+            """Missing momentum of the wheels, relative to the robot's.
+
+            Parts: the change of rate, and cancelling a roll at lift-off (`held_in_roll`)."""
             plant, parts = self.plant(dimensions), []
             whole, shares = plant.inertia, plant.axes[:2, 0]
             held = 2.0 * top * plant.spin_inertia * shares
@@ -280,12 +284,12 @@ class FreeDevice:
 def with_wheels(
     problem: SelectionProblem, selected: Candidate, factors: FloatArray, radii: FloatArray
 ) -> Iterator[Candidate]:
-    """The selected device with other wheels, where there is a module of their spin inertia.
+    """The selected device with other wheels, where a module of that spin inertia is feasible.
 
     Args:
-        problem: that it was selected for. selected: the selection's outcome.
-        factors: spin inertias over the selected one, shape (n,).
-        radii: outer radii likewise; the nearest possible one is taken.
+        problem: for which it was selected. selected: the selection's outcome.
+        factors: spin inertias relative to the selected one, shape (n,).
+        radii: outer radii relative to the selected one; the nearest feasible one is used.
     """
     limits, turning = selected.limits, selected.drive.rotor_inertia + selected.hub_share
     spin_inertias, outer_radii = factors * selected.spin_inertia, radii * selected.outer_radius
@@ -309,9 +313,9 @@ def _gyrostat(problem: SelectionProblem, device: Candidate, incidence: float) ->
 
 
 def _usable(problem: SelectionProblem, device: Candidate) -> DriveLine:
-    """Line that the drives may use: torque and speed over the reserve's factor.
+    """Torque-speed line that the drives may use, reduced by the reserve's factor.
 
-    Of the reserves of all maneuvers the largest holds for each.
+    The largest reserve of all maneuvers applies to each.
     """
     factors = (kept.demand for kept in problem.requirement.reserves.values())
     return device.line.reserved(RESERVE / max(factors, default=1.0))

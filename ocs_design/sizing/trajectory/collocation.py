@@ -1,11 +1,11 @@
 """Polynomials of one interval: Radau collocation of the states, Bernstein form of the limits.
 
-On each interval, s = 0..1, the states are polynomials through its start and through its Radau
-points, where they obey the equations of motion (Kelly, SIAM Review 59(4), 2017; the points: Hairer
-and Wanner, Solving Ordinary Differential Equations II, section IV.5). The motor torques are
-parabolas. A polynomial in Bernstein form lies between its smallest and its largest coefficient
-(Farouki, Computer Aided Geometric Design 29, 2012): limits on the coefficients hold between the
-points too.
+On each interval, s = 0..1, the states are polynomials through its start and its Radau points, where
+they satisfy the equations of motion (Kelly, SIAM Review 59(4), 2017; the points: Hairer and Wanner,
+Solving Ordinary Differential Equations II, section IV.5). The motor torques are parabolas. A
+polynomial in Bernstein form lies between its smallest and its largest coefficient (Farouki,
+Computer Aided Geometric Design 29, 2012), so limits on the coefficients hold between the points
+too.
 """
 
 from math import comb
@@ -22,7 +22,7 @@ TORQUE_DEGREE = 2
 
 
 def radau_points(count: int) -> FloatArray:
-    """Zeros of P_n - P_(n-1) on 0..1, increasing, the last of them 1; P_n of Legendre."""
+    """Zeros of P_n - P_(n-1) on 0..1, increasing, the last of them 1; P_n: Legendre polynomials."""
     series = np.zeros(count + 1)
     series[count - 1 :] = -1.0, 1.0
     points = 0.5 * (np.sort(legendre.legroots(series).real) + 1.0)
@@ -39,7 +39,7 @@ def bernstein_basis(s: FloatArray, degree: int = TORQUE_DEGREE) -> FloatArray:
 
 
 def bernstein_product(degree: int) -> list[list[tuple[int, float]]]:
-    """Shares of a_i b_(k-i) in each Bernstein coefficient k of a product a b, as pairs (i, share).
+    """Weights of a_i b_(k-i) in each Bernstein coefficient k of a product, pairs (i, weight).
 
     `C(n, i) C(n, k - i) / C(2 n, k)` for two factors of degree n (Farouki 2012, section 3).
     """

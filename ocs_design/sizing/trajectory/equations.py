@@ -1,14 +1,14 @@
 """Equations of the trajectory program in symbols: a gyrostat over one interval, its start and end.
 
 Momentum is conserved in free flight. With its value H_0 in the world, an attitude R and wheel
-speeds W tell everything else:
+speeds W determine everything else:
 
     I w = R^T H_0 - h A W
     ((h + a) 1 - h^2 A^T I^-1 A) W_dot = tau + h A^T I^-1 (w x R^T H_0)
 
-so that a quaternion and n speeds are the state, for any layout of n wheels (docs/theory.md, The
-maneuver as an optimal control problem). About a pivot gravity changes the momentum about it,
-H_0_dot = m g l x e in the world, and it is part of the state.
+So a quaternion and n speeds are the state, for any layout of n wheels (docs/theory.md, The maneuver
+as an optimal control problem). About a pivot, gravity changes the momentum about it, H_0_dot = m g
+l x e in the world, so it becomes part of the state.
 """
 
 from functools import cache
@@ -95,10 +95,11 @@ def interval(wheels: int, *, stands: bool) -> ca.Function:
 
 @cache
 def left_power(wheels: int) -> ca.Function:
-    """Bernstein coefficients of the power of the wheels left in one interval [W], (1, 2 d + 1).
+    """Bernstein coefficients of the remaining wheels' power in one interval [W], (1, 2 d + 1).
 
     Inputs: Bernstein coefficients of speeds and torques planned for all wheels, (n, d + 1) each;
-    what of the torques each gives, (n, n); what is added to speeds shared alike, (n, 1); `copper`.
+    the matrix that shares the torques among the wheels left, (n, n); the addition to speeds shared
+    by the same matrix, (n, 1); `copper`.
     """
     speeds = ca.SX.sym("speeds", wheels, DEGREE + 1)
     torques = ca.SX.sym("torques", wheels, DEGREE + 1)
@@ -110,7 +111,7 @@ def left_power(wheels: int) -> ca.Function:
 
 
 def _product_of_coefficients(a: ca.SX, b: ca.SX) -> ca.SX:
-    """Bernstein coefficients of the sum over the rows of a product, (1, 2 d + 1)."""
+    """Bernstein coefficients of a product, summed over its rows, (1, 2 d + 1)."""
     return ca.horzcat(
         *(
             sum(share * ca.dot(a[:, i], b[:, k - i]) for i, share in row)
@@ -122,7 +123,7 @@ def _product_of_coefficients(a: ca.SX, b: ca.SX) -> ca.SX:
 def start_of(asked: Boundary, gyrostat: Gyrostat) -> ca.Function:
     """Function from a plant to its attitude at the start, and its figures in one column.
 
-    They are I^-1, of what turns about an edge alone, h A, h + a and the momentum in the world.
+    They are I^-1 (about an edge, restricted to it), h A, h + a and the momentum in the world.
     """
     wheels = gyrostat.axes.shape[1]
     inertia, axes = ca.SX.sym("inertia", 3, 3), ca.SX.sym("axes", 3, wheels)
@@ -142,7 +143,7 @@ def start_of(asked: Boundary, gyrostat: Gyrostat) -> ca.Function:
 def after_push(asked: Boundary) -> ca.Function:
     """Attitude (4, 1) and rate [rad/s] (3, 1) at the start of the turn for an inertia I_tot (3, 3).
 
-    The torque of a push stands in B while it turns robot and device as one rigid body: Euler's
+    The torque of a push is constant in B while it turns robot and device as one rigid body: Euler's
     equation by classical Runge-Kutta steps.
     """
     inertia, now = ca.SX.sym("inertia", 3, 3), ca.SX.sym("now", 7)
@@ -161,11 +162,11 @@ def after_push(asked: Boundary) -> ca.Function:
 
 
 def missed(axes_of_tilt: int, *, whole: bool) -> ca.Function:
-    """Violation of the end's conditions, which must be zero.
+    """Violation of the final conditions, which must be zero.
 
-    That is the tilt about the axes that the wheels reach, or all of the turn that is left.
-    Inputs: attitude (4, 1) and the `final` one, `up` in B then (3, 1), and the directions in B
-    along which the vertical must then be where it is asked for (k, 3).
+    This is the remaining tilt about the axes that the wheels control, or all of the remaining turn.
+    Inputs: attitude (4, 1) and the `final` one, the final direction `up` in B (3, 1), and the
+    directions in B along which the vertical must match it (k, 3).
 
     Args:
         axes_of_tilt: k. whole: whether all of the turn counts.
@@ -187,11 +188,11 @@ def _turned(attitude: ca.SX, vector: ca.SX) -> ca.SX:
 
 
 def _product(a: ca.SX, b: ca.SX) -> ca.SX:
-    """The turn `b`, seen in B, after the turn `a`, (4, 1)."""
+    """The rotation `b`, expressed in B, after the rotation `a`, (4, 1)."""
     scalar = a[0] * b[0] - ca.dot(a[1:], b[1:])
     return ca.vertcat(scalar, a[0] * b[1:] + b[0] * a[1:] + ca.cross(a[1:], b[1:]))
 
 
 def _back(attitude: ca.SX) -> ca.SX:
-    """The turn back, (4, 1)."""
+    """The inverse rotation, (4, 1)."""
     return ca.vertcat(attitude[0], -attitude[1:])

@@ -1,8 +1,7 @@
-"""A maneuver's torques applied to the gyrostat again, by an integrator that knows no collocation.
+"""Check of a planned maneuver: its torques are integrated again, independently of the collocation.
 
-It judges what the program claims: rate and wheel speeds follow from Euler's equation and the
-motors', not from conserved momentum, by classical Runge-Kutta steps on a grid ten times finer than
-the program's.
+Rate and wheel speeds follow from the equations of Euler and of the motors, not from conserved
+momentum, by classical Runge-Kutta steps on a grid ten times finer than the program's.
 """
 
 from dataclasses import dataclass
@@ -21,20 +20,20 @@ FINER = 10
 """Steps for each interval of the program."""
 
 VIOLATION_MAX = 1e-5
-"""Largest overstepping of a drive's limit, relative, that a solution may show on the fine grid."""
+"""Largest relative violation of a drive's limit that is accepted on the fine grid."""
 
 DEFECT_MAX = 1e-4
-"""Largest difference of the trunk's rate, over its largest, that it may show there."""
+"""Largest difference of the trunk's rate, relative to its largest, that is accepted there."""
 
 
 @dataclass(frozen=True, eq=False)
 class Flight:
-    """A maneuver flown, and how it compares with what was asked, allowed and claimed.
+    """A maneuver integrated on the fine grid, compared with the limits and the program's result.
 
     Attributes:
         trajectory: on the fine grid.
-        violation: largest overstepping of the drive's limits, relative to each.
-        defect: largest difference to the program's own rate, over the largest rate.
+        violation: largest violation of the drive's limits, relative to each.
+        defect: largest difference from the program's own rate, relative to the largest rate.
     """
 
     trajectory: Trajectory
@@ -52,9 +51,9 @@ class Flight:
 
 
 def fly(flown: Turn, line: DriveLine, motion: Motion) -> Flight:
-    """Apply the torques of a motion from the start of the turn, with robot and device as they are.
+    """Integrate the torques of a motion from the start of the turn, for this robot and device.
 
-    `line`: what of the drives may be used.
+    `line`: usable torque-speed line of the drives.
     """
     asked, gyrostat, turn = flown.asked, flown.gyrostat, flown.outline
     wheels = gyrostat.axes.shape[1]
@@ -110,7 +109,7 @@ def fly(flown: Turn, line: DriveLine, motion: Motion) -> Flight:
     difference = float(np.abs(trajectory.rate - claimed_rate).max())
     return Flight(
         trajectory,
-        # Before and after each jump: both torques may be allowed, and their mean not.
+        # Before and after each jump: both torques may be within limits, and their mean not.
         violation=max(
             limit_violation(trajectory.wheel_speed[:-1], first, line),
             limit_violation(trajectory.wheel_speed[1:], last, line),
@@ -120,7 +119,7 @@ def fly(flown: Turn, line: DriveLine, motion: Motion) -> Flight:
 
 
 def limit_violation(speed: FloatArray, torque: FloatArray, line: DriveLine) -> float:
-    """Largest overstepping of current, voltage line, speed and power, relative; 0 if none."""
+    """Largest relative violation of current, voltage line, speed and power; 0 if none."""
     slope = line.no_load_speed / line.stall_torque
     power = np.sum(torque * (slope * torque + speed), axis=-1)
     return float(

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 from ocs_design.common.arrays import FloatArray
 
 NO_AUTHORITY = 1e-6
-"""Share of their torque below which the wheels leave an axis alone."""
+"""Fraction of the wheels' torque about an axis below which they do not control it."""
 
 
 @dataclass(frozen=True, eq=False)
 class Gyrostat:
-    """A rigid trunk with n driven wheels, all alike.
+    """A rigid trunk with n identical driven wheels.
 
     About a pivot, with the upward direction e in B and the centre of mass at l:
 
@@ -28,13 +28,14 @@ class Gyrostat:
         h A^T w_dot + (h + a) W_dot = tau
 
     Attributes:
-        inertia: I_tot, of everything about its centre of mass, or the pivot, in B, wheels braked
-            [kg m^2], shape (3, 3).
+        inertia: I_tot, of the whole about its centre of mass, or the pivot, in B, wheels braked [kg
+            m^2], shape (3, 3).
         axes: A, unit spin axes as columns, shape (3, n).
         spin_inertia: h, momentum of one wheel per speed relative to the trunk [kg m^2].
-        armature: a, what a motor accelerates beyond h [kg m^2].
-        pull: m g l from the pivot, in B [N m], shape (3,); zero in free flight.
-        edge: unit vector in B, about which alone the trunk turns, shape (3,); None: about any.
+        armature: a, inertia that a motor accelerates beyond h [kg m^2]. pull: m g l from the pivot,
+            in B [N m], shape (3,); zero in free flight.
+        edge: unit vector in B, the only axis about which the trunk turns, shape (3,); None: any
+            axis.
     """
 
     inertia: FloatArray
@@ -97,21 +98,21 @@ class Gyrostat:
 
     @property
     def reaction(self) -> float:
-        """Torque on the trunk per motor torque, `h / (h + a)`: the armature takes the rest."""
+        """Torque on the trunk per motor torque, `h / (h + a)`: the armature absorbs the rest."""
         return self.spin_inertia / (self.spin_inertia + self.armature)
 
     @property
     def actuated_inertia(self) -> FloatArray:
         """Inertia that the reaction accelerates, J [kg m^2], shape (3, 3).
 
-        `J = I_tot - h^2 / (h + a) A A^T`, and
-        `J w_dot = -h / (h + a) A tau - w x H`, the wheel's equation put into the trunk's.
+        `J = I_tot - h^2 / (h + a) A A^T`, and `J w_dot = -h / (h + a) A tau - w x H`, the wheel's
+        equation substituted into the trunk's.
         """
         return self.inertia - self.reaction * self.spin_inertia * self.axes @ self.axes.T
 
     @property
     def wheel_response(self) -> float:
-        """Largest change of wheel speed per motor torque, all motors pushing alike [1/(kg m^2)].
+        """Largest change of wheel speed per torque, equal for all motors [1/(kg m^2)].
 
         From the same equations: `W_dot = (1 / (h + a) + (h / (h + a))^2 A^T J^-1 A) tau`.
         """
@@ -121,39 +122,39 @@ class Gyrostat:
 
     @property
     def reach(self) -> NDArray[np.bool_]:
-        """Whether the wheels act about each axis of B, shape (3,)."""
+        """Whether the wheels have authority about each axis of B, shape (3,)."""
         return np.asarray(np.abs(self.axes).max(axis=1) > NO_AUTHORITY)
 
     @property
     def spanned(self) -> int:
-        """Number of independent axes that the wheels have."""
+        """Number of independent axes of the wheels."""
         return int(np.linalg.matrix_rank(self.axes, NO_AUTHORITY))
 
     @property
     def sharing(self) -> FloatArray:
-        """Matrix from a torque on the trunk to the smallest minus motor torques, shape (n, 3)."""
+        """Matrix from a trunk torque to the negative of the least motor torques, shape (n, 3)."""
         inverse = np.linalg.pinv(self.axes, rcond=NO_AUTHORITY)
         return np.asarray(inverse / self.reaction, dtype=np.float64)
 
 
 def shared_by_others(axes: FloatArray, wheel: int) -> FloatArray:
-    """Matrix from torques of all motors to those of the others with the same torque on the trunk.
+    """Matrix from torques of all motors to those of the remaining ones for the same trunk torque.
 
-    `pinv(A_k) A`, with A_k the axes without column k, which is zero: the smallest torques, and as
-    near as the axes left allow.
+    `pinv(A_k) A`, with A_k the axes with column k set to zero: the smallest torques, as close as
+    the remaining axes allow.
 
     Args:
-        axes: A, as columns, shape (3, n). wheel: k, whose motor is to give none.
+        axes: A, as columns, shape (3, n). wheel: k, whose motor gives no torque.
     """
     runs = np.arange(axes.shape[1]) != wheel
     return np.asarray(runs[:, None] * (np.linalg.pinv(axes * runs, rcond=NO_AUTHORITY) @ axes))
 
 
 def taken_over(axes: FloatArray) -> float:
-    """Most that any motor gives once another has stopped, over the most that one gave before.
+    """Largest motor torque after one motor has stopped, relative to the largest before.
 
-    The largest row sum of `shared_by_others`, over all that may stop: at least 1, and 2 for four
-    wheels in two pairs, a triad and a pyramid.
+    The largest row sum of `shared_by_others` over all motors that may stop: at least 1, and 2 for
+    four wheels in two pairs, a triad and a pyramid.
     """
     wheels = range(axes.shape[1])
     return max(float(np.abs(shared_by_others(axes, each)).sum(axis=1).max()) for each in wheels)

@@ -1,4 +1,4 @@
-"""Attitude and wheels over time, as polynomials and as samples, and first guesses at them."""
+"""Attitude and wheel speeds over time, as polynomials and as samples, and initial guesses."""
 
 from dataclasses import dataclass
 
@@ -19,15 +19,15 @@ from ocs_design.sizing.trajectory.collocation import (
 from ocs_design.sizing.trajectory.gyrostat import NO_AUTHORITY, Gyrostat
 
 _INSIDE = 1e-6
-"""How far inside an interval its ends are read: torques may jump from one to the next."""
+"""Distance inside an interval at which its ends are read: torques may jump between intervals."""
 
 _EVEN = 0.4
-"""Share of refined intervals that is spread evenly over the time."""
+"""Fraction of refined intervals that is spread evenly over time."""
 
 _SAMPLES = 16
 
 UNEVEN = 0.2
-"""Difference between wheels of an uneven first guess, over their largest speed."""
+"""Difference between wheels of an uneven initial guess, relative to their largest speed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,8 +38,8 @@ class Motion:
         lengths: of the intervals [s], shape (k,).
         states: attitude and wheel speeds [rad/s] at the nodes of all intervals, which share their
             ends, shape (4 + n, k d + 1) with d = `DEGREE`; about a pivot, the momentum about it in
-            the world [N m s] in three rows more.
-        torques: Bernstein coefficients of the motor torques of each interval [N m], shape (n, 3 k).
+            the world [N m s] in three additional rows. torques: Bernstein coefficients of the motor
+            torques of each interval [N m], shape (n, 3 k).
     """
 
     lengths: FloatArray
@@ -52,14 +52,14 @@ class Motion:
         return np.append(0.0, np.cumsum(self.lengths)[:-1])
 
     def state_at(self, times: FloatArray) -> FloatArray:
-        """States at some times [s], shape (4 + n, len(times)), or three rows more."""
+        """States at given times [s], shape (4 + n, len(times)), or with three additional rows."""
         interval, s = self._locate(times)
         nodes = interval[:, None] * DEGREE + np.arange(DEGREE + 1)
         weights = bernstein_basis(s, DEGREE) @ BERNSTEIN
         return np.asarray(np.einsum("imj,mj->im", self.states[:, nodes], weights))
 
     def torque_at(self, times: FloatArray) -> FloatArray:
-        """Torques [N m], shape (n, len(times)); those of the later interval where two meet."""
+        """Torques [N m], shape (n, len(times)); where two intervals meet, of the later one."""
         interval, s = self._locate(times)
         own = interval[:, None] * (TORQUE_DEGREE + 1) + np.arange(TORQUE_DEGREE + 1)
         return np.asarray(np.einsum("imj,mj->im", self.torques[:, own], bernstein_basis(s)))
@@ -72,11 +72,11 @@ class Motion:
         return values.reshape(count * len(s), wheels)
 
     def uneven(self, gyrostat: Gyrostat) -> "Motion":
-        """Nearly the same motion by wheels that do not all do alike.
+        """Nearly the same motion with wheels that do not all move alike.
 
-        Where layout and turn are alike to both sides, wheels that do alike are a saddle of the peak
-        power, which a search takes long to leave: less is needed where they brake in turn. What
-        does not move the trunk is left to the wheels at the end, else taken back.
+        Where layout and turn are symmetric, equal motion of the wheels is a saddle point of the
+        peak power, which a solver takes long to leave: less power is needed if they brake in turn.
+        Wheel speeds that do not move the trunk are kept at the end; otherwise the change is undone.
         """
         wheels = len(self.torques)
         each = -np.arange(wheels) / wheels
@@ -106,9 +106,9 @@ class Motion:
     def refined(self, intervals: int) -> "Motion":
         """Nearly the same motion on intervals that are short where the torques change.
 
-        Each takes the same part of a sum of time passed and of the torques' total variation. That
-        of an interval is spread over its neighbours too: a switch moves a little as the mesh gets
-        finer.
+        Each takes an equal share of a weighted sum of elapsed time and total variation of the
+        torques. The variation is also spread over neighbouring intervals, as a switch moves
+        slightly when the mesh is refined.
         """
         count = len(self.lengths)
         torque = self.torque_within(np.linspace(0.0, 1.0, _SAMPLES)).reshape(count, _SAMPLES, -1)
@@ -123,7 +123,7 @@ class Motion:
         return self.onto(np.diff(np.interp(np.linspace(0.0, 1.0, intervals + 1), reached, edges)))
 
     def _locate(self, times: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
-        """Interval of each time, and how far through it, 0..1."""
+        """Interval of each time, and the fraction of it elapsed, 0..1."""
         starts = self.starts
         interval = np.searchsorted(starts, times, side="right") - 1
         return interval, (times - starts[interval]) / self.lengths[interval]
@@ -137,9 +137,9 @@ def _parabolas(values: FloatArray) -> FloatArray:
 
 
 def _even_mesh(duration: float, intervals: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Lengths of even intervals [s], and as shares of the time their nodes and their ends.
+    """Lengths of even intervals [s], and their nodes and ends as fractions of the time.
 
-    Between the two ends of each is its middle.
+    The ends of each interval include its midpoint.
     """
     edges = np.arange(intervals)[:, None] / intervals
     nodes = np.append(0.0, (edges + NODES[1:] / intervals).ravel())
@@ -149,7 +149,7 @@ def _even_mesh(duration: float, intervals: int) -> tuple[FloatArray, FloatArray,
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """Trunk and wheels from the start of a turn to its end; between samples linear.
+    """Trunk and wheels from the start of a turn to its end, linear between samples.
 
     Attributes:
         time: from lift-off or release, or the end of a push [s], shape (m,), increasing, from 0.
@@ -159,13 +159,13 @@ class Trajectory:
         wheel_speed: relative to the trunk [rad/s], shape (m, n).
         wheel_torque: of the motors at the wheels [N m], shape (m, n); where it jumps, the mean of
             both sides.
-        note: what a reader should know of it; empty if nothing.
+        note: remark for the reader; may be empty.
         step_torque: of the motors at start and end of each step, shape (m - 1, 2, n) [N m]; None:
-            `wheel_torque` nowhere jumps.
+            `wheel_torque` has no jumps.
         attitude: of the trunk, quaternions (w, x, y, z), shape (m, 4); None: only tilt is known.
-        gains: from the errors of attitude, as the rotation vector from here in B [rad], of rate in
-            B [rad/s] and of wheel speeds [rad/s] to the torque taken off the planned one [N m],
-            shape (m, n, 6 + n); None: the tilt is fed back with gains that are constant.
+        gains: from the errors of attitude, as the rotation vector from the plan in B [rad], of rate
+            in B [rad/s] and of wheel speeds [rad/s] to the torque subtracted from the planned one
+            [N m], shape (m, n, 6 + n); None: the tilt is fed back with constant gains.
     """
 
     time: FloatArray
@@ -182,7 +182,7 @@ class Trajectory:
 
 @dataclass(frozen=True, eq=False)
 class FixedAxisTurn:
-    """A cubic from one angle and rate to another angle at rest: a first guess.
+    """Initial guess: a cubic from one angle and rate to another angle at rest.
 
     Attributes:
         attitude: at the start, shape (4,). axis: unit vector, in B, shape (3,).
@@ -197,7 +197,7 @@ class FixedAxisTurn:
 
     @classmethod
     def of(cls, asked: Boundary, attitude: FloatArray, rate: FloatArray) -> "FixedAxisTurn":
-        """The turn that a maneuver asks for.
+        """The turn that a maneuver requires.
 
         Args:
             attitude: at the start of the turn, which is the end of a push, shape (4,).
@@ -206,19 +206,19 @@ class FixedAxisTurn:
         fast = float(np.linalg.norm(rate))
         if fast == 0.0:
             return cls(attitude, asked.axis, 0.0, asked.angle, asked.duration)
-        # A push has turned the trunk about the axis of its rate, and is to be undone; what a brake
-        # has set in motion is on its way.
+        # A push has turned the trunk about the axis of its rate, which must be undone; a brake has
+        # set it in motion towards the final attitude.
         vertical, wanted = vertical_of(attitude), asked.final_vertical
         left = float(np.arccos(np.clip(vertical @ wanted, -1.0, 1.0)))
         nears = np.cross(vertical, rate) @ wanted > 0.0
         return cls(attitude, rate / fast, fast, left if nears else -left, asked.duration)
 
     def motion(self, gyrostat: Gyrostat, intervals: int) -> Motion:
-        """The turn on even intervals and the wheels that drive it, their limits ignored."""
+        """The turn on even intervals with the wheels that drive it, ignoring their limits."""
         lengths, nodes, ends = _even_mesh(self.duration, intervals)
         angle, rate, _ = self._profile(nodes)
         _, _, acceleration = self._profile(ends)
-        # Speeds of the wheels that take a momentum off the trunk, per momentum.
+        # Wheel speeds that absorb a momentum of the trunk, per unit of momentum.
         taking = gyrostat.sharing * gyrostat.reaction / gyrostat.spin_inertia
         momentum = gyrostat.inertia @ self.axis
         speeds = taking @ np.outer(momentum, self.rate - rate)
@@ -227,7 +227,7 @@ class FixedAxisTurn:
         attitudes = product(self.attitude, from_axis_angle(self.axis, angle))
         states = [attitudes.T, speeds]
         if gyrostat.stands:
-            # The wheels of a motion without gravity, which a first guess is.
+            # The initial guess is a motion without gravity.
             whole = np.outer(momentum, rate) + gyrostat.spin_inertia * gyrostat.axes @ speeds
             states.append(turned_into_world(attitudes, whole.T).T)
         return Motion(lengths, np.vstack(states), torques)
@@ -243,18 +243,18 @@ class FixedAxisTurn:
 
 @dataclass(frozen=True, eq=False)
 class HeadingLoop:
-    """A first guess at a change of heading by wheels that do not reach the vertical.
+    """Initial guess of a change of heading by wheels that cannot control yaw.
 
     Without momentum about z such a trunk never turns about its own z axis, and that axis rolls on
-    the sphere: once round a closed path the heading has changed by the solid angle that it encloses
-    (docs/theory.md, Yaw by two wheels). The shortest such path is a circle of radius b with
-    `heading = 2 pi (1 - cos b)`; its direction in B turns by `cot b` per length.
+    the sphere: after a closed path the heading has changed by the solid angle that the path
+    encloses (docs/theory.md, Yaw by two wheels). The shortest such path is a circle of radius b
+    with `heading = 2 pi (1 - cos b)`; its direction in B turns by `cot b` per length.
 
     Attributes:
         attitude: at the start, shape (4,).
-        swing: turn without heading that comes on top, a rotation vector in B at the start [rad],
-            shape (3,).
-        heading: within half a turn [rad]. begins: direction in B of the path's start, from x [rad].
+        swing: additional turn without heading, a rotation vector in B at the start [rad], shape
+            (3,).
+        heading: within half a turn [rad]. begins: direction of the path's start in B, from x [rad].
         duration: [s].
     """
 
@@ -265,7 +265,7 @@ class HeadingLoop:
     duration: float
 
     def motion(self, gyrostat: Gyrostat, intervals: int) -> Motion:
-        """The loop on even intervals and the wheels that drive it, from rest, limits ignored."""
+        """The loop on even intervals with the wheels that drive it, from rest, ignoring limits."""
         lengths, nodes, ends = _even_mesh(self.duration, intervals)
         taking = -gyrostat.sharing * gyrostat.reaction / gyrostat.spin_inertia
         to_speeds = taking @ gyrostat.inertia
@@ -279,8 +279,8 @@ class HeadingLoop:
     def _path(self, s: FloatArray) -> FloatArray:
         """Attitudes at s = 0..1, shape (len(s), 4).
 
-        Seen from B turned back by the direction of the path, the rate per length is constant: `(1,
-        0, cot b)`.
+        In B rotated back by the direction of the path, the rate per length is constant: `(1, 0, cot
+        b)`.
         """
         share = s**2 * (3.0 - 2.0 * s)
         radius = np.arccos(1.0 - abs(self.heading) / (2.0 * np.pi))

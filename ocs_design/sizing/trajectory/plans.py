@@ -1,4 +1,4 @@
-"""The turns that flights track: of least peak power, planned for the device at hand."""
+"""Reference turns that flights track: of least peak power, planned for the given device."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
@@ -35,37 +35,40 @@ if TYPE_CHECKING:
 INTERVALS = 24
 
 GENTLE = (0.8, 0.9)
-"""Shares of voltage, current and power that a turn to an attitude is first tried with: a heading is
-put right by tilting more, which takes more torque than holding the trunk level."""
+"""Fractions of voltage, current and power that are tried first for a turn to an attitude: a heading
+is corrected by tilting more, which takes more torque than holding the trunk level."""
 
 LEAST_SPARE, SPARE = 0.9, 1.1
-"""Share of the drives that the plan of a heading may take, and least factor where it takes more."""
+"""Fraction of the drives that the plan of a heading may use, and least factor on the demand where
+it uses more."""
 
 TALL_SPARE = 0.65
-"""The same share for a tall body that turns by a loop of the tilt. What is left of a push-off turns
-its heading by so much more as it has more inertia about roll or pitch than about yaw."""
+"""The same fraction for a tall body that turns by a loop of the tilt. Residual momentum of a
+push-off turns its heading more, by the ratio of its inertia about roll or pitch to that about
+yaw."""
 
 _TALL = 1.5
-"""Inertia about roll or pitch over that about yaw, from which a body counts as tall: quadrupeds
-have 0.4 to 1.0, humanoids 3 to 5."""
+"""Ratio of the inertia about roll or pitch to that about yaw above which a body counts as tall:
+quadrupeds have 0.4 to 1.0, humanoids 3 to 5."""
 
 TIME_STEP, LONGEST = 0.05, 8.0
-"""How closely a time is looked for, and how long at most, over the one asked for."""
+"""Precision of a time that is searched for, and the longest one, relative to the time given."""
 
 BALANCE_STEP, _AT_ONCE = 5e-3, 1e-9
-"""Step that the gains which hold a robot are for, and how soon they follow on a plan [s]."""
+"""Time step of the gains that hold a robot upright, and delay after the plan at which they start
+[s]."""
 
 _SAME = 1e-6
-"""Change of heading that is none [rad]."""
+"""Change of heading that counts as zero [rad]."""
 
-_TOO_MUCH_FOR_OTHERS = "the wheels left do not follow the turn if a drive stops early in it"
+_TOO_MUCH_FOR_OTHERS = "if a drive fails early in the turn, the other wheels cannot follow it"
 
 _UNFORESEEN = "a push is not known beforehand: no trajectory is planned, feedback holds the trunk"
 
 
 @dataclass(frozen=True, eq=False)
 class Planned(Flight):
-    """A maneuver of least peak power, flown from the start of the turn, the end of a push.
+    """A maneuver of least peak power, integrated from the start of the turn (the end of a push).
 
     Attributes:
         solution: of the program.
@@ -75,13 +78,13 @@ class Planned(Flight):
 
     @property
     def failure(self) -> str:
-        """What is wrong with it, in a few words; empty if nothing is."""
+        """Fault of the plan in a few words; empty if there is none."""
         solution = self.solution
         if solution.solved:
             return super().failure
-        # Whether it gives up or proves that there is none depends on the processor.
+        # Whether IPOPT gives up or proves infeasibility depends on the processor.
         status = solution.status.replace("_", " ").lower()
-        return f"nothing within the limits in {solution.iterations} iterations, IPOPT: {status}"
+        return f"no solution within the limits in {solution.iterations} iterations, IPOPT: {status}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,14 +92,15 @@ class Reference:
     """A trajectory to track, or why there is none.
 
     Attributes:
-        trajectory: its note says what `note` says; None: the validation makes do without.
+        trajectory: its note equals `note`; None: the validation does without a reference.
         note: one sentence; empty if the trajectory leaves the feedback its reserve.
-        needed: least time over the one asked for, of a turn that is not made in it; None: it is, or
-            no time would do.
-        share: of voltage, current and power that the trajectory keeps to; where a drive may stop,
-            that it leaves the others to keep to.
-        most: share that a plan of a heading may take of the drives.
-        part: of the tilt from which a robot on a pivot would stand up, where it does not from all.
+        needed: least time, relative to the time given, of a turn that cannot be made in it; None:
+            it can, or no time would do.
+        share: fraction of voltage, current and power that the trajectory keeps to; where a drive
+            may stop, that to which the other drives are then held.
+        most: fraction of the drives that a plan of a heading may use.
+        part: fraction of the tilt from which a robot on a pivot could stand up, if not from all of
+            it.
         spun: speed of the fastest wheel that a brake stops at the start [rad/s]; 0: none does.
     """
 
@@ -109,10 +113,11 @@ class Reference:
     spun: float = 0.0
 
     def lacking(self, end: str) -> float | None:
-        """Factor on what the closed forms ask for a device that makes it; None: this one does.
+        """Factor on the demand of the closed forms for a device that can do it; None: this one can.
 
-        Momentum goes with the inverse of the time, torque with its square. What falls over from
-        most tilts tells little. `end`: of the turn, see `End`.
+        Momentum scales with the inverse of the time, torque with its inverse square. For a robot
+        that falls over from most tilts, the factor is capped, as `part` then says little. `end`: of
+        the turn, see `End`.
         """
         if self.trajectory is not None and (end == End.LEVEL or self.share <= self.most):
             return None
@@ -132,14 +137,15 @@ def plan(
     *,
     one_stops: bool = False,
 ) -> Mapping[str, Reference]:
-    """The turn of least peak power for each maneuver by its name; none is planned for a push.
+    """The turn of least peak power for each maneuver, by name; none is planned for a push.
 
     Args:
         robot: without the device, in B.
         device: with a real motor.
         maneuvers: each at its own incidence, if it has one.
-        standing_height: of the trunk over the ground [m].
-        kept: factor on what is asked that the device keeps for a maneuver, by its name; 1 if none.
+        standing_height: of the trunk above the ground [m].
+        kept: factor on the demand that the device keeps in reserve for a maneuver, by name; 1 if
+            absent.
         one_stops: see `reference`.
     """
     line, factors, found = drive_line_of(device), kept or {}, {}
@@ -165,19 +171,20 @@ def reference(
 ) -> Reference:
     """Least peak power within `PLANNED` of voltage, current and power, else with all of them.
 
-    What the device keeps in reserve is left to the feedback: a plan of least power would use it up
-    and run at top speed, which a robot with more inertia than designed cannot follow. For the same
-    reason a plan that others shall take over leaves them all of that: torques of a plan for all
-    wheels grow by `taken_over`, and the device was sized for them.
+    The device's reserve is left to the feedback: a plan of least power would use it up and run at
+    top speed, which a robot with more inertia than designed could not follow. For the same reason,
+    a plan that the other wheels must be able to take over leaves room for that: the torques of a
+    plan for all wheels then grow by `taken_over`, and the device was sized for them.
 
     Args:
         gyrostat: robot and device, at the incidence of the maneuver.
-        line: of the drives, nothing held back.
-        maneuver: of robot and device (`Maneuver.on`); what nobody foresees gets no reference, but
-            a robot on a pivot the gains that balance it.
-        standing_height: of the trunk over the ground [m].
-        kept: factor on what is asked that the device keeps.
-        one_stops: whether the others shall follow it after any one drive has stopped.
+        line: torque-speed line of the drives, without reserve.
+        maneuver: of robot and device (`Maneuver.on`); an unforeseen one gets no reference, but a
+            robot on a pivot gets the gains that balance it.
+        standing_height: of the trunk above the ground [m].
+        kept: factor on the demand that the device keeps in reserve.
+        one_stops: whether the other wheels must be able to follow it after any one drive has
+            stopped.
     """
     if isinstance(maneuver, Unforeseen):
         return Reference(None, _UNFORESEEN)
@@ -190,18 +197,20 @@ def reference(
     )
     spun = 0.0
     if isinstance(maneuver, Pivoted) and asked.rate.any():
-        # What the brake takes off the wheels about the axes that they reach, h A W = I w.
+        # Wheel speeds that the brake must stop, about the axes that the wheels control: h A W = I
+        # w.
         reached, momentum = gyrostat.turns_about, gyrostat.inertia @ asked.rate
         taken = np.linalg.pinv(reached @ gyrostat.axes) @ (reached @ momentum)
         spun = float(np.abs(taken / gyrostat.spin_inertia).max())
         most = float(line.top_speed)
         if spun > most:
             note = (
-                f"the brake would have to stop the wheels from {rpm(spun)}, and the motors reach "
+                f"the brake would have to stop the wheels from {rpm(spun)}, but the motors reach "
                 f"only {rpm(most)}"
             )
             return Reference(None, note, part=most / spun, spun=spun)
-    # Two axes turn the heading by a loop of the tilt; a tall body yaws more easily than it tilts.
+    # Wheels of two axes turn the heading by a loop of the tilt; a tall body yaws more easily than
+    # it tilts.
     x, y, z = np.diag(gyrostat.inertia)
     tall = not gyrostat.stands and gyrostat.spanned == 2 and max(x, y) > _TALL * z
     loops = asked.end == End.ATTITUDE and tall
@@ -225,12 +234,12 @@ def reference(
         trajectory = _balanced(gyrostat, line, maneuver, trajectory)
         if spun:
             told = (
-                f"the wheels are stopped from {rpm(spun)}, by brakes that are "
-                "not designed and not in the mass"
+                f"the wheels are stopped from {rpm(spun)} by brakes, which are neither designed nor "
+                "included in the mass"
             )
             note = "; ".join(filter(None, (told, note)))
     elif asked.end != End.LEVEL:
-        # What holds the trunk level corrects no heading.
+        # The feedback that holds the trunk level does not correct the heading.
         trajectory = replace(trajectory, gains=tracking_gains(gyrostat, line, trajectory, share))
     return Reference(replace(trajectory, note=note), note, share=share, most=most, spun=spun)
 
@@ -238,16 +247,16 @@ def reference(
 def _refused(
     maneuver: Maneuver, asked: Boundary, gyrostat: Gyrostat, line: DriveLine, planned: Planned
 ) -> Reference:
-    """Why there is no plan, with what would do; `planned` is the last that failed."""
+    """Why there is no plan, and what would do; `planned` is the last one that failed."""
     if isinstance(maneuver, TurnTo):
         needed = quickest(asked, gyrostat, line)
-        told = f"nor in {LONGEST:g} times that"
+        told = f"not even in {LONGEST:g} times that"
         if needed is not None:
             told = f"they need {needed * asked.duration:.3g} s"
-        note = f"the wheels do not make this turn in {asked.duration:.3g} s: {told}"
+        note = f"the wheels cannot make this turn in {asked.duration:.3g} s: {told}"
         return Reference(None, note, needed)
     if isinstance(maneuver, Pivoted):
-        # Largest part of the tilt from which it stands up in the time, by bisection to 1/16.
+        # Largest fraction of the tilt from which it stands up in time, by bisection to 1/16.
         low, high = 0.0, 1.0
         for _ in range(4):
             part = 0.5 * (low + high)
@@ -263,10 +272,8 @@ def _refused(
             low, high = (low, part) if gentlest(tried, gyrostat, line).failure else (part, high)
         part, tilt = low, abs(float(asked.angle))
         all_of_it, less = (format_quantity(each, "deg") for each in (tilt, part * tilt))
-        told = f"from {less} they would" if part > 0.0 else "nor from a sixteenth of that"
-        note = (
-            f"the wheels do not make it stand up from {all_of_it} in {asked.duration:.3g} s: {told}"
-        )
+        told = f"from {less} they can" if part > 0.0 else "not even from a sixteenth of that"
+        note = f"the wheels cannot stand it up from {all_of_it} in {asked.duration:.3g} s: {told}"
         return Reference(None, note, part=part)
     return Reference(None, f"no optimal turn was found ({planned.failure})")
 
@@ -274,10 +281,10 @@ def _refused(
 def _balanced(
     gyrostat: Gyrostat, line: DriveLine, maneuver: Pivoted, planned: Trajectory | None = None
 ) -> Trajectory:
-    """Upright on a pivot with the wheels to rest, after what is planned, `HELD_ON` as long."""
+    """Hold upright on a pivot after the plan, for `HELD_ON` times as long, wheels to rest."""
     wheels, begins = gyrostat.axes.shape[1], 0.0 if planned is None else planned.time[-1]
     until = (1.0 + HELD_ON) * maneuver.duration
-    # Up to it the plan holds.
+    # The plan applies until then.
     time = begins + np.array([_AT_ONCE, BALANCE_STEP])
     none, upright = np.zeros((len(time), 3)), np.tile(gyrostat.upright, (len(time), 1))
     held = Trajectory(
@@ -309,13 +316,12 @@ def gentlest(
     *,
     one_stops: bool = False,
 ) -> Planned:
-    """The turn of least peak power, or of least effort where none is limited, flown once more.
+    """The turn of least peak power, or of least effort without a power limit, and its check.
 
-    The best of those from several initial guesses, where a change of heading has several optima.
-    Where the wheels do not reach an axis, nothing is asked about it at the end. `one_stops`: see
-    `Turn`.
+    It is the best from several initial guesses, as a change of heading has several optima. Nothing
+    is required at the end about an axis that the wheels do not control. `one_stops`: see `Turn`.
     """
-    # Wheels of one axis command no heading, and wheels of two turn it by a loop of the tilt.
+    # Wheels of one axis cannot command a heading; wheels of two change it by a loop of the tilt.
     if asked.end == End.ATTITUDE and gyrostat.spanned == 1:
         asked = replace(asked, end=End.LEVEL)
     about_axis = Turn(asked, gyrostat, one_stops=one_stops)
@@ -325,7 +331,7 @@ def gentlest(
     guesses = [about_axis]
     loops = asked.end == End.ATTITUDE and gyrostat.spanned < len(gyrostat.inertia)
     if loops and abs(heading) >= _SAME:
-        # Either way round; the turn is a swing without heading, and then a twist about z.
+        # Try both ways round; the turn is a swing without heading, followed by a twist about z.
         w, x, y, z = product(
             np.array([w, x, y, z]), from_axis_angle(np.array([0.0, 0.0, 1.0]), -heading)
         )
@@ -345,9 +351,9 @@ def gentlest(
 
 
 def quickest(asked: Boundary, gyrostat: Gyrostat, line: DriveLine) -> float | None:
-    """Least time of the turn over the one asked for, within `TIME_STEP`, by bisection.
+    """Least time of the turn, relative to the time given, to within `TIME_STEP`, by bisection.
 
-    None: not in `LONGEST` times the time asked for, which is taken to be too short.
+    The time given is assumed too short. None: not even `LONGEST` times that is enough.
     """
     short, enough = 1.0, 1.0 + TIME_STEP
 
@@ -377,7 +383,7 @@ def gyrostat_of(
 
 
 def drive_line_of(device: "Device") -> DriveLine:
-    """What each drive does at its wheel beside its friction, nothing held back."""
+    """Torque-speed line of each drive at its wheel, net of friction and without reserve."""
     motor, supply, wheels = device.motor, device.supply, len(device.modules)
     power = inf
     if supply is not None:

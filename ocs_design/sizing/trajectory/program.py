@@ -25,7 +25,7 @@ from ocs_design.sizing.trajectory.transcription import (
 IPOPT_OPTIONS: dict[str, Any] = {
     "ipopt.tol": 1e-8,
     "ipopt.acceptable_iter": 0,
-    # Bounds are bounds: a rim is not to stick out of its envelope by 1e-8 of it.
+    # Bounds are strict: a rim must not exceed its envelope even by 1e-8 of it.
     "ipopt.bound_relax_factor": 0.0,
     "ipopt.mu_strategy": "adaptive",
     "ipopt.linear_solver": "mumps",
@@ -36,46 +36,48 @@ IPOPT_OPTIONS: dict[str, Any] = {
 }
 
 PLAN_OPTIONS: dict[str, Any] = {
-    # A plan need not be the best to eight digits, but must hold its equations: peaks are flat, and
-    # some plans that exist were given up for the last two digits of their power.
+    # A plan need not be optimal to eight digits, but must satisfy its equations: peaks are flat,
+    # and some feasible plans were given up for the last two digits of their power.
     "ipopt.tol": 1e-5,
     "ipopt.constr_viol_tol": 1e-8,
-    # What cannot be done is found out sooner.
+    # Infeasibility is detected sooner.
     "ipopt.expect_infeasible_problem": "yes",
     "ipopt.max_resto_iter": 25,
 }
-"""Beside `IPOPT_OPTIONS`, where no dimension is free."""
+"""Options in addition to `IPOPT_OPTIONS`, where no dimension is free."""
 
 ITERATIONS_MAX = 200
-"""A program that is solved takes 5 to 150."""
+"""Largest number of iterations; a program that is solved takes 5 to 150."""
 
 GUESSED_MAX = 60
-"""Most iterations: with a guess of its own a turn takes 8 to 35, without a solution all of them."""
+"""Largest number of iterations for a turn with its own guess, which takes 8 to 35, or all of them
+if there is no solution."""
 
 EFFORT_WEIGHT = 1e-4
 """Weight of each maneuver's mean squared torque beside another objective, both around one.
 
-Of all ways through a maneuver that does not decide, it makes the gentlest the only one; without it
-IPOPT wanders among them. It costs less of the objective than the collocation's own error.
+It selects the gentlest motion for a maneuver that does not determine the objective; without it
+IPOPT wanders among many. It costs less of the objective than the collocation's own error.
 """
 
 POWER_EFFORT = 0.2
-"""Weight of the mean squared torque beside the peak power, each over its limit.
+"""Weight of the mean squared torque beside the peak power, each relative to its limit.
 
-The power alone would have the torque at its limit wherever the wheels are slow."""
+Minimising power alone would put the torque at its limit wherever the wheels are slow."""
 
 _ONE_AT_A_TIME = Lock()
-"""A program that is kept holds the numbers of the turn that it solves."""
+"""A cached program holds the numbers of the turn that it is solving."""
 
 
 @dataclass(frozen=True, eq=False)
 class Dimensions:
-    """The device's dimensions that are free.
+    """Free dimensions of the device.
 
     Attributes:
         start, lower, upper: scaled to be around one, shape (m,).
-        objective: to be minimised, around one, of the dimensions.
-        excess: what must not be positive, scaled, of the dimensions; None: nothing.
+        objective: function of the dimensions to be minimised, around one.
+        excess: scaled constraint function of the dimensions, which must be <= 0; None: no
+            constraint.
     """
 
     start: FloatArray
@@ -91,11 +93,11 @@ class Solution:
 
     Attributes:
         motions: of each turn.
-        dimensions: found, shape (m,).
-        solved: whether IPOPT found a local optimum; all else means nothing if not.
-        status: IPOPT's own word. iterations: of all passes.
-        violation: largest, of the program's constraints, scaled.
-        cost: what was minimised.
+        dimensions: optimal ones, shape (m,).
+        solved: whether IPOPT found a local optimum; if not, the rest is meaningless.
+        status: IPOPT's return status. iterations: of all passes.
+        violation: largest violation of the program's scaled constraints.
+        cost: value of the objective.
     """
 
     motions: tuple[Motion, ...]
@@ -113,18 +115,17 @@ def solve(
     passes: Sequence[int],
     dimensions: Dimensions | None = None,
 ) -> Solution:
-    """Least peak power, or the best dimensions with which every turn can be done.
+    """Least peak power, or the best dimensions with which every turn is feasible.
 
-    Where no power is limited, it is the least effort.
-
-    Where a finer pass fails the one before it counts.
+    Without a power limit, the effort is minimised. Where a finer pass fails, the previous one
+    counts.
 
     Args:
         turns: of one robot and device.
-        line: what of the drives may be used.
-        passes: number of intervals of each pass: even ones in the first, from then on short where
-            the torques change.
-        dimensions: None: those of the gyrostats.
+        line: usable torque-speed line of the drives.
+        passes: number of intervals of each pass: even in the first, then short where the torques
+            change.
+        dimensions: free dimensions; None: the gyrostats as they are.
     """
     guesses = [turn.guess or turn.outline.motion(turn.gyrostat, passes[0]) for turn in turns]
     if dimensions is None and isfinite(float(line.power_max)) and turns[0].guess is None:
@@ -150,7 +151,7 @@ def _solve(
 ) -> Solution:
     """Solve on the intervals of the guesses."""
     if dimensions is None:
-        # One turn of a device that stands, by the program of its shape.
+        # One turn of a fixed device, by the cached program of its shape.
         turn, guess = turns[0], guesses[0]
         with _ONE_AT_A_TIME:
             numbers = numbers_of(turn, Plant.of(turn.gyrostat), line, guess)
@@ -177,7 +178,7 @@ def _solve(
         objective += EFFORT_WEIGHT * variables.effort
         found.append(variables)
     program.minimize(objective)
-    # One flat graph is quicker; splines of the dimensions have none.
+    # A flat graph would be quicker, but splines of the dimensions cannot be expanded.
     program.solver("ipopt", IPOPT_OPTIONS | _options(guessed=turns[0].guess is not None))
     return _solved(program, found, guesses, free)
 
@@ -186,9 +187,9 @@ def _solve(
 def _plan_program(
     shape: Shape, patterns: tuple[tuple[str, tuple[int, ...]], ...]
 ) -> tuple[ca.Opti, dict[str, ca.MX], Variables]:
-    """Program of all turns of a shape, with the numbers that are not zero as its parameters.
+    """Program for all turns of a shape, with the nonzero numbers as its parameters.
 
-    To derive a program takes as long as 40 iterations.
+    Deriving a program takes as long as 40 iterations.
 
     Args:
         shape: of the turns. patterns: each number's name, and where it is not zero.
@@ -201,17 +202,18 @@ def _plan_program(
             parameters[name] = program.parameter(where.nnz())
             numbers[name] = ca.MX(where, parameters[name])
     variables = transcribe(program, shape, numbers)
-    # Without a supply that limits it nothing is known of the power, and effort alone counts.
+    # Without a power limit, only the effort counts.
     peak = 0.0 if variables.peak is None else variables.peak / POWER_EFFORT
     program.minimize(variables.effort + peak)
     options = _options(guessed=shape.guessed) | {"expand": True} | PLAN_OPTIONS
     if shape.power_limited:
-        # A peak is flat at many instants at once: half the time where the barrier falls steadily.
+        # The peak is reached at many instants at once: a monotone barrier takes half the time.
         options["ipopt.mu_strategy"] = "monotone"
         options["ipopt.mu_linear_decrease_factor"] = 0.1
         options["ipopt.mu_superlinear_decrease_power"] = 1.6
     if shape.one_stops:
-        # Its many rows make an iteration three times as long, and plans that exist need no more.
+        # The many rows make an iteration three times as long, and feasible plans need no more
+        # restoration steps.
         options["ipopt.max_resto_iter"] = 4
     program.solver("ipopt", IPOPT_OPTIONS | options)
     return program, parameters, variables
@@ -226,11 +228,11 @@ def _options(*, guessed: bool) -> dict[str, Any]:
 def _solved(
     program: ca.Opti, found: Sequence[Variables], guesses: Sequence[Motion], free: ca.MX
 ) -> Solution:
-    """Solution that IPOPT finds of a program."""
+    """Solution of a program by IPOPT."""
     try:
         program.solve()
     except RuntimeError:
-        # CasADi's way to say that IPOPT found no solution, of which the statistics tell more.
+        # CasADi raises this where IPOPT finds no solution; the statistics give the details.
         if program.stats()["success"]:
             raise
     value, stats = program.debug.value, program.stats()

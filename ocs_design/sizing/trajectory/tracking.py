@@ -1,8 +1,8 @@
 """Gains that keep a gyrostat on its planned trajectory: a time-varying linear-quadratic regulator.
 
-The heading of a trunk on two wheels follows from the path of its tilt, so that no constant feedback
-corrects it (Krishnan, McClamroch and Reyhanoglu, JGCD 18(2), 1995). Along a path it is controllable
-in the linear sense, and the regulator finds which tilt undoes which error of the heading.
+The heading of a trunk with two wheels follows from the path of its tilt, so no constant feedback
+can correct it (Krishnan, McClamroch and Reyhanoglu, JGCD 18(2), 1995). Along a path it is linearly
+controllable, and the regulator finds the tilt that corrects an error of heading.
 """
 
 import numpy as np
@@ -14,16 +14,17 @@ from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.motion import Trajectory
 
 ON_THE_WAY = np.radians(2.0)
-"""Error of attitude that is worth all torque beyond a plan's share, on the way [rad]."""
+"""Attitude error during the turn at which the regulator uses all torque that the plan leaves
+[rad]."""
 
 AT_THE_END = np.radians(0.3)
-"""Tilt that is worth that torque for the whole time, at the end [rad]."""
+"""Tilt at the end that weighs as much as using this torque for the whole time [rad]."""
 
 HEADING_AT_THE_END = np.radians(2.0)
-"""The same of a heading: what puts it right is a tilt that must be taken back in time."""
+"""The same for a heading, which is corrected by a tilt that must be undone in time [rad]."""
 
 AT_REST = 0.2
-"""Speed of wheels beside upright that is worth it, over that without load."""
+"""Wheel speed, relative to the no-load speed, that weighs as much when balancing upright."""
 
 
 def tracking_gains(
@@ -35,15 +36,15 @@ def tracking_gains(
     the plan in B [rad], rate in B [rad/s], wheel speeds [rad/s]. Discrete Riccati equation from the
     last sample backwards (Anderson and Moore, Optimal Control, 1990, section 2.4). Weights by
     Bryson's rule: `ON_THE_WAY`, `AT_THE_END` and `HEADING_AT_THE_END` against the torque that a
-    plan leaves to the feedback. Rates count at the end by the angle that they would turn in the
-    time constant of the first two. About a pivot, where a plan leaves off the robot is to be held
-    for ever: there the value is that of the steady regulator, all torque counts, and wheels at
-    `AT_REST` count like `ON_THE_WAY`, so that they come to rest.
+    plan leaves to the feedback. Rates at the end are weighted by the angle that they would turn in
+    the time constant of the first two. About a pivot, the robot has to be held indefinitely after
+    the plan: there the final value is that of the steady-state regulator, all torque is available,
+    and wheels at `AT_REST` weigh as much as `ON_THE_WAY`, so that they come to rest.
 
     Args:
-        gyrostat: robot and device. line: of the drives, nothing held back.
-        trajectory: m samples, with attitude not needed.
-        share: of the drives that the plan keeps to; `PLANNED` where it takes more.
+        gyrostat: robot and device. line: of the drives, without reserve.
+        trajectory: m samples; attitudes are not needed.
+        share: fraction of the drives that the plan keeps to; `PLANNED` where it uses more.
     """
     wheels, count = gyrostat.axes.shape[1], len(trajectory.time)
     size, inverse = 6 + wheels, gyrostat.inverse_mass_matrix
@@ -63,7 +64,7 @@ def tracking_gains(
     effort = np.eye(wheels) / spare**2
     gains = np.zeros((count, wheels, size))
     if gyrostat.stands:
-        # A heading is left to itself.
+        # The heading is not controlled.
         about = gyrostat.turns_about
         about = about[np.abs(about[:, 2]) < 1.0]
         running = np.zeros((size, size))
@@ -76,7 +77,7 @@ def tracking_gains(
         weights = free.T @ running @ free * steps[-1], effort * steps[-1]
         value = free @ solve_discrete_are(*last, *weights) @ free.T
     else:
-        # Quickness of a double integrator under these weights, `omega^4 = q / r g^2`.
+        # Bandwidth of a double integrator under these weights, `omega^4 = q / r g^2`.
         authority = np.abs(inverse[:3, 3:]).max()
         quickness = np.sqrt(spare * authority / ON_THE_WAY)
         running = np.diag([ON_THE_WAY**-2.0] * 3 + [0.0] * (3 + wheels))

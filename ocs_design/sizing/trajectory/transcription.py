@@ -1,6 +1,6 @@
-"""One turn of the trajectory program by direct collocation: its numbers, variables and constraints.
+"""Transcription of one turn by direct collocation: its numbers, variables and constraints.
 
-Turns of one shape differ by their numbers alone, so that their program is derived once.
+Turns of one shape differ only in their numbers, so their program is derived once.
 """
 
 from collections.abc import Callable, Mapping
@@ -28,9 +28,9 @@ from ocs_design.sizing.trajectory.gyrostat import Gyrostat, shared_by_others
 from ocs_design.sizing.trajectory.motion import FixedAxisTurn, Motion
 
 WINDING = 0.5
-"""How far the integral of the rate about the maneuver's axis may be from its angle [rad].
+"""Largest difference of the integrated rate about the maneuver's axis from its angle [rad].
 
-It keeps the search from leaving out a whole turn; the attitude at the end is asked for exactly.
+It keeps the solver from omitting a full revolution; the final attitude is enforced exactly.
 """
 
 
@@ -61,11 +61,11 @@ class Turn:
 
     Attributes:
         asked: its boundary value problem.
-        gyrostat: robot and device where the search begins, at the incidence of the maneuver.
-        plant: the same as a function of the dimensions, (m, 1); None: nothing of it is free.
-        guess: where the search begins; None: a turn about a fixed axis.
-        one_stops: whether the supply must also be enough for the others after any one drive has
-            stopped at the start or half way.
+        gyrostat: robot and device at the start of the search, at the maneuver's incidence.
+        plant: the same as a function of the dimensions, (m, 1); None: fixed.
+        guess: initial guess; None: a turn about a fixed axis.
+        one_stops: whether the supply must also suffice for the other wheels after any one drive has
+            stopped at the start or halfway.
     """
 
     asked: Boundary
@@ -82,15 +82,16 @@ class Turn:
 
 
 class Shape(NamedTuple):
-    """What of a turn decides which equations its program has.
+    """Properties of a turn that determine the equations of its program.
 
     Attributes:
-        wheels, intervals: how many. end: see `Boundary`.
-        stands, on_edge: about a pivot, about an edge.
-        axes_at_rest, axes_of_tilt: how many are stopped at the end, and righted.
-        guessed: whether the search begins elsewhere than at a turn about a fixed axis.
-        torque_limited, speed_limited, back_emf, power_limited: which limits there are.
-        one_stops: whether the power is limited after any one drive has stopped, too.
+        wheels, intervals: their numbers. end: see `Boundary`.
+        stands, on_edge: whether it turns about a pivot, about an edge.
+        axes_at_rest, axes_of_tilt: number of axes at rest at the end, and of those whose tilt is
+            fixed.
+        guessed: whether it has its own initial guess instead of a turn about a fixed axis.
+        torque_limited, speed_limited, back_emf, power_limited: limits that apply.
+        one_stops: whether the power is also limited after any one drive has stopped.
     """
 
     wheels: int
@@ -130,11 +131,11 @@ class Shape(NamedTuple):
 
 
 def numbers_of(turn: Turn, plant: Plant, line: DriveLine, guess: Motion) -> dict[str, ca.MX]:
-    """All numbers of a turn's equations by their names, columns."""
+    """All numbers of a turn's equations, by name."""
     asked, outline, gyrostat = turn.asked, turn.outline, turn.gyrostat
     wheels = len(guess.torques)
-    # Numbers around one: speeds over that without load, torques over the current limit, else over
-    # the stall torque, else over what the turn asks for.
+    # Scaled to be around one: speeds by the no-load speed; torques by the current limit, else by
+    # the stall torque, else by the turn's demand.
     angle, fast, time = abs(outline.angle), abs(outline.rate), outline.duration
     peak = (6.0 * angle / time + 4.0 * fast) / time
     demand = peak * float(np.linalg.eigvalsh(gyrostat.inertia)[-1])
@@ -156,7 +157,7 @@ def numbers_of(turn: Turn, plant: Plant, line: DriveLine, guess: Motion) -> dict
         "figures": ca.vertcat(figures, own),
         "momentum": figures[-3:] / weight if gyrostat.stands else 0.0,
         "at_rest": gyrostat.turns_about.T,
-        # A trunk that is asked for no turn has no rate to count in.
+        # A trunk that need not turn has no rate to scale by.
         "rate_unit": max(1.5 * angle / time, fast) or 1.0 / time,
         "final": asked.final_attitude,
         "up": asked.final_vertical,
@@ -179,13 +180,15 @@ def numbers_of(turn: Turn, plant: Plant, line: DriveLine, guess: Motion) -> dict
 
 @dataclass(frozen=True, eq=False)
 class Variables:
-    """Variables of one turn in its program, and what is to be minimised.
+    """Variables of one turn in its program, and its objectives.
 
     Attributes:
-        states, torques: over their units. turned: at the end of each interval [rad], (1, k).
+        states, torques: scaled by their units. turned: angle at the end of each interval [rad], (1,
+            k).
         scaled_states, scaled_torques: as in `Motion`.
-        effort: mean over the time of all squared torques over the square of the largest.
-        peak: power over the largest; None: it is not limited.
+        effort: mean over time of all squared torques, relative to the square of the largest
+            allowed.
+        peak: peak power relative to the limit; None: not limited.
     """
 
     states: ca.MX
@@ -199,7 +202,7 @@ class Variables:
     def begin(
         self, program: ca.Opti, turn: Turn, guess: Motion, numbers: Mapping[str, ca.MX | ca.DM]
     ) -> None:
-        """Let the search begin at a guess."""
+        """Set the initial guess of the search."""
         scale, torque_unit = (
             np.asarray(ca.evalf(numbers[name])) for name in ("scale", "torque_unit")
         )
@@ -243,12 +246,12 @@ def transcribe(program: ca.Opti, shape: Shape, numbers: Mapping[str, ca.MX]) -> 
         whole = shape.end == End.ATTITUDE and not shape.on_edge
         ending = numbers["final"], numbers["up"], numbers["righted"]
         program.subject_to(missed(shape.axes_of_tilt, whole=whole)(states[:4, -1], *ending) == 0.0)
-    # Summed up one by one: a single sum would be a dense row, for which Jacobians take long.
+    # Accumulated step by step: a single sum would be a dense row, which slows down Jacobians.
     program.subject_to(turned == ca.horzcat(ca.MX(0.0), turned[:-1]) + mapped["swept"])
     if not shape.guessed and shape.end != End.AT_REST:
         program.subject_to(program.bounded(-WINDING, turned[-1] - numbers["angle"], WINDING))
 
-    # On Bernstein coefficients, so that limits hold between the nodes too.
+    # Limits on Bernstein coefficients hold between the nodes too.
     speeds, elevated = ca.vec(mapped["speeds"]) / speed_unit, ca.vec(mapped["elevated"])
     if shape.torque_limited:
         largest = numbers["torque_most"]
@@ -275,11 +278,12 @@ def transcribe(program: ca.Opti, shape: Shape, numbers: Mapping[str, ca.MX]) -> 
 def _powers_left(
     shape: Shape, numbers: Mapping[str, ca.MX], mapped: Mapping[str, ca.MX], scaled: ca.MX
 ) -> ca.MX:
-    """Bernstein coefficients of the others' power after any one drive has stopped [W], a column.
+    """Bernstein coefficients of the power after any one drive has stopped [W], a column.
 
-    The others then give `S tau`, see `shared_by_others`, and a wheel that stopped at the speed W_k
-    leaves them at `S W + (1 - S) W(t_k)`. That is linear in the speed that it keeps, so that the
-    extremes count: for a turn from rest to rest these are none and that half way.
+    The other motors then give `S tau`, see `shared_by_others`, and a wheel whose drive stopped at
+    the time t_k leaves them at the speeds `S W + (1 - S) W(t_k)`. That is linear in the speed that
+    it keeps, so the extremes count: for a turn from rest to rest these are at the start, with none,
+    and halfway.
     """
     wheels, count, found = shape.wheels, shape.intervals, []
     by_interval = left_power(wheels)
@@ -300,7 +304,7 @@ def _powers_left(
 
 
 def _righted(asked: Boundary, gyrostat: Gyrostat) -> FloatArray:
-    """Directions in B along which the vertical must be where it is asked for, shape (k, 3)."""
+    """Directions in B along which the vertical must match the final one, shape (k, 3)."""
     up = asked.final_vertical
     if gyrostat.edge is not None:
         return np.cross(gyrostat.edge, up)[None]

@@ -206,7 +206,7 @@ def test_a_mechanical_speed_limit_is_kept():
 def test_what_is_out_of_reach_is_said_to_be(weak):
     found = _planned(body(FORTY), drop(30.0), replace(EC_45_FLAT, **weak))
     assert not found.solution.solved
-    assert found.failure.startswith("nothing within the limits in ")
+    assert found.failure.startswith("no solution within the limits in ")
 
 
 def test_an_axis_out_of_reach_is_left_alone():

@@ -38,7 +38,7 @@ def test_where_the_reserve_is_too_little_it_takes_all_and_says_so():
 def test_where_no_plan_exists_there_is_none():
     found = reference(body(FORTY, 6e-5), EC_45_FLAT, drop(30.0), STANDING)
     assert found.trajectory is None
-    assert "no optimal turn was found (nothing within the limits in" in found.note
+    assert "no optimal turn was found (no solution within the limits in" in found.note
 
 
 def test_a_push_is_not_known_beforehand():
