@@ -234,8 +234,8 @@ def reference(
         trajectory = _balanced(gyrostat, line, maneuver, trajectory)
         if spun:
             told = (
-                f"the wheels are stopped from {rpm(spun)} by brakes, which are neither designed nor "
-                "included in the mass"
+                f"the wheels are stopped from {rpm(spun)} by brakes, which are neither "
+                "designed nor included in the mass"
             )
             note = "; ".join(filter(None, (told, note)))
     elif asked.end != End.LEVEL:

@@ -51,9 +51,12 @@ def refusal(text):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ('balancing_holes = 6\nbalancing_hole_diameter = "39 mm"', "a wall of 41.4 mm"),
-        ('balancing_holes = 6\nbalancing_hole_depth = "5 mm"', "a height of 11 mm"),
-        ('balancing_holes = 90\nbalancing_hole_diameter = "3 mm"', "0 mm is between"),
+        (
+            'balancing_holes = 6\nbalancing_hole_diameter = "39 mm"',
+            "the wall must be at least 41.4 mm",
+        ),
+        ('balancing_holes = 6\nbalancing_hole_depth = "5 mm"', "the height must be at least 11 mm"),
+        ('balancing_holes = 90\nbalancing_hole_diameter = "3 mm"', "0 mm is left between"),
     ],
 )
 def test_holes_without_room_are_refused(text, words):
