@@ -37,6 +37,7 @@ from ocs_design.parts.joints import (
     slip_fit_eccentricity,
     tightening_torque,
 )
+from ocs_design.parts.motor_mount import bond_length, motor_front
 from ocs_design.parts.plate_strength import plate_screws_use
 from ocs_design.parts.printed import SHOCK, WASHER_HEIGHT, trunk_screws
 from ocs_design.parts.rim import LIGAMENT
@@ -310,13 +311,14 @@ def _shaft_joints(device: Device, web: Web) -> Iterator[Margin]:
         )
         reserve = shear_torque(held, circle.bolts, circle.radius, circle.screws)
     elif mounting is not None and mounting.shaft_diameter is not None:
-        length = web.hub.height - 2.0 * web.hub.chamfer
+        front = motor_front(motor_mount(device), device.flywheel.height)
+        length = bond_length(mounting, web.hub.height, web.hub.chamfer, front)
         carried = hub_joint(mounting, length)
         across = format_quantity(mounting.shaft_diameter, "mm")
         note = (
             f"bonded with a retaining compound on the {across} shaft, over "
-            f"{format_quantity(length, 'mm', digits=3)} of its length, counted at half of its 25 "
-            f"MPa, {against}; the fit alone carries nothing"
+            f"{format_quantity(length, 'mm', digits=3)} of its length in the hub, counted at half "
+            f"of its 25 MPa, {against}; the fit alone carries nothing"
         )
     else:
         note = "the shaft and the rotor's threads are not in the catalogue"

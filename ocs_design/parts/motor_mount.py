@@ -98,6 +98,8 @@ class MotorMount:
         up: of its axis from the wheel's [m].
         foot_plate: thickness of the foot's plate [m].
         bell: of the motor, with a ring around it; None: its wheel stands before it.
+        shaft_rim: height of a rim behind which the motor's shaft goes through the hub [m]; inf: any
+            rim, or none.
     """
 
     holes: MountHoles = field(default_factory=MountHoles)
@@ -107,6 +109,7 @@ class MotorMount:
     up: float = 0.0
     foot_plate: float = PLATE_THICKNESS
     bell: Bell | None = None
+    shaft_rim: float = inf
 
     def around(self, rim_height: float) -> "MotorMount":
         """The mount behind a rim of that height [m]."""
@@ -124,7 +127,7 @@ class MotorMount:
         """Height of a rim that it leaves room for [m]; inf: any."""
         if self.bell is not None:
             return self.bell.straight
-        return inf if self.cage is None else self.cage.rim_height_max
+        return self.shaft_rim if self.cage is None else self.cage.rim_height_max
 
     @property
     def room(self) -> float:
@@ -196,8 +199,18 @@ def mount_of(
         wheel = (Screwed(fastening, rotor, BOLTED_HUB_HEIGHT / 2.0, -1.0, by_wheel=True),)
     if stator is not None and mounting.stator_face is Face.OUTPUT:
         held = _through_walls(stator, foot_plate, f"motor on housing and foot; {_DEPTH}", 1.0)
-        holes = screwed_by_face(mounting, stator)
-        return MotorMount(holes, None, (*wheel, held), foot_plate=foot_plate)
+        holes, through = screwed_by_face(mounting, stator), inf
+        if rotor is None and mounting.shaft_length is not None:
+            beside = foot_plate + half_height(0.0) + hub_height(mounting) / 2.0
+            through = 2.0 * (mounting.shaft_length - beside)
+        return MotorMount(
+            holes,
+            None,
+            (*wheel, held),
+            foot_plate=foot_plate,
+            # One too short behind any rim is told as what its joint lacks.
+            shaft_rim=through if through >= LEAST_RIM else inf,
+        )
     cage = cage_of(motor, mounting, foot_plate) if mounting.stator_face is Face.BACK else None
     if cage is None or stator is None:
         # A hole for the shaft, or for what stands between rotor and hub.
@@ -298,6 +311,22 @@ def motor_front(mount: MotorMount, height: float) -> float:
     if mount.cage is not None:
         return -mount.cage.front
     return -(half_height(height) + mount.foot_plate + mount.gap)
+
+
+def bond_length(mounting: Mounting, hub_height: float, chamfer: float, front: float) -> float:
+    """Length of a hub's bore between its chamfers that the motor's shaft reaches into [m].
+
+    All of it where no source gives the shaft's length.
+
+    Args:
+        mounting: of the motor. hub_height: of the hub, about the wheel's middle [m].
+        chamfer: of its bore at both ends [m].
+        front: of the motor, behind the wheel's middle and so below 0 [m].
+    """
+    low, high = -hub_height / 2.0 + chamfer, hub_height / 2.0 - chamfer
+    if mounting.shaft_length is not None:
+        high = min(high, front + mounting.shaft_length)
+    return max(high - low, 0.0)
 
 
 def drive_cylinders(

@@ -17,7 +17,7 @@ from ocs_design.common.wording import some_of
 from ocs_design.device.layout import PAIR, Criterion, Layout, LayoutName
 from ocs_design.parts.bell import bell_of
 from ocs_design.parts.joints import SERVICE, hub_joint
-from ocs_design.parts.motor_mount import is_held
+from ocs_design.parts.motor_mount import bond_length, is_held, motor_front, mount_of
 from ocs_design.parts.rim import NO_CUTS, WEB_MATERIAL, RimCuts, hub_height
 from ocs_design.requirement.choices import MotorChoice
 from ocs_design.requirement.device_sections import Envelope, FlywheelSection
@@ -145,7 +145,7 @@ def _held(
 
         def holds_wheel(motor: Motor) -> bool:
             """Whether the joint of hub and motor carries its peak torque with margin."""
-            carried = _carried(motor)
+            carried = _carried(motor, resolved.envelope)
             return carried is not None and carried >= SERVICE * (motor.peak_torque or 0.0)
 
         held = (each for each in motors if is_held(each, None) and holds_wheel(each))
@@ -156,7 +156,11 @@ def _held(
         return motors
     slowed = []
     for motor in motors:
-        carried, speed, rotor = _carried(motor), speed_limit(motor), motor.rotor_inertia
+        carried, speed, rotor = (
+            _carried(motor, resolved.envelope),
+            speed_limit(motor),
+            motor.rotor_inertia,
+        )
         if carried is None or speed is None or not rotor:
             slowed.append(motor)
         else:
@@ -166,10 +170,16 @@ def _held(
     return tuple(slowed)
 
 
-def _carried(motor: Motor) -> float | None:
-    """Torque that the joint of hub and motor carries [N m]; None: no known joint does."""
-    mounting = motor.mounting or Mounting()
-    return hub_joint(mounting, hub_height(mounting) - 2.0 * LARGEST_CHAMFER)
+def _carried(motor: Motor, room: Envelope) -> float | None:
+    """Torque that the joint of hub and motor carries [N m]; None: no known joint does.
+
+    A shaft is counted behind the highest rim that the selection may choose, in a hub with the
+    largest chamfer, so that no device has less.
+    """
+    mounting, mount = motor.mounting or Mounting(), mount_of(motor, None)
+    front = motor_front(mount, min(mount.rim_height_max, room.height_max))
+    length = bond_length(mounting, hub_height(mounting), LARGEST_CHAMFER, front)
+    return hub_joint(mounting, length)
 
 
 def specified_lightenings(stated: FlywheelSection) -> tuple[int, ...]:

@@ -8,7 +8,7 @@ from built import DEVICES
 from wheels import EC45, PAPER_WHEEL, driven_device
 
 from ocs_design.actuation.fasteners import screw
-from ocs_design.actuation.motor import BoltCircle, Mounting
+from ocs_design.actuation.motor import BoltCircle, Face, Mounting, ShaftForm
 from ocs_design.catalogue.materials import material
 from ocs_design.device.device import Web
 from ocs_design.device.joints import (
@@ -23,6 +23,7 @@ from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.export.device_parts import printed_parts
 from ocs_design.export.meshes import part_manifold
 from ocs_design.parts.joints import friction_torque
+from ocs_design.parts.motor_mount import motor_front
 from ocs_design.parts.pedestal import Pedestal, seat_compliance, strengthened
 from ocs_design.parts.plate_strength import plate_frequency
 from ocs_design.parts.rim import WEB_THICKNESS, Hub
@@ -141,6 +142,20 @@ def test_a_shaft_alone_is_bonded():
     joint = named(device(Mounting(shaft_diameter=0.004)))["shaft joint"]
     assert joint.capacity == pytest.approx(1.445, abs=1e-3)
     assert "alone carries nothing" in joint.note
+
+
+@pytest.mark.parametrize(
+    ("out", "length", "carries"), [(0.0035, 2.3, 0.723), (0.005, 3.8, 1.194), (0.009, 4.6, 1.445)]
+)
+def test_a_bond_is_as_long_as_the_shaft_reaches_into_the_hub(out, length, carries):
+    """A cage holds the motor 1 mm behind the hub of 5 mm, whose first 0.2 mm are a chamfer."""
+    mounting = Mounting(0.004, None, BoltCircle(0.025, 4, "M3"), Face.BACK, out, ShaftForm.PLAIN)
+    made = device(mounting)
+    made = replace(made, motor=replace(made.motor, diameter=0.0556, length=0.025))
+    assert motor_front(motor_mount(made), made.flywheel.height) == pytest.approx(-0.0035)
+    joint = named(made)["shaft joint"]
+    assert joint.capacity == pytest.approx(carries, abs=1e-3)
+    assert f"over {length} mm of its length in the hub" in joint.note
 
 
 @pytest.mark.parametrize(

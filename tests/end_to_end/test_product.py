@@ -18,6 +18,7 @@ from ocs_design.catalogue.motors import motors
 from ocs_design.common.files import to_json
 from ocs_design.device.records.design import read_design
 from ocs_design.parts.joints import hub_joint
+from ocs_design.parts.motor_mount import bond_length, motor_front, mount_of
 from ocs_design.parts.rim import hub_height
 
 # INTERFACE: the fields that scripts and other programs rely on.
@@ -228,6 +229,13 @@ def test_margins_are_capacity_over_demand(document, product):
             assert kept or (margin["name"] == "rms current" and PAUSE.search(margin["note"]))
 
 
+def reached(row):
+    """Length of a hub's bore that a motor's shaft is in, chamfers of 0.5 mm left out."""
+    mount = mount_of(row, None)
+    front = motor_front(mount, min(mount.rim_height_max, 0.03))
+    return bond_length(row.mounting, hub_height(row.mounting), 0.5e-3, front)
+
+
 @pytest.mark.parametrize("product", ["motor"], indirect=True)
 def test_the_choice_says_what_it_looked_at(document):
     selection = document["selection"]
@@ -248,7 +256,7 @@ def test_the_choice_says_what_it_looked_at(document):
     carried = {
         name
         for name, row in complete.items()
-        if hub_joint(row.mounting, hub_height(row.mounting) - 1e-3) >= 1.5 * row.peak_torque
+        if hub_joint(row.mounting, reached(row)) >= 1.5 * row.peak_torque
         and (row.voltage_max or row.rated_voltage) >= 24.0
     }
     assert listed | fallen == carried < set(complete) < set(motors())

@@ -1,6 +1,7 @@
 """Whether known screws hold a motor."""
 
 from dataclasses import replace
+from math import inf
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from ocs_design.catalogue.motors import motor
 from ocs_design.device.device import Flywheel, Web
 from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.parts.moments import cylinder_mass
-from ocs_design.parts.motor_mount import is_held, mount_of
+from ocs_design.parts.motor_mount import bond_length, is_held, motor_front, mount_of
 from ocs_design.parts.rim import (
     HUB_WALL,
     LIGAMENT,
@@ -69,6 +70,19 @@ def test_screws_reach_as_deep_as_the_maker_asks(name, wheel):
 
 
 PLAIN = replace(motor("MN5212 KV340"), diameter=0.05, mounting=None)
+
+
+def test_a_rim_leaves_a_shaft_behind_the_plate_as_long_as_its_hub():
+    """30 mm less plate, wall, air and the hub's half: 2 x (30 - 5 - 3.2 - 2.5) mm of rim."""
+    behind = mount_of(on(replace(AT_OUTPUT, shaft_length=0.03)), None)
+    assert behind.rim_height_max == pytest.approx(0.0386)
+    front = motor_front(behind, behind.rim_height_max)
+    through = replace(AT_OUTPUT, shaft_length=0.03)
+    assert bond_length(through, 0.005, 0.0, front) == pytest.approx(0.005)
+    assert bond_length(through, 0.005, 0.0, front - 0.001) == pytest.approx(0.004)
+    # The joint says what is too short for any rim.
+    assert mount_of(on(replace(AT_OUTPUT, shaft_length=0.01)), None).rim_height_max == inf
+    assert bond_length(replace(through, shaft_length=0.01), 0.005, 0.0, front) == 0.0
 
 
 def wheel_on(hub: Hub) -> Flywheel:

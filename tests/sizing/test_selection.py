@@ -17,6 +17,7 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_load import WheelTask, smallest_spin_inertia, wheel_slew_time
 from ocs_design.common.errors import Infeasible, UsageError
 from ocs_design.device.layout import module_axes
+from ocs_design.parts.joints import SERVICE
 from ocs_design.requirement.device_sections import FlywheelSection, MotorSection
 from ocs_design.requirement.maneuver import Disturbance, Flip
 from ocs_design.requirement.requirement import Requirement
@@ -105,6 +106,19 @@ def test_the_winner_from_scratch(solved):
         asked = max(demand.spin_inertia for demand in found.demands)
         assert found.spin_inertia == pytest.approx(asked, rel=1e-8)
         assert found.binding_maneuver in by_name
+
+
+def test_a_shaft_that_reaches_too_short_a_way_into_the_hub_is_not_chosen():
+    """Solo12's motor with 3.5 mm of shaft: 2.0 mm in a hub of 0.5 mm chamfers bear 0.63 N m."""
+    task = Task.of(Specification(), read_robot(SOLO12))
+    (motor,) = (
+        each for each in task.resolved.choice.motors if each.name == "Antigravity MN5006 KV450"
+    )
+    short = replace(motor, name="short", mounting=replace(motor.mounting, shaft_length=0.0035))
+    assert 0.63 < SERVICE * motor.peak_torque < 1.10
+    choice = replace(task.resolved.choice, motors=(short, motor))
+    asked = replace(task, resolved=replace(task.resolved, choice=choice))
+    assert selection_problem(asked).motors == (motor,)
 
 
 @pytest.mark.slow
