@@ -1,6 +1,6 @@
-"""A limb as an open kinematic chain: forward kinematics, Jacobian, and how far it reaches.
+"""A limb as an open kinematic chain: forward kinematics, Jacobian and reach.
 
-The tree's own `placements` moves every body; a limb's inverse kinematics needs only its own.
+`Tree.placements` moves every body; the inverse kinematics of a limb needs only its own bodies.
 """
 
 from collections.abc import Mapping, Sequence
@@ -18,13 +18,13 @@ from ocs_design.robot.tree import Body, Joint, JointKind, Tree
 _SWEEPS = 40
 
 _SHORT = 0.5
-"""Share of a limb's length below which a stretched limb may not be stretched yet."""
+"""Share of a limb's length below which the ascent may not have stretched it fully."""
 
 _TURNS = (0.5, -0.5)
-"""Angles where the ascent starts again, from zero [rad]."""
+"""Offsets from zero at which the ascent restarts [rad]."""
 
 _FARTHER = 0.01
-"""Share of a limb's length by which another start must be better, for rounding not to decide."""
+"""Share of a limb's length by which a restart must be better, so that rounding does not decide."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +42,7 @@ class ChainPose:
     end: Placement
 
     def point(self, local: FloatArray) -> FloatArray:
-        """A point of the last body, seen from the reference frame [m], shape (3,)."""
+        """A point of the last body, in the reference frame [m], shape (3,)."""
         return self.end.point(local)
 
 
@@ -52,7 +52,7 @@ class Chain:
 
     Attributes:
         start: placement of the first body's parent in the reference frame.
-        bodies: from the first that moves against the start to the last.
+        bodies: from the first that moves relative to the start to the last.
     """
 
     start: Placement
@@ -65,7 +65,7 @@ class Chain:
 
     @cached_property
     def driven(self) -> tuple[int, ...]:
-        """Indices of the joints that move by themselves, as opposed to mimics."""
+        """Indices of the joints that move independently, as opposed to mimics."""
         return tuple(i for i, joint in enumerate(self.joints) if joint.mimic is None)
 
     @cached_property
@@ -114,7 +114,7 @@ class Chain:
         """Forward kinematics at the driven joints' `values` [rad or m]."""
         matrix, offset = self._coupling
         travels = matrix @ values + offset
-        # Rodrigues for all joints at once: the solver spends its time here.
+        # Rodrigues' formula for all joints at once: the solver spends most of its time here.
         angles = np.where(self._slides, 0.0, travels)[:, None, None]
         crosses = self._crosses
         turns = np.eye(3) + np.sin(angles) * crosses + (1 - np.cos(angles)) * (crosses @ crosses)
@@ -131,13 +131,13 @@ class Chain:
         return ChainPose(axes, origins, Placement(rotation, position))
 
     def point_jacobian(self, pose: ChainPose, point: FloatArray) -> FloatArray:
-        """Derivative of a point of the last body by the driven joints, shape (3, driven)."""
+        """Jacobian of a point of the last body w.r.t. the driven joints, shape (3, driven)."""
         columns = np.cross(pose.axes, point - pose.origins)
         columns[self._slides] = pose.axes[self._slides]
         return columns.T @ self._coupling[0]
 
     def direction_jacobian(self, pose: ChainPose, direction: FloatArray) -> FloatArray:
-        """Derivative of a direction of the last body by the driven joints, shape (3, driven)."""
+        """Jacobian of a direction of the last body w.r.t. the driven joints, shape (3, driven)."""
         columns = np.cross(pose.axes, direction)
         columns[self._slides] = 0.0
         return columns.T @ self._coupling[0]
@@ -147,10 +147,10 @@ class Chain:
     ) -> FloatArray:
         """Driven joints' values that bring a point of the last body farthest along `direction`.
 
-        Cyclic coordinate ascent within the limits: along a single hinge the goal is a sinusoid, of
-        which the best value is known in closed form (Wang and Chen, IEEE T-RA 7(4), 1991).
-        Prismatic joints stay where they are. A limb that is folded onto itself at zero is at a
-        saddle; where the first ascent leaves it short, it starts again with every joint turned.
+        Cyclic coordinate ascent within the limits: along a single hinge the objective is a
+        sinusoid, whose maximum is known in closed form (Wang and Chen, IEEE T-RA 7(4), 1991).
+        Prismatic joints are not moved. A limb folded onto itself at zero is at a saddle point; if
+        the first ascent leaves it short, it restarts with every joint turned.
         """
         chosen = range(len(self.driven)) if movable is None else movable
         start = self.neutral()
@@ -168,25 +168,25 @@ class Chain:
         return best
 
     def span(self, local: FloatArray) -> float:
-        """Way from the first joint over all others to a point of the last body [m]."""
+        """Length of the path from the first joint via all others to a point of the last [m]."""
         lengths = [np.linalg.norm(body.placement.position) for body in self.bodies[1:]]
         return float(sum(lengths) + np.linalg.norm(local))
 
     def _reached(self, values: FloatArray, local: FloatArray, direction: FloatArray) -> float:
-        """How far a point of the last body is from the first joint along `direction` [m]."""
+        """Distance of a point of the last body from the first joint along `direction` [m]."""
         pose = self.pose(values)
         return float(direction @ (pose.point(local) - pose.origins[0]))
 
     def _ascended(
         self, local: FloatArray, direction: FloatArray, chosen: Sequence[int], start: FloatArray
     ) -> FloatArray:
-        """The values that the ascent ends with."""
+        """Values at which the ascent ends."""
         values = start.copy()
         for _ in range(_SWEEPS):
             before = values.copy()
             pose = self.pose(values)
             tip = pose.point(local)
-            # From the tip inwards, so that a turned joint does not move those still to come.
+            # From the tip inwards, so that turning a joint does not move those still to be turned.
             for column in reversed(chosen):
                 row = self.driven[column]
                 if self.joints[row].kind is JointKind.PRISMATIC:
@@ -209,9 +209,9 @@ class Chain:
 
 
 def nearest_turn(angle: float, lower: float, upper: float) -> float:
-    """The angle within the limits nearest to `angle`, whole turns counting for nothing [rad].
+    """The angle within the limits nearest to `angle`, modulo whole turns [rad].
 
-    Of the equivalent angles inside the limits the one nearest to zero is taken.
+    Of equivalent angles within the limits, the one nearest to zero.
     """
     wrapped = (angle + np.pi) % (2.0 * np.pi) - np.pi
     turns = wrapped + 2.0 * np.pi * np.array([0.0, 1.0, -1.0])

@@ -1,6 +1,6 @@
-"""Plausibility of a robot file: values that can exist, but are hardly meant.
+"""Plausibility of a robot file: values that are possible, but probably not intended.
 
-What lies between two planes at a distance L cannot have a larger variance along their normal than
+Mass between two planes at a distance L cannot have a larger variance along their normal than
 L^2 / 4 (Popoviciu1935 in docs/references.md). The variance of a mass along an axis is
 (tr(I) / 2 - I_ii) / m, and its root the radius of gyration about the plane through its centre.
 
@@ -30,17 +30,17 @@ def plausibility_warnings(
     posture: Mapping[str, float],
     weighed: MassProperties,
 ) -> tuple[str, ...]:
-    """Warnings of what can be, but is hardly meant, one sentence each.
+    """Warnings of values that are possible, but probably not intended, one sentence each.
 
     Args:
-        tree: of the robot, of which mass properties are physical as a whole.
+        tree: of the robot, whose mass properties are physical as a whole.
         trunk: link whose frame is B.
         legs: as found; may be empty.
-        posture: that it stands in.
+        posture: in which it stands.
         weighed: the whole robot in that posture, in B.
     """
     warnings = Warnings()
-    # The quotients of a mass of 1e-300 kg are infinite, and judged rightly as that.
+    # Quotients with a mass of 1e-300 kg are infinite, and are judged correctly.
     with np.errstate(all="ignore"):
         radius, density = weighed.gyration_radius, ball_density(weighed)
         stated = (
@@ -62,7 +62,7 @@ def plausibility_warnings(
                 if joint.kind is JointKind.REVOLUTE and most < joint.effort < np.inf:
                     warnings.add(
                         f"efforts over {EFFORT:.0f} times weight times leg length limit no jump: "
-                        "state what the motors give",
+                        "specify the motors' limits",
                         f"{name} ({joint.effort:.4g} N m)",
                     )
         # The trunk is level, and the lowest foot is on the ground.
@@ -77,14 +77,14 @@ def plausibility_warnings(
 
 
 DENSEST_ROBOT, LIGHTEST_ROBOT = 2700.0, 1.2
-"""Densities of solid aluminium and of air [kg/m^3], for the ball with a robot's radius of gyration.
+"""Densities of solid aluminium and of air [kg/m^3], for a ball with a robot's radius of gyration.
 
-Public robots lie between 5 and 484; in grams or millimetres they are off by a thousand or more.
+Public robots lie between 5 and 484; grams or millimetres are off by a thousand or more.
 """
 
 
 DEGREES = (8.0 * np.pi, 1440.0)
-"""Range of a hinge [rad] that four turns of degrees would be; beyond, it is meant to be endless."""
+"""Ranges of a hinge [rad] that suggest degrees, up to four turns; larger ones mean endless."""
 
 
 def _judge_body(body: Body, warnings: Warnings) -> None:
@@ -93,7 +93,7 @@ def _judge_body(body: Body, warnings: Warnings) -> None:
         fewest, most = DEGREES
         if fewest < joint.upper - joint.lower <= most:
             warnings.add("joints with a range of many turns: limits in degrees?", joint.name)
-    # Mass properties that no matter could have are warned of as such already.
+    # There is already a warning of mass properties that are not physical.
     if weighed.mass == 0.0 or physical_defect(weighed) is not None:
         return
     box = box_of(body)
@@ -108,14 +108,14 @@ def _judge_body(body: Body, warnings: Warnings) -> None:
         unround = max(float(moments[1] - moments[0]), product) / max(float(moments[1]), 1e-300)
         if unround > LOPSIDED:
             warnings.add(
-                "links that are round about their joint with an inertia that is not: in other "
+                "links that are round about their joint, but whose inertia is not: given in other "
                 "axes?",
                 f"{body.name} (by {unround:.0%})",
             )
 
 
 FLAT = 1e-6
-"""Least side of a box [m]; a body that is thinner has none."""
+"""Least side of a box [m]; a thinner body has no box."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,10 +141,10 @@ class Box:
 
 
 def box_of(body: Body) -> Box | None:
-    """Box around all that a body collides with or shows; None if part of that is not known.
+    """Box around all collision and visual shapes of a body; None if some are not known.
 
-    Where a shape is missing or slow to read, or a link has a mass and no shape, what is left may be
-    a fraction of the body, and no inertia can be called too large for it.
+    If a shape is missing or slow to read, or a link has a mass but no shape, the rest may be a
+    fraction of the body, and no inertia can be called too large for it.
     """
     shaped = {shape.link for shape in body.shapes}
     if any(mass > 0.0 and link not in shaped for link, mass in body.link_masses.items()):
@@ -173,31 +173,31 @@ STEEL = 7850.0
 Public robots reach 7430."""
 
 AIR = 1.2
-"""Density of a link as light as the air in its box [kg/m^3]; public robots begin at 6.8."""
+"""Density of a link as light as the air in its box [kg/m^3]; in public robots at least 6.8."""
 
 
 TOO_LARGE = 1.25
-"""Largest radius of gyration over what fits into the body's box: 1.6 times the largest inertia.
+"""Largest radius of gyration over the largest in the body's box: 1.6 times its inertia.
 
-Above 1 is impossible already, but shapes leave out screws, cables and fins. Whole shapes of public
-robots that look right reach 1.14.
+Anything above 1 is impossible, but shapes leave out screws, cables and fins. Plausible, complete
+shapes of public robots reach 1.14.
 """
 
 TOO_SMALL = 0.2
-"""Least radius of gyration over a full box's, a 25th of its inertia; public robots have 0.27."""
+"""Least radius of gyration over a solid box's, a 25th of its inertia; 0.27 in public robots."""
 
 OUTSIDE = 0.05
-"""Farthest that a centre of mass may be out of the box, over its longest side."""
+"""Largest distance of a centre of mass outside the box, over the box's longest side."""
 
 ELONGATED, SWAPPED = 1.75, 2.0
-"""A body so many times as long as wide has its mass along the length: if the variance of its mass
-is so many times larger across, the inertia belongs to other axes."""
+"""Ratio of length to width of a body whose mass must lie along its length, and ratio of the mass's
+variance across to that along from which its inertia belongs to other axes."""
 
 SHIFTED = 2.0
-"""An inertia that is so many times a full box's, and less than that over this if the parallel axes
-to the frame's origin are taken off, is about the origin."""
+"""Ratio to a solid box's inertia above which an inertia is taken to be about the frame's origin, if
+it falls by as much when the parallel-axis term is removed."""
 
-_OTHER_AXES = "links whose inertia does not lie as their shapes do: written in other axes?"
+_OTHER_AXES = "links whose inertia does not match their shapes' axes: given in other axes?"
 
 
 def _contradictions(weighed: MassProperties, box: Box) -> Iterator[tuple[str, str]]:
@@ -210,12 +210,12 @@ def _contradictions(weighed: MassProperties, box: Box) -> Iterator[tuple[str, st
     density = weighed.mass / box.volume
     if density > STEEL:
         yield (
-            "links heavier than solid steel in their shapes: masses in grams, or too small shapes?",
+            "links heavier than their shapes in solid steel: masses in grams, or shapes too small?",
             f"{density:.2g} kg/m3",
         )
     elif density < AIR:
         yield (
-            "links lighter than the air in their shapes: a mesh in millimetres without its scale, "
+            "links lighter than the air in their shapes: a mesh in millimetres without a scale, "
             "or masses in tonnes?",
             f"{density:.2g} kg/m3",
         )
@@ -225,32 +225,32 @@ def _contradictions(weighed: MassProperties, box: Box) -> Iterator[tuple[str, st
     share = _share(variances, box)
     if outside > OUTSIDE * box.sides.max():
         yield (
-            "links whose centre of mass is outside of their shapes: in another frame, or in "
+            "links whose centre of mass is outside their shapes: in another frame, or in "
             "millimetres?",
             f"by {1e3 * outside:.3g} mm",
         )
     elif _is_about_origin(weighed, box):
         yield (
             "links whose inertia is about their origin, not their centre of mass?",
-            f"{share:.3g} times a full box's",
+            f"{share:.3g} times a solid box's",
         )
     elif excess > TOO_LARGE:
-        # The likeliest mistake is one of axes, if any turn by right angles would fit.
+        # If any turn by right angles fits, wrong axes are the most likely mistake.
         orders = ([0, 2, 1], [2, 1, 0], [1, 0, 2], [1, 2, 0], [2, 0, 1])
         turned = [weighed.inertia[np.ix_(order, order)] for order in orders]
         fits = [_excess(mass_variances(each, weighed.mass), box) < TOO_LARGE for each in turned]
         yield (
             _OTHER_AXES
             if any(fits)
-            else "links with more inertia than fits into their shapes: another unit than kg m2, a "
+            else "links with more inertia than their shapes allow: a unit other than kg m2, a "
             "placeholder, or a mesh without its scale?",
-            f"radius of gyration {excess:.3g} times what fits",
+            f"radius of gyration {excess:.3g} times the largest possible",
         )
     elif share < TOO_SMALL**2:
         yield (
-            "links with too little inertia for their shapes: another unit than kg m2, or a mesh "
+            "links with too little inertia for their shapes: a unit other than kg m2, or a mesh "
             "without its scale?",
-            f"{share:.2g} times a full box's",
+            f"{share:.2g} times a solid box's",
         )
     else:
         long = int(np.argmax(box.sides))
@@ -265,17 +265,17 @@ def mass_variances(inertia: FloatArray, mass: float) -> FloatArray:
 
 
 def _excess(variances: FloatArray, box: Box) -> float:
-    """Largest radius of gyration over what fits into the box."""
+    """Largest radius of gyration over the largest possible in the box."""
     return float(np.sqrt((variances / (0.25 * box.sides**2)).max()))
 
 
 def _share(variances: FloatArray, box: Box) -> float:
-    """Polar inertia over that of the full box."""
+    """Polar inertia over that of the solid box."""
     return float(variances.sum() / (box.sides @ box.sides / 12.0))
 
 
 def _is_about_origin(weighed: MassProperties, box: Box) -> bool:
-    """Whether an inertia beyond a full box's becomes a body's once it is moved to the centre."""
+    """Whether an inertia above a solid box's becomes plausible when moved to the centre of mass."""
     offset = MassProperties(weighed.mass, weighed.com, np.zeros((3, 3))).inertia_about(np.zeros(3))
     moved = MassProperties(weighed.mass, weighed.com, weighed.inertia - offset)
     if physical_defect(moved) is not None:
@@ -287,9 +287,9 @@ def _is_about_origin(weighed: MassProperties, box: Box) -> bool:
 
 
 LOPSIDED = 0.05
-"""Largest part of a wheel's inertia that is not round, over its largest moment across the axle.
+"""Largest asymmetry of a wheel's inertia about its axle, over its largest moment across it.
 
-Wheels of public robots are round to 0.001.
+Wheels of public robots are symmetric to 0.001.
 """
 
 
@@ -341,7 +341,7 @@ def _judge_mirror_images(tree: Tree, trunk: str, legs: Sequence[Leg], warnings: 
     left = [side for side in sides if side.origins[0, 1] > 0.0]
     right = [side for side in sides if side.origins[0, 1] < 0.0]
     for one in left if len(left) == len(right) else ():
-        # The leg whose hip is nearest to where the mirror image has it.
+        # The leg whose hip is nearest to the mirror image's.
         other = min(right, key=lambda each: _shift(each.origins[0], one.origins[0]))
         if len(one.masses) != len(other.masses):
             names = f"{one.leg.name}, {other.leg.name}"
@@ -359,7 +359,7 @@ def _shift(point: FloatArray, twin: FloatArray) -> float:
 
 
 def _differences(one: _Side, other: _Side, index: int) -> Iterator[str]:
-    """Differences between the bodies with this number from the hip, on either side."""
+    """Differences between the bodies at this index from the hip, on either side."""
     body, twin = one.masses[index], other.masses[index]
     length = max(one.leg.length, other.leg.length)
     if not np.isclose(body.mass, twin.mass, rtol=MASS_SHARE, atol=0.0):
@@ -381,11 +381,11 @@ def _differences(one: _Side, other: _Side, index: int) -> Iterator[str]:
 
 
 EFFORT = 10.0
-"""Effort of a leg's joint, over weight times the leg's length, that is a placeholder: legs that
-somebody has built lie between 0.3 and 0.7."""
+"""Effort of a leg's joint, over weight times leg length, above which it is a placeholder: legs that
+have been built lie between 0.3 and 0.7."""
 
 _GRAVITY = 9.81
 
 
 IN_THE_AIR = 0.05
-"""Largest height of a foot over the lowest one, over the leg's length: 8 mm of Solo12's."""
+"""Largest height of a foot above the lowest one, over the leg's length: 8 mm for Solo12."""

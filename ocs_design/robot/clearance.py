@@ -1,4 +1,4 @@
-"""Postures in which a device has to stand clear of the robot, and which limbs could hit it."""
+"""Postures in which a device must be clear of the robot, and limbs that could hit it."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -25,25 +25,25 @@ from ocs_design.robot.tree import JointKind
 GIVE = 0.4
 PITCH_GIVE = 0.7
 KNEE_GIVE = 0.5 * np.pi
-"""Farthest that joints of a leg leave the nominal posture in a landing [rad]: those that spread or
-twist the leg, pitch joints, and knees; see docs/theory.md, Placement."""
+"""Largest deflection of a leg's joints from the nominal posture in a landing [rad]: of joints that
+spread or twist the leg, of pitch joints, and of knees; see docs/theory.md, Placement."""
 
 _SLIDE_GIVE = 0.5
-"""Farthest that a slide leaves the nominal posture in a landing, over its leg's length."""
+"""Largest deflection of a slide from the nominal posture in a landing, over the leg's length."""
 
 SAMPLES = 512
-"""Number of postures that are drawn from ranges."""
+"""Number of postures sampled from ranges."""
 
 _OVERSHOOT = 0.1
-"""Share of a range that is drawn beyond either end and put at that end, where most is hit."""
+"""Share of a range sampled beyond either end and clamped to it, where most contacts occur."""
 
 Ranges = Mapping[str, tuple[float, float]]
-"""Lower and upper value of driven joints [rad or m]; those that are not in it are held."""
+"""Lower and upper value of driven joints [rad or m]; joints that are not listed are locked."""
 
 
 @lru_cache(maxsize=1)
 def landing_ranges(robot: Robot) -> Ranges:
-    """Ranges of the legs' joints in a landing: drives hold the nominal posture, but not stiffly."""
+    """Ranges of the legs' joints in a landing: drives hold the nominal posture, but compliantly."""
     ranges: dict[str, tuple[float, float]] = {}
     for each in leg_geometries(robot.tree, robot.trunk, robot.legs) if robot.legs else ():
         pitch = [each.chain.names[column] for column in each.plane.pitch]
@@ -58,7 +58,7 @@ def landing_ranges(robot: Robot) -> Ranges:
 
 
 def full_ranges(robot: Robot, names: Iterable[str]) -> Ranges:
-    """Everything within the limits of some joints; hinges at most half a turn to each side."""
+    """Ranges of some joints up to their limits; hinges at most half a turn to each side."""
     return {name: _around(robot, name, np.pi if _turns(robot, name) else np.inf) for name in names}
 
 
@@ -67,9 +67,9 @@ def _turns(robot: Robot, name: str) -> bool:
 
 
 def _around(robot: Robot, name: str, way: float) -> tuple[float, float]:
-    """Range of a joint that goes `way` to either side of the nominal posture, within its limits."""
+    """Range of a joint, `way` to either side of the nominal posture, within its limits."""
     joint, value = robot.tree.joints[name], robot.posture[name]
-    # A posture may lie beyond a limit, and a slide may have none.
+    # A posture may exceed a limit, and a slide may have none.
     lower = min(max(joint.lower, value - way), value)
     upper = max(min(joint.upper, value + way), value)
     return (
@@ -79,7 +79,7 @@ def _around(robot: Robot, name: str, way: float) -> tuple[float, float]:
 
 
 def drawn(ranges: Ranges, count: int = SAMPLES) -> Sequence[Posture]:
-    """Random postures within the ranges, the same ones each time; joints move independently."""
+    """Random postures within the ranges, the same on each call; joints move independently."""
     if not ranges:
         return ()
     lower, upper = np.array(list(ranges.values())).T
@@ -94,8 +94,8 @@ class _Standing:
     """A leg that stands on its foot.
 
     Attributes:
-        joints: that move it alone. foot: its last part.
-        above: all others on the way to it, the trunk among them.
+        joints: that move no other leg. foot: its last part.
+        above: all other parts on the way to it, including the trunk.
     """
 
     joints: tuple[str, ...]
@@ -103,9 +103,9 @@ class _Standing:
     above: tuple[Part, ...]
 
     def holds(self, collision: CollisionModel, poses: Poses) -> NDArray[np.bool_]:
-        """Whether in each posture nothing of leg or trunk is lower than its foot, shape (n,).
+        """Whether in each posture no part of leg or trunk is lower than the foot, shape (n,).
 
-        On a robot that is off level by `LANDING_TOLERANCE`, as well.
+        This must also hold for a robot tilted by `LANDING_TOLERANCE`.
         """
         foot, found = collision.lowest(poses, self.foot), np.ones(len(poses.postures), dtype=bool)
         for part in self.above:
@@ -116,7 +116,7 @@ class _Standing:
 
 @lru_cache(maxsize=1)
 def standing_legs(collision: CollisionModel) -> tuple[_Standing, ...]:
-    """Legs whose feet are known, and are what the robot stands on in the nominal posture."""
+    """Legs whose feet are known, and on which the robot stands in the nominal posture."""
     robot, found = collision.robot, []
     for leg in robot.legs:
         name = robot.tree.bodies[leg.body].name
@@ -133,12 +133,12 @@ def standing_legs(collision: CollisionModel) -> tuple[_Standing, ...]:
 
 @lru_cache(maxsize=2)
 def landing_poses(collision: CollisionModel, *, on_feet: bool = False) -> Poses:
-    """The nominal posture, and postures drawn from `landing_ranges`.
+    """The nominal posture, and postures sampled from `landing_ranges`.
 
     Args:
         collision: of the robot.
-        on_feet: a leg that would no longer stand on its foot, as where its heel is kicked up
-            behind, is in the nominal posture instead.
+        on_feet: whether a leg that would no longer stand on its foot, because its heel is up
+            behind it for example, is put in the nominal posture instead.
     """
     postures = [{}, *map(dict, drawn(landing_ranges(collision.robot)))]
     poses = collision.poses(postures)
@@ -158,7 +158,7 @@ _FIRST_STEP = 0.125
 _HALVINGS = 5
 
 _PROGRESS = 1e-5
-"""Smallest gain for which the search goes on [m]."""
+"""Smallest gain for which the search continues [m]."""
 
 
 def nearest_in_landings(
@@ -169,15 +169,15 @@ def nearest_in_landings(
     enough: float = -np.inf,
     on_feet: bool = False,
 ) -> Nearest | None:
-    """Nearest that a limb comes to a solid while the legs give way; None beyond `within` [m].
+    """Nearest that a limb comes to a solid while the legs yield; None beyond `within` [m].
 
-    From the nearest of the postures that are drawn, a pattern search along the joints that move the
-    limb: they lie too far apart to find the least distance of a limb with many joints.
+    A pattern search along the joints that move the limb, from the nearest of the sampled postures:
+    these are too sparse to find the least distance of a limb with many joints.
 
     Args:
         collision, probe: as for `CollisionModel.nearest`.
-        within: distance of interest in the postures that are drawn [m].
-        enough: distance below which it need not be nearer [m].
+        within: distance of interest in the sampled postures [m].
+        enough: distance at which the search may stop [m].
         on_feet: whether legs stand on their feet: see `landing_poses`.
     """
     poses = landing_poses(collision, on_feet=on_feet)
@@ -192,7 +192,7 @@ def nearest_in_landings(
     best, share = start, _FIRST_STEP
     for _ in range(_HALVINGS):
         while best.distance >= enough:
-            # One joint at a time, by a share of its range to either side.
+            # One joint at a time, by a fraction of its range to either side.
             around = []
             for name, step in product(joints, (-share, share)):
                 lower, upper = ranges[name]
@@ -212,10 +212,10 @@ def nearest_in_landings(
 
 
 _STEPS = 32
-"""Number of steps from the nominal posture to where something is hit."""
+"""Number of steps from the nominal posture to a contact."""
 
 _STILL = 0.02
-"""Way of a joint, over the farthest that another goes, below which it need not have moved."""
+"""Travel of a joint, over the largest of any joint, below which it is left at rest."""
 
 
 @dataclass(frozen=True)
@@ -224,8 +224,8 @@ class Reach:
 
     Attributes:
         part: name of the body that hits it first.
-        joints: values [rad or m] at which it does, on a straight way from the nominal posture; one
-            joint where one is enough.
+        joints: values at the contact [rad or m], on a straight path from the nominal posture; one
+            joint if one is enough.
     """
 
     part: str
@@ -235,8 +235,8 @@ class Reach:
 def reaches(collision: CollisionModel, solids: Sequence[Probe]) -> tuple[Reach, ...]:
     """Movements by which limbs hit the solids, at most one for each limb.
 
-    One joint alone that has to move least, if there is one, else several together. A limb without
-    an entry hit nothing in any posture that was tried.
+    A movement of one joint, the shortest, if there is one; otherwise of several joints together. A
+    limb without an entry hit nothing in any posture tried.
     """
     limbs: dict[str, list[Part]] = {}
     for part in collision.parts:
@@ -244,7 +244,7 @@ def reaches(collision: CollisionModel, solids: Sequence[Probe]) -> tuple[Reach, 
             limbs.setdefault(part.limb, []).append(part)
     joints = dict.fromkeys(name for part in collision.parts for name in part.joints)
     ranges = full_ranges(collision.robot, joints)
-    # Limbs move independently: one set of postures does for all of them.
+    # Limbs move independently: one set of postures serves all of them.
     poses = collision.poses(drawn(ranges))
     found = (_Limb(collision, parts, solids).reach(ranges, poses) for parts in limbs.values())
     return tuple(reach for reach in found if reach is not None)
@@ -252,14 +252,14 @@ def reaches(collision: CollisionModel, solids: Sequence[Probe]) -> tuple[Reach, 
 
 @dataclass(frozen=True, eq=False)
 class _Limb:
-    """Parts of one limb, and the solids that they may hit."""
+    """Parts of one limb, and the solids that they could hit."""
 
     collision: CollisionModel
     parts: Sequence[Part]
     solids: Sequence[Probe]
 
     def reach(self, ranges: Ranges, poses: Poses) -> Reach | None:
-        """Shortest movement to a contact; None if no posture that was tried has one."""
+        """Shortest movement to a contact; None if no posture tried has one."""
         joints = dict.fromkeys(name for part in self.parts for name in part.joints)
         alone = [
             reach
@@ -275,7 +275,7 @@ class _Limb:
         return self._first_hit({name: hit.posture[name] for name in joints})
 
     def _first_hit(self, end: Posture) -> Reach | None:
-        """The first contact on the straight way to a posture."""
+        """The first contact on the straight path to a posture."""
         start = self.collision.robot.posture
         way = [
             {name: start[name] + float(share) * (end[name] - start[name]) for name in end}
@@ -300,6 +300,6 @@ class _Limb:
         return min(hits, key=lambda nearest: nearest.distance, default=None)
 
     def _ways(self, end: Posture) -> Posture:
-        """Distance of each joint from the nominal posture [rad or m]."""
+        """Travel of each joint from the nominal posture [rad or m]."""
         start = self.collision.robot.posture
         return {name: abs(value - start[name]) for name, value in end.items()}

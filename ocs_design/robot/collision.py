@@ -1,4 +1,4 @@
-"""Distances between solids on a robot's trunk and its links at any values of its joints.
+"""Distances between solids on a robot's trunk and its links, for any joint values.
 
 MuJoCo measures them (`mj_geomDistance`), with everything placed in the trunk's frame B.
 """
@@ -31,18 +31,18 @@ BASE = "ocs_probe_base"
 BALL = "ocs_probe_ball"
 DRUMS = ("ocs_probe_left", "ocs_probe_right")
 PROBES = (BALL, *DRUMS)
-"""Geoms on the trunk that stand in for solids."""
+"""Geoms on the trunk that represent solids."""
 
 
 def solid_model(robot: Robot, warnings: Warnings) -> mujoco.MjModel:
     """Compiled model of the robot with the probes on its trunk.
 
-    A body collides with its collision shapes, or, where it has none, with what it shows; meshes
-    count as their convex hulls.
+    A body is represented by its collision shapes or, if it has none, by its visual ones; meshes by
+    their convex hulls.
 
     Args:
         robot: as read.
-        warnings: takes meshes that cannot be read.
+        warnings: receives the meshes that cannot be read.
     """
     bodies = []
     for body in robot.tree.bodies:
@@ -50,8 +50,8 @@ def solid_model(robot: Robot, warnings: Warnings) -> mujoco.MjModel:
         bodies.append(replace(body, shapes=shapes))
     solid = replace(robot, tree=replace(robot.tree, bodies=tuple(bodies)))
     spec = plain_spec(solid, warnings, visuals=False)
-    # An MJCF model has geoms that only show beside those that touch, or alone. MuJoCo makes no hull
-    # of a mesh that touches nothing, and a distance to it is then looked for over all its vertices.
+    # An MJCF model may have visual geoms beside the colliding ones, or alone. MuJoCo makes no hull
+    # for a mesh that does not collide; a distance to it then takes a search over all its vertices.
     index_of = _bodies_by_name(solid.tree)
     shown: dict[int | None, list[Any]] = defaultdict(list)
     for link in spec.bodies:
@@ -76,8 +76,8 @@ class Part:
     Attributes:
         name: of the body.
         limb: name of the first body on the way to it from the trunk; empty for the trunk itself.
-        joints: driven joints that move it against the trunk, from the trunk outwards.
-        geoms: that can be hit, in the model.
+        joints: driven joints that move it relative to the trunk, from the trunk outwards.
+        geoms: indices of those that can be hit, in the model.
     """
 
     name: str
@@ -117,13 +117,13 @@ def parts_of(robot: Robot, model: mujoco.MjModel) -> tuple[Part, ...]:
 
 
 def _bodies_by_name(tree: Tree) -> dict[str, int]:
-    """Number of the body that each body of a model belongs to; fixed links are merged."""
+    """Index in the tree of each body of a model; fixed links are merged."""
     own = {name: index for index, name in enumerate(body_names(tree))}
     return {**own, **tree.body_of_link}
 
 
 def path_between(tree: Tree, trunk: int, body: int) -> list[int]:
-    """Bodies whose joints move `body` against the trunk, from the trunk outwards."""
+    """Bodies whose joints move `body` relative to the trunk, from the trunk outwards."""
     up, down = ([i for i in tree.ancestors(end) if i > 0] for end in (trunk, body))
     shared = set(up) & set(down)
     return [i for i in up if i not in shared] + [i for i in reversed(down) if i not in shared]
@@ -132,13 +132,13 @@ def path_between(tree: Tree, trunk: int, body: int) -> list[int]:
 _UPRIGHT = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 
 FARTHEST = 10.0
-"""Largest distance that is looked for [m]."""
+"""Largest distance searched for [m]."""
 
 _SLACK = 1e-9
-"""What no limb is left out for [m]: rounding."""
+"""Tolerance for rounding when pairs are ruled out [m]."""
 
 _FEW = 16
-"""Pairs of geoms and postures that are sooner measured than their boxes are looked at."""
+"""Number of pairs of geom and posture up to which measuring is faster than comparing boxes."""
 
 Posture = Mapping[str, float]
 """Values of driven joints [rad or m]; all others are at the nominal posture."""
@@ -146,7 +146,7 @@ Posture = Mapping[str, float]
 
 @dataclass(frozen=True, eq=False)
 class Poses:
-    """Places of all geoms in several postures, in B.
+    """Poses of all geoms in several postures, in B.
 
     Attributes:
         postures: n of them.
@@ -159,28 +159,28 @@ class Poses:
 
     @cached_property
     def bounds(self) -> tuple[FloatArray, FloatArray]:
-        """Least and largest coordinates of each geom's middle [m], each of shape (ngeom, 3)."""
+        """Least and largest coordinates of each geom's centre [m], each of shape (ngeom, 3)."""
         return self.positions.min(axis=0), self.positions.max(axis=0)
 
     def take(self, which: NDArray[np.bool_]) -> "Poses":
-        """Marked ones of the postures."""
+        """The postures selected by a mask."""
         postures = [self.postures[row] for row in np.flatnonzero(which).tolist()]
         return Poses(postures, self.positions[which], self.axes[which])
 
     def __getitem__(self, index: int) -> "Poses":
-        """The posture with this number alone."""
+        """The posture at this index alone."""
         one = slice(index, index + 1)
         return Poses(self.postures[one], self.positions[one], self.axes[one])
 
 
 @dataclass(frozen=True, eq=False)
 class Nearest:
-    """Part that comes nearest to a solid, and how near.
+    """Part that comes nearest to a solid, and its distance.
 
     Attributes:
         part: see `Part`.
         distance: between the surfaces, negative where they overlap [m].
-        posture: in which it comes so near.
+        posture: in which it does.
     """
 
     part: Part
@@ -189,17 +189,17 @@ class Nearest:
 
 
 class CollisionModel:
-    """A robot's solid parts, and the distances of solids on its trunk from them.
+    """A robot's parts, and their distances from solids on its trunk.
 
     Attributes:
         robot: see `Robot`.
-        parts: see `Part`; empty for a robot without any shape. limbs: all but the trunk.
+        parts: see `Part`; empty for a robot without shapes. limbs: all parts but the trunk.
         nominal: the nominal posture alone.
     """
 
     def __init__(self, robot: Robot) -> None:
         self.robot = robot
-        # Exporting the robot warns of meshes that cannot be read.
+        # Exporting the robot already warns of meshes that cannot be read.
         self._model = solid_model(robot, Warnings())
         self._data = mujoco.MjData(self._model)
         self.parts = parts_of(robot, self._model)
@@ -207,12 +207,12 @@ class CollisionModel:
         self._part_of = {int(geom): part for part in self.parts for geom in part.geoms}
         self._geoms_of: dict[tuple[Part, ...], NDArray[np.int64]] = {}
         self._fromto = np.zeros(6)
-        # Probes, whose radii change, are not among the geoms of parts.
+        # Probes, whose radii change, are not geoms of parts.
         self._radii = np.array(self._model.geom_rbound)
         self._base = self._model.site(BASE).id
         self._probes = {name: int(self._model.geom(name).id) for name in PROBES}
         self._nominal = posture_qpos(self._model, robot)
-        # Coordinates that go with each driven joint: address, factor and offset.
+        # Coordinates that follow each driven joint: address, factor and offset.
         self._moved_by: dict[str, list[tuple[int, float, float]]] = {}
         for name, joint in robot.tree.joints.items():
             leader, factor, offset = joint.mimic or (name, 1.0, 0.0)
@@ -227,11 +227,11 @@ class CollisionModel:
         *,
         start: Posture = MappingProxyType({}),
     ) -> Poses:
-        """Places of all geoms in these postures; joints that mimic others follow them.
+        """Poses of all geoms in these postures; joints that mimic others follow them.
 
         Args:
             postures: of the robot, as far as they differ from `start`.
-            parts: whose geoms are wanted, all others are not placed; None: all.
+            parts: whose geoms are needed, the others are not placed; None: all.
             start: values of other joints, the same in all postures.
         """
         model, data, count = self._model, self._data, len(postures)
@@ -265,7 +265,7 @@ class CollisionModel:
         return np.asarray(corners[np.arange(len(corners)), least])
 
     def _move(self, qpos: FloatArray, posture: Posture) -> None:
-        """Put a posture's joints, and those that mimic them, into MuJoCo's coordinates."""
+        """Write a posture's joints, and those that mimic them, into MuJoCo's coordinates."""
         for name, value in posture.items():
             for address, factor, offset in self._moved_by.get(name, ()):
                 qpos[address] = factor * value + offset
@@ -281,12 +281,12 @@ class CollisionModel:
     ) -> Nearest | None:
         """Part that comes nearest to a solid in any of the postures; None beyond `within`.
 
-        Balls and boxes around them tell which pairs need to be looked at. Of what is nearer than
-        `enough` [m], any will do.
+        Bounding spheres and boxes rule out most pairs. Any part nearer than `enough` [m] may be
+        returned.
         """
         geoms = self._geoms(tuple(parts))
         if len(poses.postures) > 1:
-            # Most limbs are near in no posture.
+            # Most limbs are not near in any posture.
             low, high = poses.bounds
             off = np.maximum(np.maximum(low - probe.center, probe.center - high), 0.0)[geoms]
             far = within + probe.reach + self._radii[geoms] + _SLACK
@@ -314,7 +314,7 @@ class CollisionModel:
     def near(
         self, probes: Sequence[Probe], pose: Poses, parts: Sequence[Part], within: float
     ) -> list[Probe]:
-        """Solids that may be so near to parts in a single posture, for `nearest` to tell."""
+        """Solids that may be within this distance of parts in a single posture, for `nearest`."""
         geoms = self._geoms(tuple(parts))
         centers = np.array([probe.center for probe in probes]).reshape(-1, 1, 3)
         reach = np.array([probe.reach for probe in probes]).reshape(-1, 1)
@@ -325,9 +325,9 @@ class CollisionModel:
     def _candidates(
         self, probe: Probe, poses: Poses, geoms: NDArray[np.int64], within: float
     ) -> tuple[NDArray[np.int64], NDArray[np.int64], FloatArray]:
-        """Numbers of postures and geoms that may be so near to a solid, and their least distances.
+        """Indices of postures and geoms that may be near a solid, and bounds of their distances.
 
-        A geom is within a ball, and within a box of its own axes.
+        A geom lies within its bounding sphere, and within a box along its own axes.
         """
         apart = probe.center - poses.positions[:, geoms]
         at_least = np.sqrt((apart * apart).sum(axis=2)) - self._radii[geoms] - probe.reach
@@ -339,21 +339,21 @@ class CollisionModel:
         own = np.einsum("nji,nj->ni", axes, apart[rows, columns]) - box[:, :3]
         off = np.maximum(np.abs(own) - box[:, 3:], 0.0)
         far = np.sqrt((off * off).sum(axis=1))
-        # What is within the box may be deeper than it is large.
+        # Inside the box, the penetration may be deeper than the solid is large.
         boxed = np.where(far > 0.0, far - probe.reach - _SLACK, -np.inf)
         bounds = np.maximum(bounds, boxed)
         near = bounds < within
         return rows[near], geoms[near], bounds[near]
 
     def _geoms(self, parts: tuple[Part, ...]) -> NDArray[np.int64]:
-        """Numbers of the geoms of parts, the same array for the same parts."""
+        """Indices of the geoms of parts, the same array for the same parts."""
         if parts not in self._geoms_of:
             geoms = [geom for part in parts for geom in part.geoms]
             self._geoms_of[parts] = np.array(geoms, dtype=np.int64)
         return self._geoms_of[parts]
 
     def between(self, left: Drum, right: Drum) -> float:
-        """Distance of two solids on the trunk [m]."""
+        """Distance between two solids on the trunk [m]."""
         return self._distance(self._put(left, 0), self._put(right, 1), FARTHEST)
 
     def _distance(self, first: int, second: int, within: float) -> float:
@@ -362,7 +362,7 @@ class CollisionModel:
         )
 
     def _put(self, probe: Probe, which: int) -> int:
-        """Put the geom that stands in for `probe` in its place; the geom's number."""
+        """Place the geom that represents `probe`; returns its index."""
         axes = np.array(_UPRIGHT)
         match probe:
             case Ball():
@@ -383,7 +383,7 @@ class CollisionModel:
 
 @lru_cache(maxsize=1)
 def collision_model(robot: Robot) -> CollisionModel:
-    """Collision model of a robot, made once: the hulls of its meshes take most of the time."""
+    """Collision model of a robot, cached: the hulls of its meshes take most of the time."""
     return CollisionModel(robot)
 
 

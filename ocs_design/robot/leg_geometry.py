@@ -1,4 +1,4 @@
-"""Base frame B and the legs in it: their chains, their planes and the upward axis."""
+"""The base frame B, and the legs in it: chains, planes and the upward axis."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -20,7 +20,7 @@ SIDEWAYS = 0.9
 
 @dataclass(frozen=True, eq=False)
 class LegGeometry:
-    """One leg in the base frame B, joints of no leg at rest.
+    """One leg in the base frame B; joints that belong to no leg are at rest.
 
     Attributes:
         leg: as found in the tree.
@@ -36,10 +36,11 @@ class LegGeometry:
 
     @property
     def steps_sideways(self) -> bool:
-        """Whether the knee turns about B's x axis while the leg bends to step.
+        """Whether the knee turns about B's x axis when the leg bends for a step.
 
-        A hexapod's leg bends to reach out sideways, and steps as its hip swings about the vertical:
-        its knee turns about x where x points forward. It is told by the roll that it lacks.
+        A hexapod's leg bends to reach out sideways and steps by swinging its hip about the
+        vertical, so its knee turns about x even if x points forward. Such a leg does not count; it
+        is recognised by having no roll joint.
         """
         driven, plane = self.chain.driven, self.plane
         axes = self.chain.pose(np.zeros(len(driven))).axes
@@ -59,10 +60,9 @@ def leg_geometries(tree: Tree, trunk: str, legs: Sequence[Leg]) -> tuple[LegGeom
 
 
 def up_axis(tree: Tree, trunk: str, legs: Sequence[Leg]) -> FloatArray:
-    """The axis of B, either way, that points up while the robot stands, shape (3,).
+    """The axis of B, with its sign, that points up while the robot stands, shape (3,).
 
-    It is z, unless B follows another convention. What hangs between B and the legs' bases is at
-    rest.
+    It is z, unless B follows another convention. Joints between B and the legs' bases are at rest.
     """
     placements = tree.placements_from(trunk, neutral_posture(tree))
     up = np.sum([placements[leg.base].rotation @ leg.up for leg in legs], axis=0)
@@ -73,7 +73,7 @@ def up_axis(tree: Tree, trunk: str, legs: Sequence[Leg]) -> FloatArray:
 def sole_depths(
     tree: Tree, trunk: str, legs: Sequence[Leg], posture: Mapping[str, float]
 ) -> list[float]:
-    """Height of the trunk frame's origin over each leg's sole at `posture` [m].
+    """Height of the trunk frame's origin above each leg's sole at `posture` [m].
 
     The largest is the height at which the robot stands.
     """
@@ -83,7 +83,7 @@ def sole_depths(
 
 
 def convention_warnings(tree: Tree, trunk: str, legs: Sequence[Leg]) -> list[str]:
-    """Warnings that B may not have x forward and z up, from how the legs hang and bend."""
+    """Warnings that B may not have x forward and z up, judged by how the legs hang and bend."""
     if not legs:
         return []
     cure = "fix a link with x forward and z up to the trunk and name it with --trunk"
@@ -92,7 +92,7 @@ def convention_warnings(tree: Tree, trunk: str, legs: Sequence[Leg]) -> list[str
     if up[2] < 1.0:
         return [
             f"the legs do not hang along -z of the trunk frame '{trunk}' but along "
-            f"{axis_name(-up)}, so roll and pitch are about other axes than they should: {cure}"
+            f"{axis_name(-up)}, so roll and pitch are about the wrong axes: {cure}"
         ]
     if all(geometry.steps_sideways for geometry in geometries):
         return [
@@ -101,36 +101,36 @@ def convention_warnings(tree: Tree, trunk: str, legs: Sequence[Leg]) -> list[str
         ]
     if named_front(legs, [geometry.plane.hip for geometry in geometries])[0] < 0.0:
         return [
-            f"the legs that are named as front ones are behind the others: x of the trunk frame "
-            f"'{trunk}' seems to point backwards, and flips go the other way round: {cure}"
+            f"the legs named as front legs are behind the others: x of the trunk frame "
+            f"'{trunk}' seems to point backwards, so flips are reversed: {cure}"
         ]
     return []
 
 
 def axis_name(direction: FloatArray) -> str:
-    """Name of the axis that a direction is nearest to, such as `+x`."""
+    """Name of the axis nearest to a direction, such as `+x`."""
     axis = int(np.argmax(np.abs(direction)))
     return f"{'-' if direction[axis] < 0.0 else '+'}{'xyz'[axis]}"
 
 
 BASE_FRAME = "ocs_base"
-"""Name of the link that is fixed to the trunk where no link of the file has such a frame."""
+"""Name of the base frame that is added to the trunk if no link of the file has such a frame."""
 
 
 def with_base_frame(
     tree: Tree, trunk: str, legs: Sequence[Leg]
 ) -> tuple[Tree, Mount | None, tuple[str, ...]]:
-    """The tree with a base frame fixed to `trunk`, if the trunk's own frame is none.
+    """The tree with a base frame fixed to `trunk`, unless the trunk's own frame is one.
 
-    Up follows from how the legs hang, sideways from the axes that they bend about. Front and back
-    look alike: the legs' names tell them apart, else the one nearer to the trunk's own x axis is
-    taken as front.
+    Up follows from how the legs hang, sideways from the axes about which they bend. Front and back
+    look alike: the legs' names distinguish them; otherwise front is the one nearer to the trunk's
+    own x axis.
 
     Returns:
-        The tree; how B is fixed to the trunk, None if the trunk's own frame is B; the warnings.
+        The tree; how B is fixed to the trunk, or None if the trunk's frame is B; the warnings.
 
     Raises:
-        RobotError: the frame would be needed, but the file has a link of that name.
+        RobotError: the frame is needed, but the file already has a link of that name.
     """
     rotation = _base_rotation(tree, trunk, legs) if legs else np.eye(3)
     if np.array_equal(rotation, np.eye(3)):
@@ -180,9 +180,9 @@ _REAR = re.compile(r"rear|hind|back|(?<![a-z])(?:[bhr][lr]|[lr]h)(?![a-z])", re.
 
 
 def named_front(legs: Sequence[Leg], hips: Sequence[FloatArray]) -> FloatArray:
-    """Way from the hips of legs named as hind ones to those of front ones [m], shape (3,).
+    """Vector from the hips of legs named as hind legs to those of front legs [m], shape (3,).
 
-    Zero where not both are named.
+    Zero unless both are named.
     """
     called = [(bool(_FRONT.search(leg.name)), bool(_REAR.search(leg.name))) for leg in legs]
     front = [hip for hip, names in zip(hips, called, strict=True) if names == (True, False)]

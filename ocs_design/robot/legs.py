@@ -1,4 +1,4 @@
-"""Legs of any legged robot: their feet, the plane in which each bends, and links of bodies."""
+"""Legs of any legged robot: feet, the plane in which each leg bends, and links of bodies."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from ocs_design.robot.robot import Leg
 from ocs_design.robot.tree import Body, JointKind, ShapeKind, Tree
 
 ANKLED_JOINTS = 5
-"""A leg with at least so many joints, its wheel not counted, can keep its sole flat."""
+"""Least number of joints, without a wheel's, of a leg that can keep its sole flat."""
 
 _BALL_SHARE = 0.25
 """Largest radius of a foot, as a share of the shank."""
@@ -35,7 +35,7 @@ class Foot:
 
 
 def find_foot(chain: Chain, up: FloatArray) -> Foot:
-    """The point of a limb that touches the ground when the limb reaches down.
+    """The point of a limb that touches the ground when it reaches down.
 
     * A last body that is round about its endless joint is a wheel: the point is its centre.
     * A limb with ankles (five joints or more) has a sole, flat when all joints are at zero: the
@@ -68,13 +68,13 @@ def find_foot(chain: Chain, up: FloatArray) -> Foot:
     length = float(np.linalg.norm(origin))
     if length < 1e-3:
         return _lowest_surface(body, down)
-    # Along the shank and not straight down: a mesh counts as a box, which is exact along its sides.
+    # Along the shank, not straight down: a mesh counts as a box, which is exact along its sides.
     beyond = (extent_of(solid_shapes(body), origin / length) or length) - length
     return Foot(link, origin, min(max(beyond, 0.0), _BALL_SHARE * length))
 
 
 def farthest_frame(body: Body) -> FloatArray:
-    """The farthest from a body's joint of its link origins and centre of mass [m], shape (3,)."""
+    """The link origin or centre of mass farthest from a body's joint [m], shape (3,)."""
     points = [*(place.position for place in body.links.values()), body.mass_properties.com]
     return max(points, key=lambda point: float(point @ point))
 
@@ -105,13 +105,13 @@ def _across(axis: FloatArray) -> Sequence[FloatArray]:
 
 
 def _lowest_surface(body: Body, down: FloatArray) -> Foot:
-    """The middle of what lies within a centimetre of the body's lowest point."""
+    """Middle of the surfaces within a centimetre of the body's lowest point."""
     shapes = solid_shapes(body)
     lowest = extent_of(shapes, down)
     if lowest is None:
         link = max(body.links, key=lambda name: float(down @ body.links[name].position))
         return Foot(link, body.links[link].position, 0.0)
-    # With huge shapes a centimetre less is the same number.
+    # For huge shapes, subtracting a centimetre does not change the number.
     reaches = ((shape, extent(shape, down)) for shape in shapes)
     touching = [shape for shape, reach in reaches if reach is not None and reach >= lowest - 0.01]
     middle = lowest * down
@@ -119,7 +119,7 @@ def _lowest_surface(body: Body, down: FloatArray) -> Foot:
         ahead, behind = extent_of(touching, side), extent_of(touching, -side)
         if ahead is not None and behind is not None:
             middle = middle + 0.5 * (ahead - behind) * side
-    # A sole of several links, such as a sensor in each corner, goes by its body's name.
+    # A sole of several links, such as a sensor in each corner, is named after its body.
     links = {shape.link for shape in touching}
     return Foot(links.pop() if len(links) == 1 else body.name, middle, 0.0)
 
@@ -139,7 +139,7 @@ class LegPlane:
         forward: unit vector in the plane, level, with its largest component positive, shape (3,).
         columns: columns of the driven joints that place the foot: all but a wheel's.
         flat: whether the leg has ankles that can keep its sole level.
-        length: of the stretched leg within its limits, hip to foot [m]; 0 for slides alone.
+        length: of the stretched leg within its limits, hip to foot [m]; 0 if it has only slides.
     """
 
     pitch: tuple[int, ...]
@@ -155,7 +155,7 @@ def leg_plane(chain: Chain, foot: FloatArray, up: FloatArray) -> LegPlane:
     """Plane in which a leg bends.
 
     The joints that bend a leg (hip pitch, knee and, in legs with ankles, ankle pitch) have parallel
-    axes when all joints are at zero: the largest such set is taken, a wheel left out.
+    axes when all joints are at zero: the largest such set, without a wheel.
 
     Args:
         chain: the leg.
@@ -226,18 +226,18 @@ def far_ends(tree: Tree) -> list[int]:
     for index in range(len(tree.bodies) - 1, 0, -1):
         body = tree.bodies[index]
         length = lengths[index] + float(np.linalg.norm(body.placement.position))
-        # At equal lengths the first in the file, which is met last, as a reader would expect.
+        # Of equal lengths the first in the file, which is visited last, as a reader would expect.
         if length >= lengths[body.parent]:
             lengths[body.parent], ends[body.parent] = length, ends[index]
     return ends
 
 
 def frame_link(body: Body) -> str:
-    """The link whose frame is taken for that of a body.
+    """The link whose frame represents a body's.
 
-    Of the links that are joined into the body, it is the first, whose frame is the body's own; for
-    usual robots it is the root link, the frame of Pinocchio's free-flyer. What a file calls the
-    world is no part of the robot: then it is the heaviest.
+    It is the first of the links joined into the body, whose frame is the body's own; for usual
+    robots the root link, the frame of Pinocchio's free-flyer. A link called the world is no part of
+    the robot: then it is the heaviest link.
     """
     if body.name != WORLD or not any(body.link_masses.values()):
         return body.name
@@ -245,4 +245,4 @@ def frame_link(body: Body) -> str:
 
 
 WORLD = "world"
-"""Link that a URDF fixes a robot to that is not to fall."""
+"""Link to which a URDF fixes a robot that must not fall."""

@@ -1,6 +1,6 @@
-"""Limbs of a robot, and what of them can be judged without knowing which are legs.
+"""Limbs of a robot, and what can be judged of them without knowing which are legs.
 
-Nothing here decides: `recognition` weighs what is found. Shapes are looked at for wheels only, for
+Nothing is decided here: `recognition` weighs the findings. Shapes are used for wheels only, because
 meshes may be missing or mere placeholders.
 """
 
@@ -24,9 +24,9 @@ class Limb:
     """A chain that may be a leg, for some direction as up, in the root's frame.
 
     Attributes:
-        base, first, last: indices of the body that it hangs on, of its first and its last body.
+        base, first, last: indices of the body from which it branches, its first and its last body.
         chain: of its bodies.
-        hinges: its own joints and those that follow another limb's, a wheel's not counted.
+        hinges: number of joints, including those that follow another limb's, without a wheel's.
         hip: origin of its first joint [m]. tip: at rest [m].
         axes: of its first two joints at rest, shape (n, 3).
         depth: of the stretched tip below the root's origin [m].
@@ -46,28 +46,28 @@ class Limb:
 
     @property
     def length(self) -> float:
-        """Way from the first joint over all others to the farthest frame of the last body [m]."""
+        """Length from the first joint via all others to the farthest frame of the last body [m]."""
         return self.chain.span(farthest_frame(self.chain.bodies[-1]))
 
 
 _REACHES_BELOW = 0.6
 """Least depth of a leg's tip below the centre of mass, over its reach."""
 _DEEP = 0.35
-"""Largest difference of depth among the legs of a robot, over their reach."""
+"""Largest difference of depth between the legs of a robot, over their reach."""
 EVEN = 0.2
-"""Largest difference of depth, or height at rest, that counts as equal, over the reach."""
+"""Largest difference of depths, or of heights at rest, that count as equal, over the reach."""
 _MIRRORED = 0.06
 """Largest distance of a hip from the mirror image of another, over the reach."""
 _COAXIAL = 0.05
 """Largest distance between the axes of limbs that share a hip, over the spread of all hips."""
 _HANGS = 0.2
-"""Least height of a hip over the tip of a limb that hangs at rest, over its reach."""
+"""Least height of a hip above the tip of a limb that hangs at rest, over its reach."""
 _TWINS = 0.01
-"""Largest difference of length of limbs that are alike, over their length."""
+"""Largest difference of length between limbs that are alike, over their length."""
 _MEET = 1e-3
-"""Distance within which the ends of two limbs are one point, over the reach."""
+"""Distance within which the ends of two limbs coincide, over the reach."""
 _ONE_HIP = 0.3
-"""Distance within which two limbs with one axis share a hip, over the spread of all hips."""
+"""Distance within which two limbs on one axis share a hip, over the spread of all hips."""
 _LEG_WORDS = re.compile(
     r"foot|feet|toe|calf|shank|thigh|shin|knee|hip|leg|ankle|tibia|femur|tarsus|paw|hock|sole|coxa|"
     r"hoof|haa|hfe|kfe|hind",
@@ -103,8 +103,8 @@ class Anatomy:
         rest = chain.pose(chain.neutral())
         hinge = chain.driven[0] if chain.driven else 0
         hip = rest.origins[hinge]
-        # Nao's right hip follows the left one, and is a joint of its leg all the same; of a finger
-        # that follows its neighbour the greater part does.
+        # Nao's right hip follows the left one, yet is a joint of its leg; in a finger that follows
+        # its neighbour, most joints do.
         led = sum(
             joint.mimic is not None and joint.mimic[0] not in chain.names for joint in chain.joints
         )
@@ -124,7 +124,7 @@ class Anatomy:
         )
 
     def _all_limbs(self, up: FloatArray) -> list[Limb]:
-        """Limbs that move and are low, where a body has several or the root one."""
+        """Low, moving limbs of bodies with several of them, or of the root."""
         key = tuple(up)
         if key in self._known:
             return self._known[key]
@@ -135,7 +135,7 @@ class Anatomy:
                 continue
             chain = chain_of(self.tree, body.parent, ends[first], self.placements)
             length = chain.span(farthest_frame(chain.bodies[-1]))
-            # Fingers and the like do not even reach down to the centre of mass.
+            # Fingers, for example, do not even reach down to the centre of mass.
             low = float(up @ (self.placements[first].position - self.robot.com)) < length
             if low and chain.driven:
                 found.append(self.limb(body.parent, ends[first], up))
@@ -171,7 +171,7 @@ class Anatomy:
         )
 
     def is_joined(self, limb: Limb) -> bool:
-        """Whether the end of a limb is tied to, or at rest meets, a body of another limb.
+        """Whether the end of a limb is tied to a body of another limb, or meets one at rest.
 
         Where a URDF leaves a loop open, exporters write a frame on both sides of the cut.
         """
@@ -183,7 +183,7 @@ class Anatomy:
                     return True
         ends = self._fixed_frames(limb.last)
         for other in self._all_limbs(np.array([0.0, 0.0, 1.0])):
-            # Of robots in a plane, one leg is behind the other.
+            # In planar robots, one leg is behind the other.
             apart = np.linalg.norm(other.hip - limb.hip) > _MIRRORED * limb.reach
             if other.base == limb.base and other.first != limb.first and apart:
                 theirs = self._fixed_frames(other.last)
@@ -193,13 +193,13 @@ class Anatomy:
         return False
 
     def _fixed_frames(self, body: int) -> FloatArray:
-        """Origins at rest of a body's links, but of that at its joint [m], shape (n, 3)."""
+        """Origins at rest of a body's links, except the one at its joint [m], shape (n, 3)."""
         places = [each.position for each in self.tree.bodies[body].links.values()]
         found = [self.placements[body].point(each) for each in places if each.any()]
         return np.reshape(found, (-1, 3))
 
     def one_of_each_pair(self, chosen: Sequence[Limb], up: FloatArray) -> list[Limb]:
-        """The limbs, of those that share a hip only the deepest, or the first in the file."""
+        """The limbs; of those that share a hip only the deepest, or the first in the file."""
         if not self.share_hips(chosen, up):
             return list(chosen)
         hips = np.array([limb.hip for limb in chosen])
@@ -210,7 +210,7 @@ class Anatomy:
         return kept if len(kept) > 1 else list(chosen)
 
     def may_stand(self, chosen: Sequence[Limb], up: FloatArray) -> bool:
-        """Whether limbs with as many joints, or else mirror images, are a set worth judging."""
+        """Whether limbs have equal numbers of joints, or are mirror images: a set worth judging."""
         return len({limb.hinges for limb in chosen}) == 1 or self.mirrored(chosen, up)
 
     def spines(self, sets: Sequence[Sequence[Limb]], up: FloatArray) -> Iterator[Sequence[Limb]]:
@@ -219,7 +219,7 @@ class Anatomy:
             ends = one[0].base, other[0].base
             if ends[0] == ends[1] or {limb.last for limb in one} & {limb.last for limb in other}:
                 continue
-            # The bodies between must be no part of either set's legs.
+            # The bodies between must not be part of either set's legs.
             if self.inside((*one, *other)) & set(ends):
                 continue
             mirrored = self.mirrored(one, up) and self.mirrored(other, up)
@@ -227,7 +227,7 @@ class Anatomy:
                 yield (*one, *other)
 
     def single(self, limbs: Sequence[Limb], up: FloatArray) -> Iterator[Sequence[Limb]]:
-        """The one leg of a hopper: the only limb, hanging on the root."""
+        """The one leg of a hopper: the only limb, attached to the root."""
         at_root = [limb for limb in limbs if limb.base == 0]
         if len(at_root) == 1 and len(self.children.get(0, ())) <= 2:
             (limb,) = at_root
@@ -243,7 +243,7 @@ class Anatomy:
         middle = hips.mean(axis=0)
         same = all(kind[0] == kinds[0][0] and abs(kind[1] - 1.0) <= 0.1 for kind in kinds)
         if len(chosen) == 2 and same and np.ptp(hips, axis=0).max() < _MIRRORED * reach:
-            # A robot in a plane, one leg behind the other.
+            # A planar robot, one leg behind the other.
             return True
         for side in np.eye(3)[up == 0.0]:
             if np.ptp(hips @ side) < _MIRRORED * reach:
@@ -255,7 +255,7 @@ class Anatomy:
                 kinds[i][0] == kinds[j][0] and abs(kinds[i][1] - kinds[j][1]) <= 0.1
                 for i, j in enumerate(partner)
             ):
-                # A row of fingers is mirrored about its middle one; legs are not in a row of three.
+                # A row of fingers is symmetric about its middle one; legs are not in rows of three.
                 return len(chosen) % 2 == 0
         if len(chosen) < 3:
             return False
@@ -266,7 +266,7 @@ class Anatomy:
         return bool(np.ptp(radii) < 0.1 * radii.max() and np.abs(turns - even).max() < 0.2)
 
     def together(self, chosen: Sequence[Limb], up: FloatArray) -> bool:
-        """Whether the tips are level and below the hips at rest or in a posture of the file."""
+        """Whether the tips are level and below the hips, at rest or in a posture of the file."""
         reach = reach_of(chosen)
         postures: list[Mapping[str, float]] = [
             neutral_posture(self.tree),
@@ -285,10 +285,10 @@ class Anatomy:
         return False
 
     def hanging(self, up: FloatArray) -> list[Limb]:
-        """Limbs that plainly hang: alike, equally deep, below their hips at rest; else none.
+        """Limbs that clearly hang: alike, equally deep, below their hips at rest; else none.
 
-        With a wrong direction for up two legs of a quadruped may hang by chance: the other two,
-        as long, then do not.
+        If `up` is wrong, two legs of a quadruped may hang by chance; the other two, which are as
+        long, then do not.
         """
         kinds: dict[tuple[int, int], list[Limb]] = {}
         for limb in self.limbs(up):
@@ -309,7 +309,7 @@ class Anatomy:
         return best
 
     def balanced(self, chosen: Sequence[Limb], up: FloatArray) -> bool:
-        """Whether the robot's centre of mass is over the hips' polygon, line or point, nearly."""
+        """Whether the robot's centre of mass is roughly over the hips' polygon, line or point."""
         level = np.eye(3)[up == 0.0]
         hips = np.array([limb.hip for limb in chosen]) @ level.T
         com = level @ self.robot.com
@@ -317,7 +317,7 @@ class Anatomy:
         return _distance_outside(hips, com) < share * reach_of(chosen)
 
     def names(self, chosen: Sequence[Limb]) -> bool | None:
-        """Whether links and joints are named as of legs rather than of arms; None: neither."""
+        """Whether links and joints have names of legs rather than of arms; None: neither."""
         legs = arms = 0
         for limb in chosen:
             words = " ".join(
@@ -334,7 +334,7 @@ class Anatomy:
         return None if legs == arms else legs > arms
 
     def inside(self, limbs: Sequence[Limb]) -> set[int]:
-        """Bodies of limbs, with all that hangs on them."""
+        """Bodies of limbs, and all their descendants."""
         found = {limb.first for limb in limbs}
         for index, body in enumerate(self.tree.bodies):
             if body.parent in found:
@@ -342,13 +342,13 @@ class Anatomy:
         return found
 
     def floats(self) -> bool | None:
-        """Whether the robot is free in its file; None where the file does not say."""
+        """Whether the robot floats freely in its file; None if the file does not say."""
         root = self.tree.bodies[0]
         return False if WORLD in root.links else self.tree.floats
 
 
 def sets_of(limbs: Sequence[Limb]) -> Iterator[list[Limb]]:
-    """Sets of two or more limbs on one body: those with as many joints, and all of these."""
+    """Sets of two or more limbs on one body: those with equally many joints, and all of them."""
     bases: dict[int, list[Limb]] = {}
     for limb in limbs:
         bases.setdefault(limb.base, []).append(limb)
@@ -368,7 +368,7 @@ def sets_of(limbs: Sequence[Limb]) -> Iterator[list[Limb]]:
 
 
 def reach_alike(limbs: Sequence[Limb], share: float) -> bool:
-    """Whether limbs reach equally deep, to a share of their reach."""
+    """Whether limbs reach equally deep, within a share of their reach."""
     return float(np.ptp([limb.depth for limb in limbs])) < share * reach_of(limbs)
 
 
@@ -378,7 +378,7 @@ def reach_of(limbs: Sequence[Limb]) -> float:
 
 
 def _on_one_hip(one: Limb, other: Limb, hips: FloatArray) -> bool:
-    """Whether two limbs on one side of all hips [m], shape (n, 3), turn about one axis close by."""
+    """Whether two limbs on one side of all hips [m], shape (n, 3), share a nearby axis."""
     between, middle = other.hip - one.hip, hips.mean(axis=0)
     spread = float(np.ptp(hips, axis=0).max())
     return (
@@ -388,7 +388,7 @@ def _on_one_hip(one: Limb, other: Limb, hips: FloatArray) -> bool:
         and any(
             abs(axis @ twin) > PARALLEL
             and float(np.linalg.norm(np.cross(axis, between))) < _COAXIAL * spread
-            # The hips of a quadruped's left and right leg turn about one axis too.
+            # The hips of a quadruped's left and right leg share an axis, too.
             and axis @ (one.hip - middle) * (axis @ (other.hip - middle)) > 0.0
             for axis in one.axes
             for twin in other.axes

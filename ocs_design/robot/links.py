@@ -1,7 +1,7 @@
-"""From the links and joints of a file to moving bodies, and whether these can be a robot.
+"""Merges the links and joints of a file into moving bodies, and checks that they can be a robot.
 
-Bodies are judged after rigidly joined links are merged: a link by itself is often a dummy that
-holds no mass, or all of it.
+Bodies are judged after rigidly joined links are merged: a single link is often a dummy that has no
+mass, or all of it.
 """
 
 from collections.abc import Container, Mapping, Sequence
@@ -15,17 +15,17 @@ from ocs_design.robot.tree import Body, Joint, Shape, Tree
 
 
 class Warnings:
-    """Warnings about a robot; equal ones on several links or joints become one sentence."""
+    """Warnings about a robot; equal warnings on several links or joints become one sentence."""
 
     def __init__(self) -> None:
         self._subjects: dict[str, list[str]] = {}
 
     def add(self, what: str, subject: str = "") -> None:
-        """Warn of `what`, with the link, joint or file that it is about."""
+        """Warn of `what`, naming the link, joint or file concerned."""
         self._subjects.setdefault(what, []).append(subject)
 
     def sentences(self) -> tuple[str, ...]:
-        """One sentence each, with the names and, where there are many, their number."""
+        """One sentence per warning, with the names and, if there are many, their number."""
         return tuple(
             f"{what}: {some_of(subjects)}" if subjects[0] else what
             for what, subjects in self._subjects.items()
@@ -33,7 +33,7 @@ class Warnings:
 
 
 def unused_name(stem: str, suffix: str, taken: Container[str]) -> str:
-    """Stem and suffix together, with the first number between them that makes the name new."""
+    """Stem and suffix joined, with the first number between them that makes the name new."""
     name, number = stem + suffix, 2
     while name in taken:
         name, number = f"{stem}_{number}{suffix}", number + 1
@@ -45,7 +45,7 @@ MOST_LINKS = 2000
 
 
 def check_number_of_links(count: int) -> None:
-    """Refuse a file that is no robot but would be computed for minutes.
+    """Refuse a file that is not a robot and would take minutes to compute.
 
     Raises:
         RobotError: there are too many.
@@ -74,7 +74,7 @@ class Link:
 
 @dataclass(frozen=True, eq=False)
 class Connection:
-    """Joint by which a link hangs on another.
+    """Joint that attaches a link to another.
 
     Attributes:
         name: unique in the file.
@@ -82,7 +82,7 @@ class Connection:
         placement: of the joint's frame in the parent's frame at zero.
         joint: None if the two are rigidly joined.
         child_in_joint: the child's frame in the joint's frame.
-        held: what the file calls a joint that is held still for want of a single coordinate; else
+        held: the file's type of a joint that is locked because it has no single coordinate; else
             empty.
     """
 
@@ -104,7 +104,7 @@ def make_tree(
 ) -> Tree:
     """Tree of a robot whose base is the link `root`, with mass properties that can exist.
 
-    Its warnings are those of `warnings`, to which more are added here.
+    Its warnings are those of `warnings`, to which this function adds.
 
     Raises:
         RobotError: the robot as a whole cannot exist.
@@ -120,11 +120,11 @@ def merge_fixed_links(
 ) -> tuple[Body, ...]:
     """Moving bodies from `root` down, depth first in file order, parents before children."""
     identity = Placement.identity()
-    # Of each body its name, parent, placement and joint; and its links with their frames in it.
+    # For each body its name, parent, placement and joint; and its links with their frames in it.
     heads: list[tuple[str, int, Placement, Joint | None]] = [(root, -1, identity, None)]
     members = [[(links[root], identity)]]
     home = {root: (0, identity)}
-    # A stack of our own: chains of thousands of links would exhaust Python's.
+    # An explicit stack: chains of thousands of links would exhaust Python's.
     stack = list(reversed(children.get(root, ())))
     while stack:
         connection = stack.pop()
@@ -168,7 +168,7 @@ def merge_fixed_links(
 
 
 def resolve_mimics(bodies: Sequence[Body], warnings: Warnings) -> tuple[Body, ...]:
-    """The bodies with every follower tied to the joint at the end of its chain of leaders."""
+    """The bodies, with every mimic tied to the joint at the end of its chain of leaders."""
     joints = {body.joint.name: body.joint for body in bodies if body.joint is not None}
 
     def resolved(joint: Joint) -> Joint:
@@ -179,7 +179,7 @@ def resolve_mimics(bodies: Sequence[Body], warnings: Warnings) -> tuple[Body, ..
             seen.add(leader.name)
             name, factor, shift = leader.mimic
             if name not in joints or name in seen:
-                why = "each other in a circle" if name in seen else "a joint which does not move"
+                why = "each other in a circle" if name in seen else "a joint that does not move"
                 warnings.add(f"joints that mimic {why}, read as free", joint.name)
                 return replace(joint, mimic=None)
             multiplier, offset = multiplier * factor, offset + multiplier * shift
@@ -207,14 +207,14 @@ def check_mass_properties(tree: Tree, warnings: Warnings) -> None:
             f"the floating base has no mass: no <inertial> with a mass in {links}",
             hint=f"give link {base.name!r} its mass and inertia; if it only holds the robot in the "
             "world, remove it together with its joint, or make that joint floating. For a first "
-            "answer the whole robot's figures are enough: --mass and --inertia IXX,IYY,IZZ",
+            "answer the whole robot's figures suffice: --mass and --inertia IXX,IYY,IZZ",
         )
     check_whole(tree.locked_mass_properties({}, base.name), tree)
     for body in tree.bodies:
         defect = physical_defect(body.mass_properties)
         if defect is not None:
             warnings.add(f"link {body.name!r} {defect}; its numbers are used as they are")
-    # A chain without mass gives one warning, with its first body.
+    # A chain without mass gives one warning, naming its first body.
     carried = [body.mass_properties.mass for body in tree.bodies]
     for index in range(len(tree.bodies) - 1, 0, -1):
         carried[tree.bodies[index].parent] += carried[index]
@@ -224,10 +224,10 @@ def check_mass_properties(tree: Tree, warnings: Warnings) -> None:
 
 
 def check_whole(weighed: MassProperties, tree: Tree) -> None:
-    """Refuse a robot that cannot exist, or that nothing can turn.
+    """Refuse a robot that cannot exist, or has no inertia to turn.
 
     Args:
-        weighed: the robot as a whole, in any frame.
+        weighed: mass properties of the whole robot, in any frame.
         tree: of the robot, to name the links at fault.
     """
     defect = solid_defect(weighed)

@@ -70,32 +70,32 @@ def robot_by_hand(
 
 
 PITCH_GYRATION, YAW_GYRATION = 0.0479, 0.0055
-"""Inertia of a person who stands, over mass and squared height, about y and z [1].
+"""Inertia of a standing person, over mass and squared height, about y and z [1].
 
 Means of three adults, who are within 6 and 9 % of them (Body coordinate system, table A.2.1,
-guwsmedical.info/body-dynamics); that it goes with mass and squared height: Jensen, Med. Sci. Sports
+guwsmedical.info/body-dynamics). Scaling with mass and squared height: Jensen, Med. Sci. Sports
 Exerc. 18(4), 1986, with correlations of 0.97 and 0.99."""
 
 HEIGHT_OF_MASS, BACK = 0.559, 0.0513
-"""Height of the centre of mass over the soles, and its distance from the back, over the person's
+"""Height of the centre of mass above the soles, and its distance from the back, over the person's
 height: means of the same three, within 1.3 and 2.4 %."""
 
 ROLL_GYRATION = PITCH_GYRATION + YAW_GYRATION - 2.0 * BACK**2 / 3.0
-"""Inertia about x likewise: a body as deep as twice `BACK`, evenly filled.
+"""Inertia about x, over mass and squared height [1]: a homogeneous body as deep as twice `BACK`.
 
-What was measured, 0.0542, is more than that about y and z together, which no body has; pendulums
-measure it to 2 to 8 % (Santschi et al., AMRL-TDR-63-36, 1963)."""
+The measured value, 0.0542, exceeds the sum of those about y and z, which is impossible; pendulums
+measure it to within 2 to 8 % (Santschi et al., AMRL-TDR-63-36, 1963)."""
 
 MID_TRUNK = 0.674
-"""Height of the middle between hip and shoulder over the person's: 0.530 and 0.818 (Drillis and
+"""Height midway between hip and shoulder over the person's: 0.530 and 0.818 (Drillis and
 Contini in Winter, Biomechanics and Motor Control of Human Movement, figure 4.1)."""
 
 WORN_BEHIND = 0.15
-"""From the back to the middle of what is worn on it: room for a wheel [m]."""
+"""Distance from the back to the middle of a device worn on it: room for a wheel [m]."""
 
 
 def person(mass: float, height: float, payload: float = 0.0, name: str = "person") -> Robot:
-    """A person who stands upright, as one rigid body; B is at the centre of mass without payload.
+    """A person standing upright, as one rigid body; B is at the centre of mass without payload.
 
     Args:
         mass: without payload [kg]. height: [m].
@@ -105,7 +105,7 @@ def person(mass: float, height: float, payload: float = 0.0, name: str = "person
     inertia = mass * height**2 * np.diag([ROLL_GYRATION, PITCH_GYRATION, YAW_GYRATION])
     worn = np.array([-BACK, 0.0, MID_TRUNK - HEIGHT_OF_MASS]) * height
     com = worn * (payload / (mass + payload))
-    # Two bodies about their common centre of mass: their reduced mass times the distance squared.
+    # Two bodies about their common centre of mass: reduced mass times squared distance.
     reduced = mass * payload / (mass + payload)
     inertia += reduced * (worn @ worn * np.eye(3) - np.outer(worn, worn))
     six = inertia[(0, 1, 2, 0, 0, 1), (0, 1, 2, 1, 2, 2)].tolist()
@@ -122,7 +122,7 @@ def equal_box(weighed: MassProperties) -> Shape:
     A box of sides a, b, c has I_a = m (b^2 + c^2) / 12 and so on, hence
     a^2 = 6 (I_b + I_c - I_a) / m.
     """
-    # Right-handed principal axes, as near to B's as can be.
+    # Right-handed principal axes, as near to B's as possible.
     moments, axes = np.linalg.eigh(weighed.inertia)
     orders = [list(order) for order in permutations(range(3))]
     order = max(orders, key=lambda each: float(np.abs(np.diag(axes[:, each])).sum()))
@@ -137,15 +137,15 @@ def equal_box(weighed: MassProperties) -> Shape:
 
 
 USUAL_DENSITY = 50.0
-"""Density of the ball with Solo12's mass and inertia [kg/m^3]."""
+"""Density of a ball with Solo12's mass and inertia [kg/m^3]."""
 
 
 def _likely_unit(weighed: MassProperties) -> str:
-    """The units of mass and inertia that make the robot most like Solo12, as a question."""
+    """Suggestion of the units of mass and inertia with which the robot is most like Solo12."""
     grams, lighter = f"a mass of {weighed.mass:.4g}g", replace(weighed, mass=1e-3 * weighed.mass)
     options = {grams: lighter}
     for unit, factor in UNITS[Dimension.INERTIA].items():
-        # Without a unit it is in SI, and that was found not to be meant.
+        # A bare number is in SI, which was found not to be meant.
         if factor == 1:
             continue
         written = (f"{moment:.6g}{unit.replace(' ', '')}" for moment in np.diag(weighed.inertia))

@@ -41,7 +41,7 @@ class MassProperties:
         return float(np.sqrt(np.trace(self.inertia) / 3.0 / self.mass))
 
     def moved(self, rotation: FloatArray, position: FloatArray) -> "MassProperties":
-        """Mass properties in a frame where the present one stands at `rotation`, `position`."""
+        """Mass properties in a frame in which the present one is at `rotation`, `position`."""
         return MassProperties(
             self.mass,
             rotation @ self.com + position,
@@ -55,7 +55,7 @@ class MassProperties:
 
 
 def combine(parts: Iterable[MassProperties]) -> MassProperties:
-    """Mass properties of several bodies of one frame, rigidly joined."""
+    """Mass properties of several rigidly joined bodies, given in one frame."""
     bodies = list(parts)
     mass = sum(body.mass for body in bodies)
     if mass == 0.0:
@@ -67,7 +67,7 @@ def combine(parts: Iterable[MassProperties]) -> MassProperties:
 
 
 NEGLIGIBLE_MOMENT = 1e-15
-"""Rounding of a moment that is zero [kg m^2]: a milligram 0.1 mm away has ten times as much."""
+"""Rounding of a zero moment [kg m^2]: a milligram at 0.1 mm has ten times as much."""
 
 
 _ROUNDED = 1e-9
@@ -75,7 +75,7 @@ _ROUNDED = 1e-9
 
 
 def physical_defect(body: MassProperties) -> str | None:
-    """Why no distribution of positive mass has these properties, or None if one has.
+    """Why no distribution of positive mass has these properties; None if one has.
 
     Principal moments must be positive and obey the triangle inequality.
     """
@@ -98,9 +98,9 @@ def physical_defect(body: MassProperties) -> str | None:
 
 
 def solid_defect(body: MassProperties) -> str | None:
-    """Why these are not the properties of a body that a torque can turn, or None if they are.
+    """Why a torque cannot turn a body with these properties; None if it can.
 
-    They must be physical, with a mass above zero and an inertia about every axis.
+    They must be physical, with a positive mass and an inertia about every axis.
     """
     defect = physical_defect(body)
     if defect is not None:
@@ -117,19 +117,19 @@ def solid_defect(body: MassProperties) -> str | None:
 
 
 DENSEST, THINNEST = 19_300.0, 0.012
-"""Densities of tungsten and of a hundredth of air [kg/m^3], for the ball with a robot's mass and
-radius of gyration. Public robots lie between 5 and 484, a double pendulum of rods at 0.02; a unit
-that is off by a thousand takes them beyond."""
+"""Densities of tungsten and of a hundredth of air [kg/m^3], for a ball with a robot's mass and
+gyration radius. Public robots lie between 5 and 484, a double pendulum of rods at 0.02; a unit that is
+wrong by a thousand takes them out of this range."""
 
 
 def ball_density(body: MassProperties) -> float:
-    """Density of the homogeneous ball of the same mass and inertia, `2 m R^2 / 5` [kg/m^3]."""
+    """Density of a homogeneous ball of the same mass and inertia, `2 m R^2 / 5` [kg/m^3]."""
     radius = np.sqrt(2.5) * body.gyration_radius
     return float(body.mass / (4.0 / 3.0 * np.pi * radius**3))
 
 
 def impossible_size(body: MassProperties) -> str | None:
-    """Why a robot's mass and inertia are in different units, or None if they can be meant."""
+    """Why a robot's mass and inertia must be in wrong units; None if they are plausible."""
     density = ball_density(body)
     if THINNEST <= density <= DENSEST:
         return None

@@ -1,4 +1,4 @@
-"""Extents of meshes, and with them of a robot's shapes and bodies."""
+"""Extents of meshes, and from them those of a robot's shapes and bodies."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
@@ -20,7 +20,7 @@ MESHES = (".stl", ".obj", ".dae", ".ply", ".off", ".glb", ".gltf")
 """Suffixes that are read. Archives are not: they grow without bound when unpacked."""
 
 LARGEST_MESH, LARGEST_BINARY_STL = 28 << 20, 128 << 20
-"""Largest files [bytes]: a .dae takes 25 times its size of memory to read, a binary STL thrice."""
+"""Largest files [bytes]: reading a .dae takes 25 times its size in memory, a binary STL 3 times."""
 
 LARGEST_MESH_LENGTH = 1e30
 """Largest coordinate in the mesh's own unit; a mesh with a larger one, or no number, is broken."""
@@ -29,7 +29,7 @@ _STL_HEADER, _STL_FACET = 84, 50
 """Sizes of a binary STL's header and of each of its facets [bytes]."""
 
 _QUICK_STL, _QUICK_OBJ = 8 << 20, 1 << 16
-"""Largest binary STL and OBJ that are read in some ten milliseconds [bytes]."""
+"""Largest binary STL and OBJ that can be read in about ten milliseconds [bytes]."""
 
 
 def mesh_bounds(path: Path, scale: tuple[float, ...], *, quick: bool = False) -> FloatArray | None:
@@ -37,7 +37,7 @@ def mesh_bounds(path: Path, scale: tuple[float, ...], *, quick: bool = False) ->
 
     Args:
         path: of its file. scale: factors along its axes.
-        quick: whether to leave those that are not read in milliseconds, which are None then.
+        quick: whether to skip meshes that take longer than milliseconds; they give None.
     """
     bounds = own_bounds(path, quick=True)
     if bounds is None and not quick:
@@ -56,7 +56,7 @@ def own_bounds(path: Path, *, quick: bool) -> FloatArray | None:
         bounds: FloatArray | None = None
         length = path.stat().st_size
         if binary_stl_facets(path) and (length <= _QUICK_STL or not quick):
-            # Along rows it takes a thirtieth of the time.
+            # Along rows this takes a thirtieth of the time.
             coordinates = np.ascontiguousarray(binary_stl_corners(path).reshape(-1, 3).T)
             bounds = np.array([coordinates.min(axis=1), coordinates.max(axis=1)])
         elif path.suffix.lower() == ".obj" and (length <= _QUICK_OBJ or not quick):
@@ -71,10 +71,10 @@ def own_bounds(path: Path, *, quick: bool) -> FloatArray | None:
 
 
 def check_mesh_file(path: Path) -> None:
-    """Refuse a mesh that would take more memory or time than any robot is worth.
+    """Refuse a mesh that would take too much memory or time.
 
     Raises:
-        RobotError: it is too large, or of a kind that is not read.
+        RobotError: it is too large, or of a kind that cannot be read.
     """
     if path.suffix.lower() not in MESHES:
         raise RobotError(
@@ -92,7 +92,7 @@ def check_mesh_file(path: Path) -> None:
 def binary_stl_facets(path: Path) -> int:
     """Number of facets of a binary STL; 0 for every other file.
 
-    It is binary if its length is what the number of facets says.
+    It is binary if its length matches its number of facets.
     """
     if path.suffix.lower() != ".stl":
         return 0
@@ -113,7 +113,7 @@ def binary_stl_corners(path: Path) -> NDArray[np.float32]:
 
 
 def _obj_bounds(path: Path) -> FloatArray:
-    """Corners of the vertices that a face names: files hold others too."""
+    """Corners of the box around the vertices that faces use: files contain others, too."""
     vertices: list[list[str]] = []
     used: set[int] = set()
     for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
@@ -122,7 +122,7 @@ def _obj_bounds(path: Path) -> FloatArray:
             vertices.append(words[:3])
         elif keyword == "f":
             corners = [int(word.partition("/")[0]) for word in words]
-            # Counted from one, or backwards from the last vertex so far.
+            # Indices count from one, or backwards from the last vertex so far.
             used.update(i - 1 if i > 0 else len(vertices) + i for i in corners)
     points = np.array([vertices[index] for index in used], dtype=np.float64)
     return np.array([points.min(axis=0), points.max(axis=0)])
@@ -134,7 +134,7 @@ def load_with_trimesh(path: Path) -> "trimesh.Trimesh":
 
     scene = trimesh.load_scene(path)
     for part in scene.geometry.values():
-        # Pictures on several parts would be packed into one, which takes longer than all else.
+        # Textures of several parts would be packed into one, which takes most of the time.
         part.visual = trimesh.visual.ColorVisuals()
     mesh: trimesh.Trimesh = scene.to_mesh()
     if mesh.units is not None:
@@ -143,24 +143,24 @@ def load_with_trimesh(path: Path) -> "trimesh.Trimesh":
 
 
 Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
-"""Rotation of a mesh whose y is upwards to z upwards."""
+"""Rotation of a mesh from y up to z up."""
 
 _Y_UP_BODIES = 3
-"""Bodies that must have such meshes: one or two may be round, and tell nothing."""
+"""Least number of bodies with such meshes: one or two may be round and tell nothing."""
 
 _NEARER = 2.0 / 3.0
-"""Largest ratio of distances from the centres of mass by which meshes are said to lie better."""
+"""Largest ratio of distances from the centres of mass for which turned meshes fit better."""
 
 _ASSET = 1 << 16
-"""Bytes of a .dae that have its asset [bytes]."""
+"""Length of the start of a .dae that contains its asset [bytes]."""
 
 
 def with_y_up(tree: Tree) -> Tree:
-    """The tree with its COLLADA meshes turned to z upwards, where they are meant to be.
+    """The tree with its COLLADA meshes turned to z up, if they are meant to be.
 
-    Files may state that their y is upwards. RViz and Gazebo do not turn them, three.js and what
-    reads them by Assimp do, and robots are made for either: they are turned where their middles
-    then lie much nearer to their bodies' centres of mass, and a warning says so.
+    Files may declare y as up. RViz and Gazebo do not turn them, three.js and programs that use
+    Assimp do, and there are robots for either: meshes are turned if their middles are then much
+    nearer to their bodies' centres of mass, and a warning says so.
     """
     found = [
         (body, shape, off, turned)
@@ -179,8 +179,8 @@ def with_y_up(tree: Tree) -> Tree:
         return tree
     millimetres = (f"{1e3 * off:.0f} mm" for off in (after, before))
     sentence = (
-        f"{len(found)} .dae meshes say that their y is upwards, and are turned so: on average they "
-        f"then lie {' and not '.join(millimetres)} off their links' centres of mass; RViz does not "
+        f"{len(found)} .dae meshes declare y as up and are turned accordingly: on average they "
+        f"are then {' and not '.join(millimetres)} off their links' centres of mass; RViz does not "
         "turn them"
     )
     other = {id(shape): turned for _, shape, _, turned in found}
@@ -245,7 +245,7 @@ def _primitive_extent(shape: Shape, direction: FloatArray) -> float:
             return float(size[0] * np.hypot(*direction[:2]) + size[1] * abs(direction[2]))
         case ShapeKind.CAPSULE:
             return float(size[0] + size[1] * abs(direction[2]))
-    raise ValueError(f"a {shape.kind} is no primitive")
+    raise ValueError(f"a {shape.kind} is not a primitive")
 
 
 def extent_of(shapes: Iterable[Shape], direction: FloatArray) -> float | None:
@@ -258,7 +258,7 @@ def solid_shapes(body: Body) -> tuple[Shape, ...]:
     """Collision shapes of a body that can be measured, else its visual ones."""
     up = np.array([0.0, 0.0, 1.0])
     for collides in (True, False):
-        # Visual meshes are large: they are opened only where there is nothing else.
+        # Visual meshes are large: they are opened only if there is nothing else.
         shapes = [shape for shape in body.shapes if shape.collides is collides]
         known = tuple(shape for shape in shapes if extent(shape, up) is not None)
         if known:
@@ -267,7 +267,7 @@ def solid_shapes(body: Body) -> tuple[Shape, ...]:
 
 
 def unmeasured(body: Body) -> bool:
-    """Whether a shape that counts for the body's extent has no mesh that can be read."""
+    """Whether the mesh of a shape that counts for the body's extent cannot be read."""
     known = solid_shapes(body)
     if not known:
         return bool(body.shapes)
@@ -275,7 +275,7 @@ def unmeasured(body: Body) -> bool:
 
 
 def lacks_mesh(body: Body) -> bool:
-    """Whether the file of any of its meshes was not found, those to look at included."""
+    """Whether the file of any of its meshes, collision or visual, was not found."""
     return any(shape.kind is ShapeKind.MESH and shape.mesh is None for shape in body.shapes)
 
 

@@ -4,7 +4,7 @@ Several joints of one body act one after the other, each about its own anchor; s
 documentation, chapter Modeling, `body/joint`.
 
 Masses, frames and joints are those of the compiled model, so that defaults, included files, units
-and inertias from geoms count exactly as MuJoCo counts them.
+and inertias from geoms are exactly MuJoCo's.
 """
 
 from collections.abc import Iterator, Sequence
@@ -36,18 +36,18 @@ from ocs_design.robot.tree import (
 def find_base(model: mujoco.MjModel, named: Sequence[str], warnings: Warnings) -> int:
     """Index of the floating base: the child of the world that is the robot.
 
-    A robot is told from the objects around it by its actuators, or by having joints and a free
-    joint. Where no child of the world has those, it is the one with joints, then the one that
-    moves at all, then the only one. In a world where nothing is free the robot's own joints to the
+    A robot differs from the objects around it by its actuators, or by joints besides a free
+    joint. If no child of the world has those, it is the one with joints, then the one that moves
+    at all, then the only one. In a world where nothing is free, the robot's own joints to the
     world, if any, are dropped.
 
     Args:
         model: compiled.
-        named: links that the user named; the robot is what the first of them is part of.
-        warnings: takes what else moves.
+        named: links that the user named; the robot is the one that the first of them is part of.
+        warnings: receives what else moves.
 
     Raises:
-        RobotError: there is none, or several may be the robot and none is named.
+        RobotError: there is none, or several may be the robot and no link is named.
     """
     roots = [
         body
@@ -60,7 +60,7 @@ def find_base(model: mujoco.MjModel, named: Sequence[str], warnings: Warnings) -
     moving = set(moved.tolist())
     jointed = set(moved[model.jnt_bodyid != moved].tolist())
     free = set(moved[model.jnt_type == mujoco.mjtJoint.mjJNT_FREE].tolist())
-    # Of which some actuator moves a joint; muscles and tendons count.
+    # Children with an actuated joint; muscles and tendons count.
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)
@@ -78,9 +78,9 @@ def find_base(model: mujoco.MjModel, named: Sequence[str], warnings: Warnings) -
         names = [model.body(body).name for body in candidates]
         what = "move on their own" if moving else "are in the file"
         raise RobotError(
-            f"which one is the robot is not clear: {len(names)} things {what}: {some_of(names)}",
+            f"it is not clear which is the robot: {len(names)} things {what}: {some_of(names)}",
             hint=f"say which: {'; or '.join(f'--trunk {name}' for name in names[:3])}. The others "
-            "are left out; what is one robot must be one body of the world, with the rest below it",
+            "are left out; a robot must be one child of the world, with all its parts below it",
         )
     base = (stated or candidates)[0]
     if base not in free:
@@ -95,12 +95,12 @@ _ON_JOINT = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARE
 
 
 def effort_limit(model: mujoco.MjModel, joint: int) -> float:
-    """Largest torque or force that a joint's actuators give [N m or N]; inf if none states one."""
+    """Largest torque or force of a joint's actuators [N m or N]; inf if none specifies one."""
     efforts = []
     for actuator in np.flatnonzero(model.actuator_trnid[:, 0] == joint):
         if int(model.actuator_trntype[actuator]) not in _ON_JOINT:
             continue
-        # In front of the gear: the stated range, or that of a motor's control.
+        # Before the gear: the specified range, or that of a motor's control.
         force = np.inf
         is_motor = (
             model.actuator_gaintype[actuator] == mujoco.mjtGain.mjGAIN_FIXED
@@ -140,7 +140,7 @@ def leader_of(
 
 
 def _reference(model: mujoco.MjModel, joint: int) -> float:
-    """Value of a joint at which its body stands as the file places it [rad or m]."""
+    """Value of a joint at which its body is where the file places it [rad or m]."""
     return float(model.qpos0[model.jnt_qposadr[joint]])
 
 
@@ -178,7 +178,7 @@ def connections_to(model: mujoco.MjModel, body: int, warnings: Warnings) -> Iter
             mimic=leader_of(model, index, warnings),
         )
         anchor = Placement(np.eye(3), model.jnt_pos[index])
-        # MuJoCo's joint does not move its body at `ref`; a joint of the tree does not at zero.
+        # MuJoCo's joints do not displace their body at `ref`; those of the tree at zero.
         at_zero = joint_motion(joint, -_reference(model, index))
         child = name if index == joints[-1] else f"{name}:{joint.name}"
         yield Connection(
@@ -195,7 +195,7 @@ def connections_to(model: mujoco.MjModel, body: int, warnings: Warnings) -> Iter
 _MEASURES = {ShapeKind.BOX: 3, ShapeKind.SPHERE: 1, ShapeKind.CYLINDER: 2, ShapeKind.CAPSULE: 2}
 _PRIMITIVES = {int(GEOM_TYPES[kind]): kind for kind in _MEASURES}
 UNBOUNDED = (int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_HFIELD))
-"""Geoms of the ground, which no link has."""
+"""Geoms of the ground, which belong to no link."""
 
 
 def shapes_of(model: mujoco.MjModel, body: int) -> Iterator[Shape]:
@@ -223,23 +223,23 @@ def shapes_of(model: mujoco.MjModel, body: int) -> Iterator[Shape]:
 
 
 _TRAVELS = {int(mujoco.mjtJoint.mjJNT_FREE), int(mujoco.mjtJoint.mjJNT_SLIDE)}
-"""Joints by which a base gets off its place; one that only turns is that of an arm."""
+"""Joints that let a base travel; one that only turns is that of an arm."""
 
 _LOOPS = (int(mujoco.mjtEq.mjEQ_CONNECT), int(mujoco.mjtEq.mjEQ_WELD))
 _LOOP = (
-    "closed chains are cut open where connect or weld closes them; the legs move as if open, and "
-    "the loop is not enforced"
+    "closed chains are cut open at their connect or weld; the legs move as if open, and the loop "
+    "is not enforced"
 )
-_TIE = "what connect or weld ties the robot to is let go, its mass left out"
+_TIE = "connect or weld ties the robot to other bodies; these are released, without their mass"
 
 
 def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) -> Tree:
-    """The robot of an MJCF model; what else stands in its world is left out.
+    """The robot of an MJCF model; everything else in its world is left out.
 
     Args:
         content: the file, unzipped.
-        folder: that includes and meshes are relative to; None for the current folder.
-        named: links that the user named, to tell the robot from what else is in the model.
+        folder: to which includes and meshes are relative; None for the current folder.
+        named: links that the user named, to find the robot among other bodies of the model.
     """
     warnings = Warnings()
     lost: Lost = []
@@ -254,7 +254,7 @@ def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) ->
             "the model's bodies are nested too deeply", hint="a thousand levels are too many"
         ) from error
     check_number_of_links(model.nbody)
-    # Numbers that MuJoCo compiles but that nothing can be computed from.
+    # Numbers that MuJoCo compiles but that are useless for computing.
     for kind, quantity in _NUMBERS:
         numbers = np.asarray(getattr(model, f"{kind}_{quantity}"))
         if not (np.abs(numbers) <= LARGEST_NUMBER).all():
@@ -278,11 +278,11 @@ def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) ->
         axes = rotation_from_quaternion(model.body_iquat[body])
         weighed = principal.moved(axes, model.body_ipos[body])
         if model.body_gravcomp[body] != 0.0:
-            warnings.add("bodies that gravity does not pull (gravcomp), in flights it does", name)
+            warnings.add("bodies without gravity (gravcomp), simulated with gravity", name)
         links[name] = Link(name, weighed, (*shapes_of(model, body), *unseen))
         for connection in connections_to(model, body, warnings) if body != base else ():
             children.setdefault(connection.parent, []).append(connection)
-            # In front of the last of several joints stand links without mass.
+            # Before the last of several joints there are links without mass.
             links.setdefault(connection.child, Link(connection.child, None))
     loops = []
     for index in np.flatnonzero(np.isin(model.eq_type, _LOOPS)):
@@ -319,4 +319,4 @@ _NUMBERS = (
     *product(("geom",), ("pos", "quat", "size", "aabb")),
     *(("jnt", "pos"), ("jnt", "axis"), ("key", "qpos")),
 )
-"""Numbers of a compiled model that are computed with: the kind of element, and which of it."""
+"""Numbers of a compiled model used in computations: kind of element, and quantity."""

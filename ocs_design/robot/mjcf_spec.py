@@ -21,14 +21,14 @@ from ocs_design.robot.xml import parse_xml
 
 @contextmanager
 def mujoco_warnings_to(warnings: Warnings) -> Iterator[None]:
-    """Add what MuJoCo warns of while parsing and compiling to `warnings`.
+    """Add MuJoCo's warnings while parsing and compiling to `warnings`.
 
-    By itself MuJoCo prints some of it and writes MUJOCO_LOG.TXT into the current folder; its
-    bindings make Python warnings of the rest.
+    By default MuJoCo prints some of them and writes MUJOCO_LOG.TXT into the current folder; its
+    bindings turn the others into Python warnings.
     """
 
     def add(text: str) -> None:
-        """Warn on one line."""
+        """Add a warning as one line."""
         warnings.add(f"MuJoCo: {' '.join(text.split())}")
 
     before = mujoco.get_mju_user_warning()
@@ -44,9 +44,9 @@ def mujoco_warnings_to(warnings: Warnings) -> Iterator[None]:
 
 
 def require_inertial(spec: mujoco.MjSpec, geom: mujoco.MjsGeom, file: str) -> None:
-    """Refuse a model of which a body's inertia would come from the missing mesh `file`."""
+    """Refuse a model in which a body's inertia would come from the missing mesh `file`."""
     body, compiler = geom.parent, spec.compiler
-    # Geoms that are only to look at state that they have no mass.
+    # Visual geoms declare that they have no mass.
     massless = geom.mass == 0.0 or (math.isnan(geom.mass) and geom.density == 0.0)
     first, last = compiler.inertiagrouprange
     if body == spec.worldbody or massless or not first <= geom.group <= last:
@@ -71,7 +71,7 @@ LARGEST_ASSET = 128 << 20
 
 
 Lost: TypeAlias = list[tuple[mujoco.MjsBody, bool]]
-"""Bodies whose geoms are left out for want of a mesh, and whether that geom collides."""
+"""Bodies that lose a geom because its mesh is missing, and whether that geom collides."""
 
 
 def embed_assets(
@@ -79,25 +79,25 @@ def embed_assets(
 ) -> None:
     """Read every file that the model refers to, so that it compiles anywhere.
 
-    Files then have names without folders in the model.
+    The files' names in the model then have no folders.
 
     Args:
         spec: parsed, not compiled yet.
         folder: of the model's file.
-        warnings: takes the names of files that are not there.
-        lost: takes what that leaves out.
+        warnings: receives the names of missing files.
+        lost: receives the geoms left out because of them.
     """
     of_meshes: list[Asset] = [*spec.meshes, *spec.skins, *spec.hfields]
     assets = [(each, each.compiler.meshdir) for each in of_meshes]
     assets += [(each, each.compiler.texturedir) for each in spec.textures]
-    # Those of an attached model have that model's rules.
+    # Assets of an attached model follow that model's rules.
     rules = [spec.compiler, *(each.compiler for each, _ in assets)]
     names: dict[Path, str] = {}
     for asset, subfolder in assets:
         missing = _embed(spec, asset, folder / subfolder, names)
         if missing is None:
             continue
-        warnings.add("files not found, what needs them is left out", missing)
+        warnings.add("files not found; elements that need them are left out", missing)
         if isinstance(asset, mujoco.MjsTexture):
             for material in spec.materials:
                 material.textures = [
@@ -121,7 +121,7 @@ def embed_assets(
 
 
 def _embed(spec: mujoco.MjSpec, asset: Asset, folder: Path, names: dict[Path, str]) -> str | None:
-    """Read an asset's files into the model; the first that is not there, or None."""
+    """Read an asset's files into the model; returns the first missing one, or None."""
     sides = list(getattr(asset, "cubefiles", ()))
     for file in filter(None, (asset.file, *sides)):
         path = folder / (Path(file).name if spec.strippath else file)
@@ -133,7 +133,7 @@ def _embed(spec: mujoco.MjSpec, asset: Asset, folder: Path, names: dict[Path, st
             except OSError as error:
                 raise RobotError(
                     f"the file {path} cannot be read: {error.strerror}",
-                    hint="reduce its size, or take it out of the model",
+                    hint="reduce its size, or remove it from the model",
                 ) from error
             names[path] = unused_name(path.stem, path.suffix, spec.assets)
             spec.assets[names[path]] = content
@@ -162,10 +162,10 @@ def parse_mjcf(
     """The model of an MJCF file; its bodies, joints and actuators all have names.
 
     Args:
-        content: the file, unzipped, in any encoding that XML knows.
-        folder: that its includes and assets are relative to.
-        warnings: takes the names of missing files; what needs them is left out.
-        lost: takes what that leaves out.
+        content: the file, unzipped, in any encoding that XML supports.
+        folder: to which its includes and assets are relative.
+        warnings: receives the names of missing files; elements that need them are left out.
+        lost: receives the geoms left out because of them.
     """
     root = parse_xml(content, warnings)
     _expand_includes(root, folder, seen=set())
@@ -176,7 +176,7 @@ def parse_mjcf(
             spec = mujoco.MjSpec.from_string(ET.tostring(root, encoding="unicode"), include=models)
     except ValueError as error:
         raise mujoco_refusal(error) from error
-    # Bodies that are fused lose their names, and the trunk may be one of them.
+    # Fused bodies lose their names, and the trunk may be one of them.
     spec.compiler.fusestatic = False
     embed_assets(spec, folder, warnings, lost)
     _name(spec.bodies, "body")
@@ -186,7 +186,7 @@ def parse_mjcf(
 
 
 def _name(elements: Sequence["mujoco.MjsBody | mujoco.MjsJoint"], kind: str) -> None:
-    """Name what has no name, so that a tree and a model made from the same file agree."""
+    """Name elements without a name, so that a tree and a model from the same file agree."""
     taken = {element.name for element in elements}
     for number, element in enumerate(elements):
         if not element.name:
@@ -194,9 +194,9 @@ def _name(elements: Sequence["mujoco.MjsBody | mujoco.MjsJoint"], kind: str) -> 
 
 
 def compiled(spec: mujoco.MjSpec) -> mujoco.MjModel:
-    """The compiled model; what MuJoCo will not compile is an error of the robot's file."""
+    """The compiled model; a refusal by MuJoCo is an error in the robot's file."""
     try:
-        # The reader has compiled the user's model before, and passed on the warnings.
+        # The reader has already compiled the user's model and passed on the warnings.
         with mujoco_warnings_to(Warnings()):
             return spec.compile()
     except ValueError as error:
@@ -204,8 +204,8 @@ def compiled(spec: mujoco.MjSpec) -> mujoco.MjModel:
 
 
 def mujoco_refusal(error: ValueError) -> RobotError:
-    """Error that tells in MuJoCo's words why it does not compile a model."""
-    # Its line numbers are those of the model with its includes expanded, not the user's.
+    """Error that quotes MuJoCo on why it does not compile a model."""
+    # Its line numbers refer to the model with includes expanded, not to the user's file.
     reason = re.sub(r",? line \d+", "", " ".join(str(error).split()))
     return RobotError(
         f"MuJoCo refuses the model: {reason}",
@@ -214,7 +214,7 @@ def mujoco_refusal(error: ValueError) -> RobotError:
 
 
 def _expand_includes(parent: ET.Element, folder: Path, seen: set[Path]) -> None:
-    """Put the contents of each included file where its `<include>` stands."""
+    """Replace each `<include>` by the contents of its file."""
     for child in list(parent):
         if child.tag != "include":
             _expand_includes(child, folder, seen)
@@ -232,9 +232,9 @@ def _expand_includes(parent: ET.Element, folder: Path, seen: set[Path]) -> None:
 
 
 def _read_models(root: ET.Element, folder: Path, models: dict[str, bytes]) -> None:
-    """Read the models that a model attaches, which then are named as they are in `models`.
+    """Read the models that a model attaches, and name them as in `models`.
 
-    Their own files are named with their folders, for they are not relative to the whole model's.
+    Their own files are named with folders, as they are not relative to the whole model's.
     """
     for asset in root.findall("asset/model"):
         path = folder / asset.get("file", "")
@@ -243,7 +243,7 @@ def _read_models(root: ET.Element, folder: Path, models: dict[str, bytes]) -> No
         models[name] = b""
         if len(models) > _MOST_ATTACHED:
             raise RobotError(
-                f"more than {_MOST_ATTACHED} models are attached: does {path.name} hold itself?",
+                f"more than {_MOST_ATTACHED} models are attached: does {path.name} contain itself?",
                 hint="no <model> may name a file that it is part of",
             )
         _expand_includes(attached, path.parent, seen=set())
@@ -257,15 +257,15 @@ def _read_models(root: ET.Element, folder: Path, models: dict[str, bytes]) -> No
 
 
 _MOST_ATTACHED = 100
-"""Largest number of models that a model is put together from."""
+"""Largest number of models that a model may attach."""
 
 
 def _read_part(path: Path, folder: Path, what: str) -> ET.Element:
     """The root element of a file that a model in `folder` names."""
     if not is_below(path, roots_of(folder / "model.xml")):
         raise RobotError(
-            f"the {what} {path} lies outside of the model's folder and repository",
-            hint="put it into the model's folder",
+            f"the {what} {path} is outside the model's folder and repository",
+            hint="move it into the model's folder",
         )
     try:
         return parse_xml(read_plain_file(path, MAX_BYTES))

@@ -1,7 +1,7 @@
-"""From the kinematic tree to MuJoCo's MjSpec, body by body, with inertias that it accepts.
+"""Builds MuJoCo's MjSpec from the kinematic tree, body by body, with inertias that it accepts.
 
 MuJoCo refuses a moving body without mass, and one whose principal moments break the triangle
-inequality in the last bit. Sizing never sees what is written here.
+inequality in the last bit. Sizing does not use the inertias changed here.
 
 MuJoCo's own URDF reader loses the root link's mass and refuses links without inertia before it
 joins them; the tree has them joined already.
@@ -30,15 +30,15 @@ def quaternion(rotation: FloatArray) -> FloatArray:
 
 
 VISUAL_BYTES = 16 * 2**20
-"""Largest sum of the meshes only to look at [bytes]; a .dae takes 0.1 s and 25 MB of memory per MB.
+"""Largest total size of visual meshes [bytes]; a .dae takes 0.1 s and 25 MB of memory per MB.
 
-Whoever exports a CAD model with every screw as the visual of a trunk gets 30 MB and 350,000
-facets, more than all else together.
+A CAD model exported with every screw as a trunk's visual has 30 MB and 350,000 facets, more than
+everything else together.
 """
 
 
 def oversized_visuals(tree: Tree) -> Set[Path]:
-    """Mesh files only to look at that do not fit into `VISUAL_BYTES`, taken smallest first."""
+    """Visual mesh files that do not fit into `VISUAL_BYTES` when the smallest are taken first."""
     shapes = [shape for body in tree.bodies for shape in body.shapes]
     touching = {shape.mesh for shape in shapes if shape.collides}
     showing = {shape.mesh for shape in shapes if shape.mesh is not None} - touching
@@ -58,14 +58,14 @@ NEGLIGIBLE_INERTIA = 1e-12
 
 @dataclass(frozen=True, eq=False)
 class Inertial:
-    """Mass properties as MuJoCo's `<inertial>` states them.
+    """Mass properties in the form of MuJoCo's `<inertial>`.
 
     Attributes:
         mass: [kg].
         position: centre of mass in the body's frame [m], shape (3,).
         quaternion: of the principal axes in the body's frame (w, x, y, z), shape (4,).
         moments: principal moments of inertia [kg m^2], shape (3,).
-        warning: what had to be changed, to be followed by the body's name; None if nothing was.
+        warning: what was changed, to be followed by the body's name; None if nothing was.
     """
 
     mass: float
@@ -76,7 +76,7 @@ class Inertial:
 
 
 def inertial(raw: MassProperties) -> Inertial:
-    """Mass properties in MuJoCo's form; what it would refuse is changed as little as will do."""
+    """Mass properties in MuJoCo's form, changed as little as necessary for it to accept them."""
     moments, axes = np.linalg.eigh(raw.inertia)
     if np.linalg.det(axes) < 0.0:
         axes = axes * [-1.0, 1.0, 1.0]
@@ -84,7 +84,7 @@ def inertial(raw: MassProperties) -> Inertial:
     warning = None
     if physical_defect(raw) is not None:
         figures = ", ".join(f"{moment:.4g}" for moment in accepted)
-        warning = f"simulated with the nearest principal moments that exist ({figures} kg m^2)"
+        warning = f"simulated with the nearest possible principal moments ({figures} kg m^2)"
     elif raw.mass < NEGLIGIBLE_MASS:
         warning = f"moving links without mass, simulated with {NEGLIGIBLE_MASS:g} kg"
     mass = max(raw.mass, NEGLIGIBLE_MASS)
@@ -94,8 +94,8 @@ def inertial(raw: MassProperties) -> Inertial:
 def nearest_physical_moments(moments: FloatArray, floor: float) -> FloatArray:
     """The principal moments nearest to `moments` (ascending) that a rigid body can have.
 
-    The smallest change in the sense of least squares under `m >= floor` and `m0 + m1 >= m2`: a
-    quadratic program so small that trying each set of active constraints solves it exactly.
+    The least-squares change under `m >= floor` and `m0 + m1 >= m2`: a quadratic program so small
+    that trying each active set solves it exactly.
 
     Args:
         moments: ascending [kg m^2], shape (3,).
@@ -103,7 +103,7 @@ def nearest_physical_moments(moments: FloatArray, floor: float) -> FloatArray:
     """
     physical = []
     for floored, triangle in product(range(4), (False, True)):
-        # The least change that puts the first moments on the floor.
+        # The least change that raises the first moments to the floor.
         found = np.array(moments, dtype=np.float64)
         found[:floored] = floor
         free = 3 - floored
@@ -122,14 +122,14 @@ _STL_MOST_FACETS = 200_000
 
 
 class MeshLibrary:
-    """Meshes of a model: each file and scale once, without those that cannot be read.
+    """Meshes of a model: each file and scale once, except those that cannot be read.
 
     Attributes:
         unreadable: files that could not be read, in the order met.
     """
 
     def __init__(self, spec: mujoco.MjSpec, left_out: Set[Path] = frozenset()) -> None:
-        """Fill `spec`; files in `left_out` are not looked at."""
+        """Fill `spec`; files in `left_out` are not opened."""
         self.unreadable: dict[Path, str] = {}
         self._left_out = left_out
         self._spec = spec
@@ -137,7 +137,7 @@ class MeshLibrary:
         self._meshes: dict[tuple[Path, tuple[float, ...]], str] = {}
 
     def name_of(self, shape: Shape) -> str | None:
-        """Name in the model of a shape's mesh; None if there is none that MuJoCo could take."""
+        """Name in the model of a shape's mesh; None if MuJoCo cannot use it."""
         if shape.mesh is None or shape.mesh in self._left_out or shape.mesh in self.unreadable:
             return None
         path, key = shape.mesh, (shape.mesh, shape.size)
@@ -152,7 +152,7 @@ class MeshLibrary:
         if key not in self._meshes:
             asset = self._assets[path]
             name = unused_name(Path(asset).stem, "", self._meshes.values())
-            # Bodies carry explicit inertials, and a shell asks for no closed surface.
+            # Bodies have explicit inertials, and a shell needs no closed surface.
             shell = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
             self._spec.add_mesh(name=name, file=asset, scale=shape.size, inertia=shell)
             self._meshes[key] = name
@@ -174,7 +174,7 @@ def read_mesh(path: Path) -> tuple[str, bytes]:
 
 
 def drop_refused_meshes(spec: mujoco.MjSpec, warnings: Warnings) -> None:
-    """Take out each mesh that MuJoCo cannot compile, with its geoms."""
+    """Remove each mesh that MuJoCo cannot compile, with its geoms."""
     for mesh in list(spec.meshes):
         trial = mujoco.MjSpec()
         trial.assets[mesh.file] = spec.assets[mesh.file]
@@ -190,10 +190,10 @@ def drop_refused_meshes(spec: mujoco.MjSpec, warnings: Warnings) -> None:
 
 
 VISUAL_GROUP = 2
-"""Group of geoms to look at; viewers show it."""
+"""Group of visual geoms; viewers show it."""
 
 HIDDEN_GROUP = 3
-"""Group of the collision geoms of bodies with something better to look at; viewers hide it."""
+"""Group of the collision geoms of bodies that have visual geoms; viewers hide it."""
 
 JOINT_TYPES = {
     JointKind.REVOLUTE: mujoco.mjtJoint.mjJNT_HINGE,
@@ -209,7 +209,7 @@ GEOM_TYPES = {
 
 
 def body_names(tree: Tree) -> tuple[str, ...]:
-    """Names of the bodies in MuJoCo: their own, but for `world`, which MuJoCo keeps for itself."""
+    """Names of the bodies in MuJoCo: their own, except `world`, which MuJoCo reserves."""
     taken = {body.name for body in tree.bodies}
     substitute = "world_link"
     while substitute in taken:
@@ -221,9 +221,9 @@ def spec_from_tree(tree: Tree, warnings: Warnings, *, visuals: bool) -> mujoco.M
     """The tree as a MuJoCo model with a free root.
 
     Args:
-        tree: a URDF's, or one made by hand.
-        warnings: takes what had to be changed for MuJoCo.
-        visuals: whether to load what is only to look at.
+        tree: of a URDF, or of a robot given by hand.
+        warnings: receives what was changed for MuJoCo.
+        visuals: whether to load visual shapes.
     """
     spec = mujoco.MjSpec()
     spec.modelname = tree.name
@@ -239,7 +239,7 @@ def spec_from_tree(tree: Tree, warnings: Warnings, *, visuals: bool) -> mujoco.M
             shape for shape in shapes if shape.kind is not ShapeKind.MESH or meshes.name_of(shape)
         ]
         wanted, shown = (sum(not shape.collides for shape in each) for each in (shapes, drawn))
-        # Where something to look at is missing, what touches stands in for it.
+        # If a visual mesh is missing, the collision geoms are shown instead.
         group_of_touching = HIDDEN_GROUP if wanted and shown == wanted else 0
         for shape in drawn:
             geom = made[-1].add_geom(
@@ -269,7 +269,7 @@ def spec_from_tree(tree: Tree, warnings: Warnings, *, visuals: bool) -> mujoco.M
     for path, why in meshes.unreadable.items():
         warnings.add(f"meshes left out ({why})", path.name)
     for path in sorted(left_out):
-        warnings.add("meshes too large to be shown in the MuJoCo model, left out", path.name)
+        warnings.add("meshes too large to show in the MuJoCo model, left out", path.name)
     return spec
 
 

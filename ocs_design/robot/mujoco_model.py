@@ -1,4 +1,4 @@
-"""The robot as a MuJoCo model: free in space, at rest, nothing around it."""
+"""The robot as a MuJoCo model: floating, at rest, with nothing around it."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -17,16 +17,16 @@ from ocs_design.robot.robot import Format, Leg, Robot
 from ocs_design.robot.source import STANDARD_INPUT
 
 _FOOT_SHARE = 0.02
-"""Radius of a foot that is a bare point, over its leg's length."""
+"""Radius of a foot that is only a point, over its leg's length."""
 
 
 def add_missing_feet(spec: mujoco.MjSpec, model: mujoco.MjModel, robot: Robot) -> None:
-    """Give each foot that has nothing to stand on a small sphere, named after the foot's link.
+    """Add a small sphere, named after the foot's link, to each foot without collision geometry.
 
     Args:
         spec: to change.
-        model: that it was compiled to.
-        robot: that it was built from.
+        model: compiled from it.
+        robot: from which it was built.
     """
     names = body_names(robot.tree)
     collides = (model.geom_contype | model.geom_conaffinity) != 0
@@ -35,14 +35,14 @@ def add_missing_feet(spec: mujoco.MjSpec, model: mujoco.MjModel, robot: Robot) -
         welded = model.body_weldid == model.body_weldid[model.body(name).id]
         if np.any(collides & welded[model.geom_bodyid]):
             continue
-        # The tree's frame stands at the joint; that of a body in the model is its link's.
+        # The tree's body frame is at the joint; in the model it is the link's.
         link = robot.tree.bodies[leg.body].links[robot.tree.bodies[leg.body].name].inverse()
         spec.body(name).add_geom(
             name=foot_geom_name(leg),
             type=mujoco.mjtGeom.mjGEOM_SPHERE,
             size=[leg.foot_radius or _FOOT_SHARE * leg.length, 0.0, 0.0],
             pos=link.point(leg.foot),
-            # In the file's defaults geoms may be there to look at only.
+            # By the file's defaults, geoms may be visual only.
             contype=1,
             conaffinity=1,
         )
@@ -54,10 +54,10 @@ def foot_geom_name(leg: Leg) -> str:
 
 
 def exclude_neighbours(spec: mujoco.MjSpec, model: mujoco.MjModel, robot: Robot) -> None:
-    """Forbid contact of bodies that touch in the nominal posture.
+    """Exclude contacts between bodies that touch in the nominal posture.
 
-    Collision geometry of neighbouring links overlaps in most robot files; contact there would
-    only throw the robot about. Arguments as for `add_missing_feet`.
+    Collision geometry of neighbouring links overlaps in most robot files; contacts there would only
+    disturb the robot. Arguments as for `add_missing_feet`.
     """
     data = mujoco.MjData(model)
     data.qpos[:] = posture_qpos(model, robot)
@@ -78,19 +78,19 @@ def posture_qpos(model: mujoco.MjModel, robot: Robot) -> FloatArray:
 
 
 def reduce_to_hulls(spec: mujoco.MjSpec, model: mujoco.MjModel) -> None:
-    """Give each mesh that may touch the corners of its convex hull in place of all its vertices.
+    """Reduce each colliding mesh to the vertices of its convex hull.
 
-    A humanoid's meshes take 70 MB of each compiled model, and every world has one. What touches,
-    and how, stays the same; the looks do not.
+    A humanoid's meshes take 70 MB of each compiled model, and every world has one. Contacts stay
+    the same; the appearance does not.
 
     Args:
         spec: to change.
-        model: that it was compiled to.
+        model: compiled from it.
     """
     fitted = {geom.meshname for geom in spec.geoms if geom.type != mujoco.mjtGeom.mjGEOM_MESH}
     for mesh in list(spec.meshes):
         index = model.mesh(mesh.name).id
-        # A box or capsule fitted to a mesh would come out otherwise around its hull.
+        # A box or capsule fitted to a mesh would differ if fitted to its hull.
         if mesh.name not in fitted and model.mesh_graphadr[index] >= 0:
             name = unused_name(mesh.name, "", {each.name for each in spec.meshes})
             # The hull's graph begins with the numbers of its vertices and faces, then for each
@@ -98,7 +98,7 @@ def reduce_to_hulls(spec: mujoco.MjSpec, model: mujoco.MjModel) -> None:
             graph = model.mesh_graph[model.mesh_graphadr[index] :]
             indices = graph[2 + graph[0] : 2 + 2 * graph[0]]
             corners = model.mesh_vert[model.mesh_vertadr[index] + indices].astype(np.float64)
-            # MuJoCo turns meshes into their principal axes.
+            # MuJoCo rotates meshes into their principal axes.
             rotation = np.empty(9)
             mujoco.mju_quat2Mat(rotation, model.mesh_quat[index])
             placed: FloatArray = corners @ rotation.reshape(3, 3).T + model.mesh_pos[index]
@@ -121,7 +121,7 @@ class Keyframe:
 
     Attributes:
         name: of the keyframe. time: [s].
-        positions, velocities: coordinates of each joint by its name.
+        positions, velocities: coordinates of each joint, by its name.
         controls: by the actuator's name.
         activations: by the actuator's name, empty for those without state.
     """
@@ -135,7 +135,7 @@ class Keyframe:
 
 
 def take_keyframes(spec: mujoco.MjSpec) -> Sequence[Keyframe]:
-    """Take all keyframes out of a model."""
+    """Remove all keyframes from a model, and return them."""
     if not spec.keys:
         return ()
     model = compiled(spec)
@@ -160,7 +160,7 @@ def take_keyframes(spec: mujoco.MjSpec) -> Sequence[Keyframe]:
 
 
 def put_keyframes(spec: mujoco.MjSpec, keyframes: Iterable[Keyframe]) -> None:
-    """Put keyframes into a model; joints that are new stand at zero, those gone are forgotten."""
+    """Put keyframes into a model; new joints are at zero, and removed ones are dropped."""
     for keyframe in keyframes:
         model = compiled(spec)
         data = mujoco.MjData(model)
@@ -198,7 +198,7 @@ def free_base(spec: mujoco.MjSpec, base: str, warnings: Warnings) -> None:
     Args:
         spec: the user's model.
         base: name of the robot's root body, a child of the world.
-        warnings: takes what was left out.
+        warnings: receives what was left out.
     """
     strangers = [body for body in spec.worldbody.bodies if body.name != base]
     held = [joint for joint in spec.body(base).joints if joint.type != _FREE]
@@ -209,16 +209,16 @@ def free_base(spec: mujoco.MjSpec, base: str, warnings: Warnings) -> None:
         warnings.add("fixed geoms of the model's world, left out", name)
         delete_geom(spec, geom)
     for body in strangers:
-        warnings.add("bodies beside the robot, left out", body.name)
+        warnings.add("other bodies than the robot, left out", body.name)
         spec.delete(body)
-    # Cameras and lights that follow what was left out could not compile.
+    # Cameras and lights that track something left out would not compile.
     there = {body.name for body in spec.bodies}
     for each in [*spec.cameras, *spec.lights]:
         if each.targetbody and each.targetbody not in there:
             each.targetbody, each.mode = "", mujoco.mjtCamLight.mjCAMLIGHT_FIXED
     if not is_free:
         for joint in held:
-            # What acts on it, measures it or ties it could not compile without it.
+            # What acts on it, measures it or ties it would not compile without it.
             kind, name = mujoco.mjtObj.mjOBJ_JOINT, joint.name
             for actuator in [each for each in spec.actuators if each.target == name]:
                 spec.delete(actuator)
@@ -233,7 +233,7 @@ def free_base(spec: mujoco.MjSpec, base: str, warnings: Warnings) -> None:
 
 
 def write_out_orientations(spec: mujoco.MjSpec) -> None:
-    """Turn Euler angles and other notations into quaternions, which alone a spec writes out."""
+    """Turn Euler angles and other notations into quaternions, the only form that a spec writes."""
     quaternion = mujoco.mjtOrientation.mjORIENTATION_QUAT
     for element in (*spec.bodies, *spec.frames, *spec.geoms, *spec.sites):
         if element.alt.type != quaternion:
@@ -243,10 +243,10 @@ def write_out_orientations(spec: mujoco.MjSpec) -> None:
 
 
 def write_out_inertials(spec: mujoco.MjSpec) -> None:
-    """Give each body the mass properties that it compiles to.
+    """Write each body's compiled mass properties into the spec.
 
-    Rules of the model's own, such as a total mass that all bodies are scaled to, must not reach
-    what is added to it later.
+    The model's own rules, such as a total mass to which all bodies are scaled, must not affect
+    bodies that are added later.
     """
     model = compiled(spec)
     for body in spec.bodies[1:]:
@@ -266,8 +266,8 @@ class BuiltModel:
     """MuJoCo model of a robot.
 
     Attributes:
-        spec: to be completed (floor, actuators, device) and compiled; holds its meshes' bytes.
-        warnings: what differs between MuJoCo's copy and the robot's file, one sentence each.
+        spec: to be completed (floor, actuators, device) and compiled; contains its meshes' bytes.
+        warnings: differences between MuJoCo's copy and the robot's file, one sentence each.
     """
 
     spec: mujoco.MjSpec
@@ -275,15 +275,15 @@ class BuiltModel:
 
 
 def build_spec(robot: Robot, *, visuals: bool = True) -> BuiltModel:
-    """The robot with a free base, without floor, at MuJoCo's own defaults of contact.
+    """The robot with a free base, without a floor, with MuJoCo's default contacts.
 
     Bodies and joints have the names of the file's links (of each moving body's first link) and
     joints. An MJCF robot keeps its own model: actuators, sensors, contacts, keyframes.
 
     Args:
         robot: as read.
-        visuals: whether the model will be looked at; if not, what only shows is left out, and
-            meshes are reduced to their convex hulls, all that MuJoCo lets touch.
+        visuals: whether the model will be shown; if not, visual shapes are left out, and meshes
+            are reduced to their convex hulls, which is all that MuJoCo uses for contact.
     """
     warnings = Warnings()
     spec = plain_spec(robot, warnings, visuals=visuals)
@@ -302,13 +302,13 @@ def plain_spec(robot: Robot, warnings: Warnings, *, visuals: bool) -> mujoco.MjS
 
     Args:
         robot: as read.
-        warnings: takes what had to be changed for MuJoCo.
-        visuals: whether to load what is only to look at; an MJCF robot keeps it in any case.
+        warnings: receives what was changed for MuJoCo.
+        visuals: whether to load visual shapes; an MJCF robot keeps them in any case.
     """
     if robot.format is not Format.MJCF:
         return spec_from_tree(robot.tree, warnings, visuals=visuals)
     folder = Path.cwd() if robot.source == STANDARD_INPUT else Path(robot.source).absolute().parent
-    # The reader has warned of what is odd in the file itself.
+    # The reader has already warned of oddities in the file itself.
     spec = parse_mjcf(robot.content, folder, Warnings())
     write_out_orientations(spec)
     write_out_inertials(spec)
@@ -330,7 +330,7 @@ def compile_spec(spec: mujoco.MjSpec, robot: Robot, warnings: Warnings) -> mujoc
 def trunk_body(spec: mujoco.MjSpec, robot: Robot) -> tuple[mujoco.MjsBody, Placement]:
     """The trunk's body in a spec of `build_spec`, and the base frame B in that body's frame."""
     if robot.format is Format.MJCF:
-        # The tree joins what is welded; the user's model has it apart still.
+        # The tree merges welded bodies; in the user's model they are still separate.
         if robot.mount is not None:
             return spec.body(robot.mount.link), robot.mount.placement
         return spec.body(robot.trunk), Placement.identity()

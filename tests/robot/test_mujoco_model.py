@@ -381,7 +381,7 @@ def test_the_largest_go_first(name, left_out):
 
 def test_what_is_left_out_is_told_and_something_else_shown():
     built = build_spec(read_robot(ROBOTS / "go1_description/urdf/go1.urdf"))
-    told = "meshes too large to be shown in the MuJoCo model, left out: trunk.dae"
+    told = "meshes too large to show in the MuJoCo model, left out: trunk.dae"
     assert built.warnings == (told,)
     trunk = built.spec.body("base")
     visible = [geom for geom in trunk.geoms if geom.group == 0]
