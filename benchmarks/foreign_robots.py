@@ -291,7 +291,7 @@ def row(path: Path, name: str, trunk: str, legs: int, sized: str) -> str:
     try:
         robot = read_robot(path)
     except RobotError as error:
-        if "which one is the robot" in error.message:
+        if "which is the robot" in error.message:
             several = ", ".join((error.hint or "").split("--trunk ")[1:]).split(".")[0]
             return f"| {label} | asks: {several.replace('; or ', '')} | | ({person}) | | {sized} |"
         return f"| {label} | refused | | {person} | | {shortly(3, str(error))} |"

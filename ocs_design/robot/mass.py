@@ -118,8 +118,8 @@ def solid_defect(body: MassProperties) -> str | None:
 
 DENSEST, THINNEST = 19_300.0, 0.012
 """Densities of tungsten and of a hundredth of air [kg/m^3], for a ball with a robot's mass and
-gyration radius. Public robots lie between 5 and 484, a double pendulum of rods at 0.02; a unit that is
-wrong by a thousand takes them out of this range."""
+gyration radius. Public robots lie between 5 and 484, a double pendulum of rods at 0.02; a unit
+that is wrong by a thousand takes them out of this range."""
 
 
 def ball_density(body: MassProperties) -> float:

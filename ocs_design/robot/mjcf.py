@@ -230,7 +230,7 @@ _LOOP = (
     "closed chains are cut open at their connect or weld; the legs move as if open, and the loop "
     "is not enforced"
 )
-_TIE = "connect or weld ties the robot to other bodies; these are released, without their mass"
+_TIE = "connect or weld ties to something else, released, and its mass left out"
 
 
 def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) -> Tree:

@@ -111,19 +111,19 @@ FAULTS = {
         lambda r: set_in(r, "lidar", "inertia", ixx=7e-5, izz=7e-5, ixz=2e-5),
         "round about their joint", "lidar"),
     "a long link's moments swapped": (
-        lambda r: swap(r, "FL_shank", "ixx", "izz"), "does not lie as their shapes", "FL_shank"),
+        lambda r: swap(r, "FL_shank", "ixx", "izz"), "does not match their shapes", "FL_shank"),
     "a link's inertia turned by its rpy": (
         lambda r: set_in(r, "HR_thigh", "origin", rpy="0 1.5708 0"),
-        "does not lie as their shapes", "HR_thigh"),
+        "does not match their shapes", "HR_thigh"),
     "an inertia in kg mm2": (
-        lambda r: scaled(r, "inertia", 1e6, "trunk"), "more inertia than fits", "trunk"),
+        lambda r: scaled(r, "inertia", 1e6, "trunk"), "more inertia than their", "trunk"),
     "an inertia in kg cm2": (
-        lambda r: scaled(r, "inertia", 1e4, "HL_hip"), "more inertia than fits", "HL_hip"),
+        lambda r: scaled(r, "inertia", 1e4, "HL_hip"), "more inertia than their", "HL_hip"),
     "an inertia in g m2": (
-        lambda r: scaled(r, "inertia", 1e3, "FR_thigh"), "more inertia than fits", "FR_thigh"),
+        lambda r: scaled(r, "inertia", 1e3, "FR_thigh"), "more inertia than their", "FR_thigh"),
     "an exporter's placeholder": (
         lambda r: set_in(r, "FL_hip", "inertia", ixx=1, iyy=1, izz=1),
-        "more inertia than fits", "FL_hip"),
+        "more inertia than their", "FL_hip"),
     "an inertia of a density of 1": (
         lambda r: scaled(r, "inertia", 1e-3, "trunk"), "too little inertia", "trunk"),
     "every inertia a hundredth": (
@@ -134,12 +134,12 @@ FAULTS = {
         lambda r: (scaled(r, "mass", 1e3), scaled(r, "inertia", 1e3)),
         "the robot weighs .* as dense as solid metal", ""),
     "one mass in grams": (
-        lambda r: scaled(r, "mass", 1e3, "FL_shank"), "heavier than solid steel", "FL_shank"),
+        lambda r: scaled(r, "mass", 1e3, "FL_shank"), "in solid steel", "FL_shank"),
     "every mass in tonnes": (
         lambda r: (scaled(r, "mass", 1e-3), scaled(r, "inertia", 1e-3)),
         "the robot weighs .* as light as air", ""),
     "one mass in tonnes": (
-        lambda r: scaled(r, "mass", 1e-3, "HL_thigh"), "more inertia than fits", "HL_thigh"),
+        lambda r: scaled(r, "mass", 1e-3, "HL_thigh"), "more inertia than their", "HL_thigh"),
     "every length in millimetres": (in_millimetres, "lighter than the air", "trunk"),
     "a shape without its scale": (
         lambda r: scaled(r, "box", 1e3, "FR_hip"), "lighter than the air", "FR_hip"),

@@ -172,7 +172,7 @@ def test_collada_with_y_up_is_turned_where_links_then_lie_in_their_meshes():
     Not turned, its head lies beside the neck and its pelvis at its right hip.
     """
     tree = load(ROBOTS / "icub_description" / "robots" / "icub.urdf").tree
-    assert any("56 .dae meshes say that their y is upwards" in each for each in tree.warnings)
+    assert any("56 .dae meshes declare y as up" in each for each in tree.warnings)
     boxes = {}
     for body, place in zip(tree.bodies, tree.placements_from("base_link", {}), strict=True):
         points = [
@@ -209,7 +209,7 @@ def test_collada_with_y_up_that_lies_right_is_left(robot):
     tree = load(ROBOTS / f"{robot}.urdf").tree
     shapes = [shape for body in tree.bodies for shape in body.shapes if shape.mesh is not None]
     assert any(b"<up_axis>Y_UP" in shape.mesh.read_bytes()[:4096] for shape in shapes)
-    assert not any("y is upwards" in each for each in tree.warnings)
+    assert not any("declare y as up" in each for each in tree.warnings)
 
 
 def test_the_folder_and_the_package_around_it(tmp_path):
