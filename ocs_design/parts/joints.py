@@ -14,7 +14,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.parts.turning_rings import Ring, TurningRings
 
 OVERSPEED = 1.2
-"""Speed at which a wheel is proved, over the highest that it can get to."""
+"""Speed at which a wheel must hold, over the highest that it can get to."""
 
 SERVICE = 1.5
 """Torque that a joint must carry, over the peak torque of its drive: it starts and stops hard."""

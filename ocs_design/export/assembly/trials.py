@@ -21,7 +21,7 @@ from ocs_design.parts.rim import stored_energy
 SPIN_STEPS = (0.1, 0.25, 0.5, 0.75, 1.0)
 """Shares of the top speed at which a wheel is watched for a minute each."""
 
-OVERSPEED = 1.1
+SPIN_TEST = 1.1
 """Speed of the spin test over the top speed, once, before the wheel goes on a robot."""
 
 NEAR = 0.15
@@ -147,9 +147,9 @@ def spin_test(assembly: Assembly) -> Iterator[str]:
     yield f"One minute each at {steps}; stop, and feel the motor and look at all screws.{past}"
     motor = assembly.device.motor
     allowed = math.inf if motor.speed_max is None else motor.speed_max
-    share = min(OVERSPEED, allowed / speed)
+    share = min(SPIN_TEST, allowed / speed)
     over = rpm(share * speed)
-    if share < OVERSPEED:
+    if share < SPIN_TEST:
         over += ", the most that motor and wheel are allowed"
     supply = (
         ""
@@ -302,7 +302,7 @@ def _runaway(assembly: Assembly) -> Iterator[str]:
     top = assembly.top_speed
     if top is None or motor.bus_voltage is None or not math.isfinite(motor.no_load_speed):
         return
-    speed = OVERSPEED * motor.no_load_speed
+    speed = SPIN_TEST * motor.no_load_speed
     worst = burst_of(assembly.device, speed)
     asked = f"the ring against that is {_at_least(worst.steel)} mm of mild steel"
     if built:
@@ -312,7 +312,7 @@ def _runaway(assembly: Assembly) -> Iterator[str]:
         f"The wheel law, which computes with {motor.bus_voltage:g} V, drives no wheel past "
         f"{rpm(top)}, however full the battery is, and brakes one that is faster. A controller "
         "that does not heed it may run away: on a battery with "
-        f"{OVERSPEED:.0%} of that voltage to {rpm(speed)}, where a third of the wheel has "
+        f"{SPIN_TEST:.0%} of that voltage to {rpm(speed)}, where a third of the wheel has "
         f"{_two(worst.fragment.energy)} J; {asked}."
     )
 
