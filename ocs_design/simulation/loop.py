@@ -27,6 +27,9 @@ _GRID = 4000
 _INSTANTS = 21
 """Instants of a plan whose margins are looked at."""
 
+_DRIFT = 0.1
+"""How much faster a motion may grow in the closed loop than in the open one [1/s]: rounding."""
+
 _SMALL = 1e-4
 """Step of the central differences that linearise the law [rad, rad/s]: they are off by its square,
 and by the rounding of one in 1e12."""
@@ -58,11 +61,16 @@ def loop_margins(
 
     Returns:
         Margins at the crossover that stands the least delay; no limit where the gain is below one
-        at every frequency.
+        at every frequency. All are zero where the feedback itself makes a motion grow, as one that
+        is held for too long does.
     """
     size, inputs = control.shape
     held = expm(period * np.block([[state, control], [np.zeros((inputs, size + inputs))]]))
     step, gain = held[:size, :size], held[:size, size:]
+    alone, closed = (np.abs(np.linalg.eigvals(a)).max() for a in (step, step - gain @ feedback))
+    # What wheels do not reach may grow as it did: a trunk that spins about its middle axis.
+    if closed > max(alone, 1.0) * np.exp(_DRIFT * period):
+        return LoopMargins(0.0, 0.0, 0.0)
 
     def eigenvalues(frequency: FloatArray) -> NDArray[np.complex128]:
         z = np.exp(1j * period * frequency)[:, None, None]

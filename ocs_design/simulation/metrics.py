@@ -95,13 +95,17 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
         body.spin_inertia * np.linalg.norm(series.wheel_speed[driven] @ body.axes.T, axis=1).max()
     )
     smallest = np.linalg.eigvalsh(body.actuated_inertia)[:2]
+    # About the vertical only wheels that reach it can stop the trunk.
+    turning = np.hypot(*series.rate[last, :2])
+    if body.reach[2]:
+        turning = np.hypot(turning, series.rate[last, 2])
     return Metrics(
         lift_off_time=float(series.time[first]) if lift_off >= 0 else None,
         rise=float(series.com[flight, 2].max() - series.com[first, 2]),
         touchdown_time=float(series.time[last]) if comes_down else None,
         touchdown_roll=float(roll[last]),
         touchdown_pitch=_within_half_turn(pitch[last]),
-        touchdown_rate=float(np.hypot(*series.rate[last, :2])),
+        touchdown_rate=float(turning),
         turned_angle=float(series.pitch[last] - series.pitch[first]),
         heading_drift=_within_half_turn(series.yaw[last] - series.yaw[first]),
         peak_wheel_speed=float(np.abs(series.wheel_speed[driven]).max()),

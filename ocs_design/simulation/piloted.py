@@ -77,6 +77,8 @@ class PilotedFlight(Batch):
         asked = self._law.possible(torque[None], speed, self._period)
         if self.flown < 0:
             asked[:] = 0.0
+        if self._stopped is not None:
+            asked = self._stopped.left(self._clock.steps(k, 1), asked)
         self.advance(self._pool, self._physics, k, self.driven(k, asked))
         self.record_sensors(k, 1)
         self._instant += 1

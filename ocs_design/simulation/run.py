@@ -80,7 +80,8 @@ class Metrics:
             upright and at rest; None: it never touches the floor.
         touchdown_roll, touchdown_pitch: of the trunk against level at that instant, within half a
             turn [rad]; of a robot on a pivot against where it balances, here and below.
-        touchdown_rate: of roll and pitch together at that instant [rad/s].
+        touchdown_rate: of roll and pitch together at that instant, and of yaw where the wheels
+            reach it [rad/s].
         turned_angle: of pitch since lift-off, whole turns counted [rad].
         heading_drift: about the vertical since lift-off [rad].
         peak_wheel_speed: in flight [rad/s]. peak_wheel_torque: in flight [N m].

@@ -14,6 +14,7 @@ from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.simulation.run import UPRIGHT_TILT, Metrics
+from ocs_design.simulation.wheel_law import tilt_error
 from ocs_design.sizing.trajectory.boundary import boundary
 
 REST_RATE = np.radians(5.0)
@@ -288,6 +289,19 @@ def off_asked(roll: FloatArray, pitch: FloatArray, maneuver: Maneuver) -> FloatA
         return np.maximum(np.abs(roll), np.abs(pitch))
     cosine = _vertical(np.array(asked_roll), np.array(asked_pitch)) @ _vertical(roll, pitch)
     return np.asarray(np.arccos(np.clip(cosine, -1.0, 1.0)))
+
+
+def tilts_off(roll: FloatArray, pitch: FloatArray, maneuver: Maneuver) -> FloatArray:
+    """Roll and pitch off what is asked at n touchdowns [rad], shape (2, n).
+
+    Where it is not level, about the trunk's own axes: a pitch of -179 deg is 1 deg off 180, and on
+    its side a trunk has no pitch.
+    """
+    asked_roll, asked_pitch, _ = landing_attitude(maneuver)
+    if asked_roll == asked_pitch == 0.0:
+        return np.array([roll, pitch])
+    asked = _vertical(np.full(roll.shape, asked_roll), np.full(pitch.shape, asked_pitch))
+    return -tilt_error(_vertical(roll, pitch).T, asked.T).T
 
 
 def _ends(maneuver: Maneuver) -> str:

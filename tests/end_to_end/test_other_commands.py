@@ -97,7 +97,7 @@ def test_json_errors_are_one_document():
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("no_alternatives")
+@pytest.mark.usefixtures("no_alternatives", "no_files")
 def test_the_demo_sizes_solo12_from_any_folder(folder, monkeypatch):
     """Without a screen the page's place is said; a second one is not written over it."""
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"):

@@ -2,6 +2,7 @@
 
 import re
 import sys
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -22,6 +23,7 @@ from ocs_design.monte_carlo.certificate import (
     lesson,
 )
 from ocs_design.monte_carlo.outcomes import METRICS, share
+from ocs_design.requirement.turns import TurnTo
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "docs"))
 import certified
@@ -144,6 +146,24 @@ def test_no_reserve_is_raised_where_it_does_not_help(solo12, metric, cause, word
     learnt = lesson(SequentialTest(0.99), campaign, outcomes)
     assert learnt.factor == 1.0
     assert words in learnt.told
+
+
+@pytest.mark.parametrize(("asked", "free"), [({"pitch": np.pi}, 0.0), ({"roll": np.pi / 2}, 1.0)])
+def test_what_ends_upside_down_or_on_its_side_teaches_by_where_the_vertical_is(
+    campaign, asked, free
+):
+    """Pitch jumps by a turn upside down, and is any angle on the side."""
+    (flight,) = campaign.flights
+    turn = TurnTo(name="turn", duration=1.0, jump_height=0.5, **asked)
+    campaign = replace(campaign, flights=(replace(flight, maneuver=turn),))
+    outcomes = made_outcomes(range(64))
+    off = 0.02 * outcomes.values[:, 0]
+    roll, pitch = asked.get("roll", 0.0) + off, asked.get("pitch", 0.0) + off
+    pitch = np.where(np.arange(64) % 2, pitch, -pitch) if not free else free * outcomes.values[:, 1]
+    for name, angle in (("roll", roll), ("pitch", pitch)):
+        outcomes.metrics[:, 0, METRICS.index(f"touchdown_{name}")] = angle
+    learnt = lesson(SequentialTest(0.99), campaign, outcomes)
+    assert learnt.told.startswith("every touchdown is level"), learnt.told
 
 
 @pytest.mark.parametrize("change", ["one lands", "nothing varies"])

@@ -95,5 +95,20 @@ def test_the_phase_is_that_of_the_crossover_beside_it():
     assert both.delay == pytest.approx(fast.delay, rel=1e-3)
 
 
+def test_a_loop_that_is_unstable_by_its_hold_alone_has_no_margin(world):
+    """`x'' = u` held for T is stable while `K_d T < 2`, and for these gains longer than 0.15 s."""
+    assert loop_margins(STATE, CONTROL, np.array([[60.0, 12.0]]), 0.15).delay > 0.0
+    for found in (
+        loop_margins(STATE, CONTROL, np.array([[60.0, 12.0]]), 0.2),
+        level_margins(world.law, world.body, 0.2),
+    ):
+        assert (found.phase, found.delay) == (0.0, 0.0)
+    # A pendulum that falls at 5 rad/s, held upright.
+    falls = np.array([[0.0, 1.0], [25.0, 0.0]])
+    held = np.array([[200.0, 25.0]])
+    assert loop_margins(falls, CONTROL, held, 0.005).delay > 0.01
+    assert loop_margins(falls, CONTROL, held, 0.1).delay == 0.0
+
+
 def test_a_loop_whose_gain_is_nowhere_one_stands_any_delay():
     assert loop_margins(-np.eye(1), np.eye(1), 0.1 * np.eye(1), 0.005).delay == np.inf

@@ -5,14 +5,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from robots import ROBOTS
-from wheels import paper_device, scaled_device
+from wheels import layout_device, paper_device, scaled_device
 
+from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.froude import default_maneuvers
-from ocs_design.requirement.maneuver import Drop
+from ocs_design.requirement.maneuver import Drop, End
+from ocs_design.requirement.turns import TurnTo
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation import scenario
+from ocs_design.simulation.engine import simulate
+from ocs_design.simulation.metrics import measure
 from ocs_design.simulation.scenario import Flights, refusal, run_scenarios
+from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.verdict import judge
 from ocs_design.simulation.world_builder import WorldBuilder
 
 GENTLE = Drop(name="gentle", height=0.4, pitch=np.radians(10.0))
@@ -90,3 +96,19 @@ def test_runs_come_in_the_order_of_the_maneuvers(solo12):
         ("disturbance", True),
         ("disturbance", False),
     ]
+
+
+@pytest.mark.parametrize(
+    ("layout", "stops"), [(LayoutName.ORTHOGONAL, False), (LayoutName.PAIR, True)]
+)
+def test_whoever_is_to_stop_must_stop_about_the_vertical_if_its_wheels_reach_it(
+    solo12, layout, stops
+):
+    """With its wheels braked a robot in orbit turns on, about yaw alone."""
+    stop = TurnTo(name="stop", rate=(0.0, 0.0, 0.5), duration=0.2, gravity=0.0, end=End.AT_REST)
+    builder = WorldBuilder(solo12, layout_device(Layout(layout)))
+    world = builder.flight(stop, Wheels.BRAKED)
+    metrics = measure(simulate([replace(world, duration=0.3)]), 0, world)
+    verdict = judge(metrics, stop, can_stand=None)
+    assert verdict.passed is stops, verdict.reason
+    assert metrics.touchdown_rate == pytest.approx(0.0 if stops else 0.5, abs=0.01)

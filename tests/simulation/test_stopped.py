@@ -11,6 +11,7 @@ from wheels import layout_device, paper_maneuvers
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.maneuver import Shove
 from ocs_design.simulation.engine import simulate
+from ocs_design.simulation.piloted import PilotedFlight
 from ocs_design.simulation.scenario import STOPS, Flights, fly_stopped
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.target import StoppedDrive
@@ -73,6 +74,18 @@ def test_the_others_know_after_the_detection_and_not_before(recorded):
     np.testing.assert_array_equal(whole[: last + 1], stopped[: last + 1])
     before, after = (np.abs(stopped[k] - whole[k]).max() for k in (known - 1, known))
     assert after > 2.0 * before
+
+
+def test_a_pilot_cannot_drive_what_has_stopped(solo12):
+    drop = WorldBuilder(solo12, layout_device(TRIAD)).flight(
+        paper_maneuvers(solo12)[1], Wheels.ACTIVE
+    )
+    flight = PilotedFlight(replace(drop, stopped=StoppedDrive(0, 0.02, 0.02)), hold=5)
+    for _ in range(6):
+        flight.fly(np.full(3, 0.1))
+    given = flight._record.wheel_torque[:6, 0]
+    np.testing.assert_allclose(given[:4], 0.1)
+    np.testing.assert_allclose(given[4:], [[0.0, 0.1, 0.1]] * 2)
 
 
 @pytest.mark.slow

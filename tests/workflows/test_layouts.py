@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from commands import SOLO12, run
-from designed import on_solo12, solo12
+from designed import on_solo12
 
 from ocs_design.actuation.wheel_load import reach, reach_without_one
 from ocs_design.common.errors import Infeasible, UsageError
@@ -155,7 +155,8 @@ def test_fewer_robots_where_nothing_is_sure_for_99_of_100(tmp_path):
 
 @pytest.mark.slow
 def test_the_lightest_is_the_same_without_the_plates_of_the_others():
-    whole, alone = (design_device(solo12(), ranked=ranked) for ranked in (True, False))
+    task = on_solo12(motor__gear="direct")
+    whole, alone = (design_device(task, ranked=ranked) for ranked in (True, False))
     assert alone.device.mass == whole.device.mass
     assert alone.device.motor == whole.device.motor
     assert len(alone.choice.selection.ranking) < len(whole.choice.selection.ranking)
@@ -165,7 +166,12 @@ def test_the_lightest_is_the_same_without_the_plates_of_the_others():
 def test_all_layouts_of_one_robot():
     """A flip alone: a single wheel is the lightest, and it does not roll the robot."""
     asked = specification_from_options(
-        {"robot.file": SOLO12, "requirement.flip": "back", "requirement.gravity": "1.62"}
+        {
+            "robot.file": SOLO12,
+            "requirement.flip": "back",
+            "requirement.gravity": "1.62",
+            "motor.gear": "direct",
+        }
     )
     answer = compare_layouts(specification_of(asked))
     by_name = {each.layout: each for each in answer.layouts}
@@ -196,6 +202,7 @@ def test_the_robot_is_read_once_and_no_device_at_all_is_told_by_the_exit_code(mo
 
 
 SURVIVES = {
+    "motor.gear": "direct",
     "requirement.survives": "one",
     "requirement.fall": "1m",
     "requirement.tilt": "20deg",
@@ -282,7 +289,9 @@ def test_what_needs_less_than_the_smallest_rim_gets_a_larger_one():
 @pytest.mark.slow
 def test_a_triad_for_solo12_can_be_built(tmp_path):
     """On one plate, whose mass is a part of the device's; read again it is the same."""
-    asked = specification_from_options({"robot.file": SOLO12, "ocs.layout": "triad"})
+    asked = specification_from_options(
+        {"robot.file": SOLO12, "ocs.layout": "triad", "motor.gear": "direct"}
+    )
     design = design_ocs(asked, out=tmp_path / "a").design
     assert design.buildable.yes is True
     assert design.buildable.open == ()
