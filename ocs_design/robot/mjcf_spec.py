@@ -213,20 +213,31 @@ def mujoco_refusal(error: ValueError) -> RobotError:
     )
 
 
-def _expand_includes(parent: ET.Element, folder: Path, seen: set[Path]) -> None:
-    """Replace each `<include>` by the contents of its file."""
+def _expand_includes(
+    parent: ET.Element, folder: Path, seen: set[Path], beside: Path | None = None
+) -> None:
+    """Replace each `<include>` by the contents of its file.
+
+    Args:
+        parent: of the model, or of a file that it includes.
+        folder: of the model's file. beside: of that included file.
+        seen: files that were included; more are added.
+    """
     for child in list(parent):
         if child.tag != "include":
-            _expand_includes(child, folder, seen)
+            _expand_includes(child, folder, seen, beside)
             continue
         path = folder / child.get("file", "")
+        if beside is not None and not path.exists():
+            # As MuJoCo does.
+            path = beside / child.get("file", "")
         included = _read_part(path, folder, "included file")
         if path.resolve() in seen:
             raise RobotError(
                 f"{path} is included twice", hint="MJCF allows each file to be included once"
             )
         seen.add(path.resolve())
-        _expand_includes(included, folder, seen)
+        _expand_includes(included, folder, seen, path.parent)
         place = list(parent).index(child)
         parent[place : place + 1] = list(included)
 

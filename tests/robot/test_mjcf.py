@@ -333,6 +333,19 @@ def test_within_a_repository_it_may(folder):
     assert read_with(folder, "../out.xml").bodies[0].name == "trunk"
 
 
+@pytest.mark.parametrize("there", [["parts"], ["parts", "."]])
+def test_what_an_included_file_includes_is_looked_for_as_mujoco_does(folder, there):
+    (folder / "parts").mkdir()
+    (folder / "parts" / "a.xml").write_text('<mujoco><include file="b.xml"/></mujoco>')
+    for place in there:
+        text = f'<mujoco><default><geom density="{900 + 100 * len(place)}"/></default></mujoco>'
+        (folder / place / "b.xml").write_text(text)
+    (folder / "robot.xml").write_text(MODEL.format("parts/a.xml"))
+    model = mujoco.MjModel.from_xml_path(str(folder / "robot.xml"))
+    tree = read_with(folder, "parts/a.xml")
+    assert tree.bodies[0].mass_properties.mass == pytest.approx(model.body_mass[1], rel=1e-12)
+
+
 def test_a_pipe_or_a_giant_is_not_waited_for(folder, monkeypatch):
     os.mkfifo(folder / "pipe.xml")
     with pytest.raises(RobotError, match="no plain file"):
