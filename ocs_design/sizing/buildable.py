@@ -87,7 +87,8 @@ def buildable(
 
     Args:
         motor: the chosen motor; None: none was chosen, and the answer is unknown.
-        mounting: on the robot; the answer is unknown where the robot's shapes are.
+        mounting: on the robot. Where the robot's shapes are unknown, so is whether it holds, and
+            with it the answer, unless something else keeps the device from being built.
         margins: of the device.
         joints: of a module.
         robot: robot that carries the device; None: no meshes can be missing.
@@ -138,6 +139,6 @@ def buildable(
             by = f" by {margin.scenario}" if margin.scenario else ""
             what = f"{margin.name}: {asked} required{by}, {there} allowed"
             points.append(OpenPoint(what=what, cure=CURES[margin.name]))
-    if not missing and (mounting is None or not mounting.known):
-        return Buildable(yes=None, open=tuple(points))
-    return Buildable(yes=not points, open=tuple(points))
+    known = missing or (mounting is not None and mounting.known)
+    settled = known or len(points) > len(mounted)
+    return Buildable(yes=not points if settled else None, open=tuple(points))

@@ -27,9 +27,10 @@ def margin(name, demand, capacity):
     ("motor", "mounting", "demand", "yes", "open_points"),
     [
         (WHOLE, FREE, 900.0, True, 0),
-        # Without a motor, or shapes of the robot, nothing can be told but what is open.
+        # Without a motor nothing can be told, and without shapes of the robot only what fails.
         (None, FREE, 2000.0, None, 0),
-        (WHOLE, None, 2000.0, None, 1),
+        (WHOLE, None, 900.0, None, 0),
+        (WHOLE, None, 2000.0, False, 1),
     ],
 )
 def test_whether_it_can_be_built_is_told_as_far_as_it_is_known(
@@ -37,6 +38,17 @@ def test_whether_it_can_be_built_is_told_as_far_as_it_is_known(
 ):
     found = buildable(motor, mounting, (margin("bus power", demand, 1000.0),))
     assert (found.yes, len(found.open)) == (yes, open_points)
+
+
+def test_on_shapes_that_are_not_known_a_joint_that_fails_is_a_fault_and_a_collision_is_not():
+    """A trunk of unknown shape is a box of the robot's inertia, which a module may overlap."""
+    unknown = replace(FREE, feet=(FootContact("left foot", "trunk", None, None, 0.0, held=None),))
+    assert not unknown.known
+    joint = Margin("shaft joint", 2.26, 1.37, "N m")
+    assert buildable(WHOLE, unknown, (), (joint,)).yes is False
+    overlaps = replace(unknown, nearest=Clearance("base", -0.035))
+    found = buildable(WHOLE, overlaps, ())
+    assert (found.yes, len(found.open)) == (None, 1)
 
 
 def test_a_motor_that_lacks_figures_is_named_with_them():
