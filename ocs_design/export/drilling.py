@@ -247,7 +247,12 @@ def pages(drilling: Drilling) -> Iterator[list[Item]]:
             yield [
                 *(_on_paper(item, offset) for item in drilling.around),
                 # Thin lines end at the coordinates of a hole.
-                *(_behind(item) for item in marks if isinstance(item, Text)),
+                *(
+                    Area(rectangle(x, y - item.height, x + item.width, y), white=True)
+                    for item in marks
+                    if isinstance(item, Text)
+                    for x, y in [item.start]
+                ),
                 *marks,
                 # What goes on on another sheet, and would run into the words.
                 Area(rectangle(0.0, bottom, WIDTH, HEIGHT), white=True),
@@ -255,12 +260,6 @@ def pages(drilling: Drilling) -> Iterator[list[Item]]:
                 *outline(rectangle(left, top, right, bottom), THIN),
                 *_words(drilling, number, across * along),
             ]
-
-
-def _behind(text: Text) -> Area:
-    """What covers thin lines under words."""
-    x, y = text.start
-    return Area(rectangle(x, y - text.height, x + text.width, y), white=True)
 
 
 def _words(drilling: Drilling, number: int, count: int) -> Iterator[Item]:

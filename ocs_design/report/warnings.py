@@ -4,7 +4,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.motor import BY_CONVENTION, DIRECT
 from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.common.wording import counted, degrees, inertia
@@ -61,7 +60,12 @@ def all_warnings(design: OcsDesign) -> Iterator[str]:
             f"{DRAWN:,} that are drawn, which tell no more: fly more of them with --certify"
         )
     yield from ocs.warnings
-    yield from _overvoltage(ocs.motor)
+    motor = ocs.motor
+    if motor.bus_voltage and motor.rated_voltage and motor.bus_voltage > motor.rated_voltage:
+        yield (
+            f"{motor.name} is rated for {motor.rated_voltage:g} V and fed with "
+            f"{motor.bus_voltage:g} V: ask the makers of motor and controller whether they stand it"
+        )
     yield from design.robot.warnings[1:]
     found = () if ocs.mounting is None else ocs.mounting.reachable
     if found:
@@ -84,17 +88,6 @@ def reached_at(ocs: OcsRecord) -> Iterator[str]:
         named.append(f"and {len(found) - _SHOWN_LINKS} more, see design.json")
     if named:
         yield f"joint values with which links hit a module: {'; '.join(named)}"
-
-
-def _overvoltage(motor: Drive) -> Iterator[str]:
-    """Warning about a motor at more volts than it is made for."""
-    if motor.bus_voltage is None or motor.rated_voltage is None:
-        return
-    if motor.bus_voltage > motor.rated_voltage:
-        yield (
-            f"{motor.name} is rated for {motor.rated_voltage:g} V and fed with "
-            f"{motor.bus_voltage:g} V: ask the makers of motor and controller whether they stand it"
-        )
 
 
 def _motor_notes(design: OcsDesign) -> Iterator[str]:

@@ -76,10 +76,11 @@ def balance(assembly: Assembly) -> Iterator[str]:
             "evenly over 60 degrees."
         )
     for mode in resonances_of(assembly.device):
+        weights = _two(mode.acceleration / STANDARD_GRAVITY)
         yield (
             f"The {mode.name}'s first mode: {mode.frequency:.0f} Hz, {60.0 * mode.frequency:,.0f} "
             f"rpm. What is left pushes with {_two(mode.force)} N; a wheel that stays there shakes "
-            f"the module by {_two(1e6 * mode.amplitude)} µm, with {_two(mode.acceleration / 9.81)} "
+            f"the module by {_two(1e6 * mode.amplitude)} µm, with {weights} "
             f"times its weight ({DAMPING:.0%} damping, assumed)."
         )
     yield (
@@ -252,7 +253,7 @@ def safety(assembly: Assembly) -> Iterator[str]:
     yield (
         f"{'Each' if count > 1 else 'The'} wheel stores {significant(energy, 3)} J at "
         f"{rpm(speed)}{wheels}{flown}. That is "
-        f"{_two(count * energy / 9.81)} kg dropped from 1 m."
+        f"{_two(count * energy / STANDARD_GRAVITY)} kg dropped from 1 m."
     )
     part = burst.fragment
     yield (

@@ -5,7 +5,7 @@ is seen from the left and, beside that, from behind. All places are from the mid
 underside.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
@@ -156,7 +156,12 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
         np.array(at) + radius * np.column_stack([np.cos(turn), np.sin(turn)])
         for _, at, radius in holes
     ]
-    lines = np.concatenate([_along([*ring, ring[0]]), *circles])
+    # Points along all lines, so near that none passes a word between them [mm].
+    ends = np.array([*ring, ring[0]])
+    steps = np.maximum(1, np.ceil(np.hypot(*np.diff(ends, axis=0).T) / _NEAR)).astype(int)
+    sides = zip(ends, ends[1:], steps.tolist(), strict=False)
+    edge = [np.linspace(start, end, count + 1) for start, end, count in sides]
+    lines = np.concatenate([*edge, *circles])
     for name, at, radius in holes:
         items += [Circle(at, radius), *cross(at, radius + 2.0)]
         items.append(_named(name, at, radius, lines))
@@ -180,14 +185,6 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
     items += [extension(x, below, y) for x in (edge_left, edge_right)]
     items += level_dimension(plain(wide), left=edge_left, right=edge_right, y=y)
     return scale, [*items, *_hole_table(plate)]
-
-
-def _along(corners: Sequence[Point]) -> FloatArray:
-    """Points along a polyline, so near that none of its lines passes a word between them [mm]."""
-    ends = np.array(corners)
-    steps = np.maximum(1, np.ceil(np.hypot(*np.diff(ends, axis=0).T) / _NEAR)).astype(int)
-    sides = zip(ends, ends[1:], steps.tolist(), strict=False)
-    return np.concatenate([np.linspace(start, end, count + 1) for start, end, count in sides])
 
 
 def _named(name: str, at: Point, radius: float, lines: FloatArray) -> Text:

@@ -30,7 +30,26 @@ def as_html(found: OcsDesign | Front | Validated, folder: Path | None = None) ->
     A design in its folder shows the picture of the robot, else wheel axes and inertia.
     """
     if isinstance(found, OcsDesign):
-        return element("div", *_design(found, folder))
+        runs = verdict_table(found)
+        mass = f"{grams(found.ocs.mass_total)}, {share_of_robot(found)}"
+        title = f"{device_title(found)} for {found.robot.name}, {mass}"
+        glb = None if folder is None else folder / f"robot/{safe_name(found.robot.name)}_ocs.glb"
+        if glb is None or not glb.is_file():
+            shown = _image("svg+xml", svg_file(ellipsoid_chart(found)), "wheel axes and inertia")
+        else:
+            picture = png_bytes(still(read_bodies(glb.read_bytes())))
+            shown = _image("png", picture, f"{found.robot.name} with its device")
+        return element(
+            "div",
+            _head(title, headline(found)),
+            element(
+                "div",
+                shown,
+                table("Device", Table(columns("<", "<"), first_facts(found))),
+                style="display: flex; gap: 1em; align-items: center",
+            ),
+            table(f"Flights: {flights_title(found.validation)}", runs) if runs.rows else Markup(""),
+        )
     if isinstance(found, Front):
         chart = front_chart(found)
         rows = tuple(
@@ -55,28 +74,6 @@ def as_html(found: OcsDesign | Front | Validated, folder: Path | None = None) ->
             parts.append(element("p", certificate_line(flown.certificate)))
     reasons = (f"{run.scenario}: {run.reason}" for run in found.validation if run.ocs)
     return element("div", *parts, items(reasons))
-
-
-def _design(design: OcsDesign, folder: Path | None) -> tuple[Markup, ...]:
-    flown = verdict_table(design)
-    mass = f"{grams(design.ocs.mass_total)}, {share_of_robot(design)}"
-    title = f"{device_title(design)} for {design.robot.name}, {mass}"
-    glb = None if folder is None else folder / f"robot/{safe_name(design.robot.name)}_ocs.glb"
-    if glb is None or not glb.is_file():
-        shown = _image("svg+xml", svg_file(ellipsoid_chart(design)), "wheel axes and inertia")
-    else:
-        picture = png_bytes(still(read_bodies(glb.read_bytes())))
-        shown = _image("png", picture, f"{design.robot.name} with its device")
-    return (
-        _head(title, headline(design)),
-        element(
-            "div",
-            shown,
-            table("Device", Table(columns("<", "<"), first_facts(design))),
-            style="display: flex; gap: 1em; align-items: center",
-        ),
-        table(f"Flights: {flights_title(design.validation)}", flown) if flown.rows else Markup(""),
-    )
 
 
 def _image(kind: str, content: bytes, name: str) -> Markup:
