@@ -6,7 +6,7 @@ min(tau_L, tau_s (1 + W / w_0)), full reverse voltage within the current limit, 
 speed W_f. The relevant quantity is the wheel's angle beyond W_f: phi, the integral of (W - W_f)
 over time (docs/theory.md, What a motor can do).
 
-All functions take arrays that broadcast, with those of the line too.
+All functions take arrays that broadcast, also with those of the line.
 
 The closed forms are those of `unit_drive`.
 """

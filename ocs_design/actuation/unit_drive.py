@@ -152,8 +152,7 @@ class UnitDrive(Table):
 
     @cached_property
     def to_line(self) -> FloatArray:
-        """Time from rest to where the voltage-limited line takes over from the power limit
-        [T_0]."""
+        """Time from rest to where the line takes over from the power limit [T_0]."""
         begin = self.end_of_limit
         gain = np.maximum(1.0 - self.spare - begin, 0.0)
         return rise_sweep(self, Rise(begin, gain, 0.0 * begin)).time

@@ -116,8 +116,7 @@ class BeltStage:
 
     @property
     def room(self) -> GearRoom:
-        """Space that the stage takes, with the motor's axis beside the wheel's, without axle and
-        bearings.
+        """Space that the stage takes, the motor's axis beside the wheel's, without bearings.
 
         The depth is that of the pulleys with their flanges, with no gap on either side.
         """

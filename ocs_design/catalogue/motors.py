@@ -1,4 +1,4 @@
-"""Motors that can be chosen: their rows, each with its source and checked against itself."""
+"""Motors to choose from: rows, each with its source and checked for consistency."""
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
@@ -36,39 +36,37 @@ from ocs_design.common.records import recorded
 
 @dataclass(frozen=True)
 class MotorSheet:
-    """What a source says of a motor; a field is a column, its unit at the end of its name.
+    """A motor's data as given by its source; each field is a column, with its unit as suffix.
 
-    A column is read as its type asks (`catalogue.rows.columns_of`).
-
-    None is what the source does not give.
+    Each column is parsed by its type (`catalogue.rows.columns_of`). None means not given.
 
     Attributes:
-        name: unique. maker: of the motor. kind: which part of it turns.
+        name: unique. maker: of the motor. kind: by the part that turns.
         mass_kg: of the whole motor. diameter_m, length_m: of its body.
         kt_nm_per_a: torque constant, in the convention `kt_convention`.
-        kv_rpm_per_v: speed constant, no-load speed per voltage of the supply.
+        kv_rpm_per_v: speed constant, no-load speed per supply voltage.
         resistance_ohm: of the winding, measured between `resistance_between`.
-        rated_voltage_v: at which the figures hold, or the highest of the maker's range.
-        voltage_max_v: highest supply that the maker allows, if it is not the rated voltage.
-        no_load_speed_rpm, no_load_current_a: stated, at the rated voltage.
+        rated_voltage_v: voltage at which the figures hold, or the highest of the maker's range.
+        voltage_max_v: highest supply voltage that the maker allows, if not the rated one.
+        no_load_speed_rpm, no_load_current_a: as stated, at the rated voltage.
         stall_torque_nm, stall_current_a: at rest and at the rated voltage.
         speed_max_rpm: highest that the maker allows.
         peak_torque_nm, peak_current_a: highest that the maker allows for a short time.
-        continuous_torque_nm: that the winding stands for good.
-        saturation_torque_nm: above which k_t falls off.
+        continuous_torque_nm: thermally sustainable torque of the winding.
+        saturation_torque_nm: torque above which k_t decreases.
         rotor_inertia_kg_m2: of the rotor.
-        shaft_diameter_m: where it comes out of the motor on the wheel's side.
-        shaft_length_m: by which it stands out there, from the face that the motor is mounted by.
-        shaft_form: what a hub can hold on to.
-        rotor_bolt_circle_m, rotor_bolts, rotor_thread: threads in what turns, on the wheel's side:
+        shaft_diameter_m: on the wheel's side.
+        shaft_length_m: protrusion there, from the mounting face of the motor.
+        shaft_form: form of the shaft, for the hub.
+        rotor_bolt_circle_m, rotor_bolts, rotor_thread: threads in the rotor, on the wheel's side:
             diameter of their circle, number, and size such as M3.
-        rotor_screws: property class of the screws that the wheel takes there, if not 8.8.
-        stator_bolt_circle_m, stator_bolts, stator_thread: the same in what stands still, on its
+        rotor_screws: property class of the screws that hold the wheel there, if not 8.8.
+        stator_bolt_circle_m, stator_bolts, stator_thread: the same in the stator, on its
             `stator_face`.
-        rotor_depth_m, rotor_depth_max_m, stator_depth_m, stator_depth_max_m: by which the maker
-            wants the screws in the motor, at least and at most.
-        source: where the figures come from. confidence: good, second-hand, ...
-        remark: why figures that seem to contradict each other stand as they do.
+        rotor_depth_m, rotor_depth_max_m, stator_depth_m, stator_depth_max_m: least and largest
+            depth of engagement of the screws that the maker allows.
+        source: source of the figures. confidence: good, second-hand, ...
+        remark: explanation of apparent contradictions.
     """
 
     name: str
@@ -115,7 +113,7 @@ class MotorSheet:
 
     @property
     def torque_constant(self) -> float | None:
-        """k_t between two lines [N m/A]; from the speed constant if it is not stated itself."""
+        """k_t, line to line [N m/A]; derived from the speed constant if not stated."""
         if self.kt_nm_per_a is not None and self.kt_convention is not None:
             return six_step_torque_constant(self.kt_nm_per_a, self.kt_convention)
         if self.kv_rpm_per_v is not None:
@@ -124,14 +122,14 @@ class MotorSheet:
 
     @property
     def resistance(self) -> float | None:
-        """Resistance between two lines [ohm]."""
+        """Line-to-line resistance [ohm]."""
         if self.resistance_ohm is None or self.resistance_between is None:
             return None
         return line_to_line_resistance(self.resistance_ohm, self.resistance_between)
 
     @property
     def rotor(self) -> BoltCircle | None:
-        """Threads in what turns; None unless all of their figures are stated."""
+        """Threads in the rotor; None unless all of their figures are given."""
         found = _circle(self.rotor_bolt_circle_m, self.rotor_bolts, self.rotor_thread)
         return found and replace(
             found,
@@ -142,7 +140,7 @@ class MotorSheet:
 
     @property
     def stator(self) -> BoltCircle | None:
-        """Threads in what stands still; None unless all of their figures are stated."""
+        """Threads in the stator; None unless all of their figures are given."""
         found = _circle(self.stator_bolt_circle_m, self.stator_bolts, self.stator_thread)
         return found and replace(
             found, depth=self.stator_depth_m, depth_max=self.stator_depth_max_m
@@ -150,7 +148,7 @@ class MotorSheet:
 
     @property
     def mounting(self) -> Mounting | None:
-        """None if nothing of it is stated."""
+        """Mechanical interfaces; None if none of them is given."""
         found = Mounting(
             self.shaft_diameter_m,
             self.rotor,
@@ -162,8 +160,8 @@ class MotorSheet:
         return None if found == Mounting() else found
 
     def motor(self) -> Motor:
-        """The motor in SI and in the one convention of `Motor`."""
-        # Highest short-term torque: a motor gives the stall torque of its data sheet as it starts.
+        """The motor in SI and in the convention of `Motor`."""
+        # Highest short-term torque; a motor gives the stall torque of its data sheet when starting.
         torque, basis = self.stall_torque_nm, "stall torque" if self.stall_torque_nm else ""
         if self.peak_torque_nm is not None:
             torque, basis = self.peak_torque_nm, "peak torque"
@@ -179,7 +177,7 @@ class MotorSheet:
             continuous, continuous_source = estimated_continuous_torque(
                 self.torque_constant, self.resistance, self.diameter_m, self.length_m
             )
-            # No motor gives more for good than for a short time.
+            # The continuous torque cannot exceed the short-term one.
             if continuous is not None and torque is not None:
                 continuous = min(continuous, torque)
         return recorded(
@@ -228,16 +226,16 @@ def _speed(speed_rpm: float | None) -> float | None:
 
 
 SPEED_CONSTANT_TOLERANCE = 0.05
-"""Error of k_t times Kv: Kv is printed in round numbers, and 3.8 % occur."""
+"""Tolerance of k_t times Kv: Kv is rounded in data sheets, and errors of 3.8 % occur."""
 
 NO_LOAD_TOLERANCE = 0.05
-"""Error of the no-load speed: friction and iron losses take up to 3.6 %."""
+"""Tolerance of the no-load speed: friction and iron losses reduce it by up to 3.6 %."""
 
 STALL_TOLERANCE = 0.03
-"""Error of stall torque and stall current: data sheets compute them, and 2.1 % occur."""
+"""Tolerance of stall torque and current: data sheets compute them, and errors of 2.1 % occur."""
 
 PEAK_TOLERANCE = 0.05
-"""Share by which a peak torque may exceed k_t times the peak current: 2.0 % occur."""
+"""Fraction by which a peak torque may exceed k_t times the peak current: 2.0 % occurs."""
 
 
 def _contradictions(sheet: MotorSheet) -> Iterator[str]:
@@ -274,7 +272,7 @@ def _contradictions(sheet: MotorSheet) -> Iterator[str]:
         if k_t is not None and given is not None and not _close(given, torque, STALL_TOLERANCE):
             yield f"stall torque is {given:g} N m, but V k_t / R is {torque:.4g} N m"
 
-    # Saturation takes from k_t times the peak current; nothing adds to it.
+    # Saturation reduces k_t times the peak current; nothing increases it.
     peak, current_max = sheet.peak_torque_nm, sheet.peak_current
     if peak is not None and current_max is not None and k_t is not None:
         most = k_t * current_max
@@ -286,7 +284,7 @@ def _contradictions(sheet: MotorSheet) -> Iterator[str]:
 
 
 def _fitting(sheet: MotorSheet) -> str:
-    """Text of the conventions in which k_t agrees with Kv."""
+    """Text on the conventions in which k_t agrees with Kv."""
     k_t, kv = sheet.kt_nm_per_a, sheet.kv_rpm_per_v
     if k_t is None or kv is None:
         return f": one of {', '.join(TorqueConstantConvention)}"
@@ -301,12 +299,12 @@ def _fitting(sheet: MotorSheet) -> str:
 
 
 def _close(stated: float, expected: float, tolerance: float) -> bool:
-    """Whether a figure is the expected one but for a relative tolerance."""
+    """Whether a figure equals the expected one within a relative tolerance."""
     return abs(stated / expected - 1.0) <= tolerance
 
 
 LEAST_BOLTS = {"rotor": 3, "stator": 2}
-"""Fewest bolts: with two a wheel's inertia is not the same about every axis across it."""
+"""Fewest bolts: with two, a wheel's inertia is not the same about all transverse axes."""
 
 LIGAMENT = 1.0e-3
 """Least material between the screws' holes and the shaft, and between each other [m]."""
@@ -339,33 +337,36 @@ def _bolt_circle_faults(sheet: MotorSheet, side: str, circle: BoltCircle | None)
 
 
 LARGEST = 1.0
-"""Size that no motor has [m]; the widest of the catalogue has 0.23."""
+"""Size that no motor reaches [m]; the widest of the catalogue has 0.23."""
 
 DENSITIES = (1.3e3, 7.0e3)
-"""Mass over the cylinder around its body, of the catalogue's motors [kg/m^3]."""
+"""Range of mass over the volume of the body's enclosing cylinder, for the catalogue's motors
+[kg/m^3]."""
 
 POSSIBLE, LIKELY = (0.3e3, 20e3), (0.5e3, 15e3)
-"""The same beyond which a row is refused, and beyond which it is doubted [kg/m^3]. Tungsten has
-19.3e3."""
+"""Ranges outside which a row is refused, and outside which a warning is given [kg/m^3]. Tungsten
+has 19.3e3."""
 
 SPEED_CONSTANTS = (25.0, 2800.0)
-"""Speed constants of the catalogue's motors [rpm/V]; ten times more or less are doubted."""
+"""Range of the catalogue's speed constants [rpm/V]; a warning is given outside a tenth to ten times
+that."""
 
 VOLTAGE_SHARES = (1e-3, 3.0)
-"""Voltage that the peak current takes at rest, over the rated one, beyond which a row is doubted;
-the catalogue's motors have 0.01 to 1."""
+"""Range, outside which a warning is given, of the voltage for the peak current at rest over the
+rated voltage; the catalogue's motors have 0.01 to 1."""
 
 SHAFT_SHARE = 3.0
-"""Length of a shaft over that of its motor's body, beyond which it is doubted; the catalogue's have
-up to 0.9."""
+"""Ratio of a shaft's length to that of its motor's body above which a warning is given; the
+catalogue's motors have up to 0.9."""
 
 TORQUE_SHARES = (3.2, 22.0)
-"""Peak torque over the mass to the power of 4/3 of the catalogue's motors [N m/kg^(4/3)]: both grow
-with the volume, and torque by another third with the lever. Ten times more or less are doubted."""
+"""Range of peak torque over mass to the power of 4/3 for the catalogue's motors [N m/kg^(4/3)]:
+both grow with volume, and torque by another third with the lever arm. A warning is given outside a
+tenth to ten times that."""
 
 
 def _density(sheet: MotorSheet) -> float | None:
-    """Mass over the cylinder around the body [kg/m^3]; None: not known."""
+    """Mass over the volume of the body's enclosing cylinder [kg/m^3]; None: unknown."""
     mass, diameter, length = sheet.mass_kg, sheet.diameter_m, sheet.length_m
     if mass is None or diameter is None or length is None:
         return None
@@ -373,11 +374,11 @@ def _density(sheet: MotorSheet) -> float | None:
 
 
 def _meant(value: float, unit: str, share: float, limits: tuple[float, float]) -> str:
-    """Question for a unit that is off by a thousand, where that would mend it.
+    """Question whether the unit is off by a thousand, if that would explain it.
 
     Args:
-        value: as it is stated. unit: of it.
-        share: that grows with it, and should be within `limits`.
+        value: as given. unit: its unit.
+        share: figure proportional to it that should be within `limits`.
     """
     for factor in (1e-3, 1e3):
         if limits[0] <= share * factor <= limits[1]:
@@ -386,7 +387,7 @@ def _meant(value: float, unit: str, share: float, limits: tuple[float, float]) -
 
 
 def _of_mass(sheet: MotorSheet, limits: tuple[float, float]) -> Iterator[str]:
-    """Line on a mass that its body does not have within these densities [kg/m^3]."""
+    """Line on a mass that is implausible for the body, given a range of densities [kg/m^3]."""
     mass, density = sheet.mass_kg or 0.0, _density(sheet)
     if density is not None and not limits[0] <= density <= limits[1]:
         size = " x ".join(
@@ -400,10 +401,10 @@ def _of_mass(sheet: MotorSheet, limits: tuple[float, float]) -> Iterator[str]:
 
 
 def _doubts(sheet: MotorSheet) -> Iterator[str]:
-    """Figures that are possible and hardly meant, one line each with the likely slip."""
+    """Figures that are possible but implausible, one line each, with the likely mistake."""
     yield from _of_mass(sheet, LIKELY)
     mass, torque = sheet.mass_kg, sheet.motor().peak_torque
-    # Where no size says what it should weigh, its torque does.
+    # Without a size, the mass is judged by the torque.
     if mass is not None and torque is not None and _density(sheet) is None:
         least, most = TORQUE_SHARES
         if not least / 10.0 <= torque / mass ** (4.0 / 3.0) <= 10.0 * most:
@@ -417,7 +418,7 @@ def _doubts(sheet: MotorSheet) -> Iterator[str]:
     if shaft is not None and body is not None and shaft > SHAFT_SHARE * body:
         yield (
             f"shaft_length_m is {shaft:g} m, {shaft / body:.2g} times its motor's body, and shafts "
-            f"stand out by less than {SHAFT_SHARE:g} times that: "
+            f"protrude by less than {SHAFT_SHARE:g} times that: "
             f"{_meant(shaft, 'm', shaft / body, (0.05, 1.0))}"
         )
     k_t, (slow, fast) = sheet.torque_constant, SPEED_CONSTANTS
@@ -443,7 +444,7 @@ def _doubts(sheet: MotorSheet) -> Iterator[str]:
 
 
 def _faults(sheet: MotorSheet) -> Iterator[str]:
-    """What is wrong with a row, one line each; a remark explains contradictions alone."""
+    """Faults of a row, one line each; only contradictions can be excused by a remark."""
     sizes = {name: size for name, size in vars(sheet).items() if name.endswith("_m") and size}
     large = {name: size for name, size in sizes.items() if size >= LARGEST}
     for name, size in large.items():
@@ -463,11 +464,11 @@ def _faults(sheet: MotorSheet) -> Iterator[str]:
     if voltage is not None and most is not None and voltage > most:
         yield f"rated_voltage_v is {voltage:g}, above voltage_max_v, {most:g}"
     if sheet.shaft_form is not None and sheet.shaft_diameter_m is None:
-        yield "shaft_form says nothing without shaft_diameter_m"
+        yield "shaft_form needs shaft_diameter_m"
     if sheet.rotor_screws is not None and sheet.rotor_screws not in CLASSES:
         yield f"rotor_screws is {sheet.rotor_screws!r}, which is none of {', '.join(CLASSES)}"
     if (sheet.stator is None) != (sheet.stator_face is None):
-        yield "stator_face and the stator's bolt circle say nothing without each other"
+        yield "stator_face and the stator's bolt circle need each other"
     if not sheet.remark:
         yield from (f"{doubt}; explain it in `remark`" for doubt in _contradictions(sheet))
 
@@ -479,7 +480,7 @@ def motors() -> Mapping[str, Motor]:
 
 
 def known_motors(file: Path | None = None) -> Mapping[str, Motor]:
-    """The catalogue and the motors of a user's file, which replace those of the same name.
+    """The catalogue's motors and those of a user's file, which replace ones of the same name.
 
     Raises:
         SpecificationError: see `load_entries`.
@@ -488,13 +489,13 @@ def known_motors(file: Path | None = None) -> Mapping[str, Motor]:
 
 
 def motor(name: str, known: Mapping[str, Motor] | None = None) -> Motor:
-    """The motor called `name`, of the catalogue or of `known`.
+    """The motor called `name`, from the catalogue or from `known`.
 
     Raises:
         SpecificationError: there is none; the hint names the closest.
     """
     rows = motors() if known is None else known
-    # As a design prints it, and as shops do.
+    # Maker and model, as printed in a design and by shops.
     behind_maker = {f"{each.maker} {each.name}": each for each in rows.values()}
     return entry(rows, name, "motor", behind_maker)
 
@@ -509,7 +510,7 @@ def load_motors(path: Path) -> Mapping[str, Motor]:
 
 
 def motor_doubts(path: Path) -> tuple[str, ...]:
-    """Sentences on what a file of motors states and hardly means, each with its row and column.
+    """Sentences on implausible values in a file of motors, each with its row and column.
 
     Raises:
         SpecificationError: see `load_entries`.
@@ -522,17 +523,17 @@ def _sheets(path: Path) -> Mapping[str, MotorSheet]:
     """Every row of a file by its motor's name."""
 
     def lacks(sheet: MotorSheet) -> str:
-        """Clause on the figures without which nobody can build with it; empty: none is missing."""
+        """Clause on missing data that are needed to build with it; empty: none is missing."""
         gaps = build_gaps(sheet.motor())
-        return f"to be built with, it lacks {', '.join(gaps)}" if gaps else ""
+        return f"to build with it, it lacks {', '.join(gaps)}" if gaps else ""
 
     return load_entries(path, "motor", MotorSheet, _faults, lacks)
 
 
 def motors_to_json(found: Iterable[Motor], warnings: Iterable[str] = ()) -> bytes:
-    """Motors as indented UTF-8 JSON, SI, each with what a direct drive and a builder lack of it.
+    """Motors as indented UTF-8 JSON, SI, each with data missing for a direct drive and to build.
 
-    With them go warnings about a user's file, one sentence each.
+    Warnings about a user's file, one sentence each, are included.
     """
     rows = [
         {

@@ -26,17 +26,17 @@ from typing import (
 from ocs_design.common.errors import SpecificationError
 from ocs_design.common.files import TextKind
 
-# A thousand motors take a quarter of a mebibyte.
+# A thousand motors take a quarter of a MiB.
 _FILE = TextKind("catalogue", 1 << 20, 5000, "Check the path.", "maker = 'maxon'")
 
 
 @dataclass(frozen=True)
 class Row:
-    """What one entry states.
+    """One entry as read.
 
     Attributes:
-        where: for people, as in `line 3` or `motor[2]`.
-        cells: column -> text of a CSV file or value of a TOML file; empty ones are left out.
+        where: its place in the file, such as `line 3` or `motor[2]`.
+        cells: column -> text of a CSV file or value of a TOML file; empty ones are omitted.
     """
 
     where: str
@@ -44,16 +44,16 @@ class Row:
 
 
 def read_rows(path: Path, kind: str, faults: list[str]) -> tuple[Row, ...]:
-    """Every entry of the file, in its order; what is wrong with its shape goes into `faults`.
+    """Every entry of the file, in order; structural faults are added to `faults`.
 
     Args:
-        path: of a `.csv` file with a line of column names, or of a `.toml` file with one
-            `[[kind]]` table per entry.
-        kind: of entry: `motor` or `gear`.
-        faults: one line is added for each fault.
+        path: a `.csv` file with a line of column names, or a `.toml` file with one `[[kind]]` table
+            per entry.
+        kind: kind of entry: `motor` or `gear`.
+        faults: list to which a line is added for each fault.
 
     Raises:
-        SpecificationError: the file cannot be read or is neither.
+        SpecificationError: the file cannot be read or has another suffix.
     """
     suffix = path.suffix.lower()
     if suffix not in {".csv", ".toml"}:
@@ -67,7 +67,7 @@ def read_rows(path: Path, kind: str, faults: list[str]) -> tuple[Row, ...]:
     faults.extend(f"{key}: unknown key; known: {kind}" for key in content if key != kind)
     tables, rows = content.get(kind, []), []
     if not isinstance(tables, list):
-        faults.append(f"{kind}: write each {kind} as a [[{kind}]] table")
+        faults.append(f"{kind}: give each {kind} as a [[{kind}]] table")
         return ()
     for index, table in enumerate(tables, 1):
         if isinstance(table, Mapping):
@@ -79,7 +79,7 @@ def read_rows(path: Path, kind: str, faults: list[str]) -> tuple[Row, ...]:
 
 
 def _csv_rows(text: str, name: str, faults: list[str]) -> Iterator[Row]:
-    """Row of each line but the first, which names the columns."""
+    """Row of each line except the first, which names the columns."""
     _FILE.check_lines(text, name)
     reader = csv.reader(text.splitlines(keepends=True), strict=True)
     try:
@@ -97,7 +97,7 @@ def _csv_rows(text: str, name: str, faults: list[str]) -> Iterator[Row]:
                 hint="Save it with commas between the columns, and points in numbers.",
             )
         faults.extend(
-            f"line 1: the column {column!r} stands there twice"
+            f"line 1: the column {column!r} occurs twice"
             for column in dict.fromkeys(columns)
             if columns.count(column) > 1
         )
@@ -109,14 +109,14 @@ def _csv_rows(text: str, name: str, faults: list[str]) -> Iterator[Row]:
             if len(cells) > len(columns):
                 faults.append(
                     f"{where}: has {len(cells)} cells for {len(columns)} columns; "
-                    'text with a comma stands in quotes, "like, this"'
+                    'put text with a comma in quotes, "like, this"'
                 )
             pairs = zip(columns, cells, strict=False)
             yield Row(where, {column: cell for column, cell in pairs if cell})
     except csv.Error as error:
         raise SpecificationError(
             f"{name}, line {reader.line_num}: is not CSV: {error}",
-            hint='Text with a comma stands in quotes, "like, this".',
+            hint='Put text with a comma in quotes, "like, this".',
         ) from error
 
 
@@ -127,7 +127,7 @@ C = TypeVar("C", bound=StrEnum)
 
 
 def text(raw: object) -> str:
-    """Text as it is."""
+    """Text, unchanged."""
     if not isinstance(raw, str):
         raise ValueError(f"{shortened(raw)} is not text; write it in quotes")  # noqa: TRY004  a Reader raises one kind
     return raw
@@ -168,10 +168,10 @@ def switch(raw: object) -> bool:
 
 
 def choice(words: type[C]) -> Callable[[object], C]:
-    """One of an enumeration's values."""
+    """A `Reader` of an enumeration's values."""
 
     def read(raw: object) -> C:
-        """A `Reader` of these words."""
+        """One of these values."""
         if not isinstance(raw, str) or raw not in set(words):
             raise ValueError(f"{shortened(raw)} is none of {', '.join(words)}")
         return words(raw)
@@ -180,13 +180,13 @@ def choice(words: type[C]) -> Callable[[object], C]:
 
 
 def numbers(raw: object) -> tuple[float, ...]:
-    """Positive numbers: a TOML array, or text with a space between them."""
+    """Positive numbers: a TOML array, or text separated by spaces."""
     listed = raw.split() if isinstance(raw, str) else raw if isinstance(raw, list) else [raw]
     return tuple(sorted({positive(number) for number in listed}))
 
 
 def tooth_counts(raw: object) -> tuple[int, ...]:
-    """Whole positive numbers, as `numbers`."""
+    """Positive whole numbers, in the form of `numbers`."""
     counts = numbers(raw)
     if any(count != int(count) for count in counts):
         raise ValueError(f"{shortened(raw)} are not whole numbers")
@@ -205,9 +205,9 @@ _READERS: Mapping[object, Reader] = {
 
 @cache
 def columns_of(sheet: type) -> Mapping[str, Reader]:
-    """Reader of each column, by the types of a dataclass's fields; None is left out of a file.
+    """Reader of each column, by the type of a dataclass's field; None means an omitted cell.
 
-    A field that its type does not say enough of names its reader: `Annotated[float, fraction]`.
+    Where the type is not specific enough, the field names its reader: `Annotated[float, fraction]`.
     """
     found: dict[str, Reader] = {}
     for name, hint in get_type_hints(sheet, include_extras=True).items():
@@ -232,21 +232,22 @@ def _number(raw: object) -> float:
 T = TypeVar("T")
 
 MOST_SUGGESTED = 3
-# One letter of five or more may be wrong.
+# Similarity of names above which they may be the same model: one letter of five or more may be
+# wrong.
 _SAME_MODEL = 0.8
 
 MOST_LISTED = 12
-"""Names in a hint; more are read in the catalogue itself."""
+"""Largest number of names listed in a hint; otherwise it refers to the catalogue."""
 
 
 def entry(known: Mapping[str, T], name: str, kind: str, also: Mapping[str, T] | None = None) -> T:
-    """The entry called `name`, whatever its capitals, spaces and dashes.
+    """The entry called `name`, ignoring case, spaces and dashes.
 
     Args:
         known: entries by name.
-        name: that is looked for.
-        kind: of the entries, for people.
-        also: entries by further names, which no hint shows.
+        name: name to find.
+        kind: of the entries, for messages.
+        also: entries by alternative names, which hints do not show.
 
     Raises:
         SpecificationError: there is none; the hint names the closest.
@@ -267,17 +268,17 @@ def entry(known: Mapping[str, T], name: str, kind: str, also: Mapping[str, T] | 
 
 
 def _letters(name: str) -> str:
-    """Letters and digits of a name, small."""
+    """Letters and digits of a name, in lower case."""
     return "".join(filter(str.isalnum, name.casefold()))
 
 
 def _closest(known: Iterable[str], name: str) -> Sequence[str]:
-    """Names that may be meant, three at most, the likeliest first.
+    """Names that may be meant, at most three, the likeliest first.
 
-    A model without its winding, or with its maker, is how people call a motor, misspelt or not.
+    People name a motor by its model without the winding, or with its maker, possibly misspelt.
     """
     words = [word for part in name.replace("-", " ").split() if (word := _letters(part))]
-    # A maker's name may stand beside the model's, which has a digit.
+    # The maker's name may accompany the model's, which contains a digit.
     for some in (words, [word for word in words if any(map(str.isdigit, word))][:1]):
         holding = [each for each in known if all(word in _letters(each) for word in some)]
         if some and holding:
@@ -292,11 +293,11 @@ def _closest(known: Iterable[str], name: str) -> Sequence[str]:
 
 
 class Named(Protocol):
-    """What a catalogue holds."""
+    """An entry of a catalogue."""
 
     @property
     def name(self) -> str:
-        """Unique in its catalogue."""
+        """Name, unique in its catalogue."""
 
 
 E = TypeVar("E", bound=Named)
@@ -313,13 +314,13 @@ def load_entries(
 
     Args:
         path: of the file.
-        kind: of entry: `motor` or `gear`.
+        kind: kind of entry: `motor` or `gear`.
         sheet: dataclass whose fields are the columns.
-        faults_of: what is wrong with an entry whose cells can be read, one line each.
-        lacks: what else an entry needs before it is of use, told together with faults.
+        faults_of: faults of an entry whose cells can be read, one line each.
+        lacks: what else an entry needs to be useful, reported together with faults.
 
     Raises:
-        SpecificationError: it cannot be read, or has faults, all of which are listed.
+        SpecificationError: it cannot be read, or has faults, which are all listed.
     """
     faults: list[str] = []
     found: dict[str, E] = {}
@@ -337,7 +338,7 @@ def load_entries(
         read = sheet(**values)
         if len(faults) == before:
             faults.extend(f"{where}: {fault}" for fault in faults_of(read))
-        # A number that is wrong is told as such, and not as missing too.
+        # An invalid number is reported as such, and not as missing too.
         lacking[where] = lacks(sheet(**values | dict.fromkeys(unread, 1)))
         found[read.name] = read
     faults += twice
@@ -351,9 +352,9 @@ def load_entries(
 def _read_cells(
     row: Row, where: str, sheet: type, faults: list[str]
 ) -> tuple[dict[str, Any], tuple[str, ...]]:
-    """The value of each column that can be read, and the columns of numbers that cannot.
+    """The value of each readable column, and the number columns that cannot be read.
 
-    Texts that must be there are empty where they cannot be read.
+    Required texts are empty where they cannot be read.
     """
     columns, values, unread = columns_of(sheet), {}, []
     for column, raw in row.cells.items():
@@ -384,7 +385,7 @@ def packaged(name: str, load: Callable[[Path], Mapping[str, E]]) -> Mapping[str,
 def extended(
     known: Mapping[str, E], file: Path | None, load: Callable[[Path], Mapping[str, E]]
 ) -> Mapping[str, E]:
-    """These entries and those of a user's file, which replace those of the same name."""
+    """These entries and those of a user's file, which replace ones of the same name."""
     return known if file is None else _by_name({**known, **load(file)})
 
 

@@ -1,9 +1,9 @@
-"""Whether the figures of a design agree with each other.
+"""Check that the figures of a design agree with each other.
 
-`size` weighs a device by its dimensions and writes both. Files that are made of a `design.json`
-take some of them from the one and some from the other, so that an edit of a single key makes a
-wheel that weighs one thing on its drawing and another in the bill. So all that a design states of
-its masses, inertias and limits is computed again, by the functions that it was sized with.
+`size` computes masses from dimensions and writes both. Files made from a `design.json` use the ones
+or the others, so that after an edit of a single key a wheel would have different masses on its
+drawing and in the bill of materials. So all masses, inertias and limits of a design are computed
+again, by the functions with which it was sized.
 """
 
 from collections.abc import Iterator
@@ -26,22 +26,23 @@ from ocs_design.parts.solids import Carrier
 from ocs_design.robot.mass import MassProperties, combine
 
 ROUNDING = 1e-8
-"""Difference that is none, over the largest of the figures compared; files have full precision."""
+"""Difference, relative to the largest of the figures compared, that counts as rounding; files have
+full precision."""
 
 _LEAST = {"m": 1e-2}
-"""Size that the rounding of a figure is measured by at the least, by its unit: [m]."""
+"""Least size, by unit, relative to which the rounding of a figure is measured [m]."""
 
 _NAMED = 2
-"""Contradictions that a message names."""
+"""Number of contradictions that a message names."""
 
 
 class _Figure(NamedTuple):
-    """A figure of a design, and what others of the same design make of it.
+    """A figure of a design, and the value that follows from others of the same design.
 
     Attributes:
-        key: in `design.json`. stated: there. found: from the others.
+        key: in `design.json`. stated: value there. found: value from the others.
         unit: of both; empty: words or plain numbers.
-        others: that `found` comes from, for people.
+        others: text on the figures from which `found` follows.
     """
 
     key: str
@@ -52,7 +53,7 @@ class _Figure(NamedTuple):
 
     @property
     def agrees(self) -> bool:
-        """Whether both are one but for rounding."""
+        """Whether both are equal except for rounding."""
         if isinstance(self.found, str):
             return self.stated == self.found
         stated, found = (np.ravel(np.asarray(each, float)) for each in (self.stated, self.found))
@@ -62,13 +63,13 @@ class _Figure(NamedTuple):
         return bool((np.abs(stated - found) <= ROUNDING * size).all())
 
     def __str__(self) -> str:
-        """Text for people: what is stated, and what it should be."""
+        """Text on the stated value and the one that it should be."""
         stated, found = (_text(each, self.unit) for each in (self.stated, self.found))
         return f"{self.key} is {stated}, but {self.others} {found}"
 
 
 def _text(value: object, unit: str) -> str:
-    """A figure for people; the rows of a matrix one after the other."""
+    """A figure as text; the rows of a matrix one after the other."""
     if isinstance(value, str):
         return repr(value)
     figures = np.ravel(np.asarray(value, float)).tolist()
@@ -82,10 +83,10 @@ def check_agreement(design: OcsDesign, device: Device) -> None:
     """Refuse a design whose figures contradict each other.
 
     Args:
-        design: as it is written. device: that it describes, which can be made (`check_device`).
+        design: as written. device: device that it describes, already checked (`check_device`).
 
     Raises:
-        OcsError: with the first contradictions, each with its key.
+        OcsError: names the first contradictions, each with its key.
     """
     faults: list[str] = []
     try:
@@ -98,18 +99,19 @@ def check_agreement(design: OcsDesign, device: Device) -> None:
         more = f"; and {rest} more" if rest > 0 else ""
         raise OcsError(
             f"the design contradicts itself: {'; '.join(faults[:_NAMED])}{more}",
-            hint="a design.json is what `ocs-design size` found, not what it reads: change the "
+            hint="design.json is an output of `ocs-design size`, not an input: change the "
             "specification, and run `ocs-design size` again",
         )
 
 
 def _figures(design: OcsDesign, device: Device) -> Iterator[_Figure]:
-    """Figures that others of the design make again, the smallest part first."""
+    """Figures that follow from others of the design, the smallest part first."""
     yield from _of_choice(design)
     yield from _of_drive(device)
     yield from _of_limits(design, device)
     yield from _of_wheel(device)
-    # Another version may make what stands still otherwise; the bill tells what that comes to.
+    # Another version may build the stationary parts differently; the bill of materials reports the
+    # difference.
     if design.tool.version == __version__ and design.ocs.center_of_mass is not None:
         yield from _of_carrier(device)
     ocs, angle = design.ocs, "ocs.incidence makes it"
@@ -134,7 +136,7 @@ def _figures(design: OcsDesign, device: Device) -> Iterator[_Figure]:
 
 
 def _of_choice(design: OcsDesign) -> Iterator[_Figure]:
-    """Names and voltage, which the record of the choice has too."""
+    """Names and voltage, which the record of the selection repeats."""
     motor, chosen = design.ocs.motor, design.selection
     if chosen is None:
         return
@@ -152,7 +154,7 @@ def _of_choice(design: OcsDesign) -> Iterator[_Figure]:
 
 
 def _of_drive(device: Device) -> Iterator[_Figure]:
-    """The voltage line (`actuation.drive`)."""
+    """Figures of the torque-speed line (`actuation.drive`)."""
     motor = device.motor
     voltage, k_t, resistance = motor.bus_voltage, motor.torque_constant, motor.resistance
     if voltage is None or k_t is None:
@@ -165,9 +167,9 @@ def _of_drive(device: Device) -> Iterator[_Figure]:
 
 
 def _of_limits(design: OcsDesign, device: Device) -> Iterator[_Figure]:
-    """Limits of drive and supply, which the margins have as capacities where there are any.
+    """Limits of drive and supply, which are also the capacities of margins, where there are any.
 
-    Flights keep to the one, and are judged by the other.
+    Flights obey the former, and are judged by the latter.
     """
     motor, supply = device.motor, design.supply
     allowed = {each.name: each.capacity for each in design.margins}
@@ -192,7 +194,7 @@ def _of_wheel(device: Device) -> Iterator[_Figure]:
     wheel, motor, sizes = device.flywheel, device.motor, "its dimensions make it"
     web, hub, of = wheel.web, None, wheel.density
     if web is not None:
-        # Version 1 had the thickness beside the hub alone.
+        # Version 1 stored the thickness only beside the hub.
         hub, of = replace(web.hub, web_thickness=web.thickness), web.density
         mass = hub.mass_with_web(wheel.inner_radius, of)
         yield _Figure("ocs.flywheel.web.mass", web.mass, mass, "kg", sizes)
@@ -225,12 +227,12 @@ def _of_wheel(device: Device) -> Iterator[_Figure]:
 
 
 def _sizes(holes: WebHoles | None) -> tuple[float, ...]:
-    """Number and radii of holes [m]; nothing without any."""
+    """Number and radii of holes [m]; empty without any."""
     return () if holes is None else (holes.count, holes.circle_radius, holes.hole_radius)
 
 
 def _of_carrier(device: Device) -> Iterator[_Figure]:
-    """What stands still around each wheel, and the hub on the motor."""
+    """Figures of the stationary parts around each wheel, and of the hub on the motor."""
     motor, wheel, stated = device.motor, device.flywheel, device.carrier
     web = wheel.web
     if web is not None:

@@ -1,4 +1,4 @@
-"""What the commands answer, as plain values that become JSON documents and tables (SI)."""
+"""Answers of the commands, as plain values that become JSON documents and tables (SI)."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -24,16 +24,16 @@ from ocs_design.robot.robot import Robot
 
 @dataclass(frozen=True, kw_only=True)
 class BoundAnswer:
-    """A bound and where it lies on its curve; SI.
+    """A bound and its curve; SI.
 
     Attributes:
         axis: "roll" or "pitch".
-        inertia: of the robot about it. rate_change, wheel_speed_max, incidence: as asked.
-        paper: inertia of the one-wheel model as the paper prints it.
-        required: the same with the paper's sign put right; the tool sizes by this one.
+        inertia: of the robot about it. rate_change, wheel_speed_max, incidence: as requested.
+        paper: inertia of the one-wheel model as printed in the paper.
+        required: the same with the paper's sign error corrected; used for sizing.
         spin_inertia: of each of two wheels at the incidence, from `required`.
         rate_changes, wheel_speeds: of the curve.
-        curve: required over robot's inertia, a row for each wheel speed.
+        curve: required inertia relative to the robot's, one row for each wheel speed.
     """
 
     schema_version: int = SCHEMA_VERSION
@@ -55,11 +55,11 @@ class LayoutAnswer:
     """The lightest device of one layout.
 
     Attributes:
-        layout: its name. wheels: how many. mass: of the device [kg]. motor: its name.
-        momentum: that the wheels take at their highest speed about roll, pitch and yaw, each alone
-            [N m s]. momentum_without_one: the least of it with any one wheel lost.
-        survives: maneuvers that it does with any one wheel left out, by closed form.
-        open: what keeps it from being built, as far as its place on the trunk tells.
+        layout: its name. wheels: number of wheels. mass: of the device [kg]. motor: its name.
+        momentum: largest momentum of the wheels about roll, pitch and yaw, each alone [N m s].
+        momentum_without_one: the least of it with any one wheel lost.
+        survives: maneuvers that it does with any one wheel missing, by closed form.
+        open: points that keep it from being built, as far as they concern its place on the trunk.
         without: why there is no device; empty if there is one.
     """
 
@@ -111,7 +111,7 @@ def posture_lines(robot: Robot) -> tuple[PostureLine, ...]:
 
 @dataclass(frozen=True, kw_only=True)
 class LegLine:
-    """A leg: link of its foot, what it ends in (`ball`, `sole`, `wheel`, `point`), its joints."""
+    """A leg: link of its foot, kind of its end (`ball`, `sole`, `wheel`, `point`), its joints."""
 
     foot: str
     ends_in: str
@@ -121,7 +121,7 @@ class LegLine:
 
 @dataclass(frozen=True, kw_only=True)
 class ReadingLine:
-    """A way to read a robot: trunk, links of the feet, and how sure that is, 0 to 1."""
+    """An interpretation of a robot: trunk, links of the feet, and confidence, 0 to 1."""
 
     trunk: str
     legs: tuple[str, ...]
@@ -130,16 +130,16 @@ class ReadingLine:
 
 @dataclass(frozen=True, kw_only=True)
 class RecognitionRecord:
-    """What was recognised of a robot.
+    """What was recognised in a robot.
 
     Attributes:
         trunk: link that carries the device.
         legs: with their feet.
         forward, left, up: axes of the trunk's link, as `+x`.
-        stated: what the user named: `trunk`, `legs`.
-        confidence: share of the signs that speak for it, 0 to 1; 1 where it was stated.
+        stated: items specified by the user: `trunk`, `legs`.
+        confidence: fraction of the signs that support it, 0 to 1; 1 where specified.
         speaks_for, speaks_against: the signs.
-        likely: readings to choose from where it is not clear; empty where it is.
+        likely: interpretations to choose from if ambiguous; otherwise empty.
     """
 
     trunk: str
@@ -155,7 +155,7 @@ class RecognitionRecord:
 
     @classmethod
     def of(cls, robot: Robot) -> "RecognitionRecord | None":
-        """Record of a robot from a file; None for one by hand."""
+        """Record of a robot from a file; None for one given by numbers."""
         recognition = robot.recognition
         if recognition is None:
             return None
@@ -197,9 +197,9 @@ class RecognitionRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class Inspection:
-    """Everything that is known of a robot without a device.
+    """Everything that is known about a robot without a device.
 
-    `recognition` is None for a robot by hand.
+    `recognition` is None for a robot given by numbers.
     """
 
     schema_version: int = SCHEMA_VERSION
@@ -214,15 +214,15 @@ class Inspection:
 
 @dataclass(frozen=True, kw_only=True)
 class FrontDevice:
-    """The lightest device of a point; SI.
+    """The lightest device of a front's point; SI.
 
     Attributes:
-        mass: of the whole device, with plate or pedestals [kg], as `size` tells it.
-        share: of the robot's mass.
+        mass: of the whole device, with plate or pedestals [kg], as `size` reports it.
+        share: fraction of the robot's mass.
         motor, gear, material: names in the catalogue.
         incidence: of the wheel axes.
         outer_radius, inner_radius, height, rim_mass: of one rim.
-        spin_inertia: of one wheel, rotor included.
+        spin_inertia: of one wheel, including the rotor.
     """
 
     mass: float
@@ -240,12 +240,12 @@ class FrontDevice:
 
 @dataclass(frozen=True, kw_only=True)
 class FrontPoint:
-    """One value of the figure that is varied, and the lightest device there.
+    """One value of the varied figure, and the lightest device there.
 
     Attributes:
         value: [SI].
         file: of its specification, below the output folder. specification: its text.
-        device: None: there is none.
+        device: the lightest device; None: there is none.
         reason: why there is none; empty if there is one.
     """
 
@@ -258,15 +258,15 @@ class FrontPoint:
 
 @dataclass(frozen=True, kw_only=True)
 class Front:
-    """Lightest devices over one figure that is varied; SI.
+    """Lightest devices over one varied figure; SI.
 
     Attributes:
-        robot: its name. against: what is varied, by its name and for people.
-        unit: in which people read the values. si_unit: in which they are.
-        own_value: the specification's.
-        remarks: what moves with it, and what does not.
-        assumptions: of the specification as it stands.
-        points: by rising value.
+        robot: its name. against, label: the varied figure, by name and as text.
+        unit: unit for display. si_unit: unit of the values.
+        own_value: value in the specification.
+        remarks: what changes with the figure, and what does not.
+        assumptions: of the original specification.
+        points: by increasing value.
     """
 
     schema_version: int = SCHEMA_VERSION
@@ -313,7 +313,7 @@ class Initialized:
     Attributes:
         file: the specification.
         robot: its name; None: none was given.
-        next: the command that designs by it.
+        next: the command that designs from it.
     """
 
     schema_version: int = SCHEMA_VERSION
@@ -327,10 +327,10 @@ class Exported:
     """The files that `export` wrote.
 
     Attributes:
-        folder: that it was written to.
-        files: SHA-256 of each file that was made, by its path in the folder.
-        warnings: about the robot or what was not drawn, one sentence each.
-        notes: what else is to be known of the files.
+        folder: output folder.
+        files: SHA-256 of each file, by its path in the folder.
+        warnings: about the robot or parts not drawn, one sentence each.
+        notes: further remarks on the files.
     """
 
     schema_version: int = SCHEMA_VERSION
@@ -344,18 +344,18 @@ class Exported:
 
 
 RESULT_FILE = "monte_carlo.json"
-"""Record of a campaign, written last: a folder without it is not complete, and the same command
+"""Record of a campaign, written last: a folder without it is incomplete, and the same command
 completes it."""
 
 CERTIFICATE_FOLDER = "certificate"
-"""Folder of the many flights of `--certify`."""
+"""Folder of the flights of `--certify`."""
 
 CONFIDENCE = 0.95
-"""Confidence of the intervals of all shares."""
+"""Confidence level of all intervals of probabilities."""
 
 QUANTILES = (0.0, 0.05, 0.5, 0.95, 1.0)
 BINS = 12
-"""Shares at which a spread is told, and bars of its histogram."""
+"""Number of bars of a spread's histogram."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -382,12 +382,12 @@ class Share:
 
 @dataclass(frozen=True, kw_only=True)
 class Cause:
-    """A drawn quantity that the outcome goes with.
+    """A sampled quantity that correlates with the outcome.
 
     Attributes:
         quantity: see `uncertainty.quantities`.
         correlation: Spearman's, of the quantity with the severity, -1..1.
-        either_way: it is the distance of the quantity from its median that counts.
+        either_way: whether the distance of the quantity from its median counts instead.
     """
 
     quantity: str
@@ -397,7 +397,7 @@ class Cause:
 
 @dataclass(frozen=True, kw_only=True)
 class Spread:
-    """How a figure of the flights is spread, SI.
+    """Distribution of a figure of the flights, SI.
 
     Attributes:
         quantiles: at `QUANTILES`.
@@ -410,17 +410,17 @@ class Spread:
 
 @dataclass(frozen=True, kw_only=True)
 class ScenarioSummary:
-    """How the flights of one scenario went.
+    """Summary of the flights of one scenario.
 
     Attributes:
-        scenario: its name. success: how often it passes.
-        faults: how often each kept a flight from passing.
-        attitude_error: largest of roll and pitch at touchdown, and of what a flip lacks [rad].
+        scenario: its name. success: probability that it passes.
+        faults: number of flights that failed by each fault.
+        attitude_error: largest of roll and pitch at touchdown and of a flip's missing angle [rad].
         peak_wheel_speed, peak_wheel_torque: in flight [rad/s], [N m].
-        causes: what bad outcomes go with. worst: samples, the worst first.
-        advice: how to mend what fails, where that is known; one sentence or empty.
-        level: how many touch down level; None: there is no touchdown.
-        stands: how many are upright at the end, whatever their legs bear; None: there are none.
+        causes: quantities that correlate with bad outcomes. worst: samples, the worst first.
+        advice: remedy for failures, where known; one sentence or empty.
+        level: number of flights that touch down level; None: there is no touchdown.
+        stands: number of robots upright at the end, regardless of leg loads; None: not applicable.
     """
 
     scenario: str
@@ -438,15 +438,15 @@ class ScenarioSummary:
 
 @dataclass(frozen=True, kw_only=True)
 class MonteCarloRecord:
-    """What the flights of a campaign show.
+    """Results of a campaign of flights.
 
     Attributes:
-        seed: of all samples. samples: that were flown. asked: for at most.
+        seed: of all samples. samples: number flown. asked: largest number requested.
         confidence: of the intervals.
         reality: the distribution of each key of `[reality]`, SI.
-        success: how often one robot passes all scenarios.
-        scenarios: one by one.
-        certificate: where one was asked for, see `certificate`.
+        success: probability that one robot passes all scenarios.
+        scenarios: summary of each.
+        certificate: where requested, see `certificate`.
     """
 
     seed: int
@@ -470,9 +470,9 @@ class SampleRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class Validated:
-    """Flights of a design that was read.
+    """Flights of a design that was read from its folder.
 
-    `validation` has the flights as designed, or those of `sample` if that is given.
+    `validation` has the flights as designed, or those of `sample` if given.
     """
 
     schema_version: int = SCHEMA_VERSION
@@ -486,7 +486,7 @@ class Validated:
 
     @property
     def exit_code(self) -> int:
-        """0, or 1 if a scenario does not pass with the device, or what was asked is not met."""
+        """0, or 1 if a scenario does not pass with the device, or a requirement is not met."""
         certificate = None if self.monte_carlo is None else self.monte_carlo.certificate
         return int(falls_short(self.validation, self.survival, certificate))
 

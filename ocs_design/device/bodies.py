@@ -1,10 +1,11 @@
-"""Bodies of the device in robot files: names of their own, places, inertia, limits of motors.
+"""Bodies of the device in robot files: names, placements, inertia, and limits of motors.
 
-Braked, a module is its wheel and its carrier, the rotor held still within the motor. Turning, the
-wheel's body carries all momentum about the spin axis, the rotor's through the gear included: h =
-I_rim + s N J_r. So the carrier's body gives up s N J_r, and the sum stays what the scales and a
-pendulum would say of the braked module. For direct drive this is the rotor itself; behind a gear
-the carrier keeps J_r - s N J_r of it, and the joint's armature holds the rest of its energy.
+With wheels braked, a module is its wheel and its carrier, the rotor at rest within the motor. With
+wheels turning, the wheel's body carries all momentum about the spin axis, including the rotor's
+through the gear: h = I_rim + s N J_r. So s N J_r is taken off the carrier's body, and the sum stays
+that of the braked module, as scales and a pendulum would measure it. For direct drive this is the
+rotor itself; with a gear the carrier keeps J_r - s N J_r of it, and the joint's armature accounts
+for the rest of its energy.
 """
 
 from collections.abc import Iterable, Iterator
@@ -22,10 +23,10 @@ from ocs_design.robot.mass import MassProperties, combine
 
 PREFIX = "ocs_"
 PLATE = f"{PREFIX}plate"
-"""Link and fixed joint in URDF, body in MJCF: the plate that the feet stand on."""
+"""Name of the plate that the feet stand on: link and fixed joint in URDF, body in MJCF."""
 
 IMU = f"{PREFIX}imu"
-"""Site in MJCF, at the base frame B."""
+"""Name of the site in MJCF at the base frame B."""
 
 IMU_SENSORS = f"{IMU}_attitude", f"{IMU}_rate"
 """Names of the sensors in MJCF of B's attitude as a quaternion and of its rate [rad/s]."""
@@ -36,7 +37,8 @@ STEEL = (0.55, 0.57, 0.6, 1.0)
 """Colour of wheels: red, green, blue and opacity, 0..1."""
 
 WHEEL_CONTACT_BIT = 1 << 16
-"""`conaffinity` of the wheels in MJCF: a floor with this bit in its `contype` meets them."""
+"""`conaffinity` of the wheels in MJCF: a floor with this bit in its `contype` collides with
+them."""
 
 _MOST = 0.99
 """Largest share of its axial inertia that a carrier may give up: the rest must be a possible body.
@@ -45,12 +47,12 @@ Beyond that, with a light motor behind a high gear, the files have more inertia 
 """
 
 _DISC = np.diag([1.0, 0.0, 1.0])
-"""Axes of the module's frame across which a rotor has second moments."""
+"""Axes of the module's frame along which a rotor has second moments."""
 
 _ROUNDING = 1e-12
 
 _FROM_MODULE = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
-"""Rotation from the left module's frame, its axis along y, to its wheel's, the axis along z."""
+"""Rotation from the left module's frame (axis along y) to its wheel's (axis along z)."""
 
 
 def flywheel_name(module: Module) -> str:
@@ -74,10 +76,10 @@ def wheel_sensors(module: Module) -> tuple[str, str]:
 
 
 def require_free(kind: str, taken: Iterable[str], wanted: Iterable[str]) -> None:
-    """Refuse a robot that uses one of the device's names itself.
+    """Refuse a robot that already uses one of the device's names.
 
     Args:
-        kind: what is named, for the message: link, joint, actuator.
+        kind: kind of named element, for the message: link, joint, actuator.
         taken: the robot's own names.
         wanted: the device's.
     """
@@ -90,7 +92,7 @@ def require_free(kind: str, taken: Iterable[str], wanted: Iterable[str]) -> None
 
 
 def require_no_device(joints: Iterable[str]) -> None:
-    """Refuse a robot that has a device already, by its joints, before another one is sized."""
+    """Refuse a robot that already has a device, judged by its joints, before another is sized."""
     names = (name for each in LayoutName for name in Layout(each).names)
     require_free("joint", joints, (f"{PREFIX}{name}" for name in names))
 
@@ -108,9 +110,9 @@ def joint_names(device: Device) -> tuple[str, ...]:
 def wheel_rpy(axis: FloatArray) -> tuple[float, float, float]:
     """Roll, pitch and yaw [rad] of the frame whose z axis is the unit vector `axis`.
 
-    Of all such frames the one without pitch: `z = Rz(yaw) Rx(roll) e_z
-    = (sin(yaw) sin(roll), -cos(yaw) sin(roll), cos(roll))`, with roll in -pi..0. For the paper's
-    axes roll is -90 degrees, and yaw is the incidence angle, negative on the left.
+    Of all such frames, the one without pitch: `z = Rz(yaw) Rx(roll) e_z = (sin(yaw) sin(roll),
+    -cos(yaw) sin(roll), cos(roll))`, with roll in -pi..0. For the paper's axes roll is -90 degrees,
+    and yaw is the incidence angle, negative on the left.
     """
     x, y, z = (float(value) for value in axis)
     return -float(np.arctan2(np.hypot(x, y), z)), 0.0, float(np.arctan2(-x, y))
@@ -124,26 +126,26 @@ def wheel_placement(module: Module) -> Placement:
 def carrier_placement(module: Module) -> Placement:
     """Frame of the carrier in the wheel's, the motor on the inner side.
 
-    All modules are of the same parts. Of a pair the carrier's frame is the left wheel's own; in the
-    right module it is turned by half a turn about the vertical.
+    All modules have the same parts. In a pair the carrier's frame is the left wheel's own; in the
+    right module it is rotated by half a turn about the vertical.
     """
     turn = wheel_placement(module).rotation.T @ module.frame @ _FROM_MODULE.T
-    # Half a turn is one to the last digit.
+    # Round half turns to the last digit.
     whole = np.round(turn)
     return Placement(np.where(np.abs(turn - whole) < _ROUNDING, whole, turn), np.zeros(3))
 
 
 def largest_torque(motor: Drive) -> float | None:
-    """Torque that the motor gives at rest [N m]; None if it is not limited."""
+    """Torque of the motor at rest [N m]; None if not limited."""
     limits = [limit for limit in (motor.torque_limit, motor.stall_torque) if limit is not None]
     return min(limits, default=None)
 
 
 def flywheel_inertial(device: Device) -> MassProperties:
-    """Wheel in its own frame, with the inertia of its rotor: a disc's, half as much across.
+    """Wheel in its own frame, including its rotor as a disc, with half its inertia transversely.
 
-    Without that half a thin rim with a rotor would have more inertia about its axis than a flat
-    body can have, and simulators refuse it.
+    Without that half, a thin rim with a rotor would have more inertia about its axis than a flat
+    body can have, and simulators would refuse it.
     """
     wheel, rotor = device.flywheel, device.motor.rotor_inertia
     across = wheel.transverse_inertia + 0.5 * rotor
@@ -152,15 +154,16 @@ def flywheel_inertial(device: Device) -> MassProperties:
 
 
 def carrier_inertial(device: Device, module: Module) -> MassProperties | None:
-    """Carrier (all that stands still) in the frame of the module's wheel; None if massless.
+    """Carrier (all stationary parts) in the frame of the module's wheel; None if massless.
 
-    It lacks what the wheel's body has of the rotor's inertia.
+    The part of the rotor's inertia that the wheel's body has is taken off.
     """
     carrier = device.carrier
     if carrier.mass == 0.0:
         return None
     second = np.trace(carrier.inertia) / 2.0 * np.eye(3) - carrier.inertia
-    # A motor of unknown length is a thin disc, which rounding must not make flatter than flat.
+    # A motor of unknown length is a thin disc, whose second moment must not become negative by
+    # rounding.
     second[1, 1] = max(second[1, 1], 0.0)
     # Inertia of the largest rotor that may be taken off.
     tilt = second[1, 2] ** 2 / second[1, 1] if second[1, 1] > 0.0 else 0.0
@@ -180,8 +183,8 @@ class DeviceBody:
         name: of its link or body.
         own: mass properties in its own frame.
         position, rpy: of that frame in the base frame B [m], [rad].
-        module: that it belongs to; None: it is what is under all feet.
-        joint: by which it turns about its z axis; empty: it is fixed to the trunk.
+        module: module that it belongs to; None: the plate or pedestals under all feet.
+        joint: joint about its z axis; empty: fixed to the trunk.
     """
 
     name: str
@@ -198,7 +201,7 @@ class DeviceBody:
 
 
 def device_bodies(device: Device) -> Iterator[DeviceBody]:
-    """Wheel and carrier of each module, then what is under their feet; nothing without mass."""
+    """Wheel and carrier of each module, then plate or pedestals; massless bodies are omitted."""
     for module in device.modules:
         at, turn = module.position, wheel_rpy(module.axis)
         wheel = flywheel_inertial(device)

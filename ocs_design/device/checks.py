@@ -1,6 +1,7 @@
-"""Faults of a device in a `design.json`, and warnings about one that makes no sense.
+"""Faults of a device in a `design.json`, and warnings about implausible ones.
 
-Files are made from it without a second look, so what is no length, mass or direction ends here.
+Files are made from it without further checks, so invalid lengths, masses and directions are refused
+here.
 """
 
 from collections.abc import Collection, Iterator, Mapping
@@ -23,14 +24,14 @@ LARGEST_LENGTH, SMALLEST_LENGTH = 100.0, 1e-7
 """Limits of a wheel's dimensions [m]."""
 
 MOST_BOLTS = 100
-"""And holes of any other ring."""
+"""Largest number of bolts or holes in a ring."""
 
 _OR_NONE = (
     *("inner_radius", "bore_radius", "bolt_circle_radius", "bolt_hole_radius", "length"),
     *("chamfer", "hole_radius", "hole_depth"),
 )
 _OF_GEARS = ("gear_room.depth", "offset", "wheel_radius", "motor_radius", "center")
-"""Lengths [m] that are zero where there is no such thing."""
+"""Lengths [m] that are zero where the feature is absent."""
 
 _LENGTHS = {
     "outer_radius",
@@ -58,19 +59,20 @@ _CHOICES: Mapping[str, Collection[str | int]] = {
     "screws": CLASSES,
     "lightening": LIGHTENED,
 }
-"""Words and numbers that there are, by the name of the figure."""
+"""Allowed words and numbers, by the name of the figure."""
 
 _UNIT_TOLERANCE = 1e-6
 
 _ROUNDED = 1e-4
-"""Difference of two thicknesses that are one [m]: milled to a tenth of a millimetre."""
+"""Difference of two thicknesses that count as equal [m]: they are milled to a tenth of a
+millimetre."""
 
 
 def check_device(device: Device) -> None:
     """Refuse a device that cannot be made.
 
     Raises:
-        OcsError: with every fault.
+        OcsError: lists every fault.
     """
     faults = [
         fault
@@ -87,7 +89,7 @@ def check_device(device: Device) -> None:
             _outside("ocs.foot_plate", device.foot_plate, SMALLEST_LENGTH, LARGEST_LENGTH)
         )
     if device.supply is not None:
-        # A limit that it does not have is infinite.
+        # An absent limit is infinite.
         for name, highest in (("voltage", LARGEST), ("current_max", inf), ("power_max", inf)):
             value = getattr(device.supply, name)
             if not 0.0 < value <= highest:
@@ -99,19 +101,19 @@ def check_device(device: Device) -> None:
     for module in device.modules:
         axis = module.axis
         if np.abs(axis).max() > 2.0 or abs(float(axis @ axis) - 1.0) > _UNIT_TOLERANCE:
-            faults.append(f"the axis of module {module.name} is no unit vector")
+            faults.append(f"the axis of module {module.name} is not a unit vector")
         if not (np.abs(module.position) <= LARGEST_LENGTH).all():
-            faults.append(f"the position of module {module.name} is beyond all measure")
+            faults.append(f"the position of module {module.name} is out of range")
     faults += _wheel_faults(device.flywheel)
     if faults:
         raise OcsError(
             f"the design describes a device that cannot exist: {'; '.join(faults)}",
-            hint="run `ocs-design size` again to write the design anew",
+            hint="run `ocs-design size` again to write a new design",
         )
 
 
 def _wheel_faults(wheel: Flywheel) -> Iterator[str]:
-    """Faults of a wheel beyond single figures: what is not within what is around it."""
+    """Faults of a wheel beyond single figures: parts that do not fit within each other."""
     if wheel.inner_radius >= wheel.outer_radius:
         yield "flywheel.inner_radius is not below outer_radius"
     if wheel.web is not None and wheel.web.hub.radius >= wheel.inner_radius:
@@ -121,18 +123,18 @@ def _wheel_faults(wheel: Flywheel) -> Iterator[str]:
 
 
 def _plate_faults(plate: CarrierPlate) -> Iterator[str]:
-    """Faults of a plate beyond single figures: numbers of holes and their places."""
+    """Faults of a plate beyond single figures: numbers and positions of holes."""
     if len(plate.trunk) != len(plate.sleeves):
-        yield "plate.trunk and plate.sleeves must have one length each"
+        yield "plate.trunk and plate.sleeves must have the same length"
     if plate.arms < 2 or not plate.shape.fits:
         yield "plate.half_length leaves no room between its ends"
     if plate.levels and len(plate.levels) != len(plate.rows):
-        yield "plate.rows and plate.levels must have one length each"
+        yield "plate.rows and plate.levels must have the same length"
     mast = plate.mast
     if mast is not None and not (plate.trunk and 0.0 < 2.0 * mast.wall < mast.side):
         yield "plate.mast has no bore or no screws"
     if mast is not None and not (mast.low < mast.high and mast.back > 0.0 <= mast.spacer):
-        yield "plate.mast has an end or an arm of no length"
+        yield "plate.mast has an end or an arm of zero length"
     yield from () if mast is None or not mast.formed else _form_faults(mast)
     if not 0.0 < plate.neck <= plate.radius:
         yield "plate.neck is not between 0 and plate.radius"
@@ -142,26 +144,26 @@ def _plate_faults(plate: CarrierPlate) -> Iterator[str]:
                 yield f"plate.{name} has a hole at ({x:g}, {y:g}), beyond plate.half_length"
     lengths = np.array([*plate.position, *plate.sleeves, *np.ravel([*plate.trunk, *plate.feet])])
     if not (np.abs(lengths) <= LARGEST_LENGTH).all() or min(plate.sleeves, default=0.0) < 0.0:
-        yield "a place of the plate is beyond all measure"
+        yield "a position on the plate is out of range"
 
 
 def _form_faults(mast: Mast) -> Iterator[str]:
-    """Faults of a block that has the trunk's form."""
+    """Faults of a block shaped to the trunk."""
     columns = {len(row) for row in mast.formed}
     if len(mast.formed) < 2 or len(columns) > 1 or min(columns) < 2:
-        yield "plate.mast.formed is no grid"
+        yield "plate.mast.formed is not a grid"
         return
     thin, thick = min(map(min, mast.formed)), max(map(max, mast.formed))
     if not SMALLEST_LENGTH <= thin <= thick <= LARGEST_LENGTH:
-        yield "plate.mast.formed has a thickness beyond all measure"
+        yield "plate.mast.formed has a thickness out of range"
     elif abs(thin - mast.spacer) > _ROUNDED:
         yield "plate.mast.spacer is not the least of plate.mast.formed"
 
 
 def _pedestal_faults(device: Device) -> Iterator[str]:
-    """Faults of pedestals: sizes out of range, places far off, a module that does not exist."""
+    """Faults of pedestals: sizes or positions out of range, nonexistent modules."""
     if device.plate is not None and device.pedestals:
-        yield "a plate and pedestals at once"
+        yield "it has both a plate and pedestals"
     for pedestal in device.pedestals:
         for name in _PEDESTAL_LENGTHS:
             size = getattr(pedestal, name)
@@ -171,16 +173,16 @@ def _pedestal_faults(device: Device) -> Iterator[str]:
             yield _outside("pedestals.lean", pedestal.lean, _UNIT_TOLERANCE, pi / 2.0)
         places = np.array([*pedestal.position, pedestal.heading])
         if not (np.abs(places) <= LARGEST_LENGTH).all():
-            yield "a place of a pedestal is beyond all measure"
+            yield "the position of a pedestal is out of range"
         if pedestal.module not in {module.name for module in device.modules}:
-            yield f"a pedestal is under no module: {pedestal.module}"
+            yield f"a pedestal belongs to a module that does not exist: {pedestal.module}"
 
 
 _PEDESTAL_LENGTHS = "base_radius", "slot_radius", "wheel_height", "middle", "thickness", "base"
 
 
 def _figures(value: object, path: str) -> Iterator[str]:
-    """Faults of every number in a value and in what it holds."""
+    """Faults of every number in a value, recursively."""
     if is_dataclass(value):
         for each in fields(value):
             yield from _figures(getattr(value, each.name), f"{path}.{each.name}")
@@ -210,7 +212,8 @@ def _outside(path: str, value: float, low: float, high: float) -> str:
 
 
 HEAVY = 0.3
-"""Share of the robot's mass; Solo12's lightest device is at 0.07, the paper's wheels at 0.08."""
+"""Fraction of the robot's mass above which a device is unusual; Solo12's lightest device has 0.07,
+the paper's wheels 0.08."""
 
 
 def device_warnings(
@@ -219,20 +222,20 @@ def device_warnings(
     """Warnings about a device, one sentence each.
 
     Args:
-        device: that was designed.
+        device: as designed.
         robot: without it, in B.
-        strict: they are errors.
+        strict: whether warnings are errors.
 
     Raises:
-        SpecificationError: `strict`, and there is any.
+        SpecificationError: `strict`, and there is a warning.
     """
     share = device.mass / robot.mass
     if share <= HEAVY:
         return ()
     heavy = (
         f"the device weighs {device.mass:.3g} kg, {share:.0%} of the robot: more than {HEAVY:.0%} "
-        "is rarely wanted; the robot must carry it, which nothing here checks"
+        "is unusual; whether the robot can carry it is not checked"
     )
     if strict:
-        raise SpecificationError(f"--strict: {heavy}", hint="Ask for less, or allow larger wheels.")
+        raise SpecificationError(f"--strict: {heavy}", hint="Require less, or allow larger wheels.")
     return (heavy,)

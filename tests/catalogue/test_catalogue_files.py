@@ -133,9 +133,9 @@ FAULTS = {
     "a long shaft": (toml(shaft_length_m=5), r"shaft_length_m is 5 m, .*: did you mean 0.005 m\?"),
     "twice in a file": (toml() + "\n" + toml(), r"motor\[2\]: 'M' is already .* of motor\[1\]"),
     "too many cells": (csv() + "a,b,c,d,e,f,g,h,i,j,k\n", "line 3: has 11 cells for 10"),
-    "a column twice": ("name,name\na,b\n", "the column 'name' stands there twice"),
+    "a column twice": ("name,name\na,b\n", "the column 'name' occurs twice"),
     "an unknown table": (toml() + "\n[gear]\n", "gear: unknown key; known: motor"),
-    "no array": ("[motor]\nname = 'M'\n", r"write each motor as a \[\[motor\]\] table"),
+    "no array": ("[motor]\nname = 'M'\n", r"give each motor as a \[\[motor\]\] table"),
     "an array of numbers": ("motor = [1]", r"motor\[1\]: must be a table"),
 }
 
@@ -255,7 +255,7 @@ def test_a_figure_that_is_wrong_is_not_told_as_missing_too(load, column, value):
         load(toml(**{column: value}))
     wrong, gaps = caught.value.problems
     assert wrong.startswith(f"motor[1] (M), {column}: ")
-    assert gaps == f"motor[1] (M): to be built with, it lacks {', '.join(build_gaps(right))}"
+    assert gaps == f"motor[1] (M): to build with it, it lacks {', '.join(build_gaps(right))}"
 
 
 DOUBTS = {

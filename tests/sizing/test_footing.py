@@ -311,7 +311,7 @@ def test_what_leans_stands_on_pedestals_that_the_design_counts(boxed, name):
     assert not any(contact.held for contact in contacts_of(robot, sunk))
     assert check_device(device) is None
     (other, *rest) = device.pedestals
-    with pytest.raises(OcsError, match="under no module"):
+    with pytest.raises(OcsError, match="a module that does not exist"):
         check_device(replace(device, pedestals=(replace(other, module="none"), *rest)))
 
 
