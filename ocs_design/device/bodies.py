@@ -41,9 +41,9 @@ WHEEL_CONTACT_BIT = 1 << 16
 them."""
 
 _MOST = 0.99
-"""Largest share of its axial inertia that a carrier may give up: the rest must be a possible body.
+"""Largest fraction of a carrier's axial inertia to take off: the rest must be physically possible.
 
-Beyond that, with a light motor behind a high gear, the files have more inertia than the module.
+Beyond that, with a light motor and a high gear ratio, the files have more inertia than the module.
 """
 
 _DISC = np.diag([1.0, 0.0, 1.0])

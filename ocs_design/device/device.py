@@ -1,4 +1,4 @@
-"""The designed orientation control system as a frozen value."""
+"""The designed orientation control system, as frozen values."""
 
 from dataclasses import dataclass, replace
 
@@ -18,19 +18,19 @@ from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.mass import MassProperties, combine
 
 NO_CARRIER = Carrier(mass=0.0, axial_inertia=0.0, transverse_inertia=0.0)
-"""Carrier of the assumed motor, which weighs nothing."""
+"""Carrier of the assumed motor, which is massless."""
 
 
 @dataclass(frozen=True)
 class Web:
-    """What joins a rim to its motor, in one piece: a disc in its middle plane and a hub.
+    """Connection of a rim to its motor, in one piece: a disc in the rim's middle plane and a hub.
 
     Attributes:
         material: name in the catalogue. density: [kg/m^3].
         thickness: of the disc, which fills the rim's bore [m].
-        mass: with the hub and its holes [kg].
-        hub: in its middle.
-        holes: that lighten it; None: none.
+        mass: including the hub, less the holes [kg].
+        hub: at its centre.
+        holes: lightening holes; None: none.
     """
 
     material: str
@@ -49,14 +49,14 @@ class Flywheel:
         inner_radius, outer_radius, height: of the rim [m].
         material: of the rim, name in the catalogue. density: [kg/m^3].
         mass: of the whole wheel [kg].
-        spin_inertia: angular momentum about the spin axis per speed relative to the trunk, the
-            motor's rotor included [kg m^2].
-        transverse_inertia: of the wheel about any axis across it through its centre of mass,
+        spin_inertia: angular momentum about the spin axis per speed relative to the trunk,
+            including the motor's rotor [kg m^2].
+        transverse_inertia: of the wheel about any transverse axis through its centre of mass,
             without the rotor [kg m^2].
         hoop_stress: largest, at the bore, at the highest wheel speed [Pa].
-        stress_margin: yield strength over hoop stress; None if the strength is not known.
+        stress_margin: yield strength over hoop stress; None if the strength is unknown.
         stored_energy: at the highest wheel speed [J].
-        web: None: massless spokes, or a ring around the motor's bell.
+        web: web and hub; None: massless spokes, or a ring around the motor's bell.
         cuts: chamfers and balancing holes of the rim.
     """
 
@@ -96,29 +96,28 @@ class Module:
 
     @property
     def frame(self) -> FloatArray:
-        """Attitude in B, its y axis along the wheel's away from the motor, shape (3, 3)."""
+        """Attitude in B, with y along the wheel's axis away from the motor, shape (3, 3)."""
         return standing_frames(sense(self.name) * self.axis)
 
 
 @dataclass(frozen=True, eq=False)
 class Device:
-    """The orientation control system: equal modules and what drives them.
+    """The orientation control system: equal modules with their drives and mounts.
 
     Attributes:
-        incidence: of pairs, between each wheel axis and the lateral direction y; else the angle
-            of the layout (`Layout.axes`) [rad].
+        incidence: for pairs, between each wheel axis and the lateral direction y; otherwise the
+            angle of the layout (`Layout.axes`) [rad].
         modules: in the layout's order; a pair's are left and right.
         flywheel: of each module.
         motor: of each module.
-        carrier: what of each module stands still with the trunk, in the module's own frame
-            (`Module.frame`).
-        supply: of all motors; None: not known.
+        carrier: stationary part of each module, in the module's own frame (`Module.frame`).
+        supply: of all motors; None: unknown.
         plate: that the feet stand on; None: they stand on the trunk.
-        guard_wall: of the ring of mild steel in each housing [m]; 0: none.
+        guard_wall: wall thickness of the mild steel ring in each housing [m]; 0: none.
         foot_plate: thickness of the feet's plates [m].
-        layout: how the axes lie to each other.
-        pedestals: under the feet that lean; empty: none do, or nothing holds any.
-        on_bell: whether each wheel is a ring around the bell of its motor.
+        layout: arrangement of the axes.
+        pedestals: under tilted feet; empty: none are tilted, or no pedestal can be held. on_bell:
+            whether each wheel is a ring around the bell of its motor.
     """
 
     incidence: float
@@ -136,7 +135,7 @@ class Device:
 
     @property
     def mass(self) -> float:
-        """Mass of all modules, wheels, motors, gears, housings and feet, and of `under` [kg]."""
+        """Mass of all modules (wheels, motors, gears, housings and feet) and of `under` [kg]."""
         return len(self.modules) * self.module_mass + sum(each.mass for each in self.under)
 
     @property
@@ -146,12 +145,12 @@ class Device:
 
     @property
     def wheels_alone(self) -> bool:
-        """Whether it is no more than its wheels: nothing holds or drives them."""
+        """Whether it consists only of wheels, without drives and mounts."""
         return self.carrier.mass == 0.0
 
     @property
     def under(self) -> tuple[CarrierPlate | Pedestal, ...]:
-        """What is between the feet and the trunk: plate and pedestals."""
+        """Parts between the feet and the trunk: plate and pedestals."""
         return (*(() if self.plate is None else (self.plate,)), *self.pedestals)
 
     def plated(self, robot: MassProperties) -> MassProperties:
@@ -161,7 +160,7 @@ class Device:
 
     @property
     def axes(self) -> FloatArray:
-        """Spin axes as columns, of a pair the matrix C of the paper, shape (3, n)."""
+        """Spin axes as columns, for a pair the matrix C of the paper, shape (3, n)."""
         return np.column_stack([module.axis for module in self.modules])
 
     def at_incidence(self, incidence: float) -> "Device":

@@ -1,4 +1,4 @@
-"""What was found of the machine and of each thing that the program uses."""
+"""Findings on the machine and on each component that the program uses."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -7,28 +7,28 @@ from ocs_design.common.errors import MissingToolError
 
 
 class State(StrEnum):
-    """Whether a thing that the program uses works."""
+    """State of a component that the program uses."""
 
     WORKS = "works"
     MISSING = "missing"
     UNFIT = "unfit"
-    """A version that is not allowed, or a machine that does not do."""
+    """A version that is not allowed, or an unsuitable machine."""
     BROKEN = "broken"
-    """There, but it does not run."""
+    """Present, but it does not run."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Finding:
-    """What was found of one thing that the program uses.
+    """Finding on one component that the program uses.
 
     Attributes:
-        name: of the thing. state: how it is.
+        name: of the component. state: its state.
         required: whether nothing works without it.
-        found: version, or what there is; empty: nothing.
-        wanted: versions that are allowed; empty: any.
+        found: version, or what was found; empty: nothing.
+        wanted: allowed versions; empty: any.
         purpose: what it is for.
-        extra: of ours that asks for it; empty: none.
-        cure: how to get it, where it does not work. reason: why it does not.
+        extra: the package's extra that installs it; empty: none.
+        cure: remedy where it does not work. reason: why it does not.
     """
 
     name: str
@@ -43,13 +43,13 @@ class Finding:
 
     @property
     def stands_in_the_way(self) -> bool:
-        """Whether nothing works before it is mended."""
+        """Whether nothing works until it is fixed."""
         return self.required and self.state is not State.WORKS
 
 
 @dataclass(frozen=True)
 class Examination:
-    """What was found of the machine and of all packages.
+    """Findings on the machine and on all packages.
 
     Attributes:
         version: of this program.
@@ -67,6 +67,6 @@ class Examination:
 
     @property
     def exit_code(self) -> int:
-        """0, or that of a missing tool if nothing works before something is mended."""
+        """0, or that of a missing tool if nothing works until something is fixed."""
         broken = any(finding.stands_in_the_way for finding in self.findings)
         return MissingToolError.exit_code if broken else 0

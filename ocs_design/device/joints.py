@@ -1,4 +1,4 @@
-"""What holds a designed device together and on its robot, and how its wheels are balanced."""
+"""Joints of a designed device and with its robot, and balancing of its wheels."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -50,15 +50,15 @@ FOOT_SHOCK, FLOOR_SHOCK = "landing shock, foot", "landing shock, cage"
 SCREWS_SHOCK = "landing shock, screws in the trunk"
 
 BEARING_MOMENT = "bearing moment"
-"""Name of the margin of what turns a wheel's axis."""
+"""Name of the margin of the moment that turns a wheel's axis."""
 
 RUN_OUT = 0.05e-3
-"""Permissible run-out of the rim to the bore, on the wheel's drawing [m]; half of it is the
-distance of their middles."""
+"""Permissible run-out of the rim relative to the bore on the wheel's drawing [m]; the eccentricity
+is half of it."""
 
 
 def burst_of(device: Device, speed: float | None = None) -> Containment:
-    """What would hold a wheel that bursts at a speed [rad/s]; None: at its top speed."""
+    """Containment for a wheel that bursts at a speed [rad/s]; None: at its top speed."""
     wheel = device.flywheel
     web = 0.0 if wheel.web is None else wheel.web.mass
     piece = fragment_of(
@@ -73,31 +73,31 @@ def burst_of(device: Device, speed: float | None = None) -> Containment:
 
 
 def foot_hold(device: Device) -> FootHold:
-    """What holds each foot: on a plate it tilts about its edge, which is within the foot's own."""
+    """Hold of each foot; on a plate it tilts about the plate's edge if that is within its own."""
     foot, plate = foot_of(device), device.plate
     edge = foot.base_radius if plate is None else min(foot.base_radius, plate.radius)
     return FootHold.of(foot, device.module_mass, edge)
 
 
 def foot_screws(device: Device, module: Module) -> Fastening:
-    """Screws of a module's foot, through their washers too, where they have any.
+    """Screws of a module's foot, including washers where they have any.
 
-    One that would come out under the plate is to be cut.
+    Screws that would protrude below the plate are to be cut.
     """
     held, plate = counted_foot_screws(device, module), device.plate
     if foot_hold(device).washers:
         held = replace(held, thickness=held.thickness + WASHER_HEIGHT)
     if plate is not None and held.length > held.thickness + plate.thickness + 1e-6:
         through = 1e3 * (held.thickness + plate.thickness)
-        purpose = f"{held.purpose}; cut to {through:.1f} mm, else they come out under the plate"
+        purpose = f"{held.purpose}; cut to {through:.1f} mm, or they protrude below the plate"
         return replace(held, purpose=purpose)
     return held
 
 
 def counted_foot_screws(device: Device, module: Module) -> Fastening:
-    """Screws of a module's foot, into its pedestal, the plate or the trunk, as they are weighed.
+    """Screws of a module's foot into its pedestal, the plate or the trunk, as counted in the mass.
 
-    Washers, which depend on what the module weighs, are not counted.
+    Washers, which depend on the module's mass, are not counted.
     """
     if any(each.module == module.name for each in device.pedestals):
         return device.pedestals[0].seat_screws
@@ -108,20 +108,20 @@ def counted_foot_screws(device: Device, module: Module) -> Fastening:
 def unheld_moment(device: Device, margins: Sequence[Margin]) -> float:
     """Moment of a wheel that would turn its foot about the vertical [N m]; 0: friction holds it.
 
-    It counts as vertical, whole, as it is where a trunk that pitches turns a wheel whose axis lies
-    level and off the lateral direction.
+    All of it counts as vertical, as for a pitching trunk and a horizontal wheel axis that is not
+    lateral.
 
     Args:
-        device: whose feet are held by `foot_hold`. margins: of its motion.
+        device: device whose feet are held (`foot_hold`). margins: of its motion.
     """
     asked = max((each.demand for each in margins if each.name == BEARING_MOMENT), default=0.0)
     return asked if asked > foot_hold(device).turning else 0.0
 
 
 def joints_of(device: Device) -> tuple[Margin, ...]:
-    """Joints of one module: the rim's, the shaft's and what holds it; none with massless spokes.
+    """Joints of one module: of rim, shaft and mount; empty with massless spokes.
 
-    Where no capacity is known, the joint keeps the device from being built.
+    A joint of unknown capacity keeps the device from being built.
     """
     if device.on_bell:
         return (*_bell_joints(device), *_shocks(device))
@@ -132,7 +132,7 @@ def joints_of(device: Device) -> tuple[Margin, ...]:
 
 
 def _shocks(device: Device) -> Iterator[Margin]:
-    """Accelerations at which what holds the module breaks."""
+    """Accelerations at which the module's mount breaks."""
     module = device.module_mass
     held = format_quantity(module, "kg" if module >= 1.0 else "g", digits=3)
     shock = f"{SHOCK / STANDARD_GRAVITY:.0f} g"
@@ -166,7 +166,7 @@ def _shocks(device: Device) -> Iterator[Margin]:
 
 
 def wheel_rings(wheel: Flywheel) -> tuple[Ring, ...] | None:
-    """Hub, web and rim as rings; None where a figure of their materials is not known."""
+    """Hub, web and rim as rings; None where material data are unknown."""
     web = wheel.web
     if web is None:
         return None
@@ -230,7 +230,7 @@ def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
 
 
 def _peak(web: Web, rings: tuple[Ring, ...], speed: float) -> tuple[str, float]:
-    """Place of the largest stress of a wheel of one piece, and that stress [Pa]."""
+    """Location of the largest stress of a one-piece wheel, and that stress [Pa]."""
     turning, names = TurningRings.of(rings, speed), ["the hub", "the web", "the rim"]
     values = [turning.peak(ring) for ring in range(len(rings))]
     hub, holes = web.hub, web.holes
@@ -246,13 +246,13 @@ def _peak(web: Web, rings: tuple[Ring, ...], speed: float) -> tuple[str, float]:
 
 
 def yield_margin(device: Device, speed: float) -> tuple[str, float] | None:
-    """Place where a wheel's stress comes nearest to yield, and the yield strength over it.
+    """Location where a wheel's stress is closest to yield, and yield strength over that stress.
 
     A shrink fit's stress is the largest up to `OVERSPEED`; that of a rim on massless spokes is the
-    hoop stress of a ring. None where a figure of the material is not known.
+    hoop stress of a ring. None where material data are unknown.
 
     Args:
-        device: whose wheel it is. speed: at which it turns [rad/s].
+        device: device with the wheel. speed: of the wheel [rad/s].
     """
     wheel, known = device.flywheel, materials()
     rings, web, fit = wheel_rings(wheel), wheel.web, rim_fit(device)
@@ -274,7 +274,7 @@ def yield_margin(device: Device, speed: float) -> tuple[str, float] | None:
 
 
 def rim_fit(device: Device) -> ShrinkFit | None:
-    """Shrink fit of a rim on a web of another material; None: one piece, or figures not known."""
+    """Shrink fit of a rim on a web of another material; None: one piece, or unknown data."""
     wheel = device.flywheel
     rings = wheel_rings(wheel)
     if wheel.web is None or rings is None or wheel.web.material == wheel.material:
@@ -293,14 +293,14 @@ def rim_fit(device: Device) -> ShrinkFit | None:
 
 
 def _shaft_joints(device: Device, web: Web) -> Iterator[Margin]:
-    """What holds the wheel on its motor."""
+    """Margins of the joint between wheel and motor."""
     drive, mounting = device.motor, device.motor.mounting
     torque = SERVICE * (drive.torque_limit or 0.0)
     against = f"against {SERVICE:g} x peak torque"
     carried: float | None = None
     reserve: float | None = None
     if drive.gear != DIRECT.name:
-        note = "how a wheel is held on this gear is not in the catalogue"
+        note = "the catalogue does not say how a wheel is mounted on this gear"
     elif mounting is not None and mounting.rotor is not None:
         circle, carried = mounting.rotor, hub_joint(mounting, 0.0)
         held = screw(circle.thread)
@@ -324,12 +324,12 @@ def _shaft_joints(device: Device, web: Web) -> Iterator[Margin]:
         note = "the shaft and the rotor's threads are not in the catalogue"
     yield Margin(SHAFT_JOINT, torque, carried, "N m", note=note)
     if reserve is not None:
-        note = "should the faces slip: a reserve, not what it is built on"
+        note = "if the faces slip: a reserve that is not relied upon"
         yield Margin("shaft joint, screws in shear", torque, reserve, "N m", note=note)
 
 
 def _bell_joints(device: Device) -> Iterator[Margin]:
-    """A ring around its motor's bell: its own stress, and the bond by torque and by speed."""
+    """Margins of a ring around its motor's bell: stress, and bond under torque and speed."""
     wheel, speed = device.flywheel, OVERSPEED * device.motor.top_speed
     kind, held = materials().get(wheel.material), BOND_SHARE * EPOXY_STRENGTH
     elastic = _elastic(kind)
@@ -371,15 +371,15 @@ def _bell_joints(device: Device) -> Iterator[Margin]:
 
 @dataclass(frozen=True)
 class WheelBalance:
-    """How one wheel is balanced: assembled on its motor, as what holds it leaves it off centre.
+    """Balancing of one wheel, assembled on its motor with the eccentricity left by its mounting.
 
     Attributes:
         eccentricity: permissible at top speed, e = G / w [m].
         unbalance: permissible, m e [kg m].
-        off_centre: that turning and what centres it may leave [m]; None: nothing centres it.
-        centred_by: what does.
+        off_centre: eccentricity due to turning and centring [m]; None: nothing centres it.
+        centred_by: what centres it.
         shifted: whether only screws do, so that it is shifted on them until it runs true.
-        correction: holes in the rim's faces that take an unbalance away.
+        correction: holes in the rim's faces that remove an unbalance.
     """
 
     eccentricity: float
@@ -391,7 +391,7 @@ class WheelBalance:
 
 
 def permissible_eccentricity(speed: float) -> float:
-    """Distance of the centre of mass from the axis, e_per = G / w [m], at a speed [rad/s]."""
+    """Permissible eccentricity, e_per = G / w [m], at a speed [rad/s]."""
     return 1e-3 * GRADE / speed
 
 
@@ -409,7 +409,7 @@ def balance_of(device: Device) -> WheelBalance:
         off_centre = slip_fit_eccentricity(mounting.shaft_diameter)
         by = "its bore on the shaft, H7/h6"
     elif mounting is not None and mounting.rotor is not None:
-        # In clearance holes it may sit farther off at first.
+        # In clearance holes it may initially be farther off centre.
         off_centre, shifted = RUN_OUT / 2.0, True
         by = f"its screws, once it is shifted until it runs true to {2e3 * RUN_OUT:g} mm"
     return WheelBalance(

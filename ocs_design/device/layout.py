@@ -1,4 +1,4 @@
-"""Where the wheels' axes point (docs/layouts.md), and the incidence angle of a pair's.
+"""Directions of the wheels' axes (docs/layouts.md), and the incidence angle of a pair.
 
 A layout has at most one free angle: the incidence of a pair (docs/theory.md, Incidence angle) or
 the elevation of a pyramid.
@@ -18,22 +18,24 @@ Direction = tuple[float, float, float]
 """Unit vector in B."""
 
 SIDES = ("left", "right")
-"""Names of a pair's modules; of several pairs' with a number: left_1, right_1, left_2 and so on."""
+"""Names of a pair's modules; with several pairs, numbered: left_1, right_1, left_2 and so on."""
 
 ISOTROPIC = float(np.arctan(np.sqrt(0.5)))
-"""Elevation at which four wheels reach as far along x, y and z: atan(1 / sqrt(2)), 35.3 deg [rad].
+"""Elevation of four wheels with equal capability about x, y and z: atan(1 / sqrt(2)), 35.3 deg
+[rad].
 """
 
 
 class LayoutName(StrEnum):
-    """How the axes lie to each other.
+    """Arrangement of the axes.
 
     Attributes:
         SINGLE: one wheel, on pitch. PAIR: two at an incidence to the lateral direction (paper).
         DOUBLE_PAIR, TRIPLE_PAIR: two and three pairs one behind the other, all at one incidence.
         TRIAD: three in the horizontal plane, 120 degrees apart, one of them on pitch.
-        ORTHOGONAL: on roll, pitch and yaw. PYRAMID: four at 45 degrees to forward, all as much
-            upwards. BY_HAND: as stated.
+        ORTHOGONAL: on roll, pitch and yaw. PYRAMID: four at 45 degrees to forward, all at one
+            elevation.
+        BY_HAND: as specified.
     """
 
     SINGLE = "single"
@@ -57,16 +59,16 @@ _AZIMUTHS: Mapping[LayoutName, tuple[float, ...]] = {
     LayoutName.TRIAD: (90.0, 210.0, 330.0),
     LayoutName.PYRAMID: (45.0, 135.0, 225.0, 315.0),
 }
-"""Directions of axes, and of modules about their middle, from forward to the left [deg]."""
+"""Azimuths of axes, and of modules about their centre, from forward to the left [deg]."""
 
 
 @dataclass(frozen=True)
 class Layout:
-    """Directions of the wheels' axes, and of their modules around a middle.
+    """Directions of the wheels' axes, and placement of their modules around a centre.
 
     Attributes:
         name: see `LayoutName`.
-        stated: axes by hand, else empty.
+        stated: axes given by hand, otherwise empty.
     """
 
     name: LayoutName = LayoutName.PAIR
@@ -74,7 +76,7 @@ class Layout:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the modules: sides of pairs, else numbers from 1."""
+        """Names of the modules: sides for pairs, otherwise numbers from 1."""
         if self.pairs == 1:
             return SIDES
         if self.pairs:
@@ -83,7 +85,7 @@ class Layout:
 
     @property
     def pairs(self) -> int:
-        """Number of pairs that it consists of; 0: of none."""
+        """Number of pairs; 0 for other layouts."""
         return _PAIRS.get(self.name, 0)
 
     def __len__(self) -> int:
@@ -92,18 +94,18 @@ class Layout:
 
     @property
     def tilting(self) -> int:
-        """Number of wheels that turn the trunk about roll and pitch, and share the power for it."""
+        """Number of wheels that act about roll or pitch, and share the power for it."""
         tilted = np.abs(self.axes(ISOTROPIC)[:2]).max(axis=0) > OUT_OF_REACH
         return int(np.count_nonzero(tilted))
 
     @property
     def text(self) -> str:
-        """Name as people say it, as in "the layout 'triad'"."""
+        """Name for messages, such as "the layout 'triad'"."""
         return f"the layout '{self.name}'"
 
     @property
     def angle(self) -> float | None:
-        """Angle where none is stated [rad]; None: it is designed."""
+        """Default angle [rad]; None: it is a result of the design."""
         if self.pairs:
             return None
         return ISOTROPIC if self.name is LayoutName.PYRAMID else 0.0
@@ -114,9 +116,8 @@ class Layout:
         Those of the pair are the matrix C of the paper, section 3.2.
 
         Args:
-            angle: of pairs between an axis and the lateral direction y, 0..pi/2; of the pyramid
-                between an axis and the horizontal plane; without effect on others [rad], shape
-                (...).
+            angle: for pairs, between an axis and the lateral direction y, 0..pi/2; for the pyramid,
+                between an axis and the horizontal plane; ignored for others [rad], shape (...).
         """
         at = np.asarray(angle, dtype=np.float64)[..., None]
         sine, cosine = np.sin(at), np.cos(at)
@@ -130,7 +131,7 @@ class Layout:
         rise = 1.0 if self.name is LayoutName.PYRAMID else 0.0
         level, up = np.where(rise, cosine, 1.0), rise * sine
         around = np.radians(_AZIMUTHS[self.name])
-        # No cosine of a right angle leaves rounding errors in the files.
+        # Keep rounding errors of cos(90 deg) out of the files.
         x, y = (
             np.where(np.abs(each) > OUT_OF_REACH, each, 0.0)
             for each in (np.cos(around), np.sin(around))
@@ -138,10 +139,10 @@ class Layout:
         return frozen(np.stack([level * x, level * y, up * np.ones_like(x)], axis=-2))
 
     def frames(self, angle: ArrayLike) -> FloatArray:
-        """Attitudes of the modules in B, all alike, shape (..., n, 3, 3).
+        """Attitudes of the modules, which are identical, in B, shape (..., n, 3, 3).
 
         Their y axis points outward, along the wheel's axis away from its motor: a pair's right
-        module is its left one turned about the vertical, and its mirror image.
+        module is the left one turned about the vertical, and also its mirror image.
         """
         outward = np.swapaxes(self.axes(angle), -1, -2)
         return standing_frames(outward * np.array([*map(sense, self.names)])[:, None])
@@ -149,19 +150,19 @@ class Layout:
     def feet(self, axes: FloatArray) -> FloatArray:
         """Directions about which modules turn on their feet, shape (3, n).
 
-        That is the vertical of B where they stand, so that a pair's incidence grows; a leaning
-        module's foot leans with it.
+        For upright modules this is the vertical of B, signed so that a pair's incidence grows; a
+        tilted module's foot tilts with it.
 
         Args:
             axes: of the wheels in B, shape (3, n).
         """
-        # More incidence turns a pair's right wheel to the left as seen from above, its left one to
-        # the right, and so do all others.
+        # As incidence grows, a pair's right wheel turns to the left as seen from above, and the
+        # left one to the right, like all other modules.
         return standing_frames(axes.T)[..., 2].T * [-sense(name) for name in self.names]
 
     @property
     def ring(self) -> tuple[Direction, ...]:
-        """Places of modules of radius 1 that touch, around their middle in the horizontal plane.
+        """Positions of touching modules of radius 1 around their centre in the horizontal plane.
 
         Pairs stand one behind the other, the first in front.
         """
@@ -183,15 +184,15 @@ class Layout:
         return np.asarray(self.frames(angle)[..., 2, 2] > 1.0 - OUT_OF_REACH)
 
     def hull(self, low: float, high: float) -> FloatArray:
-        """Axes about roll and pitch whose zonotope holds the layout's at all angles between two.
+        """Axes about roll and pitch whose zonotope contains the layout's at all angles between two.
 
-        It is as wide to both sides of roll and of pitch, shape (2, n).
+        The zonotope is symmetric in roll and in pitch; shape (2, n).
         """
         if self.pairs:
             sine, cosine = np.sin(high), np.cos(low)
             return frozen(np.tile([[sine, -sine], [cosine, cosine]], self.pairs))
         axes = self.axes(low)[:2]
-        # A box, where nothing is known of the axes.
+        # A box for axes given by hand.
         return axes if self.name is not LayoutName.BY_HAND else np.diag(np.abs(axes).sum(axis=1))
 
 
@@ -200,14 +201,14 @@ PAIR = Layout()
 
 
 def sense(name: str) -> float:
-    """Sign of a module's outward direction along its wheel's axis: a pair's right one is turned."""
+    """Sign of a module's outward direction along its wheel's axis; negative for a right module."""
     return -1.0 if name.startswith(SIDES[1]) else 1.0
 
 
 def standing_frames(outward: FloatArray) -> FloatArray:
-    """Attitudes whose y axis is `outward`, as upright as that allows, shape (..., 3, 3).
+    """Attitudes whose y axis is `outward`, as upright as possible, shape (..., 3, 3).
 
-    What points straight up lies on its side: its z axis is forward.
+    For one that points straight up, the z axis is forward.
 
     Args:
         outward: unit vectors in B, shape (..., 3).
@@ -225,13 +226,13 @@ def module_axes(incidence: float) -> FloatArray:
 
 
 class Criterion(StrEnum):
-    """What the incidence angle is best for.
+    """Criterion for the incidence angle.
 
     Attributes:
-        EQUAL_RATE: the same change of rate on roll and on pitch, one axis at a time (paper; with
-            the momentum that a coupled robot carries along about the other axis).
-        WEIGHTED: the momenta asked of roll and of pitch, one axis at a time.
-        SIMULTANEOUS: the momenta asked of roll and of pitch at once.
+        EQUAL_RATE: equal change of rate in roll and in pitch, one axis at a time (paper; including
+            the momentum of a coupled robot about the other axis).
+        WEIGHTED: the required momenta in roll and in pitch, one axis at a time.
+        SIMULTANEOUS: the required momenta in roll and in pitch at the same time.
         PITCH_ONLY: both axes lateral. ROLL_ONLY: both axes forward.
     """
 
@@ -248,13 +249,14 @@ def incidence_by_criterion(
     """The best incidence under each criterion [rad] (docs/theory.md, Incidence angle).
 
     Args:
-        inertia: of what the wheels turn, about its centre of mass in B [kg m^2], shape (3, 3).
-        momenta: asked of roll and of pitch [N m s], shape (2,); only their ratio matters. Where
-            none are asked, those of the same rate on both axes stand in for them.
+        inertia: of the body that the wheels turn, about its centre of mass in B [kg m^2], shape (3,
+            3).
+        momenta: required in roll and in pitch [N m s], shape (2,); only their ratio matters. By
+            default, those for equal rates about both axes.
     """
-    # For equal rates the ratio of these is the tangent: I_xx / s + |J_xy| / c = |J_xy| / s +
-    # I_yy / c. Where roll and pitch are coupled by more than either of them, both want one of the
-    # axes most, and that of the uncoupled robot is as good as any.
+    # For equal rates the ratio of these is the tangent: I_xx / s + |J_xy| / c = |J_xy| / s + I_yy /
+    # c. Where the coupling exceeds either inertia, both rates load the same axis most, and the
+    # incidence of the uncoupled robot is as good as any.
     tilt = TiltInertia.of(inertia)
     less = tilt.diagonal - np.abs(tilt.product)
     equal_rate = less if (less > 0.0).all() else tilt.diagonal

@@ -1,4 +1,4 @@
-"""Modes of what carries a device's modules, which the speeds of their wheels may pass."""
+"""Vibration modes of the supports of a device's modules, which the wheel speeds may pass."""
 
 from dataclasses import dataclass
 from math import pi, sqrt
@@ -16,19 +16,19 @@ from ocs_design.parts.plate_strength import plate_frequency, plate_sway, plate_t
 from ocs_design.parts.printed import PETG
 
 DAMPING = 0.01
-"""Share of critical damping of feet and plates, assumed: bolted steelwork has 0.008 (EN 1991-1-4,
-table F.2, logarithmic decrement 0.05), and prints more."""
+"""Assumed damping ratio of feet and plates: bolted steelwork has 0.008 (EN 1991-1-4, table F.2,
+logarithmic decrement 0.05), and printed parts have more."""
 
 
 @dataclass(frozen=True)
 class Resonance:
-    """A mode of what carries a module, which its wheel's speed may pass.
+    """A vibration mode of a module's support, which its wheel's speed may pass.
 
     Attributes:
         name: what bends. frequency: [Hz].
-        force: of the unbalance that its grade leaves, at this frequency [N].
-        amplitude: of the module where the wheel stays at this frequency, `DAMPING` alone holding
-            it [m].
+        force: of the unbalance permitted by its balance grade, at this frequency [N].
+        amplitude: of the module if the wheel stays at this frequency, limited only by `DAMPING`
+            [m].
     """
 
     name: str
@@ -42,9 +42,10 @@ class Resonance:
         return (2.0 * pi * self.frequency) ** 2 * self.amplitude
 
     def acceleration_at(self, speed: float) -> float:
-        """Acceleration of the module where its wheel stays at a speed [rad/s], [m/s^2].
+        """Acceleration of the module [m/s^2] if its wheel stays at a speed [rad/s].
 
-        An unbalance shakes by r^2 / sqrt((1 - r^2)^2 + (2 zeta r)^2) of U / m, r = w / w_0.
+        The amplitude due to an unbalance is r^2 / sqrt((1 - r^2)^2 + (2 zeta r)^2) U / m, r = w /
+        w_0.
         """
         square = (speed / (2.0 * pi * self.frequency)) ** 2
         grown = square / sqrt((1.0 - square) ** 2 + 4.0 * DAMPING**2 * square)
@@ -52,13 +53,13 @@ class Resonance:
 
 
 def resonances_of(device: Device) -> tuple[Resonance, ...]:
-    """First modes of what carries a module that a wheel passes on its way to top speed.
+    """First modes of a module's support that a wheel passes on its way to top speed.
 
-    A force U w^2 shakes a mass m on a spring by U / (2 zeta m) at resonance, however stiff it is.
-    The plate is shaken by all of the unbalance, up and down as it bends and across the wheel's axis
-    as it is twisted; the stem only by its moment about it: at the end of a cantilever of length L a
-    moment M works as the force 3 M / 2 L. Gyroscopic moments of the turning wheel are left out. A
-    pedestal's seat gives way under all of the unbalance.
+    At resonance, a force U w^2 moves a mass m on a spring by U / (2 zeta m), regardless of the
+    stiffness. The whole unbalance excites the plate, vertically in bending and across the wheel's
+    axis in torsion; it excites the stem only by its moment: at the end of a cantilever of length L,
+    a moment M acts like the force 3 M / 2 L. Gyroscopic moments of the turning wheel are neglected.
+    A pedestal's seat is excited by the whole unbalance.
     """
     if device.wheels_alone:
         return ()
@@ -88,13 +89,13 @@ def resonances_of(device: Device) -> tuple[Resonance, ...]:
 
 
 def foot_frequency(device: Device, modulus: float = PETG.modulus) -> float:
-    """First mode of a module along its wheel's axis, on its foot and what that stands on [Hz].
+    """First mode of a module along its wheel's axis, on its foot and the foot's support [Hz].
 
-    The plate, or a pedestal's seat, turns under the stem: one over the square of their common
+    The plate, or a pedestal's seat, turns under the stem: the inverse square of their common
     frequency is the sum of those of each alone (Dunkerley, a lower bound).
 
     Args:
-        device: with modules. modulus: of what the feet are made of [Pa].
+        device: with modules. modulus: of the feet's material [Pa].
     """
     foot, carrier = foot_of(device), device.carrier
     mass = device.module_mass
@@ -113,7 +114,7 @@ def foot_frequency(device: Device, modulus: float = PETG.modulus) -> float:
 def _twisted_frequency(device: Device, plate: CarrierPlate) -> float:
     """First mode of a module across its wheel's axis, on a plate that turns under its foot [Hz].
 
-    The wheel does not turn with it about its own axis.
+    The wheel does not rotate with it about its own axis.
     """
     foot, carrier = foot_of(device), device.carrier
     mass, inertia = device.module_mass, float(carrier.inertia[1, 1])
@@ -124,10 +125,10 @@ def _twisted_frequency(device: Device, plate: CarrierPlate) -> float:
 
 
 def _tilts(device: Device, plate: CarrierPlate) -> tuple[float, float]:
-    """Largest turn of a foot on its plate by a moment on it [rad/(N m)].
+    """Largest rotation of a foot on its plate per moment [rad/(N m)].
 
-    About the horizontal across its wheel's axis, as a push along the axis turns it, and about the
-    axis itself: its own bends an arm in part, and twists it in part.
+    About the horizontal across its wheel's axis, as for a push along the axis, and about the axis
+    itself; a moment partly bends and partly twists an arm.
     """
     bends, twists = plate_tilt(plate)
     arms = np.resize(directions(plate.arms), (len(device.modules), 2))

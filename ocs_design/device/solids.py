@@ -1,4 +1,4 @@
-"""What a module fills, as cylinders in B: for what it is near, and what could hit it."""
+"""Space occupied by a module, as cylinders in B, for clearances and collisions."""
 
 from dataclasses import dataclass, replace
 from math import acos, atan2, ceil, cos, hypot, sin, sqrt
@@ -24,13 +24,13 @@ from ocs_design.parts.printed import CLEARANCE, LID_SCREW, PANEL, TRUNK_SCREW, W
 from ocs_design.robot.probe import Drum
 
 PLATE_DISCS = 0.5
-"""Distance of the discs that stand for a plate's neck, over half its width."""
+"""Spacing of the discs that represent a plate's neck, relative to half its width."""
 
 _LEFT, _UP = np.eye(3)[1:]
 
 
 def motor_mount(device: Device) -> MotorMount:
-    """How the motor is held, as far as that is known and fits the housing's floor."""
+    """Mount of the motor, as far as it is known and fits the housing's floor."""
     motor = device.motor
     wheel, plate = device.flywheel, device.foot_plate
     mount = mount_of(motor, motor.gear_room, plate, on_bell=device.on_bell).around(wheel.height)
@@ -39,7 +39,7 @@ def motor_mount(device: Device) -> MotorMount:
 
 
 def housing_of(device: Device) -> Housing:
-    """Housing around one wheel, and around the motor whose bell that is on."""
+    """Housing around one wheel, and around the motor if the wheel is on its bell."""
     wheel, mount = device.flywheel, motor_mount(device)
     height = max(wheel.height, mount.room)
     return Housing(wheel.outer_radius, height, mount.holes, LID_SCREW, device.guard_wall)
@@ -54,16 +54,17 @@ def drive_solids(device: Device) -> tuple[DriveSolid, ...]:
     """Gear, motor and cage as far as their sizes are known, behind the foot's plate."""
     motor, mount = device.motor, motor_mount(device)
     found = drive_cylinders(motor, motor.gear_room, mount, housing_of(device).rim_height)
-    # Files of older versions do not know where the motor is behind a gear.
+    # Files of older versions lack the motor's position behind a gear.
     unknown = motor.gear != DIRECT.name and motor.gear_room is None
     return tuple(solid for solid in found if not (unknown and solid.name == "motor"))
 
 
 def shaft_cut(device: Device) -> tuple[float, float]:
-    """What is left of a motor's shaft before its front, and what is cut off it [m].
+    """Length of a motor's shaft left in front of the motor, and length cut off [m].
 
-    One that would come nearer to the lid than `CLEARANCE`, and beyond the hub, is cut flush with
-    the hub. Nothing is cut where the length is not known; a ring's housing has room for all of it.
+    A shaft that protrudes from the hub and would come closer to the lid than `CLEARANCE` is cut
+    flush with the hub. Nothing is cut where the length is unknown; a ring's housing has room for
+    the whole shaft.
     """
     mounting, web = device.motor.mounting, device.flywheel.web
     length = 0.0 if mounting is None else mounting.shaft_length or 0.0
@@ -77,14 +78,15 @@ def shaft_cut(device: Device) -> tuple[float, float]:
 
 
 def pedestal_of(device: Device, module: Module, plane: float | None = None) -> Pedestal:
-    """Pedestal under the foot of a module that leans, as thick as its module asks.
+    """Pedestal under the foot of a tilted module, as thick as the module requires.
 
-    At the least the foot is as far up the seat as keeps housing and drive clear above the heads of
-    the near flange.
+    The foot is at least far enough up the seat that housing and drive clear the screw heads of the
+    near flange.
 
     Args:
         device, module: in its place.
-        plane: height of what it stands on in B [m]; None: as high as the lowest one reaches down.
+        plane: height of its supporting surface in B [m]; None: that of the lowest possible
+            pedestal.
     """
     foot, frame = foot_of(device), module.frame
     lean = acos(min(1.0, max(0.0, float(frame[2, 2]))))
@@ -112,7 +114,7 @@ def pedestal_of(device: Device, module: Module, plane: float | None = None) -> P
 
 
 def pedestal_solids(pedestal: Pedestal) -> tuple[Drum, ...]:
-    """What a pedestal fills: cylinders across it, side by side around base, seat and brace."""
+    """Space occupied by a pedestal: cylinders side by side around base, seat and brace."""
     thick, place = max(pedestal.base, pedestal.thickness), pedestal.placement
     end, far = pedestal.length, pedestal.seat.rotation[:, 1] * pedestal.length
     floor, up = np.array([0.0, 0.0, pedestal.base / 2.0]), np.array([0.0, 0.0, pedestal.base])
@@ -121,7 +123,7 @@ def pedestal_solids(pedestal: Pedestal) -> tuple[Drum, ...]:
     bars += [(up, up + far), (up + end * along, up + far)]
     found = []
     for start, stop in bars:
-        # So close that each bar is within them to half its thickness on either side.
+        # Close enough that they cover each bar to half its thickness on either side.
         count = 1 + ceil(float(np.linalg.norm(stop - start)) / (sqrt(3.0) * thick))
         for share in np.linspace(0.0, 1.0, count):
             middle = place.point(start + share * (stop - start))
@@ -131,10 +133,10 @@ def pedestal_solids(pedestal: Pedestal) -> tuple[Drum, ...]:
 
 @dataclass(frozen=True)
 class ModuleSolids:
-    """What one module fills.
+    """Space occupied by one module.
 
     Attributes:
-        body: its housing, or its bare wheel where it has none, and what drives it as far as known.
+        body: its housing, or its bare wheel without one, and its drive as far as known.
         foot: the foot's base, which stands on the trunk.
     """
 
@@ -148,7 +150,7 @@ class ModuleSolids:
 
 
 def module_solids(device: Device, module: Module) -> ModuleSolids:
-    """What a module fills at the device's incidence."""
+    """Space occupied by a module at the device's incidence."""
     wheel = device.flywheel
     if device.wheels_alone:
         return ModuleSolids((Drum(module.position, module.axis, wheel.outer_radius, wheel.height),))
@@ -158,7 +160,7 @@ def module_solids(device: Device, module: Module) -> ModuleSolids:
     _, outward, up = module.frame.T
     base = Drum(module.position - down * up, up, foot.base_radius, foot.base)
     drum = Drum(module.position, module.axis, housing.radius, tall)
-    # What drives the wheel stands behind the foot's plate; the other modules are behind both.
+    # The drive stands behind the foot's plate; the other modules are behind both.
     driving = [
         Drum(
             module.position + (solid.low + solid.high) / 2.0 * outward + solid.up * up,
@@ -172,11 +174,11 @@ def module_solids(device: Device, module: Module) -> ModuleSolids:
 
 
 def plate_solids(plate: CarrierPlate | None) -> tuple[Drum, ...]:
-    """What the plate under the feet fills, none without one: discs side by side, and its sleeves.
+    """Space occupied by the plate under the feet: discs side by side, and its sleeves.
 
-    The first discs of each plate are its ends. Between two others the neck's edge is up to 3 % of
-    their radius farther out. The roundings where it meets the ends are left out. Tubes
-    of a mast, the last, are four cylinders each, around a quarter of their section.
+    Empty without a plate. The first discs of each plate are its ends. Between two others the neck's
+    edge protrudes by up to 3 % of their radius. The fillets where it meets the ends are left out. A
+    mast's tubes, which come last, are four cylinders each, around a quarter of their section.
     """
     if plate is None:
         return ()
@@ -203,7 +205,7 @@ def plate_solids(plate: CarrierPlate | None) -> tuple[Drum, ...]:
 
 
 def mast_solids(plate: CarrierPlate | None) -> tuple[Drum, ...]:
-    """Upright and arms of the mast that carries the plates; none without one."""
+    """Upright and arms of the mast that carries the plates; empty without one."""
     if plate is None or plate.mast is None:
         return ()
     mast, middle, backwards = plate.mast, np.array(plate.position), BACKWARDS[:, 2]

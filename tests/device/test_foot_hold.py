@@ -86,7 +86,7 @@ def test_torque_of_a_foot_s_screws_is_what_beside_a_slot_bears(mass):
     thread = min(length - base, 3.0)
     assert thread >= 3.0 - 1e-9
     assert row.engagement.startswith(f"{thread:.1f} mm (1.0 d)")
-    told = f"cut to {base + 3.0:.1f} mm, else they come out under the plate"
+    told = f"cut to {base + 3.0:.1f} mm, or they protrude below the plate"
     assert (told in row.purpose) == (length - base > 3.0 + 1e-6)
     parts = [each.part for each in bill_rows(assembly.device) if "foot on plate" in each.remark]
     # So light a module leaves nothing for prints and their screws.

@@ -1,8 +1,8 @@
-"""`design.json`: the one artefact that other commands and programs read.
+"""The file `design.json`, the one artefact that other commands and programs read.
 
 Field names and units are the contract of `docs/output.md`: SI, radians, the base frame B, full
 double precision. The dataclasses are the schema; a change of meaning needs a new `SCHEMA_VERSION`,
-and a step in `_renewed` that reads what older versions wrote.
+and a step in `read_design` that converts older versions.
 """
 
 from collections.abc import Mapping
@@ -39,16 +39,16 @@ SCHEMA_VERSION = 2
 
 
 OLDEST_VERSION = 1
-"""Version of the oldest documents that are still read."""
+"""Oldest version of documents that is still read."""
 
 
 LARGEST = 16 << 20
-"""Largest `design.json` [bytes]; that of a humanoid takes a fiftieth."""
+"""Largest `design.json` [bytes]; a humanoid's takes a fiftieth of it."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Tool:
-    """Who wrote the file."""
+    """Program that wrote the file."""
 
     name: str
     version: str
@@ -105,7 +105,7 @@ def read_design(path: AnyPath) -> OcsDesign:
     """Read a `design.json`.
 
     Args:
-        path: of the file, or of the folder that it lies in.
+        path: of the file, or of its folder.
 
     Raises:
         OcsError: the file cannot be read, or is not a design of this schema version.
@@ -129,13 +129,13 @@ def read_design(path: AnyPath) -> OcsDesign:
         raise OcsError(
             f"{path}: schema_version {version}, but this version reads {OLDEST_VERSION} to "
             f"{SCHEMA_VERSION}",
-            hint="run `ocs-design size` again to write it anew",
+            hint="run `ocs-design size` again to write a new one",
         )
     try:
         if version == SCHEMA_VERSION:
             return msgspec.json.decode(content, type=OcsDesign)
-        # Version 1 said of a run only whether it passed, which takes a level touchdown, and an
-        # upright end where the legs bear one. What else it lacks takes its default.
+        # Version 1 stored only whether a run passed, which requires a level touchdown, and an
+        # upright end where the legs can take it. Other missing fields take their defaults.
         document = msgspec.json.decode(content)
         for margin in _objects(document.get("margins")):
             margin["scenario"] = margin.pop("maneuver", "")
@@ -149,7 +149,7 @@ def read_design(path: AnyPath) -> OcsDesign:
 
 
 def _objects(entries: object) -> list[dict[str, Any]]:
-    """Objects in a list of any document; what is none of them is refused when it is converted."""
+    """Objects in a list of any document; other entries are refused on conversion."""
     found = entries if isinstance(entries, list) else []
     return [each for each in found if isinstance(each, dict)]
 

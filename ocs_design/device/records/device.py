@@ -1,4 +1,4 @@
-"""The device in its place, its margins and what keeps it from being built."""
+"""Records of the device in its place, its margins and its open points."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -28,7 +28,7 @@ class ModuleRecord:
 
 @dataclass(frozen=True)
 class Clearance:
-    """The part that a module is nearest to.
+    """Clearance of a module to the nearest part.
 
     Attributes:
         part: name of a body of the robot, or of the other wheel.
@@ -41,7 +41,7 @@ class Clearance:
 
 @dataclass(frozen=True, kw_only=True)
 class ReachRecord:
-    """Limb that could hit the device (`robot.clearance.Reach`)."""
+    """A limb that could hit the device (`robot.clearance.Reach`)."""
 
     part: str
     joints: Mapping[str, float]
@@ -59,13 +59,13 @@ class MountingRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class OcsRecord:
-    """The device, with what its feet stand on.
+    """The device, with the supports of its feet.
 
     `mass_total` is of the whole device, with plate or pedestals [kg]; `total_...` of robot and
-    braked device.
-    `center_of_mass` is of the device alone, in B; None in files of older versions.
-    `fitting` is what is left to do by hand: see `export.assembly_notes`. `layout` is how the axes
-    lie, and `incidence` its angle: of a pair the axes are at plus and minus that.
+    braked device. `center_of_mass` is of the device alone, in B; None in files of older versions.
+    `fitting` lists work left to do by hand: see `export.assembly_notes`. `layout` is the
+    arrangement of the axes, and `incidence` its angle: the axes of a pair are at plus and minus
+    that.
     """
 
     incidence: float
@@ -95,7 +95,7 @@ class OcsRecord:
     layout: LayoutName = LayoutName.PAIR
 
     def device(self, supply: Supply | None = None) -> Device:
-        """The device that was designed, to the last digit; `supply` is what feeds it."""
+        """The device exactly as designed; `supply` is its supply."""
         modules = (
             Module(each.name, np.array(each.axis), np.array(each.position)) for each in self.modules
         )
@@ -110,16 +110,16 @@ class OcsRecord:
 
 @dataclass(frozen=True)
 class Margin:
-    """What is asked of one part against what it stands.
+    """Demand on one part against its capacity.
 
     Attributes:
-        name: of the quantity; one name is one kind of margin.
-        demand: largest that is asked, never negative.
-        capacity: what the part stands; None: no limit, or none known, and `note` says which.
+        name: of the quantity; each name is one kind of margin.
+        demand: largest demand, never negative.
+        capacity: of the part; None: no limit, or an unknown one; `note` says which.
         unit: of both, SI.
-        margin: capacity over demand: below 1 it is exceeded; None: no limit, or nothing asked.
-        scenario: name of the maneuver that asks it; empty if none does.
-        note: what the figures rest on, one sentence; empty if there is nothing to say.
+        margin: capacity over demand, exceeded below 1; None: no limit or no demand.
+        scenario: name of the maneuver with the largest demand; empty if none.
+        note: basis of the figures, one sentence; may be empty.
     """
 
     name: str
@@ -132,19 +132,19 @@ class Margin:
 
     def __post_init__(self) -> None:
         capacity, asked = self.capacity, self.demand
-        # A figure that is set is written, also where it is none.
+        # A field that is set is written to the file, even if None.
         margin = None if capacity is None or asked == 0.0 else capacity / asked
         object.__setattr__(self, "margin", margin)
 
     @property
     def strain(self) -> tuple[float, float]:
-        """Grows with what is asked, and with its share of the capacity first."""
+        """Sort key: demand as a fraction of the capacity, then demand."""
         return (0.0 if self.margin is None else 1.0 / self.margin, self.demand)
 
 
 @dataclass(frozen=True, kw_only=True)
 class OpenPoint:
-    """What keeps a device from being built, and the cure."""
+    """An obstacle to building a device, and the cure."""
 
     what: str
     cure: str
@@ -152,7 +152,7 @@ class OpenPoint:
 
 @dataclass(frozen=True, kw_only=True)
 class Buildable:
-    """Whether the device can be built as it stands; None where that cannot be told."""
+    """Whether the device can be built as designed; None where that is unknown."""
 
     yes: bool | None
     open: tuple[OpenPoint, ...] = ()

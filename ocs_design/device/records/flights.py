@@ -1,4 +1,4 @@
-"""How the device does in flight: as designed, with a drive stopped, as it might be built."""
+"""Records of flights: as designed, with a drive stopped, and as the device might be built."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from typing import TypeAlias
 class ControlRecord:
     """The wheel law of the flights: `projection` of the torque, gains [1/s^2, 1/s], period [s].
 
-    `ballistic` flights start at lift-off; a design that does not say was flown so.
+    `ballistic` flights start at lift-off, as in all designs that lack this field.
     """
 
     projection: str
@@ -27,14 +27,14 @@ class ValidationRecord:
 
     Attributes:
         scenario: name of the maneuver. ocs: with the device, or the bare robot.
-        passed: a level touchdown, the turn done, and upright at the end where the legs bear a level
-            landing; None: it could not be judged.
+        passed: whether touchdown is level, the turn is done, and the robot ends upright where the
+            legs can take a level landing; None: it could not be judged.
         level: whether it touches down level, within 5 deg; None: not judged.
         stands: whether it is upright at the end; None: not judged, or it has no legs.
         reason: for `passed`, one sentence.
-        note: how the turn was changed to suit the wheels; empty if it was not.
-        metrics: by their names, SI.
-        can_stand: whether the legs bear this landing when level; None: no legs, or an old file.
+        note: how the turn was adapted to the wheels; empty if it was not.
+        metrics: by name, SI.
+        can_stand: whether the legs can take this landing if level; None: no legs, or an old file.
     """
 
     scenario: str
@@ -49,25 +49,25 @@ class ValidationRecord:
 
 
 RunMetrics: TypeAlias = Mapping[str, float | bool | None]
-"""Metrics of a recorded run by their names, SI."""
+"""Metrics of a recorded run by name, SI."""
 
 
 def lift_off_and_touchdown(metrics: RunMetrics) -> tuple[float | None, float | None]:
-    """Times of a recorded run [s]; None: it never does so."""
-    # Older versions do not record the lift-off, and all of their flights start in the air.
+    """Times of lift-off and touchdown of a recorded run [s]; None: it never happens."""
+    # Older versions do not record lift-off; all of their flights start in the air.
     lift_off = metrics.get("lift_off_time", 0.0 if metrics else None)
     return lift_off, metrics.get("touchdown_time")
 
 
 def was_in_the_air(lift_off: float | None, touchdown: float | None) -> bool:
-    """Whether a run left the ground; who is pushed as they stand touch down at once."""
+    """Whether a run left the ground; for shoves of a standing robot, touchdown is the start."""
     return lift_off is not None and (touchdown is None or touchdown > lift_off)
 
 
 def was_on_pivot(run: ValidationRecord) -> bool:
-    """Whether a run stood on a pivot: it is judged by its stand alone, and was not pushed.
+    """Whether a run was on a pivot: it is judged only by standing, and was not pushed.
 
-    What others have for touchdown is when it is to be upright.
+    Its touchdown time is the time at which it must be upright.
     """
     flew = was_in_the_air(*lift_off_and_touchdown(run.metrics))
     return run.level is None and run.stands is not None and flew
@@ -75,12 +75,12 @@ def was_on_pivot(run: ValidationRecord) -> bool:
 
 @dataclass(frozen=True, kw_only=True)
 class StoppedRecord:
-    """One flight in which a drive stops and its wheel runs on.
+    """One flight in which a drive stops while its wheel keeps spinning.
 
     Attributes:
-        scenario: name of the maneuver. module: whose drive. instant: from lift-off [s].
-        lands: whether it comes down within the allowance; None: not judged.
-        tilt: larger of roll and pitch off what is asked at touchdown [rad]; None: not judged.
+        scenario: name of the maneuver. module: with the stopped drive. instant: from lift-off [s].
+        lands: whether it lands within tolerance; None: not judged.
+        tilt: larger error of roll and pitch at touchdown [rad]; None: not judged.
         reason: for `lands`, one sentence.
     """
 
@@ -94,12 +94,12 @@ class StoppedRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class SurvivalRecord:
-    """How the device lands when any one drive stops at any instant.
+    """Landings of the device when any one drive stops at any instant.
 
     Attributes:
-        detection: time until the law knows of it [s].
-        flights: of every drive at several instants of each maneuver.
-        mass_without: of the lightest device that need not survive it [kg]; None: not looked for.
+        detection: time until the control law detects it [s].
+        flights: for every drive at several instants of each maneuver.
+        mass_without: mass of the lightest device that need not survive it [kg]; None: not computed.
     """
 
     detection: float
@@ -108,12 +108,12 @@ class SurvivalRecord:
 
     @property
     def lost(self) -> tuple[StoppedRecord, ...]:
-        """Flights that do not come down within the allowance, or are not judged."""
+        """Flights that do not land within tolerance, or are not judged."""
         return tuple(each for each in self.flights if each.lands is not True)
 
     @property
     def worst(self) -> StoppedRecord:
-        """The flight that ends worst: of those lost, if there are any."""
+        """The flight with the largest tilt, among the lost ones if there are any."""
         return max(
             self.lost or self.flights,
             key=lambda each: float("inf") if each.tilt is None else each.tilt,
@@ -121,7 +121,7 @@ class SurvivalRecord:
 
 
 class Conclusion(StrEnum):
-    """What a certificate says."""
+    """Verdict of a certificate."""
 
     CERTIFIED = "certified"
     SHORT = "falls short"
@@ -130,18 +130,18 @@ class Conclusion(StrEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class ReliabilityRecord:
-    """What flights of robots as they might be built say of the reliability that was asked for.
+    """Result of flights of robots as they might be built, for the required reliability.
 
     Attributes:
-        asked: share of robots that do all of their maneuvers.
-        worse: share that the test tells it from: of a device that must not be certified.
+        asked: required fraction of robots that do all of their maneuvers.
+        worse: fraction at which a device must not be certified; the test's alternative hypothesis.
         verdict: of the sequential test.
-        samples: robots that it took. whole: of them, those that do all maneuvers.
-        whole_interval: of their share, exact, at 95 %.
-        passed, interval: the same of each scenario alone.
-        seed, first: of the samples, and the index of the first.
-        round: number of the round, 1 and more; 0 where no design could learn from it.
-        rounds: what was learnt in the rounds before, one sentence each.
+        samples: number of robots used. whole: number of those that do all maneuvers.
+        whole_interval: exact 95 % interval of their fraction.
+        passed, interval: the same for each scenario alone.
+        seed, first: seed of the samples, and the index of the first.
+        round: number of the round, from 1; 0 where the design was not revised by it.
+        rounds: what was learnt in earlier rounds, one sentence each.
     """
 
     asked: float
@@ -163,7 +163,7 @@ def falls_short(
     survival: SurvivalRecord | None,
     certificate: ReliabilityRecord | None,
 ) -> bool:
-    """Whether a flight with the device does not pass, or what was asked besides is not met."""
+    """Whether a flight with the device fails, or survival or reliability is not met."""
     return (
         any(run.ocs and run.passed is not True for run in runs)
         or (survival is not None and bool(survival.lost))

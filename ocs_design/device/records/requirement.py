@@ -1,4 +1,4 @@
-"""The robot and what is asked of its device, as `design.json` has them."""
+"""Records of the robot and of the requirement on its device in `design.json`."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
@@ -17,7 +17,7 @@ from ocs_design.robot.robot import Mount, Robot
 
 @dataclass(frozen=True, kw_only=True)
 class MountRecord:
-    """How the base frame is fixed to the robot's own link; see `robot.Mount`."""
+    """Placement of the base frame on the robot's own link; see `robot.Mount`."""
 
     link: str
     rotation: Matrix
@@ -36,7 +36,7 @@ class MountRecord:
 class RobotRecord:
     """The robot alone, in the frame of its trunk; see `robot.Robot`.
 
-    `package_paths` are the folders that were given for `package://` addresses, by package.
+    `package_paths` are the folders given for `package://` addresses, by package.
     """
 
     name: str
@@ -84,7 +84,7 @@ class ManeuverRecord:
 
     @classmethod
     def of(cls, maneuver: Maneuver) -> "ManeuverRecord":
-        """The record of a maneuver that is asked for."""
+        """The record of a required maneuver."""
         kind, values = kind_of(maneuver)
         common = {each.name for each in fields(Maneuver)}
         parameters = {
@@ -95,17 +95,17 @@ class ManeuverRecord:
         return recorded(cls, maneuver, kind=kind, parameters=parameters)
 
     def maneuver(self) -> Maneuver:
-        """The maneuver that was asked for.
+        """The required maneuver.
 
         Raises:
-            OcsError: it is of no known kind, or not with these figures.
+            OcsError: its kind is unknown, or does not have these fields.
         """
         kind, stated = MANEUVER_KINDS.get(self.kind), set(self.parameters)
         apart = {each.name for each in fields(Maneuver)}
         if kind is None or not set(kind.required) - apart <= stated <= set(kind.values) - apart:
             raise OcsError(f"maneuver {self.name!r}: no {self.kind} with these figures is known")
         for name, value in self.parameters.items():
-            # One figure, or as many as it must be.
+            # A single figure, or the required number of them.
             read, count = kind.values[name], len(value) if isinstance(value, tuple) else None
             words = read.words if isinstance(read, Choice) else ()
             if count not in (read.counts if isinstance(read, Quantities) else (None,)) or (
@@ -119,7 +119,7 @@ class ManeuverRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class DemandRecord:
-    """What one source of demand asks at its incidence angle: see `requirement.bound.SpinDemand`."""
+    """Demand of one source at its incidence angle; see `requirement.bound.SpinDemand`."""
 
     source: str
     incidence: float
@@ -131,7 +131,7 @@ class DemandRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class AxisInertia:
-    """Inertia of the one-wheel model that the wheels must present on each axis [kg m^2]."""
+    """Inertia that the wheels must provide about each axis, in the one-wheel model [kg m^2]."""
 
     pitch: float
     roll: float
@@ -145,11 +145,11 @@ class AxisInertia:
 
 @dataclass(frozen=True, kw_only=True)
 class RequirementRecord:
-    """What was asked of the device, and everything that was assumed to ask it.
+    """Requirement on the device, and all assumptions behind it.
 
-    `reliability` is the share of robots that shall pass as built; None: none was asked for.
-    `detection` is the time until it is known that a drive has stopped [s], where the device shall
-    land level though any one does; None: it need not.
+    `reliability` is the fraction of robots that must pass as built; None: not required. `detection`
+    is the time until a stopped drive is detected [s], where the device must land level after any
+    one stops; None: not required.
     """
 
     maneuvers: tuple[ManeuverRecord, ...]

@@ -1,4 +1,4 @@
-"""How the device was found and what else would do, as `design.json` has it."""
+"""Records of how the device was found, and of alternatives, in `design.json`."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -6,17 +6,17 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class TaskDemand:
-    """What one part of the requirement asks of a drive.
+    """Demand of one part of the requirement on a drive.
 
     Attributes:
         source: name of the maneuver, or `rate change, roll` and `rate change, pitch`.
         incidence: of the modules during it [rad].
         spin_inertia: smallest of a wheel with which this drive does it in time [kg m^2].
-        time_needed: at the least, with the wheel as designed, on the reserved share of voltage and
-            current [s]; None: no time is set.
-        time_given: [s]; None likewise.
+        time_needed: least time with the wheel as designed, within the usable fraction of voltage
+            and current [s]; None: no time limit.
+        time_given: [s]; None: no time limit.
         peak_speed: of the busier wheel in that least time [rad/s].
-        peak_torque: of its motor at the wheel, accelerating or braking [N m]; None: no time is set.
+        peak_torque: of its motor at the wheel, accelerating or braking [N m]; None: no time limit.
     """
 
     source: str
@@ -35,8 +35,8 @@ class RankedRecord:
     Attributes:
         motor, gear, material: names in the catalogues. gear_ratio: motor speed over wheel speed.
         incidence: [rad].
-        mass: of the whole device, the sum of those that follow. wheels_mass, motors_mass,
-            gears_mass, housings_mass, plate_mass: [kg].
+        mass: of the whole device, the sum of the next five [kg].
+        wheels_mass, motors_mass, gears_mass, housings_mass, plate_mass: [kg].
         spin_inertia: of each wheel [kg m^2].
         outer_radius, height: of its rim [m].
     """
@@ -59,7 +59,7 @@ class RankedRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class RejectionRecord:
-    """Why a motor has no place among the candidates.
+    """Reason why a motor is not among the candidates.
 
     Attributes:
         motor: its name. reason: one word. detail: a sentence with figures.
@@ -72,14 +72,14 @@ class RejectionRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class CoDesignRecord:
-    """What optimal control made of the selected device.
+    """Result of the co-design by optimal control.
 
     Attributes:
-        adopted: whether the device is the co-designed one; else the selection stands.
+        adopted: whether the device is the co-designed one; otherwise the selection stands.
         status: of the solver. iterations: of the solver.
         mass: of the co-designed device [kg]; None if there is none.
         selected_mass: of the selected one [kg].
-        violation: largest of any limit on a ten times finer grid, relative.
+        violation: largest relative violation of a limit on a ten times finer grid.
         remark: one sentence.
     """
 
@@ -94,10 +94,10 @@ class CoDesignRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class PriceRecord:
-    """What one more of a limit buys, the limit by its name in `sizing.limits.LIMITS`.
+    """Price of a limit: the mass that loosening it saves.
 
     Attributes:
-        limit: its name. value: as it is [SI]. changed: the looser one [SI].
+        limit: its name in `sizing.limits.LIMITS`. value: present [SI]. changed: looser [SI].
         mass_change: of the whole device [kg], at most 0.
     """
 
@@ -109,15 +109,15 @@ class PriceRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class KeptRecord:
-    """Reserve that is kept for a maneuver.
+    """Reserve kept for a maneuver.
 
     Attributes:
-        maneuver: its name. demand: factor on what is asked of the wheels, at least 1.
-        needed: factor that the asked share of robots needs of this device; below 1, one that is
-            designed for the mean has enough to spare.
-        roll_rate, pitch_rate: that the trunk may begin with [rad/s].
-        undone: rate of roll at lift-off that a flip undoes [rad/s]; 0: no flip.
-        lost: share of robots that drift off level about an axis out of the wheels' reach.
+        maneuver: its name. demand: factor on the demand on the wheels, at least 1.
+        needed: factor that the required fraction of robots needs of this device; below 1, a device
+            designed for the mean has enough margin.
+        roll_rate, pitch_rate: initial rates of the trunk that are covered [rad/s].
+        undone: roll rate at lift-off that a flip must cancel [rad/s]; 0: no flip.
+        lost: fraction of robots that drift off level about an axis that the wheels cannot control.
     """
 
     maneuver: str
@@ -131,11 +131,12 @@ class KeptRecord:
 
 @dataclass(frozen=True, kw_only=True)
 class UncertaintyCost:
-    """What one uncertain quantity costs.
+    """Cost of one uncertain quantity.
 
     Attributes:
-        key: of `[reality]`. share: of what robots need more for all keys, each known by itself.
-        mass: that the device would be lighter by if the quantity were known [kg].
+        key: of `[reality]`.
+        share: fraction of the extra need of all quantities, each evaluated as if known alone.
+        mass: mass that would be saved if the quantity were known [kg].
     """
 
     key: str
@@ -145,11 +146,12 @@ class UncertaintyCost:
 
 @dataclass(frozen=True, kw_only=True)
 class ReserveRecord:
-    """What is kept for what is uncertain, and what it costs.
+    """Reserve for uncertainty, and its cost.
 
     Attributes:
-        reliability: share of samples that shall pass. predicted: that do by the closed forms.
-        scale: factor on every deviation; above 1 where flights showed more.
+        reliability: required fraction of samples that pass. predicted: the fraction by closed
+            forms.
+        scale: factor on every deviation; above 1 where simulated flights need more.
         nominal: mass of the lightest device without a reserve [kg].
         maneuvers: see `KeptRecord`. costs: the largest share first.
         curve: reliability and mass of the device of the same parts [kg], where there is one.
@@ -165,7 +167,7 @@ class ReserveRecord:
 
     @property
     def demands(self) -> Mapping[str, float]:
-        """Factor on what each maneuver asks, by its name."""
+        """Factor on the demand of each maneuver, by name."""
         return {each.maneuver: each.demand for each in self.maneuvers}
 
 
@@ -174,13 +176,13 @@ class SelectionRecord:
     """The choice of motor, gear, material and incidence.
 
     Attributes:
-        bus_voltage: [V]. reserve: share of voltage, current and speed limit that it may use.
-        candidates: how many combinations were looked at.
-        binding_maneuver: what asks for the most spin inertia. binding: limits that hold the mass.
+        bus_voltage: [V]. reserve: usable fraction of voltage, current and speed limit.
+        candidates: number of combinations examined.
+        binding_maneuver: the one that requires the most spin inertia. binding: active limits.
         tasks: of the chosen drive. ranking: lightest first. rejections: by motor.
-        co_design: None if it was not asked for.
-        prices: of the limits, before any co-design; empty where an older version wrote the file.
-        kept: for what is drawn; None likewise, or without maneuvers.
+        co_design: None if not requested.
+        prices: of the limits, before any co-design; empty in files of older versions.
+        kept: reserve for sampled errors; None without maneuvers or in files of older versions.
     """
 
     bus_voltage: float
@@ -201,13 +203,13 @@ class SizingRecord:
     """How the optimum was found.
 
     Attributes:
-        status, method: of the optimum. objective: what was minimised [kg]: the mass of the whole
-            device, or of one rim.
-        binding: limits that hold the mass up.
-        shadow_prices: change of the mass of one module per change of each binding limit [kg per SI
-            unit of the limit].
-        gap: relative, of the optimum.
-        residual: of the fixed point, relative. iterations: to it.
+        status, method: of the optimum.
+        objective: minimised mass, of the whole device or of one rim [kg].
+        binding: active limits.
+        shadow_prices: change of one module's mass per change of each active limit [kg per SI unit
+            of the limit].
+        gap: relative gap of the optimum.
+        residual: relative residual of the fixed point. iterations: number of iterations.
     """
 
     status: str
@@ -221,18 +223,18 @@ class SizingRecord:
 
 
 SAVES_NOTHING = "saves nothing"
-"""Note of an alternative that is no lighter than the device."""
+"""Note on an alternative that is not lighter than the device."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Alternative:
-    """A lighter or simpler device that one change of the question would give.
+    """A lighter or simpler device that one change of the specification would give.
 
     Attributes:
-        change: what would be different, as a person would say it.
-        mass_total: of the whole device, with plate or pedestals [kg]; None: there is none then.
-        motor: its name; empty where there is no device.
-        note: what speaks for or against it; empty if nothing does.
+        change: the change, in plain words.
+        mass_total: of the whole device, with plate or pedestals [kg]; None: infeasible.
+        motor: its name; empty if infeasible.
+        note: remark for or against it; may be empty.
     """
 
     change: str
@@ -243,12 +245,12 @@ class Alternative:
 
 @dataclass(frozen=True, kw_only=True)
 class Owed:
-    """The maneuver that the mass is owed to.
+    """The maneuver that drives the mass.
 
     Attributes:
-        maneuver: its name; empty: no single one, without any of them it weighs the same.
-        mass_without: of the whole device that does all else, with plate or pedestals [kg]; None:
-            nothing else is asked.
+        maneuver: its name; empty: no single one, as omitting any of them saves nothing.
+        mass_without: mass of the whole device for the rest of the requirement, with plate or
+            pedestals [kg]; None: nothing else is required.
     """
 
     maneuver: str
@@ -257,11 +259,11 @@ class Owed:
 
 @dataclass(frozen=True, kw_only=True)
 class Lighter:
-    """What would have to give for a lighter device.
+    """Trade-offs for a lighter device.
 
     Attributes:
-        by: mass that the whole device, with plate or pedestals, is to lose [kg].
-        changes: each of which does it; empty: none that was looked for.
+        by: mass to save on the whole device, with plate or pedestals [kg].
+        changes: changes that each save it; empty: none was found.
     """
 
     by: float
