@@ -190,7 +190,7 @@ def _elastic(material: Material | None) -> tuple[float, float] | None:
 
 
 def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
-    """Stress of a wheel of one piece, or torque, stresses and buckling of a shrink fit."""
+    """Stress of a one-piece wheel, or torque, stresses and buckling of a shrink fit."""
     wheel = device.flywheel
     rings, fit = wheel_rings(wheel), rim_fit(device)
     if rings is None:
@@ -213,9 +213,9 @@ def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
             format_quantity(2.0 * each, "um", digits=3) for each in (fit.least, fit.most)
         )
         note = (
-            f"shrunk on, {least} to {most} too narrow across; friction of {FRICTION:g} at the "
-            f"looser, at {OVERSPEED:g} x top speed or at rest, {COLDEST:g} to {WARMEST:g} deg C, "
-            f"against {SERVICE:g} x peak torque"
+            f"shrunk on, {least} to {most} interference on diameter; friction of {FRICTION:g} at "
+            f"the looser fit, at {OVERSPEED:g} x top speed or at rest, {COLDEST:g} to {WARMEST:g} "
+            f"deg C, against {SERVICE:g} x peak torque"
         )
         torque = SERVICE * (device.motor.torque_limit or 0.0)
         yield Margin(RIM_JOINT, torque, fit.torque, "N m", note=note)
@@ -300,7 +300,7 @@ def _shaft_joints(device: Device, web: Web) -> Iterator[Margin]:
     carried: float | None = None
     reserve: float | None = None
     if drive.gear != DIRECT.name:
-        note = "the catalogue does not say how a wheel is mounted on this gear"
+        note = "how a wheel is mounted on this gear is not in the catalogue"
     elif mounting is not None and mounting.rotor is not None:
         circle, carried = mounting.rotor, hub_joint(mounting, 0.0)
         held = screw(circle.thread)

@@ -354,7 +354,7 @@ def test_behind_a_gear_nothing_is_fixed_in_a_hole_or_bonded_on_a_shaft():
     assert "Fix gear ({}) and motor ({}) as said above".format(*numbers) in steps
     assert "the gear's output within 0.05 mm of the wheel's axis" in steps
     assert "middle of their hole" not in steps
-    assert "by a joint of your own: the catalogue does not say how a wheel is" in steps
+    assert "by a joint of your own: how a wheel is mounted on this gear is not in" in steps
     assert "compound" not in steps
 
 
