@@ -1,1 +1,1 @@
-"""From a file or numbers to one frozen `Robot`."""
+"""Reads a robot from a file or from figures into one frozen `Robot`."""

@@ -1,4 +1,4 @@
-"""Folders that a robot file may take other files from, and the mesh files that it names."""
+"""Folders from which a robot file may load other files, and the mesh files that it names."""
 
 import os
 import shlex
@@ -9,17 +9,17 @@ from pathlib import Path, PurePosixPath
 from urllib.parse import unquote
 
 UPWARDS, DOWNWARDS, MOST_FOLDERS = 4, 2, 3000
-"""Levels above the robot file and below each of those, and folders in all, where missing meshes are
-looked for: 50 ms."""
+"""Limits of the search for missing meshes: levels above the robot file, levels below each of those,
+and folders in all; it takes 50 ms."""
 
 MOST_PACKAGES = 3
-"""Most packages whose folders are looked for."""
+"""Most packages whose folders are searched for."""
 
 
 def roots_of(file: Path) -> tuple[Path, ...]:
     """A robot file's own folder, and the ROS package, repository and Python package around it.
 
-    A workspace may be installed by links: the folders of the file that a link leads to count too.
+    A workspace may be installed by symbolic links: the folders of the linked file count, too.
     """
     roots = []
     for folder in dict.fromkeys((file.absolute().parent, file.resolve().parent)):
@@ -35,27 +35,27 @@ def roots_of(file: Path) -> tuple[Path, ...]:
 
 
 def package_roots(folder: Path) -> tuple[Path, ...]:
-    """A ROS package's folder and the one that its files are links to; none if it is no package."""
+    """A ROS package's folder, and the one that its files link to; empty if it is no package."""
     manifest = folder / "package.xml"
     return (folder, manifest.resolve().parent) if manifest.is_file() else ()
 
 
 def is_below(path: Path, roots: Iterable[Path]) -> bool:
-    """Whether a file lies below one of several folders, links followed."""
+    """Whether a file is below one of several folders, following links."""
     target = path.resolve()
     return any(target.is_relative_to(root.resolve()) for root in roots)
 
 
 _PACKAGED = ("package", "model")
-"""Schemes of a mesh's address that begin with a package."""
+"""Schemes of a mesh's address that starts with a package's name."""
 
 
 class MeshFinder:
-    """Finds the file on disk that a mesh's name in a robot file stands for.
+    """Finds the file on disk for a mesh named in a robot file.
 
-    A package is looked for in `package_paths`, then where ROS looks (ROS_PACKAGE_PATH,
-    AMENT_PREFIX_PATH and CMAKE_PREFIX_PATH), then beside each folder above the robot file. What is
-    not found is noted in `missing`, and `cure` says where it may be.
+    A package is searched for in `package_paths`, then where ROS looks (ROS_PACKAGE_PATH,
+    AMENT_PREFIX_PATH and CMAKE_PREFIX_PATH), then beside each folder above the robot file. Meshes
+    that are not found are recorded in `missing`, and `cure` says where they may be.
     """
 
     def __init__(self, folder: Path, package_paths: Mapping[str, Path]) -> None:
@@ -86,13 +86,13 @@ class MeshFinder:
         return None
 
     def package_folder(self, package: str) -> Path | None:
-        """The package's folder, or None if it is nowhere."""
+        """The package's folder, or None if it is not found."""
         return next(filter(Path.is_dir, self._package_folders(package)), None)
 
     def cure(self) -> str:
-        """How the missing meshes would be found, with the folders near the file that hold them.
+        """How to make the missing meshes found, naming nearby folders that contain them.
 
-        A file may be there by another package's name, so it is offered and not taken.
+        A nearby file may belong to another package, so it is suggested, not used.
         """
         first: dict[str, str] = {}
         for name in self.missing:
@@ -112,7 +112,7 @@ class MeshFinder:
         return "; ".join(cures)
 
     def _searched(self, inside: str) -> Path | None:
-        """The nearest folder that has this file in it, of a bounded number."""
+        """The nearest folder that contains this file, among a bounded number."""
         levels = islice((self.folder, *self.folder.parents), UPWARDS + 1)
         near = (_below(above, DOWNWARDS) for above in levels if above.name)
         site = Path(sysconfig.get_path("purelib"), "cmeel.prefix", "share")
@@ -144,7 +144,7 @@ class MeshFinder:
 
 
 def _forward(name: str) -> str:
-    """A mesh's name as it would be written outside of Windows."""
+    """A mesh's name with forward slashes."""
     return name.strip().replace("\\", "/")
 
 
@@ -153,13 +153,13 @@ def _environment_paths(variable: str) -> list[Path]:
 
 
 def _shares() -> list[Path]:
-    """Folders that hold the packages that ROS or a CMake prefix has installed."""
+    """Folders of the packages installed by ROS or in a CMake prefix."""
     variables = ("AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH")
     return [entry / "share" for each in variables for entry in _environment_paths(each)]
 
 
 def _below(folder: Path, levels: int) -> Iterator[Path]:
-    """A folder and those in it, so many levels down; hidden ones are left out."""
+    """A folder and its subfolders down to some level, without hidden ones."""
     yield folder
     if levels == 0:
         return

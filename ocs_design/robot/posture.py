@@ -1,4 +1,4 @@
-"""Posture that the robot is measured in, and its inertia in others."""
+"""The nominal posture of a robot, and its inertia in other postures."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -18,20 +18,20 @@ from ocs_design.robot.tree import LARGEST_NUMBER, Tree
 ZERO = "zero"
 STAND = "stand"
 OUTSIDE = "the posture is outside the limits of:"
-"""How a warning of joints beyond their limits begins."""
+"""Start of a warning about joints beyond their limits."""
 
 _LIMIT_TOLERANCE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
 class Posture:
-    """Posture of a robot, with the name that it was asked for by.
+    """Posture of a robot, with the name by which it was requested.
 
     Attributes:
         values: of every moving joint [rad or m].
         name: `zero`, `stand` or the name in the file, with ` + joints` if some were set one by one.
-        standing_height: of the trunk frame's origin over the lowest sole [m]; None without legs.
-        warnings: what is odd about it, one sentence each.
+        standing_height: of the trunk frame's origin above the lowest sole [m]; None without legs.
+        warnings: oddities, one sentence each.
     """
 
     values: Mapping[str, float]
@@ -47,7 +47,7 @@ def resolve_posture(
     name: str | None,
     joints: Mapping[str, float],
 ) -> Posture:
-    """The posture that the user asks for.
+    """The posture that the user requests.
 
     Args:
         tree: of the robot.
@@ -99,7 +99,7 @@ def resolve_posture(
 
 
 def unknown_name(kind: str, name: str, known: Iterable[str]) -> RobotError:
-    """The error for a name that the robot does not have, with what it has, closest first."""
+    """Error for a name that the robot does not have, listing its names, the closest first."""
     folded: dict[str, list[str]] = {}
     for each in sorted(known):
         folded.setdefault(each.casefold(), []).append(each)
@@ -115,11 +115,11 @@ _ABDUCTIONS = (0.25, 0.5, 0.75, 1.0)
 
 
 def posture_sensitivity(robot: Robot) -> Mapping[str, MassProperties]:
-    """Locked mass properties of the robot in B, by what the plausible posture is.
+    """Locked mass properties of the robot in B, for each plausible posture by its description.
 
-    They are the nominal one, all joints at zero, standing at 60 to 90 % of the stretched legs,
-    standing with the legs spread sideways by 0.25 to 1 rad, and what the file names, as
-    `resolve_posture` takes it. Postures that joint limits forbid are left out.
+    The postures are the nominal one, all joints at zero, standing at 60 to 90 % of the stretched
+    legs, standing with the legs spread sideways by 0.25 to 1 rad, and those named in the file, as
+    `resolve_posture` reads them. Postures that joint limits forbid are left out.
     """
     tree, legs = robot.tree, robot.legs
     postures = [(f"nominal ({robot.posture_name})", robot.posture), (ZERO, {})]
@@ -134,7 +134,7 @@ def posture_sensitivity(robot: Robot) -> Mapping[str, MassProperties]:
         turned = {name: usual[name] + sign * angle for name, sign in outwards.items()}
         if all(joints[name].lower <= value <= joints[name].upper for name, value in turned.items()):
             postures.append((f"legs spread by {angle:g} rad", {**usual, **turned}))
-    # As `resolve_posture` takes them: the built-in ones have their names for themselves.
+    # As in `resolve_posture`: the names of the built-in postures are reserved.
     filled = neutral_posture(tree)
     postures += (
         (name, {**filled, **values})
@@ -145,7 +145,7 @@ def posture_sensitivity(robot: Robot) -> Mapping[str, MassProperties]:
 
 
 def _outward_joints(robot: Robot) -> Mapping[str, float]:
-    """Abduction joint of each leg and the sign that turns it outwards; empty if a leg has none."""
+    """Abduction joint of each leg and the sign of outward rotation; empty if a leg has none."""
     geometries = leg_geometries(robot.tree, robot.trunk, robot.legs)
     middle = np.mean([each.plane.hip for each in geometries], axis=0)
     found = {}

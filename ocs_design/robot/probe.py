@@ -1,6 +1,6 @@
-"""Solids on a trunk that distances from the robot's links are measured of.
+"""Solids on a trunk, for measuring distances from the robot's links.
 
-Devices are made of them without MuJoCo, which measures the distances (`collision.py`).
+Devices describe themselves by these without MuJoCo, which measures the distances (`collision.py`).
 """
 
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from ocs_design.common.arrays import FloatArray
 
 @dataclass(frozen=True, eq=False)
 class Ball:
-    """Ball that a module may sweep.
+    """Ball that a module may sweep through.
 
     Attributes:
         center: in B [m], shape (3,).
@@ -31,7 +31,7 @@ class Ball:
 
 @dataclass(frozen=True, eq=False)
 class Drum:
-    """Cylinder that a module is as it stands.
+    """Cylinder that a module occupies.
 
     Attributes:
         center: in B [m], shape (3,).

@@ -1,4 +1,4 @@
-"""From a robot file of any format to a robot: trunk, legs, posture and mass properties.
+"""Reads a robot file of any format into a robot: trunk, legs, posture and mass properties.
 
 Named postures come from the SRDF beside a URDF: https://wiki.ros.org/srdf/review, `<group_state>`.
 """
@@ -28,11 +28,11 @@ from ocs_design.robot.xacro import expand_xacro
 from ocs_design.robot.xml import number, parse_xml, text
 
 Postures = Mapping[str, Mapping[str, float]]
-"""Joint values [rad or m] by the posture's name."""
+"""Joint values [rad or m], by name of the posture."""
 
 
 def read_group_states(content: bytes) -> Postures:
-    """Joint values [rad or m] of each `<group_state>`; states of one name are joined.
+    """Joint values [rad or m] of each `<group_state>`; states of the same name are merged.
 
     Joints with several values, such as the pose of a floating base, are left out.
     """
@@ -51,12 +51,12 @@ def read_group_states(content: bytes) -> Postures:
 
 
 def find_srdfs(folder: Path, stem: str, robot_name: str) -> list[Path]:
-    """SRDFs in `folder` or its sister `srdf` that belong to a robot file.
+    """SRDFs in `folder` or its sibling `srdf` that belong to a robot file.
 
-    The one named like the file, else all that name the same robot.
+    The one with the file's name; otherwise all that name the same robot.
     """
     named = sorted([*folder.glob("*.srdf"), *folder.glob("../srdf/*.srdf")])
-    # A pipe of that name would be waited for without end.
+    # Reading a pipe of that name would block.
     found = [path for path in named if path.is_file()]
     if same_stem := [path for path in found if path.stem == stem]:
         return same_stem[:1]
@@ -92,7 +92,7 @@ def postures_beside(read: Source, tree: Tree, warnings: Warnings) -> Postures:
 
 @dataclass(frozen=True, eq=False)
 class Loaded:
-    """Tree of a robot file, with the text that it was read from.
+    """Tree of a robot file, with the text from which it was read.
 
     Attributes:
         tree: moving bodies.
@@ -100,7 +100,7 @@ class Loaded:
         content: the file's text, unzipped and expanded.
         sha256: of the bytes as they were read.
         source: as the user wrote it.
-        mesh_cure: how the meshes that were not found would be; empty: none is missing.
+        mesh_cure: how to make the missing meshes found; empty: none is missing.
     """
 
     tree: Tree
@@ -124,15 +124,15 @@ _NO_ROBOTS: Mapping[str, tuple[str, str]] = {
         (".zip", ".tar", ".tgz", ".7z", ".rar"),
         ("an archive", "unpack it and give the URDF or MJCF file in it"),
     ),
-    ".toml": ("a specification, no robot", "give it with --spec, behind the robot's file"),
+    ".toml": ("a specification, not a robot", "give it with --spec, after the robot's file"),
     ".json": (
-        "no robot",
+        "not a robot",
         "a design.json is read by `ocs-design validate` and `ocs-design export`; "
         "`ocs-design size` takes a URDF or MJCF file",
     ),
-    ".srdf": ("a list of postures, no robot", "give the URDF: the SRDF beside it is found"),
+    ".srdf": ("a list of postures, not a robot", "give the URDF: the SRDF beside it is found"),
 }
-"""What files of other kinds are and what to give instead, by suffix."""
+"""Other kinds of files and what to give instead, by suffix."""
 
 _ROBOT = re.compile(rb"<(link|mujoco)\b")
 
@@ -147,8 +147,8 @@ def load(
 
     Args:
         source: a path, or `-`.
-        package_paths: folder of each package that `package://` addresses name.
-        named: links that the user named, to tell the robot from what else is in an MJCF model.
+        package_paths: folder of each package, for `package://` addresses.
+        named: links that the user named, to find the robot among other bodies of an MJCF model.
     """
     read = read_source(source)
     try:
@@ -162,7 +162,7 @@ def _load(read: Source, package_paths: Mapping[str, Path], named: Sequence[str])
     folder = read.folder or Path.cwd()
     content = read.content
     other = _NO_ROBOTS.get(Path(read.path_text).suffix.lower())
-    # Whatever it is called, a robot is one.
+    # A robot counts as one whatever the file's suffix.
     if other is not None and not _ROBOT.search(content):
         raise RobotError(f"the file is {other[0]}", hint=other[1])
     root = parse_xml(content)
@@ -254,17 +254,17 @@ def read_robot(
 def _assumed_heights(
     tree: Tree, trunk: str, legs: Sequence[Leg], standing_height: float | None
 ) -> Iterator[str]:
-    """What is taken for heights that only missing meshes would tell."""
+    """Warnings of the heights assumed where meshes are missing."""
     if unmeasured(tree.bodies[tree.body_of_link[trunk]]):
         top = format_quantity(trunk_top(tree, trunk), "mm")
         yield (
-            f"the trunk's top is not known without its meshes: it is taken at z = {top}; "
-            "give the modules' place with --position X,Y,Z"
+            f"the top of the trunk is not known without its meshes: assumed at z = {top}; "
+            "give the modules' position with --position X,Y,Z"
         )
     feet = [leg.name for leg in legs if unmeasured(tree.bodies[leg.body])]
     if feet and standing_height is not None:
         height = format_quantity(standing_height, "mm")
         yield (
-            f"how far feet reach is not known without the meshes of {some_of(feet)}: by their "
-            f"links the trunk stands at {height}"
+            f"the reach of the feet is not known without the meshes of {some_of(feet)}: judged by "
+            f"their links, the trunk stands at {height}"
         )

@@ -1,9 +1,9 @@
-"""What a robot's trunk and legs are, how sure that is, and what to ask where it is not.
+"""Recognises a robot's trunk and legs, with a confidence, and asks the user if that is too low.
 
-Every way to read a robot (a body as trunk, some limbs as legs) is judged by a few signs that a
-person looks at too. The confidence is the share of the signs that speak for it, less what speaks
-against it. No sign decides alone: names may mislead, meshes may be missing, and the posture at zero
-may be any.
+Every reading of a robot (a body as trunk, some limbs as legs) is judged by a few signs that a
+person would look at, too. The confidence is the share of the signs that support it, reduced by
+what speaks against it. No sign decides alone: names may mislead, meshes may be missing, and the
+zero posture may be anything.
 """
 
 from collections.abc import Sequence
@@ -30,23 +30,23 @@ from ocs_design.robot.robot import (
 from ocs_design.robot.tree import Tree
 
 SURE = 0.8
-"""Confidence from which on nothing is asked."""
+"""Least confidence at which the user is not asked."""
 
 _LIKELY = 0.3
-"""Confidence from which on a reading is worth asking about."""
+"""Least confidence at which a reading is offered as an answer."""
 
 _SHOWN = 0.5
-"""Confidence from which on a reading that is not sure is shown at all."""
+"""Least confidence at which an uncertain reading is shown at all."""
 
 
 _MOST_ANSWERS = 3
-"""Likely answers that are shown."""
+"""Most answers that are shown."""
 
 _STATED = (Sign("stated", "", holds=True),)
 
 _FIXED = "the robot is fixed to the world in its file"
 
-NAMES = "their names are those of legs"
+NAMES = "they have names of legs"
 
 _SPINE = (Doubt(SPINE, 0.7),)
 
@@ -59,10 +59,10 @@ def recognise(
     Args:
         tree: of the robot.
         trunk: link that the user named; None: found.
-        legs: links, one in each foot, that the user named; empty: the robot has none; None: found.
+        legs: links that the user named, one per foot; empty: the robot has none; None: found.
 
     Raises:
-        RobotError: legs that were named cannot be legs.
+        RobotError: named legs cannot be legs.
     """
     anatomy = _Readings(tree)
     given = (("trunk", trunk is not None), ("legs", legs is not None))
@@ -77,7 +77,7 @@ def recognise(
             named = anatomy.stated(trunk, found)
         else:
             named = anatomy.named(trunk, legs, anatomy.up_of(first[0]) if first else None)
-        # With a spine the legs do not tell which of its ends carries the device.
+        # With a spine, the legs do not determine which of its ends carries the device.
         ends = {leg.base for leg in named.legs} if trunk is None else set()
         heaviest = sorted(ends, key=lambda body: -anatomy.masses[body].mass)
         spine = tuple(
@@ -86,11 +86,11 @@ def recognise(
         return Recognition(named, spine if len(spine) > 1 else (), stated)
     readings = anatomy.readings()
     if trunk is not None:
-        # With the trunk named, what spoke against it is answered.
+        # If the trunk is named, doubts about it are settled.
         body = tree.body_of_link[trunk]
         readings = [anatomy.on_trunk(each, trunk, body) for each in readings]
     likely = [each for each in readings if each.confidence >= _LIKELY]
-    # Limbs that are named as arms and do not convince are arms; those named as legs are not.
+    # Unconvincing limbs with names of arms are arms, but not those with names of legs.
     arms = not any(_speaks(each, NAMES) for each in readings) and all(
         _speaks(each, NAMES) is False for each in likely
     )
@@ -108,15 +108,15 @@ def recognise(
         asked.append(none)
     root = frame_link(tree.bodies[0])
     if trunk is None and none in asked and none.trunk != root:
-        # An upper body's heaviest link is its chest, but it may be meant to sit on its pelvis.
+        # An upper body's heaviest link is its chest, but its pelvis may be the intended trunk.
         asked.append(anatomy.without_legs(None, likely=not arms, body=root))
-    # Who only looks, and does not have to be sure, is shown the likeliest.
+    # Commands that only show the robot, and need no certainty, show the likeliest reading.
     shown = asked[0] if asked[0].confidence >= _SHOWN else none
     return Recognition(shown, tuple(asked), stated)
 
 
 def question_about(found: Recognition) -> RobotError:
-    """What to ask the user about a robot that is not sure, with the likely answers."""
+    """Question to the user about an uncertain robot, with the likely answers."""
     best = found.likely[0]
     against = [
         *(doubt.what for doubt in best.doubts),
@@ -147,7 +147,7 @@ def _speaks(reading: Reading, what: str) -> bool | None:
 
 
 def _best(readings: Sequence[Reading]) -> Reading:
-    """The surest reading, or one that is as sure as needed and explains more legs."""
+    """The reading of highest confidence, or a sufficiently confident one with more legs."""
     best = max(readings, key=lambda each: each.confidence)
     bodies = {leg.body for leg in best.legs}
     larger = [
@@ -162,14 +162,14 @@ def _best(readings: Sequence[Reading]) -> Reading:
 _UPS = np.eye(3)[[2, 1, 0]]
 
 _LONGER = 1.2
-"""How much longer legs must be along another axis for that to be up."""
+"""Ratio by which legs must be longer along another axis for that to be up."""
 
 _LIGHT_TRUNK = 0.2
-"""Share of the mass that the legs carry, below which they seem to be most of the robot."""
+"""Share of the mass carried by the legs below which they seem to be most of the robot."""
 
 
 class _Readings(Anatomy):
-    """Ways to read a tree."""
+    """Possible readings of a tree."""
 
     @property
     def heaviest(self) -> str:
@@ -183,7 +183,7 @@ class _Readings(Anatomy):
     def readings(self) -> list[Reading]:
         """Every reading with legs, each set of feet once."""
         found: dict[frozenset[int], Reading] = {}
-        # Files of other conventions are rare: only where nothing hangs along z.
+        # Files of other conventions are rare: other axes are tried only if nothing hangs along z.
         hanging = ((up, limbs) for up in _UPS if (limbs := self.hanging(up)))
         upright, known = next(hanging, (_UPS[0], []))
         if known:
@@ -192,7 +192,7 @@ class _Readings(Anatomy):
         for up in upright[None] if known else _UPS:
             limbs = self.limbs(up)
             sets = [each for each in sets_of(limbs) if self.may_stand(each, up)]
-            # Legs that are not alike, such as a prosthesis, are told by their names alone.
+            # Legs that differ, such as a prosthesis, are recognised by their names alone.
             called = [limb for limb in limbs if self.names([limb])]
             bases = {each[0].base for each in sets}
             called = [limb for limb in called if not bases & self.inside([limb])]
@@ -213,13 +213,13 @@ class _Readings(Anatomy):
                 trunk = self._spine_trunk([limb.base for limb in chosen])
                 signs, doubts = self._signs(chosen, sets, up)
                 reading = Reading(frame_link(self.tree.bodies[trunk]), legs, signs, doubts)
-                # With a wrong direction for up some limbs hang by chance.
+                # If `up` is wrong, some limbs hang by chance.
                 if up[2] == 1.0 or known or _speaks(reading, NAMES):
                     found[feet] = reading
             if any(each.confidence >= _LIKELY for each in found.values()):
                 break
         readings = list(found.values())
-        # Of robots with a spine, the other ends of it as trunk.
+        # For robots with a spine, its other ends as trunk.
         for each in found.values():
             spine = any(doubt.what == SPINE for doubt in each.doubts)
             for base in sorted({leg.base for leg in each.legs}) if spine else ():
@@ -231,9 +231,9 @@ class _Readings(Anatomy):
         return readings
 
     def _upright(self, limbs: Sequence[Limb], up: FloatArray) -> FloatArray:
-        """Up of a robot that lies at zero: the axis that its legs lie along and are longest along.
+        """Up of a robot that lies down at zero: the axis along which its legs lie and are longest.
 
-        It is `up` itself for a robot that stands at zero, or crouches.
+        It is `up` itself if the robot stands or crouches at zero.
         """
 
         def lengths(axis: FloatArray) -> list[float]:
@@ -251,9 +251,9 @@ class _Readings(Anatomy):
         """The reading of a robot without legs.
 
         Args:
-            trunk: link that the user named, whose mass and place are not doubted.
+            trunk: link that the user named, whose mass and position are not questioned.
             likely: whether some limbs look like legs.
-            body: that is taken for the trunk; None: the heaviest.
+            body: taken as the trunk; None: the heaviest.
         """
         name = trunk or body or self.heaviest
         index = self.tree.body_of_link[name]
@@ -270,7 +270,7 @@ class _Readings(Anatomy):
                 f"'{name}' has only {share:.0%} of the mass",
                 share > 1 / 3,
             ),
-            Sign("the trunk has a sixth of the mass", "that is little", share > 1 / 6),
+            Sign("the trunk has a sixth of the mass", "that is not much", share > 1 / 6),
         )
         if trunk is not None:
             return Reading(name, (), signs[:1])
@@ -295,7 +295,7 @@ class _Readings(Anatomy):
     def named(
         self, trunk: str | None, names: Sequence[str], up: FloatArray | None = None
     ) -> Reading:
-        """The reading that the user stated; `up` is in the root's frame, None where not known."""
+        """The reading that the user specified; `up` is in the root's frame, None if unknown."""
         bodies = [self.tree.body_of_link[name] for name in names]
         for (one, body), (other, twin) in combinations(zip(names, bodies, strict=True), 2):
             if body in self.tree.ancestors(twin) or twin in self.tree.ancestors(body):
@@ -308,8 +308,8 @@ class _Readings(Anatomy):
         for name, body, base in zip(names, bodies, bases, strict=True):
             if base < 0 or base == body:
                 raise RobotError(
-                    f"'{name}' cannot be a leg: no joint moves it against the trunk",
-                    hint="name the feet with --legs, and with --trunk what carries the legs",
+                    f"'{name}' cannot be a leg: no joint moves it relative to the trunk",
+                    hint="name the feet with --legs, and the link that carries them with --trunk",
                 )
         up = max(_UPS, key=lambda axis: self._hang(bodies, bases, axis)) if up is None else up
         pairs = sorted(zip(bodies, bases, strict=True))
@@ -323,13 +323,13 @@ class _Readings(Anatomy):
         return self.stated(trunk, legs)
 
     def closed(self, chosen: Sequence[Limb], up: FloatArray) -> str:
-        """How limbs are parts of closed chains, as a sentence; empty: they are not."""
+        """Sentence on how limbs form closed chains; empty: they do not."""
         if self.share_hips(chosen, up):
             return CLOSED
         return JOINED if any(map(self.is_joined, chosen)) else ""
 
     def stated(self, trunk: str | None, legs: Sequence[Leg]) -> Reading:
-        """The reading with legs that the user stated."""
+        """The reading with legs that the user specified."""
         up, bases = self.up_of(legs[0]), [leg.base for leg in legs]
         limbs = [self.limb(leg.base, leg.body, up) for leg in legs]
         doubts = (
@@ -340,7 +340,7 @@ class _Readings(Anatomy):
         return Reading(name, tuple(legs), _STATED, doubts)
 
     def _hang(self, bodies: Sequence[int], bases: Sequence[int], up: FloatArray) -> float:
-        """How well an axis does as up: what the legs hang and reach along it, z first."""
+        """Score of an axis as up: how far the legs hang and reach along it, with z preferred."""
         total = 0.5 * up[2] - 0.1 * up[0]
         for body, base in zip(bodies, bases, strict=True):
             limb = self.limb(base, body, up)
@@ -351,7 +351,7 @@ class _Readings(Anatomy):
     def _base_of(self, body: int, feet: Sequence[int], stem: int, *, alone: bool) -> int:
         """The body that the leg to `body` branches from; -1 if there is none.
 
-        It is the first on the way to the root that other legs or the named trunk hang on too.
+        It is the first on the way to the root from which other legs or the named trunk branch, too.
         """
         trunks = set() if alone else set(self.tree.ancestors(stem))
         others = [foot for foot in feet if foot != body]
@@ -374,7 +374,7 @@ class _Readings(Anatomy):
         inside = self.inside(chosen)
         outside = [i for i in range(len(self.tree.bodies)) if i not in inside]
         heavy = [i for i in outside if self.masses[i].mass > 0.0]
-        # A root's origin is often on the ground below the robot.
+        # The root's origin is often on the ground below the robot.
         points = [self.masses[i].com for i in heavy]
         points += [self.placements[i].position for i in heavy if i > 0]
         lowest = min((float(up @ point) for point in points), default=0.0)
@@ -383,7 +383,7 @@ class _Readings(Anatomy):
         signs = (
             Sign(
                 "the limbs are mirror images",
-                "the limbs are no mirror images",
+                "the limbs are not mirror images",
                 self.mirrored(chosen, up),
                 2.0,
             )
@@ -395,8 +395,8 @@ class _Readings(Anatomy):
                 2.0,
             ),
             Sign(
-                "stretched, they reach below all else",
-                "something else is lower than their ends when they are stretched",
+                "stretched, they reach below everything else",
+                "something else is lower than their ends when stretched",
                 deep,
                 2.0,
             ),
@@ -415,7 +415,7 @@ class _Readings(Anatomy):
                 "the centre of mass is not between them",
                 self.balanced(chosen, up),
             ),
-            Sign(NAMES, "their names are rather those of arms", self.names(chosen), 1.5),
+            Sign(NAMES, "they have names of arms", self.names(chosen), 1.5),
             Sign("the robot is free in its file", _FIXED, self.floats()),
         )
         doubts: list[Doubt] = []
@@ -424,11 +424,11 @@ class _Readings(Anatomy):
         if how := self.closed(chosen, up):
             doubts.append(Doubt(how, 0.5))
         if self.names(chosen) is False:
-            doubts.append(Doubt("limbs of such names are seldom legs", 0.9))
+            doubts.append(Doubt("limbs with such names are rarely legs", 0.9))
         if all(limb.hinges == 1 for limb in chosen):
             doubts.append(Doubt("each has a single joint", 0.75))
         if not several and not (signs[-2].holds or signs[-1].holds):
-            doubts.append(Doubt("one limb may as well be an arm", 0.6))
+            doubts.append(Doubt("a single limb may just as well be an arm", 0.6))
         left_out = [
             self.tree.bodies[limb.last].name
             for limb in self.limbs(up)
@@ -437,7 +437,7 @@ class _Readings(Anatomy):
             and self.names([limb]) is True
         ]
         if left_out and not self.share_hips(chosen, up):
-            what = f"limbs that reach less deep are named as legs too: {some_of(left_out)}"
+            what = f"limbs that reach less deep have names of legs, too: {some_of(left_out)}"
             doubts.append(Doubt(what, 0.75))
         rivals = [
             rival

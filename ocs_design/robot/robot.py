@@ -1,4 +1,4 @@
-"""The robot as every later step sees it, one frozen value, and how sure its trunk and legs are."""
+"""The robot as one frozen value for all later steps, and how trunk and legs were recognised."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -14,7 +14,7 @@ from ocs_design.robot.tree import Tree
 
 
 class Format(StrEnum):
-    """Kind of description that a robot was read from."""
+    """Format of the description from which a robot was read."""
 
     URDF = "urdf"
     MJCF = "mjcf"
@@ -30,7 +30,7 @@ class Leg:
         body: index of the foot's body in `Tree.bodies`.
         joints: moving joints from the trunk to the foot, mimics left out.
         foot: the point that touches the ground, in the foot body's frame [m], shape (3,).
-        foot_radius: of a sphere around `foot` that reaches the sole; 0 for a bare point [m].
+        foot_radius: of the sphere around `foot` that touches the sole; 0 for a bare point [m].
         length: of the stretched leg within its limits, hip pitch axis to foot [m].
         base: index of the body that the leg branches from: the trunk, or the end of a spine.
         up: unit vector against gravity in the frame of `base`, the robot standing, shape (3,).
@@ -48,10 +48,10 @@ class Leg:
 
 @dataclass(frozen=True, eq=False)
 class Mount:
-    """Base frame B of a robot of which no link has x forward and z up.
+    """Base frame B of a robot that has no link with x forward and z up.
 
     Attributes:
-        link: of the file that B is fixed to.
+        link: of the file, to which B is fixed.
         placement: of B in that link's frame.
     """
 
@@ -60,30 +60,30 @@ class Mount:
 
 
 NO_LEGS = "none"
-"""In place of the legs' names: the robot has none."""
+"""In place of the legs' names: the robot has no legs."""
 
 SPINE = (
-    "the legs branch from several bodies, with joints between them (a spine), which are held where "
-    "they are at zero"
+    "the legs branch from several bodies with joints between them (a spine), which are locked at "
+    "zero"
 )
 CLOSED = (
-    "limbs share a hip in pairs, as five-bar legs do whose loop the file leaves open: one of each "
-    "pair is the leg, and the other is held where it is at zero"
+    "limbs share a hip in pairs, as in five-bar legs whose loop is open in the file: one of each "
+    "pair is the leg, and the other is locked at zero"
 )
 JOINED = (
-    "limbs meet at their ends, as in a closed chain, which is cut open: each moves as if it ended "
-    "there"
+    "limbs meet at their ends, as in a closed chain, which is cut open there: each moves as if it "
+    "ended there"
 )
 
 
 @dataclass(frozen=True)
 class Sign:
-    """One thing that a person would look at.
+    """A sign that a person would look at.
 
     Attributes:
-        what: as a sentence, where it holds. against: as a sentence, where it does not.
-        holds: whether it does; None where the file does not tell.
-        weight: among the signs.
+        what: sentence if it holds. against: sentence if it does not.
+        holds: whether it does; None if the file does not say.
+        weight: relative to other signs.
     """
 
     what: str
@@ -94,7 +94,7 @@ class Sign:
 
 @dataclass(frozen=True)
 class Doubt:
-    """Something that speaks against a reading however good its signs are.
+    """Something that speaks against a reading, however good its signs.
 
     Attributes:
         what: as a sentence.
@@ -112,7 +112,7 @@ class Reading:
     Attributes:
         trunk: link that carries the device.
         legs: in file order; empty for a robot without.
-        signs: that it is judged by.
+        signs: by which it is judged.
         doubts: that lower its confidence.
     """
 
@@ -132,12 +132,12 @@ class Reading:
 
     @property
     def liberties(self) -> tuple[str, ...]:
-        """What is taken otherwise than the robot has it, one sentence each."""
+        """Simplifications of the real robot, one sentence each."""
         return tuple(each.what for each in self.doubts if each.what in {SPINE, CLOSED, JOINED})
 
     @property
     def options(self) -> str:
-        """The options of the command line that state it."""
+        """The command-line options that specify it."""
         return f"--trunk {self.trunk} --legs {','.join(leg.name for leg in self.legs) or NO_LEGS}"
 
 
@@ -146,9 +146,9 @@ class Recognition:
     """What was recognised of a robot.
 
     Attributes:
-        reading: that the program goes on with.
-        likely: readings to choose from where it is not sure, the likeliest first.
-        stated: what the user named: neither, `trunk`, `legs` or both.
+        reading: with which the program continues.
+        likely: readings to choose from if it is not sure, the likeliest first.
+        stated: what the user named: nothing, `trunk`, `legs` or both.
     """
 
     reading: Reading
@@ -157,7 +157,7 @@ class Recognition:
 
     @property
     def sure(self) -> bool:
-        """Whether nothing has to be asked."""
+        """Whether the user need not be asked."""
         return not self.likely
 
 
@@ -179,13 +179,13 @@ class Robot:
             some were set one by one.
         mass_properties: of the whole robot with its joints held at `posture`, in B.
         legs: found legs, in file order; empty if none.
-        standing_height: of the trunk frame's origin over the feet at `posture` [m]; None without
+        standing_height: of the trunk frame's origin above the feet at `posture` [m]; None without
             legs.
         warnings: one sentence each, naming the link or joint.
         mount: how B is fixed to the file's own link; None if `trunk` is a link of the file.
-        recognition: how sure trunk and legs are, and what else they may be; None by hand.
-        mesh_cure: how the meshes that were not found would be; empty: none is missing.
-        worn_at: point in B that modules stand around on a person's back [m]; None: of no person.
+        recognition: confidence in trunk and legs, and what else they may be; None by hand.
+        mesh_cure: how to make the missing meshes found; empty: none is missing.
+        worn_at: point in B around which modules sit on a person's back [m]; None: not a person.
     """
 
     name: str

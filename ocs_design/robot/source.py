@@ -27,7 +27,7 @@ class Source:
 
     Attributes:
         path_text: as the user wrote it; `-` for standard input.
-        folder: that the file lies in; None for standard input.
+        folder: that contains the file; None for standard input.
         content: unzipped.
         sha256: hexadecimal, of the bytes as they were read, before unzipping.
     """
@@ -49,7 +49,7 @@ def read_source(source: AnyPath) -> Source:
     if path_text == STANDARD_INPUT:
         if sys.stdin is None or sys.stdin.isatty():
             raise RobotError(
-                "standard input holds no robot", hint="pipe a file into it: cat robot.urdf | ..."
+                "standard input contains no robot", hint="pipe a file into it: cat robot.urdf | ..."
             )
         folder, raw = None, _read_bounded(sys.stdin.buffer, STANDARD_INPUT)
     else:
@@ -86,8 +86,8 @@ def _read_file(path: Path, name: str) -> bytes:
                 f"{path} is a link to {path.readlink()}, which does not exist", hint=hint
             ) from error
         if "://" in name:
-            hint = "it is an address on the web: download the file, and its meshes, first"
-            raise RobotError(f"{name} is no file", hint=hint) from error
+            hint = "it is a web address: download the file and its meshes first"
+            raise RobotError(f"{name} is not a file", hint=hint) from error
         try:
             beside = sorted(
                 path.absolute().parent.iterdir(), key=lambda each: each.suffix == path.suffix
@@ -106,7 +106,7 @@ def _read_file(path: Path, name: str) -> bytes:
         raise RobotError(f"{path} is a folder", hint=hint) from error
     except PermissionError as error:
         raise RobotError(
-            f"{path} may not be read: permission denied", hint=f"try: chmod u+r {path}"
+            f"{path} cannot be read: permission denied", hint=f"try: chmod u+r {path}"
         ) from error
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
@@ -116,7 +116,7 @@ def _read_file(path: Path, name: str) -> bytes:
 
 
 def _likely_robots(folder: Path) -> list[Path]:
-    """What may be a robot in a folder and in the folders in it, as packages have it; best first."""
+    """Likely robot files in a folder and its subfolders, as in packages; best first."""
     inside = (*folder.glob("*"), *folder.glob("[!.]*/*"))
     suffixes = {".urdf", ".xacro", ".xml", ".gz"}
     likely = (each for each in inside if each.suffix in suffixes and each.name not in _OF_PACKAGES)
@@ -124,7 +124,7 @@ def _likely_robots(folder: Path) -> list[Path]:
 
 
 _OF_PACKAGES = {"package.xml", "plugin.xml", "plugins.xml"}
-"""Files that a ROS package has beside its robot."""
+"""Other XML files of a ROS package than its robot."""
 
 
 def _read_bounded(stream: BinaryIO | gzip.GzipFile, path_text: str, state: str = "") -> bytes:
@@ -132,7 +132,7 @@ def _read_bounded(stream: BinaryIO | gzip.GzipFile, path_text: str, state: str =
     if len(content) > MAX_BYTES:
         raise RobotError(
             f"{_shown(path_text)} is larger than {MAX_BYTES // 2**20} MiB{state}",
-            hint="a robot file holds text only; keep its meshes in files of their own",
+            hint="a robot file contains only text; keep its meshes in separate files",
         )
     return content
 

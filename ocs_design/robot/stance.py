@@ -26,19 +26,19 @@ LANDING_TOLERANCE = np.radians(5.0)
 _SIMPLICITY = 1e-3
 """Weight of staying near the start, relative to the foot's error over the leg's length.
 
-It decides only what the foot leaves open (the yaw of a hip): the foot misses by 1e-6 of its length.
+It only settles what the foot leaves free (a hip's yaw): the foot misses by 1e-6 of that length.
 """
 
 
 @dataclass(frozen=True, eq=False)
 class Stance:
-    """Values of a leg's joints in which it stands.
+    """Joint values at which a leg stands.
 
     Attributes:
         values: of the leg's driven joints [rad or m].
         miss: distance from the foot to its place [m].
         tilt: of the sole against the ground [rad]; 0 for legs without ankles.
-        knee_ahead: how far the knee is on its wanted side of the line from hip to foot [m].
+        knee_ahead: distance of the knee on the desired side of the line from hip to foot [m].
     """
 
     values: FloatArray
@@ -54,7 +54,7 @@ class Stance:
 
 @dataclass(frozen=True, eq=False)
 class StanceProblem:
-    """Place where a leg's foot has to be. All vectors are in the chain's reference frame.
+    """Target position of a leg's foot. All vectors are in the chain's reference frame.
 
     Attributes:
         chain: the leg.
@@ -62,7 +62,7 @@ class StanceProblem:
         foot: in the last body's frame [m], shape (3,).
         target: of the foot [m], shape (3,).
         up: unit vector against gravity, shape (3,).
-        knee_side: level unit vector towards which the knee should point, shape (3,).
+        knee_side: level unit vector in which the knee should point, shape (3,).
     """
 
     chain: Chain
@@ -73,17 +73,17 @@ class StanceProblem:
     knee_side: FloatArray
 
     def solve(self) -> Stance:
-        """The best stance from a few fixed starts, knee to the wanted side first.
+        """The best stance from a few fixed starts, with the knee on the desired side first.
 
-        A stance with the knee on the other side is taken only if the limits leave no better.
+        A stance with the knee on the other side is used only if the limits allow no better one.
         """
-        # Half a second to import, and a robot in a known posture does without.
+        # Takes half a second to import; a robot in a known posture does not need it.
         from scipy.optimize import least_squares  # noqa: PLC0415
 
         lower, upper, columns = self.chain.lower, self.chain.upper, list(self.plane.columns)
         found: list[Stance] = []
         stretched = self.chain.stretched(self.foot, -self.up, self.plane.pitch)
-        # What shortens a straight leg to the target's distance.
+        # Bend that shortens a straight leg to the target's distance.
         reach = float(np.linalg.norm(self.target - self.plane.hip))
         angle = np.arccos(np.clip(reach / self.plane.length, 0.0, 1.0))
         bend = np.zeros(len(self.chain.driven))
@@ -92,7 +92,7 @@ class StanceProblem:
         for column, turns in zip(self.plane.pitch, (1.0, -2.0, 1.0), strict=False):
             axis = self._zero.axes[self.chain.driven[column]]
             bend[column] = towards * turns * angle * np.sign(axis @ self.plane.axis)
-        # The straight and the stretched leg, each bent to the wanted side, then to the other.
+        # The straight and the stretched leg, each bent to the desired side, then to the other.
         for side, values in product((1.0, -1.0), (self.chain.neutral(), stretched)):
             start = np.clip(values + side * bend, lower, upper)[columns]
             solution = least_squares(
@@ -107,7 +107,7 @@ class StanceProblem:
                 gtol=1e-12,
                 max_nfev=40,
             )
-            # Whole nanoradians: a joint that has nothing to do is at zero, not at 1e-17.
+            # Rounded to nanoradians: an idle joint is at zero, not at 1e-17.
             stance = self._stance(np.round(self._values(solution.x), 9) + 0.0)
             if stance.good and stance.knee_ahead >= 0.0:
                 return stance
@@ -122,17 +122,17 @@ class StanceProblem:
 
     @cached_property
     def _sole_up(self) -> FloatArray:
-        """The last body's direction that points up while its sole is flat, in its frame."""
+        """Direction in the last body's frame that points up while its sole is flat."""
         return self._zero.end.rotation.T @ self.up
 
     def _values(self, free: FloatArray) -> FloatArray:
-        """Values of all driven joints [rad or m]; those that do not move the foot rest."""
+        """Values of all driven joints [rad or m]; those that do not move the foot are at rest."""
         values = self.chain.neutral()
         values[list(self.plane.columns)] = free
         return values
 
     def _stance(self, values: FloatArray) -> Stance:
-        """How the leg stands at these values of all driven joints [rad or m]."""
+        """Stance at these values of all driven joints [rad or m]."""
         pose = self.chain.pose(values)
         foot, tilt, ahead = pose.point(self.foot), 0.0, 0.0
         if self.plane.flat:
@@ -163,13 +163,13 @@ class StanceProblem:
 
 
 _SWEEPS = 10
-"""Newton steps from one height to the next, at most."""
+"""Most Newton steps from one height to the next."""
 
 _STILL = 1e-12
-"""Steps of all joints below this end the search [rad or m]."""
+"""Size of all joints' steps below which the search ends [rad or m]."""
 
 _DAMPING = 1e-3
-"""Distance from a stretched leg at which steps are shortened, over the leg's length."""
+"""Distance from the stretched leg at which steps are damped, over the leg's length."""
 
 
 def lifted(
@@ -182,7 +182,7 @@ def lifted(
     Args:
         chain: of the leg. foot: in its last body's frame [m], shape (3,). length: of the leg [m].
         posture: of its driven joints at height zero [rad or m], shape (n,).
-        heights: of the foot over where it is then, in B [m], shape (k,).
+        heights: of the foot above its position there, in B [m], shape (k,).
     """
     values = posture
     at_rest = chain.pose(posture).point(foot)
@@ -206,7 +206,7 @@ SHARE_OF_LEG = 0.8
 """Distance of a standing robot's feet below its hips, over the stretched leg."""
 
 _STRAIGHTER = (0.85, 0.9, 0.95, 1.0)
-"""Shares to try in turn where joint limits forbid the wanted one."""
+"""Shares tried in turn if joint limits forbid the desired one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -215,8 +215,8 @@ class Stand:
 
     Attributes:
         posture: value of every moving joint [rad or m].
-        share: distance from hip to foot over the stretched leg, of the most stretched leg.
-        warnings: where limits forbid the posture that was wanted.
+        share: distance from hip to foot over that of the stretched leg, of the straightest leg.
+        warnings: where limits forbid the desired posture.
     """
 
     posture: Mapping[str, float]
@@ -227,11 +227,11 @@ class Stand:
 def stand(tree: Tree, trunk: str, legs: Sequence[Leg], share: float = SHARE_OF_LEG) -> Stand | None:
     """Posture with the trunk level and every foot on one ground plane below its hip.
 
-    The ground is so far below the hips that no leg is stretched farther than `share` of its length;
-    where limits of some joint forbid that, the legs are kept straighter. Legs with ankles (five
-    joints or more) keep their soles as level as they are at zero. Where the limits leave it open,
-    the knees of a biped point forward (B's x) and those of a robot with more legs inwards, as
-    Solo12 stands. Joints of no leg are at zero, or at the limit nearest to it.
+    The ground is at a depth at which no leg is stretched beyond `share` of its length; if joint
+    limits forbid that, the legs are straighter. Legs with ankles (five joints or more) keep their
+    soles as level as they are at zero. If the limits allow, the knees of a biped point forward
+    (B's x) and those of a robot with more legs inwards, as on Solo12. Other joints are at zero, or
+    at the limit nearest to it.
 
     Returns:
         None for a robot without legs.
@@ -250,7 +250,7 @@ def stand(tree: Tree, trunk: str, legs: Sequence[Leg], share: float = SHARE_OF_L
         found: list[Stance] = []
         for problem in _problems(geometries, straighter):
             found.append(problem.solve())
-            # One leg that cannot is enough.
+            # One leg that fails is enough.
             if not found[-1].good:
                 break
         else:
@@ -267,7 +267,7 @@ def stand(tree: Tree, trunk: str, legs: Sequence[Leg], share: float = SHARE_OF_L
 
 
 def _problems(geometries: Sequence[LegGeometry], share: float) -> list[StanceProblem]:
-    """Each leg's stance, the ground being at `share` of the leg that reaches least."""
+    """Each leg's problem, with the ground at `share` of the leg that reaches least."""
     up = geometries[0].up
     ground = max(
         float(up @ each.plane.hip) - share * each.plane.length - each.leg.foot_radius
@@ -277,7 +277,7 @@ def _problems(geometries: Sequence[LegGeometry], share: float) -> list[StancePro
     problems = []
     for each in geometries:
         leg, plane = each.leg, each.plane
-        # Straight below the hip; the knees of a biped point forward, else inwards.
+        # Straight below the hip; the knees of a biped point forward, others inwards.
         target = plane.hip + up * (ground + leg.foot_radius - float(up @ plane.hip))
         inwards = np.sign(plane.forward @ (middle - plane.hip)) or 1.0
         side = plane.forward if len(geometries) == 2 else plane.forward * inwards

@@ -1,7 +1,7 @@
-"""The upper surface of a trunk, and its back: how high they are, as far as its shapes are known.
+"""Height maps of a trunk's upper surface and of its back, as far as its shapes are known.
 
-They are those of the triangles of its shapes: of meshes in their files, and around primitives.
-What is seen counts, for screws go into what is there; collision shapes only stand in for it.
+They are made from the triangles of its shapes: of mesh files, and around primitives. Visual shapes
+are used, because screws go into the real surface; collision shapes are only a substitute.
 """
 
 from dataclasses import dataclass
@@ -22,32 +22,32 @@ from ocs_design.robot.robot import Format, Robot
 from ocs_design.robot.tree import Shape, ShapeKind
 
 STEP = 1e-3
-"""Distance of two places of a map, at the least [m]."""
+"""Least distance between two places of a map [m]."""
 
 MOST_STEPS = 800
 """Most steps of a map along its longer side."""
 
 _CHUNK = 1 << 16
-"""Pairs of triangles and places at once: few enough for the cache."""
+"""Pairs of triangle and place per chunk: few enough for the cache."""
 
 _WINDOW = 1 << 9
-"""Most places under a triangle that is looked at together with others."""
+"""Most places under a triangle that is handled together with others."""
 
 MOST_BYTES = 16 << 20
-"""Sum of the meshes that are read to look at a trunk: a .dae takes 0.1 s a MB."""
+"""Largest total size of the meshes that are read for a trunk [bytes]: a .dae takes 0.1 s per MB."""
 
 _ROUND = 96
-"""Corners of a circle."""
+"""Corners of the polygon that stands for a circle."""
 
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Heights of what is highest over each place of a grid.
+    """Height of the highest point over each place of a grid.
 
     Attributes:
         x, y: of the first place in B [m].
         step: between places [m].
-        heights: z in B, -inf where there is nothing [m], shape (m, n).
+        heights: z in B, -inf where there is no surface [m], shape (m, n).
     """
 
     x: float
@@ -56,7 +56,7 @@ class Surface:
     heights: FloatArray
 
     def height(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """Heights at places in B [m], each that of the nearest place of the grid."""
+        """Heights at places in B [m], from the nearest place of the grid."""
         rows, columns = self._bordered.shape
         i, j = (
             np.clip(np.rint((of - start) / self.step) + 1.0, 0.0, count - 1).astype(np.intp)
@@ -65,7 +65,7 @@ class Surface:
         return np.asarray(self._bordered.ravel()[i * columns + j])
 
     def between(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """Heights at places in B [m], each between the four places around it; nan: one has none."""
+        """Heights at places in B [m], interpolated between four places; nan: one has no surface."""
         rows, columns = self._bordered.shape
         (i, u), (j, v) = (
             (np.clip(np.floor(at), 0.0, count - 2.0).astype(np.intp), at - np.floor(at))
@@ -78,11 +78,11 @@ class Surface:
 
     @cached_property
     def _bordered(self) -> FloatArray:
-        """The heights with a border of places where there is nothing [m]."""
+        """The heights with a border of places without a surface [m]."""
         return frozen(np.pad(self.heights, 1, constant_values=-np.inf))
 
     def farthest(self, low: float, high: float, aside: float) -> float:
-        """Largest height between two x and so far to both sides of y = 0 [m]; -inf: nothing."""
+        """Largest height for x from `low` to `high` and |y| up to `aside` [m]; -inf: no surface."""
         (first, last), (right, left) = (
             np.rint((np.array(ends) - start) / self.step).astype(np.int64)
             for ends, start in (((low, high), self.x), ((-aside, aside), self.y))
@@ -98,9 +98,9 @@ class Surface:
 
 @lru_cache(maxsize=1)
 def trunk_surface(robot: Robot) -> Surface | None:
-    """Upper surface of the trunk, with all that is fixed to it; None if its shapes are not known.
+    """Upper surface of the trunk and everything fixed to it; None if its shapes are not known.
 
-    Shapes to look at count; where none of them can be read, those that collide.
+    Visual shapes are used; if none of them can be read, collision shapes.
     """
     triangles = trunk_triangles(robot)
     return None if triangles is None else surface_of(triangles)
@@ -108,7 +108,7 @@ def trunk_surface(robot: Robot) -> Surface | None:
 
 @lru_cache(maxsize=1)
 def trunk_back(robot: Robot) -> Surface | None:
-    """The trunk as it is seen from behind, x up and z backwards; None likewise."""
+    """Surface of the trunk's back, x up and z backwards; None if its shapes are not known."""
     triangles = trunk_triangles(robot)
     return None if triangles is None else surface_of(triangles @ BACKWARDS)
 
@@ -131,7 +131,7 @@ def surface_of(triangles: FloatArray) -> Surface:
     first, last = np.maximum(first, 0), np.minimum(last, shape - 1)
     count = np.maximum(last - first + 1, 0)
     pairs = count.prod(axis=1)
-    # Small triangles together, each pair of one and a place in a row; a large one on its window.
+    # Small triangles together, one row per pair of triangle and place; large ones one by one.
     large = pairs > _WINDOW
     order = np.argsort(pairs, kind="stable")
     order = order[(pairs[order] > 0) & ~large[order]]
@@ -155,7 +155,7 @@ def surface_of(triangles: FloatArray) -> Surface:
 
 
 def _heights_on(corners: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
-    """Heights of triangles over or under places [m], -inf where they are beside them.
+    """Heights of triangles at places [m], -inf outside a triangle.
 
     Args:
         corners: of one, shape (3, 3), or of one for each place, shape (3, 3, n).
@@ -165,7 +165,7 @@ def _heights_on(corners: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray
     one, two = b - a, c - a
     to_x, to_y = x - a[0], y - a[1]
     area = one[0] * two[1] - one[1] * two[0]
-    # Triangles on edge have no inside; those beside them have their edges.
+    # Triangles seen edge-on have no inside; their neighbours include their edges.
     solid = np.abs(area) > 1e-16
     area = np.where(solid, area, 1.0)
     u = (to_x * two[1] - to_y * two[0]) / area
@@ -176,7 +176,7 @@ def _heights_on(corners: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray
 
 def trunk_triangles(robot: Robot) -> FloatArray | None:
     """Triangles of the trunk's shapes in B [m], shape (n, 3, 3); None if they are not known."""
-    # The box of a robot by hand stands for its inertia.
+    # The box of a robot given by hand only represents its inertia.
     if robot.format is Format.MANUAL:
         return None
     body = robot.tree.bodies[robot.tree.body_of_link[robot.trunk]]
@@ -218,7 +218,7 @@ def triangles_of(shape: Shape) -> FloatArray | None:
 
 
 def _primitive_triangles(kind: ShapeKind, size: tuple[float, ...]) -> FloatArray:
-    """Triangles around a primitive in its own frame, round ones as prisms of many corners."""
+    """Triangles around a primitive in its own frame; round ones become polygonal prisms."""
     if kind is ShapeKind.BOX:
         corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
         # Two triangles for each side and each of its diagonals.

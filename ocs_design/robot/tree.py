@@ -17,18 +17,18 @@ from ocs_design.common.frames import Placement, rotation_about
 from ocs_design.robot.mass import MassProperties, combine
 
 LARGEST_NUMBER = 1e75
-"""Largest number in a robot, SI: the square of the square of a larger one overflows."""
+"""Largest number in a robot (SI): the fourth power of a larger one would overflow."""
 
 
 class JointKind(StrEnum):
-    """Motion of a body against its parent."""
+    """Motion of a body relative to its parent."""
 
     REVOLUTE = "revolute"
     PRISMATIC = "prismatic"
 
 
 class ShapeKind(StrEnum):
-    """Shapes of links; `size` holds what MuJoCo's geom of that name takes, in metres.
+    """Shapes of links; `size` has the parameters of MuJoCo's geom of that name, in metres.
 
     box: half extents (3); sphere: radius; cylinder and capsule: radius, half length along z;
     mesh: scale factors (3).
@@ -50,10 +50,10 @@ class Shape:
         size: see `ShapeKind` [m].
         position: of the shape's frame [m], shape (3,).
         rotation: of the shape's frame, shape (3, 3).
-        link: the link that it belongs to.
-        collides: whether it is collision geometry (else only to look at).
+        link: to which it belongs.
+        collides: whether it is collision geometry (else visual).
         mesh: the mesh file if `kind` is MESH and the file was found, else None.
-        color: red, green, blue and opacity, 0..1; None if not stated.
+        color: red, green, blue and opacity, 0..1; None if not specified.
     """
 
     kind: ShapeKind
@@ -74,9 +74,9 @@ class Joint:
         name: as in the file.
         kind: revolute (also "continuous" and "hinge") or prismatic (also "slide").
         axis: unit vector in the body's frame, shape (3,).
-        lower, upper: limits [rad or m]; -inf and inf without limits or where the file's are void.
-        effort: largest torque or force of the drive [N m or N]; inf if not stated.
-        velocity: largest speed [rad/s or m/s]; inf if not stated.
+        lower, upper: limits [rad or m]; -inf and inf if the file has none, or invalid ones.
+        effort: largest torque or force of the drive [N m or N]; inf if not specified.
+        velocity: largest speed [rad/s or m/s]; inf if not specified.
         damping: [N m s/rad or N s/m]. friction: [N m or N]. armature: [kg m^2 or kg].
         mimic: (joint, multiplier, offset) if this joint follows another, which itself follows none.
     """
@@ -104,7 +104,7 @@ class Body:
             into massless bodies named `<body>:<joint>` in front of the last.
         parent: index of the parent body in `Tree.bodies`; -1 for the root. Parents come first.
         placement: of the body's frame in its parent's frame when the joint is at zero.
-        joint: how it moves against the parent; None for the root.
+        joint: by which it moves relative to its parent; None for the root.
         mass_properties: raw, in the body's frame.
         links: each link of the file that is part of the body, with its frame in the body's frame.
         link_masses: [kg] of each link in `links`.
@@ -129,9 +129,9 @@ class Tree:
         name: of the robot.
         bodies: parents before children; `bodies[0]` is the floating base.
         named_postures: joint values [rad or m] by posture name, from MJCF keyframes or an SRDF.
-        warnings: what was odd in the file and how it was read, one sentence each.
-        floats: whether the root moves freely against the world; None where the file does not say.
-        loops: pairs of links that the file ties together, which closes a chain.
+        warnings: oddities in the file and how they were read, one sentence each.
+        floats: whether the root moves freely in the world; None if the file does not say.
+        loops: pairs of links that the file ties together, closing a chain.
     """
 
     name: str
@@ -177,7 +177,7 @@ class Tree:
         return tuple(to_link @ placement for placement in placements)
 
     def complete(self, posture: Mapping[str, float]) -> dict[str, float]:
-        """Every joint's value: as given, else zero; joints that mimic another follow it."""
+        """Every joint's value: as given, or zero; joints that mimic another follow it."""
         values = {name: float(posture.get(name, 0.0)) for name in self.joints}
         for name, joint in self.joints.items():
             if joint.mimic is not None and joint.mimic[0] in values:
@@ -194,7 +194,7 @@ class Tree:
         return combine(self.weighed_at(self.placements_from(link, posture)))
 
     def weighed_at(self, placements: Sequence[Placement]) -> list[MassProperties]:
-        """Mass properties of each body in the frame that the placements are given in."""
+        """Mass properties of each body in the frame of the placements."""
         return [
             body.mass_properties.moved(place.rotation, place.position)
             for body, place in zip(self.bodies, placements, strict=True)

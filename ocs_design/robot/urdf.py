@@ -33,7 +33,7 @@ Color: TypeAlias = tuple[float, float, float, float]
 
 
 def read_palette(root: ET.Element) -> Mapping[str, Color]:
-    """Colours of the file's named materials, each where it is defined first."""
+    """Colours of the file's named materials, by their first definition."""
     found: dict[str, Color] = {}
     for material in root.iter("material"):
         color = _color(material)
@@ -96,13 +96,13 @@ def children_by_parent(links: Mapping[str, Link], connections: Sequence[Connecti
 def find_base(links: Mapping[str, Link], children: Children) -> str:
     """The floating base: the one link without a parent, from which all others can be reached.
 
-    Where that has no mass and only a `floating` joint below it, the link that the joint lets fly.
+    If it has no mass and only a `floating` joint below it, the child of that joint.
     """
     below = {connection.child for siblings in children.values() for connection in siblings}
     roots = [name for name in links if name not in below]
     if len(roots) > 1:
         raise RobotError(
-            f"the file holds {len(roots)} separate trees, with the roots {_quoted(roots)}",
+            f"the file contains {len(roots)} separate trees, with the roots {_quoted(roots)}",
             hint="join them with a fixed joint, or remove what is not part of the robot",
         )
     reached: set[str] = set()
@@ -131,7 +131,7 @@ def _quoted(names: Iterable[str]) -> str:
 
 
 FindMesh = Callable[[str], Path | None]
-"""Finds the file that a mesh's `filename` stands for; None if it is not there."""
+"""Function that finds the file of a mesh's `filename`; None if it does not exist."""
 
 
 def read_link(
@@ -162,7 +162,7 @@ def read_link(
 
 
 def read_origin(parent: ET.Element, where: str) -> Placement:
-    """Placement that the `<origin>` of an element states; the identity without one."""
+    """Placement given by the `<origin>` of an element; the identity without one."""
     origin = parent.find("origin")
     xyz = numbers(origin, "xyz", where, (0.0, 0.0, 0.0))
     if origin is not None and _QUATERNION in origin.attrib:
@@ -174,14 +174,14 @@ def read_origin(parent: ET.Element, where: str) -> Placement:
         if not any((x, y, z, w)):
             raise RobotError(
                 f"{where}: {_QUATERNION} of <origin> is all zero",
-                hint=f'no turn is {_QUATERNION}="0 0 0 1"',
+                hint=f'the identity is {_QUATERNION}="0 0 0 1"',
             )
         return Placement(rotation_from_quaternion([w, x, y, z]), xyz)
     return Placement(rotation_from_rpy(*numbers(origin, "rpy", where, (0.0, 0.0, 0.0))), xyz)
 
 
 _QUATERNION = "quat_xyzw"
-"""Attribute in place of `rpy` since version 1.1 (ros/urdfdom, urdf_parser/src/pose.cpp)."""
+"""Attribute that replaces `rpy` since version 1.1 (ros/urdfdom, urdf_parser/src/pose.cpp)."""
 
 
 def _read_shapes(
@@ -207,7 +207,7 @@ def _read_shapes(
         else:
             solid = min(size) > 0.0
         if not solid:
-            warnings.add("links with a shape of no extent, left out", name)
+            warnings.add("links with a shape of zero size, left out", name)
             continue
         place = read_origin(element, where)
         collides = element.tag == "collision"
@@ -218,7 +218,7 @@ def _read_shapes(
 def _read_geometry(
     geometry: ET.Element, where: str, find_mesh: FindMesh
 ) -> tuple[ShapeKind, tuple[float, ...], Path | None] | None:
-    """Kind, size and mesh file of the first shape that is known, in MuJoCo's measures."""
+    """Kind, size in MuJoCo's convention, and mesh file of the first known shape."""
     for shape in geometry:
         match shape.tag:
             case "box":
@@ -283,11 +283,9 @@ def _read_joint(element: ET.Element, name: str, kind: str, warnings: Warnings) -
             lower = number(limit, "lower", where, default=0.0)
             upper = number(limit, "upper", where, default=0.0)
     elif kind != "continuous":
-        warnings.add("joints without a <limit>, which ROS refuses, read as without limits", name)
+        warnings.add("joints without a <limit>, which ROS refuses, read as unlimited", name)
     if lower >= upper:
-        warnings.add(
-            "joints whose lower limit is not below the upper, read as without limits", name
-        )
+        warnings.add("joints whose lower limit is not below the upper, read as unlimited", name)
         lower, upper = -np.inf, np.inf
     damping, friction = 0.0, 0.0
     dynamics = element.find("dynamics")
@@ -306,7 +304,7 @@ def _read_joint(element: ET.Element, name: str, kind: str, warnings: Warnings) -
         axis / length,
         lower,
         upper,
-        # Exporters write 0 where they know no limit.
+        # Exporters write 0 for an unknown limit.
         effort=effort if effort > 0.0 else np.inf,
         velocity=velocity if velocity > 0.0 else np.inf,
         damping=damping,
@@ -316,29 +314,29 @@ def _read_joint(element: ET.Element, name: str, kind: str, warnings: Warnings) -
 
 
 _MOST_TURNED = 4.0 * np.pi
-"""Largest roll, pitch or yaw that somebody may mean in radians: two turns."""
+"""Largest roll, pitch or yaw believed to be in radians: two turns."""
 
 
 def read_urdf(content: bytes, *, find_mesh: FindMesh) -> Tree:
-    """The moving bodies of a URDF, with what was odd in it.
+    """The moving bodies of a URDF, with warnings of its oddities.
 
     Args:
         content: the file, unzipped.
-        find_mesh: from a mesh's `filename` to the file, or None if it is not there.
+        find_mesh: returns the file of a mesh's `filename`, or None if it does not exist.
     """
     warnings = Warnings()
     root = parse_xml(content, warnings)
-    # Other XML is refused, each kind with its own cure.
+    # Other XML is refused, each kind with its own hint.
     if root.tag == "sdf":
         raise RobotError(
-            "the file is SDF (Gazebo), which is not read",
-            hint="give the URDF that it was made from, or convert it to URDF",
+            "the file is SDF (Gazebo), which cannot be read",
+            hint="give the URDF from which it was made, or convert it to URDF",
         )
     if root.tag in {"mujoco", "mujocoinclude"}:
         raise RobotError("the file is MJCF, not URDF", hint="give the model's main MJCF file")
     if root.tag != "robot":
         raise RobotError(
-            f"the file is XML but no robot: its root element is <{root.tag}>",
+            f"the file is XML but not a robot: its root element is <{root.tag}>",
             hint="give a URDF (<robot>) or MJCF (<mujoco>) file",
         )
     if is_xacro(root):
@@ -350,7 +348,7 @@ def read_urdf(content: bytes, *, find_mesh: FindMesh) -> Tree:
     if not elements:
         raise RobotError(
             "the <robot> has no <link>",
-            hint="a xacro file that only defines macros gives such a robot: "
+            hint="this happens with a xacro file that only defines macros: "
             "expand the file that uses them",
         )
     read = [read_link(element, find_mesh, palette, warnings) for element in elements]
@@ -358,7 +356,7 @@ def read_urdf(content: bytes, *, find_mesh: FindMesh) -> Tree:
     links = {link.name: link for link in read}
     for link in read:
         if link.shapes and link.mass_properties is None:
-            warnings.add("links with a shape but no <inertial>, read as without mass", link.name)
+            warnings.add("links with a shape but no <inertial>, read as massless", link.name)
     connections = [read_connection(element, warnings) for element in root.findall("joint")]
     _check_unique((connection.name for connection in connections), "joint")
     children = children_by_parent(links, connections)
@@ -372,7 +370,7 @@ def read_urdf(content: bytes, *, find_mesh: FindMesh) -> Tree:
 
 
 def _ignore_quaternions(root: ET.Element, warnings: Warnings) -> None:
-    """Do as ROS does with a file of version 1.0, which knows none."""
+    """Ignore quaternions in a file of version 1.0, which has none, as ROS does."""
     for part in root:
         for origin in part.iter("origin"):
             if origin.attrib.pop(_QUATERNION, None) is not None:
@@ -383,7 +381,7 @@ def _ignore_quaternions(root: ET.Element, warnings: Warnings) -> None:
 
 
 def is_xacro(root: ET.Element) -> bool:
-    """Whether a `<robot>` still holds xacro's own elements or expressions."""
+    """Whether a `<robot>` still contains xacro elements or expressions."""
     if any("xacro" in element.tag for element in root.iter()):
         return True
     parts = [*root.findall("link"), *root.findall("joint")]

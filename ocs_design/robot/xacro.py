@@ -1,10 +1,10 @@
-"""Expands xacro files through the optional package `xacro`, in a process that may do little.
+"""Expands xacro files with the optional package `xacro`, in a sandboxed process.
 
-A xacro file holds Python expressions, so it is a program. xacro's own check for names with two
-underscores looks at an expression's outermost code only, `$(eval ...)` has all built-in functions,
+A xacro file contains Python expressions, so it is a program. xacro's own check for names with two
+underscores covers only an expression's outermost code, `$(eval ...)` has all built-in functions,
 and both can read and write any file. So in that process each expression is parsed and refused if it
-reaches for what lies behind an object, there are limits of time and memory, and Python's audit
-events stop everything but reading below the folders that belong to the robot.
+accesses an object's internals, time and memory are limited, and Python's audit events block
+everything but reading below the robot's folders.
 """
 
 import ast
@@ -24,7 +24,7 @@ from ocs_design.common.errors import MissingToolError, RobotError, extra_command
 from ocs_design.robot.packages import MeshFinder, is_below, package_roots, roots_of
 
 SECONDS = 5.0
-"""Longest processor time of an expansion, half of its longest duration; large robots take one."""
+"""Longest processor time of an expansion, half its longest duration [s]; large robots take 1 s."""
 
 # Isolated: the current folder may hold a file named like a module.
 _START = (
@@ -34,19 +34,19 @@ _START = (
 
 
 _MISSING_ARGUMENT = ("Undefined substitution argument", "xacro:arg: missing attribute 'default'")
-"""What xacro says of an `<xacro:arg>` that is only set on its command line."""
+"""xacro's messages about an `<xacro:arg>` that is only set on its command line."""
 
 
 def expand_xacro(content: bytes, path: Path, package_paths: Mapping[str, Path]) -> bytes:
-    """The URDF that a xacro file stands for.
+    """The URDF that a xacro file expands to.
 
     Args:
         content: of the file, unzipped.
-        path: of the file; files that it includes are looked for beside it.
-        package_paths: folder of each package that `$(find name)` names; more are looked for as
-            `MeshFinder` does.
+        path: of the file; included files are relative to it.
+        package_paths: folder of each package, for `$(find name)`; others are found as in
+            `MeshFinder`.
     """
-    # What is None there is hidden, as in tests; `find_spec` would raise an error.
+    # None there hides a module, as in tests; `find_spec` would raise an error.
     hidden = "xacro" in sys.modules and sys.modules["xacro"] is None
     if hidden or find_spec("xacro") is None:
         raise MissingToolError(
@@ -70,15 +70,14 @@ def expand_xacro(content: bytes, path: Path, package_paths: Mapping[str, Path]) 
         )
         answer: Mapping[str, str] = json.loads(done.stdout)
     except (subprocess.TimeoutExpired, ValueError):
-        # Killed at one of its limits, it had no time to answer.
+        # Killed at one of its limits, before it could answer.
         endless = f"it takes more than {SECONDS:.0f} s or 1 GiB: is there an endless expression?"
         answer = {"error": endless}
     if "error" in answer:
         if any(word in answer["error"] for word in _MISSING_ARGUMENT):
             raise RobotError(
                 f"xacro cannot expand the file, an argument has no value: {answer['error']}",
-                hint="state it: xacro robot.urdf.xacro NAME:=VALUE > robot.urdf, "
-                "and give robot.urdf",
+                hint="set it: xacro robot.urdf.xacro NAME:=VALUE > robot.urdf, and give robot.urdf",
             )
         raise RobotError(
             f"xacro cannot expand the file: {answer['error']}",
@@ -93,21 +92,21 @@ MEMORY = 1 << 30
 """Largest memory of the process [bytes]."""
 
 LARGEST = 64 << 20
-"""Largest URDF that it may make [bytes]."""
+"""Largest URDF that it may produce [bytes]."""
 
 _FUNCTIONS = (list, dict, map, str, float, int, bool, len, min, max, abs, round)
 
 _PYTHON = Path(os.__file__).parent
-"""Folder of Python's own modules, which are imported as they are needed."""
+"""Folder of Python's own modules, which are imported on demand."""
 
-# Behind these lie the code, the frames and the globals of what is running.
+# These lead to the code, frames and globals of the running program.
 _HIDDEN = ("_", "gi_", "cr_", "ag_", "f_", "tb_", "co_", "func_")
 _REFUSED_ATTRIBUTES = {"format", "format_map", "mro"}
 _REFUSED_FUNCTIONS = ("vars", "type")
 
 _SECRET = ("TOKEN", "SECRET", "PASSW", "CREDENTIAL", "KEY", "AUTH")
 
-# Importing modules of Python's own takes the first of these, includes with wildcards the last.
+# Importing Python's own modules needs the first of these, includes with wildcards the last.
 _HARMLESS = {"import", "marshal.loads", "compile", "exec", "os.listdir", "os.scandir", "glob.glob"}
 _HARMLESS |= {"builtins.id"}
 
@@ -117,7 +116,7 @@ def expand_job(*, content: str, file: str, packages: Mapping[str, str], seconds:
 
     Args:
         content: of the file, as Latin-1. file: its path. packages: folders by name.
-        seconds: of processor time.
+        seconds: limit of processor time.
     """
     _limit(seconds)
     answer, path = {}, Path(file)
@@ -143,7 +142,7 @@ def expand_job(*, content: str, file: str, packages: Mapping[str, str], seconds:
 
 
 def _limit(seconds: float) -> None:
-    """Bound the time and memory of this process, and let it write no file."""
+    """Limit the time and memory of this process, and keep it from writing files."""
     try:
         import resource  # noqa: PLC0415 - not on Windows
     except ImportError:
@@ -158,7 +157,7 @@ def _limit(seconds: float) -> None:
 
 
 def _tame(xacro: ModuleType, finder: MeshFinder, roots: list[Path]) -> None:
-    """Put checked evaluation and the finding of packages in place of xacro's own."""
+    """Replace xacro's evaluation and search for packages by checked ones."""
     from xacro import substitution_args  # noqa: PLC0415 - optional
 
     evaluate = xacro.safe_eval
@@ -175,7 +174,7 @@ def _tame(xacro: ModuleType, finder: MeshFinder, roots: list[Path]) -> None:
         return eval(expression, {"__builtins__": known}, names)
 
     def find(name: str) -> str:
-        """Folder of a package, which ROS 2's package index would tell."""
+        """Folder of a package, in place of ROS 2's package index."""
         folder = finder.package_folder(name)
         if folder is None:
             raise LookupError(f"package {name!r} was not found")
@@ -203,7 +202,7 @@ def _tame(xacro: ModuleType, finder: MeshFinder, roots: list[Path]) -> None:
 
 
 def check_expression(expression: str) -> None:
-    """Refuse an expression that reaches for the inside of Python.
+    """Refuse an expression that accesses Python's internals.
 
     Raises:
         ValueError: the expression does.
@@ -227,10 +226,10 @@ def check_variable(name: str) -> None:
 
 
 def _guard(roots: list[Path]) -> None:
-    """Stop, for good, whatever this process would do beyond reading files below `roots`."""
+    """Block, for the rest of this process, everything but reading files below `roots`."""
 
     def refuse(event: str, arguments: tuple[Any, ...]) -> None:
-        """Refuse an event of which Python tells before it happens."""
+        """Refuse an audit event, which Python raises before the action."""
         if event == "open":
             path, mode, flags = arguments
             writes = mode not in {"r", "rb", None} or (flags or 0) & (os.O_WRONLY | os.O_RDWR)
@@ -238,14 +237,13 @@ def _guard(roots: list[Path]) -> None:
                 target = Path(os.fsdecode(path))
                 if is_below(target, (*roots, _PYTHON)):
                     return
-                # xacro's own message takes the name of the file from the error.
+                # xacro's message takes the file name from the error.
                 raise PermissionError(
                     errno.EACCES,
-                    "outside of the robot's folder and packages, to which --package-path NAME=DIR "
-                    "adds",
+                    "outside the robot's folder and packages; add one with --package-path NAME=DIR",
                     str(target),
                 )
         if event not in _HARMLESS:
-            raise PermissionError(f"{event!r} is refused to xacro files")
+            raise PermissionError(f"xacro files may not do {event!r}")
 
     sys.addaudithook(refuse)

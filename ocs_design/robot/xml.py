@@ -1,7 +1,7 @@
-"""From bytes to XML elements, and from their attributes to numbers.
+"""Parses bytes into XML elements, and their attributes into numbers.
 
-Whatever a robot file gets wrong below the level of links and joints becomes a `RobotError` that
-names the place.
+Every fault of a robot file below the level of links and joints becomes a `RobotError` that names
+the place.
 """
 
 import re
@@ -24,12 +24,12 @@ MOST_ELEMENTS = 500_000
 def parse_xml(content: bytes, warnings: Warnings | None = None) -> ET.Element:
     """The root element of a robot file, its tags without namespaces other than xacro's.
 
-    Bytes that are not what the file declares are read as Windows-1252, with a warning.
+    Bytes that contradict the declared encoding are read as Windows-1252, with a warning.
     """
-    # Elements take fifty times their four bytes or more: gigabytes, where nobody counted them.
+    # Elements take at least fifty times their four bytes: gigabytes, if nobody counted them.
     if content.count(b"<") > 2 * MOST_ELEMENTS:
         raise _too_many_elements()
-    # Simulators overlook a declaration below blank lines or comments; as many lines are kept.
+    # Simulators tolerate a declaration after blank lines or comments; the line count is kept.
     if late := _LATE_DECLARATION.match(content):
         start, end = late.span(1)
         content = content[:start] + b" " * (end - start) + content[end:]
@@ -59,7 +59,7 @@ _LATE_DECLARATION = re.compile(rb"(?:\s|<!--(?:(?!--).)*-->)+(<\?xml\s[^>]*\?>)"
 
 
 def _parsed_as_cp1252(content: bytes, error: ET.ParseError) -> ET.Element:
-    """The root of bytes that are no UTF-8, which alone may be in an encoding not declared."""
+    """The root of bytes that are not UTF-8, the only case of an undeclared encoding."""
     try:
         content.decode("utf-8")
     except UnicodeDecodeError:
@@ -67,14 +67,14 @@ def _parsed_as_cp1252(content: bytes, error: ET.ParseError) -> ET.Element:
     else:
         raise _explained(content, error) from error
     try:
-        # A str is parsed as it is, whatever encoding its first line declares.
+        # A str is parsed as is, whatever encoding its first line declares.
         return _parsed(content.decode("cp1252", errors="replace"))
     except ET.ParseError:
         raise _explained(content, error) from error
 
 
 def _parsed(content: bytes | str) -> ET.Element:
-    """The root; where the file defines entities, which may hold elements, those are counted."""
+    """The root; if the file defines entities, which may contain elements, those are counted."""
     if isinstance(content, str):
         defines = "ENTITY" in content
     else:
@@ -84,12 +84,12 @@ def _parsed(content: bytes | str) -> ET.Element:
 
 
 class _CountingBuilder(ET.TreeBuilder):
-    """Stops at more elements than any robot has."""
+    """Tree builder that stops at more elements than any robot has."""
 
     _count = 0
 
     def start(self, tag: str, attrs: dict[str, str], /) -> ET.Element:
-        """Begin one more element, up to as many as any robot has."""
+        """Start another element, unless there are more than any robot has."""
         self._count += 1
         if self._count > MOST_ELEMENTS:
             raise _too_many_elements()
@@ -99,12 +99,12 @@ class _CountingBuilder(ET.TreeBuilder):
 def _too_many_elements() -> RobotError:
     return RobotError(
         f"the XML has more than {MOST_ELEMENTS:,} elements",
-        hint="a robot of a thousand links has twenty thousand; remove what is not the robot's",
+        hint="a robot of a thousand links has twenty thousand; remove what is not part of it",
     )
 
 
 def _explained(content: bytes, error: ET.ParseError) -> RobotError:
-    """Error that says what is wrong with XML that cannot be parsed, and its cure."""
+    """Error that explains why XML cannot be parsed, and what to do."""
     line, column = error.position
     reason = ErrorString(error.code) or str(error)
     if b"<" not in content.replace(b"\0", b"")[:4096]:
@@ -118,14 +118,14 @@ def _explained(content: bytes, error: ET.ParseError) -> RobotError:
             f"the XML's entities expand without bound (line {line}); refused",
             hint="write the values out in place of nested <!ENTITY> definitions",
         )
-    # The line itself is shown where its encoding is certain.
+    # The line itself is shown if its encoding is certain.
     lines = content.splitlines()
     at_fault = lines[line - 1].strip() if line <= len(lines) else b""
     readable = at_fault and at_fault.isascii() and b"\0" not in at_fault
     excerpt = f" in {shortened(at_fault.decode('ascii'))}" if readable else ""
     hint = "check that the file is complete and that every tag is closed"
     if b"\0" in content and not content.startswith((b"\xff\xfe", b"\xfe\xff")):
-        hint = "remove the bytes that are zero; many editors do not show them"
+        hint = "remove the null bytes; many editors do not show them"
     return RobotError(
         f"line {line}, column {column + 1}: the XML is broken: {reason}{excerpt}", hint=hint
     )
@@ -136,7 +136,7 @@ def unexpanded_xacro() -> RobotError:
     return RobotError(
         "the file is a xacro that has not been expanded",
         hint="expand it first: xacro robot.urdf.xacro > robot.urdf; "
-        f"or: {extra_command('xacro')}, and it is expanded on reading",
+        f"or: {extra_command('xacro')}, to have it expanded on reading",
     )
 
 
@@ -170,7 +170,7 @@ def number(
 def numbers(
     element: ET.Element | None, attribute: str, where: str, default: Sequence[float]
 ) -> FloatArray:
-    """Finite numbers, as many as in `default`, which stands in where the attribute is missing."""
+    """Finite numbers, as many as in `default`, which is used if the attribute is missing."""
     value = None if element is None else element.get(attribute)
     if element is None or value is None:
         return np.array(default, dtype=np.float64)
@@ -178,7 +178,7 @@ def numbers(
     if len(found) != len(default):
         raise RobotError(
             f'{where}: {attribute}="{value}" of <{element.tag}> has {len(found)} numbers',
-            hint=f"give {len(default)} numbers with spaces between them",
+            hint=f"give {len(default)} numbers separated by spaces",
         )
     return np.array(found, dtype=np.float64)
 
@@ -193,7 +193,7 @@ def _finite(word: str, element: ET.Element, attribute: str, where: str) -> float
             f'{where}: {attribute}="{word}" of <{element.tag}> is not a finite number',
             hint="write a plain number with a decimal point, such as 0.25",
         )
-    # Limits are only compared; files write the largest number there is for none.
+    # Limits are only compared; files write the largest number for no limit.
     if abs(value) > LARGEST_NUMBER and element.tag != "limit":
         raise RobotError(
             f'{where}: {attribute}="{word}" of <{element.tag}> is far too large',
