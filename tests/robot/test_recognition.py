@@ -307,7 +307,7 @@ def test_legs_that_share_a_hip_are_asked_about_and_one_of_each_pair_is_offered()
 def test_how_five_bars_are_treated_is_said(tmp_path):
     stated = read_file(tmp_path, five_bars(), legs=[f"{name}i_foot" for name in CORNERS])
     assert stated.trunk == "trunk"
-    assert any("the other is held" in warning for warning in stated.warnings)
+    assert any("the other is locked" in warning for warning in stated.warnings)
 
 
 def test_closed_chains_of_a_model_are_said_to_be_cut_open(tmp_path):

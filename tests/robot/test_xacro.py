@@ -123,7 +123,7 @@ def test_files_outside_of_the_robots_folder_are_not_read(tmp_path: Path, name):
     (tmp_path / "robot" / "link.yaml").symlink_to(tmp_path / "secret.yaml")
     path = tmp_path / "secret.yaml" if name == "secret.yaml" else "link.yaml"
     expression = f"${{xacro.load_yaml('{path}')['token']}}"
-    with pytest.raises(RobotError, match="outside of the robot's folder"):
+    with pytest.raises(RobotError, match="outside the robot's folder"):
         link_named(expression, tmp_path)
     allowed = {"any": tmp_path}
     assert link_named(expression, tmp_path, package_paths=allowed) == "s3cret"
