@@ -18,8 +18,8 @@ from ocs_design.device.device import Device, Flywheel, Module
 from ocs_design.device.layout import module_axes
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.reader import read_robot
-from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.world import start_states
 from ocs_design.simulation.world_builder import WorldBuilder
 

@@ -32,8 +32,8 @@ from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.uncertainty import UncertaintySection
 from ocs_design.robot.reader import read_robot
-from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scenario import Flights
+from ocs_design.simulation.simulate import simulate
 from ocs_design.workflows.flying import read_flights
 
 WORLDS, SECONDS = 1024, 0.2

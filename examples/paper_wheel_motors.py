@@ -25,9 +25,9 @@ from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.reading import read_specification
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.metrics import measure
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.verdict import Verdict, judge
 from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.assembly import assemble_driven

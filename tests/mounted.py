@@ -17,8 +17,8 @@ from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import NO_MOTOR
 from ocs_design.robot.mujoco_model import build_spec, posture_qpos
 from ocs_design.robot.reader import read_robot
-from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.world import TrunkChain
 from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.design import design_device

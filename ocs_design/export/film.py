@@ -50,7 +50,7 @@ def add_white_sky(spec: mujoco.MjSpec) -> None:
     )
 
 
-def add_floor(spec: mujoco.MjSpec, extent: float) -> None:
+def show_floor(spec: mujoco.MjSpec, extent: float) -> None:
     """Add a chequered plane at z = 0 in sunlight, for a robot of that extent [m]."""
     name = "ocs_floor"
     spec.add_texture(
@@ -80,7 +80,7 @@ def film_model(robot: Robot, device: Device, *, ocs: bool) -> mujoco.MjModel:
     """Model of robot and device, shown or not, on a floor; its joints are in `qpos` in any case."""
     model = robot_model(robot, device)
     add_white_sky(model.spec)
-    add_floor(model.spec, model.compiled.stat.extent)
+    show_floor(model.spec, model.compiled.stat.extent)
     found = compiled(model.spec)
     found.opt.gravity[:] = 0.0
     if not ocs:

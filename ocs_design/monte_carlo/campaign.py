@@ -19,13 +19,13 @@ from ocs_design.export.physics import STEP
 from ocs_design.monte_carlo.outcomes import METRICS, Outcomes, code_of, write_tables
 from ocs_design.monte_carlo.uncertainty import Sample, Uncertainty, built, quantities
 from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.simulation.engine import Progress, scaled
+from ocs_design.simulation.engine import Engine
 from ocs_design.simulation.imperfections import AirDrag, air_drag
 from ocs_design.simulation.metrics import objection
 from ocs_design.simulation.motor_limits import MotorLimits
-from ocs_design.simulation.physics import Engine
 from ocs_design.simulation.run import Metrics, Run
 from ocs_design.simulation.scenario import Flights, fly
+from ocs_design.simulation.simulate import Progress, scaled
 from ocs_design.simulation.verdict import MOMENTUM_GATE, Verdict, judge
 from ocs_design.simulation.world import World
 from ocs_design.simulation.world_builder import Options

@@ -15,7 +15,7 @@ import numpy as np
 from ocs_design.common.errors import MissingToolError, OcsError, extra_command
 from ocs_design.monte_carlo.campaign import Campaign, fly_samples
 from ocs_design.monte_carlo.outcomes import Block, Outcomes, Storage, shares
-from ocs_design.simulation.engine import Progress, scaled
+from ocs_design.simulation.simulate import Progress, scaled
 
 Arrivals = Generator[tuple[Block, Outcomes], None, None]
 

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation.desaturation import WheelBrake
+from ocs_design.simulation.engine import Engine, Physics
 from ocs_design.simulation.imperfections import Drives, Sensing
-from ocs_design.simulation.physics import Engine, Physics
 from ocs_design.simulation.scene import ANCHOR, whole_mass
 from ocs_design.simulation.schedule import (
     FlightClock,

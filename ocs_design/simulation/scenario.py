@@ -18,10 +18,10 @@ from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.robot.leg_geometry import up_axis
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.batch import Recording
-from ocs_design.simulation.engine import Progress, poses_of, simulate
 from ocs_design.simulation.metrics import breakdown, measure, objection, series_of
 from ocs_design.simulation.run import Metrics, Poses, Run, Series
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.simulate import Progress, poses_of, simulate
 from ocs_design.simulation.target import StoppedDrive
 from ocs_design.simulation.verdict import (
     MOMENTUM_GATE,

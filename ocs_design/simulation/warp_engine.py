@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import MissingToolError, OcsError, extra_command
-from ocs_design.simulation.physics import Engine
+from ocs_design.simulation.engine import Engine
 from ocs_design.simulation.scene import ANCHOR
 
 SINGLE_GATE = 1e-4

@@ -26,9 +26,9 @@ from ocs_design.requirement.sections import ValidationSection
 from ocs_design.requirement.vocabulary import CONTROL_PERIOD
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.desaturation import Desaturation
+from ocs_design.simulation.engine import Engine
 from ocs_design.simulation.launch import NO_PUSH, Launch, flight_time, launch, on_pivot, place
 from ocs_design.simulation.motor_limits import MotorLimits
-from ocs_design.simulation.physics import Engine
 from ocs_design.simulation.reference import NO_TURN, Profile, Quintic, fit_turn
 from ocs_design.simulation.scene import (
     JUMP_STEP,

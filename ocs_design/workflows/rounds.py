@@ -31,8 +31,8 @@ from ocs_design.requirement.vocabulary import RELIABILITY
 from ocs_design.robot.collision import forget_collision_model
 from ocs_design.robot.meshes import size
 from ocs_design.robot.robot import Robot
-from ocs_design.simulation.engine import POSE_RATE
 from ocs_design.simulation.run import Run
+from ocs_design.simulation.simulate import POSE_RATE
 from ocs_design.simulation.trotting import require_trot
 from ocs_design.simulation.world_builder import Options, control_of
 from ocs_design.sizing.advice import unasked

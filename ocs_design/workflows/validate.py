@@ -33,9 +33,9 @@ from ocs_design.report.text.console import Steps, Tell
 from ocs_design.requirement.sections import ValidationSection
 from ocs_design.requirement.specification import Specification, merge_section
 from ocs_design.requirement.vocabulary import RELIABILITY
-from ocs_design.simulation.engine import POSE_RATE
-from ocs_design.simulation.physics import Engine, EngineName
+from ocs_design.simulation.engine import Engine, EngineName
 from ocs_design.simulation.run import Run
+from ocs_design.simulation.simulate import POSE_RATE
 from ocs_design.simulation.warp_engine import warp_engine
 from ocs_design.workflows.flying import DesignFlights, read_flights
 from ocs_design.workflows.recording import record_run, write_runs

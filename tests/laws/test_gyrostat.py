@@ -10,10 +10,10 @@ from wheels import EC45, PAPER_WHEEL, driven_device, geared, motor, paper_device
 
 from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.manual import robot_by_hand
-from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.motor_limits import USED, MotorLimits
 from ocs_design.simulation.reference import Step
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw
 from ocs_design.simulation.world import World
 from ocs_design.simulation.world_builder import WorldBuilder

@@ -11,10 +11,10 @@ from wheels import driven_device, layout_device, paper_device
 
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.uncertainty import Constant, UncertaintySection
-from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.imperfections import Drives
 from ocs_design.simulation.motor_limits import USED, MotorLimits
 from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
+from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw
 
 UP = (0.0, 0.0, 1.0)

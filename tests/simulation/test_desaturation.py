@@ -7,8 +7,8 @@ from wheels import paper_device
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.pivoted import Balance
 from ocs_design.simulation.desaturation import SETTLING
-from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.world_builder import Options, WorldBuilder
 
 

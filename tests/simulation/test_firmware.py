@@ -17,10 +17,10 @@ from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.maneuver import Flip
 from ocs_design.simulation.desaturation import WheelBrake
-from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.firmware import targets_of, write_controller
 from ocs_design.simulation.reference import Quintic
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.world_builder import Options, WorldBuilder
 from ocs_design.sizing.trajectory.plans import drive_line_of
 from ocs_design.sizing.trajectory.tracking import tracking_gains

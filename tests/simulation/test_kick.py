@@ -9,9 +9,9 @@ import pytest
 from wheels import paper_device
 
 from ocs_design.requirement.maneuver import Disturbance
-from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.simulate import simulate
 
 KICK = Disturbance(
     name="kick",

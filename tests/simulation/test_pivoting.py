@@ -10,9 +10,9 @@ from wheels import driven_device, layout_device
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.pivoted import Balance, StandUp
 from ocs_design.robot.manual import robot_by_hand
-from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.place import with_device
 from ocs_design.sizing.trajectory.plans import gyrostat_of, plan

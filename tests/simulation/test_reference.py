@@ -13,7 +13,6 @@ from ocs_design.common import quaternions
 from ocs_design.device.layout import module_axes
 from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.manual import robot_by_hand
-from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.reference import (
     Quintic,
@@ -26,6 +25,7 @@ from ocs_design.simulation.reference import (
 from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.schedule import track
+from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw, tilt_error
 from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat

@@ -14,10 +14,10 @@ from ocs_design.requirement.turns import TurnTo
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation import scenario
-from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.metrics import measure
 from ocs_design.simulation.scenario import Flights, refusal, run_scenarios
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.verdict import judge
 from ocs_design.simulation.world_builder import WorldBuilder
 

@@ -9,10 +9,10 @@ from wheels import paper_device
 
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.maneuver import Drop
-from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.metrics import breakdown, drive_growth, measure, objection
 from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.verdict import judge
 from ocs_design.simulation.wheel_law import WheelLaw
 

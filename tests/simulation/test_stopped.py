@@ -10,10 +10,10 @@ from wheels import layout_device, paper_maneuvers
 
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.maneuver import Shove
-from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.piloted import PilotedFlight
 from ocs_design.simulation.scenario import STOPS, Flights, fly_stopped
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.target import StoppedDrive
 from ocs_design.simulation.world_builder import WorldBuilder
 from ocs_design.sizing.trajectory.gyrostat import shared_by_others

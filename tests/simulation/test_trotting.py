@@ -11,9 +11,9 @@ from wheels import paper_device
 from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.maneuver import Shove
 from ocs_design.robot.reader import read_robot
-from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.trotting import STEP_HEIGHT, require_trot, shoved_at, trot
 
 STRIDE = 0.4

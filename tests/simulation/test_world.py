@@ -15,9 +15,9 @@ from ocs_design.export.physics import lowest_point, set_gains
 from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.mujoco_model import build_spec, trunk_body
 from ocs_design.robot.reader import read_robot
-from ocs_design.simulation.engine import simulate
 from ocs_design.simulation.metrics import measure
 from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
+from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.world import TrunkChain
 from ocs_design.simulation.world_builder import WorldBuilder, wheel_gains
 

@@ -10,11 +10,11 @@ from trajectories import from_rest
 from wheels import paper_device, paper_maneuvers
 
 from ocs_design.simulation.batch import Recording
-from ocs_design.simulation.engine import poses_of, simulate
 from ocs_design.simulation.launch import Push
 from ocs_design.simulation.reference import Quintic
 from ocs_design.simulation.scenario import Flights, Options, run_scenarios
 from ocs_design.simulation.scene import Wheels
+from ocs_design.simulation.simulate import poses_of, simulate
 
 
 @pytest.fixture(scope="module")
