@@ -491,6 +491,18 @@ def test_where_the_height_is_stated_a_thicker_plate_has_shorter_sleeves(boxed, u
     assert plate.sleeves == pytest.approx((up - thickness,) * 4)
 
 
+@pytest.mark.parametrize(("high", "stands"), [(0.0335, True), (0.034, False)])
+def test_beside_a_plate_the_trunk_may_be_as_high_as_its_top(boxed, high, stands):
+    """However thick it is: a module begins above it. Walls stand before and behind the feet."""
+    feet, up = feet_of(standing(0.1)), 0.0335
+    out = feet.reach + 0.003
+    walls = (BAR.format(x, TOP + high / 2.0, high) for x in (out, -out))
+    surface = trunk_surface(boxed(0.24, 0.32, "".join(walls)))
+    _, plate = held_at(surface, feet, TOP + up)
+    assert (plate is not None) == stands
+    assert plate is None or plate.thickness == 4e-3
+
+
 @pytest.mark.slow
 def test_over_bars_across_the_trunk_a_plate_stands_on_posts(boxed):
     """Which bear it, are weighed with it, and have no volume in common with bars and modules."""

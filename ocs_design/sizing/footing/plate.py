@@ -300,13 +300,21 @@ def _plate(
         if not all(len(row) for row in patterns):
             continue
         if isnan(beside):
-            # Beside the plate the trunk may be as high as the plate's top: modules begin above
-            # that.
-            beneath = np.concatenate([disc_points(middle, feet.reach) for middle in feet.middles])
-            beside = highest_of(surface, beneath) - STOCK[0]
+            around = np.concatenate([disc_points(middle, feet.reach) for middle in feet.middles])
+            beside = highest_of(surface, around)
         plate = replace(outline, position=(feet.x, 0.0, 0.0))
-        level = max(highest_of(surface, plate_points(plate)), beside)
-        borne = _borne(surface, feet, plate, patterns, (underside, level))
+        beneath = highest_of(surface, plate_points(plate))
+        # Beside the plate the trunk may be as high as the plate's top: modules begin above that.
+        levels: list[tuple[float, tuple[float, ...]]]
+        levels = [(round(max(beneath, beside - STOCK[0]), 6), STOCK)]
+        if underside is not None:
+            # A thicker plate is lower.
+            levels = [
+                (underside - thickness, (thickness,))
+                for thickness in STOCK
+                if underside - thickness >= beneath - PROUD and underside >= beside - PROUD
+            ]
+        borne = _borne(surface, feet, plate, patterns, levels)
         if borne is not None and (mass := borne.mass) < lightest:
             best, lightest = borne, mass
         # Wider plates of the same thickness are heavier.
@@ -365,27 +373,17 @@ def _borne(
     feet: Feet,
     blank: CarrierPlate,
     patterns: Sequence[Patterns],
-    heights: tuple[float | None, float],
+    levels: Sequence[tuple[float, tuple[float, ...]]],
 ) -> CarrierPlate | None:
     """The thinnest plate of this outline that the trunk holds and that is strong enough.
 
     Args:
         surface: of the trunk. feet: on it. blank: the plate without screws.
         patterns: candidate screw patterns of each row.
-        heights: specified height of the feet in B, or None, and least height of the plate's
-            underside, given what is beneath and beside it [m].
+        levels: heights of its underside in B, and the thicknesses to try at each [m].
     """
-    underside, highest = heights
-    if not np.isfinite(highest):
-        return None
     x, y, _ = blank.position
-    # Where the feet's height is specified, a thicker plate is lower.
-    levels: list[tuple[float, tuple[float, ...]]] = [(round(highest, 6), STOCK)]
-    if underside is not None:
-        levels = [(underside - thickness, (thickness,)) for thickness in STOCK]
     for height, thicknesses in levels:
-        if height < highest - PROUD:
-            return None
         held = screwed(surface, replace(blank, position=(x, y, height)), patterns)
         if held is None:
             # Under a thicker plate sleeves are shorter, so another pattern may be within reach.
