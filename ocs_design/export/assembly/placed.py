@@ -266,7 +266,8 @@ def _pieces_below(device: Device) -> Iterator[Piece]:
             down = lowest + apart
             yield Piece("sleeves", merged(sleeves), drop=down, shared=True, count=len(sleeves))
         for name, meshes in bodies.items():
-            yield Piece(name, merged(meshes), drop=lowest, shared=True)
+            count = len(plate.rows) if name == "plate" else 1
+            yield Piece(name, merged(meshes), drop=lowest, shared=True, count=count)
     for kind in pedestal_kinds(device):
         one, held = kind.alike[0], kind.screws
         place = foot.placement @ one.seat.inverse()

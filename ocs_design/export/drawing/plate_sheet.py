@@ -70,28 +70,35 @@ _BETWEEN = 40.0
 
 
 def plate_sheets(device: Device, robot: str, refused: str = "") -> list[list[Item]]:
-    """Sheets of the plate and of its mast; none where the feet need no plate.
+    """Sheets of the plates, one of each that differs, and of their mast; none without a plate.
 
     `robot` is the robot's name, `refused` as of `WheelDrawing`.
     """
     plate = device.plate
     if plate is None:
         return []
-    count, one = (1 if plate.mast is None else 2), plate.each[0]
+    alike: dict[object, list[int]] = {}
+    for index, each in enumerate(plate.each):
+        alike.setdefault((_rounded(each.feet), _rounded(each.trunk), each.sleeves), []).append(
+            index
+        )
+    count = len(alike) + (plate.mast is not None)
     entries_of = partial(
         Entries, robot=robot, material=plate.material, identity=device_hash(device)
     )
-    many = "" if len(plate.rows) == 1 else f", {len(plate.rows)} of them"
-    scale, view = _top_view(one)
-    entries = entries_of(
-        title=f"Plate under the feet{many}",
-        scale=scale,
-        mass=plate_part(one).mass(),
-        figure=("Thickness", f"{plain(plate.thickness)} (EN 485-4)"),
-        texture="as rolled, edges Ra 6.3 (ISO 21920)",
-        sheet=f"1 / {count}",
-    )
-    sheets = [whole_sheet(view, _plate_notes(plate), entries, refused)]
+    sheets = []
+    for number, indices in enumerate(alike.values(), start=1):
+        one = plate.each[indices[0]]
+        scale, view = _top_view(one)
+        entries = entries_of(
+            title=_title(plate, indices),
+            scale=scale,
+            mass=plate_part(one).mass(),
+            figure=("Thickness", f"{plain(plate.thickness)} (EN 485-4)"),
+            texture="as rolled, edges Ra 6.3 (ISO 21920)",
+            sheet=f"{number} / {count}",
+        )
+        sheets.append(whole_sheet(view, _plate_notes(one), entries, refused))
     mast = plate.mast
     if mast is not None:
         scale, view = _mast_views(plate, mast)
@@ -101,10 +108,26 @@ def plate_sheets(device: Device, robot: str, refused: str = "") -> list[list[Ite
             mass=mast_part(plate, mast).mass(),
             figure=("Square tube", f"{plain(mast.side)} x {plain(mast.wall)} (EN 755-8)"),
             texture="as drawn (extruded)",
-            sheet=f"2 / {count}",
+            sheet=f"{count} / {count}",
         )
         sheets.append(whole_sheet(view, _mast_notes(plate, mast), entries, refused))
     return sheets
+
+
+def _rounded(holes: tuple[Point, ...]) -> tuple[Point, ...]:
+    """Places to the micrometre, so that plates that are made alike compare equal."""
+    return tuple((round(x, 6), round(y, 6)) for x, y in holes)
+
+
+def _title(plate: CarrierPlate, indices: Sequence[int]) -> str:
+    """Which plates a sheet is of, by their place on the robot, and how many."""
+    if len(indices) == len(plate.rows):
+        return "Plate under the feet" + (f", {len(indices)} off" if len(indices) > 1 else "")
+    front_first = sorted(range(len(plate.rows)), key=lambda index: -plate.rows[index])
+    places = sorted(front_first.index(index) + 1 for index in indices)
+    if len(plate.rows) == 2:
+        return f"{'Front' if places == [1] else 'Rear'} plate under the feet"
+    return f"Plate {', '.join(map(str, places))} of {len(plate.rows)} from the front"
 
 
 class Hole(NamedTuple):

@@ -109,6 +109,30 @@ def test_the_outline_drawn_is_that_of_the_plate(plate):
     )
 
 
+@pytest.mark.parametrize("inwards", [0.0, 0.008])
+def test_plates_that_differ_have_a_sheet_each(inwards):
+    """A rear plate whose trunk screws are farther out is not made to the front one's sheet."""
+    front, rear = 0.1, -0.1
+    twice = replace(
+        PLATE,
+        rows=(front, rear),
+        feet=tuple((x + row, y) for row in (front, rear) for x, y in PLATE.feet),
+        trunk=tuple((x + front, y) for x, y in PLATE.trunk)
+        + tuple((x + rear, y + inwards * np.sign(y)) for x, y in PLATE.trunk),
+        sleeves=PLATE.sleeves * 2,
+    )
+    pages = sheets_of(twice)
+    titles = [item.text for page in pages for item in texts(page) if "plate u" in item.text.lower()]
+    if inwards:
+        assert titles == ["Front plate under the feet", "Rear plate under the feet"]
+    else:
+        assert titles == ["Plate under the feet, 2 off"]
+    for page, plate in zip(pages, twice.each, strict=False):
+        said = [item.text for item in texts(page)]
+        assert all(f"{1e3 * y:.2f}" in said for _, y in plate.trunk)
+        check_words(page)
+
+
 def test_a_mast_has_the_lengths_that_it_is_cut_to():
     said = " ".join(item.text for item in texts(sheets_of(ON_A_MAST)[1]))
     mast = ON_A_MAST.mast
