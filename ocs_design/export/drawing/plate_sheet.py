@@ -5,7 +5,7 @@ is seen from the left and, beside that, from behind. All places are from the mid
 underside.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
