@@ -24,6 +24,7 @@ from ocs_design.parts.joints import (
     HOTTEST,
     OVERSPEED,
     SERVICE,
+    SMOOTHING,
     WARMEST,
     Correction,
     ShrinkFit,
@@ -213,9 +214,10 @@ def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
             format_quantity(2.0 * each, "um", digits=3) for each in (fit.least, fit.most)
         )
         note = (
-            f"shrunk on, {least} to {most} interference on diameter; friction of {FRICTION:g} at "
-            f"the looser fit, at {OVERSPEED:g} x top speed or at rest, {COLDEST:g} to {WARMEST:g} "
-            f"deg C, against {SERVICE:g} x peak torque"
+            f"shrunk on, {least} to {most} interference on diameter, less "
+            f"{format_quantity(SMOOTHING, 'um', digits=2)} by smoothing of the surfaces; friction "
+            f"of {FRICTION:g} at the looser fit, at {OVERSPEED:g} x top speed or at rest, "
+            f"{COLDEST:g} to {WARMEST:g} deg C, against {SERVICE:g} x peak torque"
         )
         torque = SERVICE * (device.motor.torque_limit or 0.0)
         yield Margin(RIM_JOINT, torque, fit.torque, "N m", note=note)

@@ -304,14 +304,25 @@ COLDEST, MADE, WARMEST = -10.0, 20.0, 50.0
 """Temperatures that a shrink fit must hold at, and the one that it is made at [deg C]."""
 
 
+SEAT_ROUGHNESS = 1.6e-6
+"""Arithmetic mean height Ra of both seats of a shrink fit, as they are drawn [m]."""
+
+_TURNED = 4.0
+"""Greatest height Rz over Ra of a triangular profile, as turning leaves."""
+
+SMOOTHING = 0.8 * 2.0 * _TURNED * SEAT_ROUGHNESS
+"""Interference on the diameter that is lost as the peaks of both seats are smoothed,
+0.8 (Rz_i + Rz_a) [m]: DIN 7190-1:2017."""
+
+
 @dataclass(frozen=True)
 class ShrinkFit:
     """A rim on a web of another material.
 
     Attributes:
-        least, most: radial interference at `MADE` [m].
-        torque: that friction carries at the least pressure: at the least interference, turning or
-            not, cold or warm [N m].
+        least, most: radial interference at `MADE`, before smoothing [m].
+        torque: that friction carries at the least pressure: at the least interference less
+            `SMOOTHING`, turning or not, cold or warm [N m].
         stress_web, stress_rim: largest, at the largest interference [Pa].
         squeezed: largest pressure on the web [Pa].
         buckling: pressure at which the web buckles [Pa].
@@ -342,7 +353,8 @@ def shrink_fit(
     """The loosest shrink fit that holds at that speed and at rest, cold and warm.
 
     Web and rim grow by their expansions; bore and web are made to grade 6 each. Interferences are
-    whole micrometres across, as they are drawn.
+    whole micrometres across, as they are drawn. Smoothing counts where the fit must hold, and not
+    where it must not yield or buckle.
 
     Args:
         rings: hub, web and rim, or web and rim.
@@ -363,8 +375,8 @@ def shrink_fit(
     # Pressure is linear in the interference.
     per_interference = turning(1e-6, 0.0).pressure(joint) / 1e-6
     loosest = min(turning(shift, at).pressure(joint) for shift in grown for at in (0.0, speed))
-    least = (torque / per_pressure - loosest) / per_interference
-    least = ceil(2e6 * least - 1e-6) / 2e6
+    effective = (torque / per_pressure - loosest) / per_interference
+    least = ceil(1e6 * (2.0 * effective + SMOOTHING) - 1e-6) / 2e6
     most = least + tolerance_width(2.0 * radius, Grade.IT6)
     states = [turning(most + shift, at) for shift in grown for at in (0.0, speed)]
     inside = [state.peak(ring) for state in states for ring in range(joint + 1)]
@@ -374,7 +386,7 @@ def shrink_fit(
     return ShrinkFit(
         least=least,
         most=most,
-        torque=per_pressure * (loosest + per_interference * least),
+        torque=per_pressure * (loosest + per_interference * (least - SMOOTHING / 2.0)),
         stress_web=max(inside),
         stress_rim=max(state.peak(joint + 1) for state in states),
         squeezed=max(state.pressure(joint) for state in states),

@@ -14,6 +14,7 @@ from ocs_design.catalogue.motors import motors
 from ocs_design.parts.joints import (
     FRICTION,
     SERVICE,
+    SMOOTHING,
     Grade,
     correction,
     cylinder_torque,
@@ -227,8 +228,12 @@ def test_a_shrink_fit_presses_wherever_it_must_hold(torque, speed):
     fit = shrink_fit(rings, (23.6e-6, 4.5e-6), speed, torque)
     assert fit.most > fit.least > 0.0
 
-    def carried(interference):
-        """At its loosest the pressure times friction, cold or warm, turning or not."""
+    def carried(drawn):
+        """At its loosest the pressure times friction, cold or warm, turning or not.
+
+        Ra 1.6 is Rz 6.4: peaks take 0.8 x 12.8 um across.
+        """
+        interference = drawn - 5.12e-6
         grown = [19.1e-6 * kelvin * 0.031 for kelvin in (-30.0, 30.0)]
         pressures = [
             TurningRings.of(rings, at, [interference + each]).pressure(0)
@@ -243,6 +248,16 @@ def test_a_shrink_fit_presses_wherever_it_must_hold(torque, speed):
     # Cold takes from the interference: 19.1e-6 x 30 K x 31 mm = 17.8 um.
     warm = shrink_fit(rings, (4.5e-6, 4.5e-6), speed, torque)
     assert fit.least - warm.least == pytest.approx(17.8e-6, abs=0.6e-6)
+
+
+def test_a_fit_of_a_rim_that_is_smoothed_still_presses_in_the_cold_at_overspeed():
+    """DIN 7190-1: U_w = U - 0.8 (Rz_i + Rz_a), with Rz 6.4 of both: 10.24 um across."""
+    assert pytest.approx(10.24e-6) == SMOOTHING
+    rings = (replace(ALUMINIUM, outer=0.031), TUNGSTEN)
+    fit = shrink_fit(rings, (23.6e-6, 4.5e-6), 1000.0, 0.5)
+    left = fit.least - SMOOTHING / 2.0 - 19.1e-6 * 30.0 * 0.031
+    assert TurningRings.of(rings, 1000.0, [left]).pressure(0) > 0.0
+    assert fit.torque >= 0.5
 
 
 def test_holes_of_a_hub_that_is_pressed_together_stress_it_twice():

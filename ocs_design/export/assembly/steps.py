@@ -249,15 +249,20 @@ def _wheel_steps(assembly: Assembly) -> Iterator[str]:
         f"machines). Rim to bore: run-out at most {1e3 * RUN_OUT:g} mm. "
         f"Weigh it: {1e3 * device.flywheel.mass:.1f} g."
     )
-    if shrunk_on(wheel_geometry(device.flywheel)):
-        hot, fit, material = "", rim_fit(device), materials().get(device.flywheel.material)
+    wheel, web = device.flywheel, device.flywheel.web
+    if web is not None and shrunk_on(wheel_geometry(wheel)):
+        hot, fit, material = "", rim_fit(device), materials().get(wheel.material)
         if fit is not None and material is not None and material.thermal_expansion is not None:
             grown = 2.0 * fit.most + DROP
-            hotter = grown / (2.0 * device.flywheel.inner_radius * material.thermal_expansion)
+            hotter = grown / (2.0 * wheel.inner_radius * material.thermal_expansion)
             hot = f", at least {hotter:.0f} K hotter than the web,"
+        higher = (wheel.height - web.hub.height) / 2.0
+        lower, thickness = "hub" if higher > 0.0 else "rim", f"{1e3 * abs(higher):.2f}"
+        shim = "" if thickness == "0.00" else f", the {lower} on a shim of {thickness} mm,"
         yield (
             f"Shrink the rim{assembly.number('rim')} on the web{assembly.number('hub')}: heat it "
-            f"in an oven{hot} until it drops on the web on a flat plate, and let both cool."
+            f"in an oven{hot} until it drops on the web, both on a flat plate{shim} and let both "
+            "cool: so the web is in the rim's middle."
         )
     if not device.on_bell:
         return

@@ -152,6 +152,21 @@ def bore_diameter(wheel: Wheel) -> str:
     return f"Ø{toleranced(2.0 * wheel.rim.inner_radius, Grade.IT9)}"
 
 
+def seat_limits(drawing: WheelDrawing) -> tuple[str, str]:
+    """Limits of the rim's bore and of the web, each after a comma [mm]; empty: they are not known.
+
+    The bore goes from the size up, and the web is wider by the interference; both are of one grade.
+    """
+    if drawing.interference is None:
+        return "", ""
+    least, most = drawing.interference
+    # As the size is labelled.
+    bore, width = round(2.0 * drawing.wheel.rim.inner_radius, 5), (most - least) / 2.0
+    limits = (bore, bore + width), (bore + most - width, bore + most)
+    (r, R), (w, W) = ((f"{1e3 * low:.3f}", f"{1e3 * high:.3f}") for low, high in limits)
+    return f", bore Ø{r} to {R}", f", Ø{w} to {W}"
+
+
 def diameters(wheel: Wheel) -> Iterator[tuple[str, float, float]]:
     """Turned diameters but the hub's bore, from the inside out.
 

@@ -37,12 +37,13 @@ from ocs_design.export.drawing.wheel import (
     lost_by_breaking,
     plain,
     rim_inertia_error,
+    seat_limits,
     shrunk_on,
 )
 from ocs_design.export.drawing.writers import pdf_of_pages, svg_text
 from ocs_design.export.drilling import drilling_of, pages
 from ocs_design.parts.bell import GLUE_GAP
-from ocs_design.parts.joints import GRADE
+from ocs_design.parts.joints import GRADE, SEAT_ROUGHNESS
 
 if TYPE_CHECKING:
     from ocs_design.export.formats import Notes, Subject
@@ -50,7 +51,7 @@ if TYPE_CHECKING:
 PARTS_ROW = 5.5
 """Height of a row of the list of parts, which grows upwards from the title block [mm]."""
 
-_PARTS_COLUMNS = (0.0, 12.0, 62.0, 150.0, BLOCK_WIDTH)
+_PARTS_COLUMNS = (0.0, 12.0, 76.0, 150.0, BLOCK_WIDTH)
 """Edges of the columns item, name, material and mass [mm]."""
 
 RUN_OUT = 1e3 * joints.RUN_OUT
@@ -94,6 +95,7 @@ def wheel_drawing(device: Device, robot: str, refused: str = "") -> WheelDrawing
 def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
     """Section and front view in first-angle projection, notes, list of parts and title block."""
     layout, wheel = lay_out(drawing.wheel), drawing.wheel
+    fine = "all fits" if shrunk_on(wheel) else "bore"
     inertia = f"{1e6 * drawing.mass_properties.inertia[2, 2]:.4g} kg mm²"
     entries = Entries(
         "OCS flywheel",
@@ -102,7 +104,7 @@ def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
         "see list of parts" if shrunk_on(wheel) else wheel.rim.material,
         sum(drawing.masses),
         ("Spin inertia about the axis", inertia),
-        "Ra 3.2, bore Ra 1.6 (ISO 21920)",
+        f"Ra 3.2, {fine} Ra {1e6 * SEAT_ROUGHNESS:g} (ISO 21920)",
         drawing.identity,
     )
     views = [*section_view(wheel, layout), *front_view(wheel, layout)]
@@ -116,9 +118,10 @@ def parts_list(drawing: WheelDrawing) -> list[Item]:
     if wheel.hub is None or wheel.one_piece:
         return []
     rim_mass, hub_mass = drawing.masses
+    bore, web = seat_limits(drawing)
     rows = (
-        ("2", "Web with hub", wheel.hub.material, f"{1e3 * hub_mass:.4g} g"),
-        ("1", "Rim", wheel.rim.material, f"{1e3 * rim_mass:.4g} g"),
+        ("2", f"Web with hub{web}", wheel.hub.material, f"{1e3 * hub_mass:.4g} g"),
+        ("1", f"Rim{bore}", wheel.rim.material, f"{1e3 * rim_mass:.4g} g"),
         ("Item", "Name", "Material", "Mass"),
     )
     items: list[Item] = []
@@ -201,7 +204,10 @@ def _rim_note(drawing: WheelDrawing) -> str:
     if drawing.interference is None:
         return "Rim shrunk on the web, which is not computed."
     least, most = (f"{1e3 * each:.3f}" for each in drawing.interference)
-    return f"Rim shrunk on the web, its bore {least} to {most} narrower than the web."
+    return (
+        f"Rim shrunk on the web, its bore {least} to {most} narrower: the list of parts has both "
+        "sizes."
+    )
 
 
 def _percent(part: float) -> str:

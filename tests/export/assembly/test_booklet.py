@@ -383,6 +383,12 @@ def test_a_rim_of_another_material_is_shrunk_on():
     expansion = materials()["stainless-304"].thermal_expansion
     hotter = (2.0 * rim_fit(device).most + 0.03e-3) / (2.0 * rim.inner_radius * expansion)
     assert f"at least {hotter:.0f} K hotter than the web" in said
+    higher = rim.height - web.hub.height
+    part = "hub" if higher > 0.0 else "rim"
+    shim = (
+        f"on a flat plate, the {part} on a shim of {500.0 * abs(higher):.2f} mm, and let both cool"
+    )
+    assert shim in said
 
 
 def test_the_feet_s_screws_are_in_their_slots():

@@ -165,6 +165,17 @@ def test_the_front_view_is_to_scale():
         assert any(abs(radius - each) < 1e-9 for each in radii), radius
 
 
+def test_rim_and_web_of_a_shrink_fit_have_limits_of_their_own():
+    """42 to 80 um of interference over 78.4 mm, of which grade 6 is 19 um each."""
+    fit = replace(FLAT, interference=(42e-6, 80e-6))
+    found = words(fit)
+    assert "Rim, bore Ø78.400 to 78.419" in found
+    assert "Web with hub, Ø78.461 to 78.480" in found
+    assert "Ra 3.2, all fits Ra 1.6 (ISO 21920)" in found
+    assert "Ra 3.2, bore Ra 1.6 (ISO 21920)" in words(HOLED)
+    assert {"Rim", "Web with hub"} <= set(words(FLAT))
+
+
 def test_the_rim_alone_says_so():
     alone = replace(FLAT, wheel=Wheel(RIM))
     assert any(text.startswith("Rim only") for text in words(alone))
