@@ -277,11 +277,13 @@ def _read_joint(element: ET.Element, name: str, kind: str, warnings: Warnings) -
     lower, upper, effort, velocity = -np.inf, np.inf, 0.0, 0.0
     limit = element.find("limit")
     if limit is not None:
-        effort = number(limit, "effort", where, default=0.0)
-        velocity = number(limit, "velocity", where, default=0.0)
+        names = ("lower", "upper", "effort", "velocity")
+        stated = [number(limit, each, where, default=0.0) for each in names]
+        if np.isinf(stated).any():
+            warnings.add("joints with an infinite <limit>, which ROS refuses", name)
+        effort, velocity = stated[2:]
         if kind != "continuous":
-            lower = number(limit, "lower", where, default=0.0)
-            upper = number(limit, "upper", where, default=0.0)
+            lower, upper = stated[:2]
     elif kind != "continuous":
         warnings.add("joints without a <limit>, which ROS refuses, read as unlimited", name)
     if lower >= upper:

@@ -188,13 +188,14 @@ def _finite(word: str, element: ET.Element, attribute: str, where: str) -> float
         value = float(word)
     except ValueError:
         value = np.nan
-    if not np.isfinite(value) or "_" in word:
+    # Limits are only compared; files write `inf` or the largest number for no limit.
+    limits = element.tag == "limit"
+    if np.isnan(value) or "_" in word or (np.isinf(value) and not limits):
         raise RobotError(
             f'{where}: {attribute}="{word}" of <{element.tag}> is not a finite number',
             hint="write a plain number with a decimal point, such as 0.25",
         )
-    # Limits are only compared; files write the largest number for no limit.
-    if abs(value) > LARGEST_NUMBER and element.tag != "limit":
+    if abs(value) > LARGEST_NUMBER and not limits:
         raise RobotError(
             f'{where}: {attribute}="{word}" of <{element.tag}> is far too large',
             hint="lengths are in metres, masses in kilograms, angles in radians",

@@ -50,6 +50,14 @@ def test_zero_effort_and_velocity_are_not_stated(limit):
     assert (hip.effort, hip.velocity) == (np.inf, np.inf)
 
 
+def test_an_infinite_limit_is_none():
+    hip, tree = joint_with('<limit lower="-inf" upper="1" effort="inf" velocity="Infinity"/>')
+    assert (hip.lower, hip.upper) == (-np.inf, 1.0)
+    assert (hip.effort, hip.velocity) == (np.inf, np.inf)
+    (warning,) = tree.warnings
+    assert warning == "joints with an infinite <limit>, which ROS refuses: hip"
+
+
 def chain_of_mimics(*mimics: str) -> Tree:
     names = [f"j{number}" for number in range(len(mimics))]
     return read(
