@@ -170,7 +170,8 @@ def _exploded(assembly: Assembly) -> tuple[list[Item], Scale]:
     left, top, right, bottom = EXPLODED_BOX
     if assembly.refused:
         top += _LEADING * (1 + len(_refused_lines(assembly)))
-    return exploded_view(assembly.pieces, assembly.numbers, (left, top, right, bottom))
+    box = _above_caption((left, top, right, bottom))
+    return exploded_view(assembly.pieces, assembly.numbers, box)
 
 
 def _refused_lines(assembly: Assembly) -> list[str]:
@@ -193,11 +194,18 @@ def _sections(assembly: Assembly) -> Iterator[tuple[list[Item], Scale, str, Box]
         box = (*box[:3], _BONDING_BOX[1] - 6.0)
         what = "Ring and bell of the motor in their fixture, cut along their axis"
         yield (
-            *section_view(assembly.bonding, numbers, _BONDING_BOX, standing=True),
+            *section_view(assembly.bonding, numbers, _above_caption(_BONDING_BOX), standing=True),
             what,
             _BONDING_BOX,
         )
-    yield *section_view(assembly.pieces, numbers, box), "One module cut along its axis", box
+    drawn = section_view(assembly.pieces, numbers, _above_caption(box))
+    yield *drawn, "One module cut along its axis", box
+
+
+def _above_caption(box: Box) -> Box:
+    """Room of a view and its numbers above the words below it [mm]."""
+    left, top, right, bottom = box
+    return left, top, right, bottom - _LEADING
 
 
 def _around(items: Iterable[Item]) -> Box:

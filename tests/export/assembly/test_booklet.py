@@ -7,7 +7,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from built import DEVICES, around, housed
-from drawn_wheels import check_words
+from drawn_wheels import box_of, check_words
+from drawn_wheels import texts as texts_of
 from hypothesis import given
 from hypothesis import strategies as st
 from wheels import paper_device
@@ -22,7 +23,7 @@ from ocs_design.device.resonances import resonances_of
 from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly.booklet import assembly_pages, chapters, piece_rows, screw_rows
 from ocs_design.export.assembly.content import Assembly
-from ocs_design.export.assembly.views import pulled_apart, spread
+from ocs_design.export.assembly.views import BALLOON, pulled_apart, spread
 from ocs_design.export.assembly_notes import trunk_threads
 from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.export.drawing.sheet import Circle, Line, Polyline, Text
@@ -41,6 +42,11 @@ def test_all_is_on_the_sheet_and_no_text_on_another(assembly):
     assert not re.search(r"\de[+]", " ".join(all_texts(assembly)))
     for page in assembly_pages(assembly):
         check_words(page)
+        # No number is level with the words below its view.
+        numbers = [item.center for item in page if isinstance(item, Circle) and item.radius > 1.0]
+        for caption in (each for each in texts_of(page) if re.search(r", 1:\d", each.text)):
+            _, high, _, low = box_of(caption)
+            assert not [y for _, y in numbers if high - BALLOON < y < low + BALLOON]
         for item in page:
             match item:
                 case Polyline(points):
