@@ -281,8 +281,12 @@ def _drive_margins(motion: SampledMotion, wheel: DrivenWheel) -> Iterator[Margin
     line, gear = wheel.line, wheel.gear
     speed = _peak(motion.wheel_speed)
     yield Margin(WHEEL_SPEED, speed, finite_or_none(line.speed_max), "rad/s")
-    capacity = min(speed_limit(wheel.motor) or np.inf, gear.motor_speed_max)
-    note = "" if wheel.motor.speed_max else "no limit stated: no-load speed at rated voltage"
+    of_motor = speed_limit(wheel.motor) or np.inf
+    capacity, note = min(of_motor, gear.motor_speed_max), ""
+    if gear.motor_speed_max < of_motor:
+        note = "the highest that the gear stands"
+    elif wheel.motor.speed_max is None:
+        note = "no limit stated: no-load speed at rated voltage"
     yield Margin(MOTOR_SPEED, gear.ratio * speed, finite_or_none(capacity), "rad/s", note=note)
     # A motor in use also works against its own friction.
     rubbed = wheel.drive.friction

@@ -86,6 +86,16 @@ def test_what_no_source_states_is_noted(change, name, note):
     assert note in by_name(turn(), driven_wheel(replace(EC45, **change)))[name].note
 
 
+def test_of_motor_and_gear_the_one_that_limits_the_speed_is_noted():
+    """A motor that no limit is stated for, 640 rad/s, behind a gear for less or for more."""
+    unstated = replace(EC45, speed_max=None)
+    slow = by_name(turn(), driven_wheel(unstated, gear=replace(BELT, motor_speed_max=600.0)))
+    fast = by_name(turn(), driven_wheel(unstated, gear=BELT))
+    assert (slow["motor speed"].capacity, fast["motor speed"].capacity) == (600.0, 639.8)
+    assert "gear" in slow["motor speed"].note
+    assert "no limit stated" in fast["motor speed"].note
+
+
 def test_braking_takes_less_of_the_line_than_driving():
     """It ends at rest with tau alone; at full speed it is |300 / 650.4 - 0.4 / 1.4566|."""
     for part, share in ((slice(0, 2), 0.73586), (slice(2, 4), 0.4 / 1.4566)):
