@@ -136,6 +136,17 @@ class Node:
             z[layout.a] / duration**2,
             z[layout.f] * units.force,
         )
+        shared = base.f / units.force * len(body.legs)
+        swing = base.a * units.time**2
+        # Terms of the cost besides the torques: small ones, which decide what these leave open.
+        minor = ca.vertcat(
+            np.sqrt(0.01) * shared,
+            np.sqrt(0.3) * ca.vertcat(shared[0::3], shared[1::3]),
+            np.sqrt(0.001) * swing[POSE:],
+            np.sqrt(0.01) * swing[3:POSE],
+            np.sqrt(0.1) * base.y[:2] / body.length,
+            base.y[3:POSE],
+        )
         balance, slips, torque, speed, force, reach, minor, end = ca.substitute(
             [
                 # Nothing but the ground pushes the trunk.
@@ -145,7 +156,7 @@ class Node:
                 base.v[POSE:],
                 base.f / units.force,
                 base.reach / ca.DM([leg.length for leg in body.legs]) ** 2,
-                _minor_residuals(body, base, units),
+                minor,
                 ca.vertcat(
                     base.momentum / (units.force / base.load.gravity * units.speed),
                     base.spin / (units.moment * units.time),
@@ -256,17 +267,3 @@ def limit_or_inf(value: float) -> float:
 
 def _sparse(matrix: FloatArray) -> ca.DM:
     return ca.sparsify(ca.DM(matrix))
-
-
-def _minor_residuals(body: LeggedBody, base: FloatingBase, units: _Units) -> ca.SX:
-    """Terms of the cost besides the torques: small ones, which decide what these leave open."""
-    shared = base.f / units.force * len(body.legs)
-    swing = base.a * units.time**2
-    return ca.vertcat(
-        np.sqrt(0.01) * shared,
-        np.sqrt(0.3) * ca.vertcat(shared[0::3], shared[1::3]),
-        np.sqrt(0.001) * swing[POSE:],
-        np.sqrt(0.01) * swing[3:POSE],
-        np.sqrt(0.1) * base.y[:2] / body.length,
-        base.y[3:POSE],
-    )

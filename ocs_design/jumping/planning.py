@@ -10,7 +10,7 @@ import numpy as np
 from ocs_design.common.arrays import interpolated
 from ocs_design.common.units import STANDARD_GRAVITY
 from ocs_design.device.device import Device
-from ocs_design.jumping.flight import FreeRobot, LegFlight, LegReturn
+from ocs_design.jumping.flight import FreeRobot, LegReturn
 from ocs_design.jumping.floating_base import POSE, FloatingBase, Load
 from ocs_design.jumping.jump import Jump, JumpPlan, JumpPlans, LegTrajectory, jump_of
 from ocs_design.jumping.legged_body import LeggedBody, obstacle_to_jumping
@@ -143,16 +143,20 @@ class JumpPlanner:
             trunk: of `LeggedBody`, with what it carries.
             similar: a push-off of this jump with another trunk, to begin the search at.
         """
-        spin = None
+        load = Load.values(jump.gravity, trunk)
+        time = float(np.sqrt(self._body.length / STANDARD_GRAVITY))
+        swing, spin = min(_SWING * time, _LATEST * jump.flight_time), None
         for corrected in (False, True):
             push_off = self._push_offs.find(jump, trunk, spin=spin, similar=similar)
             if push_off.forbidden:
                 return Planned(JumpPlan(None, push_off.forbidden), push_off)
-            flight = self._fly(push_off, jump, trunk)
+            y, v = push_off.y[-1], push_off.v[-1]
+            legs = LegReturn(y[POSE:], v[POSE:], self._body.posture, _BRAKE * time, swing)
+            flight = self._free.fly(y, v, legs, load, jump.flight_time)
             if corrected or np.abs(flight.tilt).max() <= _LEVEL:
                 break
             # The legs turn the trunk as they go back: a spin at lift-off turns it as far again.
-            inertia = self._free.inertia(push_off.y[-1], Load.values(jump.gravity, trunk))
+            inertia = self._free.inertia(y, load)
             spin, similar = -inertia @ flight.tilt / jump.flight_time, push_off
         # Push-off and flight one after the other.
         lift_off = float(push_off.time[-1])
@@ -168,11 +172,3 @@ class JumpPlanner:
             lift_off=lift_off,
         )
         return Planned(JumpPlan(trajectory, ""), push_off)
-
-    def _fly(self, push_off: PushOff, jump: Jump, trunk: MassProperties) -> LegFlight:
-        body, y, v = self._body, push_off.y[-1], push_off.v[-1]
-        time = np.sqrt(body.length / STANDARD_GRAVITY)
-        duration = jump.flight_time
-        swing = min(_SWING * float(time), _LATEST * duration)
-        legs = LegReturn(y[POSE:], v[POSE:], body.posture, _BRAKE * float(time), swing)
-        return self._free.fly(y, v, legs, Load.values(jump.gravity, trunk), duration)
