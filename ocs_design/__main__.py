@@ -1,4 +1,4 @@
-"""`ocs-design` and `python -m ocs_design`: to be told to end is an interrupt at any moment."""
+"""`ocs-design` and `python -m ocs_design`: a termination signal counts as an interrupt."""
 
 import os
 import signal
@@ -10,12 +10,12 @@ from types import FrameType
 
 from ocs_design.common.errors import INTERRUPTED
 
-# Seconds; impatient people press twice, and what is being tidied up is not to be left half done.
+# Seconds; impatient people press twice, and that must not interrupt the clean-up.
 _SAME_INTERRUPT = 1.0
 
 
 class _Interrupts:
-    """Makes interrupts of signals, one of those that come at once."""
+    """Turns signals into KeyboardInterrupt; repeats within a second count once."""
 
     def __init__(self) -> None:
         self._last = -_SAME_INTERRUPT
@@ -29,16 +29,16 @@ class _Interrupts:
 def _on_signals(handler: Callable[[int, FrameType | None], None] | signal.Handlers) -> None:
     for name in ("SIGINT", "SIGTERM", "SIGHUP"):
         number = getattr(signal, name, None)
-        # Windows has no SIGHUP; `nohup` has it ignored, and shells SIGINT behind an `&`.
+        # Windows has no SIGHUP; `nohup` makes it ignored, and a shell's `&` does so for SIGINT.
         if number is not None and signal.getsignal(number) != signal.SIG_IGN:
             signal.signal(number, handler)
 
 
 def _open_closed_streams() -> None:
-    """What is printed to a closed stream would end up in the next file that is opened."""
+    """Open closed standard streams: output to them would go to the next file that is opened."""
     for number, name in enumerate(("stdin", "stdout", "stderr")):
         if getattr(sys, name) is None:
-            # The lowest number that is free is taken, which is this stream's own.
+            # The system takes the lowest free descriptor, which is this stream's own.
             os.open(os.devnull, os.O_RDWR)
             mode = "w" if number else "r"
             setattr(sys, name, open(number, mode, encoding="utf-8"))  # noqa: SIM115, PTH123  kept
@@ -49,23 +49,23 @@ def main() -> None:
     try:
         _open_closed_streams()
         _on_signals(_Interrupts())
-        # Importing it takes a tenth of a second, in which people change their mind.
+        # Importing takes a tenth of a second, during which an interrupt may come.
         from ocs_design.cli.app import main as run  # noqa: PLC0415
 
         code = run()
-        # All is done; Python tidies up, and would complain of an interrupt.
+        # Everything is done; Python would complain of an interrupt during its shutdown.
         _on_signals(signal.SIG_IGN)
     except KeyboardInterrupt:
         code = INTERRUPTED
     if code == INTERRUPTED:
         _on_signals(signal.SIG_IGN)
-        # Whoever has not come to load it has nothing to remove.
+        # If it has not been loaded, there is nothing to remove.
         if folder := sys.modules.get("ocs_design.export.folder"):
             folder.remove_unfinished()
-        # The terminal may be what has ended.
+        # The terminal itself may have closed.
         with suppress(OSError):
-            print("interrupted; nothing half done is left", file=sys.stderr, flush=True)
-        # CPython ends by the signal if that came in an `eval`, whatever code it is to end with.
+            print("interrupted; no unfinished files are left", file=sys.stderr, flush=True)
+        # After a signal during an `eval`, CPython ends by that signal, whatever the exit code.
         os._exit(code)
     sys.exit(code)
 

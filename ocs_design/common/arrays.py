@@ -50,9 +50,9 @@ class Table(DataclassInstance):
     """
 
     def take(self, rows: NDArray[np.intp] | NDArray[np.bool_] | slice | int) -> Self:
-        """Table of the rows with these indices, of this slice, or of those where a mask holds.
+        """Table of the rows selected by indices, a slice or a mask.
 
-        A single index gives that row alone, of scalars.
+        A single index gives that row alone, with scalars.
         """
         return self._each(lambda column: column[rows], lambda table: table.take(rows))
 
@@ -75,7 +75,7 @@ class Table(DataclassInstance):
         )
 
     def put(self, rows: NDArray[np.intp], others: Self) -> Self:
-        """Copy of the table with the rows of another one in place of these."""
+        """Copy of the table with these rows replaced by those of another."""
         columns: dict[str, Any] = {}
         for field in fields(self):
             own, other = getattr(self, field.name), getattr(others, field.name)
@@ -103,7 +103,7 @@ Rows = TypeVar("Rows", bound=Table)
 
 
 def stacked(rows: Sequence[Rows]) -> Rows:
-    """Table of arrays, shape (n,) each, with a row for each of these tables of numbers."""
+    """Table of arrays, shape (n,) each, with one row per table of scalars."""
     columns: dict[str, Any] = {}
     for field in fields(rows[0]):
         values = [getattr(row, field.name) for row in rows]
@@ -113,12 +113,12 @@ def stacked(rows: Sequence[Rows]) -> Rows:
 
 
 def stacked_columns(rows: Sequence[Rows]) -> Rows:
-    """Table as of `stacked` with a second axis of one, (n, 1) or (n, 1, m), to broadcast along."""
+    """Table as in `stacked`, with a second axis of length 1 to broadcast, (n, 1) or (n, 1, m)."""
     table = stacked(rows)
     columns = {field.name: getattr(table, field.name)[:, None] for field in fields(table)}
     return replace(table, **columns)
 
 
 def interpolated(at: FloatArray, samples: FloatArray, values: FloatArray) -> FloatArray:
-    """Values of shape (n, m) at n `samples`, linear between them, at k places, shape (k, m)."""
+    """Linear interpolation of values, shape (n, m), given at n `samples`, at k places; (k, m)."""
     return np.column_stack([np.interp(at, samples, column) for column in values.T])

@@ -1,8 +1,7 @@
-"""Other processes that work out answers while this one goes on with something else.
+"""Worker processes that compute answers while this one continues.
 
-Selections are Python on small arrays: a thread would only take turns with the one that asked. The
-pools of the standard library run the caller's main module once more, and a user's script need not
-bear that.
+Selections are Python on small arrays: a thread would only take turns with the caller. The pools of
+the standard library run the caller's main module again, which a user's script may not be made for.
 """
 
 import pickle
@@ -25,19 +24,19 @@ Found = TypeVar("Found")
 class Beside:
     """Processes that import a module and then answer calls; as a context they end with it.
 
-    Calls are begun in the order in which they are made. What none has begun when its answer is
-    asked for is worked out in this process; so is what a process fails at, and everything with one
-    processor, without a module, or where no process can be started.
+    Calls are started in the order in which they are made. A call that no process has started when
+    its answer is needed runs in this process; so does one at which a process fails, and every call
+    if there is one processor, no module, or no process can be started.
 
     Args:
-        module: that each process imports at once, as in "package.module"; None: no process.
-        most: number of processes at most; there are fewer than processors, as this one works too.
+        module: that each process imports at the start, as in "package.module"; None: no process.
+        most: largest number of processes; fewer than processors, as this process works, too.
     """
 
     def __init__(self, module: str | None = None, most: int = 1) -> None:
         count = 0 if module is None else min(most, processors() - 1)
         self._processes: list[subprocess.Popen[bytes]] = []
-        # Of each process that is idle, where it is written to and read from.
+        # Streams to and from each idle process.
         self._idle: SimpleQueue[tuple[pickle.Pickler, IO[bytes], IO[bytes]]] = SimpleQueue()
         # Each thread waits for one process.
         self._threads = ThreadPoolExecutor(count) if count else None
@@ -49,7 +48,7 @@ class Beside:
                     stdin=subprocess.PIPE,
                     stdout=subprocess.PIPE,
                     stderr=subprocess.DEVNULL,
-                    # An interrupt at the terminal is for the process that asks.
+                    # Interrupts at the terminal go to the calling process only.
                     start_new_session=True,
                 )
                 asked, answers = process.stdin, process.stdout
@@ -74,10 +73,10 @@ class Beside:
         *args: Arguments.args,
         **kwargs: Arguments.kwargs,
     ) -> Callable[[], Found]:
-        """Begin a call; the function that is returned waits for its answer, or raises its error.
+        """Start a call; the returned function waits for its answer, or raises its error.
 
         Args:
-            function: of a module, so that it is found there; arguments and answer are pickled.
+            function: importable from a module; arguments and answer are pickled.
         """
         here = partial(function, *args, **kwargs)
         if self._threads is None:
@@ -85,7 +84,7 @@ class Beside:
         begun = self._threads.submit(self._answered, here)
 
         def answer() -> Found:
-            """What a process found; found here if none has begun, or if it failed."""
+            """Answer of a process; computed here if none has started the call, or if it failed."""
             if begun.cancel():
                 return here()
             try:
@@ -96,7 +95,7 @@ class Beside:
         return answer
 
     def _answered(self, call: Callable[[], Found]) -> Found:
-        """Answer of a process that is idle; one that ends without an answer is not asked again."""
+        """Answer of an idle process; a process that ends without an answer is not used again."""
         pickler, asked, answers = idle = self._idle.get_nowait()
         pickler.dump(call)
         asked.flush()
@@ -106,12 +105,12 @@ class Beside:
 
 
 if __name__ == "__main__":
-    # Import the module that is named, then answer the calls on the standard input.
+    # Import the named module, then answer the calls from standard input.
     with suppress(EOFError, BrokenPipeError):
-        # What is printed on the way is not to get among the bytes of the answers.
+        # Printed output must not mix with the bytes of the answers.
         answers, sys.stdout = sys.stdout.buffer, sys.stderr
         import_module(sys.argv[1])
-        # What several calls share is sent once, and what it has worked out for itself is kept.
+        # Objects shared by several calls are sent once, and keep their cached results.
         calls = pickle.Unpickler(sys.stdin.buffer)
         while True:
             pickle.dump(calls.load()(), answers)

@@ -1,8 +1,8 @@
 """Errors that a user can act on.
 
-Every error carries its data as attributes, a message that says what is wrong and where, and a
-hint that names the cure. The command line prints them as one panel; anything else that escapes
-is a bug and keeps its traceback. For what is not installed the cure is a command, made here.
+Every error has its data as attributes, a message that says what is wrong and where, and a hint on
+what to do. The command line prints them as one panel; any other exception that escapes is a bug and
+keeps its traceback. For missing packages the hint is an install command, composed here.
 """
 
 import shlex
@@ -14,7 +14,7 @@ from types import MappingProxyType
 from typing import Any, ClassVar
 
 INTERRUPTED = 130
-"""Exit code of a command that was told to end: what shells make of an interrupt."""
+"""Exit code of an interrupted command, as shells have it."""
 
 
 class OcsError(Exception):
@@ -22,7 +22,7 @@ class OcsError(Exception):
 
     Attributes:
         message: what is wrong, and where.
-        hint: what the user can do about it; empty if there is nothing to add.
+        hint: what the user can do about it; empty if nothing.
         kind: short machine-readable name, stable over versions.
         exit_code: the process exit code of the command line.
     """
@@ -53,7 +53,7 @@ class UsageError(OcsError):
 
 
 class QuantityError(OcsError):
-    """A quantity that cannot be read: no number, an unknown unit, a wrong dimension."""
+    """A quantity that cannot be read: not a number, an unknown unit, or a wrong dimension."""
 
     kind = "quantity"
     exit_code = 2
@@ -89,7 +89,7 @@ class OutputError(OcsError):
 
 
 class PartError(OcsError):
-    """A part of such sizes cannot be made."""
+    """A part of these dimensions cannot be made."""
 
     kind = "part"
 
@@ -100,11 +100,12 @@ class Infeasible(OcsError):
     Attributes:
         binding: names of the constraints that together forbid a design.
         largest_spin_inertia: the largest spin inertia that the limits allow [kg m^2].
-        required_spin_inertia: what was asked for [kg m^2]; None: no wheel would do, however large,
-            or what is in the way is no matter of the wheel.
-        relaxations: for each constraint that can mend it alone, the limit that would just do (SI).
-        assumptions, warnings: what was taken where nothing was stated, and doubts about the robot's
-            file, one sentence each, once they are known.
+        required_spin_inertia: the required one [kg m^2]; None: no wheel is large enough, or the
+            obstacle is not the wheel.
+        relaxations: for each constraint whose change alone gives a design, the limit that just
+            suffices (SI).
+        assumptions, warnings: defaults that apply, and warnings about the robot's file, one
+            sentence each, once they are known.
     """
 
     kind = "infeasible"
@@ -129,7 +130,7 @@ class Infeasible(OcsError):
         self.warnings: tuple[str, ...] = ()
 
     def data(self) -> Mapping[str, Any]:
-        """Binding constraints, inertias and relaxations, SI; what was assumed and is doubted."""
+        """Binding constraints, inertias and relaxations (SI); assumptions and warnings."""
         return {
             "binding": list(self.binding),
             "required_spin_inertia": self.required_spin_inertia,
@@ -151,7 +152,7 @@ DISTRIBUTION = "ocs-design"
 
 
 def install_command(*requirements: str, options: str = "") -> str:
-    """Command of the tool that made this environment: pip, pipx or uv."""
+    """Install command of the tool that made this environment: pip, pipx or uv."""
     what = " ".join([*options.split(), *(f"'{each}'" for each in requirements)])
     environment = Path(sys.prefix)
     if (environment / "pipx_metadata.json").is_file():

@@ -1,4 +1,4 @@
-"""Files of users, read up to a bounded size; JSON; the processors that a process may use."""
+"""Reading user files up to a bounded size; JSON; the processors that a process may use."""
 
 import errno
 import os
@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 from ocs_design.common.errors import SpecificationError
 
 AnyPath: TypeAlias = str | os.PathLike[str]
-"""A path as people give it in Python."""
+"""A path as a user gives it in Python."""
 
 
 def safe_name(name: str) -> str:
@@ -21,7 +21,7 @@ def safe_name(name: str) -> str:
 
 
 def comparable_name(name: str) -> str:
-    """What names have in common that would have the same files: some disks fold capitals."""
+    """Key that is equal for names with the same files: some file systems ignore case."""
     return safe_name(name).casefold()
 
 
@@ -33,10 +33,10 @@ class TextKind:
     """One kind of file.
 
     Attributes:
-        name: for people, as in "catalogue".
+        name: for messages, as in "catalogue".
         largest: [bytes].
         longest_line: [characters]; the TOML reader takes minutes for a key of ten thousand dots.
-        path_hint: where to look if there is none. quotes_hint: an example of text in quotes.
+        path_hint: what to do if the file is missing. quotes_hint: an example of quoted text.
     """
 
     name: str
@@ -63,7 +63,7 @@ class TextKind:
             size = next(
                 f"{self.largest // unit} {word}" for unit, word in _UNITS if self.largest >= unit
             )
-            raise SpecificationError(f"{path} is larger than {size}: that is no {self.name}")
+            raise SpecificationError(f"{path} is larger than {size}: not a {self.name}")
         try:
             return content.decode("utf-8-sig")
         except UnicodeDecodeError as error:
@@ -73,7 +73,7 @@ class TextKind:
             ) from error
 
     def check_lines(self, text: str, name: str) -> None:
-        """Refuse lines that no person writes; `name` says whose text it is.
+        """Refuse lines that no person writes; messages call the text `name`.
 
         Raises:
             SpecificationError: a line is too long.
@@ -85,10 +85,10 @@ class TextKind:
                 )
 
     def parse_toml(self, text: str, name: str) -> dict[str, Any]:
-        """The content of TOML; `name` says whose text it is.
+        """The content of a TOML text; messages call it `name`.
 
         Raises:
-            SpecificationError: it is none.
+            SpecificationError: it is not TOML.
         """
         self.check_lines(text, name)
         try:
@@ -99,26 +99,26 @@ class TextKind:
             # TOMLDecodeError, or the plain ValueError of a whole number with thousands of digits.
             raise SpecificationError(
                 f"{name} is not TOML: {error}",
-                hint=f"Text stands in quotes, as in {self.quotes_hint}.",
+                hint=f"Put text in quotes, as in {self.quotes_hint}.",
             ) from error
 
 
 def read_plain_file(path: Path, largest: int) -> bytes:
-    """The bytes of a file that may be whatever a stranger has named.
+    """The bytes of a plain file, whose path may come from an untrusted source.
 
-    A pipe would be waited for without end, and a device may never end.
+    Reading a pipe could block, and a device may never end.
 
     Raises:
-        OSError: it cannot be read, is no plain file, or is larger than `largest` [bytes].
+        OSError: it cannot be read, is not a plain file, or is larger than `largest` [bytes].
     """
-    # Without waiting for the other end of a pipe.
+    # Without blocking on a pipe.
     handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
     with os.fdopen(handle, "rb") as stream:
         status = os.fstat(handle)
         if stat.S_ISDIR(status.st_mode):
             raise IsADirectoryError(errno.EISDIR, "it is a folder", str(path))
         if not stat.S_ISREG(status.st_mode):
-            raise OSError(errno.EINVAL, "it is no plain file", str(path))
+            raise OSError(errno.EINVAL, "it is not a plain file", str(path))
         content = stream.read(largest + 1)
     if len(content) > largest:
         raise OSError(errno.EFBIG, f"it is larger than {largest >> 20} MiB", str(path))
@@ -141,7 +141,7 @@ def processors() -> int:
 
 
 def packaged_folder(name: str) -> Path:
-    """Folder `name` of the package where it is installed, else that of the checkout."""
+    """Folder `name` of the installed package, or of the checkout."""
     package = Path(__file__).parents[1]
     installed = package / name
     return installed if installed.is_dir() else package.parent / name

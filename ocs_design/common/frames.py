@@ -1,6 +1,6 @@
 """Frames: rotation matrices from axes and angles, and placements in one another.
 
-Rotations are as robot files write them. SciPy's `Rotation` would do the same, but importing it
+Rotations are those of robot files. SciPy's `Rotation` would do the same, but importing it
 takes 0.3 s of processor time, and reading a robot in a known posture loads nothing else of SciPy.
 """
 
@@ -13,7 +13,7 @@ from ocs_design.common.arrays import FloatArray, frozen
 
 
 def cross(one: FloatArray, other: FloatArray) -> FloatArray:
-    """Cross product of two vectors, shape (3,); `np.cross` takes ten times as long on one pair."""
+    """Cross product of two vectors, shape (3,); on one pair `np.cross` takes ten times as long."""
     (a, b, c), (x, y, z) = one, other
     return np.array([b * z - c * y, c * x - a * z, a * y - b * x])
 
@@ -43,7 +43,7 @@ def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> FloatArray:
 def rpy_from_rotation(rotation: FloatArray) -> FloatArray:
     """Roll, pitch and yaw [rad] about the fixed axes x, y, z in turn, shape (3,).
 
-    Where the pitch is a right angle roll and yaw turn about one axis: the yaw is then zero.
+    If the pitch is a right angle, roll and yaw share an axis; the yaw is then zero.
     """
     cosine = np.hypot(rotation[0, 0], rotation[1, 0])
     pitch = np.arctan2(-rotation[2, 0], cosine)
@@ -65,7 +65,7 @@ class Placement:
     """Rotation and position of one frame in another.
 
     Attributes:
-        rotation: takes coordinates of the frame to the other, shape (3, 3).
+        rotation: maps coordinates of the frame to the other, shape (3, 3).
         position: of the frame's origin in the other [m], shape (3,).
     """
 
@@ -85,7 +85,7 @@ class Placement:
         return Placement(self.rotation @ inner.rotation, self.point(inner.position))
 
     def point(self, inner: ArrayLike) -> FloatArray:
-        """A point of the frame, seen from the other, shape (3,)."""
+        """A point of the frame in coordinates of the other, shape (3,)."""
         return np.asarray(self.rotation @ np.asarray(inner, np.float64) + self.position)
 
     def inverse(self) -> "Placement":

@@ -1,7 +1,7 @@
-"""Batches of unit quaternions (w, x, y, z), the scalar first, as MuJoCo stores them.
+"""Batches of unit quaternions (w, x, y, z), scalar first, as in MuJoCo.
 
-Written out by component: the wheel law runs these a thousand times per simulated second, where a
-call into a general rotation class costs more than the physics.
+Written out by component: the wheel law calls these a thousand times per simulated second, and a
+call to a general rotation class would cost more than the physics.
 """
 
 import numpy as np
@@ -11,7 +11,7 @@ from ocs_design.common.arrays import FloatArray
 
 
 def from_axis_angle(axis: FloatArray, angle: FloatArray | float) -> FloatArray:
-    """Turn by `angle` [rad], shape (...), about the unit `axis`, shape (..., 3); shape (..., 4)."""
+    """Rotation by `angle` [rad], shape (...), about the unit `axis` (..., 3); shape (..., 4)."""
     half = 0.5 * np.asarray(angle)
     return np.concatenate([np.cos(half)[..., None], np.sin(half)[..., None] * axis], axis=-1)
 
@@ -32,13 +32,13 @@ def product(left: FloatArray, right: FloatArray) -> FloatArray:
 
 
 def conjugate(quaternion: FloatArray) -> FloatArray:
-    """The inverse turn, shape (..., 4)."""
+    """The inverse rotation, shape (..., 4)."""
     inverse: FloatArray = quaternion * np.array([1.0, -1.0, -1.0, -1.0])
     return inverse
 
 
 def rotation_vector(quaternion: FloatArray) -> FloatArray:
-    """Axis times angle of a turn, at most half a turn [rad], shape (..., 3)."""
+    """Rotation vector, of at most half a turn [rad], shape (..., 3)."""
     shorter = np.where(quaternion[..., :1] < 0.0, -quaternion, quaternion)
     sine = np.linalg.norm(shorter[..., 1:], axis=-1, keepdims=True)
     angle = 2.0 * np.arctan2(sine, shorter[..., :1])
@@ -58,13 +58,13 @@ def matrix(quaternion: FloatArray) -> FloatArray:
 
 
 def rotation_from_quaternion(wxyz: ArrayLike) -> FloatArray:
-    """Rotation of the quaternion (w, x, y, z), of any length but zero, shape (3, 3)."""
+    """Rotation matrix of a quaternion (w, x, y, z) of any nonzero length, shape (3, 3)."""
     quaternion = np.asarray(wxyz, dtype=np.float64)
     return matrix(quaternion / np.linalg.norm(quaternion))
 
 
 def vertical(quaternion: FloatArray) -> FloatArray:
-    """The world's upward direction in the turned frame, unit vectors (..., 3)."""
+    """The world's upward direction in the rotated frame, unit vectors (..., 3)."""
     w, x, y, z = (quaternion[..., i] for i in range(4))
     found = np.empty_like(quaternion[..., :3])
     found[..., 0] = 2.0 * (x * z - w * y)
@@ -74,7 +74,7 @@ def vertical(quaternion: FloatArray) -> FloatArray:
 
 
 def tilt(quaternion: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Roll and pitch of the trunk against the vertical [rad], whatever its heading; shapes (...).
+    """Roll and pitch of the trunk from the vertical [rad], whatever its heading; shapes (...).
 
     Pitch is the angle of the vertical in the trunk's x-z plane, full circle, so that it can be
     unwrapped through a flip; roll is the elevation of the trunk's y axis. Near level both are the
@@ -85,5 +85,5 @@ def tilt(quaternion: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def heading(quaternion: FloatArray) -> FloatArray:
-    """Turn about the vertical of the swing-twist split [rad], shape (...)."""
+    """Rotation about the vertical by swing-twist decomposition [rad], shape (...)."""
     return 2.0 * np.arctan2(quaternion[..., 3], quaternion[..., 0])

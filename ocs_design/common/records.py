@@ -1,4 +1,4 @@
-"""Records: frozen values that are written to a file, made of live values with the same figures."""
+"""Records: frozen values that are written to a file, made from live values."""
 
 from dataclasses import fields
 from typing import Any, TypeVar
@@ -7,7 +7,7 @@ Record = TypeVar("Record")
 
 
 def recorded(kind: type[Record], live: object, /, **other: object) -> Record:
-    """Record of a live value: its figures of the same names, and `other` in place of the rest.
+    """Record of a live value: its attributes of the same names, and `other` for the rest.
 
     Raises:
         AttributeError: a field is in neither, whether it has a default or not: a figure that is

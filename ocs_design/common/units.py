@@ -1,7 +1,7 @@
-"""Quantities with units at the edges; SI inside.
+"""Quantities with units on input and output; SI inside.
 
 A quantity is a bare number in SI, or a number with its unit: `30mm`, `7200rpm`, `7.11e-5 kg m^2`.
-The factors are exact and the product is rounded once, so that `30mm` is the very number 0.03.
+The factors are exact and the product is rounded once, so that `30mm` is exactly the float 0.03.
 """
 
 import math
@@ -13,23 +13,23 @@ from reprlib import repr as shortened
 from ocs_design.common.errors import QuantityError, UsageError
 
 LARGEST = 1e15
-"""Largest value, SI: whatever is measured here is far below, and its fifth power must be finite."""
+"""Largest value (SI): far above any quantity used here, with a finite fifth power."""
 
 MILLIMETRES = 1000.0
-"""Per metre; what a workshop or a printer reads is in millimetres."""
+"""Millimetres per metre; files for workshops and printers are in millimetres."""
 
 CELL_NOMINAL, CELL_FULL = 3.7, 4.2
-"""Voltages of one cell of lithium polymer [V], as makers of packs state them."""
+"""Voltages of one lithium-polymer cell [V], as specified by makers of packs."""
 
 STANDARD_GRAVITY = 9.81
-"""[m/s^2], as the paper takes it."""
+"""Gravity on Earth [m/s^2], as in the paper."""
 
 LONGEST_QUANTITY = 64
-"""Characters; more is not a number, and long exponents would cost time."""
+"""Longest text of a quantity [characters]; long exponents would cost time."""
 
 
 class Dimension(StrEnum):
-    """What a quantity measures; the value is its name for people."""
+    """What a quantity measures; the value is its name in messages."""
 
     LENGTH = "length"
     MASS = "mass"
@@ -129,11 +129,11 @@ def parse_quantity(value: object, dimension: Dimension, where: str) -> float:
     Args:
         value: a number, or text such as `30mm`.
         dimension: what the number must measure.
-        where: the option or key that is being read, for the message.
+        where: the option or key, for the message.
 
     Raises:
-        QuantityError: no finite number, an unknown unit or one of another dimension, or more than
-            `LARGEST`.
+        QuantityError: not a finite number, an unknown unit or one of another dimension, or more
+            than `LARGEST`.
     """
     if isinstance(value, str):
         match = _matched(value) if len(value) <= LONGEST_QUANTITY else None
@@ -145,7 +145,7 @@ def parse_quantity(value: object, dimension: Dimension, where: str) -> float:
         figure, unit = match.groups()
         factor = _factor(unit, dimension, value, where) if unit else _ONE
         number = _finite(float(figure), repr(value), where)
-        # Below the smallest double: as a fraction it would have a giant denominator.
+        # Below the smallest double, a fraction would have a giant denominator.
         if number != 0.0:
             number = _finite(Fraction(figure) * factor, repr(value), where)
     elif isinstance(value, bool) or not isinstance(value, (int, float)):
@@ -155,7 +155,7 @@ def parse_quantity(value: object, dimension: Dimension, where: str) -> float:
     else:
         number = _finite(value, "the number", where)
     if abs(number) > LARGEST:
-        raise QuantityError(f"{where}: {value} is beyond all measure", hint="Check its unit.")
+        raise QuantityError(f"{where}: {value} is out of range", hint="Check its unit.")
     return number
 
 
@@ -188,40 +188,40 @@ def si_unit(dimension: Dimension) -> str:
 
 
 def to_unit(value: float, unit: str) -> float:
-    """The SI `value` counted in `unit`."""
+    """The SI `value` converted to `unit`."""
     dimension, name = _UNIT_OF_SPELLING[_normalised(unit)]
-    # Infinite bounds are shown too, and are no fractions.
+    # Infinite bounds are shown, too, but cannot be fractions.
     return float(Fraction(value) / UNITS[dimension][name]) if math.isfinite(value) else value
 
 
 def format_quantity(value: float, unit: str, digits: int = 4) -> str:
-    """The SI `value` in `unit`, for people, as in `30 mm`; `parse_quantity` reads it back."""
+    """The SI `value` in `unit` for display, as in `30 mm`; `parse_quantity` reads it back."""
     space = "" if unit in {"%", "°"} else " "
     return f"{significant(to_unit(value, unit), digits)}{space}{unit}"
 
 
 def rpm_number(speed: float) -> str:
-    """Angular speed [rad/s] in rpm with thousands apart, without its unit."""
+    """Angular speed [rad/s] in rpm with thousands separators, without its unit."""
     return f"{speed * 30.0 / math.pi:,.0f}"
 
 
 def rpm(speed: float) -> str:
-    """Angular speed [rad/s] in rpm, for people only: no number is read with commas."""
+    """Angular speed [rad/s] in rpm, for display only: numbers with commas cannot be parsed."""
     return f"{rpm_number(speed)} rpm"
 
 
 def significant(value: float, digits: int) -> str:
-    """A number with so many digits as people write it: 1610, and not 1.61e+03."""
+    """A number with this many significant digits, written as 1610, not as 1.61e+03."""
     text = f"{value:.{digits}g}"
     return f"{float(text):.0f}" if "e+0" in text else text
 
 
 def round_outwards(value: float, *, upwards: bool, digits: int = 3) -> float:
-    """`value` to that many significant digits, never below it if upwards, never above it if not."""
+    """`value` to this many significant digits, rounded up if `upwards`, else down."""
     if value == 0.0 or not math.isfinite(value):
         return value
     unit = 10.0 ** (math.floor(math.log10(abs(value))) - digits + 1)
-    # A figure that has no more digits than that stays what it is.
+    # A figure with no more digits than that is unchanged.
     scaled = round(value / unit, 6)
     return (math.ceil(scaled) if upwards else math.floor(scaled)) * unit
 
@@ -235,13 +235,13 @@ def _factor(unit: str, dimension: Dimension, text: str, where: str) -> Fraction:
         if pack is not None:
             count = int(pack[1])
             nominal, full = (f"{count * volts:.4g} V" for volts in (CELL_NOMINAL, CELL_FULL))
-            cells = f"{count}S is {nominal} nominal, {full} full: state the voltage under load."
+            cells = f"{count}S is {nominal} nominal, {full} full: give the voltage under load."
             hint = f"{cells} {hint}"
         else:
-            # With a decimal point or nothing for its comma, and the unit's usual capitals.
+            # With a decimal point, or nothing, for its comma, and the unit's usual capitals.
             bare, meant = text.strip(" ,;."), []
             known = {name.casefold(): name for name in UNITS[dimension]}
-            # A comma before three digits may part thousands.
+            # A comma before three digits may separate thousands.
             for comma in (".", "") if re.search(r"[0-9],[0-9]{3}(?![0-9])", bare) else (".",):
                 match = _QUANTITY.fullmatch(re.sub(r"(?<=[0-9]),(?=[0-9])", comma, bare, count=1))
                 likely = _normalised(match[2]).casefold() if match else ""
@@ -249,7 +249,7 @@ def _factor(unit: str, dimension: Dimension, text: str, where: str) -> Fraction:
                     meant.append(f"{match[1]}{known.get(likely, '')}")
             if meant:
                 hint = f"Did you mean {' or '.join(meant)}? {hint}"
-        what = "holds a comma" if "," in unit else f"has the unknown unit {unit!r}"
+        what = "contains a comma" if "," in unit else f"has the unknown unit {unit!r}"
         raise QuantityError(f"{where}: {text.strip()!r} {what}", hint=hint)
     if found[0] is not dimension:
         raise QuantityError(
@@ -267,12 +267,12 @@ def _normalised(unit: str) -> str:
 
 
 def floored(value: float, digits: int) -> str:
-    """Never more than it is, but for what is missing of the last digit by a thousandth of it."""
+    """`value` rounded down to `digits` decimals, tolerating a thousandth of the last digit."""
     return f"{math.floor(round(value * 10**digits, 3)) / 10**digits:.{digits}f}"
 
 
 def ceiled(value: float, digits: int) -> str:
-    """Never less than it is, likewise."""
+    """`value` rounded up to `digits` decimals, tolerating a thousandth of the last digit."""
     return f"{math.ceil(round(value * 10**digits, 3)) / 10**digits:.{digits}f}"
 
 
@@ -292,6 +292,6 @@ def _known(dimension: Dimension) -> str:
 
 def _example(dimension: Dimension) -> str:
     if dimension is Dimension.RATIO:
-        return "a bare number, or per cent, as in '150%'"
+        return "a bare number, or a percentage, as in '150%'"
     unit = next(iter(UNITS[dimension]))
     return f"a number in SI or with a unit, as in '1 {unit}' ({_known(dimension)})"

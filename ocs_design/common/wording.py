@@ -1,4 +1,4 @@
-"""Numbers in the units of the workshop (mm, g, degrees), counts and lists as people read them."""
+"""Numbers in workshop units (mm, g, degrees), counts and lists, for display."""
 
 from collections.abc import Sequence
 from typing import TypeVar
@@ -12,7 +12,7 @@ Amount = TypeVar("Amount", float, FloatArray)
 
 
 _OF_WHEELS = 0.01
-"""Moment of inertia [kg m^2] below which it is counted in kg mm^2."""
+"""Moment of inertia [kg m^2] below which it is shown in kg mm^2."""
 
 
 def in_unit(values: Amount, unit: str) -> Amount:
@@ -71,7 +71,7 @@ _SHOWN = {"rad/s": rpm, "Pa": megapascals, "m": millimetres, "kg": grams, "rad":
 
 
 def quantity(value: float, unit: str) -> str:
-    """An SI value in its bench unit; a plain share in per cent."""
+    """An SI value in its workshop unit; a ratio in per cent."""
     if not unit:
         return f"{value:.0%}"
     if unit in _SHOWN:
@@ -85,12 +85,12 @@ def counted(count: int, noun: str) -> str:
 
 
 def listed(texts: Sequence[str]) -> str:
-    """Texts in one sentence, as in `a, b and c`."""
+    """Texts joined for a sentence, as in `a, b and c`."""
     return " and ".join(filter(None, [", ".join(texts[:-1]), *texts[-1:]]))
 
 
 def some_of(names: Sequence[str], most: int = 4) -> str:
-    """Names with commas between them; beyond `most` only how many more there are."""
+    """Names separated by commas; beyond `most`, only how many more there are."""
     shown = ", ".join(names[:most])
     return shown if len(names) <= most else f"{shown} and {len(names) - most} more"
 

@@ -1,1 +1,1 @@
-"""One page per command: read, compute, write; what is computed stands below."""
+"""One page per command: read, compute, write; the computations are in the packages below."""

@@ -1,4 +1,4 @@
-"""What `bound` answers: the lower bound by hand, and its curve."""
+"""Answer of `bound`: the lower bound for given figures, and its curve."""
 
 import numpy as np
 
@@ -9,19 +9,19 @@ from ocs_design.requirement.bound import AXES, authority, bound_curve, spin_boun
 from ocs_design.requirement.values import INCIDENCE, TRUNK_RATE, WHEEL_SPEED, Quantity
 
 CURVE_POINTS = (0.25, 0.5, 1.0, 2.0, 4.0)
-"""Rate changes and wheel speeds of the curve, over those asked for."""
+"""Rate changes and wheel speeds of the curve, over the given ones."""
 
 
 def bound_by_hand(
     *, inertia: str, rate_change: str, wheel_speed_max: str, alpha: str, axis: str
 ) -> BoundAnswer:
-    """The bound for quantities as they are written on the command line.
+    """The bound for quantities as written on the command line.
 
     Raises:
         QuantityError, UsageError: a quantity or the axis cannot be read, or is out of range.
     """
     if axis not in AXES:
-        raise UsageError(f"--axis {axis}: is neither pitch nor roll")
+        raise UsageError(f"--axis {axis}: must be pitch or roll")
     moment = Quantity(Dimension.INERTIA).read(inertia, "--inertia")
     rate = TRUNK_RATE.read(rate_change, "--rate-change")
     speed = WHEEL_SPEED.read(wheel_speed_max, "--wheel-speed-max")
@@ -31,7 +31,8 @@ def bound_by_hand(
         raise UsageError(
             f"no wheel can do this about {axis}: at alpha {alpha} and {wheel_speed_max} "
             "it would be infinitely large",
-            hint="ask for less than the wheel's speed, or for an incidence that reaches the axis",
+            hint="reduce the rate change below the wheel's speed, or choose an incidence that "
+            "reaches the axis",
         )
     rates = tuple(point * rate for point in CURVE_POINTS)
     speeds = tuple(point * speed for point in CURVE_POINTS)

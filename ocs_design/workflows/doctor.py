@@ -1,6 +1,6 @@
-"""What `doctor` answers: the machine and every package that is used, looked at.
+"""Answer of `doctor`: the state of the machine and of every package that is used.
 
-What is asked for stands in pyproject.toml and nowhere else.
+The requirements are read from pyproject.toml alone.
 """
 
 import json
@@ -40,7 +40,7 @@ PURPOSES: Mapping[str, str] = MappingProxyType(
         "threadpoolctl": "the same design on any number of threads",
         "cvxpy": "wheels by the bound alone: --motor none",
         "clarabel": "wheels by the bound alone: its solver",
-        "casadi": "maneuvers as optimal control",
+        "casadi": "maneuvers by optimal control",
         "typer": "the command line",
         "rich": "tables and progress",
         "msgspec": "design.json in and out",
@@ -51,22 +51,22 @@ PURPOSES: Mapping[str, str] = MappingProxyType(
         "mujoco": "robots, flights and pictures",
         "pycollada": "robots with .dae meshes",
         "gymnasium": "the robot as an environment for learning",
-        "xacro": "robots that come as .xacro",
+        "xacro": "robots in .xacro files",
         "resvg-py": "figures as PNG",
         "dask": "Monte Carlo on many machines",
         "distributed": "Monte Carlo on many machines",
         "mujoco-warp": "Monte Carlo on an NVIDIA GPU",
         "pyarrow": "samples as Parquet",
         "pillow": "PDF, words on videos",
-        "imageio-ffmpeg": "videos where the system has no ffmpeg",
+        "imageio-ffmpeg": "videos if the system has no ffmpeg",
         "cadquery-ocp-novtk": "parts in STEP for CAD",
         "ezdxf": "the wheel in DXF for CAD",
     }
 )
-"""What each package is for, by its name."""
+"""Purpose of each package, by name."""
 
 _MODULES = {"pycollada": "collada", "pillow": "PIL", "cadquery-ocp-novtk": "OCP"}
-"""Modules of packages that are not named like them."""
+"""Modules of packages that have another name."""
 
 DEVELOPMENT = frozenset({"test", "dev", "docs"})
 """Extras for those who change the code."""
@@ -74,7 +74,7 @@ DEVELOPMENT = frozenset({"test", "dev", "docs"})
 TIME_LIMIT = 120.0
 """Longest time to import everything [s]."""
 
-# What a module prints on its own is no answer.
+# Output printed by the modules themselves must not mix with the answers.
 _IMPORTING = """
 import importlib, json, os, sys
 answers = os.fdopen(os.dup(1), "w")
@@ -91,11 +91,11 @@ for name in sys.argv[1:]:
 
 @dataclass(frozen=True)
 class Wanted:
-    """A package that is asked for.
+    """A package that is required, or of use.
 
     Attributes:
-        name: of the package. versions: that are allowed, as pip writes them.
-        extra: of ours that asks for it; empty: nothing works without it.
+        name: of the package. versions: that are allowed, in pip's notation.
+        extra: of this package that needs it; empty: it is always required.
     """
 
     name: str
@@ -108,7 +108,7 @@ class Wanted:
         return _MODULES.get(self.name) or self.name.replace("-", "_")
 
     def cure(self, state: State) -> str:
-        """The command that mends it."""
+        """The command that fixes it."""
         if state is State.WORKS:
             return ""
         if state is State.BROKEN:
@@ -118,7 +118,7 @@ class Wanted:
 
 
 def wanted_packages() -> tuple[Wanted, ...]:
-    """Everything that users may want, what is required first.
+    """All packages that users may need, required ones first.
 
     Raises:
         importlib.metadata.PackageNotFoundError: this package itself is not installed.
@@ -172,7 +172,7 @@ def package_findings(wanted: Sequence[Wanted]) -> Iterator[Finding]:
 
 
 def import_failures(modules: Sequence[str]) -> Mapping[str, str]:
-    """Why each module could not be imported; those that could are not in it."""
+    """Reason for each module that cannot be imported; others are left out."""
     command = [sys.executable, "-c", _IMPORTING, *modules]
     try:
         done = subprocess.run(
@@ -203,7 +203,7 @@ def python() -> Finding:
 
 
 def working_folder(folder: Path) -> Finding:
-    """Finding about the folder that output goes to unless -o says otherwise."""
+    """Finding about the folder to which output goes without -o."""
     reason = ""
     try:
         with tempfile.TemporaryDirectory(prefix=".ocs-design-", dir=folder):
@@ -232,7 +232,7 @@ def processors() -> Finding:
 
 
 def opengl() -> Iterator[Finding]:
-    """Findings about each way to draw without a screen; one of them is enough."""
+    """Findings about each way to render without a screen; one is enough."""
     ways = backends()
     with ThreadPoolExecutor() as pool:
         failures = list(pool.map(partial(failure_of, ("trial",)), ways))
@@ -248,7 +248,7 @@ def opengl() -> Iterator[Finding]:
 
 
 def film_maker() -> Finding:
-    """Finding about ffmpeg, which makes films."""
+    """Finding about ffmpeg, which makes videos."""
     path, found = ffmpeg_program(), ""
     if path is not None:
         # An ffmpeg that does not run counts as missing.
@@ -280,20 +280,20 @@ def compiler() -> Finding:
 
 
 SCHEMA_VERSION = 1
-"""Version of the document; that of `design_file` cannot be had where a package is missing."""
+"""Version of the document; that of `design_file` is unavailable if a package is missing."""
 
 
 def examine() -> Examination:
     """Examination of this machine and of every package.
 
     Raises:
-        MissingToolError: this program is not installed as a package, which tells what it needs.
+        MissingToolError: this program is not installed as a package, which lists its needs.
     """
     try:
         wanted = wanted_packages()
     except metadata.PackageNotFoundError as error:
         raise MissingToolError(
-            f"{DISTRIBUTION} runs from its source and is not installed: what it needs is not known",
+            f"{DISTRIBUTION} runs from its source and is not installed: its needs are unknown",
             hint="pip install .",
         ) from error
     folder, packages = working_folder(Path.cwd()), tuple(package_findings(wanted))

@@ -44,7 +44,7 @@ _WHERE = (
 FIGURES, REPORT, CONTROLLER = "figures", "report", "controller"
 
 ON_DESIGN = (FIGURES, REPORT, CONTROLLER)
-"""Names that users say of what rests on the design's other files too."""
+"""Names, for users, of outputs that also depend on the design's other files."""
 
 
 def export_design(
@@ -61,19 +61,19 @@ def export_design(
 ) -> Exported:
     """Write the files of a design again, or in other formats.
 
-    The folder gets a `design.json` too, with the hashes of its files. In the design's own folder
-    everything else stays as it is.
+    The folder also gets a `design.json`, with the hashes of its files. In the design's own folder
+    all other files are left as they are.
 
     Args:
         design: its folder, its `design.json`, or the `Outcome` that made it.
-        formats: names as of `ocs-design export --formats`, one or several; empty: the usual ones.
+        formats: names as for `ocs-design export --formats`, one or several; empty: the usual ones.
         out: folder to write; None: `<name>-ocs-export` in the working directory.
-        robot_file: of the robot, in place of the one that the design names. It may be another
-            file than the device was sized for, which is told.
-        package_paths: folders of packages, over those that the design names.
+        robot_file: of the robot, in place of the one that the design names. It may differ from the
+            file that the device was sized for, which gives a warning.
+        package_paths: folders of packages, in addition to those that the design names.
         force: replace an existing folder, once the new one is complete.
         strict: warnings about the robot are errors.
-        progress: see `design_ocs`. command: that was typed, for the report.
+        progress: see `design_ocs`. command: as typed, for the report.
 
     Raises:
         OcsError: the design or the robot cannot be read, the robot has changed, or the folder
@@ -113,7 +113,7 @@ def export_design(
                 remarks = (*remarks, f"without the controller: {error.message}")
         story = None
         if set(rest) - {CONTROLLER}:
-            # They need the simulator's values, which parts and snippets do without.
+            # They need the simulator's values, which parts and snippets do not.
             from ocs_design.report.charts.figures import FOLDER, all_charts  # noqa: PLC0415
             from ocs_design.report.charts.svg import write_charts  # noqa: PLC0415
             from ocs_design.report.html.page import write_report  # noqa: PLC0415
@@ -124,12 +124,12 @@ def export_design(
                 remarks += write_charts(tuple(all_charts(story)), staging / FOLDER)
         new = set(file_hashes(staging))
         if folder.exists() and folder.samefile(path.parent):
-            # If all usual files are made anew, those of before may have had other names.
+            # If all usual files are written again, earlier ones may have had other names.
             usual = set(USUAL_FORMATS) <= set(chosen)
             folders = {each.folder for each in FORMATS} if usual else set()
             old = {file for file in known.files if file.partition("/")[0] in folders}
             keep_others(path.parent, staging, without=old)
-        # All other files are there now: the report, which holds the design, has their hashes too.
+        # All other files exist now: the report, which contains the design, has their hashes.
         again = replace(known, files=recorded_hashes(staging))
         if story is not None and REPORT in rest:
             write_report(replace(story, design=again), staging)
@@ -148,11 +148,11 @@ def export_design(
 def _read_story(
     design: OcsDesign, where: Whereabouts, folder: Path, command: str
 ) -> tuple["Story", tuple[str, ...]]:
-    """What charts and report show, and remarks.
+    """Content of charts and report, and remarks.
 
-    What the folder lacks is taken from the design's own.
+    Files that the folder lacks are taken from the design's own folder.
     """
-    # It needs the simulator's values, which parts and snippets do without.
+    # It needs the simulator's values, which parts and snippets do not.
     from ocs_design.report.story import story_in  # noqa: PLC0415
 
     postures: tuple[PostureLine, ...] = ()
@@ -167,18 +167,18 @@ def _read_story(
 
 
 def _write_controller(name: str, where: Whereabouts, folder: Path) -> None:
-    """Write law and plans of the design's flights in C, its files named after the robot.
+    """Write wheel law and plans of the design's flights in C, in files named after the robot.
 
     Raises:
-        OcsError: the robot cannot be had, or there is nothing to fly.
+        OcsError: the robot is not available, or there is nothing to fly.
     """
-    # They fly it, which parts and snippets do without.
+    # Flights need these, parts and snippets do not.
     from ocs_design.requirement.sections import ValidationSection  # noqa: PLC0415
     from ocs_design.requirement.specification import Specification  # noqa: PLC0415
     from ocs_design.simulation.firmware import write_controller  # noqa: PLC0415
     from ocs_design.workflows.flying import read_flights  # noqa: PLC0415
 
-    # How the legs make the flight is not the wheels' business.
+    # The wheels' controller does not depend on how the legs push off.
     flights = read_flights(
         where.design,
         Specification(validation=ValidationSection(ballistic=True)),

@@ -1,4 +1,4 @@
-"""Everything that flights need besides the device: wheel law, references, plans of the legs."""
+"""What flights need besides the device: wheel law, references and plans of the legs."""
 
 import hashlib
 from collections.abc import Iterable, Mapping, Sequence
@@ -46,13 +46,13 @@ def planned(
     *,
     one_stops: bool,
 ) -> Mapping[str, "Reference"]:
-    """Turns that the flights track, by the maneuvers' names.
+    """Planned turns that the flights track, by name of maneuver.
 
     Args:
         robot: that flies. device: on it, with a motor. maneuvers: to plan.
-        kept: reserve that the device was sized with. one_stops: whether one of its drives may stop.
+        kept: reserve with which the device was sized. one_stops: whether one drive may fail.
     """
-    # CasADi takes a third of a second to import, and wheels without a motor do without.
+    # CasADi takes a third of a second to import, and wheels without a motor do not need it.
     from ocs_design.sizing.trajectory.plans import plan  # noqa: PLC0415
 
     demands, standing = None if kept is None else kept.demands, standing_height(robot)
@@ -61,7 +61,7 @@ def planned(
 
 
 def trajectories(plans: Mapping[str, "Reference"]) -> Mapping[str, Trajectory]:
-    """Trajectories that flights track; what has none is met by feedback or by a smooth turn."""
+    """Trajectories that flights track; other maneuvers use feedback or a smooth turn."""
     return {
         name: planned.trajectory
         for name, planned in plans.items()
@@ -71,46 +71,46 @@ def trajectories(plans: Mapping[str, "Reference"]) -> Mapping[str, Trajectory]:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Planned(Flights):
-    """Flights of a design, told of as they are flown.
+    """Flights of a design, with progress reports.
 
     Attributes:
-        control: the wheel law, from which the options are.
-        detection: time until a stopped drive is known, where one stops in flights too [s].
+        control: the wheel law, from which the options follow.
+        detection: time until a failed drive is detected, if one also fails in flights [s].
     """
 
     control: ControlRecord
     detection: float | None = None
 
     def fly(self, steps: Steps, *, pose_rate: float | None = None) -> tuple[Run, ...]:
-        """Flights of every maneuver as designed, with the device and without (`run_scenarios`)."""
+        """Flights of every maneuver as designed, with and without the device (`run_scenarios`)."""
         posed = replace(self, options=replace(self.options, pose_rate=pose_rate))
         with steps.step("fly the maneuvers with and without the device") as step:
             return run_scenarios(posed, step.update)
 
     def fly_stopped(self, steps: Steps) -> SurvivalRecord | None:
-        """Flights of every maneuver with each drive stopping on the way; None where none has to."""
+        """Flights of every maneuver with each drive failing in turn; None if none has to."""
         if self.detection is None:
             return None
-        with steps.step("fly them with each drive stopping on the way") as step:
+        with steps.step("fly with each drive failing in turn") as step:
             found = fly_stopped(self, self.detection, step.update)
-            step.note = f"{len(found.lost)} of {len(found.flights)} end beyond the allowance"
+            step.note = f"{len(found.lost)} of {len(found.flights)} do not land within tolerance"
         return found
 
     def campaign(
         self, runs: Iterable[Run | ValidationRecord], stated: UncertaintySection, seed: int
     ) -> Campaign:
-        """Everything that samples follow from.
+        """Everything that determines the samples.
 
         Args:
-            runs: as designed, which show what the legs bear.
-            stated: how what is built and met differs from the design.
+            runs: as designed, which show what the legs can take.
+            stated: specified deviations from the design.
             seed: of all samples.
 
         Raises:
-            OcsError: no flight of this robot says anything.
+            OcsError: no flight of this robot can be judged.
         """
         if unclear := refusal(self.robot):
-            hint = "name a link of the trunk whose z axis points up by --trunk"
+            hint = "name a link of the trunk whose z axis points up with --trunk"
             raise OcsError(unclear, hint=hint)
         uncertainty = Uncertainty.of(stated, self.robot, self.device, self.detection)
         can_stand = [run.can_stand for run in runs if run.ocs]
@@ -119,12 +119,12 @@ class Planned(Flights):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class DesignFlights(Planned):
-    """Flights of a design that was read, of at least one maneuver.
+    """Flights of a design that was read from its file, of at least one maneuver.
 
     Attributes:
-        path: of the `design.json`. design: what is in it.
-        uncertainty: how what is built and met differs from the design, as far as that is stated.
-        warnings: about the robot, which were not there when the device was sized.
+        path: of the `design.json`. design: its content.
+        uncertainty: deviations from the design, as far as specified.
+        warnings: about the robot, that did not occur when the device was sized.
     """
 
     path: Path
@@ -146,29 +146,29 @@ def read_flights(
     package_paths: Mapping[str, AnyPath] | None = None,
     strict: bool = False,
 ) -> DesignFlights:
-    """Read a design and its robot, and plan what device and legs track, as when it was sized.
+    """Read a design and its robot, and plan its flights as when it was sized.
 
     Args:
-        path: of a `design.json`, or of the folder that it lies in.
-        stated: `[validation]` and `[reality]` over those that the design was sized with; what else
-            it states is the design's by now.
+        path: of a `design.json`, or of its folder.
+        stated: `[validation]` and `[reality]`, which override those of the design; its other
+            sections are not used.
         robot_file: of the robot, in place of the one that the design names.
-        package_paths: folders of packages, over those that the design names.
+        package_paths: folders of packages, in addition to those that the design names.
         strict: warnings about the robot are errors.
 
     Raises:
-        OcsError: the design or the robot cannot be read, the robot has changed, or nothing is to
-            be flown.
+        OcsError: the design or the robot cannot be read, the robot has changed, or there is
+            nothing to fly.
     """
     path = design_file(path)
     design, device = read_designed(path)
     if stated.reality.file is not None:
-        # Whoever names a file is told that it cannot be read, whether or not anything is drawn.
+        # An unreadable file is reported even if nothing is sampled.
         entries(Path(stated.reality.file))
     maneuvers = tuple(each.maneuver() for each in design.requirement.maneuvers)
     if not maneuvers:
         raise OcsError(
-            f"{path}: the design was sized for no maneuver, so there is nothing to fly",
+            f"{path}: the design was sized without a maneuver, so there is nothing to fly",
             hint="size it with maneuvers: the paper's, or [[maneuver]] tables",
         )
     where = Whereabouts(path, robot_file, package_paths or {}, "say where it is with --robot FILE")
@@ -178,13 +178,13 @@ def read_flights(
     )
     references: Mapping[str, Trajectory] = {}
     if design.selection is not None:
-        # A plan is a few hundred numbers that follow from the design: they are planned once more.
+        # A plan is a few hundred numbers that follow from the design, so it is computed again.
         stops = design.requirement.detection is not None
         kept = design.selection.kept
         references = trajectories(planned(robot, device, maneuvers, kept, one_stops=stops))
     jumps: Mapping[str, JumpPlans] = {}
     if not control.ballistic:
-        # It takes a third of a second to import, and what starts at lift-off does without.
+        # It takes a third of a second to import, and flights that start at lift-off do not need it.
         from ocs_design.jumping.planning import plan_jumps  # noqa: PLC0415
 
         jumps = plan_jumps(robot, device, maneuvers)
@@ -196,7 +196,7 @@ def read_flights(
         maneuvers=maneuvers,
         control=control,
         options=Options.under(control),
-        # A file takes the place of everything that the design was sized with.
+        # A file replaces all distributions of the design.
         uncertainty=stated.reality
         if stated.reality.file is not None
         else merge_section(uncertainty_of_texts(design.reality, str(path)), stated.reality),
@@ -210,10 +210,10 @@ def read_flights(
 
 
 def flown_hash(design: OcsDesign, control: ControlRecord, detection: float | None) -> str:
-    """SHA-256 of what of a design is flown: device, maneuvers and wheel law.
+    """SHA-256 of the flown parts of a design: device, maneuvers and wheel law.
 
     Args:
-        detection: time until a stopped drive is known, where one stops in flights too [s].
+        detection: time until a failed drive is detected, if one also fails in flights [s].
     """
     stops = () if detection is None else (detection,)
     flown = (design.ocs, design.requirement.maneuvers, control, *stops)

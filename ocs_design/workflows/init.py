@@ -1,4 +1,4 @@
-"""What `init` writes: a specification to start from, with everything that could be stated."""
+"""Output of `init`: a specification to start from, with every key."""
 
 import shlex
 from collections.abc import Collection, Mapping
@@ -24,18 +24,18 @@ from ocs_design.robot.robot import Robot
 from ocs_design.simulation.world_builder import wheel_gains
 
 SOLO12_MASS = 2.5
-"""[kg], as in the paper."""
+"""Mass of Solo12 [kg], as in the paper."""
 
 
 @dataclass(frozen=True, eq=False)
 class Start:
-    """The robot and the defaults that a specification starts from.
+    """The robot and the defaults from which a specification starts.
 
     Attributes:
-        stated: what is stated already.
-        robot: that it is for; None: not known yet.
-        default: what holds where nothing is stated; Solo12's where the robot is not known.
-        examples: maneuvers that are not assumed, scaled likewise.
+        stated: what is already specified.
+        robot: to specify for; None: not known yet.
+        default: the defaults; Solo12's if the robot is not known.
+        examples: maneuvers that are not defaults, scaled in the same way.
     """
 
     stated: Specification
@@ -55,7 +55,7 @@ def read_start(
     package_paths: Mapping[str, Path] | None = None,
     strict: bool = False,
 ) -> Start:
-    """Read the robot, if one is stated, and scale the defaults to it.
+    """Read the robot, if one is specified, and scale the defaults to it.
 
     Raises:
         OcsError: see `read_specified_robot`.
@@ -69,7 +69,7 @@ def read_start(
     )
     scaled_to = robot
     if scaled_to is None:
-        # Solo12 as a rigid body: only its scale is asked for.
+        # Solo12 as a rigid body: only its scale matters.
         trace = 3.0 * SOLO12_MASS * SOLO12_GYRATION_RADIUS**2
         roll, pitch = SOLO12_ROLL_INERTIA, SOLO12_PITCH_INERTIA
         inertia = (roll, pitch, trace - roll - pitch)
@@ -93,10 +93,10 @@ def write_start(
     """Write the specification.
 
     Args:
-        start: what it says. file: where to.
-        chosen: names of default maneuvers that it is to state.
-        package_paths: that the robot was read with.
-        force: replace what is there.
+        start: its content. file: to write.
+        chosen: names of default maneuvers to include.
+        package_paths: with which the robot was read.
+        force: replace an existing file.
 
     Raises:
         OutputError: see `write_whole`.

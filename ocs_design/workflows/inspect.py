@@ -1,4 +1,4 @@
-"""What `inspect` shows: the robot, its incidence angles, and how they move with its posture."""
+"""Answer of `inspect`: the robot, and how its incidence angles depend on its posture."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -23,28 +23,28 @@ def inspect_robot(
 ) -> Inspection:
     """Read the robot of a specification and measure it over plausible postures.
 
-    Trunk and legs need not be clear: the answer says what they may be.
+    Trunk and legs need not be certain: the answer lists what they may be.
 
     Args:
         specification: that names the robot.
-        package_paths: folder of each package that `package://` addresses name.
+        package_paths: folder of each package, for `package://` addresses.
         strict: whether warnings are errors.
-        picture: file to draw what was recognised in, `.svg` or `.png`; None: none.
+        picture: file for a drawing of what was recognised, `.svg` or `.png`; None: none.
 
     Raises:
         OcsError: see `read_specified_robot`; the picture cannot be drawn or written.
     """
     if picture is not None and picture.suffix.lower() not in {".svg", ".png"}:
         raise UsageError(
-            f"--picture {picture}: .svg and .png are drawn", hint="name a file *.svg or *.png"
+            f"--picture {picture}: must be .svg or .png", hint="name a file *.svg or *.png"
         )
     robot = read_specified_robot(
         specification, package_paths=package_paths, strict=strict, sure=False
     )
     if picture is not None:
         if robot.recognition is None:
-            raise UsageError("a robot by hand has nothing to draw", hint="leave out --picture")
-        # As recognised or, where that is not clear, in its likeliest reading.
+            raise UsageError("there is nothing to draw without a file", hint="leave out --picture")
+        # As recognised or, if that is not certain, in its likeliest reading.
         asked = robot.recognition.likely
         shown = asked[0] if asked else robot.recognition.reading
         words = [

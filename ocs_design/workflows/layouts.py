@@ -1,4 +1,4 @@
-"""What `size --layout all` answers: a device of each layout, for the same requirement."""
+"""Answer of `size --layout all`: a device of each layout, for the same requirement."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -23,14 +23,14 @@ def compare_layouts(
     strict: bool = False,
     progress: Steps | Tell | None = None,
 ) -> LayoutsAnswer:
-    """The lightest device of each layout, what momentum it takes, and what one lost wheel leaves.
+    """The lightest device of each layout, its momentum, and what is left after losing a wheel.
 
     Nothing is flown or exported.
 
     Args:
         design_for: a specification, the path of its file, or that of a robot; its own layout is
-            not looked at.
-        package_paths: folder of each package that `package://` addresses name.
+            ignored.
+        package_paths: folder of each package, for `package://` addresses.
         strict: warnings about the robot are errors.
         progress: see `design_ocs`.
 

@@ -1,7 +1,7 @@
-"""What `pareto` answers: the lightest device at each value of one figure, all else as stated.
+"""Answer of `pareto`: the lightest device at each value of one figure, all else as specified.
 
-Every point is a design of its own. Its specification is part of the answer and is written beside
-the front, so that `ocs-design size --spec points/NN.toml` makes that very device.
+Every point is a complete design. Its specification is part of the answer and is written beside the
+front, so that `ocs-design size --spec points/NN.toml` makes exactly that device.
 """
 
 from collections.abc import Mapping
@@ -34,22 +34,23 @@ def pareto_front(
     strict: bool = False,
     progress: Steps | Tell | None = None,
 ) -> Front:
-    """Mass of the lightest device against time, angle or room, all else as specified.
+    """Mass of the lightest device against time, angle, envelope or voltage, all else as specified.
 
     Args:
         design_for: a specification, the path of its file, or that of a robot.
         against: `time`, `angle`, `radius`, `height` or `voltage`.
-        low, high: from and to, with units, as in `300ms`; None: around the specification's own.
-        points: how many values.
-        maneuver: whose time or angle alone is varied; empty: those of all, in one ratio.
-        package_paths: folder of each package that `package://` addresses name.
+        low, high: first and last value, with units, as in `300ms`; None: around the
+            specification's own.
+        points: number of values.
+        maneuver: the only one whose time or angle is varied; empty: all, in proportion.
+        package_paths: folder of each package, for `package://` addresses.
         out: folder for the front, its chart and the specification of each point; None: none.
         force: replace an existing folder.
         strict: warnings about the robot are errors.
         progress: see `design_ocs`.
 
     Raises:
-        OcsError: the robot cannot be read, or the values make no range.
+        OcsError: the robot cannot be read, or the values form no range.
     """
     steps, sweep = Steps.of(progress), sweep_of(against, maneuver)
     if out is not None:
@@ -73,7 +74,7 @@ def read_task(
     package_paths: Mapping[str, AnyPath] | None = None,
     strict: bool = False,
 ) -> Task:
-    """Robot and specification as they stand.
+    """Robot and specification before anything is varied.
 
     Raises:
         OcsError: the robot cannot be read, or the specification does not fit it.

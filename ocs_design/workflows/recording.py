@@ -1,4 +1,4 @@
-"""From live values to the records of `design.json`."""
+"""Makes the records of `design.json` from live values."""
 
 import csv
 from collections.abc import Mapping, Sequence
@@ -90,11 +90,11 @@ def record_run(run: Run) -> ValidationRecord:
 
 
 STOPPED_FILE = "stopped.csv"
-"""Which drive stopped, when, and how the flight ended, a row for each."""
+"""File with one row per flight with a failure: which drive, when, and how the flight ended."""
 
 
 def write_runs(runs: Sequence[Run], folder: Path, survival: SurvivalRecord | None = None) -> None:
-    """Write one CSV for each flight, and one for all flights in which a drive stops."""
+    """Write one CSV per flight, and one for all flights in which a drive fails."""
     if runs:
         (folder / FOLDER).mkdir()
     for run in runs:
@@ -140,7 +140,7 @@ def record_design(
     seed: int,
     package_paths: Mapping[str, AnyPath] | None = None,
 ) -> OcsDesign:
-    """Record of a design that is not flown, without what else would do and without files."""
+    """Record of a design that is not flown, without alternatives and files."""
     requirement, device, sized = resolved.requirement, designed.device, designed.sized
     speed, total = sized.wheel_speed_max, sized.total
     housing = () if resolved.choice is None else (HOUSING_ASSUMED,)

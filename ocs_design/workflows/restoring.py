@@ -1,4 +1,4 @@
-"""Robot, device and maneuvers made again from the records of `design.json`.
+"""Restores robot, device and maneuvers from the records of `design.json`.
 
 Writing parts starts here, so nothing below imports a simulator or a solver.
 """
@@ -30,7 +30,7 @@ def read_designed(path: AnyPath) -> tuple[OcsDesign, Device]:
     """A design, and its device.
 
     Raises:
-        OcsError: it cannot be read, no such device can be, or its figures contradict each other.
+        OcsError: it cannot be read, no such device can exist, or its figures contradict each other.
     """
     design = read_design(path)
     try:
@@ -52,12 +52,12 @@ def seat_of(record: RobotRecord) -> Base:
 
 
 def robot_of(record: RobotRecord, path: AnyPath, package_paths: Mapping[str, AnyPath]) -> Robot:
-    """The robot read again, in the posture that it was sized in.
+    """The robot read again, in the posture in which it was sized.
 
     Args:
-        record: of the robot. By hand: it is made from the record alone.
+        record: of the robot. A robot given by hand is made from the record alone.
         path: of its file.
-        package_paths: folder of each package that `package://` addresses name.
+        package_paths: folder of each package, for `package://` addresses.
 
     Raises:
         RobotError: the file lacks the trunk or a joint of the record.
@@ -65,14 +65,14 @@ def robot_of(record: RobotRecord, path: AnyPath, package_paths: Mapping[str, Any
     if record.format == Format.MANUAL:
         (xx, xy, xz), (_, yy, yz), (_, _, zz) = record.inertia
         return robot_by_hand(record.mass, (xx, yy, zz, xy, xz, yz), record.com, record.name)
-    # A frame that was found, and is no link of the file, is found again.
+    # A base frame that was found, and is not a link of the file, is found again.
     trunk = None if record.mount is not None or record.trunk == BASE_FRAME else record.trunk
     try:
         robot = read_robot(
             path, trunk=trunk, legs=record.legs, posture="zero", package_paths=package_paths
         )
     except RobotError:
-        # Another file than the one that was sized: what it lacks is told below.
+        # Another file than the one used for sizing: what it lacks is reported below.
         robot = read_robot(path, trunk=trunk, posture="zero", package_paths=package_paths)
     known = {*robot.tree.joints, *robot.tree.body_of_link}
     missing = [name for name in (*record.posture, record.trunk) if name not in known]
@@ -82,7 +82,7 @@ def robot_of(record: RobotRecord, path: AnyPath, package_paths: Mapping[str, Any
             hint="give the robot that the device was sized for, or size one for this robot",
         )
     values = robot.tree.complete(record.posture)
-    # What is said of the file's zero is not true of the posture that it was sized in.
+    # Warnings about the file's zero do not apply to the posture used for sizing.
     told = (each for each in robot.warnings if not each.startswith(OUTSIDE))
     beyond = (each for each in record.warnings if each.startswith(OUTSIDE))
     return replace(
@@ -96,19 +96,19 @@ def robot_of(record: RobotRecord, path: AnyPath, package_paths: Mapping[str, Any
 
 
 _SAME = 1e-6
-"""Largest difference of mass and inertia, over the largest figure, of a robot that is the same."""
+"""Tolerance of mass and inertia, over the largest figure, for a robot to be the same."""
 
 
 @dataclass(frozen=True)
 class Whereabouts:
-    """Places to look for a robot, and what to say if it is not there.
+    """Places to look for a robot, and the hint if it is not found.
 
     Attributes:
         design: path of the `design.json`.
-        robot_file: of the robot, in place of the one that the design names. It may be another
-            file than the device was sized for, which is told.
-        package_paths: folders of packages, over those that the design names.
-        hint: what a user can do where the robot cannot be had.
+        robot_file: of the robot, in place of the one that the design names. It may differ from the
+            file that the device was sized for, which gives a warning.
+        package_paths: folders of packages, in addition to those that the design names.
+        hint: what a user can do if the robot is not available.
     """
 
     design: Path
@@ -120,13 +120,13 @@ class Whereabouts:
 def read_recorded_robot(
     record: RobotRecord, where: Whereabouts, *, strict: bool
 ) -> tuple[Robot, tuple[str, ...]]:
-    """The robot, and warnings about it that were not there when the device was sized.
+    """The robot, and warnings about it that did not occur when the device was sized.
 
     Raises:
-        RobotError: it cannot be had or has changed; with `strict`, also if there is any warning.
+        RobotError: it is not available or has changed; with `strict`, also if there is a warning.
     """
     bases = (Path(), where.design.absolute().parent.parent)
-    # A folder as it was given, against the first base that has it.
+    # Each folder as it was given, relative to the first base that contains it.
     folders = {
         name: next((base / text for base in bases if (base / text).is_dir()), Path(text))
         for name, text in record.package_paths.items()
@@ -139,15 +139,15 @@ def read_recorded_robot(
             raise RobotError("the robot was read from standard input", hint=where.hint)
         found = [base / record.source for base in bases if (base / record.source).is_file()]
         if not found:
-            what = f"{record.source}: the robot's file is not there any more"
+            what = f"{record.source}: the robot's file no longer exists"
             raise RobotError(what, hint=where.hint)
-        # The file that the device was sized for, as it was then.
+        # The file that the device was sized for, unchanged.
         unchanged = (path for path in found if read_source(path).sha256 == record.sha256)
         source = next(unchanged, None)
         if source is None:
             raise RobotError(
                 f"{found[0]}: the robot's file has changed since the device was sized for it",
-                hint=f"size it again, or put the device on it as it is with --robot {found[0]}",
+                hint=f"size it again, or use the file as it is now with --robot {found[0]}",
             )
     robot = robot_of(record, source, {**folders, **where.package_paths})
     warnings = tuple(warning for warning in robot.warnings if warning not in record.warnings)
@@ -158,12 +158,12 @@ def read_recorded_robot(
         changed = f"{robot.source}: not the file that the device was sized for; {masses}"
         warnings = (changed, *warnings)
     elif max(apart, abs(robot.mass / record.mass - 1.0)) > _SAME:
-        # The hash is of the robot's own file alone.
+        # The hash covers the robot's own file only.
         raise RobotError(
             f"{robot.source}: a file that it includes has changed since the device was sized for "
             f"it; {masses}",
-            hint="size it again, or put back what it included then",
+            hint="size it again, or restore the included file",
         )
     if strict and warnings:
-        raise RobotError("--strict: " + "; ".join(warnings), hint="mend the robot's file")
+        raise RobotError("--strict: " + "; ".join(warnings), hint="fix the robot's file")
     return robot, warnings

@@ -1,7 +1,7 @@
-"""Rounds of sizing and flying, until the device does what was asked.
+"""Rounds of sizing and flying, until the device meets the requirement.
 
-A device is sized for one attempt after another until one succeeds, sized anew with more for turns
-that it does not make, and anew with more in reserve for flights of robots as they might be built.
+A device is sized for one attempt after another until one succeeds, resized for turns that it cannot
+make, and resized with a larger reserve for sampled robots that fail.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -66,15 +66,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Placed:
-    """A device in its place on its robot.
+    """A device mounted on its robot.
 
     Attributes:
-        specification: that it was sized for, with what was taken in place of what is not stated.
+        specification: that it was sized for, including fallbacks for what was not specified.
         robot, resolved, designed, mounting: the live values.
-        warnings: about its place, and about what was taken in place of what is not stated.
-        jumping: its jumps, as far as they are planned; None: none will be flown.
-        estimates: factor on what a turn is estimated to ask for, by its name.
-        taken: what was taken in place of what is not stated, as assumptions and as warnings.
+        warnings: about its position, and about the fallbacks.
+        jumping: planning of its jumps, in progress or done; None: no jump will be flown.
+        estimates: factor on the estimated demand of each turn, by name.
+        taken: the fallbacks for what was not specified, as assumptions and as warnings.
     """
 
     specification: Specification
@@ -94,20 +94,20 @@ class Placed:
         return replace(self, resolved=resolved, warnings=(*warnings, *self.warnings), taken=taken)
 
     def cancel(self) -> None:
-        """Begin no further plan of its jumps."""
+        """Start no further plans of its jumps."""
         if self.jumping is not None:
             self.jumping.cancel()
 
     @property
     def task(self) -> Task:
-        """What it was sized for."""
+        """The task that it was sized for."""
         robot = self.robot
         extent = size(robot.tree, robot.posture, robot.trunk)
         return Task(self.specification, self.resolved, robot, extent)
 
     @property
     def combinations(self) -> str:
-        """How many combinations of parts were looked at; empty without a motor."""
+        """Number of combinations of parts that were examined, in words; empty without a motor."""
         choice = self.designed.choice
         return "" if choice is None else f"{choice.selection.candidates:,} combinations"
 
@@ -120,13 +120,13 @@ def size_on_robot(
     reserve: Reserve | None = None,
     estimates: Mapping[str, float] | None = None,
 ) -> Placed:
-    """Size the device of a specification and find its place; its jumps are planned meanwhile.
+    """Size the device of a specification and place it; its jumps are planned in parallel.
 
     Args:
-        specification: what is asked for. robot: that carries the device.
+        specification: of the device. robot: that carries it.
         strict: warnings are errors.
-        reserve: to keep for what is drawn; None: for the reliability that is specified.
-        estimates: factor on what a turn is estimated to ask for, by its name; 1 for all others.
+        reserve: to keep; None: the one for the specified reliability.
+        estimates: factor on the estimated demand of each turn, by name; 1 for all others.
 
     Raises:
         Infeasible: there is none.
@@ -138,10 +138,10 @@ def size_on_robot(
     require_trot(resolved.requirement.maneuvers, robot)
     stated, jumping = specification.validation, None
     if stated.enabled is not False and not control_of(stated, robot).ballistic:
-        # CasADi takes a third of a second to import, and what starts at lift-off does without.
+        # CasADi takes a third of a second to import, and flights from lift-off do not need it.
         from ocs_design.jumping.planning import JumpPlanning  # noqa: PLC0415
 
-        # They are planned while the device is sized.
+        # Jumps are planned while the device is sized.
         jumping = JumpPlanning(robot, resolved.requirement.maneuvers)
     try:
         designed = design_device(replace(task, resolved=resolved), reserve=reserve)
@@ -166,10 +166,10 @@ def size_on_robot(
 
 
 def warnings_of(placed: Placed, *, strict: bool) -> tuple[str, ...]:
-    """Warnings about where a device stands.
+    """Warnings about the position of a device.
 
     Raises:
-        SpecificationError: `strict`, and there is any, or the device is heavy for its robot.
+        SpecificationError: `strict`, and there is one, or the device is heavy for its robot.
     """
     robot, device = placed.robot, placed.designed.device
     device_warnings(device, robot.mass_properties, strict=strict)
@@ -186,14 +186,14 @@ def warnings_of(placed: Placed, *, strict: bool) -> tuple[str, ...]:
 def size_or_advise(
     specification: Specification, robot: Robot, steps: Steps, *, strict: bool
 ) -> Placed:
-    """Size the device; where nothing meets the specification, try the fallbacks in turn.
+    """Size the device; if nothing meets the specification, try the fallbacks in turn.
 
-    Where a device's motors are heavy for the robot, more wheels are tried too until they weigh
-    more, and the lightest device is taken.
+    If a device's motors are heavy for the robot, more wheels are tried, too, until that makes it
+    heavier, and the lightest device is taken.
 
     Raises:
-        Infeasible: no attempt has a device; with the smallest changes that would do.
-        SpecificationError: `strict`, and there is a warning about the device that is taken.
+        Infeasible: no attempt gives a device; with the smallest changes that would.
+        SpecificationError: `strict`, and there is a warning about the final device.
     """
     tried: list[Tried] = []
     best: Placed | None = None
@@ -204,7 +204,7 @@ def size_or_advise(
                 continue
         with steps.step(f"size {attempt_text(specification, asked)}") as step:
             try:
-                # A device that gives way to a lighter one needs not be free of warnings.
+                # A device that is replaced by a lighter one need not be free of warnings.
                 placed = size_on_robot(asked, robot, strict=False)
             except (Refused, NeverHeld) as error:
                 tried.append((asked, error))
@@ -234,17 +234,17 @@ def size_or_advise(
                 raise
         return best.telling(substitutions(specification, best.specification, tried))
     refusal = closest(tried, robot.mass)
-    with steps.step("look for the smallest changes that would do") as step:
+    with steps.step("search for the smallest changes that make it feasible") as step:
         found = advised(refusal, specification, tried, step.update)
     raise found
 
 
 TURN_ROUNDS = 3
-"""How often a device is sized anew for turns that it cannot make."""
+"""Most times that a device is resized for turns that it cannot make."""
 
 
 def size_for_turns(placed: Placed, steps: Steps, *, strict: bool) -> Placed:
-    """Size the device anew with more for each turn that takes too much of it, or too long."""
+    """Resize the device for turns that need too much of it, or take too long."""
     for _ in range(TURN_ROUNDS):
         asked = placed.resolved.requirement.maneuvers
         estimates = dict(placed.estimates)
@@ -255,20 +255,20 @@ def size_for_turns(placed: Placed, steps: Steps, *, strict: bool) -> Placed:
                 estimates[name] = factor * estimates.get(name, 1.0)
         if estimates == placed.estimates:
             break
-        with steps.step("size the device anew for its turns") as step:
+        with steps.step("resize the device for its turns") as step:
             try:
                 again = size_on_robot(
                     placed.specification, placed.robot, strict=strict, estimates=estimates
                 )
             except (Refused, NeverHeld):
-                step.note = "nothing makes them in time"
+                step.note = "no device makes them in time"
                 break
         placed = again.telling(placed.taken)
     return placed
 
 
 def references_of(placed: Placed, maneuvers: Sequence[Maneuver]) -> Mapping[str, "Reference"]:
-    """Turns that the flights track, by name; none without a motor's figures to plan for."""
+    """Planned turns that the flights track, by name; none without a motor's data."""
     if placed.designed.choice is None or not maneuvers:
         return {}
     robot, designed = placed.robot, placed.designed
@@ -277,7 +277,7 @@ def references_of(placed: Placed, maneuvers: Sequence[Maneuver]) -> Mapping[str,
 
 
 def turns_not_made(placed: Placed, references: Mapping[str, "Reference"]) -> Iterator[str]:
-    """Turns that the device does not make, with the time that they would take."""
+    """Turns that the device cannot make in time, with the time that they would take."""
     for maneuver in placed.resolved.requirement.maneuvers:
         reference = references.get(maneuver.name)
         if reference is None or reference.trajectory is not None:
@@ -288,17 +288,17 @@ def turns_not_made(placed: Placed, references: Mapping[str, "Reference"]) -> Ite
 
 @dataclass(frozen=True, eq=False)
 class Certificate:
-    """Many flights of a device, and what they say."""
+    """Many flights of a device, and their verdict."""
 
     campaign: Campaign
     outcomes: Outcomes
     record: MonteCarloRecord
 
     def write(self, folder: Path, design: str) -> None:
-        """Write the flights into a folder of their own below `folder`.
+        """Write the flights into a subfolder of `folder`.
 
         Args:
-            folder: that exists. design: hash of what is flown (`flown_hash`).
+            folder: an existing one. design: hash of the flown design (`flown_hash`).
         """
         own = folder / CERTIFICATE_FOLDER
         own.mkdir()
@@ -307,13 +307,13 @@ class Certificate:
 
 @dataclass(frozen=True, eq=False)
 class Proof:
-    """How a device is to fly, how it does as designed, and its certificate.
+    """Plans of a device's flights, its flights as designed, and its certificate.
 
     Attributes:
-        references: turns that the flights track, by the maneuver's name.
-        flights: all that they need. runs: as designed; empty if nothing is flown.
-        survival: with each drive stopping on the way; None: none has to.
-        certificate: None: none was asked for.
+        references: planned turns that the flights track, by name of maneuver.
+        flights: inputs of the flights. runs: as designed; empty if nothing is flown.
+        survival: flights with each drive failing in turn; None: not required.
+        certificate: None: not required.
     """
 
     references: Mapping[str, "Reference"]
@@ -324,7 +324,7 @@ class Proof:
 
 
 def prove(placed: Placed, stated: ValidationSection, steps: Steps) -> Proof:
-    """Plan the maneuvers and fly them, if that is wanted."""
+    """Plan the maneuvers and, if validation is enabled, fly them."""
     requirement, jumps = placed.resolved.requirement, dict[str, JumpPlans]()
     with steps.step("plan the maneuvers"):
         references = references_of(placed, requirement.maneuvers)
@@ -332,7 +332,7 @@ def prove(placed: Placed, stated: ValidationSection, steps: Steps) -> Proof:
         with steps.step("plan the jumps") as step:
             jumps = {} if placed.jumping is None else dict(placed.jumping.plans())
             others = [name for name, jump in jumps.items() if jump.carrying.legs is None]
-            step.note = f"at lift-off starts: {', '.join(others)}" if others else ""
+            step.note = f"starting at lift-off: {', '.join(others)}" if others else ""
     control = control_of(stated, placed.robot)
     flights = Planned(
         placed.robot,
@@ -351,11 +351,11 @@ def prove(placed: Placed, stated: ValidationSection, steps: Steps) -> Proof:
 
 
 def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tuple[Placed, Proof]:
-    """Fly robots as they might be built; what falls short is sized anew with more in reserve.
+    """Fly robots as they might be built; a device that falls short is resized with more reserve.
 
     Args:
-        placed: the device. proof: that it flies as designed.
-        steps: are told. strict: warnings are errors.
+        placed: the device. proof: its flights as designed.
+        steps: progress. strict: warnings are errors.
 
     Returns:
         Device of the last round and its flights.
@@ -367,8 +367,8 @@ def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tupl
     stated = specification.validation
     if not proof.runs:
         raise UsageError(
-            "--certify repeats maneuvers, and none is asked for",
-            hint="leave it out, or ask for a maneuver, as with --fall 1m",
+            "--certify repeats maneuvers, but none is specified",
+            hint="leave it out, or add a maneuver, as in --fall 1m",
         )
     test = SequentialTest(placed.resolved.reliability or RELIABILITY)
     told: list[str] = []
@@ -393,7 +393,7 @@ def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tupl
         proof = replace(proof, certificate=Certificate(campaign, outcomes, record))
         if reserve is None or learnt is None or learnt.factor == 1.0:
             break
-        with steps.step("size the device with more in reserve") as step:
+        with steps.step("resize the device with more reserve") as step:
             try:
                 again = size_on_robot(
                     specification,
@@ -403,7 +403,7 @@ def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tupl
                     estimates=placed.estimates,
                 )
             except (Refused, NeverHeld):
-                step.note = "nothing has that reserve"
+                step.note = "no device has that reserve"
                 break
             step.note = again.combinations
         placed = again.telling(placed.taken)

@@ -55,7 +55,7 @@ from ocs_design.workflows.rounds import (
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """A device that was sized for a robot, and the folder that has its files.
+    """A device that was sized for a robot, and the folder with its files.
 
     Attributes:
         design: the artefact.
@@ -77,7 +77,7 @@ class Outcome:
         return int(failed or found.buildable.yes is False)
 
     def __fspath__(self) -> str:
-        """Its folder: an outcome stands wherever the path of a design is asked for."""
+        """Its folder, so that an outcome can be given as the path of a design."""
         return str(self.folder)
 
     def __repr__(self) -> str:
@@ -98,20 +98,20 @@ def design_ocs(
     command: str = "",
     beside: Beside | None = None,
 ) -> Outcome:
-    """Size a device for a robot, write it, fly it, and record all of it in one folder.
+    """Size a device for a robot, write it, fly it, and record everything in one folder.
 
     Args:
         design_for: a specification (`specify`, `read_specification`), the path of its TOML file, or
-            that of a robot with nothing else stated.
+            that of a robot alone.
         out: the folder; None: `<name>-ocs` in the working directory.
-        package_paths: folder of each package that `package://` addresses name.
+        package_paths: folder of each package, for `package://` addresses.
         force: replace an existing output folder, once the new one is complete.
         strict: warnings are errors.
-        progress: function that is told the name of the step that runs and what part of it is done,
-            0..1; None: a notebook shows it below the cell, and a script is silent.
-        command: that was typed, for the report.
-        beside: processes that look for what would be lighter while the device is planned and
-            flown; None: this one does, afterwards.
+        progress: function that receives the name of the current step and the part of it that is
+            done, 0..1; None: a notebook shows it below the cell, and a script is silent.
+        command: as typed, for the report.
+        beside: processes that search lighter alternatives while the device is planned and flown;
+            None: this process does so afterwards.
 
     Raises:
         OcsError: see `exceptions`; nothing is written then.
@@ -122,7 +122,7 @@ def design_ocs(
     for what, wanted in flying.items():
         if wanted and stated.enabled is False:
             raise UsageError(
-                f"{what} flights, and --no-validate flies none", hint="leave one of them out"
+                f"{what} flights, but --no-validate flies none", hint="leave one of them out"
             )
     steps = Steps.of(progress)
     if out is not None:
@@ -145,7 +145,7 @@ def design_ocs(
     device, runs = placed.designed.device, proof.runs
     with staged_folder(folder, force=force) as staging:
         with steps.step("export parts and robot files"):
-            # The model that they are written from is let go of: nothing keeps the subject.
+            # The model is released after the files are written: nothing refers to the subject.
             margins = record_margins(placed.resolved, placed.designed, runs, proof.references)
             built = buildable_of(robot, placed.designed, margins, placed.mounting)
             remarks = export_formats(
@@ -155,7 +155,7 @@ def design_ocs(
             )
             robot = replace(robot, warnings=(*robot.warnings, *remarks))
         unfilmed = _write_flights(placed, proof, staging, steps)
-        with steps.step("look for what would be lighter otherwise"):
+        with steps.step("search lighter alternatives"):
             lighter, owed = otherwise()
         conceded = _what_must_give(placed, owed, steps)
         forget_collision_model()
@@ -193,7 +193,7 @@ def design_ocs(
                 staging, flown_hash(design, control, design.requirement.detection)
             )
         with steps.step("write the report"):
-            # What tells of the flights too: the bill of materials and the assembly.
+            # Bill of materials and assembly, which also report on the flights.
             told = Subject.of(robot, device, safe_name(robot.name)).recorded(design)
             export_formats(told, [each for each in USUAL_FORMATS if each.needs_margins], staging)
             design = _write_report(design, told, runs, staging, command)
@@ -202,7 +202,7 @@ def design_ocs(
 
 
 def load_solvers(specification: Specification) -> None:
-    """Import what sizing will need: that takes most of the time of a first design."""
+    """Import what sizing will need, which takes most of the time of a first design."""
     if specification.motor.name == NO_MOTOR:
         load_solver()
     else:
@@ -210,7 +210,7 @@ def load_solvers(specification: Specification) -> None:
 
 
 def _write_flights(placed: Placed, proof: Proof, folder: Path, steps: Steps) -> tuple[str, ...]:
-    """Write the flights as designed, film them if asked for; why a film is missing."""
+    """Write the flights as designed, and film them if requested; returns why a film is missing."""
     if not proof.runs:
         return ()
     write_runs(proof.runs, folder, proof.survival)
@@ -227,11 +227,11 @@ def _write_flights(placed: Placed, proof: Proof, folder: Path, steps: Steps) -> 
 
 
 def _what_must_give(placed: Placed, owed: Owed | None, steps: Steps) -> Lighter | None:
-    """What would have to give for a lighter device, where that was asked."""
+    """Changes that would make the device lighter, if requested."""
     by, choice = placed.specification.ocs.lighter_by, placed.designed.choice
     if by is None or choice is None:
         return None
-    with steps.step("look for what would have to give") as step:
+    with steps.step("search changes that make it lighter") as step:
         return Lighter(
             by=by,
             changes=lighter_by(by, placed.task, choice, owed.maneuver if owed else "", step.update),
@@ -241,7 +241,7 @@ def _what_must_give(placed: Placed, owed: Owed | None, steps: Steps) -> Lighter 
 def _write_report(
     design: OcsDesign, subject: Subject, runs: Sequence[Run], folder: Path, command: str
 ) -> OcsDesign:
-    """Figures and report; the design with the hashes of all files but the report, which has it."""
+    """Write figures and report; returns the design with the hashes of all files but the report."""
     story = story_in(
         [folder],
         design,

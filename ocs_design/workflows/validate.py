@@ -41,12 +41,12 @@ from ocs_design.workflows.flying import DesignFlights, read_flights
 from ocs_design.workflows.recording import record_run, write_runs
 
 SAMPLES_VERSION = 2
-"""Version of the samples in a folder, which a later run goes on with."""
+"""Version of the samples in a folder, which a later run resumes."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Request:
-    """What a validation is to fly, and where it is kept, as `validate_design` is asked for it."""
+    """Request to `validate_design`: what to fly, and where to keep it."""
 
     stated: Specification
     samples: int | None
@@ -60,12 +60,12 @@ class _Request:
     view: bool
 
     def check(self) -> None:
-        """Refuse what contradicts itself or makes no sense.
+        """Refuse contradictory or meaningless requests.
 
         Raises:
             UsageError: options that exclude or need each other, no samples, no such sample, no
                 width between 0 and 1, or no engine.
-            MissingToolError: there is no display to look at the runs.
+            MissingToolError: there is no display to show the runs.
         """
         wanted = {"--samples": self.samples, "--sample": self.sample, "--replay": self.replay}
         given = [name for name, value in wanted.items() if value is not None]
@@ -82,7 +82,7 @@ class _Request:
                 certifies and width is not None,
                 "give one",
             ),
-            "--until-width and --scheduler are about samples": (
+            "--until-width and --scheduler need --samples": (
                 not self.many and (width is not None or self.scheduler is not None),
                 "add --samples N",
             ),
@@ -90,7 +90,7 @@ class _Request:
                 self.engine not in tuple(EngineName),
                 "",
             ),
-            f"{engine} is about samples": (elsewhere and not self.many, "add --samples N"),
+            f"{engine} needs --samples": (elsewhere and not self.many, "add --samples N"),
             f"{engine} and --scheduler exclude each other": (
                 elsewhere and self.scheduler is not None,
                 "",
@@ -121,7 +121,7 @@ class _Request:
 
     @property
     def many(self) -> bool:
-        """Whether samples are flown, not the flights as designed alone."""
+        """Whether samples are flown, in addition to the flights as designed."""
         return self.samples is not None or self.stated.validation.certify is True
 
 
@@ -130,8 +130,8 @@ class Validation:
     """Flights of a design, as designed and as it might be built.
 
     Attributes:
-        found: the record. folder: that was written to, if any. files: in it.
-        flights: that were flown. runs: that came of them.
+        found: the record. folder: written to, if any. files: in it.
+        flights: that were flown. runs: their results.
     """
 
     found: Validated
@@ -172,29 +172,29 @@ def validate_design(
     view: bool = False,
     progress: Steps | Tell | None = None,
 ) -> Validation:
-    """Fly a design with the device and without, and many times over as it might be built.
+    """Fly a design with and without the device, and many times as it might be built.
 
     Args:
         design: its folder, its `design.json`, or the `Outcome` that made it.
-        samples: robots to fly at most, drawn from `[reality]`; None: none but the one as designed.
-        certify: no more of them than it takes to be sure of the reliability that was asked for.
-        until_width: width of the intervals, 0..1, that fewer samples will do for.
+        samples: most robots to fly, sampled from `[reality]`; None: only the one as designed.
+        certify: fly only as many as it takes to decide on the specified reliability.
+        until_width: width of the intervals at which to stop early, 0..1.
         seed: of all samples; None: the design's.
-        sample: number of the one to fly alone. replay: file of a case to fly alone.
-        specification: `[validation]` and `[reality]` in place of those that it was sized with.
-        robot_file: of the robot, where it has moved.
-        package_paths: folder of each package that `package://` addresses name.
+        sample: number of the only one to fly. replay: file of the only case to fly.
+        specification: `[validation]` and `[reality]` in place of the design's own.
+        robot_file: of the robot, if it has moved.
+        package_paths: folder of each package, for `package://` addresses.
         scheduler: address of a Dask cluster; None: this machine.
         engine: "mujoco" on the processors, or "warp": samples on a GPU, in single precision.
         out: folder for the time series and the samples; None: nothing is kept.
-        force: replace an existing folder, also the samples of another campaign.
+        force: replace an existing folder, even with samples of another campaign.
         strict: warnings about the robot are errors.
         view: keep poses for `watch`.
         progress: see `design_ocs`.
 
     Raises:
         OcsError: options exclude each other, the design or its robot cannot be read, the folder
-            cannot be written, or what is to compute the samples or to show the runs is not there.
+            cannot be written, or the engine or the display is missing.
     """
     steps, stated = Steps.of(progress), specification or Specification()
     asked = ValidationSection(certify=certify or None, seed=seed)
@@ -211,7 +211,7 @@ def validate_design(
         view=view,
     )
     request.check()
-    # Before minutes of flights: whether what they need is there at all.
+    # Check before minutes of flights that the engine exists.
     physics = warp_engine() if engine == EngineName.WARP else None
     case = None if request.replay is None else read_case(request.replay)
     if request.out is not None and not request.many:
@@ -227,8 +227,8 @@ def validate_design(
         step.note = flights.robot.name
     if case is not None and case.design != flights.flown_hash:
         raise OcsError(
-            f"{replay}: is a case of another design than {flights.path}",
-            hint="give the design that it was kept for, flown under the same law",
+            f"{replay}: belongs to another design than {flights.path}",
+            hint="give the design that it was saved for, with the same wheel law",
         )
     steps.doubt(flights.warnings)
     pose_rate = POSE_RATE if view else None
@@ -258,7 +258,7 @@ def validate_design(
         found = replace(found, survival=flights.fly_stopped(steps))
     if request.out is None:
         return Validation(found, None, (), flights, runs)
-    # The time series, and the design with these flights in place of its own.
+    # The time series, and the design with these flights instead of its own.
     with staged_folder(request.out, force=force) as staging:
         write_runs(runs, staging, found.survival)
         again = replace(
@@ -277,7 +277,7 @@ def validate_design(
 
 
 def watch(answer: Validation) -> None:
-    """Show every run with the device, in a window each, one after the other.
+    """Show every run with the device, each in a window, one after the other.
 
     Raises:
         MissingToolError: no window can be opened.
@@ -289,7 +289,7 @@ def watch(answer: Validation) -> None:
         Take(film_model(flights.robot, device_of[scenario], ocs=True), poses.qpos)
         for scenario, poses in posed
     ]
-    # Poses are whole control steps apart, so that these are not at `POSE_RATE`.
+    # Poses are whole control steps apart, so their rate is not exactly `POSE_RATE`.
     periods = [float(poses.time[1] - poses.time[0]) for _, poses in posed]
     watch_takes(takes, next(iter(periods), 1.0 / POSE_RATE))
 
@@ -301,7 +301,7 @@ def _fly_samples(
     steps: Steps,
     engine: Engine | None,
 ) -> tuple[MonteCarloRecord, tuple[str, ...]]:
-    """Fly samples of the design as it might be built; the record and the files."""
+    """Fly samples of the design as it might be built; returns the record and the files."""
     test = None
     if request.stated.validation.certify:
         test = SequentialTest(flights.design.requirement.reliability or RELIABILITY)
@@ -311,7 +311,7 @@ def _fly_samples(
     enough = enough if test is None else test.decided
     flown, storage = flights.flown_hash, None
     if folder is not None:
-        # What the numbers of a campaign follow from.
+        # Everything that determines the figures of a campaign.
         identity = Identity(
             schema_version=SAMPLES_VERSION,
             tool=__version__,
@@ -353,14 +353,14 @@ def _fly_samples(
 def campaign_of(
     flights: DesignFlights, runs: Sequence[Run | ValidationRecord], seed: int | None = None
 ) -> Campaign:
-    """Everything that samples of this design follow from.
+    """Everything that determines the samples of this design.
 
     Args:
-        flights: of the design. runs: as designed, which show what the legs bear.
+        flights: of the design. runs: as designed, which show what the legs can take.
         seed: of all samples; None: the design's.
 
     Raises:
-        OcsError: no flight of this robot says anything.
+        OcsError: no flight of this robot can be judged.
     """
     return flights.campaign(
         runs, flights.uncertainty, flights.design.seed if seed is None else seed

@@ -155,7 +155,7 @@ def test_a_ratio_is_a_bare_number_or_per_cent(value):
     """The example itself can be read."""
     with pytest.raises(QuantityError) as caught:
         parse_quantity(value, Dimension.RATIO, "flywheel.stress_safety")
-    assert caught.value.hint == "Write a bare number, or per cent, as in '150%'."
+    assert caught.value.hint == "Write a bare number, or a percentage, as in '150%'."
     assert parse_quantity("150%", Dimension.RATIO, "") == 1.5
 
 

@@ -151,5 +151,5 @@ def test_what_no_program_wrote_is_refused(tmp_path, content, words):
 
 def test_a_pipe_is_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "design.json")
-    with pytest.raises(OcsError, match="no plain file"):
+    with pytest.raises(OcsError, match="not a plain file"):
         read_design(tmp_path / "design.json")

@@ -93,7 +93,7 @@ def test_parts_and_snippets_need_no_robot(solo12):
     Path("solo12.urdf").unlink()
     result = run("export", solo12, "-o", "again")
     assert result.code == 3
-    assert "solo12.urdf: the robot's file is not there any more" in result.said
+    assert "solo12.urdf: the robot's file no longer exists" in result.said
     assert not Path("again").exists()
     cure = "--formats stl,bom,drawing,printed,assembly,snippets"
     assert cure in result.said

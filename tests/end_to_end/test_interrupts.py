@@ -95,7 +95,7 @@ def test_an_interrupt_leaves_nothing(folder, interrupted, moment, signals):
     code, said = interrupted(moment, *signals)
     assert "Traceback" not in said
     assert code == 130, said
-    assert said.endswith("interrupted; nothing half done is left\n")
+    assert said.endswith("interrupted; no unfinished files are left\n")
     assert everything_in(folder) == []
 
 
@@ -106,7 +106,7 @@ def test_an_interrupt_keeps_what_was_to_be_replaced(folder, interrupted):
     code, said = interrupted(written, *TWICE, options=("--force",))
     assert "Traceback" not in said
     assert code == 130, said
-    assert said.endswith("interrupted; nothing half done is left\n")
+    assert said.endswith("interrupted; no unfinished files are left\n")
     assert everything_in(folder) == ["solo12-ocs", "solo12-ocs/design.json"]
 
 

@@ -46,7 +46,7 @@ def test_bound_in_words_names_both_forms():
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--axis", "yaw"), "neither pitch nor roll"),
+        (("--axis", "yaw"), "must be pitch or roll"),
         (("--alpha", "90deg"), "infinitely large"),
         (("--alpha", "91deg"), "above 90 deg"),
         (("--rate-change", "0"), "must be positive"),

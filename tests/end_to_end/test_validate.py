@@ -236,7 +236,7 @@ def test_without_a_maneuver_nothing_is_certified(folder):
     asked = ("--rate-change", "1rad/s", "--certify", "-o", "none")
     result = run("size", *BY_HAND, *BOUND, *asked)
     assert result.code == 2
-    assert "--certify repeats maneuvers, and none is asked for" in result.said
+    assert "--certify repeats maneuvers, but none is specified" in result.said
     assert not (folder / "none").exists()
 
 

@@ -170,5 +170,5 @@ def test_a_closed_form_that_asks_too_little_is_made_good_by_the_plan(most, tmp_p
     )
     warnings = outcome.design.ocs.warnings
     unmade = [each for each in warnings if "cannot make this turn in 2.9 s: they need" in each]
-    assert ("size the device anew for its turns" in told) is (most > 0)
+    assert ("resize the device for its turns" in told) is (most > 0)
     assert len(unmade) == (0 if most else 1)
