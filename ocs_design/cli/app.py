@@ -1,6 +1,6 @@
 """The command line: parse, call one function, print. No arithmetic.
 
-Heavy modules are imported inside the commands: that costs seconds, and `--help` needs none.
+Heavy modules are imported inside the commands: that takes seconds, and `--help` needs none.
 """
 
 import gc
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 app = typer.Typer(
     name="ocs-design",
-    help="Size, export and prove a flywheel orientation control system for a legged robot.",
+    help="Size, export and validate a flywheel orientation control system for a legged robot.",
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     add_completion=True,
@@ -77,16 +77,16 @@ EXAMPLES: Mapping[str, tuple[str, ...]] = {
     "doctor": ("ocs-design doctor", "ocs-design doctor --json"),
     "catalogue": ("ocs-design catalogue motors -v", "ocs-design catalogue gears --json"),
 }
-"""What to type, by command, for the end of its help."""
+"""Example commands for the end of each command's help."""
 
 
 def _examples(command: str) -> str:
-    """Paragraph that is not to be wrapped, as the backspace says."""
+    """Paragraph with examples; the backspace keeps it from being wrapped."""
     return "\b\n" + "\n".join(["Examples:", *(f"  {line}" for line in EXAMPLES[command])])
 
 
 class _OnDesign(TyperCommand):
-    """A command on a design: its usage has DESIGN without the braces that mean a choice."""
+    """A command on a design, whose usage shows DESIGN without the braces of a choice."""
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:  # noqa: ANN401  # typer hides its type
         """Pieces of the usage line."""
@@ -94,7 +94,7 @@ class _OnDesign(TyperCommand):
 
 
 def main() -> int:
-    """Run what was typed; the exit code."""
+    """Run the command line; returns the exit code."""
     return errors.run(app, sys.argv[1:])
 
 
@@ -120,7 +120,7 @@ def size(
     context: typer.Context,
     open_report: Annotated[
         bool,
-        typer.Option("--open", help="Open the report in the browser, where there is a screen."),
+        typer.Option("--open", help="Open the report in the browser, if there is a screen."),
     ] = False,
     seed: opt.Seed = None,
     out: Annotated[
@@ -128,16 +128,16 @@ def size(
     ] = None,
     verbose: Annotated[
         bool,
-        typer.Option("-v", "--verbose", help="Print all figures, not the story on one screen."),
+        typer.Option("-v", "--verbose", help="Print all figures, not the summary on one screen."),
     ] = False,
     *,
     output: Output,
 ) -> None:
     """Size a device for a robot, export it and fly it.
 
-    A quantity is SI, or carries its unit: 30mm, 7200rpm, 40deg, 102g. Exit codes: 0 done, 1 a
-    scenario fails or it cannot be built, 2 wrong usage, 3 the input cannot be read, 4 no design
-    meets the specification, 5 an optional tool is missing.
+    A quantity is in SI, or has its unit: 30mm, 7200rpm, 40deg, 102g. Exit codes: 0 done, 1 a
+    scenario fails or the device cannot be built, 2 wrong usage, 3 the input cannot be read, 4 no
+    design meets the specification, 5 an optional tool is missing.
     """
     _design(
         specified_by_command(context),
@@ -161,8 +161,8 @@ def demo(
 ) -> None:
     """Size a device for Solo12; needs no file.
 
-    The robot comes with this program. As `size` with its defaults, which takes less than a minute,
-    and then the report is opened.
+    The robot comes with this program. Runs `size` with its defaults, which takes less than a
+    minute, and opens the report.
     """
     from ocs_design.common.files import packaged_folder
     from ocs_design.requirement.specification import specification_from_options
@@ -198,7 +198,7 @@ def _design(
 
             raise UsageError(
                 "a comparison of layouts writes no folder",
-                hint="leave out -o, or take one layout, as in --layout triad",
+                hint="leave out -o, or choose one layout, as in --layout triad",
             )
         from ocs_design.report.text.answers import print_layouts
         from ocs_design.workflows.layouts import compare_layouts
@@ -212,15 +212,15 @@ def _design(
     from ocs_design.requirement.vocabulary import NO_MOTOR
 
     chosen = specification.motor.name != NO_MOTOR
-    # They import while this process does; more would find nothing left to look for.
+    # They import while this process does; more processes would have nothing to do.
     with Beside("ocs_design.sizing.alternatives" if chosen else None, most=3) as beside:
         with steps.step("load the solver and the simulator"):
-            # Nothing is drawn; unless told so, MuJoCo starts processes to look for a window
-            # library.
+            # Nothing is rendered; without this setting, MuJoCo starts processes to look for a
+            # window library.
             os.environ.setdefault("MUJOCO_GL", "disabled")
-            # Importing makes some hundred thousand objects and hardly any garbage, and the
-            # collector goes through all of them again and again. Afterwards it is needed: meshes
-            # leave much behind.
+            # Importing creates some hundred thousand objects and hardly any garbage, and the
+            # collector scans all of them again and again. Later it is needed: meshes leave a lot
+            # of garbage.
             gc.disable()
             try:
                 from ocs_design.report.text.size import (
@@ -246,7 +246,7 @@ def _design(
         )
 
     def show(console: "Console", design: "OcsDesign") -> None:
-        """All figures, or the story on one screen."""
+        """Print all figures, or the summary on one screen."""
         if verbose:
             print_design(console, design)
             print_solution(console, design)
@@ -279,7 +279,7 @@ def inspect(
     ] = False,
     no_color: opt.NoColor = False,
 ) -> None:
-    """Show what is read from a robot, and what is doubtful.
+    """Show what is read from a robot, with warnings.
 
     Mass, inertia, posture, legs, incidence angles, warnings.
     """
@@ -298,7 +298,7 @@ def inspect(
 @app.command(epilog=_examples("bound"))
 def bound(
     inertia: Annotated[
-        str, opt.option("", "INERTIA", "Of the robot about the axis, e.g. '0.0515 kg m2'.")
+        str, opt.option("", "INERTIA", "Inertia of the robot about the axis, e.g. '0.0515 kg m2'.")
     ],
     rate_change: Annotated[str, opt.option("", "RATE", "Change of the trunk's rate, e.g. 2rad/s.")],
     wheel_speed_max: Annotated[
@@ -311,7 +311,7 @@ def bound(
     as_json: opt.AsJson = False,
     no_color: opt.NoColor = False,
 ) -> None:
-    """Show the paper's lower bound of a robot by hand.
+    """Show the paper's lower bound for given figures of a robot.
 
     Least inertia of the wheels, and its curve over rate change and wheel speed.
     """
@@ -349,7 +349,7 @@ def catalogue(
         opt.option(
             "--motors",
             "FILE",
-            "Motors of your own, listed too, CSV or TOML.",
+            "Also list the motors in this file, CSV or TOML.",
             completion.files(".csv", ".toml"),
         ),
     ] = None,
@@ -364,8 +364,8 @@ def catalogue(
 
     A motor of your own is a [[motor]] of a TOML file or a row of a CSV file for --motors: name,
     maker, source, mass_kg, kv_rpm_per_v or kt_nm_per_a, resistance_ohm, resistance_between
-    ("line-line"), peak_current_a, rated_voltage_v. The list says what a motor lacks to be built
-    with.
+    ("line-line"), peak_current_a, rated_voltage_v. The list shows which data a motor lacks to be
+    built with.
     """
     from ocs_design.report.text.catalogue import listing
     from ocs_design.report.text.layout import warn

@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 def doctor(as_json: opt.AsJson = False, no_color: opt.NoColor = False) -> None:
     """Show what is installed, and how to get the rest.
 
-    Says what each package is for. Packages are imported and pictures drawn to see that they can
-    be. Exit codes: 0 all that is required works, 5 something required does not.
+    Lists what each package is for. Imports every package and renders pictures as a test. Exit
+    codes: 0 everything required works, 5 something required does not.
     """
     from ocs_design.report.text.answers import print_examination
     from ocs_design.workflows.doctor import examination_to_json, examine
@@ -54,14 +54,14 @@ QUESTIONS: Mapping[str, str] = {
     "flywheel.h_max": "Largest height of a wheel",
     "supply.voltage": "Voltage of the battery",
 }
-"""What is asked besides robot and maneuvers, by the path of its key."""
+"""Questions besides robot and maneuvers, by path of the key."""
 
 
 @with_options(opt.START_OPTIONS)
 def init(
     context: typer.Context,
     yes: Annotated[
-        bool, typer.Option("-y", "--yes", help="Ask nothing, as without a terminal.")
+        bool, typer.Option("-y", "--yes", help="Ask no questions, as without a terminal.")
     ] = False,
     out: Annotated[
         Path | None, opt.option("-o --out", "FILE", "File to write. Default: <name>.toml.")
@@ -74,9 +74,9 @@ def init(
 ) -> None:
     """Write a commented specification to start from.
 
-    It has every key, its default and why to change it. On a terminal it asks for the robot, what it
-    shall do, the room and the battery; an empty answer takes the default. Options are written as
-    stated. With a robot, defaults are scaled to it.
+    The file has every key, its default and why to change it. On a terminal, init asks for the
+    robot, its maneuvers, the size of the wheels and the battery; an empty answer takes the default.
+    Options are written to the file. With a robot, defaults are scaled to it.
     """
     from ocs_design.export.folder import check_file_target
     from ocs_design.report.text.answers import print_initialized
@@ -104,13 +104,13 @@ def init(
 
 
 def _ask_task(start: "Start") -> tuple["Start", tuple[str, ...]]:
-    """The start with what was answered, and the maneuvers that were chosen."""
+    """The start with the user's answers, and the maneuvers that were chosen."""
     from ocs_design.requirement.specification import merge, specification_from_options
     from ocs_design.requirement.vocabulary import NO_MOTOR
     from ocs_design.requirement.writing import rounded_text
 
     def with_key(path: str, default: str, answer: str) -> "Start":
-        """The start with an answer as that key; a bare number is in the default's unit."""
+        """The start with an answer as a key's value; a bare number is in the default's unit."""
         unit = default.partition(" ")[2] if answer.strip()[-1:].isdigit() else ""
         given = {} if answer == default else {path: f"{answer} {unit}".rstrip()}
         return replace(start, stated=merge(start.stated, specification_from_options(given)))
@@ -120,7 +120,7 @@ def _ask_task(start: "Start") -> tuple["Start", tuple[str, ...]]:
         known = [maneuver.name for maneuver in start.default.maneuvers]
 
         def maneuvers(answer: str) -> tuple[str, ...]:
-            """Names of maneuvers; none for all, which are the default."""
+            """Names of maneuvers; empty for all, which is the default."""
             named = tuple(name.strip() for name in answer.split(","))
             unknown = [name for name in named if name not in (*known, ALL)]
             if unknown:
@@ -129,7 +129,7 @@ def _ask_task(start: "Start") -> tuple["Start", tuple[str, ...]]:
                 )
             return () if ALL in named else named
 
-        question = f"Maneuvers: {', '.join(known)}, with commas, or {ALL}"
+        question = f"Maneuvers, separated by commas: {', '.join(known)}; or {ALL}"
         chosen = _ask(question, ALL, maneuvers)
     for path, question in QUESTIONS.items():
         section, _, name = path.partition(".")
@@ -141,7 +141,7 @@ def _ask_task(start: "Start") -> tuple["Start", tuple[str, ...]]:
 
 
 def _ask(question: str, default: str, read: Callable[[str], Answer]) -> Answer:
-    """The answer, once it can be read."""
+    """The answer; asks again until it can be parsed."""
     while True:
         answer = typer.prompt(question, default=default, show_default=bool(default), err=True)
         try:
@@ -155,7 +155,7 @@ DesignFile: TypeAlias = Annotated[
     typer.Argument(
         autocompletion=completion.files("design.json"),
         metavar="DESIGN",
-        help="design.json, or the folder that it lies in.",
+        help="design.json, or its folder.",
     ),
 ]
 OtherRobot: TypeAlias = Annotated[
@@ -163,7 +163,7 @@ OtherRobot: TypeAlias = Annotated[
     opt.option(
         "--robot",
         "FILE",
-        "The robot's file, if it has moved or another one is wanted.",
+        "The robot's file, if it has moved or you want to use another.",
         completion.files(*completion.ROBOTS),
     ),
 ]
@@ -181,9 +181,9 @@ def export(
         opt.option(
             "--formats",
             "NAMES",
-            f"{', '.join(each.name for each in USUAL_FORMATS)} (these are the default), "
+            f"{', '.join(each.name for each in USUAL_FORMATS)} (the default), "
             f"{', '.join(each.name for each in FORMATS if each.on_request)}, figures, report, "
-            "controller, with commas between them; or all.",
+            "controller, separated by commas; or all.",
             completion.listed(completion.any_of(completion.formats)),
         ),
     ] = None,
@@ -194,9 +194,9 @@ def export(
 ) -> None:
     """Write the files of a design.json again.
 
-    Parts, robot files and snippets: they are the files that `ocs-design size` wrote, byte for byte.
-    Files of the whole robot need the robot's own file as it was, and its meshes. In the design's
-    own folder, with --force, only what is made anew is replaced.
+    Parts, robot files and snippets, byte for byte as `ocs-design size` wrote them. Files of the
+    whole robot need the robot's own file, unchanged, and its meshes. In the design's own folder,
+    with --force, only files that are written again are replaced.
     """
     from ocs_design.report.text.answers import print_export
     from ocs_design.requirement.values import names_in
@@ -225,7 +225,7 @@ def pareto(
         opt.option(
             "--against",
             "NAME",
-            "time, angle, radius, height or voltage is varied.",
+            "Figure to vary: time, angle, radius, height or voltage.",
             completion.one_of("time", "angle", "radius", "height", "voltage"),
         ),
     ] = "time",
@@ -236,13 +236,13 @@ def pareto(
             "--to", "VALUE", "Highest value. Default of both: around the specification's own."
         ),
     ] = None,
-    points: Annotated[int, opt.option("--points", "N", "How many values.")] = 9,
+    points: Annotated[int, opt.option("--points", "N", "Number of values.")] = 9,
     maneuver: Annotated[
         str,
         opt.option(
             "--maneuver",
             "NAME",
-            "Vary the time or angle of this one alone. Default: of all, in one ratio.",
+            "Vary the time or angle of this maneuver only. Default: of all, in proportion.",
             completion.maneuvers,
         ),
     ] = "",
@@ -257,9 +257,9 @@ def pareto(
     *,
     output: Output,
 ) -> None:
-    """Show the lightest device against time, angle or room.
+    """Show the lightest device against time, angle, envelope or voltage.
 
-    Every value is a design of its own, not flown yet. To make, export and fly one:
+    Every value gives a complete design, not yet flown. To make, export and fly one:
     `ocs-design size --spec DIR/points/NN.toml`. Exit code 4: no value has a device.
     """
     from ocs_design.report.text.front import print_front
@@ -295,7 +295,7 @@ def validate(
         opt.option(
             "--until-width",
             "SHARE",
-            "Stop earlier: as soon as each success rate is known to within this, e.g. 5%.",
+            "Stop early, once each success rate is known to within this width, e.g. 5%.",
         ),
     ] = None,
     certify: opt.Certify = False,
@@ -309,13 +309,13 @@ def validate(
         opt.option(
             "--engine",
             "NAME",
-            "Fly the samples by this: mujoco on the processors, or warp on an NVIDIA GPU, in "
-            "single precision.",
+            "Physics engine for the samples: mujoco on the processors, or warp on an NVIDIA GPU, "
+            "in single precision.",
             completion.one_of("mujoco", "warp"),
         ),
     ] = "mujoco",
     sample: Annotated[
-        int | None, opt.option("--sample", "K", "Fly sample K of --seed alone.")
+        int | None, opt.option("--sample", "K", "Fly only sample K of --seed.")
     ] = None,
     replay: Annotated[
         Path | None,
@@ -341,8 +341,8 @@ def validate(
         opt.option(
             "-o --out",
             "DIR",
-            "Write time series into this folder; with --samples, every sample. There a run that "
-            "was interrupted goes on.",
+            "Write time series into this folder; with --samples, every sample. An interrupted run "
+            "resumes there.",
         ),
     ] = None,
     robot_file: OtherRobot = None,
@@ -352,12 +352,12 @@ def validate(
 ) -> None:
     """Fly the maneuvers of a design.json again.
 
-    Each is flown with the device and without. With --samples also many times over with what reality
-    adds: sensors, delay, friction, and a robot, device and motors that are not quite as designed,
-    drawn from [reality] of the specification. The same seed gives the same samples wherever they
-    are flown. With --certify no more of them than it takes to be sure of the reliability that was
-    asked for. With --survives one a drive stops on the way. Exit code 1: a scenario fails as
-    designed, a landing with a drive stopped is beyond the allowance, or the certificate falls
+    Each is flown with and without the device. With --samples also many times with real-world
+    errors: sensors, delay, friction, and a robot, device and motors that deviate from the design,
+    sampled from [reality] of the specification. The same seed gives the same samples on any
+    machine. With --certify it flies only as many as it takes to decide on the specified
+    reliability. With --survives one a drive fails in flight. Exit code 1: a scenario fails as
+    designed, a landing with a failed drive is not within tolerance, or the certificate falls
     short.
     """
     with output.steps.step("load the simulator"):

@@ -1,7 +1,7 @@
-"""What the tab key offers for a value: words, names and files.
+"""Tab completion of values: words, names and files.
 
-Nothing here loads a solver or the simulator: a shell asks at every press of the key. Shells take a
-space for the end of a word, so names have dashes in their place, which the catalogues read alike.
+Nothing here loads a solver or the simulator: a shell asks at every press of the key. A space ends a
+word in a shell, so names are offered with dashes instead, which the catalogues accept.
 """
 
 import os
@@ -18,7 +18,7 @@ Completer: TypeAlias = Callable[[str], list[str]]
 Names: TypeAlias = Callable[[], Iterable[str]]
 
 ROBOTS = (".urdf", ".xacro", ".xml", ".urdf.gz", ".xacro.gz", ".xml.gz")
-"""Ends of the names of robots' files."""
+"""Suffixes of robot files."""
 
 
 def one_of(*words: str) -> Completer:
@@ -27,7 +27,7 @@ def one_of(*words: str) -> Completer:
 
 
 def any_of(names: Names) -> Completer:
-    """Completion of names that are looked up when they are asked for."""
+    """Completion of names that are looked up on demand."""
 
     def complete(incomplete: str) -> list[str]:
         offered = (name.replace(" ", "-") for name in names())
@@ -37,7 +37,7 @@ def any_of(names: Names) -> Completer:
 
 
 def of_key(path: str) -> Completer:
-    """Completion of words that a key of the specification takes, given by its path."""
+    """Completion of the words that a key of the specification accepts, given by its path."""
 
     def words() -> Iterable[str]:
         from ocs_design.requirement.specification import all_keys
@@ -48,7 +48,7 @@ def of_key(path: str) -> Completer:
 
 
 def listed(completer: Completer) -> Completer:
-    """Completion of the last of several names with commas between them."""
+    """Completion of the last of several names separated by commas."""
 
     def complete(incomplete: str) -> list[str]:
         before, comma, last = incomplete.rpartition(",")
@@ -58,14 +58,14 @@ def listed(completer: Completer) -> Completer:
 
 
 def files(*ends: str) -> Completer:
-    """Completion of files whose names end so, and of folders on the way to them.
+    """Completion of files with these suffixes, and of folders on the way to them.
 
-    None where a name needs quotes or a home is to be expanded: then the shell offers its own.
+    Offers nothing if a name needs quotes or `~` must be expanded: the shell then offers its own.
     """
 
     def complete(incomplete: str) -> list[str]:
         found = sorted(_paths(incomplete, ends))
-        # A folder alone would be taken for the whole word.
+        # A single folder would be taken as the complete word.
         while len(found) == 1 and found[0].endswith(os.sep):
             found = sorted(_paths(found[0], ends))
         plain = all(set(each) <= _PLAIN for each in found)
@@ -96,39 +96,39 @@ def _paths(begun: str, ends: tuple[str, ...]) -> Iterator[str]:
 
 
 def motors() -> Iterable[str]:
-    """Motors that the package knows, and the words in place of one."""
+    """Motors in the catalogue, and the words accepted in place of one."""
     from ocs_design.catalogue.motors import known_motors
 
     return ("auto", "none", *known_motors(None))
 
 
 def gears() -> Iterable[str]:
-    """Gears that the package knows, and the words in place of one."""
+    """Gears in the catalogue, and the words accepted in place of one."""
     from ocs_design.catalogue.gears import known_gears
 
     return ("auto", "direct", *known_gears(None))
 
 
 def materials() -> Iterable[str]:
-    """Materials of rims in the catalogue, and the words in place of one."""
+    """Rim materials in the catalogue, and the words accepted in place of one."""
     from ocs_design.catalogue.materials import materials as known
 
     return ("auto", "steel", *known())
 
 
 def formats() -> Iterable[str]:
-    """Names of formats that a design is exported to."""
+    """Names of the formats that a design can be exported to."""
     from ocs_design.export.formats import ALL, FORMATS
 
     return (*(each.name for each in FORMATS), "figures", "report", ALL)
 
 
 PAPERS = ("disturbance", "drop", "back-flip")
-"""Names of the maneuvers that are flown where nothing is asked for."""
+"""Names of the default maneuvers."""
 
 
 def maneuvers(context: typer.Context, incomplete: str) -> list[str]:
-    """Names of the maneuvers in the specification that was typed before, or of the paper's."""
+    """Names of the maneuvers in the specification typed so far, or of the paper's."""
     names: Iterable[str] = PAPERS
     if context.params.get("spec") is not None:
         from ocs_design.requirement.reading import read_specification

@@ -1,4 +1,4 @@
-"""From an exception to one panel, one JSON document and an exit code."""
+"""Turns an exception into one panel, one JSON document and an exit code."""
 
 import json
 import os
@@ -33,29 +33,29 @@ def run(app: typer.Typer, arguments: Sequence[str]) -> int:
     as_json, color = "--json" in arguments, "--no-color" not in arguments
     command = typer.main.get_command(app)
     try:
-        # File names are bytes to the system, but text in what is written: one that is none fails
-        # now rather than in an hour.
+        # File names are bytes to the system, but text in the output: one that is not valid text
+        # should fail now rather than in an hour.
         for name in (*arguments, str(Path.cwd())):
             name.encode()
         for before, name in pairwise(("", *arguments)):
             if not name.strip() or re.fullmatch(r"--[\w-]+=", name):
                 raise UsageError(
                     f"{before if not name.strip() else name[:-1]}: the value is empty",
-                    hint="look whether the shell's variable is set, or leave the option out",
+                    hint="check that the shell variable is set, or leave the option out",
                 )
         result = command.main(list(arguments), prog_name="ocs-design", standalone_mode=False)
         sys.stdout.flush()
     except (typer.Abort, KeyboardInterrupt):
         return INTERRUPTED
     except (BrokenPipeError, SystemExit) as error:
-        # Typer and rich make a plain exit of the first.
+        # Typer and rich turn a broken pipe into a plain exit.
         if not isinstance(error.__context__ or error, BrokenPipeError):
             raise
-        # The reader left, as `head` does.
+        # The reader has closed the pipe, as `head` does.
         _write_nowhere(sys.stdout, sys.stderr)
         return BROKEN_PIPE
     except (OcsError, typer.TyperException, OSError, UnicodeEncodeError) as error:
-        # A terminal that closes interrupts, and then nothing more can be printed on it.
+        # A closing terminal sends an interrupt, and then nothing can be printed on it.
         cause: BaseException | None = error
         while cause is not None and not isinstance(cause, KeyboardInterrupt):
             cause = cause.__context__
@@ -67,7 +67,7 @@ Failure: TypeAlias = OcsError | typer.TyperException | OSError | UnicodeEncodeEr
 
 
 def _told(error: Failure) -> OcsError:
-    """The error in words of its own kind, with its cure."""
+    """The failure as an `OcsError`, with a hint."""
     if isinstance(error, OcsError):
         return error
     if isinstance(error, OSError):
@@ -76,7 +76,7 @@ def _told(error: Failure) -> OcsError:
         if error.filename is not None:
             return output_error(error, Path())
         return OutputError(
-            f"what was printed: {error.strerror}",
+            f"cannot print the output: {error.strerror}",
             hint="free some space there, or send the output elsewhere",
         )
     if isinstance(error, UnicodeEncodeError):
@@ -98,18 +98,18 @@ def _told(error: Failure) -> OcsError:
 
 
 def _write_nowhere(*streams: TextIO) -> None:
-    """Python would complain once more when it flushes them at exit."""
+    """Redirect streams to nowhere, as Python would complain when it flushes them at exit."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
     for stream in streams:
         os.dup2(nowhere, stream.fileno())
 
 
 def _report(error: Failure, *, as_json: bool, color: bool) -> int:
-    """Print what went wrong; the exit code."""
+    """Print what went wrong; returns the exit code."""
     told = _told(error)
     unprinted = isinstance(error, OSError) and error.filename is None
     if unprinted:
-        # What could not be printed is still there to be printed.
+        # Output that could not be printed is still in the buffer.
         _write_nowhere(sys.stdout)
     try:
         if as_json and not unprinted:

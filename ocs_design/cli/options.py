@@ -1,4 +1,4 @@
-"""Options that commands share, each declared once, and from options to a specification."""
+"""Options shared by commands, each declared once, and the specification made from options."""
 
 import functools
 import inspect
@@ -19,10 +19,10 @@ Command: TypeAlias = Callable[..., None]
 
 
 def with_options(shared: Mapping[str, object]) -> Callable[[Command], Command]:
-    """Declare these options on a command too, before its own and each left out by default.
+    """Add these options to a command, before its own and all optional.
 
-    They are not handed on: `specified_by_command` reads them from the command's context, its first
-    parameter.
+    They are not passed to the command: `specified_by_command` reads them from its context, the
+    first parameter.
     """
 
     def declared(command: Command) -> Command:
@@ -47,7 +47,7 @@ def parameters(options: Mapping[str, object], *, default: object) -> list[inspec
 
 
 def redeclare(command: Command, parameters: list[inspect.Parameter]) -> None:
-    """Declare the parameters of a command, which Typer makes options from."""
+    """Replace the declared parameters of a command, from which Typer makes options."""
     command.__dict__["__signature__"] = inspect.Signature(parameters)
     command.__annotations__ = {each.name: each.annotation for each in parameters}
 
@@ -59,7 +59,7 @@ Texts: TypeAlias = list[str] | None
 def option(
     names: str, metavar: str, says: str, complete: Callable[..., list[str]] | None = None
 ) -> object:
-    """An option with a value; without names it is named as its parameter, with dashes."""
+    """An option with a value; by default it is named after its parameter, with dashes."""
     return typer.Option(*names.split(), metavar=metavar, help=says, autocompletion=complete)
 
 
@@ -69,12 +69,12 @@ def _text(metavar: str, says: str, complete: Callable[..., list[str]] | None = N
 
 
 def _texts(metavar: str, says: str, complete: Callable[..., list[str]] | None = None) -> object:
-    """An option with a text each time that it is given."""
+    """A repeatable option with one text each time."""
     return Annotated[Texts, option("", metavar, says, complete)]
 
 
 def _flag(name: str, says: str) -> object:
-    """An option without a value; Typer would offer `--no-...` too where it makes the name."""
+    """An option without a value; a name made by Typer would come with `--no-...`."""
     return Annotated[bool, typer.Option(name, help=says)]
 
 
@@ -84,29 +84,27 @@ RobotFile: TypeAlias = Annotated[
         autocompletion=completion.files(*completion.ROBOTS),
         metavar="ROBOT",
         help="URDF, xacro or MJCF file, may be gzipped; - reads standard input. "
-        "By hand instead: --mass and --inertia.",
+        "Without a file: --mass and --inertia.",
     ),
 ]
 Spec: TypeAlias = Annotated[
     Path | None, option("--spec", "FILE", "Specification file (TOML).", completion.files(".toml"))
 ]
 PackagePaths: TypeAlias = Annotated[
-    list[str] | None, option("--package-path", "NAME=DIR", "Where package://NAME lies; repeatable.")
+    list[str] | None, option("--package-path", "NAME=DIR", "Folder of package://NAME; repeatable.")
 ]
 Survives: TypeAlias = Annotated[
     Text,
     option(
         "--survives",
         "one",
-        "Land within the allowance though any one of the drives stops in flight.",
+        "Land within tolerance even if any one drive fails in flight.",
         completion.one_of("one", "none"),
     ),
 ]
 Detection: TypeAlias = Annotated[
     Text,
-    option(
-        "--detection", "TIME", "Until a drive that stops is known to have stopped; 20ms by default."
-    ),
+    option("--detection", "TIME", "Time until a failed drive is detected; 20ms by default."),
 ]
 GearsFile: TypeAlias = Annotated[
     Text,
@@ -120,7 +118,7 @@ Reality: TypeAlias = Annotated[
     option(
         "--reality",
         "FILE",
-        "Draw samples from these distributions instead, TOML.",
+        "Sample from the distributions in this file instead, TOML.",
         completion.files(".toml"),
     ),
 ]
@@ -128,55 +126,55 @@ Certify: TypeAlias = Annotated[
     bool,
     typer.Option(
         "--certify",
-        help="Fly robots as they might be built, until it is clear whether enough of them pass.",
+        help="Fly robots as they might be built until it is certain whether enough of them pass.",
     ),
 ]
 Seed: TypeAlias = Annotated[int | None, option("--seed", "N", "Seed of all random numbers.")]
 Force: TypeAlias = Annotated[
-    bool, typer.Option("--force", help="Replace an output folder that exists, once complete.")
+    bool, typer.Option("--force", help="Replace an existing folder once the new one is complete.")
 ]
 AsJson: TypeAlias = Annotated[
     bool, typer.Option("--json", help="Print one JSON document on standard output.")
 ]
 Strict: TypeAlias = Annotated[bool, typer.Option("--strict", help="Warnings are errors.")]
-Quiet: TypeAlias = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
-NoColor: TypeAlias = Annotated[bool, typer.Option("--no-color", help="No colour; as NO_COLOR.")]
+Quiet: TypeAlias = Annotated[bool, typer.Option("-q", "--quiet", help="Print only errors.")]
+NoColor: TypeAlias = Annotated[bool, typer.Option("--no-color", help="No colour, as NO_COLOR.")]
 
 ROBOT_OPTIONS: Mapping[str, object] = {
     "robot": RobotFile,
-    "mass": _text("MASS", "Robot by hand: its mass, e.g. 2.5 or 2500g."),
+    "mass": _text("MASS", "Robot without a file: its mass, e.g. 2.5 or 2500g."),
     "inertia": _text(
-        "IXX,IYY,IZZ[,IXY,IXZ,IYZ]", "Robot by hand: inertia about its centre of mass [kg m2]."
+        "IXX,IYY,IZZ[,IXY,IXZ,IYZ]", "Robot without a file: inertia about the centre of mass."
     ),
     "human": _text(
         "PERSON",
         "A person who wears the device, e.g. '75kg 1.75m with 10kg': mass, height, payload.",
     ),
-    "weighed": _text("MASS", "What the robot weighs on scales, to check its file."),
+    "weighed": _text("MASS", "Mass of the robot as weighed, to check its file."),
     "spec": Spec,
     "trunk": _text("LINK", "Link that carries the device. Default: found."),
     "legs": _text("LINK,...", "A link of each foot; none: the robot has no legs. Default: found."),
     "posture": _text(
         "NAME",
-        "zero, stand, or a keyframe or SRDF state. Default: stand where legs are found.",
+        "zero, stand, or a keyframe or SRDF state. Default: stand if legs are found.",
         completion.one_of("stand", "zero"),
     ),
     "joint": _texts("NAME=VALUE", "Value of one joint; repeatable."),
     "package_path": PackagePaths,
 }
-"""What names a robot, by the name of the parameter."""
+"""Options that define a robot, by name of the parameter."""
 
 TASK_OPTIONS: Mapping[str, object] = {
     **ROBOT_OPTIONS,
     "rate_change": _text("RATE", "Change of the trunk's rate that the device must manage."),
     "reliability": _text(
-        "SHARE", "Share of robots that shall pass as built; 0.99 by default, 0.5: nominal."
+        "SHARE", "Share of robots that must pass as built; 0.99 by default, 0.5: nominal."
     ),
     "survives": Survives,
     "detection": Detection,
     "jump_height": _texts(
         "LENGTH",
-        "Stay level in a jump of this height, e.g. 0.4m; of kicks and flips too; repeatable.",
+        "Stay level in a jump of this height, e.g. 0.4m; also for kicks and flips; repeatable.",
     ),
     "kick": _texts(
         "KICK",
@@ -184,10 +182,10 @@ TASK_OPTIONS: Mapping[str, object] = {
         "'12 N s at LINK along left'; repeatable.",
     ),
     "fall": _texts(
-        "LENGTH", "Land level when the trunk is dropped from so high, e.g. 1m; repeatable."
+        "LENGTH", "Land level when the trunk is dropped from this height, e.g. 1m; repeatable."
     ),
     "tilt": _texts(
-        "ANGLE", "Of the trunk when it is dropped: 20deg of pitch, or '20deg roll'; repeatable."
+        "ANGLE", "Tilt of the dropped trunk: 20deg of pitch, or '20deg roll'; repeatable."
     ),
     "flip": _texts(
         "ANGLE",
@@ -198,14 +196,14 @@ TASK_OPTIONS: Mapping[str, object] = {
         "TURN", "Turn to an attitude during a jump, e.g. 'yaw 90deg in 2.9s'; repeatable."
     ),
     "catch": _texts(
-        "RATES", "Stop a trunk that turns at lift-off, e.g. 'pitch 45deg/s in 0.5s'; repeatable."
+        "RATES", "Stop a trunk that rotates at lift-off, e.g. 'pitch 45deg/s in 0.5s'; repeatable."
     ),
     "pivot": _text(
-        "POINT", "What it balances or stands up on: X,Y,Z, or 'X,Y,Z along left' for an edge."
+        "POINT", "Pivot to balance or stand up on: X,Y,Z, or 'X,Y,Z along left' for an edge."
     ),
     "balance": _texts(
         "UPSET",
-        "Get over a tilt on the pivot, 'pitch 5deg', or a push, '0.5 N s at 0,0,0.1'; repeatable.",
+        "Recover on the pivot from 'pitch 5deg', or a push, '0.5 N s at 0,0,0.1'; repeatable.",
     ),
     "stand_up": _texts(
         "TILT",
@@ -220,16 +218,16 @@ TASK_OPTIONS: Mapping[str, object] = {
         "SPEED", "Highest wheel speed. Default: the motor's; 7200rpm without a motor."
     ),
     "torque_max": _text(
-        "TORQUE", "Torque of a wheel. Default: the motor's; not limited without a motor."
+        "TORQUE", "Largest wheel torque. Default: the motor's; not limited without a motor."
     ),
     "layout": _text(
         "NAME",
-        "How the wheels' axes lie: pair, double-pair or triple-pair (default: the first that "
-        "a motor is strong enough for), single, triad, orthogonal, pyramid; all compares them and "
-        "writes no folder.",
+        "Arrangement of the wheels' axes: pair, double-pair or triple-pair (default: the first "
+        "for which a motor is strong enough), single, triad, orthogonal, pyramid; all compares "
+        "them and writes no folder.",
         completion.of_key("ocs.layout"),
     ),
-    "alpha": _text("ANGLE", "Incidence angle, e.g. 40deg; of a pyramid, elevation."),
+    "alpha": _text("ANGLE", "Incidence angle, e.g. 40deg; elevation of a pyramid."),
     "alpha_criterion": _text(
         "NAME",
         "equal-rate (default), lightest, weighted, simultaneous, pitch-only, roll-only.",
@@ -245,13 +243,13 @@ TASK_OPTIONS: Mapping[str, object] = {
     "wheel_mass_max": _text("MASS", "Largest mass of one rim."),
     "web": _text(
         "disc|aluminium|none",
-        "What joins a rim to its motor: a thin disc with a hub in one piece (default), "
-        "one of aluminium that it is shrunk on, or massless spokes.",
+        "What joins a rim to its motor: a thin disc with a hub in one piece (default), an "
+        "aluminium one that the rim is shrunk on, or massless spokes.",
         completion.of_key("flywheel.web"),
     ),
     "guard": _text(
         "fingers|containing",
-        "Printed housings (default), or a steel ring in each that holds a wheel that bursts.",
+        "Printed housings (default), or also a steel ring in each to contain a bursting wheel.",
         completion.of_key("ocs.guard"),
     ),
     "wheel": _text(
@@ -272,17 +270,17 @@ TASK_OPTIONS: Mapping[str, object] = {
         completion.any_of(completion.motors),
     ),
     "bus_voltage": _text(
-        "VOLTAGE", "Of the motors' supply. Default: 24V, above 20 kg 48V, above 60 kg 72V."
+        "VOLTAGE", "Supply of the motors. Default: 24V, above 20 kg 48V, above 60 kg 72V."
     ),
     "bus_current": _text(
-        "CURRENT", "Most that all motors draw or feed back. Default: what the power leaves."
+        "CURRENT", "Most that all motors draw or feed back. Default: limited by power only."
     ),
     "bus_power": _text(
         "POWER", "Most that all motors draw or feed back. Default: 400 W per kg of robot."
     ),
     "controllers": _text(
         "MASS",
-        "Mass of one motor controller; auto (default): by its current; none: not counted.",
+        "Mass of one motor controller; auto (default): from its current; none: not counted.",
         completion.of_key("supply.controllers"),
     ),
     "gear": _text(
@@ -292,34 +290,32 @@ TASK_OPTIONS: Mapping[str, object] = {
     ),
     "motors_any": _flag(
         "--motors-any",
-        "Also choose among motors that cannot be built with yet, for example with unknown threads.",
+        "Also allow motors that lack data needed to build, for example their threads.",
     ),
     "motors": _text(
         "FILE",
-        "Choose among these motors instead, CSV or TOML.",
+        "Choose from the motors in this file instead, CSV or TOML.",
         completion.files(".csv", ".toml"),
     ),
     "with_catalogue": _flag(
-        "--with-catalogue", "With --motors: choose among the catalogue's motors too."
+        "--with-catalogue", "With --motors: choose from the catalogue's motors, too."
     ),
     "gears": GearsFile,
     "reality": Reality,
 }
-"""The same, and what the device must do and may be."""
+"""Options of a robot, and of its device's requirement and limits."""
 
 
 SIZE_OPTIONS: Mapping[str, object] = {
     **TASK_OPTIONS,
-    "lighter_by": _text(
-        "MASS", "Also tell what would have to give for a device so much lighter, e.g. 90g."
-    ),
+    "lighter_by": _text("MASS", "Also report what to change to save this mass, e.g. 90g."),
     "co_design": _flag("--co-design", "Refine all dimensions together with the maneuvers, in 3-D."),
     "no_validate": _flag("--no-validate", "Do not simulate the maneuvers."),
     "ballistic": Ballistic,
     "certify": Certify,
     "video": _flag("--video", "Film the flights with and without the device: MP4 or GIF."),
 }
-"""The same, and what is done for a whole device."""
+"""Options of robot and device, and of everything done for a complete design."""
 
 STARTED = ("r_max", "h_max", "motor", "gear", "bus_voltage", "bus_current", "bus_power")
 
@@ -327,14 +323,14 @@ START_OPTIONS: Mapping[str, object] = {
     **ROBOT_OPTIONS,
     **{name: TASK_OPTIONS[name] for name in STARTED},
 }
-"""What names a robot, and what a specification to start from most often states."""
+"""Options of a robot, and those most often set in a specification to start from."""
 
 
 def specified_by_command(context: typer.Context) -> "Specification":
-    """The file given with `--spec`, and over it every option of the command that is a key.
+    """The file given with `--spec`, overridden by every option of the command that is a key.
 
     Raises:
-        OcsError: the file or an option cannot be read, or an option has no effect as it stands.
+        OcsError: the file or an option cannot be read, or an option has no effect.
     """
     # Not for `--help`: reading specifications needs NumPy.
     from ocs_design.common.errors import UsageError
@@ -351,7 +347,7 @@ def specified_by_command(context: typer.Context) -> "Specification":
     given: dict[str, object] = {}
     for path, key in all_keys().items():
         option = key.option or path.partition(".")[2]
-        # A robot's file is no option but the command's argument.
+        # A robot's file is not an option but the command's argument.
         parameter = "robot" if path == "robot.file" else option.replace("-", "_")
         value = context.params.get(parameter)
         if context.params.get(f"no_{parameter}"):
@@ -364,7 +360,7 @@ def specified_by_command(context: typer.Context) -> "Specification":
     merged = merge(base, typed)
     if typed.ocs.alpha is not None and typed.ocs.alpha_criterion is not None:
         raise UsageError(
-            "--alpha states the angle, and --alpha-criterion how to find it",
+            "--alpha gives the angle, but --alpha-criterion is for finding it",
             hint="leave one of them out",
         )
     if typed.requirement.detection is not None and merged.requirement.notices is None:
@@ -376,7 +372,7 @@ def specified_by_command(context: typer.Context) -> "Specification":
 
 
 def typed_command() -> str:
-    """What was typed, as a shell takes it."""
+    """The command as typed, quoted for a shell."""
     return shlex.join(["ocs-design", *sys.argv[1:]])
 
 
@@ -384,7 +380,7 @@ def package_paths_of_command(context: typer.Context) -> Mapping[str, Path]:
     """`NAME=DIR` pairs of `--package-path`.
 
     Raises:
-        UsageError: a text is no such pair.
+        UsageError: a text is not such a pair.
     """
     from ocs_design.common.errors import UsageError
 

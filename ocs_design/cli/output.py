@@ -1,4 +1,4 @@
-"""How a command answers: one JSON document, or text, with progress and warnings beside it."""
+"""Output of a command: one JSON document, or text, with progress and warnings on the side."""
 
 import functools
 import inspect
@@ -24,11 +24,11 @@ Answer = TypeVar("Answer")
 
 @dataclass(frozen=True)
 class Output:
-    """What was asked of a command's output, and the consoles that it goes to.
+    """Settings of a command's output, and the consoles to which it goes.
 
     Attributes:
-        as_json, quiet, no_color: how it answers.
-        force: replace what is there. strict: warnings are errors.
+        as_json, quiet, no_color: form of the output.
+        force: replace existing files. strict: warnings are errors.
     """
 
     as_json: bool = False
@@ -60,7 +60,7 @@ class Output:
         show: "Callable[[Console, Answer], None]",
         warnings: Iterable[str] = (),
     ) -> None:
-        """Write an answer as JSON, or have it shown behind its warnings.
+        """Print an answer as JSON, or show it after its warnings.
 
         Args:
             answer: a record. show: prints it. warnings: one sentence each.
@@ -76,7 +76,7 @@ class Output:
             show(self.console, answer)
 
     def end(self, exit_code: int, judged: "OcsDesign | Validated") -> NoReturn:
-        """End with an exit code; one line has the verdict where it is no success and not told."""
+        """End with an exit code; a failure that is not yet reported gets one line of verdict."""
         if exit_code and self.quiet and not self.as_json:
             from ocs_design.report.verdict import headline
 
@@ -100,7 +100,7 @@ OUTPUT_OPTIONS: Mapping[str, object] = {
 
 
 def with_output(command: opt.Command) -> opt.Command:
-    """Declare the options of `Output` behind a command's own; its parameter `output` has them."""
+    """Add the options of `Output` after a command's own; they come in its parameter `output`."""
 
     @functools.wraps(command)
     def run(**given: object) -> None:
