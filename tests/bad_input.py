@@ -106,7 +106,7 @@ CASES = {
         {"mine.toml": b"[[gear]]\nname = 'g'\nmaker = 'me'\nsource = 'x'\nkind = 'worm'"},
         f"{QUAD} --gears mine.toml",
         SPECIFICATION,
-        r"mine.toml has |gear\[1\] \(g\), kind: 'worm' is none of",
+        r"mine.toml has |gear\[1\] \(g\), kind: 'worm' is not one of",
     ),
     "a supply and a gear without motors": (
         {},

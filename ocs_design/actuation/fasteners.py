@@ -13,7 +13,7 @@ class Screw:
     Attributes:
         name: such as "M3".
         diameter: of the thread [m].
-        clearance_hole: its diameter, medium fit of ISO 273 [m].
+        clearance_hole: diameter of its clearance hole, medium fit of ISO 273 [m].
         tapping_drill: diameter of the drill for its thread, ISO 2306 [m].
         head_diameter, head_height: largest values [m].
         pitch: of the thread [m].
@@ -198,7 +198,7 @@ IN_PLASTIC = 2.0
 """Least thread engagement in a printed part, in diameters."""
 
 STEEL = 7850.0
-"""[kg/m^3]."""
+"""Density of steel [kg/m^3]."""
 
 MU = 0.12
 """Friction coefficient of plain or zinc-plated screws, lightly oiled (VDI 2230-1, table A5, class

@@ -317,8 +317,8 @@ def estimated_rotor_inertia(
     The least, `INERTIA_SHARE` m D^2, is conservative where the rotor turns with the wheel: the
     wheel makes up for the rest.
 
-    Returns: The inertia [kg m^2] and a text that names the estimate; None and an empty text if
-    unknown.
+    Returns:
+        The inertia [kg m^2] and a text that names the estimate; None and an empty text if unknown.
     """
     share = None if kind is None else INERTIA_SHARE.get(kind)
     if share is None or mass is None or diameter is None:

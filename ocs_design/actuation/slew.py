@@ -34,8 +34,7 @@ def slew_time(
 
     Args:
         phi: integral of the wheel's speed in excess of its final speed [rad], at least 0.
-        reduced_inertia: I_red, effective inertia that the motor accelerates on the free trunk [kg
-            m^2].
+        reduced_inertia: I_red, effective inertia for the motor on the free trunk [kg m^2].
         line: of the drive at the wheel.
         final_speed: W_f [rad/s], at least 0.
     """

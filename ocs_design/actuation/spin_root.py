@@ -184,8 +184,7 @@ class _Search(Table):
         newton = newton_step(self.demand, self.h, can)
         inside = (newton > low) & (newton < high)
         following = np.where(found & ~inside, np.sqrt(low * high), np.minimum(newton, self.top))
-        # Nothing below the start is considered; where the bracket closes, its upper end is the
-        # root.
+        # Nothing below the start is considered; a closed bracket's upper end is the root.
         closed = (enough & (self.h <= low)) | (found & (high - low <= _DIGITS * high))
         solved = closed | (np.abs(newton - self.h) <= _DIGITS * self.h)
         answer[self.lane[solved]] = np.where(closed, high, newton)[solved]

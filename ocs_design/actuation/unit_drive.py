@@ -21,8 +21,8 @@ p, with c = sqrt(p),
     up    x = 2 c sinh u   j = c e^-u   dt = l (e^2u + 1) du   t = l (e^2u / 2 + u)
     down  x = 2 c cosh u   j = c e^-u   dt = l (e^2u - 1) du   t = l (e^2u / 2 - u)
 
-and in both cases the angle is l c (e^3u / 3 + e^-u). Accelerating, this applies where p < l, from p
-/ l - l to where the line takes over at 1 - p; braking, from p / k + k upwards, with k the current
+and in both cases the angle is l c (e^3u / 3 + e^-u). Accelerating, this applies where p < l, from
+p / l - l to where the line takes over at 1 - p; braking, from p / k + k upwards, with k the current
 limit. At rest the power is all heat, so a current above c is never used.
 
 With A the largest angle within the time t, dA/dt = x: a little more time is spent at the peak. So A

@@ -19,8 +19,8 @@ own equation, d/dt (h a_i . w + I_m W_i) = tau, then reads I_red dW/dt = tau wit
     I_red = h + armature - kappa h^2,        kappa = a_b . K P / x_b,        K = J^-1,
 
 for that busiest wheel b which the trunk helps least. Less busy wheels need no more torque, and have
-more (docs/theory.md, Two wheels on a trunk). Where P and L are not proportional, the parts are
-those of P.
+more available (docs/theory.md, Two wheels on a trunk). Where P and L are not proportional, the
+parts are those of P.
 """
 
 from dataclasses import dataclass, replace
@@ -243,8 +243,8 @@ class WheelTask:
         coupling = np.maximum(np.where(usable, least, alone), _UNHELPED * alone)
         begins = np.zeros(())
         if np.any(self.begins):
-            # Among the busiest wheels, the one already farthest along its change has the least
-            # capability left.
+            # Of the busiest wheels, the one farthest along its change has the least capability
+            # left.
             begins = np.where(sense == 0.0, -np.inf, sense * self.begins).max(axis=0)
             begins = np.where(np.isfinite(begins), begins, 0.0)
         return WheelLoad(turned, kept, coupling, begins)
@@ -396,8 +396,7 @@ def slew_reason(task: WheelTask, line: DriveLine) -> NDArray[np.int_]:
     duration = np.maximum(np.asarray(task.duration, dtype=np.float64), 0.0)
     final = load.held
     with np.errstate(invalid="ignore"):
-        # Constant torque changes a wheel's momentum by tau t, up to its peak and back to the final
-        # one.
+        # Constant torque changes a wheel's momentum by tau t, up to its peak and back down.
         peak = (torque * duration + final) / 2.0
         swept = (peak**2 - final**2 / 2.0) / positive(torque)
         done = np.where(torque > 0.0, swept, 0.0) - load.held * duration

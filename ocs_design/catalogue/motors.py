@@ -327,7 +327,7 @@ def _bolt_circle_faults(sheet: MotorSheet, side: str, circle: BoltCircle | None)
     if circle.bolts < LEAST_BOLTS[side]:
         yield f"{columns[1]} is {circle.bolts}; it must be {LEAST_BOLTS[side]} or more"
     elif circle.thread not in SCREW_NAMES:
-        yield f"{columns[2]} is {circle.thread!r}, which is none of {', '.join(SCREW_NAMES)}"
+        yield f"{columns[2]} is {circle.thread!r}, which is not one of {', '.join(SCREW_NAMES)}"
     elif circle.diameter >= (sheet.diameter_m or inf):
         yield f"{where}, but the motor is only {sheet.diameter_m:g} m wide"
     elif circle.inside < (sheet.shaft_diameter_m or 0.0) / 2.0 + LIGAMENT:
@@ -466,7 +466,7 @@ def _faults(sheet: MotorSheet) -> Iterator[str]:
     if sheet.shaft_form is not None and sheet.shaft_diameter_m is None:
         yield "shaft_form needs shaft_diameter_m"
     if sheet.rotor_screws is not None and sheet.rotor_screws not in CLASSES:
-        yield f"rotor_screws is {sheet.rotor_screws!r}, which is none of {', '.join(CLASSES)}"
+        yield f"rotor_screws is {sheet.rotor_screws!r}, which is not one of {', '.join(CLASSES)}"
     if (sheet.stator is None) != (sheet.stator_face is None):
         yield "stator_face and the stator's bolt circle need each other"
     if not sheet.remark:

@@ -173,7 +173,7 @@ def choice(words: type[C]) -> Callable[[object], C]:
     def read(raw: object) -> C:
         """One of these values."""
         if not isinstance(raw, str) or raw not in set(words):
-            raise ValueError(f"{shortened(raw)} is none of {', '.join(words)}")
+            raise ValueError(f"{shortened(raw)} is not one of {', '.join(words)}")
         return words(raw)
 
     return read

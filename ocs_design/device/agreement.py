@@ -114,7 +114,7 @@ def _figures(design: OcsDesign, device: Device) -> Iterator[_Figure]:
     # difference.
     if design.tool.version == __version__ and design.ocs.center_of_mass is not None:
         yield from _of_carrier(device)
-    ocs, angle = design.ocs, "ocs.incidence makes it"
+    ocs, angle = design.ocs, "ocs.incidence gives"
     for module, axis in zip(device.modules, device.layout.axes(device.incidence).T, strict=True):
         yield _Figure(f"the axis of module {module.name}", module.axis, axis, "", angle)
     parts = "its parts weigh"
@@ -126,7 +126,7 @@ def _figures(design: OcsDesign, device: Device) -> Iterator[_Figure]:
     added = _braked(device)
     whole, places = (
         combine([alone, added]),
-        "places and masses of ocs.modules and of what is under them make it",
+        "positions and masses of ocs.modules and their supports give",
     )
     if ocs.center_of_mass is not None:
         yield _Figure("ocs.center_of_mass", ocs.center_of_mass, added.com, "m", places)
@@ -140,7 +140,7 @@ def _of_choice(design: OcsDesign) -> Iterator[_Figure]:
     motor, chosen = design.ocs.motor, design.selection
     if chosen is None:
         return
-    best, first = chosen.ranking[0], "selection.ranking has in the first place"
+    best, first = chosen.ranking[0], "the first entry of selection.ranking has"
     yield _Figure("ocs.motor.name", motor.name, best.motor, "", first)
     yield _Figure("ocs.motor.gear", motor.gear, best.gear, "", first)
     yield _Figure("ocs.motor.gear_ratio", motor.gear_ratio, best.gear_ratio, "", first)
@@ -159,7 +159,7 @@ def _of_drive(device: Device) -> Iterator[_Figure]:
     voltage, k_t, resistance = motor.bus_voltage, motor.torque_constant, motor.resistance
     if voltage is None or k_t is None:
         return
-    speed, line = voltage / (k_t * motor.gear_ratio), "voltage, winding and gear make it"
+    speed, line = voltage / (k_t * motor.gear_ratio), "voltage, winding and gear give"
     yield _Figure("ocs.motor.no_load_speed", motor.no_load_speed, speed, "rad/s", line)
     if resistance is not None and motor.stall_torque is not None:
         torque = motor.gear_ratio * motor.gear_efficiency * voltage * k_t / resistance
@@ -185,13 +185,13 @@ def _of_limits(design: OcsDesign, device: Device) -> Iterator[_Figure]:
     for key, (name, stated, friction, unit) in limits.items():
         capacity = allowed.get(name)
         if capacity is not None and stated is not None and motor.bus_voltage is not None:
-            others = f"the capacity of {name} in margins makes it"
+            others = f"the capacity of {name} in margins gives"
             yield _Figure(key, stated, capacity - friction, unit, others)
 
 
 def _of_wheel(device: Device) -> Iterator[_Figure]:
     """Masses, inertias, energy and stress of the wheel."""
-    wheel, motor, sizes = device.flywheel, device.motor, "its dimensions make it"
+    wheel, motor, sizes = device.flywheel, device.motor, "its dimensions give"
     web, hub, of = wheel.web, None, wheel.density
     if web is not None:
         # Version 1 stored the thickness only beside the hub.
@@ -207,7 +207,7 @@ def _of_wheel(device: Device) -> Iterator[_Figure]:
     yield _Figure("ocs.flywheel.mass", wheel.mass, body.mass, "kg", sizes)
     yield _Figure("ocs.flywheel.spin_inertia", wheel.spin_inertia, spin, unit, sizes)
     yield _Figure("ocs.flywheel.transverse_inertia", wheel.transverse_inertia, across, unit, sizes)
-    energy, speed = stored_energy(spin, motor.top_speed), "inertia and top speed make it"
+    energy, speed = stored_energy(spin, motor.top_speed), "inertia and top speed give"
     yield _Figure("ocs.flywheel.stored_energy", wheel.stored_energy, energy, "J", speed)
     found = materials().get(wheel.material)
     if wheel.hoop_stress is None or found is None or found.poisson_ratio is None:
@@ -219,7 +219,7 @@ def _of_wheel(device: Device) -> Iterator[_Figure]:
         poisson_ratio=found.poisson_ratio,
         wheel_speed=motor.top_speed,
     )
-    made = "dimensions, material and top speed make it"
+    made = "dimensions, material and top speed give"
     yield _Figure("ocs.flywheel.hoop_stress", wheel.hoop_stress, stress, "Pa", made)
     if wheel.stress_margin is not None and found.yield_strength is not None:
         margin = found.yield_strength / stress
@@ -245,7 +245,7 @@ def _of_carrier(device: Device) -> Iterator[_Figure]:
         )
         for name, found in vars(hub).items():
             key = f"ocs.flywheel.web.hub.{name}"
-            yield _Figure(key, getattr(web.hub, name), found, "", "the motor's mounting makes it")
+            yield _Figure(key, getattr(web.hub, name), found, "", "the motor's mounting gives")
     if stated.mass == 0.0:
         return
     gear = replace(DIRECT, mass=motor.gear_mass, room=motor.gear_room)
@@ -258,14 +258,14 @@ def _of_carrier(device: Device) -> Iterator[_Figure]:
         foot_plate=device.foot_plate,
         on_bell=device.on_bell,
     )
-    parts = "motor, gear, housing and foot make it"
+    parts = "motor, gear, housing and foot give"
     yield _Figure("ocs.carrier.mass", stated.mass, found.mass, "kg", parts)
     foot = foot_of(device)
     for pedestal in device.pedestals:
         sizes = pedestal.base_radius, pedestal.slot_radius, pedestal.wheel_height
         own = foot.base_radius, foot.slot_radius, foot.wheel_height
         key = f"base_radius, slot_radius and wheel_height of ocs.pedestals {pedestal.module}"
-        yield _Figure(key, sizes, own, "m", "the foot on it makes it")
+        yield _Figure(key, sizes, own, "m", "the foot on it gives")
     places = (stated.along, stated.up), (found.along, found.up)
     yield _Figure("ocs.carrier.along and up", *places, "m", parts)
     yield _Figure("the inertia of ocs.carrier", stated.inertia, found.inertia, "kg m^2", parts)

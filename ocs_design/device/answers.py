@@ -355,7 +355,7 @@ CONFIDENCE = 0.95
 
 QUANTILES = (0.0, 0.05, 0.5, 0.95, 1.0)
 BINS = 12
-"""Number of bars of a spread's histogram."""
+"""Quantiles that are reported of a spread, and number of bars of its histogram."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -189,7 +189,7 @@ def _figures(value: object, path: str) -> Iterator[str]:
     elif path.rpartition(".")[2] in _CHOICES:
         known = _CHOICES[path.rpartition(".")[2]]
         if value not in known:
-            yield f"{path} is {value!r}, which is none of {', '.join(map(str, known))}"
+            yield f"{path} is {value!r}, which is not one of {', '.join(map(str, known))}"
     elif path.endswith((".bolts", ".holes")) and isinstance(value, int | float):
         if not 0 <= value <= MOST_BOLTS:
             yield _outside(path, value, 0, MOST_BOLTS)

@@ -116,8 +116,8 @@ class Device:
         guard_wall: wall thickness of the mild steel ring in each housing [m]; 0: none.
         foot_plate: thickness of the feet's plates [m].
         layout: arrangement of the axes.
-        pedestals: under tilted feet; empty: none are tilted, or no pedestal can be held. on_bell:
-            whether each wheel is a ring around the bell of its motor.
+        pedestals: under tilted feet; empty: none are tilted, or no pedestal can be held.
+        on_bell: whether each wheel is a ring around the bell of its motor.
     """
 
     incidence: float

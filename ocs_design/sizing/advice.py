@@ -66,8 +66,8 @@ Inertia scales with the fourth power of the radius, so the radius is changed les
 couple roll and pitch arbitrarily strongly, and no bound on what they need holds then."""
 
 _STATE_FIGURES = (
-    "Choose another motor (`ocs-design catalogue motors` marks what is missing), or state its "
-    "figures in a file of your own with --motors."
+    "Choose another motor (`ocs-design catalogue motors` marks what is missing), or give its "
+    "figures in your own file with --motors."
 )
 
 
@@ -161,8 +161,7 @@ class Field:
     def _bounded(self) -> Iterator[tuple[Candidates, Guess]]:
         """Candidates that no bound rules out, the most promising first, few at first."""
         every = Candidates.of_each_material(self.problem, self.drives)
-        # Candidates whose largest wheel has the most margin come first; too small ones are left
-        # out.
+        # Candidates whose largest wheel has the most margin come first; too small ones are dropped.
         beside = every.drives.beside_rim
         needed = np.repeat(self.needed, len(self.problem.materials))
         largest = largest_spin_inertia(every.limits) + beside

@@ -190,8 +190,7 @@ class Change:
             return found
         parts = replace(offered, motors=(found.motor,), gears=(found.gear,))
         if self.problem.materials != parts.materials:
-            # Devices of different steels are much alike; trying each with every drive would take
-            # long.
+            # Devices of different steels are much alike; trying all with every drive is slow.
             each = [replace(found, material=material) for material in parts.materials]
             built = devices_at(self.problem, each, found.incidence)
             found = devices_by_mass([found, *filter(None, built)])[0]

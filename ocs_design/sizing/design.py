@@ -1,4 +1,4 @@
-"""From a resolved specification to a device, by the bound alone or with a real motor."""
+"""Design of a device for a resolved specification, by the bound alone or with a real motor."""
 
 from contextlib import suppress
 from dataclasses import replace

@@ -50,7 +50,7 @@ class Face:
     """A side of the box around the trunk.
 
     Attributes:
-        name: for people, as in "on top of the trunk".
+        name: text such as "on top of" the trunk.
         normal, along, across: unit vectors in B: outwards, and two in the face, shape (3,).
         outward: direction in which the left module of a pair moves away as it grows; see `Place`.
         upright: whether they stand on their feet; see `Place`.

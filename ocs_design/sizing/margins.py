@@ -24,8 +24,8 @@ class SampledMotion:
     """Motion of trunk and m wheels, linear between samples; two samples at one time are a jump.
 
     Attributes:
-        time: [s], non-decreasing, shape (n,). wheel_speed: relative to the trunk [rad/s], shape (n,
-            m).
+        time: [s], non-decreasing, shape (n,).
+        wheel_speed: relative to the trunk [rad/s], shape (n, m).
         wheel_torque: of the motors at the wheels [N m], shape (n, m).
         rate: of the trunk in B [rad/s], shape (n, 3).
         acceleration: of the trunk in B [rad/s^2], shape (n, 3).

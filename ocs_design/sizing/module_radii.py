@@ -29,11 +29,9 @@ from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits, flat_wall
 _NEWTON_STEPS = 12
 # Relative step below which iteration stops: the next would be rounding.
 _LAST_STEP = 1e-9
-# Relative difference of radii that count as equal: limits that meet in a point must still admit a
-# rim.
+# Relative difference of radii that count as equal, so that limits meeting in a point admit a rim.
 _SAME = 1e-13
-# Iterations for the cuts; each gains at least a digit, as cuts are at most an eighth of the
-# section.
+# Iterations for the cuts; each gains a digit, as cuts are at most an eighth of the section.
 _CUT_ROUNDS = 7
 
 

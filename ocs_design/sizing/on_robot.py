@@ -50,7 +50,7 @@ _TOO_THICK = 0.2e-3
 class NeverHeld(Infeasible):
     """The mount would need a larger device, which no mount can hold.
 
-    Args: the device, and the mass of the heaviest mount that would hold it [kg].
+    Its arguments are the device and the mass of the heaviest mount that would hold it [kg].
     """
 
     def __init__(self, best: Candidate, mass: float) -> None:

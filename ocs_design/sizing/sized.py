@@ -37,8 +37,8 @@ class Sized:
         wheel_speed_max: highest wheel speed that the design may use [rad/s].
         incidence_by_criterion: the best one under each criterion, with the device [rad].
         incidence_by_criterion_robot: the same for the robot alone.
-        demands: demand on a wheel of each part of the requirement. total: robot and device, braked,
-            in B.
+        demands: demand on a wheel of each part of the requirement.
+        total: robot and device, braked, in B.
         optimum: how it was found.
     """
 

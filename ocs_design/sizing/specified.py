@@ -1,4 +1,4 @@
-"""From a specification to the selection's problem, with its layout, criterion, webs and cuts."""
+"""The selection's problem for a specification, with its layout, criterion, webs and cuts."""
 
 from dataclasses import replace
 from math import inf, isfinite
@@ -292,5 +292,4 @@ def require_survival(problem: SelectionProblem) -> None:
 
 
 _SOME_ANGLE = np.pi / 4.0
-"""Angle for a layout whose angle is still to be chosen [rad]; whether axes span does not depend on
-it."""
+"""Angle used where a layout's is still to be chosen [rad]; the rank of its axes is the same."""

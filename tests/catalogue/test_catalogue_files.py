@@ -112,7 +112,7 @@ FAULTS = {
     "an empty source": (toml(source=""), "source: is missing"),
     "no name": (csv(name=None), "line 2, name: is missing"),
     "no convention": (toml(kt_convention=None), "needs its kt_convention: one of six-step, foc"),
-    "a wrong convention": (toml(kt_convention="dq"), "'dq' is none of six-step, foc"),
+    "a wrong convention": (toml(kt_convention="dq"), "'dq' is not one of six-step, foc"),
     "no terminals": (toml(resistance_between=None), "needs its resistance_between"),
     "k_t is the other one": (toml(kv_rpm_per_v=413.5), "not six-step; it fits foc; explain"),
     "k_t is none": (toml(kv_rpm_per_v=300), "k_t Kv is 6.00 .* it fits no convention"),
@@ -163,7 +163,7 @@ UNMOUNTABLE = {
     "one bolt": ({"stator_bolts": 1}, "stator_bolts is 1; it must be 2 or more"),
     "half a bolt": ({"rotor_bolts": 3.5}, "rotor_bolts: 3.5 is not a whole number"),
     "no bolts": ({"rotor_bolts": 0}, "rotor_bolts: 0 is not positive"),
-    "no class": ({"rotor_screws": "9.9"}, "rotor_screws is '9.9', which is none of 8.8, 10.9"),
+    "no class": ({"rotor_screws": "9.9"}, "rotor_screws is '9.9', which is not one of 8.8, 10.9"),
     "half a depth": ({"rotor_depth_m": 0.01}, "rotor_depth_m and rotor_depth_max_m belong to"),
     "depth of nothing": (
         {
@@ -177,13 +177,16 @@ UNMOUNTABLE = {
         "belong to each other and to stator_bolt_circle_m",
     ),
     "depths": ({"rotor_depth_m": 0.02, "rotor_depth_max_m": 0.01}, "0.02, above rotor_depth_max_m"),
-    "inch thread": ({"rotor_thread": "4-40"}, "rotor_thread is '4-40', which is none of M2, M2.5"),
+    "inch thread": (
+        {"rotor_thread": "4-40"},
+        "rotor_thread is '4-40', which is not one of M2, M2.5",
+    ),
     "wide circle": ({"rotor_bolt_circle_m": 0.05}, "0.05, but the motor is only 0.05 m wide"),
     "thick shaft": ({"shaft_diameter_m": 0.06}, "shaft_diameter_m is 0.06, but the motor is only"),
     "shaft between": ({"shaft_diameter_m": 0.0117}, "leave less than 1 mm to the shaft"),
     "many bolts": ({"rotor_bolts": 13}, "13 holes for M3 leave less than 1 mm between them"),
     "no face": ({"stator_face": None}, "stator_face and the stator's bolt circle"),
-    "wrong face": ({"stator_face": "front"}, "'front' is none of output, back"),
+    "wrong face": ({"stator_face": "front"}, "'front' is not one of output, back"),
 }
 
 
@@ -331,7 +334,7 @@ GEAR = "[[gear]]\nname = 'G'\nmaker = 'me'\nsource = 'bench'\nkind = 'fixed'\n"
         ("reverses = 'perhaps'", "reverses: 'perhaps' is neither yes nor no"),
         ("ratios = [2, -3]", "ratios: -3 is not positive"),
         ("teeth = [20.5]", "teeth: .* not whole numbers"),
-        ("inertia_at = 'planet'", "inertia_at: 'planet' is none of motor, wheel"),
+        ("inertia_at = 'planet'", "inertia_at: 'planet' is not one of motor, wheel"),
     ],
 )
 def test_faults_of_gears(load, line, message):

@@ -110,7 +110,7 @@ def test_a_column_is_a_field_of_a_row_and_is_read_as_its_type_asks():
     assert list(columns) == [field.name for field in fields(MotorSheet)]
     asked = {"maker": text, "mass_kg": positive, "rotor_bolts": whole, "rotor_thread": text}
     assert {name: columns[name] for name in asked} == asked
-    with pytest.raises(ValueError, match="none of six-step, foc, foc-rms"):
+    with pytest.raises(ValueError, match="not one of six-step, foc, foc-rms"):
         columns["kt_convention"]("sine")
 
 

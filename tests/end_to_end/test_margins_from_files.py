@@ -175,8 +175,8 @@ def test_the_first_screen_shows_these_figures(sized):
         ("ocs.motor.speed_max", "the capacity of wheel speed in margins"),
         ("supply.power_max", "the capacity of bus power in margins"),
         ("supply.current_max", "the capacity of bus current in margins"),
-        ("ocs.flywheel.hoop_stress", "dimensions, material and top speed make it"),
-        ("ocs.flywheel.stress_margin", "dimensions, material and top speed make it"),
+        ("ocs.flywheel.hoop_stress", "dimensions, material and top speed give"),
+        ("ocs.flywheel.stress_margin", "dimensions, material and top speed give"),
     ],
 )
 def test_a_limit_that_was_changed_by_hand_is_refused_with_its_key(sized, key, said, tmp_path):

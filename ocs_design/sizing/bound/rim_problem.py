@@ -18,8 +18,8 @@ The best R is therefore the larger of the two crossings with the hoop stress
     wall:  (3 + nu) R^2 + (1 - nu) (R - t)^2 = S,
 
 unless R_max or h_min stops it earlier. The latter forbids only walls so thick that even h_min gives
-too much inertia: along r = R - t the difference R^4 - r^4 increases with R and meets Q at 4 t c^3 +
-t^3 c = Q, c = R - t / 2 (a cubic with one real root). So
+too much inertia: along r = R - t the difference R^4 - r^4 increases with R and meets Q at
+4 t c^3 + t^3 c = Q, c = R - t / 2 (a cubic with one real root). So
 
     R = min(R_max, max(crossings), h_min on the wall),   r = min(h_max, wall at R),
 
@@ -291,7 +291,7 @@ def lightest_rim(spin_inertia: ArrayLike, limits: RimLimits) -> RimShape:
 
 
 OFF_THE_EDGE = 1.0 + 1e-10
-"""Factor on the smallest rim of all, which must not get lost to rounding."""
+"""Factor that keeps the smallest possible rim from being lost to rounding."""
 
 
 def smallest_rim_inertia(limits: RimLimits) -> FloatArray:

@@ -2,8 +2,9 @@
 
 Variables are a = (R / s)^2 and b = (r / s)^2 with a scale s, so that both are of the order of one,
 and limits that may be far away are divided by their own size; otherwise the solver loses digits. By
-Lagrange, the sensitivity of the optimal mass to a limit is that of the constraint g(a, b; limit) <=
-0 times its multiplier. All limits are convex except wall and least height, which are replaced by
+Lagrange, the sensitivity of the optimal mass to a limit is that of the constraint
+g(a, b; limit) <= 0 times its multiplier. All limits are convex except wall and least height, which
+are replaced by
 tangents at the last solution (the convex-concave procedure): where the solutions converge, the
 multipliers of the last convex program are those of the rim itself (Yuille and Rangarajan, Neural
 Computation 15, 2003; Lipp and Boyd, Optim. Eng. 17, 2016).

@@ -190,7 +190,7 @@ def _plate_contacts(robot: Robot, plate: CarrierPlate) -> Iterator[FootContact]:
             outline = max(block, upright - mast.spacer)
             off = off_trunk(surface, plate)
             if off is not None:
-                # How far the trunk is off a block that has its form, all over its front.
+                # Distance of the trunk from a formed block at points all over its front.
                 known = np.nan_to_num(off, nan=inf)
                 gap = max(0.0, float(known.max()))
                 proud = max(0.0, -float(known.min()), upright - mast.spacer - plane)

@@ -61,8 +61,7 @@ def front_of(back: Surface, half: float, low: float, high: float) -> FloatArray 
     if not np.isfinite(trunk).all():
         return None
     corners = trunk[::_FINE, ::_FINE]
-    # Between grid points a bulging trunk is higher: they move back by as much as in any adjacent
-    # cell.
+    # Between grid points a bulging trunk is higher: they move back by the most of adjacent cells.
     over = trunk - _between(corners, half, (low, high), left, up)
     highest = maximum_filter(over, 2 * _FINE + 1, mode="constant")[::_FINE, ::_FINE]
     front = corners + np.maximum(highest, 0.0) + BED

@@ -34,14 +34,14 @@ class CompositeInertia:
 
         The result has shape (n, k) for angles of shape (n, k) or (1, k). By the parallel axis
         theorem for second moments, with a module's mass m, first moment f_i = R_i f and second
-        moments S about its wheel's centre c_i, all relative to the robot's centre of mass: S =
-        S_robot + sum_i (m c_i c_i^T + c_i f_i^T + f_i c_i^T + R_i S R_i^T) - F F^T / (M + sum_i m),
-        F = sum_i (m c_i + f_i).
+        moments S about its wheel's centre c_i, all relative to the robot's centre of mass:
+
+            S = S_robot + sum_i (m c_i c_i^T + c_i f_i^T + f_i c_i^T + R_i S R_i^T)
+                - F F^T / (M + sum_i m),    F = sum_i (m c_i + f_i).
         """
         one = MassMoments(*(np.asarray(each)[..., None] for each in vars(self.module).values()))
         frames = self.layout.frames(angle)
-        # Components of the outward and upward axes, and positions of the wheels, shape (3, w, n,
-        # k).
+        # Components of the outward and upward axes, and the wheels' positions, shape (3, w, n, k).
         y, z = np.ascontiguousarray(frames.T[1:].swapaxes(-1, -2))
         place, first = self.centers.T[..., None], one.y * y + one.z * z
         count = frames.shape[-3]
@@ -161,8 +161,7 @@ def least_composite_inertia(
     apart = corners - middle[..., None, :]
     wheels, mass = corners.shape[-2], least.mass + least.behind
     off, risen = least.behind * least.depth / mass, least.behind * least.above / mass
-    # A pair's wheels face away from each other, so the parts behind them do not move their middle
-    # sideways.
+    # A pair's wheels face away from each other: the parts behind them do not shift their middle.
     aside, sunk = (0.0 * off, 0.0 * off) if layout.pairs else (off, off + np.abs(risen))
     forward = _least_square((x[0] - off, x[1] + aside), robot.com[0])
     left = _least_square((y[0] - aside, y[1] + aside), robot.com[1])

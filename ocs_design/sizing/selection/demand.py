@@ -56,7 +56,7 @@ def margins_of(
 
     Returns:
         Margins of the parts at the design's angle, shape (n, k), and of those at an incidence of
-            their own, shape (n, 1).
+        their own, shape (n, 1).
     """
     spin, begun = spin_inertia[:, None], bool(requirement.reserves)
 
@@ -227,7 +227,8 @@ def held_in_roll(
         axes: of the wheels, shape (..., 3, n).
         requirement: of which the flip is a part.
 
-    Returns: Momentum of each wheel [N m s], shape (...).
+    Returns:
+        Momentum of each wheel [N m s], shape (...).
     """
     rolled = turned_roll(inertia.diagonal[..., 0], upright) * rate / UNDOES
     left = (axes,) if requirement.detection is None else without_each(axes)

@@ -86,8 +86,8 @@ class FixedPoint(Table):
         radius: outer radius requested [m]; the nearest feasible one is used.
         angle: the best incidence [rad].
         shapes: rims and housings.
-        feasible: whether the candidate is feasible. margin: of the worst part of the requirement,
-            see `Margins`.
+        feasible: whether the candidate is feasible.
+        margin: of the worst part of the requirement, see `Margins`.
         residual: relative change of the spin inertia in one more iteration.
         iterations: number of iterations.
     """

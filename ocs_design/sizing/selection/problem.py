@@ -49,12 +49,12 @@ class SelectionProblem:
         robot: without the modules, with the plate that they stand on, in B.
         requirement: what the device must do; its `wheel_speed_max` is ignored here. A specified
             spin inertia is kept, and the motors must meet the rest with it.
-        envelope: room for one rim; its housing stands around it. place: of the modules, by outer
-            radius and height of their housings.
+        envelope: room for one rim; its housing stands around it.
+        place: of the modules, by outer radius and height of their housings.
         layout: of their axes.
         motors, gears, materials: to choose from; direct drive is the gear `DIRECT`.
-        supply: of all motors; each wheel may use its share of the power. incidence: of a pair's
-            wheel axes, or the angle of another layout [rad]; None: the best.
+        supply: of all motors; each wheel may use its share of the power.
+        incidence: of a pair's wheel axes, or the angle of another layout [rad]; None: the best.
         wheel_speed_max: specified highest speed of a wheel [rad/s]; None: the drive's own limit.
         web: whether wheels have a web and a hub; massless spokes otherwise.
         on_bell: whether they are rings around the bells of the motors, without web or gear.
@@ -192,8 +192,8 @@ class Candidate(DrivenWheel):
         spin_inertia: of each wheel, the rotor's share included [kg m^2].
         rim_mass: of one module [kg].
         overspeed: speed at which the hoop stress is limited [rad/s].
-        limits: of its rim. robot, place, guard_wall, foot_plate, layout, on_bell: see
-            `SelectionProblem`.
+        limits: of its rim.
+        robot, place, guard_wall, foot_plate, layout, on_bell: see `SelectionProblem`.
         demands: of all parts of the requirement; empty until computed.
         binding: active limits, as named in the specification; "housing" where a larger rim would be
             lighter, but its housing heavier.
@@ -377,8 +377,8 @@ class Reason(StrEnum):
         TORQUE: too weak, whatever the wheel. SPEED: too slow, whatever the wheel.
         ENVELOPE: the wheel that it needs does not fit. MASS: that wheel is heavier than allowed.
         STRESS: that wheel would burst.
-        INCIDENCE: the specified one leaves an axis uncontrolled. OWN_WEIGHT: it could turn the
-            robot alone, but not with the device on it.
+        INCIDENCE: the specified one leaves an axis uncontrolled.
+        OWN_WEIGHT: it could turn the robot alone, but not with the device on it.
     """
 
     FIGURES = "missing figures"

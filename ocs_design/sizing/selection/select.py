@@ -42,7 +42,7 @@ def select(problem: SelectionProblem) -> Selection:
 
     Raises:
         Refused: no motor can do it; says what is missing.
-        UsageError: there is nothing to choose from or nothing to do, or a limit is no limit.
+        UsageError: there is nothing to choose from or nothing to do, or a limit is invalid.
     """
     found = _found(problem, refined=True)
     return Selection(

@@ -66,16 +66,16 @@ _MONOMIALS = np.linalg.inv(np.vander(NODES, increasing=True))
 _TO_BERNSTEIN = _from_monomials(DEGREE)
 
 DERIVATIVE = (_POWERS * NODES[1:, None] ** (_POWERS - 1)) @ _MONOMIALS[1:]
-"""From the values at the nodes to d/ds at the Radau points, shape (n, n + 1)."""
+"""Matrix from the values at the nodes to d/ds at the Radau points, shape (n, n + 1)."""
 
 BERNSTEIN = _TO_BERNSTEIN @ _MONOMIALS
-"""From the values at the nodes to Bernstein coefficients, shape (n + 1, n + 1)."""
+"""Matrix from the values at the nodes to Bernstein coefficients, shape (n + 1, n + 1)."""
 
 TORQUE = bernstein_basis(NODES[1:])
-"""From Bernstein coefficients of a torque to its values at the Radau points, shape (n, 3)."""
+"""Matrix from a torque's Bernstein coefficients to its values at the Radau points, shape (n, 3)."""
 
 ELEVATION = _TO_BERNSTEIN[:, : TORQUE_DEGREE + 1] @ np.linalg.inv(_from_monomials(TORQUE_DEGREE))
-"""From those coefficients to the ones of degree n, shape (n + 1, 3)."""
+"""Matrix from those coefficients to the ones of degree n, shape (n + 1, 3)."""
 
 WEIGHTS = np.linalg.solve(np.vander(NODES[1:], increasing=True).T, 1.0 / _POWERS)
 """Weights of the Radau points in an integral over s, shape (n,)."""

@@ -7,8 +7,8 @@ speeds W determine everything else:
     ((h + a) 1 - h^2 A^T I^-1 A) W_dot = tau + h A^T I^-1 (w x R^T H_0)
 
 So a quaternion and n speeds are the state, for any layout of n wheels (docs/theory.md, The maneuver
-as an optimal control problem). About a pivot, gravity changes the momentum about it, H_0_dot = m g
-l x e in the world, so it becomes part of the state.
+as an optimal control problem). About a pivot, gravity changes the momentum about it,
+H_0_dot = m g l x e in the world, so it becomes part of the state.
 """
 
 from functools import cache

@@ -32,8 +32,8 @@ class Gyrostat:
             m^2], shape (3, 3).
         axes: A, unit spin axes as columns, shape (3, n).
         spin_inertia: h, momentum of one wheel per speed relative to the trunk [kg m^2].
-        armature: a, inertia that a motor accelerates beyond h [kg m^2]. pull: m g l from the pivot,
-            in B [N m], shape (3,); zero in free flight.
+        armature: a, inertia that a motor accelerates beyond h [kg m^2].
+        pull: m g l from the pivot, in B [N m], shape (3,); zero in free flight.
         edge: unit vector in B, the only axis about which the trunk turns, shape (3,); None: any
             axis.
     """

@@ -38,8 +38,8 @@ class Motion:
         lengths: of the intervals [s], shape (k,).
         states: attitude and wheel speeds [rad/s] at the nodes of all intervals, which share their
             ends, shape (4 + n, k d + 1) with d = `DEGREE`; about a pivot, the momentum about it in
-            the world [N m s] in three additional rows. torques: Bernstein coefficients of the motor
-            torques of each interval [N m], shape (n, 3 k).
+            the world [N m s] in three additional rows.
+        torques: Bernstein coefficients of the motor torques of each interval [N m], shape (n, 3 k).
     """
 
     lengths: FloatArray

@@ -197,8 +197,7 @@ def reference(
     )
     spun = 0.0
     if isinstance(maneuver, Pivoted) and asked.rate.any():
-        # Wheel speeds that the brake must stop, about the axes that the wheels control: h A W = I
-        # w.
+        # Wheel speeds that the brake must stop about the controlled axes, h A W = I w.
         reached, momentum = gyrostat.turns_about, gyrostat.inertia @ asked.rate
         taken = np.linalg.pinv(reached @ gyrostat.axes) @ (reached @ momentum)
         spun = float(np.abs(taken / gyrostat.spin_inertia).max())
@@ -209,8 +208,7 @@ def reference(
                 f"only {rpm(most)}"
             )
             return Reference(None, note, part=most / spun, spun=spun)
-    # Wheels of two axes turn the heading by a loop of the tilt; a tall body yaws more easily than
-    # it tilts.
+    # Wheels of two axes turn the heading by a loop of the tilt; tall bodies yaw more easily.
     x, y, z = np.diag(gyrostat.inertia)
     tall = not gyrostat.stands and gyrostat.spanned == 2 and max(x, y) > _TALL * z
     loops = asked.end == End.ATTITUDE and tall

@@ -183,8 +183,8 @@ class Variables:
     """Variables of one turn in its program, and its objectives.
 
     Attributes:
-        states, torques: scaled by their units. turned: angle at the end of each interval [rad], (1,
-            k).
+        states, torques: scaled by their units.
+        turned: angle at the end of each interval [rad], (1, k).
         scaled_states, scaled_torques: as in `Motion`.
         effort: mean over time of all squared torques, relative to the square of the largest
             allowed.
