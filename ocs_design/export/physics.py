@@ -114,11 +114,13 @@ def add_drives(spec: mujoco.MjSpec, robot: Robot) -> None:
 
 
 def hold_other_joints(spec: mujoco.MjSpec, robot: Robot) -> None:
-    """Hold every joint that is in no leg, by inertia; nothing else need then be computed for it."""
+    """Hold every joint that is in no leg, by inertia; nothing else need then be computed for it.
+
+    Ball joints, which the robot's tree has as rigid, are among them.
+    """
     driven = leg_joints(robot)
-    for name in robot.tree.joints:
-        if name not in driven:
-            joint = spec.joint(name)
+    for joint in spec.joints:
+        if joint.name not in driven and joint.type != mujoco.mjtJoint.mjJNT_FREE:
             joint.armature, joint.frictionloss = HELD_ARMATURE, 0.0
             joint.limited = mujoco.mjtLimited.mjLIMITED_FALSE
 

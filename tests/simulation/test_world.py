@@ -11,7 +11,7 @@ from wheels import EC45_BODY, braked_inertia, driven_device, geared, paper_devic
 
 from ocs_design.common import quaternions
 from ocs_design.common.errors import SpecificationError
-from ocs_design.export.physics import lowest_point, set_gains
+from ocs_design.export.physics import HELD_ARMATURE, lowest_point, set_gains
 from ocs_design.requirement.maneuver import Drop
 from ocs_design.robot.mujoco_model import build_spec, trunk_body
 from ocs_design.robot.reader import read_robot
@@ -254,3 +254,16 @@ def test_gravity_pulls_whatever_the_file_says(solo12, tmp_path):
     (path := tmp_path / "robot.xml").write_text(text.replace("<body ", '<body gravcomp="1" '))
     scene = robot_scene(read_robot(path, trunk=solo12.trunk))
     assert not scene.compile().body_gravcomp.any()
+
+
+def test_a_ball_joint_is_held_as_in_the_robots_tree(solo12, tmp_path):
+    spec = build_spec(solo12, visuals=False).spec
+    tail = trunk_body(spec, solo12)[0].add_body(name="tail")
+    tail.add_joint(name="b", type=mujoco.mjtJoint.mjJNT_BALL)
+    tail.add_geom(size=[0.05, 0.0, 0.0], pos=[0.3, 0.0, 0.0])
+    (path := tmp_path / "robot.xml").write_text(spec.to_xml())
+    robot = read_robot(path, trunk=solo12.trunk)
+    assert "b" not in robot.tree.joints
+    model = robot_scene(robot).compile()
+    first = model.joint("b").dofadr[0]
+    np.testing.assert_array_equal(model.dof_armature[first : first + 3], HELD_ARMATURE)
