@@ -9,7 +9,7 @@ from ocs_design.actuation.motor import DIRECT, BoltCircle, Face, GearRoom, Mount
 from ocs_design.catalogue.motors import motor
 from ocs_design.device.device import Device, Module, Web
 from ocs_design.device.solids import foot_of
-from ocs_design.parts.carrier_plate import CarrierPlate
+from ocs_design.parts.carrier_plate import CarrierPlate, Mast
 from ocs_design.parts.module import standing
 from ocs_design.parts.moments import cylinder_mass
 from ocs_design.parts.rim import WEB_THICKNESS, hub_of
@@ -72,6 +72,20 @@ DEVICES = {
     "on a plate": on_a_plate(CAGED_DEVICE),
     "wheels alone": paper_device(),
 }
+
+
+MAST = Mast(side=0.04, wall=0.003, face=0.14, below=0.0988, high=0.04, overhang=0.09, spacer=0.01)
+ON_A_MAST = replace(
+    DEVICES["on a plate"].plate,
+    thread="M6",
+    trunk=tuple((y, z) for z in (-0.0689, -0.0889) for y in (0.0115, -0.0115)),
+    sleeves=(0.0,) * 4,
+    rows=(0.0, 0.0),
+    levels=(0.0, 0.09),
+    feet=DEVICES["on a plate"].plate.feet * 2,
+    mast=replace(MAST, high=0.09),
+)
+"""Plate of a device on two arms of a mast."""
 
 
 def around(layout):

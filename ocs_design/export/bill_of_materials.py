@@ -157,9 +157,11 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
             stock, under = f"square tube {_mm(mast.side)} x {_mm(mast.wall)}", "mast"
             flat = mast.spacer > 0.0 and not mast.formed
             spacer = f", a block of {_mm(mast.spacer)} before it" if flat else ""
+            count = len(plate.rows)
+            arms, each = ("one arm", "it") if count == 1 else (f"{count} arms", "each")
             made = (
-                f"upright of {_mm(mast.high - mast.low)}{spacer}, {len(plate.rows)} arms of "
-                f"{_mm(mast.back + plate.neck)}, welded, and a plate on each arm"
+                f"upright of {_mm(mast.high - mast.low)}{spacer}, {arms} of "
+                f"{_mm(mast.back + plate.neck)}, welded, and a plate on {each}"
             )
             mass = mast_part(plate, mast).mass()
             yield BillRow("mast", 1, plate.material, stock, mass, made)

@@ -39,6 +39,7 @@ from ocs_design.export.drawing.title_block import TOOL, device_hash, frame
 from ocs_design.export.drawing.writers import pdf_of_pages, svg_text
 from ocs_design.export.electrics import wiring
 from ocs_design.export.formats import Notes, Subject
+from ocs_design.parts.printed import WASHER
 
 LEFT, TOP, RIGHT, BOTTOM = FRAME_BOX
 _INSET = 4.0
@@ -141,13 +142,21 @@ def assembly_pages(assembly: Assembly) -> list[list[Item]]:
         first.append(Text((LEFT + _INSET, TOP + 15.0 + line * _LEADING), text, _HEADING))
     cells = [tuple(map(str, row)) for row in piece_rows(assembly)]
     top = EXPLODED_BOX[3] + 3.0
-    half = (len(cells) + 1) // 2
     width = (RIGHT - LEFT - 2.0 * _INSET - _GUTTER) / 2.0
     widths = (6.0, 8.0, 40.0, 0.0, 29.0)
     header = ("No.", "Qty", "Piece (of the whole device)", "Made", "File in cad/")
-    for column, part in enumerate((cells[:half], cells[half:])):
-        left = LEFT + _INSET + column * (width + _GUTTER)
-        first += _table(header, part, widths, (left, top, left + width))[0]
+
+    def halves(count: int) -> tuple[list[Item], float]:
+        """So many rows on the left and the others on the right, and where they end [mm]."""
+        items, ends = [], []
+        for column, part in enumerate((cells[:count], cells[count:])):
+            left = LEFT + _INSET + column * (width + _GUTTER)
+            table, end = _table(header, part, widths, (left, top, left + width))
+            items += table
+            ends.append(end)
+        return items, max(ends)
+
+    first += min(map(halves, range(len(cells), 0, -1)), key=lambda both: both[1])[0]
     bodies = [first, *_text_pages(assembly, chapters(assembly))]
     identity = f"design {device_hash(assembly.device)} · {TOOL}"
     verdict = ": NOT buildable as it stands" if assembly.refused else ""
@@ -344,8 +353,9 @@ def piece_rows(assembly: Assembly) -> Iterator[PieceRow]:
     for piece in drawn.values():
         number, count = assembly.numbers[piece.name], _count(assembly, piece)
         if piece.fastening is not None:
-            washers = assembly.screws[piece.name].with_washers
-            what = f"{piece.fastening.designation}{washers}"
+            what = piece.fastening.designation
+            if assembly.screws[piece.name].washers:
+                what += f", washers {WASHER}"
             yield PieceRow(number, count, f"screw, {short(piece.name)}", f"bought: {what}", "")
         else:
             label = _LABELS.get(piece.name, piece.name.replace("_", " "))

@@ -118,7 +118,8 @@ def _cutters(assembly: Assembly) -> Iterator[str]:
         drill = 1e3 * screw(name).tapping_drill
         yield f"drill of {drill:g} mm and tap {name} for {' and '.join(where)}"
     if plate is not None and settled:
-        yield f"drill of {1e3 * plate.screw.clearance_hole:g} mm for the plate's screws"
+        screwed = "plate" if plate.mast is None else "mast"
+        yield f"drill of {1e3 * plate.screw.clearance_hole:g} mm for the {screwed}'s screws"
     if settled and unheld_moment(assembly.device, assembly.margins):
         yield "drill of 3 mm for the feet's pins"
 
@@ -339,11 +340,11 @@ def _trunk_steps(assembly: Assembly) -> Iterator[str]:
 
 def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterator[str]:
     """How plate, mast and sleeves are made and come on the trunk; `holes`: those for the feet."""
+    through = f"holes of {1e3 * plate.screw.clearance_hole:g} mm for the trunk's screws, and "
     cut = (
         f"Make the plate{assembly.number('plate')} to cad/plate.pdf (`export --formats dxf` writes "
-        f"its outline for a cutter), with holes of {1e3 * plate.screw.clearance_hole:g} mm for the "
-        f"trunk's screws, and threads {plate.foot_thread} for the feet, which are, {holes}. Drill "
-        "and tap the trunk"
+        f"its outline for a cutter), with {through if plate.mast is None else ''}threads "
+        f"{plate.foot_thread} for the feet, which are, {holes}. Drill and tap the trunk"
     )
     if plate.mast is None:
         yield (
@@ -355,13 +356,17 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
             f"{cut}'s back {plate.thread} by cad/drilling.pdf, printed at 100 %. Whether "
             "its wall bears them is not looked at: put a plate behind it where it is thin."
         )
-        mast, ends = plate.mast, [f"{1e3 * z:.1f}" for z in plate.heights]
+        mast, (arms, its, each) = plate.mast, ("an arm", "its top", "it")
+        if len(plate.heights) > 1:
+            arms, its, each = f"{len(plate.heights)} arms", "their tops", "each"
+        below = [f"{1e3 * (mast.high - z):.1f}" for z in plate.heights]
+        tops = " and ".join("level with" if low == "0.0" else f"{low} mm below" for low in below)
         yield (
             f"Weld the mast{assembly.number('mast')} to cad/plate.pdf, of square tube "
             f"{1e3 * mast.side:.0f} x {1e3 * mast.wall:.0f} mm: an upright of "
-            f"{1e3 * (mast.high - mast.low):.1f} mm, an arm of "
-            f"{1e3 * (mast.back + plate.neck):.1f} mm whose top is "
-            f"{' and '.join(ends)} mm above the lowest plate, and a plate on each arm. "
+            f"{1e3 * (mast.high - mast.low):.1f} mm, {arms} of "
+            f"{1e3 * (mast.back + plate.neck):.1f} mm with {its} {tops} the upright's, and a "
+            f"plate on {each}. "
             f"Drill it {1e3 * plate.screw.clearance_hole:.1f} mm through both walls, with "
             f"a sleeve of {1e3 * mast.bore:.1f} mm between them around each screw."
         )

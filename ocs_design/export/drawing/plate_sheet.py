@@ -162,7 +162,7 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
     corners = flat_outline(plate.shape.outline())
     low, high = corners.min(axis=0), corners.max(axis=0)
     left, top, right, bottom = _VIEW
-    (tall, wide), thick = (high - low).tolist(), plate.thickness
+    tall, wide, thick = plate.sizes
     scale = largest_scale((wide, right - left), (tall + thick, bottom - top - 20.0))
     offset = scale(float(low[1] + high[1])) / 2.0
     middle = (left + right) / 2.0 + offset, top + 8.0 + scale(float(high[0]))

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from built import DEVICES, around, housed
+from built import DEVICES, ON_A_MAST, around, housed
 from drawn_wheels import box_of, check_words
 from drawn_wheels import texts as texts_of
 from hypothesis import given
@@ -26,8 +26,10 @@ from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.assembly.views import BALLOON, pulled_apart, spread
 from ocs_design.export.assembly_notes import trunk_threads
 from ocs_design.export.bill_of_materials import bill_rows
-from ocs_design.export.drawing.sheet import Circle, Line, Polyline, Text
+from ocs_design.export.drawing.sheet import FRAME_BOX, THIN, Circle, Line, Polyline, Text
 from ocs_design.parts.pedestal import Pedestal
+
+BOTTOM = FRAME_BOX[3]
 
 AT_30_DEGREES, TRIAD = DEVICES["caged"].at_incidence(np.pi / 6.0), around(Layout(LayoutName.TRIAD))
 
@@ -143,6 +145,22 @@ def test_every_screw_of_the_bill_is_numbered_and_has_a_torque(assembly):
     assert all(re.fullmatch(r"\d.*N m", row.torque) for row in rows)
     numbers = [row.number for row in piece_rows(assembly)]
     assert numbers == list(range(1, len(numbers) + 1))
+
+
+def test_what_stands_on_a_mast_is_made_as_it_is_drawn():
+    """Holes for the trunk's screws are in the mast, and the table of pieces is on its sheet."""
+    device = replace(DEVICES["in a guard ring"], plate=ON_A_MAST)
+    assembly = Assembly("dog", device, (), (), "NOT buildable as it stands. It hangs in the air.")
+    first = assembly_pages(assembly)[0]
+    check_words(first)
+    lines = [item for item in first if isinstance(item, Line) and item.pen is THIN]
+    assert max(line.end[1] for line in lines) < BOTTOM - 1.0
+    built = replace(assembly, refused="")
+    steps, before = texts(built, "Steps"), texts(built, "Before")
+    assert "holes of" not in steps
+    assert "2 arms of" in steps
+    assert "with their tops 90.0 mm below and level with the upright's" in steps
+    assert "drill of 6.6 mm for the mast's screws" in before
 
 
 def test_the_plate_is_under_the_foot_with_its_screws_and_sleeves():

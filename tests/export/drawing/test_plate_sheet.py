@@ -6,26 +6,15 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from built import DEVICES
+from built import DEVICES, ON_A_MAST
 from drawn_wheels import REFUSED, assert_refused, box_of, check_words, covers, texts
 
 from ocs_design.export.drawing.plate_sheet import plate_sheets
 from ocs_design.export.drawing.sheet import OUTLINE, Circle, Line, Polyline
 from ocs_design.export.meshes import part_manifold
-from ocs_design.parts.carrier_plate import Mast, plate_part
+from ocs_design.parts.carrier_plate import plate_part
 
 PLATE = DEVICES["on a plate"].plate
-MAST = Mast(side=0.04, wall=0.003, face=0.14, below=0.0988, high=0.04, overhang=0.09, spacer=0.01)
-ON_A_MAST = replace(
-    PLATE,
-    thread="M6",
-    trunk=tuple((y, z) for z in (-0.0689, -0.0889) for y in (0.0115, -0.0115)),
-    sleeves=(0.0,) * 4,
-    rows=(0.0, 0.0),
-    levels=(0.0, 0.09),
-    feet=PLATE.feet * 2,
-    mast=replace(MAST, high=0.09),
-)
 PLATES = {"on the trunk": PLATE, "on a mast": ON_A_MAST}
 
 
@@ -131,6 +120,14 @@ def test_plates_that_differ_have_a_sheet_each(inwards):
         said = [item.text for item in texts(page)]
         assert all(f"{1e3 * y:.2f}" in said for _, y in plate.trunk)
         check_words(page)
+
+
+def test_the_sheet_rounds_the_sizes_as_the_bill_does(plate):
+    """Half a hundredth of a millimetre, as Unitree's G1 has it, came out as 336.80 and 336.79."""
+    for each in (plate, replace(plate, radius=0.0478275, across=0.1205675)):
+        said = [item.text for item in texts(sheets_of(each)[0])]
+        found = {float(text) for text in said if re.fullmatch(r"[\d.]+", text)}
+        assert {float(f"{1e3 * size:.2f}") for size in each.sizes} <= found
 
 
 def test_a_mast_has_the_lengths_that_it_is_cut_to():
