@@ -39,7 +39,7 @@ CASES = {
         {"x.urdf": b"<robot/>\0"},
         "size x.urdf",
         EXIT_3,
-        "x.urdf: line 1, .*not well-formed|remove the bytes that are zero",
+        "x.urdf: line 1, .*not well-formed|remove the null bytes",
     ),
     "negative mass": (
         {"x.urdf": robot(link("trunk", inertial(-2.0)))},

@@ -318,5 +318,5 @@ def sweep_of(name: str, maneuver: str = "") -> Sweep:
     if not maneuver:
         return sweep
     if not isinstance(sweep, ManeuverSweep):
-        raise UsageError(f"--maneuver {maneuver}: the {name} is no figure of a maneuver")
+        raise UsageError(f"--maneuver {maneuver}: the {name} is not a figure of a maneuver")
     return replace(sweep, maneuver=maneuver)

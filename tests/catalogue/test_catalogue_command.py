@@ -82,7 +82,7 @@ def test_a_users_file_joins_the_table(tmp_path):
     result = run("catalogue", "motors", "--motors", path)
     assert "my motor 20 16.8 16,800 0.115+ 9.55 kind +6" in result.said
     assert "MN4012 KV480" in result.said
-    assert "listed too" in run("catalogue", "--help").said
+    assert "Also list the motors" in run("catalogue", "--help").said
     assert "my motor: my bench" in result.said
     assert "wound by hand" not in result.said
     assert "wound by hand" in run("catalogue", "motors", "--motors", path, "-v").said

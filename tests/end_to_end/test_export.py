@@ -222,7 +222,7 @@ def test_a_robot_that_may_not_be_read_is_an_error(solo12, monkeypatch):
     monkeypatch.setattr("ocs_design.robot.source._read_bounded", refused)
     result = run("export", solo12, "-o", "again")
     assert result.code == 3
-    assert "may not be read" in result.said
+    assert "cannot be read" in result.said
 
 
 def test_the_json_document_names_what_was_made(solo12):

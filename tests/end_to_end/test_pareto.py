@@ -114,7 +114,7 @@ def test_values_out_of_reach_are_told_and_exit_with_4():
     [
         (("--against", "speed"), 2, "none of time, angle, radius, height, voltage"),
         (("--maneuver", "somersault"), 2, "no such maneuver"),
-        (("--against", "radius", "--maneuver", "drop"), 2, "not that of a maneuver"),
+        (("--against", "radius", "--maneuver", "drop"), 2, "is not a figure of a maneuver"),
         (("--from", "2s", "--to", "1s"), 2, "not below"),
         (("--motor", "none"), 2, "needs motors"),
         (("--motor", "no such motor"), 3, "no such motor"),

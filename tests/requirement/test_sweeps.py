@@ -118,7 +118,7 @@ def test_the_paper_s_three_are_written_out(task):
     ("name", "maneuver", "text", "message"),
     [
         ("speed", "", "", "--against speed: is not one of time, angle"),
-        ("radius", "drop", "", "the radius is no figure of a maneuver"),
+        ("radius", "drop", "", "the radius is not a figure of a maneuver"),
         ("time", "somersault", "", "there is no such maneuver"),
         ("time", "disturbance", "", "disturbance has no turn"),
         (

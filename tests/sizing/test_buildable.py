@@ -135,7 +135,7 @@ def test_a_device_on_shapes_that_are_not_known_cannot_be_built(tmp_path, shapes,
     found = buildable(WHOLE, FREE, (), (), robot)
     assert found.yes is not missing
     assert buildable(None, FREE, (), (), robot).yes is None
-    assert any("the trunk's top is not known" in each for each in robot.warnings) is missing
+    assert any("the top of the trunk is not known" in each for each in robot.warnings) is missing
     if missing:
         (point,) = found.open
         assert point.what == "meshes are missing: the shape of trunk is not known"
