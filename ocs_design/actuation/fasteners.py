@@ -1,7 +1,7 @@
 """Metric screws, and the holes that they need."""
 
 from dataclasses import dataclass
-from math import asin, ceil, pi, sqrt
+from math import asin, ceil, inf, pi, sqrt
 
 from ocs_design.common.errors import PartError
 
@@ -161,6 +161,7 @@ class Fastening:
         depth: least thread engagement in diameters.
         strength: their property class.
         least: least engagement in the part they are screwed into, where its maker gives one [m].
+        most: largest engagement there [m]: longer ones are shortened; inf: any.
     """
 
     screw: Screw
@@ -170,6 +171,7 @@ class Fastening:
     depth: float = 1.0
     strength: str = USUAL_CLASS
     least: float = 0.0
+    most: float = inf
 
     @property
     def designation(self) -> str:
@@ -182,6 +184,11 @@ class Fastening:
         """Length of each screw under its head [m]."""
         depth = max(self.depth, self.least / self.screw.diameter)
         return self.screw.length_through(self.thickness, depth)
+
+    @property
+    def engagement(self) -> float:
+        """Length of each that is in the part they are screwed into, once shortened [m]."""
+        return min(self.length - self.thickness, self.most)
 
     @property
     def mass(self) -> float:

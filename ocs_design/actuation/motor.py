@@ -18,9 +18,9 @@ The conventions of k_t differ only by these factors of the current; the torque i
 import math
 from dataclasses import dataclass
 from enum import StrEnum
-from math import pi, sin
+from math import inf, pi, sin
 
-from ocs_design.actuation.fasteners import USUAL_CLASS, screw
+from ocs_design.actuation.fasteners import CLASSES, USUAL_CLASS, screw
 
 
 class TorqueConstantConvention(StrEnum):
@@ -99,6 +99,10 @@ class ShaftForm(StrEnum):
     """Threaded shaft, for a nut that presses the wheel against a shoulder."""
 
 
+OFF_BOTTOM = 0.5e-3
+"""Room that is left between a screw's tip and the bottom of its hole in a motor [m]."""
+
+
 @dataclass(frozen=True)
 class BoltCircle:
     """Threads around a motor's axis, evenly spaced.
@@ -109,6 +113,7 @@ class BoltCircle:
         thread: of each, such as "M3".
         screws: property class of their screws.
         depth, depth_max: least and largest depth of engagement that the maker allows [m].
+        drawn: depth of the threads in a model that is not the maker's [m]; None: none is known.
     """
 
     diameter: float
@@ -117,10 +122,27 @@ class BoltCircle:
     screws: str = USUAL_CLASS
     depth: float | None = None
     depth_max: float | None = None
+    drawn: float | None = None
 
     def __str__(self) -> str:
         """Text such as `4 x M3 on 25 mm`."""
         return f"{self.bolts} x {self.thread} on {1e3 * self.diameter:.4g} mm"
+
+    @property
+    def deepest(self) -> float:
+        """Largest engagement of its screws [m]: the maker's, else as a model draws; inf: unknown.
+
+        `OFF_BOTTOM` is left below the tips in what a model draws.
+        """
+        if self.depth_max is not None:
+            return self.depth_max
+        return inf if self.drawn is None else self.drawn - OFF_BOTTOM
+
+    @property
+    def preload_share(self) -> float:
+        """Share of its screws' preload that the thread holds: as its depth over the one needed."""
+        needed = CLASSES[self.screws].depth * screw(self.thread).diameter
+        return min(1.0, self.deepest / needed)
 
     @property
     def radius(self) -> float:

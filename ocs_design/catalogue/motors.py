@@ -1,6 +1,7 @@
 """Motors to choose from: rows, each with its source and checked for consistency."""
 
 import math
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
@@ -32,6 +33,35 @@ from ocs_design.actuation.motor import (
 from ocs_design.catalogue.rows import entry, extended, load_entries, packaged
 from ocs_design.common.files import to_json
 from ocs_design.common.records import recorded
+
+
+@dataclass(frozen=True)
+class DrawnThreads:
+    """Threads of a motor in a model that is not the maker's.
+
+    Attributes:
+        model: motor that it shows.
+        rotor, stator: depth of the threads there [m].
+    """
+
+    model: str
+    rotor: float
+    stator: float
+
+
+_DRAWN_THREADS = (
+    DrawnThreads("U8 Lite", 3.0e-3, 3.6e-3),
+    DrawnThreads("MN4014", 3.8e-3, 3.6e-3),
+    DrawnThreads("MN6007 II", 7.0e-3, 9.0e-3),
+)
+"""github.com/defencore/ProtoLab-3D src/parts/bldc-motor/lib/models.json. No maker states them."""
+
+
+@cache
+def drawn_threads(name: str, source: str) -> DrawnThreads | None:
+    """What a model draws of a motor of that name, or of one whose threads its source counts."""
+    named = f"{name} {source}"
+    return next((each for each in _DRAWN_THREADS if re.search(rf"\b{each.model}\b", named)), None)
 
 
 @dataclass(frozen=True)
@@ -131,19 +161,25 @@ class MotorSheet:
     def rotor(self) -> BoltCircle | None:
         """Threads in the rotor; None unless all of their figures are given."""
         found = _circle(self.rotor_bolt_circle_m, self.rotor_bolts, self.rotor_thread)
+        drawn = drawn_threads(self.name, self.source)
         return found and replace(
             found,
             screws=self.rotor_screws or USUAL_CLASS,
             depth=self.rotor_depth_m,
             depth_max=self.rotor_depth_max_m,
+            drawn=None if drawn is None else drawn.rotor,
         )
 
     @property
     def stator(self) -> BoltCircle | None:
         """Threads in the stator; None unless all of their figures are given."""
         found = _circle(self.stator_bolt_circle_m, self.stator_bolts, self.stator_thread)
+        drawn = drawn_threads(self.name, self.source)
         return found and replace(
-            found, depth=self.stator_depth_m, depth_max=self.stator_depth_max_m
+            found,
+            depth=self.stator_depth_m,
+            depth_max=self.stator_depth_max_m,
+            drawn=None if drawn is None else drawn.stator,
         )
 
     @property

@@ -306,11 +306,17 @@ def _shaft_joints(device: Device, web: Web) -> Iterator[Margin]:
     elif mounting is not None and mounting.rotor is not None:
         circle, carried = mounting.rotor, hub_joint(mounting, 0.0)
         held = screw(circle.thread)
-        tight = format_quantity(tightening_torque(held, circle.screws), "N m", digits=2)
+        share = circle.preload_share
+        tight = format_quantity(share * tightening_torque(held, circle.screws), "N m", digits=2)
         note = (
             f"friction under {circle}, class {circle.screws}, tightened with {tight} to "
-            f"{joint_preload(held, circle.screws):,.0f} N, {against}"
+            f"{share * joint_preload(held, circle.screws):,.0f} N, {against}"
         )
+        if share < 1.0:
+            deep = format_quantity(circle.deepest, "mm", digits=2)
+            note += (
+                f"; {share:.0%} of their usual preload, as they reach only {deep} into the rotor"
+            )
         reserve = shear_torque(held, circle.bolts, circle.radius, circle.screws)
     elif mounting is not None and mounting.shaft_diameter is not None:
         front = motor_front(motor_mount(device), device.flywheel.height)

@@ -129,7 +129,7 @@ def cylinder_torque(diameter: float, length: float, shear: float) -> float:
 def hub_joint(mounting: Mounting, bond_length: float) -> float | None:
     """Torque that a hub's joint on its motor carries [N m]; None: nothing that is known carries.
 
-    Friction under the screws in the rotor's threads, else a bond on the shaft.
+    Friction under the screws in the rotor's threads, as deep as they are, else a bond on the shaft.
 
     Args:
         mounting: of the motor.
@@ -137,7 +137,8 @@ def hub_joint(mounting: Mounting, bond_length: float) -> float | None:
     """
     circle, shaft = mounting.rotor, mounting.shaft_diameter
     if circle is not None:
-        return friction_torque(screw(circle.thread), circle.bolts, circle.radius, circle.screws)
+        whole = friction_torque(screw(circle.thread), circle.bolts, circle.radius, circle.screws)
+        return circle.preload_share * whole
     return (
         None if shaft is None else cylinder_torque(shaft, bond_length, BOND_SHARE * BOND_STRENGTH)
     )

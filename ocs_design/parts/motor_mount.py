@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from math import inf, sin
 from typing import Generic
 
-from ocs_design.actuation.fasteners import CLASSES, IN_PLASTIC, Fastening, screw
+from ocs_design.actuation.fasteners import CLASSES, IN_PLASTIC, LENGTHS, Fastening, screw
 from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
 from ocs_design.common.arrays import Table
 from ocs_design.parts.bell import Bell, HeldMotor, bell_of
@@ -39,6 +39,10 @@ held by a cage."""
 
 _LEAST_EDGE = 0.1
 """Least angle of a post's wall beside its ear [rad]."""
+
+LOST_THREAD = 0.45e-3
+"""Thread that a screw may have less before a longer one is shortened [m]: an assumption, less than
+a turn of M3."""
 
 _DEPTH = "check the depth of the motor's thread"
 
@@ -270,22 +274,30 @@ def _through_walls(circle: BoltCircle, foot_plate: float, purpose: str, depth: f
 
 
 def _fastening(circle: BoltCircle, thickness: float, purpose: str, depth: float) -> Fastening:
+    held, least, most = screw(circle.thread), circle.depth, circle.deepest
+    reach = min(depth * held.diameter, most)
     found = Fastening(
-        screw(circle.thread),
+        held,
         circle.bolts,
         thickness,
         purpose,
-        depth,
+        reach / held.diameter,
         circle.screws,
-        circle.depth or 0.0,
+        least or 0.0,
+        most,
     )
-    least, most = circle.depth, circle.depth_max
-    if least is None or most is None:
-        return found
-    asked = f"{purpose}, its maker asks for {1e3 * least:.4g} to {1e3 * most:.4g} mm"
+    if least is None and found.length > thickness + most:
+        # One size shorter, where that loses next to nothing.
+        shorter = max((1e-3 * each for each in LENGTHS if 1e-3 * each < found.length), default=0.0)
+        if reach - (shorter - thickness) <= LOST_THREAD:
+            found = replace(found, depth=(shorter - thickness) / held.diameter)
+    if least is not None:
+        purpose += f", its maker asks for {1e3 * least:.4g} to {1e3 * most:.4g} mm"
+    elif circle.drawn is not None:
+        purpose += f", a model draws {1e3 * circle.drawn:.4g} mm"
     if found.length > thickness + most:
-        asked += f": shorten them to {1e3 * (thickness + most):.3g} mm"
-    return replace(found, purpose=asked)
+        purpose += f": shorten them to {1e3 * (thickness + most):.3g} mm"
+    return replace(found, purpose=purpose)
 
 
 @dataclass(frozen=True)

@@ -55,7 +55,7 @@ _JOINT_CURES = {
     WHEEL_STRESS: "choose a stronger material (--material), or a slower motor",
     RIM_JOINT: "make the wheel in one piece, of a stronger material (--material), or choose a "
     "slower motor",
-    SHAFT_JOINT: "choose a motor with threads in its rotor (--motor)",
+    SHAFT_JOINT: "choose a motor with threads in its rotor, more of them or deeper (--motor)",
     SCREWS_SHOCK: "give a place where the plate's screws stand farther apart (--position)",
 }
 _BOND_CURE = "choose a slower motor, or a disc in place of the ring (--wheel disc)"

@@ -235,6 +235,7 @@ def test_it_is_in_the_json_and_in_words():
         "screws": "8.8",
         "depth": None,
         "depth_max": None,
+        "drawn": None,
     }
     said = motor_mounting(motor("MN5212 KV340").mounting)
     assert said == "shaft 4 mm, rotor 3 x M3 on 17 mm, stator 4 x M3 on 25 mm (back)"

@@ -1,5 +1,7 @@
 """Screws against what they go through and end in, for every motor of the catalogue."""
 
+from dataclasses import replace
+
 import pytest
 
 from ocs_design.actuation.fasteners import (
@@ -12,7 +14,8 @@ from ocs_design.catalogue.motors import known_motors
 from ocs_design.export.assembly.content import tightened
 from ocs_design.parts.foot import PLATE_THICKNESS
 from ocs_design.parts.housing import LID_SCREWS
-from ocs_design.parts.motor_mount import mount_of
+from ocs_design.parts.joints import hub_joint, tightening_torque
+from ocs_design.parts.motor_mount import LOST_THREAD, mount_of
 from ocs_design.parts.printed import BASE_THICKNESS, CLEARANCE, FLOOR, PANEL, trunk_screws
 
 HELD = [
@@ -38,7 +41,10 @@ def fastenings(motor):
 
 
 def test_every_screw_is_standard_and_holds():
-    """As short as it may be: the next shorter standard length would not hold."""
+    """As short as it may be: the next shorter standard length would not hold.
+
+    As deep as a thread of known depth lets it, where that is less than it asks for.
+    """
     assert len(HELD) >= 9
     for motor in HELD:
         for each in (*fastenings(motor), LID_SCREWS, trunk_screws(PLATE_THICKNESS)):
@@ -47,9 +53,40 @@ def test_every_screw_is_standard_and_holds():
             held = length - 1e3 * each.thickness
             assert length in STANDARD
             assert held >= least - 1e-9
-            assert each.depth >= (IN_PLASTIC if "tapped" in each.purpose else 1.0)
+            asked = IN_PLASTIC if "tapped" in each.purpose else 1.0
+            deepest = each.most / each.screw.diameter
+            assert each.depth >= min(asked, deepest) - LOST_THREAD / each.screw.diameter - 1e-12
             shorter = max((other for other in STANDARD if other < length), default=0)
             assert shorter - 1e3 * each.thickness < least
+
+
+def test_no_screw_reaches_beyond_the_only_depth_that_is_known():
+    """U8 Lite's model draws 3.0 and 3.6 mm: M4 x 6 cut to 5.5, and M4 x 6 as it is; 2.5 mm of 4.
+
+    The wheel's joint counts the thread that its screws have, and a usual one where none is known.
+    """
+    wheel, stator, _ = fastenings(known_motors(None)["U8 Lite L KV110"])
+    assert (wheel.designation, stator.designation) == ("ISO 4762 M4 x 6", "ISO 4762 M4 x 6")
+    assert (wheel.engagement, stator.engagement) == pytest.approx((2.5e-3, 3.0e-3))
+    assert wheel.purpose.endswith("a model draws 3 mm: shorten them to 5.5 mm")
+    assert stator.purpose.endswith("a model draws 3.6 mm")
+    drawn = 0
+    for motor in HELD:
+        circles = motor.mounting.rotor, motor.mounting.stator
+        for each, circle in zip(fastenings(motor), filter(None, circles), strict=False):
+            assert each.engagement <= circle.deepest + 1e-12
+            drawn += circle.drawn is not None
+        if motor.mounting.rotor is not None:
+            held = fastenings(motor)[0]
+            needed = CLASSES[held.strength].depth * held.screw.diameter
+            share = min(1.0, held.engagement / needed)
+            assert motor.mounting.rotor.preload_share == pytest.approx(share)
+            whole = replace(motor.mounting.rotor, drawn=None, depth_max=None)
+            free = hub_joint(replace(motor.mounting, rotor=whole), 0.0)
+            assert hub_joint(motor.mounting, 0.0) == pytest.approx(share * free)
+            found = tightened(held, on_metal=True).torque
+            assert found == pytest.approx(share * tightening_torque(held.screw, held.strength))
+    assert drawn > 20
 
 
 @pytest.mark.parametrize("name", ["M4", "M8"])

@@ -3,7 +3,6 @@
 The report's section shows the same tables and chapters.
 """
 
-import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -11,7 +10,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ocs_design.actuation.fasteners import IN_PLASTIC
-from ocs_design.actuation.motor import DIRECT
+from ocs_design.actuation.motor import DIRECT, OFF_BOTTOM
+from ocs_design.catalogue.motors import drawn_threads
 from ocs_design.device.device import Device
 from ocs_design.export.assembly.content import Assembly, assembly_of, short
 from ocs_design.export.assembly.placed import Piece
@@ -387,11 +387,6 @@ def _count(assembly: Assembly, piece: Piece) -> int:
     return modules * (piece.count if piece.fastening is None else piece.fastening.count)
 
 
-DRAWN = {"U8 Lite": (3.0, 3.6), "MN4014": (3.8, 3.6), "MN6007 II": (7.0, 9.0)}
-"""Depths of the threads that a model of a motor draws, at its rotor and at its stator [mm]:
-github.com/defencore/ProtoLab-3D src/parts/bldc-motor/lib/models.json. No maker states them."""
-
-
 def _motor_threads(assembly: Assembly) -> Iterator[str]:
     """What is known of the motor's threads, and how far the screws reach into them."""
     found = {
@@ -405,19 +400,23 @@ def _motor_threads(assembly: Assembly) -> Iterator[str]:
         f"{1e3 * each.engagement:.1f} mm ({short(name)})" for name, each in found.items()
     )
     motor, drawn = assembly.device.motor, ""
-    named = f"{motor.name} {motor.source}"
-    model = next((each for each in DRAWN if re.search(rf"\b{each}\b", named)), None)
+    model = drawn_threads(motor.name, motor.source)
     stated = all(each.fastening.least > 0.0 for each in found.values())
     if model is not None and not stated:
-        at = [DRAWN[model][0 if name.startswith("wheel") else 1] for name in found]
+        at = [model.rotor if name.startswith("wheel") else model.stator for name in found]
         drawn = (
-            f" Of {model}, whose threads the catalogue counts for this motor, a model draws "
-            f"{' and '.join(f'{depth:.1f} mm' for depth in at)}: its modeller's figures, not the "
-            "maker's."
+            f" Of {model.model}, whose threads the catalogue counts for this motor, a model draws "
+            f"{' and '.join(f'{1e3 * depth:.1f} mm' for depth in at)}: its modeller's figures, not "
+            "the maker's."
         )
-        reached = (1e3 * each.engagement for each in found.values())
-        if any(deep + 0.5 > depth for deep, depth in zip(reached, at, strict=True)):
-            drawn += " Were they right, these screws would be too long."
+        reached = (each.engagement for each in found.values())
+        fits = all(
+            deep <= depth - OFF_BOTTOM + 1e-9 for deep, depth in zip(reached, at, strict=True)
+        )
+        # Designs of older versions did not count them.
+        drawn += (
+            " The screws fit it." if fits else " Were they right, these screws would be too long."
+        )
     known = "its maker's figures are in the table of screws" if stated else "no maker states it"
     yield (
         "Measure how deep the motor's threads are before you put screws into them: "

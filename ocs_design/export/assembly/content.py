@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 from functools import cached_property, lru_cache
 from math import pi, sqrt
 
-from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening
+from ocs_design.actuation.fasteners import CLASSES, IN_PLASTIC, Fastening
 from ocs_design.device.joints import burst_of, foot_hold
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.placed import Piece, bonding_pieces, holds_wheel, module_pieces
@@ -76,14 +76,15 @@ def tightened(
     strength is its tensile one over sqrt(3). No thread is deeper than `deepest` [m].
     """
     screw = fastening.screw
-    engagement = min(fastening.length - fastening.thickness, deepest)
+    engagement = min(fastening.engagement, deepest)
     washers = on_slot is not None and on_slot.washers
     sheared = pi * screw.diameter * engagement / 2.0
     if on_metal:
         strength = fastening.strength
-        share = joint_preload(screw, strength) / (sheared * ALUMINIUM_SHEAR)
+        held = min(1.0, engagement / (CLASSES[strength].depth * screw.diameter))
+        share = held * joint_preload(screw, strength) / (sheared * ALUMINIUM_SHEAR)
         rule = f"the joint, as computed; {share:.0%} of what strips a thread in 6061-T6"
-        return Tightened(fastening, tightening_torque(screw, strength), rule, engagement)
+        return Tightened(fastening, held * tightening_torque(screw, strength), rule, engagement)
     limits = [(screw.preload, "class 8.8 at 90 % of yield (VDI 2230, friction 0.12)")]
     if head_on_print:
         pressed = PRESSURE_SHARE * PETG.strength * screw.head_area
