@@ -5,7 +5,7 @@ one on the mass, that gives one on the composite inertia, and that a better one 
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple, Self
@@ -68,6 +68,19 @@ def cells_of(incidence: float | None, count: int = CELLS) -> tuple[Cell, ...]:
     return tuple(Cell(float(a), float(b)) for a, b in pairwise(edges))
 
 
+_UNFELT = {
+    "robot",
+    "requirement",
+    "place",
+    "supply",
+    "incidence",
+    "wheel_speed_max",
+    "guard_wall",
+    "formed",
+}
+"""Fields of a problem on which its `RimFloor` does not depend; any other is part of the key."""
+
+
 @dataclass(frozen=True)
 class _Kept:
     """A problem that compares by its key."""
@@ -100,10 +113,10 @@ class RimFloor:
         They do not depend on robot, maneuvers, supply and angle: alternatives that differ only in
         those share one result.
         """
-        parts = problem.motors, problem.gears, problem.materials, problem.lightenings
-        room = problem.envelope, problem.web, problem.on_bell, problem.cuts, problem.web_material
-        rest = problem.foot_plate, problem.layout
-        return cls._of(_Kept((*(tuple(each) for each in parts), *room, *rest), problem))
+        felt = {each.name for each in fields(problem)} - _UNFELT
+        values = [getattr(problem, name) for name in sorted(felt)]
+        key = tuple(tuple(each) if isinstance(each, list) else each for each in values)
+        return cls._of(_Kept(key, problem))
 
     @classmethod
     @lru_cache(maxsize=16)
