@@ -62,13 +62,9 @@ def wiring_parts(device: Device, margins: Sequence[Margin]) -> Iterator[tuple[st
     current, voltage = motor_current(motor), motor.bus_voltage
     if voltage is None:
         return
-    bus = [
-        asked
-        for way in ("", ", drawn", ", fed back")
-        if (asked := demand_of(margins, f"bus current{way}")) is not None
-    ]
+    bus = _bus_current(margins)
     rated = f"{_up(VOLTAGE_RESERVE * voltage)} V direct voltage or more"
-    flows = f"{_up(max(bus))} A, as long as a maneuver takes, and {rated}" if bus else rated
+    flows = rated if bus is None else f"{_up(bus)} A, as long as a maneuver takes, and {rated}"
     fastest = motor.top_speed * motor.gear_ratio
     up_to = f", up to {rpm(fastest)}" if math.isfinite(fastest) else ""
     yield (
@@ -119,16 +115,23 @@ def wiring(device: Device, margins: Sequence[Margin]) -> Iterator[str]:
         "robot has room, and into its file with what they weigh."
     )
     if gives:
-        yield f"The battery, for all motors together, {gives}. Cables and fuse stand as much."
+        yield (
+            f"The battery, for all motors together, {gives}. Choose cables and fuse for the same "
+            "current."
+        )
     limits = []
     if supply is not None and math.isfinite(supply.current_max):
         limits.append(f"{significant(supply.current_max, 3)} A")
     if supply is not None and math.isfinite(supply.power_max):
         limits.append(f"{significant(supply.power_max, 4)} W")
     if limits:
+        bus = _bus_current(margins)
+        taken = "" if bus is None else f"; its maneuvers take up to {_up(bus)} A of it"
+        least = "what a maneuver takes" if bus is None else f"{_up(bus)} A"
         yield (
-            f"The design keeps to a supply of {' and '.join(limits)}, drawn or fed back: set "
-            "the controllers' limits to no less, or the wheels brake too late."
+            f"The design keeps all motors together within a supply of {' and '.join(limits)}, "
+            f"drawn or fed back{taken}. Where a controller limits its own bus current, set that "
+            f"limit to no less than {least}, or the wheels brake too late."
         )
     yield (
         "Braking wheels feed current back. A battery takes it unless it is full or its "
@@ -156,6 +159,12 @@ def _settings(motor: Drive) -> Iterator[str]:
         f"phase), limits {' and '.join(limits)}. Inductance and poles are in no source: let the "
         f"controller measure the one, and count the magnets.{friction}"
     )
+
+
+def _bus_current(margins: Sequence[Margin]) -> float | None:
+    """Largest current that all motors draw or feed back together [A]; None: none is recorded."""
+    asked = (demand_of(margins, f"bus current{way}") for way in ("", ", drawn", ", fed back"))
+    return max((each for each in asked if each is not None), default=None)
 
 
 def demand_of(margins: Sequence[Margin], *names: str) -> float | None:

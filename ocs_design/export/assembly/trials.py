@@ -83,9 +83,20 @@ def balance(assembly: Assembly) -> Iterator[str]:
             f"the module by {_two(1e6 * mode.amplitude)} µm, with {weights} "
             f"times its weight ({DAMPING:.0%} damping, assumed)."
         )
+    motor, held = assembly.device.motor, ""
+    if motor.no_load_current and motor.torque_constant:
+        friction = motor.no_load_current * motor.torque_constant / STANDARD_GRAVITY
+        held = (
+            " Level blades do not show it: the motor's friction alone holds "
+            f"{significant(1e6 * friction, 2)} g mm."
+        )
     yield (
-        "By hand: shaft level on two blades, heavy side down; or with an accelerometer on the "
-        "foot, a trial mass of wax in three places, and the circle through the three readings."
+        "Find the heavy side in four runs, with an accelerometer on the clamped foot and at one "
+        "steady speed well below the first mode: one as it is, then three with the same piece of "
+        "wax on the rim at 0, 120 and 240 degrees. Draw a circle whose radius is the first "
+        "reading, and around its points at those angles circles with the other three: they meet "
+        "in one point. The heavy side is opposite it, and the unbalance is that of the wax times "
+        f"the first reading over the point's distance from the middle.{held}"
     )
 
 

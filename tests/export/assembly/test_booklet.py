@@ -13,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from wheels import paper_device
 
+from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import materials
 from ocs_design.common.units import rpm
 from ocs_design.device.bodies import carrier_placement, wheel_placement
@@ -27,6 +28,7 @@ from ocs_design.export.assembly.views import BALLOON, pulled_apart, spread
 from ocs_design.export.assembly_notes import trunk_threads
 from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.export.drawing.sheet import FRAME_BOX, THIN, Circle, Line, Polyline, Text
+from ocs_design.export.electrics import wiring, wiring_parts
 from ocs_design.parts.pedestal import Pedestal
 
 BOTTOM = FRAME_BOX[3]
@@ -266,6 +268,43 @@ def test_the_balance_says_how_much_is_left_and_what_holes_take():
     assert f"a pair takes {1e3 * pair:.2g} g, which are {1e6 * pair * away:.2g} g mm" in said
     assert f"drill of {2e3 * holes.hole_radius:.1f} mm, at most {1e3 * holes.depth:.1f} mm" in said
     assert balance.centred_by in said
+
+
+def test_no_limit_of_a_controller_is_asked_for_beyond_what_the_fuse_carries():
+    device = replace(DEVICES["caged"], supply=Supply(24.0, current_max=500.0, power_max=12000.0))
+    margins = (Margin("bus current, drawn", 103.2, 500.0, "A"),)
+    said = " ".join(wiring(device, margins))
+    (fuse,) = (what for name, _, what in wiring_parts(device, margins) if "fuse" in name)
+    assert "set that limit to no less than 104 A" in said
+    assert "carries 104 A" in fuse
+
+
+def test_blades_are_not_said_to_show_what_friction_holds():
+    """Friction torque over g is the unbalance that it holds on level blades."""
+    device = DEVICES["caged"]
+    motor = replace(device.motor, no_load_current=0.9, torque_constant=0.0212)
+    said = texts(Assembly("solo12", replace(device, motor=motor)), "Balance")
+    assert (
+        f"friction alone holds {1e6 * 0.9 * 0.0212 / 9.80665:.2g}".replace("1.9e+03", "1900")
+        in said
+    )
+    motor = replace(motor, no_load_current=None)
+    assert "blades" not in texts(Assembly("solo12", replace(device, motor=motor)), "Balance")
+
+
+def test_the_heavy_side_is_opposite_the_point_of_the_four_runs():
+    """Its construction, with a made unbalance and a made response of the foot."""
+    unbalance, response, wax = 2.4 * np.exp(0.7j), 0.3 * np.exp(-1.1j), 1.5
+    first = abs(response * unbalance)
+    around = first * np.exp(1j * np.radians([0.0, 120.0, 240.0]))
+    others = abs(response * (unbalance + wax * around / first))
+    # Where the circles meet: differences of their equations are linear.
+    normals = 2.0 * np.column_stack([(around[0] - around[1:]).real, (around[0] - around[1:]).imag])
+    meet = np.linalg.solve(normals, others[1:] ** 2 - others[0] ** 2)
+    point = complex(*meet)
+    assert abs(point - around) == pytest.approx(others)
+    assert -point / abs(point) * wax * first / abs(point) == pytest.approx(unbalance)
+    assert "The heavy side is opposite it" in texts(Assembly("dog", DEVICES["caged"]), "Balance")
 
 
 @pytest.mark.parametrize(
