@@ -203,7 +203,16 @@ def free_base(spec: mujoco.MjSpec, base: str, warnings: Warnings) -> None:
     strangers = [body for body in spec.worldbody.bodies if body.name != base]
     held = [joint for joint in spec.body(base).joints if joint.type != _FREE]
     is_free = len(spec.body(base).joints) > len(held)
-    keyframes = [] if is_free and not strangers else take_keyframes(spec)
+    ropes = [
+        tendon
+        for tendon in spec.tendons
+        if any(each.target and each.target.parent == spec.worldbody for each in tendon.path)
+    ]
+    keyframes = [] if is_free and not (strangers or ropes) else take_keyframes(spec)
+    for rope in ropes:
+        warnings.add("tendons to the world, left out", rope.name or "one without a name")
+        _delete_users(spec, mujoco.mjtObj.mjOBJ_TENDON, rope.name)
+        spec.delete(rope)
     for geom in list(spec.worldbody.geoms):
         name = geom.name or "one without a name"
         warnings.add("fixed geoms of the model's world, left out", name)
@@ -211,6 +220,10 @@ def free_base(spec: mujoco.MjSpec, base: str, warnings: Warnings) -> None:
     for body in strangers:
         warnings.add("other bodies than the robot, left out", body.name)
         spec.delete(body)
+    # The reader has told of what ties the robot to the world.
+    for tie in [each for each in spec.equalities if each.type in TIES]:
+        if "world" in _ends(spec, tie):
+            spec.delete(tie)
     # Cameras and lights that track something left out would not compile.
     there = {body.name for body in spec.bodies}
     for each in [*spec.cameras, *spec.lights]:
@@ -218,18 +231,33 @@ def free_base(spec: mujoco.MjSpec, base: str, warnings: Warnings) -> None:
             each.targetbody, each.mode = "", mujoco.mjtCamLight.mjCAMLIGHT_FIXED
     if not is_free:
         for joint in held:
-            # What acts on it, measures it or ties it would not compile without it.
-            kind, name = mujoco.mjtObj.mjOBJ_JOINT, joint.name
-            for actuator in [each for each in spec.actuators if each.target == name]:
-                spec.delete(actuator)
-            for sensor in [s for s in spec.sensors if (s.objtype, s.objname) == (kind, name)]:
-                spec.delete(sensor)
-            of_kind = [each for each in spec.equalities if each.objtype == kind]
-            for tie in [each for each in of_kind if name in {each.name1, each.name2}]:
-                spec.delete(tie)
+            _delete_users(spec, mujoco.mjtObj.mjOBJ_JOINT, joint.name)
             spec.delete(joint)
         spec.body(base).add_freejoint()
     put_keyframes(spec, keyframes)
+
+
+def _delete_users(spec: mujoco.MjSpec, kind: mujoco.mjtObj, name: str) -> None:
+    """Delete what acts on a joint or tendon, measures or ties it: it would not compile without."""
+    for actuator in [each for each in spec.actuators if each.target == name]:
+        spec.delete(actuator)
+    for sensor in [s for s in spec.sensors if (s.objtype, s.objname) == (kind, name)]:
+        spec.delete(sensor)
+    of_kind = [each for each in spec.equalities if each.objtype == kind]
+    for tie in [each for each in of_kind if name in {each.name1, each.name2}]:
+        spec.delete(tie)
+
+
+TIES = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
+"""Equalities that hold a body at a place of another one."""
+
+
+def _ends(spec: mujoco.MjSpec, tie: mujoco.MjsEquality) -> set[str]:
+    """Names of the two bodies that a connect or weld ties; the world's is `world`."""
+    names = tie.name1, tie.name2
+    if tie.objtype == mujoco.mjtObj.mjOBJ_SITE:
+        names = tuple(spec.site(name).parent.name for name in names)
+    return {name or "world" for name in names}
 
 
 def write_out_orientations(spec: mujoco.MjSpec) -> None:

@@ -18,7 +18,7 @@ from ocs_design.export.physics import (
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.mujoco_bodies import quaternion
-from ocs_design.robot.mujoco_model import build_spec, trunk_body
+from ocs_design.robot.mujoco_model import TIES, build_spec, trunk_body
 from ocs_design.robot.robot import Robot
 
 FLOOR = "ocs_floor"
@@ -69,6 +69,9 @@ def robot_scene(robot: Robot) -> mujoco.MjSpec:
     # Nor what stands in for such a control: only the floor bears the robot's weight.
     for body in spec.bodies[1:]:
         body.gravcomp = 0.0
+    # The posture and the drives are those of legs whose closed chains are cut open.
+    for tie in [each for each in spec.equalities if each.type in TIES]:
+        spec.delete(tie)
     add_floor(spec)
     add_drives(spec, robot)
     hold_other_joints(spec, robot)

@@ -1,5 +1,6 @@
 """Robots in MuJoCo: the same masses, joints and names as in the file, free and ready to touch."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -25,6 +26,7 @@ from ocs_design.robot.mujoco_model import (
 from ocs_design.robot.reader import load, read_robot
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import JointKind
+from ocs_design.simulation.scene import robot_scene
 
 READABLE = [path for path in ALL_URDFS if path.name != "ur3.urdf"]
 MENDED = {"romeo_small", "romeo_laas_small", "romeo", "human"}
@@ -251,6 +253,43 @@ def test_an_mjcf_robot_stands_alone_and_free_with_its_keyframe(tmp_path, root):
     assert data.qpos[2] == (0.6 if "freejoint" in root["root_joint"] else 0.5)
     assert any("floor" in warning for warning in built.warnings)
     assert any("ball" in warning for warning in built.warnings) == bool(root["stranger"])
+
+
+TIED = """<mujoco><worldbody><site name="hook" pos="0 0 2"/>
+  <body name="post"><site name="peg"/><geom size="0.1"/></body>
+  <body name="trunk"><freejoint/><geom size="0.1"/><site name="eye"/>
+    <body name="a"><joint name="ja"/><geom size="0.02" pos="0 0 -0.2"/></body>
+    <body name="b"><joint name="jb"/><geom size="0.02" pos="0 0 -0.2"/></body></body></worldbody>
+  <equality><weld body1="trunk"/><connect body1="trunk" body2="post" anchor="0 0 0"/>
+    <connect site1="eye" site2="hook"/><connect name="rod" body1="a" body2="b" anchor="0 0 0"/>
+  </equality>
+  <tendon><spatial name="rope"><site site="eye"/><site site="hook"/></spatial>
+    <spatial name="line"><site site="eye"/><site site="peg"/></spatial></tendon>
+  <actuator><motor tendon="rope"/><motor tendon="line"/><motor joint="ja"/></actuator>
+  <sensor><tendonpos tendon="rope"/></sensor></mujoco>"""
+
+
+KEY = '<keyframe><key name="home" ctrl="{}" qpos="0 0 1 1 0 0 0 0.1 0.2"/></keyframe></mujoco>'
+
+
+@pytest.mark.parametrize("alone", [False, True])
+def test_what_ties_an_mjcf_robot_to_its_world_is_released(tmp_path, alone):
+    text = TIED
+    if alone:
+        for part in (
+            r'<body name="post">.*?</body>',
+            r"<connect body1.*?/>",
+            r"<spatial name=.line.*?l>",
+        ):
+            text = re.sub(part, "", text)
+        text = text.replace('<motor tendon="line"/>', "")
+    text = text.replace("</mujoco>", KEY.format("1 2" if alone else "1 2 3"))
+    robot = read_robot(write(tmp_path, text), trunk="trunk", legs=())
+    model = build_spec(robot).spec.compile()
+    assert [model.eq(index).name for index in range(model.neq)] == ["rod"]
+    assert (model.ntendon, model.nu, model.nsensor) == (0, 1, 0)
+    assert model.key("home").ctrl == (2 if alone else 3)
+    assert not robot_scene(robot).compile().neq
 
 
 def test_an_mjcf_robot_brings_its_includes(tmp_path):
