@@ -66,7 +66,7 @@ def run(app: typer.Typer, arguments: Sequence[str]) -> int:
 Failure: TypeAlias = OcsError | typer.TyperException | OSError | UnicodeEncodeError
 
 
-def _told(error: Failure) -> OcsError:
+def _as_ocs_error(error: Failure) -> OcsError:
     """The failure as an `OcsError`, with a hint."""
     if isinstance(error, OcsError):
         return error
@@ -106,7 +106,7 @@ def _write_nowhere(*streams: TextIO) -> None:
 
 def _report(error: Failure, *, as_json: bool, color: bool) -> int:
     """Print what went wrong; returns the exit code."""
-    told = _told(error)
+    told = _as_ocs_error(error)
     unprinted = isinstance(error, OSError) and error.filename is None
     if unprinted:
         # Output that could not be printed is still in the buffer.

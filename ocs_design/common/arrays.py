@@ -38,7 +38,7 @@ def matrix(values: FloatArray) -> Matrix:
 
 
 def finite_or_none(limit: float | FloatArray) -> float | None:
-    """A limit as a number; None where it is infinite, for what is not limited."""
+    """A limit as a number; None if it is infinite, that is, if there is no limit."""
     return float(limit) if np.isfinite(limit) else None
 
 

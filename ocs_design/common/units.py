@@ -178,7 +178,7 @@ def written_unit(value: object) -> str:
 
 
 def _matched(text: str) -> re.Match[str] | None:
-    """A number and what is behind it; word processors write a minus sign for the hyphen."""
+    """A number and the text after it; word processors write a minus sign for the hyphen."""
     return _QUANTITY.fullmatch(text.replace("\N{MINUS SIGN}", "-"))
 
 

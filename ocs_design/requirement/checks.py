@@ -238,7 +238,7 @@ def _of_layouts(specification: Specification) -> Iterator[str]:
 
 
 def _without_motor(specification: Specification) -> Iterator[str]:
-    """Keys that need a motor where none is wanted, one line each."""
+    """Keys that need a motor although none is wanted, one line each."""
     if specification.motor.name != NO_MOTOR:
         return
     of_motors: Mapping[str, Iterable[str]] = {

@@ -26,7 +26,7 @@ class ManeuverKind:
     note: str
 
     @cached_property
-    def _said(self) -> Mapping[str, tuple[Any, ...]]:
+    def _annotations(self) -> Mapping[str, tuple[Any, ...]]:
         """Annotation of each key: its type, its parser and, last, the note."""
         hints = get_type_hints(self.maneuver, include_extras=True)
         said = {item.name: hints[item.name] for item in fields(self.maneuver)}
@@ -37,12 +37,12 @@ class ManeuverKind:
     @cached_property
     def values(self) -> Mapping[str, Value[Any]]:
         """Parser of each key, by name."""
-        return {name: said[1] for name, said in self._said.items()}
+        return {name: annotation[1] for name, annotation in self._annotations.items()}
 
     @cached_property
     def notes(self) -> Mapping[str, str]:
         """Note on each key, by name."""
-        return {name: said[-1] for name, said in self._said.items()}
+        return {name: annotation[-1] for name, annotation in self._annotations.items()}
 
     @property
     def required(self) -> tuple[str, ...]:
@@ -97,7 +97,7 @@ def slower(maneuver: Maneuver, factor: float, standing_height: float) -> Maneuve
 
     Args:
         maneuver: to change. factor: positive; below 1: less time.
-        standing_height: of the trunk over the ground [m].
+        standing_height: of the trunk above the ground [m].
     """
     match maneuver:
         case Drop():

@@ -152,7 +152,7 @@ class Maneuver(ABC):
 
         Args:
             inertia: of the robot with its device, wheels braked.
-            standing_height: of the trunk over the ground [m].
+            standing_height: of the trunk above the ground [m].
         """
 
     def least_torque(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
@@ -163,7 +163,7 @@ class Maneuver(ABC):
 
         Args:
             inertia: of the robot with its device, wheels braked.
-            standing_height: of the trunk over the ground [m].
+            standing_height: of the trunk above the ground [m].
         """
         del inertia, standing_height
         return np.zeros(2)
@@ -174,7 +174,7 @@ class Maneuver(ABC):
 
         Args:
             inertia: of the robot with its device, wheels braked; or of many of them.
-            standing_height: of the trunk over the ground [m].
+            standing_height: of the trunk above the ground [m].
         """
 
     def scaled(self, factor: float, *names: str) -> Self:

@@ -31,7 +31,7 @@ class ManeuverReserve:
     short: bool = False
 
 
-_NOTHING_KEPT = ManeuverReserve()
+_NO_RESERVE = ManeuverReserve()
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,8 +82,8 @@ class Requirement:
         return np.reshape(found, (-1, 2))
 
     def reserve(self, maneuver: Maneuver) -> ManeuverReserve:
-        """Reserve for a maneuver; a neutral one where none is kept."""
-        return self.reserves.get(maneuver.name, _NOTHING_KEPT)
+        """Reserve for a maneuver; a neutral one if there is none."""
+        return self.reserves.get(maneuver.name, _NO_RESERVE)
 
     def slew(self, maneuver: Maneuver, inertia: TiltInertia, *, begun: bool = False) -> Slew:
         """Slew that the motors must make for a maneuver, with its reserve (`Maneuver.slew`).

@@ -46,7 +46,7 @@ class Task:
         return cls(specification, resolve(specification, robot, extent), robot, extent)
 
     def with_specification(self, specification: Specification) -> "Task":
-        """Task for the same robot with another specification, resolved anew.
+        """Task for the same robot with another specification, which is resolved again.
 
         Raises:
             SpecificationError: see `resolve`.

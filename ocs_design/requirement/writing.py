@@ -96,13 +96,13 @@ def written(  # noqa: PLR0911
         case WordOr(quantity=quantity), float() | int():
             return written(value, quantity, figures)
         case Quantity(dimension=Dimension.ANGULAR_SPEED, likely="rpm"), float() | int():
-            return _text(_told(value, Dimension.ANGULAR_SPEED, "rpm", figures))
+            return _text(_quantity_text(value, Dimension.ANGULAR_SPEED, "rpm", figures))
         case Quantity(dimension=dimension), float() | int():
             small = dimension is not Dimension.LENGTH or abs(value) < 1.0
             unit = PEOPLE_UNITS.get(dimension, si_unit(dimension)) if small else si_unit(dimension)
-            return _text(_told(value, dimension, unit, figures))
+            return _text(_quantity_text(value, dimension, unit, figures))
         case Spread(dimension=dimension), Distribution():
-            told = partial(_told, dimension=dimension, unit=how.unit, figures=figures)
+            told = partial(_quantity_text, dimension=dimension, unit=how.unit, figures=figures)
             return _text(value.written(told))
         case Several(each=each), Sequence():
             return f"[{', '.join(written(entry, each, figures) for entry in value)}]"
@@ -116,7 +116,7 @@ def written(  # noqa: PLR0911
             return _plain(value)
 
 
-def _told(value: float, dimension: Dimension, unit: str, figures: Figures) -> str:
+def _quantity_text(value: float, dimension: Dimension, unit: str, figures: Figures) -> str:
     """Quantity in `unit` or in SI, as `figures` says."""
     if figures is Figures.ROUNDED:
         return format_quantity(value, unit)

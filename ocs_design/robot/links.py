@@ -63,7 +63,7 @@ class Link:
 
     Attributes:
         name: unique in the file.
-        mass_properties: raw, in the link's frame; None where the file states none.
+        mass_properties: raw, in the link's frame; None if the file has none.
         shapes: in the link's frame.
     """
 

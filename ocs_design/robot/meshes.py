@@ -129,7 +129,7 @@ def _obj_bounds(path: Path) -> FloatArray:
 
 
 def load_with_trimesh(path: Path) -> "trimesh.Trimesh":
-    """A mesh of any kind without its colours, in metres if the file states its unit."""
+    """A mesh of any kind without its colours, in metres if the file specifies its unit."""
     import trimesh  # noqa: PLC0415 - takes 1.7 s, and only few meshes need it
 
     scene = trimesh.load_scene(path)

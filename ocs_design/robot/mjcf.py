@@ -87,7 +87,7 @@ def find_base(model: mujoco.MjModel, named: Sequence[str], warnings: Warnings) -
         warnings.add("no body has a free joint: taken as the floating base", model.body(base).name)
     for body in roots:
         if body != base and body in moving:
-            warnings.add("beside the robot, left out", model.body(body).name)
+            warnings.add("not part of the robot, left out", model.body(body).name)
     return base
 
 

@@ -157,7 +157,7 @@ def design_ocs(
         unfilmed = _write_flights(placed, proof, staging, steps)
         with steps.step("search lighter alternatives"):
             lighter, owed = otherwise()
-        conceded = _what_must_give(placed, owed, steps)
+        conceded = _lighter_changes(placed, owed, steps)
         forget_collision_model()
         control = control_of(stated, robot)
         design = replace(
@@ -226,7 +226,7 @@ def _write_flights(placed: Placed, proof: Proof, folder: Path, steps: Steps) -> 
         )
 
 
-def _what_must_give(placed: Placed, owed: Owed | None, steps: Steps) -> Lighter | None:
+def _lighter_changes(placed: Placed, owed: Owed | None, steps: Steps) -> Lighter | None:
     """Changes that would make the device lighter, if requested."""
     by, choice = placed.specification.ocs.lighter_by, placed.designed.choice
     if by is None or choice is None:

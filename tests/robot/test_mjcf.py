@@ -290,7 +290,7 @@ def test_the_robot_is_what_is_driven_or_free_with_joints_else_it_is_asked(bodies
     if robot:
         tree = read_mjcf(text, None)
         assert tree.bodies[0].name == robot
-        assert ("beside the robot, left out" in " ".join(tree.warnings)) == (
+        assert ("not part of the robot, left out" in " ".join(tree.warnings)) == (
             bodies.count("name") > 1
         )
         return
