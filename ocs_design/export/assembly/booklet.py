@@ -12,6 +12,7 @@ from typing import NamedTuple
 from ocs_design.actuation.fasteners import IN_PLASTIC
 from ocs_design.actuation.motor import DIRECT, OFF_BOTTOM
 from ocs_design.catalogue.motors import drawn_threads
+from ocs_design.common.units import significant
 from ocs_design.device.device import Device
 from ocs_design.export.assembly.content import Assembly, assembly_of, short
 from ocs_design.export.assembly.placed import Piece
@@ -376,7 +377,7 @@ def screw_rows(assembly: Assembly) -> Iterator[ScrewRow]:
             held.designation,
             f"{held.purpose}{found.with_washers}",
             depth,
-            f"{found.torque:.2g} N m",
+            f"{significant(found.torque, 2)} N m",
             found.rule,
         )
 

@@ -9,6 +9,7 @@ from functools import cached_property, lru_cache
 from math import pi, sqrt
 
 from ocs_design.actuation.fasteners import CLASSES, IN_PLASTIC, Fastening
+from ocs_design.common.units import significant
 from ocs_design.device.joints import burst_of, foot_hold
 from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.placed import Piece, bonding_pieces, holds_wheel, module_pieces
@@ -190,7 +191,7 @@ class Assembly(Documented):
             where = f"; those at {', '.join(at for at, length in own if length == held.length)}"
         return (
             f"{joint}: {held.count} x {held.designation}{self.number(name)}{found.with_washers}, "
-            f"{found.torque:.2g} N m, crosswise in two rounds; {lock}{where}."
+            f"{significant(found.torque, 2)} N m, crosswise in two rounds; {lock}{where}."
         )
 
 

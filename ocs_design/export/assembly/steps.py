@@ -430,16 +430,16 @@ def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
         pinned = (
             " Then drill 3 mm through the base of each foot, clear of its slots, into what it "
             "stands on, and put a pin in: in a maneuver the wheel turns its foot with up to "
-            f"{asked:.2g} N m, and the friction of its screws holds "
-            f"{foot_hold(assembly.device).turning:.2g} N m."
+            f"{significant(asked, 2)} N m, and the friction of its screws holds "
+            f"{significant(foot_hold(assembly.device).turning, 2)} N m."
         )
     return (
         f"The scale's 0 is the long mark square to the wheel's axis; marks are {long / 3.0:g} deg "
         f"apart, long ones {long:g}, and a degree is {degree:.2g} mm at their ends. Scribe a line "
         "forward through the middle of each foot, turn the foot until it meets the scale at "
         f"{scale}, within half a degree, its lid looking {looks}, and tighten {held.count} x "
-        f"{held.designation}{assembly.number(screws)}{found.with_washers}, with {found.torque:.2g} "
-        f"N m each, into {into}.{_under_motor(assembly, found)}{pinned}"
+        f"{held.designation}{assembly.number(screws)}{found.with_washers}, with "
+        f"{significant(found.torque, 2)} N m each, into {into}.{_under_motor(assembly, found)}{pinned}"
     )
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import msgspec
 
 from ocs_design import __version__
+from ocs_design.common.units import significant
 from ocs_design.device.device import Device
 from ocs_design.export.drawing.sheet import (
     CENTRE,
@@ -148,7 +149,7 @@ def _title_block(entries: Entries) -> list[Item]:
         ),
         (
             (64.0, "Material", entries.material, 2.5),
-            (32.0, "Mass", f"{1e3 * entries.mass:.4g} g", 2.5),
+            (32.0, "Mass", f"{significant(1e3 * entries.mass, 4)} g", 2.5),
             (58.0, *entries.figure, 2.5),
             (26.0, "Dimensions", "all in mm", 2.5),
         ),

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ocs_design.catalogue.materials import materials
+from ocs_design.common.units import significant
 from ocs_design.device import joints
 from ocs_design.device.device import Device
 from ocs_design.device.joints import rim_fit
@@ -96,7 +97,7 @@ def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
     """Section and front view in first-angle projection, notes, list of parts and title block."""
     layout, wheel = lay_out(drawing.wheel), drawing.wheel
     fine = "all fits" if shrunk_on(wheel) else "bore"
-    inertia = f"{1e6 * drawing.mass_properties.inertia[2, 2]:.4g} kg mm²"
+    inertia = f"{significant(1e6 * drawing.mass_properties.inertia[2, 2], 4)} kg mm²"
     entries = Entries(
         "OCS flywheel",
         drawing.robot,
@@ -120,8 +121,8 @@ def parts_list(drawing: WheelDrawing) -> list[Item]:
     rim_mass, hub_mass = drawing.masses
     bore, web = seat_limits(drawing)
     rows = (
-        ("2", f"Web with hub{web}", wheel.hub.material, f"{1e3 * hub_mass:.4g} g"),
-        ("1", f"Rim{bore}", wheel.rim.material, f"{1e3 * rim_mass:.4g} g"),
+        ("2", f"Web with hub{web}", wheel.hub.material, f"{significant(1e3 * hub_mass, 4)} g"),
+        ("1", f"Rim{bore}", wheel.rim.material, f"{significant(1e3 * rim_mass, 4)} g"),
         ("Item", "Name", "Material", "Mass"),
     )
     items: list[Item] = []
@@ -143,10 +144,10 @@ def notes(drawing: WheelDrawing) -> Iterator[str]:
     else:
         mass, rpm = sum(drawing.masses), drawing.speed * 30.0 / math.pi
         eccentricity = 1e6 * joints.permissible_eccentricity(drawing.speed)
-        unbalance = mass * eccentricity
+        unbalance, off = (significant(each, 3) for each in (mass * eccentricity, eccentricity))
         yield (
-            f"{balance} at {rpm:,.0f}~rpm: residual unbalance at most {unbalance:.3g}~g~mm "
-            f"(e~=~{eccentricity:.3g}~µm), in one plane. Done on the motor: cad/assembly.pdf."
+            f"{balance} at {rpm:,.0f}~rpm: residual unbalance at most {unbalance}~g~mm "
+            f"(e~=~{off}~µm), in one plane. Done on the motor: cad/assembly.pdf."
         )
     yield (
         f"Inertia of the rim within ±{_percent(rim_inertia_error(wheel))} over its tolerances; "

@@ -120,6 +120,12 @@ def test_the_title_block_says_mass_and_inertia():
     assert "9f3c0a1b2d4e" in found
 
 
+def test_figures_of_a_large_wheel_are_written_out():
+    """As of Unitree's G1: 12,800 kg mm²; here 10^5 kg and 10^5 kg m²."""
+    found = words(CROWDED)
+    assert not [text for text in found if re.search(r"\de\+", text)]
+
+
 def cylinders(wheel):
     """Mass without chamfers [g]."""
     rim, hub = wheel.rim, wheel.hub
