@@ -439,7 +439,8 @@ def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
         "forward through the middle of each foot, turn the foot until it meets the scale at "
         f"{scale}, within half a degree, its lid looking {looks}, and tighten {held.count} x "
         f"{held.designation}{assembly.number(screws)}{found.with_washers}, with "
-        f"{significant(found.torque, 2)} N m each, into {into}.{_under_motor(assembly, found)}{pinned}"
+        f"{significant(found.torque, 2)} N m each, into {into}."
+        f"{_under_motor(assembly, found)}{pinned}"
     )
 
 
