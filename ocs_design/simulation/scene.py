@@ -69,9 +69,12 @@ def robot_scene(robot: Robot) -> mujoco.MjSpec:
     # Nor what stands in for such a control: only the floor bears the robot's weight.
     for body in spec.bodies[1:]:
         body.gravcomp = 0.0
-    # The posture and the drives are those of legs whose closed chains are cut open.
-    for tie in [each for each in spec.equalities if each.type in TIES]:
-        spec.delete(tie)
+    # Posture and drives are the tree's, which has closed chains cut open and as free what an
+    # equality holds still or leads along a curve.
+    led = {name for name, joint in robot.tree.joints.items() if joint.mimic is not None}
+    for tie in list(spec.equalities):
+        if tie.type in TIES or (tie.type == mujoco.mjtEq.mjEQ_JOINT and tie.name1 not in led):
+            spec.delete(tie)
     add_floor(spec)
     add_drives(spec, robot)
     hold_other_joints(spec, robot)

@@ -262,6 +262,7 @@ TIED = """<mujoco><worldbody><site name="hook" pos="0 0 2"/>
     <body name="b"><joint name="jb"/><geom size="0.02" pos="0 0 -0.2"/></body></body></worldbody>
   <equality><weld body1="trunk"/><connect body1="trunk" body2="post" anchor="0 0 0"/>
     <connect site1="eye" site2="hook"/><connect name="rod" body1="a" body2="b" anchor="0 0 0"/>
+    <joint name="hold" joint1="ja" polycoef="0.3 0 0 0 0"/>
   </equality>
   <tendon><spatial name="rope"><site site="eye"/><site site="hook"/></spatial>
     <spatial name="line"><site site="eye"/><site site="peg"/></spatial></tendon>
@@ -286,7 +287,7 @@ def test_what_ties_an_mjcf_robot_to_its_world_is_released(tmp_path, alone):
     text = text.replace("</mujoco>", KEY.format("1 2" if alone else "1 2 3"))
     robot = read_robot(write(tmp_path, text), trunk="trunk", legs=())
     model = build_spec(robot).spec.compile()
-    assert [model.eq(index).name for index in range(model.neq)] == ["rod"]
+    assert [model.eq(index).name for index in range(model.neq)] == ["rod", "hold"]
     assert (model.ntendon, model.nu, model.nsensor) == (0, 1, 0)
     assert model.key("home").ctrl == (2 if alone else 3)
     assert not robot_scene(robot).compile().neq
