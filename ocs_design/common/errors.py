@@ -37,7 +37,7 @@ class OcsError(Exception):
 
     @property
     def sentence(self) -> str:
-        """Message and hint in one line, as a fault among others."""
+        """Message and hint in one line, for a list of faults."""
         return f"{self.message}. {self.hint}" if self.hint else self.message
 
     def data(self) -> Mapping[str, Any]:

@@ -30,13 +30,13 @@ STRESS_SAFETY = 2.0
 
 SOLO12_HEIGHT = 0.272
 """Height of Solo12's trunk above its soles [m], standing at 80 % of its stretched legs. These four
-are of examples/solo12.urdf."""
+figures are from examples/solo12.urdf."""
 
 SOLO12_GYRATION_RADIUS = 0.144559814
-"""[m], standing (`MassProperties.gyration_radius`)."""
+"""Radius of gyration of the standing Solo12 [m] (`MassProperties.gyration_radius`)."""
 
 SOLO12_ROLL_INERTIA, SOLO12_PITCH_INERTIA = 0.0320385239, 0.0550873600
-"""About its centre of mass, standing [kg m^2]."""
+"""Inertias of the standing Solo12 about its centre of mass [kg m^2]."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ class Scale:
 
         At the same wheel speed the demand scales with I_yy / T, and the spin inertia of similar
         rims with the fifth power of their lengths. Robots of the same height differ tenfold in
-        mass: scaled by height alone, a heavy robot's rim would be too small by default.
+        mass: scaled by height alone, the limits would be too tight for a heavy robot by default.
         """
         return float(f"{(self.pitch_inertia / sqrt(self.length)) ** 0.2:.6g}")
 

@@ -192,7 +192,7 @@ class UncertaintySection:
     torque_constant_error: Distribution | None = keyed(
         _RELATIVE,
         "relative error of each motor's torque constant",
-        why="Makers state 5 to 10 % at most.",
+        why="Makers specify 5 to 10 % at most.",
     )
     resistance_error: Distribution | None = keyed(
         _RELATIVE,

@@ -388,13 +388,13 @@ class JointValue(float):
     """Value of a joint [rad or m].
 
     Attributes:
-        dimension: of the unit that it was written with; None for a bare number.
+        dimension: of the unit with which it was written; None for a bare number.
     """
 
     dimension: Dimension | None
 
     def __new__(cls, value: float, dimension: Dimension | None = None) -> "JointValue":
-        """A number that knows its dimension."""
+        """A number with its dimension."""
         made = super().__new__(cls, value)
         made.dimension = dimension
         return made

@@ -183,7 +183,7 @@ def commented_toml(
         default: the defaults, to four digits, commented out.
         title: of the file; may have several lines.
         chosen: names of default maneuvers to include as well.
-        examples: maneuvers that are no defaults, commented out, of kinds not written otherwise.
+        examples: maneuvers that are not defaults, commented out, of kinds not written otherwise.
     """
     lines = [f"# {line}".rstrip() for line in (*title.splitlines(), "", *INTRODUCTION.splitlines())]
     for name, section in SECTIONS.items():
@@ -214,7 +214,7 @@ def commented_toml(
     kinds = {kind_of(maneuver)[0] for maneuver in maneuvers}
     for maneuver in examples:
         if kind_of(maneuver)[0] not in kinds:
-            lines += ["", "# No default, an example:"]
+            lines += ["", "# An example, not a default:"]
             lines += _commented_maneuver(maneuver, Figures.ROUNDED, "# ")
     return "\n".join(lines) + "\n"
 

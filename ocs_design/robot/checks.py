@@ -84,7 +84,7 @@ Public robots lie between 5 and 484; grams or millimetres are off by a thousand 
 
 
 DEGREES = (8.0 * np.pi, 1440.0)
-"""Ranges of a hinge [rad] that suggest degrees, up to four turns; larger ones mean endless."""
+"""Ranges [rad] that suggest limits in degrees, of up to four turns; beyond, a hinge is endless."""
 
 
 def _judge_body(body: Body, warnings: Warnings) -> None:

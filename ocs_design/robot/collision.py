@@ -325,7 +325,7 @@ class CollisionModel:
     def _candidates(
         self, probe: Probe, poses: Poses, geoms: NDArray[np.int64], within: float
     ) -> tuple[NDArray[np.int64], NDArray[np.int64], FloatArray]:
-        """Indices of postures and geoms that may be near a solid, and bounds of their distances.
+        """Indices of postures and geoms that may be near a solid; lower bounds of their distances.
 
         A geom lies within its bounding sphere, and within a box along its own axes.
         """

@@ -220,7 +220,7 @@ def free_base(spec: mujoco.MjSpec, base: str, warnings: Warnings) -> None:
     for body in strangers:
         warnings.add("other bodies than the robot, left out", body.name)
         spec.delete(body)
-    # The reader has told of what ties the robot to the world.
+    # The reader has warned of ties between the robot and the world.
     for tie in [each for each in spec.equalities if each.type in TIES]:
         if "world" in _ends(spec, tie):
             spec.delete(tie)
@@ -238,7 +238,7 @@ def free_base(spec: mujoco.MjSpec, base: str, warnings: Warnings) -> None:
 
 
 def _delete_users(spec: mujoco.MjSpec, kind: mujoco.mjtObj, name: str) -> None:
-    """Delete what acts on a joint or tendon, measures or ties it: it would not compile without."""
+    """Delete what acts on a joint or tendon, measures or ties it, as it would not compile."""
     for actuator in [each for each in spec.actuators if each.target == name]:
         spec.delete(actuator)
     for sensor in [s for s in spec.sensors if (s.objtype, s.objname) == (kind, name)]:
@@ -249,7 +249,7 @@ def _delete_users(spec: mujoco.MjSpec, kind: mujoco.mjtObj, name: str) -> None:
 
 
 TIES = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
-"""Equalities that hold a body at a place of another one."""
+"""Equalities that hold a body at a position on another body."""
 
 
 def _ends(spec: mujoco.MjSpec, tie: mujoco.MjsEquality) -> set[str]:

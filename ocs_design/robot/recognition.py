@@ -165,7 +165,7 @@ _LONGER = 1.2
 """Ratio by which legs must be longer along another axis for that to be up."""
 
 _LIGHT_TRUNK = 0.2
-"""Share of the mass carried by the legs below which they seem to be most of the robot."""
+"""Share of the mass that is carried, below which the legs seem to be most of the robot."""
 
 
 class _Readings(Anatomy):

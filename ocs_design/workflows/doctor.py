@@ -91,7 +91,7 @@ for name in sys.argv[1:]:
 
 @dataclass(frozen=True)
 class Wanted:
-    """A package that is required, or of use.
+    """A package that is required or optional.
 
     Attributes:
         name: of the package. versions: that are allowed, in pip's notation.
