@@ -222,7 +222,11 @@ def free_base(spec: mujoco.MjSpec, base: str, warnings: Warnings) -> None:
         spec.delete(body)
     # The reader has warned of ties between the robot and the world.
     for tie in [each for each in spec.equalities if each.type in TIES]:
-        if "world" in _ends(spec, tie):
+        of_sites = tie.objtype == mujoco.mjtObj.mjOBJ_SITE
+        names = (tie.name1, tie.name2)
+        ends = [spec.site(name).parent.name for name in names] if of_sites else names
+        # A body that is not named is the world.
+        if {"", "world"}.intersection(ends):
             spec.delete(tie)
     # Cameras and lights that track something left out would not compile.
     there = {body.name for body in spec.bodies}
@@ -250,14 +254,6 @@ def _delete_users(spec: mujoco.MjSpec, kind: mujoco.mjtObj, name: str) -> None:
 
 TIES = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
 """Equalities that hold a body at a position on another body."""
-
-
-def _ends(spec: mujoco.MjSpec, tie: mujoco.MjsEquality) -> set[str]:
-    """Names of the two bodies that a connect or weld ties; the world's is `world`."""
-    names = tie.name1, tie.name2
-    if tie.objtype == mujoco.mjtObj.mjOBJ_SITE:
-        names = tuple(spec.site(name).parent.name for name in names)
-    return {name or "world" for name in names}
 
 
 def write_out_orientations(spec: mujoco.MjSpec) -> None:
