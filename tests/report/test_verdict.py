@@ -91,7 +91,7 @@ def test_a_biped_that_lands_level_and_falls_is_told():
 def test_a_flight_that_fails_is_minded_though_the_verdict_names_one_of_its_letters():
     runs = run("back-flip", **OFF, reason="turns 200"), run("flip", **OFF, reason="turns 9")
     screen = StringIO()
-    found = replace(design(MOTOR), validation=runs)
+    found = replace(design(MOTOR), validation=runs, buildable=Buildable(yes=True))
     print_summary(Console(file=screen, width=100), found, (), Path("out"))
     assert headline(found).flight == "back-flip"
     _, _, minded = screen.getvalue().partition("To mind")
