@@ -3,6 +3,8 @@
 from collections.abc import Iterator
 from math import sqrt
 
+import numpy as np
+
 from ocs_design.actuation.motor import DIRECT, Face, GearRoom, Mounting
 from ocs_design.catalogue.motors import known_motors
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
@@ -18,8 +20,12 @@ from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.joints import GRADE
 from ocs_design.parts.motor_mount import motor_front
 from ocs_design.parts.printed import PETG, SHOCK, TRUNK_SCREW
-from ocs_design.robot.robot import Robot
+from ocs_design.robot.manual import assumed_trunk, origin_by_hand
+from ocs_design.robot.robot import Format, Robot
 from ocs_design.robot.surface import trunk_surface
+
+ON_TOP = 0.5e-3
+"""Distance from the top of an assumed trunk within which feet count as standing on it [m]."""
 
 _UNDRILLED = "drill floor and plate for it"
 
@@ -218,21 +224,49 @@ def _overlap(parts: str, beyond: float) -> str:
 
 
 def trunk_notes(device: Device, robot: Robot) -> tuple[str, ...]:
-    """Note on the holes that the trunk needs, and where the frame is that they are told in."""
+    """Notes on the holes that the trunk needs, and where the frame is that they are told in."""
     if device.wheels_alone:
         return ()
     surface = trunk_surface(robot)
-    if surface is None:
+    if surface is not None:
+        half, last = surface.step / 2.0, surface.y + surface.step * (surface.heights.shape[1] - 1)
+        rear, front = surface.x_range
+        ends = (
+            ("its front end", front + half, "before", "behind"),
+            ("its rear end", half - rear, "behind", "before"),
+            ("its left side", last + half, "to the left of", "to the right of"),
+            ("its right side", half - surface.y, "to the right of", "to the left of"),
+            ("its highest point", float(surface.heights.max()), "above", "below"),
+        )
+        measured = ", ".join(
+            f"{what} {1e3 * abs(off):.1f} mm {one if off >= 0.0 else other} it"
+            for what, off, one, other in ends
+        )
+        where = (
+            "to find the origin of the base frame, measure on the trunk, with all that the robot's "
+            f"file has fixed to it: {measured}"
+        )
+        return trunk_threads(device), where
+    if robot.format is not Format.MANUAL:
         return (trunk_threads(device),)
-    half, last = surface.step / 2.0, surface.y + surface.step * (surface.heights.shape[1] - 1)
-    ends = " and ".join(
-        f"{axis} = {1e3 * (low - half):.1f} to {1e3 * (high + half):.1f}"
-        for axis, (low, high) in (("x", surface.x_range), ("y", (surface.y, last)))
-    )
+    where = f"the origin of the base frame is {origin_by_hand(robot.com.tolist())}"
+    box = assumed_trunk(robot)
+    if box is None:
+        return trunk_threads(device), where
+    top = float(box.position[2] + np.abs(box.rotation[2]) @ box.size)
+    standing = min(float(each.position[2]) for each in device.modules)
+    standing -= foot_of(device).wheel_height
+    off = standing - top
+    stand = "on its top"
+    if off > ON_TOP:
+        stand = f"{1e3 * off:.1f} mm above its top, and what is between them is not designed"
+    elif off < -ON_TOP:
+        stand = f"{-1e3 * off:.1f} mm below its top, inside it"
+    sides = " x ".join(f"{2e3 * half:.0f}" for half in box.size)
     return (
-        f"{trunk_threads(device)}; to find that frame on the robot: in its file the trunk, with "
-        f"all that is fixed to it, reaches from about {ends}, and up to "
-        f"z = {1e3 * surface.heights.max():.1f} mm",
+        trunk_threads(device),
+        f"{where}; the trunk's shape is not known, and a box of {sides} mm stands for it: its top "
+        f"is at z = {1e3 * top:.1f} mm, and the feet stand {stand}. Compare it with the robot",
     )
 
 

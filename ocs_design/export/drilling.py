@@ -37,6 +37,7 @@ from ocs_design.parts.carrier_plate import steepest
 from ocs_design.parts.module import part_name
 from ocs_design.parts.outline import flat_outline
 from ocs_design.parts.printed import TRUNK_SCREW
+from ocs_design.robot.manual import origin_by_hand
 
 SHEET = (15.0, 15.0, WIDTH - 15.0, HEIGHT - 30.0)
 """Left, top, right and bottom of what one sheet shows [mm]: printers reach it; below are words."""
@@ -56,7 +57,8 @@ class Drilling:
     """What is drilled and what stands there.
 
     Attributes:
-        robot: its name. trunk: name of the link whose frame this is.
+        robot: its name.
+        frame: what the frame of the coordinates is, as words.
         holes: to be drilled into the trunk [mm].
         screw: that goes there.
         reach: of the screws into the trunk, least and largest [m].
@@ -71,7 +73,7 @@ class Drilling:
     """
 
     robot: str
-    trunk: str
+    frame: str
     holes: tuple[Point, ...]
     screw: Screw
     reach: tuple[float, float]
@@ -91,7 +93,7 @@ class Drilling:
     def words(self) -> tuple[str, ...]:
         """What to do, line by line."""
         back = ", z and y: its back, seen from behind" if self.upwards else ""
-        frame = f"coordinates in mm in the frame of {self.trunk}{back}"
+        frame = f"coordinates in mm in {self.frame}{back}"
         if self.refused:
             return (
                 f"{self.robot}: drill nothing by this sheet. The device cannot be built as it "
@@ -191,9 +193,12 @@ def drilling_of(subject: Subject) -> Drilling | None:
         "plate with its threads": plate is not None and mast is None,
         "mast": mast is not None,
     }
+    frame = f"the frame of {subject.base.trunk}"
+    if subject.base.com is not None:
+        frame += f", whose origin is {origin_by_hand(subject.base.com)}"
     return Drilling(
         subject.name,
-        subject.base.trunk,
+        frame,
         holes,
         thread,
         (min(reach), max(reach)),

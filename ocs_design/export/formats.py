@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Self, TypeAlias
 from ocs_design.common.errors import MissingToolError, UsageError, extra_command
 
 if TYPE_CHECKING:
+    from ocs_design.common.arrays import Vector
     from ocs_design.device.device import Device
     from ocs_design.device.records.design import OcsDesign
     from ocs_design.device.records.device import Buildable, Margin
@@ -30,10 +31,12 @@ class Base:
     Attributes:
         trunk: link that carries the device; its frame is the base frame B.
         mount: how B is fixed to the robot's own link; None if `trunk` is one.
+        com: centre of mass in B of a robot given by hand [m]; None: a file tells where B is.
     """
 
     trunk: str
     mount: "Mount | None"
+    com: "Vector | None" = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,11 +60,14 @@ class Documented:
 
     def recorded(self, design: "OcsDesign") -> Self:
         """The device with what its design records besides it."""
+        # Open points of a robot of unknown shape do not refuse it, but nobody may miss them.
+        known = design.buildable.yes is not None
+        points = () if known else (f"{each.what}; {each.cure}" for each in design.buildable.open)
         return replace(
             self,
             device=replace(self.device, supply=design.supply),
             margins=design.margins,
-            fitting=design.ocs.fitting,
+            fitting=(*points, *design.ocs.fitting),
             refused=refusal(design.buildable),
         )
 
@@ -81,7 +87,9 @@ class Subject(Documented):
     @classmethod
     def of(cls, robot: "Robot", device: "Device", name: str) -> "Subject":
         """Device on a robot that was read."""
-        return cls(name, device, base=Base(robot.trunk, robot.mount), robot=robot)
+        x, y, z = robot.com.tolist()
+        com = None if robot.sha256 else (x, y, z)
+        return cls(name, device, base=Base(robot.trunk, robot.mount, com), robot=robot)
 
     @property
     def carrier(self) -> "Robot":

@@ -64,7 +64,7 @@ from ocs_design.requirement.vocabulary import (
     STEEL,
 )
 from ocs_design.requirement.worded_maneuvers import Worded, told_with_device, worded_maneuvers
-from ocs_design.robot.manual import person, robot_by_hand
+from ocs_design.robot.manual import assumed_trunk, person, robot_by_hand
 from ocs_design.robot.mass import impossible_size
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.recognition import question_about
@@ -252,6 +252,14 @@ def _assumptions(
     if robot.standing_height is None and any(landing):
         height = format_quantity(requirement.standing_height, "mm", 3)
         yield f"No legs: standing height {height}, Solo12's scaled by radius of gyration."
+    if (box := assumed_trunk(robot)) is not None:
+        sides = " x ".join(f"{2e3 * half:.0f}" for half in box.size)
+        yield (
+            f"Trunk {robot.trunk!r}: a box of {sides} mm (long, wide, high) around the centre of "
+            "mass, the solid one of this mass and inertia. The modules stand on it, and are kept "
+            "clear of it. State where they stand with --position, or the trunk's own shape in a "
+            "robot file."
+        )
     if specification.takes_default_maneuvers:
         ratio = f"lengths x {scale.length:.3g}"
         yield f"Maneuvers: the paper's three, scaled from Solo12 ({ratio})."

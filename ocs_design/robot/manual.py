@@ -136,6 +136,23 @@ def equal_box(weighed: MassProperties) -> Shape:
     return Shape(ShapeKind.BOX, size, weighed.com, axes, TRUNK, collides=True)
 
 
+def assumed_trunk(robot: Robot) -> Shape | None:
+    """The box that stands for the trunk of a robot given by hand; None: its shape is known.
+
+    A person wears the device, and nothing is placed by that box.
+    """
+    by_hand = robot.format is Format.MANUAL and robot.worn_at is None
+    return robot.tree.bodies[0].shapes[0] if by_hand else None
+
+
+def origin_by_hand(com: Sequence[float]) -> str:
+    """Where the origin of B is on a robot given by hand, as words; `com`: see `robot_by_hand`."""
+    if not any(com):
+        return "the robot's centre of mass"
+    at = ", ".join(f"{1e3 * value:.1f}" for value in com)
+    return f"the point from which the robot's centre of mass is at x, y, z = {at} mm"
+
+
 USUAL_DENSITY = 50.0
 """Density of a ball with Solo12's mass and inertia [kg/m^3]."""
 

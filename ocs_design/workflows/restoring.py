@@ -46,7 +46,7 @@ def seat_of(record: RobotRecord) -> Base:
     """Base of the device on its robot."""
     mount = record.mount
     if mount is None:
-        return Base(record.trunk, None)
+        return Base(record.trunk, None, None if record.sha256 else record.com)
     placement = Placement(np.array(mount.rotation), np.array(mount.position))
     return Base(record.trunk, Mount(mount.link, placement))
 

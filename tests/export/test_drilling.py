@@ -3,7 +3,6 @@
 import re
 from collections import Counter
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,11 +14,11 @@ from ocs_design.export.device_parts import foot_holes
 from ocs_design.export.drawing.sheet import HEIGHT, THIN, Area, Circle, Line, Text
 from ocs_design.export.drawing.writers import pdf_of_pages
 from ocs_design.export.drilling import CHECK, SHEET, drilling_of, pages
-from ocs_design.export.formats import Subject
+from ocs_design.export.formats import Base, Subject
 
 
-def subject(device, refused=""):
-    seat = SimpleNamespace(trunk="trunk", mount=None)
+def subject(device, refused="", com=None):
+    seat = Base("trunk", None, com)
     return Subject("dog", device, base=seat, refused=refused)
 
 
@@ -129,6 +128,13 @@ def test_threads_are_as_deep_as_the_screws_go(device):
     deep, blind = map(float, re.findall(r"([\d.]+) mm deep", said))
     assert max(reach) + 0.5 <= deep + 1e-9 < max(reach) + 0.6 + 1e-9
     assert blind == pytest.approx(deep + 3.0, abs=0.06)
+
+
+def test_by_hand_the_frame_is_told_by_the_centre_of_mass():
+    first, *_ = drilling_of(subject(DEVICES["caged"], com=(0.0, 0.0, 0.0))).words
+    assert "frame of trunk, whose origin is the robot's centre of mass." in first
+    first, *_ = drilling_of(subject(DEVICES["caged"], com=(0.01, 0.0, -0.02))).words
+    assert "the robot's centre of mass is at x, y, z = 10.0, 0.0, -20.0 mm" in first
 
 
 def test_one_sheet_is_enough_where_it_has_room_for_the_holes():

@@ -11,10 +11,12 @@ import pytest
 from robots import SOLO12
 from wheels import driven_device
 
+from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly_notes import trunk_notes
 from ocs_design.export.formats import Subject
 from ocs_design.export.robot_model import robot_model
 from ocs_design.export.snippets import snippets
+from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.footing.standing import stand_on_trunk
 
@@ -32,7 +34,7 @@ def plated(robot):
 
 
 def test_the_holes_of_the_plate_are_told(robot, plated):
-    (said,) = trunk_notes(plated, robot)
+    said, _ = trunk_notes(plated, robot)
     x, y = plated.plate.trunk[0]
     x += plated.plate.position[0]
     assert f"({1e3 * x:.1f}, {1e3 * y:.1f})" in said
@@ -40,7 +42,7 @@ def test_the_holes_of_the_plate_are_told(robot, plated):
 
 
 def test_feet_on_the_trunk_need_threads_in_it_and_wheels_without_feet_none(robot, plated):
-    (said,) = trunk_notes(replace(plated, plate=None), robot)
+    said, _ = trunk_notes(replace(plated, plate=None), robot)
     assert "threads M3" in said
     bare = replace(plated, carrier=replace(plated.carrier, mass=0.0))
     assert trunk_notes(bare, robot) == ()
@@ -48,7 +50,7 @@ def test_feet_on_the_trunk_need_threads_in_it_and_wheels_without_feet_none(robot
 
 def test_the_frame_is_found_by_the_trunk_s_ends(plated):
     """Boxes of its link that are not turned, and cylinders that lie forward."""
-    (said,) = trunk_notes(plated, read_robot(EXAMPLE))
+    _, said = trunk_notes(plated, read_robot(EXAMPLE))
     lows, highs = [], []
     for visual in ElementTree.parse(EXAMPLE).findall("link[@name='base_link']/visual"):
         middle = np.array(visual.find("origin").get("xyz").split(), dtype=float)
@@ -61,9 +63,28 @@ def test_the_frame_is_found_by_the_trunk_s_ends(plated):
         lows.append(middle - half)
         highs.append(middle + half)
     low, high = 1e3 * np.min(lows, axis=0), 1e3 * np.max(highs, axis=0)
-    found = re.findall(r"(?:= | to )(-?[\d.]+)", said.split("reaches from")[1])
-    expected = [low[0], high[0], low[1], high[1], high[2]]
+    found = re.findall(r"([\d.]+) mm", said)
+    expected = [high[0], -low[0], high[1], -low[1], high[2]]
+    assert min(expected) > 0.0
+    assert "its front end" in said.split(" mm before it")[0]
     np.testing.assert_allclose(np.array(found, dtype=float), expected, atol=1.0)
+
+
+@pytest.mark.parametrize(
+    ("above", "told"), [(0.0, "stand on its top"), (0.049, "stand 49.0 mm above its top")]
+)
+def test_by_hand_the_box_that_stands_for_the_trunk_is_told(above, told):
+    """And where the origin of all coordinates is; a robot of 30 kg, whose box is 224 mm high."""
+    robot, device = robot_by_hand(30.0, (0.55, 1.6, 1.9)), driven_device()
+    height = 0.5 * np.sqrt(6.0 * (0.55 + 1.6 - 1.9) / 30.0) + foot_of(device).wheel_height + above
+    modules = tuple(
+        replace(each, position=np.array([*each.position[:2], height])) for each in device.modules
+    )
+    _, said = trunk_notes(replace(device, modules=modules), robot)
+    assert "the origin of the base frame is the robot's centre of mass" in said
+    assert "a box of 768 x 412 x 224 mm" in said
+    assert "its top is at z = 111.8 mm" in said
+    assert told in said
 
 
 def test_mujoco_weighs_it_where_it_is(robot, plated):

@@ -16,6 +16,7 @@ from ocs_design.requirement.reading import parse_specification, read_specificati
 from ocs_design.requirement.resolving import default_specification, read_specified_robot, resolve
 from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification, specification_from_options
+from ocs_design.robot.manual import person, robot_by_hand
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SIZE = 0.45
@@ -103,6 +104,18 @@ def test_a_robot_without_legs_is_told_its_height(make_robot):
     assert "No legs" in resolved.assumptions[0]
     assert resolved.torque_max == 4.0
     assert len(resolved.requirement.maneuvers) == 3
+
+
+def test_the_box_that_stands_for_the_trunk_of_a_robot_by_hand_is_told():
+    """The solid box of mass m with the sides a, b, c has I_xx = m (b^2 + c^2) / 12, and so on."""
+    assumed = resolve(Specification(), robot_by_hand(12.0, (0.13, 0.37, 0.4)), 0.8).assumptions
+    (told,) = (each for each in assumed if each.startswith("Trunk"))
+    assert "a box of 566 x 283 x 224 mm" in told
+    assert "--position" in told
+    assert not any(
+        each.startswith("Trunk")
+        for each in resolve(Specification(), person(75.0, 1.75), 0.8).assumptions
+    )
 
 
 @pytest.mark.parametrize(

@@ -236,7 +236,7 @@ def robot_steps(assembly: Assembly) -> Iterator[str]:
     told = "; ".join(f"{way}: {', '.join(names)}" for way, names in turns.items() if names)
     yield (
         "Name the drives as the robot files do. Seen from its lid, a positive torque turns the "
-        f"wheel {told}. Axes are in the frame of the design, x forward, y left, z up, and the "
+        f"wheel {told}. Axes are in the base frame, x forward, y left, z up, and the "
         "wheel turns about them by the right hand. Try each at low torque, lid on; where it is "
         "wrong, swap two of the motor's three wires, and set up its sensor again."
     )
@@ -315,10 +315,7 @@ def _trunk_steps(assembly: Assembly) -> Iterator[str]:
         )
     else:
         yield "All modules are of the same parts, each turned as its wheel's axis points."
-    frame = (
-        "in mm forward and to the left of the frame that the design is in (`robot.trunk` of "
-        "design.json)"
-    )
+    frame = "in mm forward and to the left of the origin of the base frame (see Before you start)"
     what = "feet and pedestals" if standing and holes else "pedestals" if holes else "the feet"
     places_of = f"{'; '.join(drilled)}; {what} stand at z = {stand} mm"
     if assembly.refused:

@@ -480,7 +480,7 @@ def test_what_cannot_be_built_is_told_first_of_all():
     """On the first sheet above the pieces, in the title of each, and before all steps."""
     refused = "NOT buildable as it stands. The feet hang in the air; give a place."
     for device in (DEVICES["caged"], DEVICES["on a plate"]):
-        threads = f"{trunk_threads(device)}; to find that frame on the robot"
+        threads = trunk_threads(device)
         assembly = Assembly("solo12", device, fitting=(threads, "of the motor"), refused=refused)
         assert all_texts(assembly)[0] == refused
         said = texts(assembly, "Steps")
