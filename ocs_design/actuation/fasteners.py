@@ -44,6 +44,14 @@ class Screw:
         return 1e-3 * next(long_enough, 20 * ceil(least / 20.0 - 1e-9))
 
     @property
+    def least_thread(self) -> float:
+        """Thread in metal of a screw that would otherwise be cut from a longer one, at least [m].
+
+        Three turns, an assumption: the first ones carry most.
+        """
+        return 3.0 * self.pitch
+
+    @property
     def usual_length(self) -> float:
         """Longest in which it is commonly sold, ten times its diameter (ISO 4762, table 1) [m]."""
         return 10.0 * self.diameter
@@ -213,6 +221,12 @@ B: 0.08 to 0.16)."""
 
 LENGTHS = (4, 5, 6, 8, 10, 12, 16, *range(20, 71, 5), *range(80, 161, 10), *range(180, 301, 20))
 """Standard lengths from 4 mm up [mm]: ISO 4762:2004, table 1."""
+
+
+def longest_within(most: float) -> float:
+    """Longest standard length that is at most that [m]; 0: none."""
+    return max((1e-3 * each for each in LENGTHS if each <= 1e3 * most + 1e-9), default=0.0)
+
 
 SCREWS = (
     Screw("M2", 2.0e-3, 2.4e-3, 1.6e-3, 3.8e-3, 2.0e-3, 0.4e-3, 1.5e-3, 1.0e-3),

@@ -2,8 +2,9 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from math import floor
 
-from ocs_design.actuation.fasteners import Fastening, screw
+from ocs_design.actuation.fasteners import Fastening, longest_within, screw
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.materials import Material, materials
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
@@ -27,6 +28,7 @@ from ocs_design.parts.joints import (
     SMOOTHING,
     WARMEST,
     Correction,
+    Grade,
     ShrinkFit,
     bell_bond_tension,
     correction,
@@ -37,6 +39,7 @@ from ocs_design.parts.joints import (
     shrink_fit,
     slip_fit_eccentricity,
     tightening_torque,
+    tolerance_width,
 )
 from ocs_design.parts.motor_mount import bond_length, motor_front
 from ocs_design.parts.plate_strength import plate_screws_use
@@ -83,16 +86,25 @@ def foot_hold(device: Device) -> FootHold:
 def foot_screws(device: Device, module: Module) -> Fastening:
     """Screws of a module's foot, including washers where they have any.
 
-    Screws that would protrude below the plate are to be cut.
+    Those in a plate end above its underside, for the trunk may be there and would hold their heads
+    off: the next shorter ones, or cut ones where these have too little thread.
     """
     held, plate = counted_foot_screws(device, module), device.plate
     if foot_hold(device).washers:
         held = replace(held, thickness=held.thickness + WASHER_HEIGHT)
-    if plate is not None and held.length > held.thickness + plate.thickness + 1e-6:
-        through = 1e3 * (held.thickness + plate.thickness)
-        purpose = f"{held.purpose}; cut to {through:.1f} mm, or they protrude below the plate"
-        return replace(held, purpose=purpose)
-    return held
+    if plate is None:
+        return held
+    through = held.thickness + plate.thickness
+    # Lengths are made to js15: ISO 4762.
+    longer = tolerance_width(held.length, Grade.IT15) / 2.0
+    if held.length + longer <= through:
+        return held
+    thread = longest_within(through - longer) - held.thickness
+    if thread >= held.screw.least_thread:
+        return replace(held, depth=thread / held.screw.diameter)
+    cut = 1e-4 * floor(1e4 * (through - longer) + 1e-6)
+    purpose = f"{held.purpose}; cut to {1e3 * cut:.1f} mm, or they reach the trunk"
+    return replace(held, purpose=purpose, most=cut - held.thickness)
 
 
 def counted_foot_screws(device: Device, module: Module) -> Fastening:

@@ -132,7 +132,7 @@ def bill_rows(device: Device, margins: Sequence[Margin] = ()) -> Sequence[BillRo
         ]
         for held, counted in dict.fromkeys(feet):
             row = _screw_row(held, feet.count((held, counted)))
-            if held.length > counted:
+            if held.length != counted:
                 remark = f"{row.remark}; weighed as {held.screw.designation(counted)}"
                 row = replace(row, mass=held.screw.mass(counted), remark=remark)
             rows.append(row)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from math import inf, sin
 from typing import Generic
 
-from ocs_design.actuation.fasteners import CLASSES, IN_PLASTIC, LENGTHS, Fastening, screw
+from ocs_design.actuation.fasteners import CLASSES, IN_PLASTIC, Fastening, longest_within, screw
 from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
 from ocs_design.common.arrays import Table
 from ocs_design.parts.bell import Bell, HeldMotor, bell_of
@@ -39,10 +39,6 @@ held by a cage."""
 
 _LEAST_EDGE = 0.1
 """Least angle of a post's wall beside its ear [rad]."""
-
-LOST_THREAD = 0.45e-3
-"""Thread that a screw may have less before a longer one is shortened [m]: an assumption, less than
-a turn of M3."""
 
 _DEPTH = "check the depth of the motor's thread"
 
@@ -199,7 +195,9 @@ def mount_of(
         # Counted with what stands still. Their spin inertia is left out: it would be 0.3 % of that
         # of the lightest wheel on such a motor, and on the safe side.
         depth = CLASSES[rotor.screws].depth
-        fastening = _fastening(rotor, BOLTED_HUB_HEIGHT, f"wheel on rotor; {_DEPTH}", depth)
+        purpose = f"wheel on rotor; {_DEPTH}"
+        # Their thread counts in the joint, all of it.
+        fastening = _fastening(rotor, BOLTED_HUB_HEIGHT, purpose, depth, deepest=True)
         wheel = (Screwed(fastening, rotor, BOLTED_HUB_HEIGHT / 2.0, -1.0, by_wheel=True),)
     if stator is not None and mounting.stator_face is Face.OUTPUT:
         held = _through_walls(stator, foot_plate, f"motor on housing and foot; {_DEPTH}", 1.0)
@@ -273,7 +271,21 @@ def _through_walls(circle: BoltCircle, foot_plate: float, purpose: str, depth: f
     return Screwed(_fastening(circle, thickness, purpose, depth), circle, PANEL, -1.0)
 
 
-def _fastening(circle: BoltCircle, thickness: float, purpose: str, depth: float) -> Fastening:
+def _fastening(
+    circle: BoltCircle,
+    thickness: float,
+    purpose: str,
+    depth: float,
+    *,
+    deepest: bool = False,
+) -> Fastening:
+    """Screws into a motor's threads, no deeper than these are known to be.
+
+    Args:
+        circle: of the threads. thickness: of what they go through [m]. purpose: what they hold.
+        depth: of thread over its diameter, where there is as much.
+        deepest: whether ones that are too long are shortened, and no size shorter does.
+    """
     held, least, most = screw(circle.thread), circle.depth, circle.deepest
     reach = min(depth * held.diameter, most)
     found = Fastening(
@@ -286,11 +298,10 @@ def _fastening(circle: BoltCircle, thickness: float, purpose: str, depth: float)
         least or 0.0,
         most,
     )
-    if least is None and found.length > thickness + most:
-        # One size shorter, where that loses next to nothing.
-        shorter = max((1e-3 * each for each in LENGTHS if 1e-3 * each < found.length), default=0.0)
-        if reach - (shorter - thickness) <= LOST_THREAD:
-            found = replace(found, depth=(shorter - thickness) / held.diameter)
+    if least is None and not deepest and found.length > thickness + most:
+        thread = longest_within(thickness + most) - thickness
+        if thread >= held.least_thread:
+            found = replace(found, depth=thread / held.diameter)
     if least is not None:
         purpose += f", its maker asks for {1e3 * least:.4g} to {1e3 * most:.4g} mm"
     elif circle.drawn is not None:

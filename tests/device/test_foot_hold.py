@@ -10,7 +10,14 @@ from manifold3d import Manifold, Mesh64
 from scipy.integrate import quad
 
 from ocs_design.actuation.fasteners import screw
-from ocs_design.device.joints import BEARING_MOMENT, FOOT_SHOCK, foot_hold, joints_of, unheld_moment
+from ocs_design.device.joints import (
+    BEARING_MOMENT,
+    FOOT_SHOCK,
+    foot_hold,
+    foot_screws,
+    joints_of,
+    unheld_moment,
+)
 from ocs_design.device.records.device import Margin
 from ocs_design.device.solids import foot_of
 from ocs_design.export.assembly.booklet import chapters, piece_rows, screw_rows
@@ -79,18 +86,43 @@ def test_torque_of_a_foot_s_screws_is_what_beside_a_slot_bears(mass):
     assert row.torque == ("0.079 N m" if mass == 0.3 else "0.42 N m")
     (bought,) = (row.made for row in piece_rows(assembly) if "screw, foot on" in row.name)
     for words in (row.purpose, bought):
-        assert ("washer ISO 7093-1 - 3" in words) == (mass == 2.0)
+        assert ("ISO 7093-1 - 3" in words) == (mass == 2.0)
     length = int(re.search(r"x (\d+)$", row.designation)[1])
     base = 1e3 * float(foot_of(assembly.device).base) + (0.8 if mass == 2.0 else 0.0)
-    # A diameter of thread holds, beyond the washer too, and no more than the plate has.
-    thread = min(length - base, 3.0)
-    assert thread >= 3.0 - 1e-9
-    assert row.engagement.startswith(f"{thread:.1f} mm (1.0 d)")
-    told = f"cut to {base + 3.0:.1f} mm, or they protrude below the plate"
-    assert (told in row.purpose) == (length - base > 3.0 + 1e-6)
+    # The next would reach the trunk under 3 mm of plate, which it may by half of IT15.
+    assert length == (6 if mass == 2.0 else 5)
+    thread = length - base
+    assert row.engagement.startswith(f"{thread:.1f} mm ({thread / 3.0:.1f} d)")
+    assert "cut to" not in row.purpose
     parts = [each.part for each in bill_rows(assembly.device) if "foot on plate" in each.remark]
     # So light a module leaves nothing for prints and their screws.
     assert parts == ([f"screw {row.designation}"] if mass == 2.0 else [])
+
+
+@pytest.mark.parametrize(
+    ("base", "length", "cut"),
+    [
+        (3.0, 5, None),
+        (3.3, 6, None),
+        (4.4, 6, None),
+        # 6 mm would have less than three turns: M3 x 8, made to +-0.29, is cut.
+        (4.6, 8, 7.3),
+        (5.0, 8, 7.7),
+        (5.4, 8, None),
+    ],
+)
+def test_no_foot_s_screw_reaches_the_trunk_under_its_plate(base, length, cut):
+    """Lengths of ISO 4762 are made to js15: 0.24 mm up to 6 mm, 0.29 mm up to 10 mm."""
+    device = replace(weighing(0.3), foot_plate=base / 0.6e3)
+    assert device.plate.thickness == 0.003
+    held = foot_screws(device, device.modules[0])
+    assert held.thickness == pytest.approx(1e-3 * base)
+    assert held.length == pytest.approx(1e-3 * length)
+    assert (f"cut to {cut} mm, or they reach the trunk" in held.purpose) == bool(cut)
+    made = length + (0.24 if length <= 6 else 0.29)
+    assert (cut or made) <= base + 3.0
+    assert held.engagement == pytest.approx(1e-3 * ((cut or length) - base))
+    assert held.engagement >= 1.5e-3
 
 
 @pytest.mark.parametrize("share", [0.9, 1.1])
