@@ -45,7 +45,9 @@ def test_size_ends_with_a_design_and_its_proof_or_with_the_motor_that_would_do(n
 def test_a_humanoid_carries_them_on_its_back(tmp_path, no_alternatives):
     """Where its back is flat enough for screws, and out of reach of its feet in a landing."""
     robot = ROBOTS / "g1_description" / "urdf" / "g1_29dof_rev_1_0.urdf"
-    asked = ("--gear", "direct", "--ballistic", "--no-validate", "-o", tmp_path / "out", "--json")
+    # The one that is chosen from all.
+    motor = ("--motor", "U15 II KV80", "--gear", "direct")
+    asked = (*motor, "--ballistic", "--no-validate", "-o", tmp_path / "out", "--json")
     said = run("size", robot, *asked)
     code, document = said.code, said.document
     assert document["buildable"] == {"yes": True, "open": []}

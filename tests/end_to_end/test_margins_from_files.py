@@ -199,8 +199,11 @@ def test_no_flight_asks_for_more_than_is_stated(product):
 
 DRAWN = (
     ("--mass", "3.4", "--inertia", "0.05,0.09,0.12", "--motor", "AT4120 KV560", "--ballistic"),
-    (SOLO12, "--motor", "MN4014 KV400", "--bus-power", "700W"),
-    (SOLO12, "--motor", "AT2820 KV1050", "--alpha", "25deg", "--bus-voltage", "20V"),
+    (SOLO12, "--motor", "MN4014 KV400", "--bus-power", "700W", "--ballistic"),
+    (
+        *(SOLO12, "--motor", "AT2820 KV1050", "--alpha", "25deg", "--bus-voltage", "20V"),
+        "--ballistic",
+    ),
 )
 """Three of the twenty designs that were drawn at random when this was written."""
 

@@ -270,7 +270,7 @@ def test_what_falls_short_is_sized_anew_and_sees_other_samples(
         lambda *a, **k: replace(certificate(*a, **k), verdict="falls short"),
     )
     monkeypatch.setattr(rounds_of, "lesson", lambda *_: Lesson(factor, "off level in roll"))
-    motor = ("--motor", "AT2814 KV1200")
+    motor = ("--motor", "AT2814 KV1200", "--gear", "direct")
     result = certified(DROP, *robot, "--ballistic", *motor, "--reliability", "0.5")
     assert result.code == 1
     found = result.document["reliability"]
