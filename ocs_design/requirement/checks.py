@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import cycle
-from math import pi
+from math import pi, remainder
 
 import numpy as np
 
@@ -30,7 +30,7 @@ from ocs_design.requirement.pivoted import Balance, Pivoted, StandUp
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.sections import TURNS, WORDS
 from ocs_design.requirement.specification import Specification
-from ocs_design.requirement.turns import TurnTo
+from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.requirement.vocabulary import (
     ALL_LAYOUTS,
     ALUMINIUM_WEB,
@@ -40,6 +40,7 @@ from ocs_design.requirement.vocabulary import (
     MORE_PAIRS,
     NO_MOTOR,
     NO_WEB,
+    ORTHOGONAL,
     PAIR,
     PYRAMID,
     RING,
@@ -47,6 +48,7 @@ from ocs_design.requirement.vocabulary import (
     WHEELS,
 )
 from ocs_design.robot.robot import Robot
+from ocs_design.robot.stance import LANDING_TOLERANCE
 
 OF_WEBS = (
     "lightening",
@@ -154,6 +156,52 @@ def _off_its_pivot(maneuver: Pivoted, stated: OcsSection) -> Iterator[str]:
             f"{where}: roll and pitch tilt it about an axis other than the edge, which is along "
             f"({along}): it can turn about its edge only"
         )
+
+
+def _idle(requirement: Requirement, stated: OcsSection) -> Iterator[str]:
+    """Maneuvers that require nothing of the device, one line each.
+
+    One in a list is refused as well: a device has no ratio to a demand of zero.
+    """
+    if requirement.rate_change is not None or requirement.spin_inertia is not None:
+        return
+    if not requirement.maneuvers:
+        yield "requirement: nothing is required: add a maneuver, rate_change or spin_inertia"
+    for each in requirement.maneuvers:
+        yaws = isinstance(each, TurnTo) and any(each.rate) and _acts_about_vertical(stated)
+        zeros = "" if yaws else _zeros(each)
+        if zeros:
+            yield f"maneuver.{each.name}: {zeros}, which requires nothing of the device"
+
+
+def _turns_on(caught: Catch, stated: OcsSection) -> Iterator[str]:
+    """A yaw rate that the wheels cannot stop, in one line."""
+    if caught.rate[2] and not _acts_about_vertical(stated):
+        yield (
+            f"maneuver.{caught.name}: these wheels do not act about the vertical and cannot stop a "
+            f"yaw of {np.degrees(caught.rate[2]):.4g} deg/s: leave yaw out, or choose ocs.layout "
+            f"{ORTHOGONAL!r} or {PYRAMID!r}"
+        )
+
+
+def _not_level(flip: Flip) -> Iterator[str]:
+    """What is wrong with a flip that is not a whole number of turns, in one line."""
+    left_over = abs(remainder(flip.angle, 2.0 * pi))
+    if left_over > LANDING_TOLERANCE:
+        asked = format_quantity(flip.angle, "deg")
+        yield (
+            f"maneuver.{flip.name}: after {asked} the trunk is {format_quantity(left_over, 'deg')} "
+            "off level, but a flip must land level: ask for 360deg (back, forward). If this "
+            "attitude at touchdown is meant, ask for a turn to it: "
+            f"'pitch {asked.replace(' ', '')} in {flip.duration:.3g}s'"
+        )
+
+
+def _acts_about_vertical(stated: OcsSection) -> bool:
+    """Whether the wheels act about all three axes of the trunk."""
+    if stated.axes is not None:
+        return bool(np.linalg.matrix_rank(np.reshape(stated.axes, (-1, 3))) == 3)
+    return stated.layout == ORTHOGONAL or (stated.layout == PYRAMID and stated.alpha != 0.0)
 
 
 _LEVEL = 1e-6
@@ -266,10 +314,12 @@ def unfit_for_robot(
     robot_size: float,
     requirement: Requirement,
     envelope: Envelope,
+    *,
+    varied: bool = False,
 ) -> Iterator[str]:
     """Faults of a specification that its robot reveals, one line each.
 
-    `requirement` and `envelope` have their defaults filled in.
+    `requirement` and `envelope` have their defaults filled in. `varied`: see `resolve`.
     """
     position = specification.ocs.position
     yield from _oversized(specification, robot, robot_size)
@@ -287,16 +337,14 @@ def unfit_for_robot(
             each.momentum(TiltInertia.of(robot.inertia), requirement.standing_height)
         except OcsError as error:
             yield error.sentence
-    if requirement.rate_change is None and requirement.spin_inertia is None:
-        if not requirement.maneuvers:
-            yield "requirement: nothing is required: add a maneuver, rate_change or spin_inertia"
-        idle = {maneuver.name: _zeros(maneuver) for maneuver in requirement.maneuvers}
-        if all(idle.values()):
-            for name, zeros in idle.items():
-                yield f"maneuver.{name}: {zeros}, which requires nothing of the device"
+    yield from _idle(requirement, stated)
     for each in requirement.maneuvers:
         if isinstance(each, Pivoted):
             yield from _off_its_pivot(each, stated)
+        if isinstance(each, Flip) and not varied:
+            yield from _not_level(each)
+        if isinstance(each, Catch):
+            yield from _turns_on(each, stated)
     # Tables were checked before; maneuvers requested in words have their jump only now.
     yield from _too_short_flights(requirement.maneuvers)
     yield from _misfed(specification, robot)

@@ -365,13 +365,16 @@ def _assumed_wheel(flywheel: FlywheelSection, resolved: Resolved, *, ring: bool)
         yield f"Stress: yield strength over hoop stress at least {safety:g}."
 
 
-def resolve(specification: Specification, robot: Robot, robot_size: float) -> Resolved:
+def resolve(
+    specification: Specification, robot: Robot, robot_size: float, *, varied: bool = False
+) -> Resolved:
     """What to design for: the specification, and for the rest the defaults of `froude`.
 
     Args:
         specification: file and options merged.
         robot: to scale defaults to.
         robot_size: largest extent of the robot [m]; nothing of the device may be larger.
+        varied: whether it is a variant, which is sized and not flown: parts of a flip will do.
 
     Raises:
         SpecificationError: keys that contradict each other or the robot; all are listed.
@@ -404,7 +407,9 @@ def resolve(specification: Specification, robot: Robot, robot_size: float) -> Re
         standing_height=standing_height(robot),
         detection=asked.notices,
     ).on(robot.mass_properties)
-    faults = tuple(unfit_for_robot(specification, robot, robot_size, requirement, envelope))
+    faults = tuple(
+        unfit_for_robot(specification, robot, robot_size, requirement, envelope, varied=varied)
+    )
     if faults:
         raise SpecificationError(f"the specification does not fit {robot.name}:", problems=faults)
     # Faults of a file of distributions are reported before anything is sized.

@@ -46,12 +46,12 @@ class Task:
         return cls(specification, resolve(specification, robot, extent), robot, extent)
 
     def with_specification(self, specification: Specification) -> "Task":
-        """Task for the same robot with another specification, which is resolved again.
+        """Task for the same robot with a variant of the specification, which is resolved again.
 
         Raises:
             SpecificationError: see `resolve`.
         """
-        resolved = resolve(specification, self.robot, self.robot_size)
+        resolved = resolve(specification, self.robot, self.robot_size, varied=True)
         return replace(self, specification=specification, resolved=resolved)
 
     def asking(self, requirement: Requirement) -> "Task":

@@ -9,7 +9,7 @@ CRITERIA = (LIGHTEST, "equal-rate", "weighted", "simultaneous", "pitch-only", "r
 EQUAL_RATE = CRITERIA[1]
 """Default criterion for the incidence: alpha* = atan(Ixx / Iyy), as in the paper."""
 
-PAIR, PYRAMID = "pair", "pyramid"
+PAIR, ORTHOGONAL, PYRAMID = "pair", "orthogonal", "pyramid"
 MORE_PAIRS = ("double-pair", "triple-pair")
 """Layouts tried in turn when none is specified and no pair is feasible."""
 
@@ -18,7 +18,7 @@ WHEELS = {
     PAIR: 2,
     **dict(zip(MORE_PAIRS, (4, 6), strict=True)),
     "triad": 3,
-    "orthogonal": 3,
+    ORTHOGONAL: 3,
     PYRAMID: 4,
 }
 LAYOUTS = tuple(WHEELS)

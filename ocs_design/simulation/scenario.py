@@ -29,6 +29,7 @@ from ocs_design.simulation.verdict import (
     Verdict,
     comes_down_well,
     judge,
+    lands_on_legs,
     off_at_touchdown,
     stands,
 )
@@ -133,8 +134,10 @@ def run_scenarios(flights: Flights, progress: Progress | None = None) -> tuple[R
     unclear = refusal(robot)
 
     # Where flights come down well but none of those stands, it is the legs or the device.
-    # In orbit there is nothing to stand on.
-    can_stand = [True if robot.legs and each.gravity else None for each in maneuvers]
+    # In orbit there is nothing to stand on, and no robot stands on its back.
+    can_stand = [
+        True if robot.legs and each.gravity and lands_on_legs(each) else None for each in maneuvers
+    ]
     doubtful = []
     for index, (maneuver, pair) in enumerate(zip(maneuvers, pairs, strict=True)):
         down = [flight.metrics for flight in pair if comes_down_well(flight.metrics, maneuver)]

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray, interpolated
+from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.simulation.target import RegulatedPlan, Target
 from ocs_design.simulation.wheel_law import WheelLaw
 from ocs_design.simulation.world import World
@@ -133,9 +134,12 @@ def _commands(world: World) -> FloatArray:
 
 _LEVEL = np.array([0.0, 0.0, 1.0])
 
+_ENDS_LEVEL = np.cos(LANDING_TOLERANCE)
+"""Cosine of the tilt up to which a plan ends level: an axis that no wheel controls may drift."""
+
 
 def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: float) -> Target:
-    """The trajectory as the law of one world follows it; after the end the trunk is held.
+    """The trajectory as the law of one world follows it; its last attitude is held after the end.
 
     Args:
         law: of one world.
@@ -162,7 +166,9 @@ def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: floa
     integral = whole[before] + part * (values[before] + interpolated(until, samples, values))
     given = np.diff(integral, axis=0) / period
 
-    held = _LEVEL if trajectory.gains is None else trajectory.vertical[-1]
+    held = trajectory.vertical[-1]
+    if trajectory.gains is None and held[2] >= _ENDS_LEVEL:
+        held = _LEVEL
     ends, stands = np.where(flying, vertical, held), np.zeros(len(times), dtype=np.bool_)
     if trajectory.gains is not None and trajectory.attitude is not None:
         attitude = interpolated(times, trajectory.time, trajectory.attitude)

@@ -108,7 +108,9 @@ def _landing_verdict(
         landing += f", heading turned by {_degrees(metrics.heading_drift)} deg"
     if not maneuver.gravity:
         return Verdict(True, landing)
-    if can_stand is None:
+    if not lands_on_legs(maneuver):
+        ending = f"; standing is not judged: no legs bear this attitude; ends at {final}"
+    elif can_stand is None:
         ending = "; without legs there is nothing to stand on"
     elif not can_stand:
         why = (
@@ -245,6 +247,12 @@ def landing_attitude(maneuver: Maneuver) -> tuple[float, float, float | None]:
     attitude = boundary(maneuver, 0.0).final_attitude
     roll, pitch = quaternions.tilt(attitude)
     return float(roll), float(pitch), float(quaternions.heading(attitude))
+
+
+def lands_on_legs(maneuver: Maneuver) -> bool:
+    """Whether the attitude that is asked for at touchdown is one in which a robot stands."""
+    roll, pitch, _ = landing_attitude(maneuver)
+    return bool(np.cos(roll) * np.cos(pitch) >= np.cos(UPRIGHT_TILT))
 
 
 def ends_anyhow(maneuver: Maneuver) -> bool:

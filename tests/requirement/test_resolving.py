@@ -1,5 +1,6 @@
 """Defaults filled in and told, and faults that only the robot shows."""
 
+import re
 from dataclasses import asdict, replace
 from pathlib import Path
 
@@ -206,6 +207,42 @@ def test_what_asks_nothing_of_the_device_is_told_by_its_name_and_its_keys(solo12
     ):
         told = f"maneuver.{name}: {keys}, which requires nothing of the device"
         assert told in caught.value.problems
+
+
+@pytest.mark.parametrize("idle", IDLE, ids=lambda each: each["name"])
+def test_in_a_list_it_is_refused_as_alone(solo12, idle):
+    """It was sized for, and ended in "needs a wheel of 0 kg m^2"."""
+    with pytest.raises(SpecificationError) as caught:
+        resolve(specify(maneuver=[idle], requirement={"tilt": "20deg"}), solo12, SIZE)
+    assert [each for each in caught.value.problems if f"maneuver.{idle['name']}: " in each]
+
+
+@pytest.mark.parametrize("others", [{}, {"tilt": "20deg"}])
+@pytest.mark.parametrize(
+    ("rates", "told"),
+    [
+        ("yaw 60deg/s", "cannot stop a yaw of 60 deg/s: leave yaw out"),
+        ("pitch 30deg/s yaw -60deg/s", "cannot stop a yaw of -60 deg/s: leave yaw out"),
+    ],
+)
+def test_a_yaw_that_the_wheels_cannot_stop_is_refused(solo12, others, rates, told):
+    """A catch of yaw passed with two wheels, as it passes without a device."""
+    asked = {"catch": rates, **others}
+    with pytest.raises(SpecificationError) as caught:
+        resolve(specify(requirement=asked), solo12, SIZE)
+    assert any(told in each for each in caught.value.problems)
+    for ocs in ({"layout": "orthogonal"}, {"axes": [1, 0, 1, 0, 1, 1, 1, 1, 0]}):
+        resolve(specify(requirement=asked, ocs=ocs), solo12, SIZE)
+
+
+def test_a_flip_that_does_not_end_level_is_refused_with_what_to_use(solo12):
+    with pytest.raises(SpecificationError) as caught:
+        resolve(specify(requirement={"flip": "90deg", "gravity": "moon"}), solo12, SIZE)
+    (told,) = caught.value.problems
+    assert "after 90 deg the trunk is 90 deg off level, but a flip must land level" in told
+    turn = re.search(r"'(pitch 90deg in .*)'", told).group(1)
+    resolve(specify(requirement={"turn": turn, "gravity": "moon"}), solo12, SIZE)
+    resolve(specify(requirement={"flip": "-720deg", "gravity": "moon"}), solo12, SIZE)
 
 
 def test_beside_what_asks_for_something_it_is_no_demand(solo12):

@@ -208,6 +208,13 @@ def test_after_its_end_the_trunk_is_held_level(trajectory, law):
     np.testing.assert_array_equal(late.torque, 0.0)
 
 
+def test_after_a_quarter_turn_the_trunk_is_held_there(trajectory, law):
+    """It was thrown back to level, in flights and in the exported C alike."""
+    backwards = replace(trajectory, vertical=trajectory.vertical[::-1])
+    late = track(backwards, law, trajectory.time[-1] + np.array([0.0, 0.3]), 5e-3)
+    np.testing.assert_array_equal(late.vertical, [trajectory.vertical[0]] * 2)
+
+
 @pytest.mark.slow
 def test_each_maneuver_tracks_its_own_reference_and_a_push_none(solo12):
     device = driven_device(carrier=replace(driven_device().carrier, mass=0.05))

@@ -44,6 +44,13 @@ TILTED = replace(GOOD, touchdown_roll=np.radians(-5.1))
             False,
             "a turn of 114.6 deg does not end level, one of 360deg does",
         ),
+        (
+            replace(FALLEN, touchdown_pitch=np.pi / 2.0),
+            TurnTo(name="turn", jump_height=1.0, pitch=np.pi / 2.0, duration=0.8),
+            None,
+            True,
+            "no legs bear this attitude; ends at pitch 180.0",
+        ),
         (replace(GOOD, momentum_error=2e-6), DROP, True, None, "off by 2.0e-06"),
         (replace(GOOD, touchdown_time=None), DROP, True, None, "nothing of the robot touched"),
         (None, DROP, True, None, "became unstable"),
