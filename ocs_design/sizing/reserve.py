@@ -169,7 +169,9 @@ class Needed:
     def worst(self, reliability: float) -> float:
         """Logarithm of the factor, relative to the device's, that suffices at this reliability."""
         most = np.maximum(self.factors / self.has, self.rolls / self.room)
-        return float(np.quantile(np.log(most.max(axis=1)), reliability))
+        # Of maneuvers that ask for nothing it is zero.
+        least = np.finfo(np.float64).tiny
+        return float(np.quantile(np.log(np.maximum(most.max(axis=1), least)), reliability))
 
 
 def account(
@@ -337,7 +339,12 @@ class Reality:
             factors=asked,
             rates=dict(zip((maneuver.name for maneuver in maneuvers), rates, strict=True)),
             has=has,
-            left=np.where(np.array(begun) > 0.0, begun / has, 1.0),
+            left=np.array(
+                [
+                    own / full if own > 0.0 and np.isfinite(full) else 1.0
+                    for own, full in zip(begun, has, strict=True)
+                ]
+            ),
             blind=np.stack([one.lost for one in flown], axis=1),
             rolls=np.stack([one.rolls for one in flown], axis=1),
             room=np.array([one.room for one in flown]),
@@ -499,7 +506,8 @@ class _Flown:
             self._task(rate), self.device.line.reserved(), self.device.drive.armature
         )
         can = capability(demand, np.asarray(self.device.spin_inertia))
-        return (can.sweep / demand.sweep).item()
+        # Beside a change of rate, a maneuver may ask for nothing.
+        return (can.sweep / demand.sweep).item() if demand.sweep.any() else np.inf
 
     def _each(self, asked: FloatArray) -> FloatArray:
         """Momentum of each wheel for a given momentum about roll and pitch, shape (robots, n).

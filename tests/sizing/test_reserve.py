@@ -143,6 +143,14 @@ def test_the_worst_maneuver_is_what_robots_need_most():
     assert found == pytest.approx(0.1 * NormalDist().inv_cdf(0.5**0.5), rel=0.02)
 
 
+def test_a_maneuver_that_asks_for_nothing_is_not_the_worst():
+    """Beside a change of rate; NumPy warned of the logarithm of zero."""
+    found = needed(np.array([[0.0], [0.0]]), has=np.array([np.inf]))
+    assert np.isfinite(found.worst(0.9))
+    both = needed(np.array([[2.0, 0.0], [2.0, 0.0]]), has=np.array([1.0, np.inf]))
+    assert both.worst(0.9) == pytest.approx(np.log(2.0))
+
+
 def test_a_rate_at_the_start_is_momentum_till_the_end():
     """0.03 kg m2 at 0.1 rad/s are 3 mN m s; a turn of 0.055 kg m2 sweeps 2 pi times that."""
     kept = {"flip": ManeuverReserve(1.1, (0.1, 0.02), 0.9)}
