@@ -90,6 +90,7 @@ def test_the_content_chooses_the_format_and_not_the_name(tmp_path: Path, content
     assert loaded.sha256 == hashlib.sha256(content).hexdigest()
 
 
+@pytest.mark.slow
 def test_nearly_all_real_robots_find_their_meshes():
     without = [name for name in ANATOMY if "not found" in str(tree_of(name).warnings)]
     assert without == ["romeo_description/urdf/romeo_laas_small"]
