@@ -13,6 +13,7 @@ from ocs_design.cli import completion
 from ocs_design.cli import options as opt
 from ocs_design.cli.options import (
     package_paths_of_command,
+    sample_command,
     specified_by_command,
     typed_command,
     with_options,
@@ -384,7 +385,12 @@ def validate(
         view=view,
         progress=output.steps,
     )
-    show = partial(print_validated, folder=answer.folder, files=answer.files)
+    record, again = answer.found.monte_carlo, ""
+    if record is not None:
+        # Engines other than MuJoCo fly many samples only.
+        by = "" if engine == "mujoco" else " with MuJoCo"
+        again = f"Fly one again{by}: {sample_command(context, answer.found.design, record.seed)}"
+    show = partial(print_validated, folder=answer.folder, files=answer.files, again=again)
     output.give(answer.found, show, answer.found.warnings)
     if view:
         watch(answer)

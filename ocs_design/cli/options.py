@@ -376,6 +376,39 @@ def typed_command() -> str:
     return shlex.join(["ocs-design", *sys.argv[1:]])
 
 
+REPEATED = (
+    "spec",
+    "reality",
+    "ballistic",
+    "desaturate",
+    "survives",
+    "detection",
+    "robot_file",
+    "package_path",
+)
+"""Parameters of `validate` that decide what a sample is, besides its seed and number."""
+
+
+def sample_command(context: typer.Context, design: str, seed: int) -> str:
+    """Command that flies sample N of a campaign again, quoted for a shell.
+
+    Args:
+        context: of the command that flew the campaign.
+        design: path of the `design.json`.
+        seed: of the campaign.
+    """
+    options = {each.name: each.opts[0] for each in context.command.params}
+    words = ["ocs-design", "validate", design]
+    for name in REPEATED:
+        value = context.params.get(name)
+        if value is True:
+            words.append(options[name])
+        elif value:
+            several = value if isinstance(value, list | tuple) else [value]
+            words += [word for each in several for word in (options[name], str(each))]
+    return shlex.join([*words, "--seed", str(seed), "--sample", "N"])
+
+
 def package_paths_of_command(context: typer.Context) -> Mapping[str, Path]:
     """`NAME=DIR` pairs of `--package-path`.
 

@@ -7,7 +7,12 @@ import pytest
 import typer
 
 from ocs_design.cli.app import EXAMPLES, app
-from ocs_design.cli.options import package_paths_of_command, specified_by_command
+from ocs_design.cli.options import (
+    REPEATED,
+    package_paths_of_command,
+    sample_command,
+    specified_by_command,
+)
 from ocs_design.common.errors import UsageError
 from ocs_design.requirement.choices import unknown_names
 
@@ -42,6 +47,22 @@ def test_zero_is_something_that_is_stated():
 def test_a_robot_without_a_name_is_told_as_the_argument_that_it_is():
     with pytest.raises(UsageError, match=r"^ROBOT: "):
         stated(robot="")
+
+
+def test_the_command_to_fly_a_sample_again_has_all_that_makes_it_the_same_robot():
+    """It left out the file of distributions and the law, and flew another robot."""
+    command = typer.main.get_command(app).commands["validate"]
+    typed = (
+        "d.json --samples 6 --seed 3 --reality 'my reality.toml' --spec s.toml --ballistic "
+        "--desaturate --survives one --detection 10ms --robot r.urdf --package-path a=/x "
+        "--package-path b=/y -o out --force"
+    )
+    with command.make_context("validate", shlex.split(typed)) as context:
+        again = shlex.split(sample_command(context, "d.json", 3))[2:]
+    with command.make_context("validate", [*again[:-1], "4"]) as repeated:
+        assert repeated.params["sample"] == 4
+        for name in ("design", "seed", *REPEATED):
+            assert repeated.params[name] == context.params[name], name
 
 
 def test_what_is_declined_is_false():

@@ -39,9 +39,13 @@ def print_headline(console: Console, line: Headline, *more: Text) -> None:
 
 
 def print_validated(
-    console: Console, found: Validated, folder: Path | None, files: Sequence[str]
+    console: Console, found: Validated, folder: Path | None, files: Sequence[str], again: str = ""
 ) -> None:
-    """Flights as `size` prints them, what many samples show, files written, and the verdict."""
+    """Flights as `size` prints them, what many samples show, files written, and the verdict.
+
+    Args:
+        again: how to fly one of the samples again.
+    """
     if found.sample is not None:
         heading(console, f"Sample {found.sample.index} of seed {found.sample.seed}")
         units = {key: spread.unit for key, spread in spreads().items()} | dict.fromkeys(STOPS, "")
@@ -61,8 +65,7 @@ def print_validated(
         items(console, monte_carlo.campaign_remarks(record))
         if record.certificate is not None:
             items(console, monte_carlo.certificate_notes(record.certificate))
-        again = f"ocs-design validate {found.design} --seed {record.seed} --sample N"
-        note(console, f"Fly one again: {again}")
+        note(console, again)
     if folder is not None:
         files_written(console, str(folder), files)
     console.print()
