@@ -9,7 +9,8 @@ try:
     from gymnasium.envs.registration import register
 except ModuleNotFoundError as error:
     raise MissingToolError(
-        "no environment for learning: gymnasium is not installed", hint=extra_command("gym")
+        "the learning environment needs gymnasium, which is not installed",
+        hint=extra_command("gym"),
     ) from error
 
 ENVIRONMENT = "OcsFlight-v0"

@@ -93,7 +93,7 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         self._top_speed = flights.device.motor.top_speed
         if flights.design.selection is None or not np.isfinite(self._top_speed):
             raise OcsError(
-                f"{flights.path}: no motor was chosen, so an action would have no scale",
+                f"{flights.path}: no motor was selected, so actions have no scale",
                 hint="size it with a motor",
             )
         self._flights, self._randomise, self.render_mode = flights, randomise, render_mode
@@ -127,7 +127,7 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         if name not in names:
             raise UsageError(f"the design has no maneuver {name!r}", hint=f"it has {names}")
         if not isinstance(sample, int | np.integer) or sample < 0:
-            raise UsageError(f"the sample is {sample!r}, not a whole number from 0")
+            raise UsageError(f"the sample is {sample!r}, not a whole number >= 0")
         sample, self._number, hold = int(sample), names.index(name), self._campaign.hold
         flight = self._campaign.flights[self._number]
         self._world = flight.world
@@ -153,7 +153,7 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         low, high = pilot.seen.lowest, pilot.seen.highest
         share = np.clip(np.asarray(action, dtype=np.float64), -1.0, 1.0)
         if share.shape != self.action_space.shape or not np.isfinite(share).all():
-            raise UsageError(f"an action is {self.action_space}, not {action}")
+            raise UsageError(f"an action must fit {self.action_space}, not {action}")
         if not pilot.ended:
             pilot.fly(np.where(share < 0.0, -share * low, share * high))
         if self.render_mode is not None:

@@ -128,7 +128,7 @@ def obstacle_to_jumping(robot: Robot) -> str:
         elif each.plane.flat:
             obstacle = f"{leg} stands on a sole, not on a point"
         elif any(joint.mimic is not None for joint in joints):
-            obstacle = f"joints of {leg} follow each other"
+            obstacle = f"{leg} has coupled joints"
         elif len(joints) < _FEWEST_JOINTS:
             obstacle = f"{leg} has fewer than {_FEWEST_JOINTS} joints"
         if obstacle:

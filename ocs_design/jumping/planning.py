@@ -98,7 +98,7 @@ class JumpPlanning:
                 found[each.name] = JumpPlans(carrying, bare)
                 continue
             whose, failed = ("legs", carrying) if carrying.legs is None else (_BARE_LEGS, bare)
-            note = f"{_FALLBACK}, for the {whose} cannot make this jump: {failed.note}"
+            note = f"{_FALLBACK}, because the {whose} cannot make this jump: {failed.note}"
             found[each.name] = _both(note)
         self._threads.shutdown()
         return found

@@ -222,8 +222,8 @@ class Case:
         names = quantities(layout, one_stops=detection is not None)
         if missing := [name for name in names if name not in self.values]:
             raise OcsError(
-                f"case of sample {self.sample}: says nothing of {', '.join(missing)}",
-                hint="it is of another version; draw it again with --seed and --sample",
+                f"case of sample {self.sample}: has no value of {', '.join(missing)}",
+                hint="it comes from another version; draw it again with --seed and --sample",
             )
         values = np.array([self.values[name] for name in names])
         return Sample(self.seed, self.sample, layout, values, detection)

@@ -147,7 +147,7 @@ def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Less
     off = (np.abs(tilts) > LANDING_TOLERANCE).sum(axis=1)
     axis, number = divmod(int(np.argmax(off)), len(campaign.flights))
     if not off[axis, number]:
-        return Lesson(1.0, "every touchdown is level: no reserve of the device helps")
+        return Lesson(1.0, "every touchdown is level: a larger reserve does not help")
     tilt = tilts[axis, :, number]
     known = np.isfinite(tilt)
     tilt, values = tilt[known], outcomes.values[known]
@@ -155,17 +155,17 @@ def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Less
     landings = f"{maneuver}: {off[axis, number]} of {len(tilt)} land off level in {names[axis]}"
     varied = np.flatnonzero(np.ptp(values, axis=0) > 0.0)
     if not varied.size or not np.ptp(tilt):
-        return Lesson(1.0, f"{landings}, all alike: no reserve for what is drawn helps")
+        return Lesson(1.0, f"{landings}, all alike: a larger reserve does not help")
     reached = abs(tilt.mean()) + NormalDist().inv_cdf(0.5 * (1.0 + test.asked)) * tilt.std()
     shares = np.corrcoef(values[:, varied], tilt, rowvar=False)[-1, :-1] ** 2
     part, cause = max(zip(shares.tolist(), (outcomes.names[i] for i in varied), strict=True))
     factor = float(min(max(reached / LANDING_TOLERANCE, LEAST), LARGEST))
     ending = f"the reserve is raised by a factor of {factor:.2f}"
     if not campaign.flights[number].world.body.reach[axis]:
-        factor, ending = 1.0, f"no wheel turns the robot in {names[axis]}, however large it is"
+        factor, ending = 1.0, f"no wheel, however large, turns the robot in {names[axis]}"
     elif cause.startswith("attitude_bias"):
         # The law brings to level what the sensor calls level, whatever the wheels can do.
-        factor, ending = 1.0, "a better attitude sensor helps, no reserve of the device does"
+        factor, ending = 1.0, "a better attitude sensor helps, a larger reserve does not"
     quantity = cause.replace("_", " ").replace(".", " ")
     return Lesson(
         factor,

@@ -170,7 +170,7 @@ def write_tables(outcomes: Outcomes, scenarios: Sequence[str], folder: Path) -> 
 CAMPAIGN_FILE = "campaign.json"
 BLOCKS = "samples"
 
-_HINT = "choose another folder with -o, or start anew with --force"
+_HINT = "choose another folder with -o, or start over with --force"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -221,7 +221,7 @@ class Storage:
                     recorded = msgspec.json.decode(content, type=Identity)
                 if recorded is None and any(folder.iterdir()):
                     raise OutputError(
-                        f"{folder}: exists, and holds no samples of ocs-design", hint=_HINT
+                        f"{folder}: exists, but holds no samples of ocs-design", hint=_HINT
                     )
             if recorded is not None and recorded != identity:
                 if not force:

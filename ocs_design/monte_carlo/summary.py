@@ -127,8 +127,8 @@ def advice(outcomes: Outcomes, maneuver: Maneuver, number: int) -> str:
     if not count:
         return ""
     return (
-        f"{count} land off level in {axis}, which modules turned into line cannot correct: without "
-        f"`incidence` in its [[maneuver]] they keep the angle of the design, and can"
+        f"{count} land off level in {axis}, which modules turned to this incidence cannot correct; "
+        f"without `incidence` in its [[maneuver]] they keep the design's angle, which can"
     )
 
 
@@ -164,8 +164,8 @@ def standing_advice(campaign: Campaign, outcomes: Outcomes, number: int) -> str:
     way, stance = ("sideways", "wider") if sideways else ("lengthwise", "longer")
     of = "these" if len(worlds) == len(fell) else f"{len(worlds)} of these"
     return (
-        f"{len(fell)} land level and then fall {way}, where a {stance} stance would help; of "
-        f"{of}, flown again, {told} stand"
+        f"{len(fell)} land level and then fall {way}, where a {stance} stance would help; when "
+        f"{of} are flown again, {told} stand"
     )
 
 

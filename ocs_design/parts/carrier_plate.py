@@ -347,7 +347,7 @@ class CarrierPlate:
                 self.clamped + sleeve,
                 f"{'plate' if self.mast is None else 'mast'} on trunk"
                 f"{f', {1e3 * length:.0f} mm long' if len(longest) > 1 else ''}; "
-                "longer if its thread begins deeper",
+                "longer if the trunk's thread starts deeper",
                 self.thread_depth,
             )
             for length, sleeve in longest.items()

@@ -303,9 +303,9 @@ def _fastening(
         if thread >= held.least_thread:
             found = replace(found, depth=thread / held.diameter)
     if least is not None:
-        purpose += f", its maker asks for {1e3 * least:.4g} to {1e3 * most:.4g} mm"
+        purpose += f", its maker specifies {1e3 * least:.4g} to {1e3 * most:.4g} mm"
     elif circle.drawn is not None:
-        purpose += f", a model draws {1e3 * circle.drawn:.4g} mm"
+        purpose += f", a CAD model has {1e3 * circle.drawn:.4g} mm"
     if found.length > thickness + most:
         purpose += f": shorten them to {1e3 * (thickness + most):.3g} mm"
     return replace(found, purpose=purpose)

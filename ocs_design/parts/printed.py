@@ -106,7 +106,7 @@ def base_thickness(plate: Real | float) -> Real:
 def trunk_screws(plate: float) -> Fastening:
     """Screws of a foot with a plate of that thickness [m], one through each slot."""
     through = float(base_thickness(plate))
-    purpose = "foot on trunk; longer if its thread begins deeper"
+    purpose = "foot on trunk; longer if the trunk's thread starts deeper"
     return Fastening(TRUNK_SCREW, TRUNK_SCREW_COUNT, through, purpose)
 
 

@@ -122,7 +122,7 @@ def wheel_faults(wheel: Wheel) -> Iterator[str]:
     """Why it cannot be made, each as a clause."""
     rim, hub = wheel.rim, wheel.hub
     if not 0.0 <= rim.inner_radius < rim.outer_radius:
-        yield "its rim's inner radius is not below the outer one"
+        yield "its rim's inner radius is not less than its outer radius"
     if rim.height <= 0.0 or rim.chamfer < 0.0:
         yield "its rim has no height, or a negative chamfer"
     edge = rim.made_chamfer
@@ -156,13 +156,13 @@ def wheel_faults(wheel: Wheel) -> Iterator[str]:
 def _ring_faults(ring: HoleRing, inner: float, outer: float, name: str) -> Iterator[str]:
     """Faults of holes between two edges."""
     if ring.count < 1 or ring.hole_radius <= 0.0 or ring.depth <= 0.0:
-        yield f"its {name} holes have no number, size or depth"
+        yield f"its {name} holes have no count, size or depth"
     elif ring.radius - ring.hole_radius < inner + LIGAMENT - ROUNDING:
-        yield f"its {name} holes reach the edge inside them"
+        yield f"its {name} holes are too close to the inner edge"
     elif ring.radius + ring.hole_radius > outer - LIGAMENT + ROUNDING:
-        yield f"its {name} holes reach the edge around them"
+        yield f"its {name} holes are too close to the outer edge"
     elif ring.spacing < LIGAMENT - ROUNDING:
-        yield f"its {name} holes reach each other"
+        yield f"its {name} holes are too close to each other"
 
 
 def wheel_parts(wheel: Wheel) -> tuple[Part[float], ...]:

@@ -313,7 +313,7 @@ def _body(function: ca.Function) -> str:
     found = re.search(
         r"^static int \w+\(.*?\{\n(.*?)^  return 0;\n\}", generator.dump(), re.S | re.M
     )
-    assert found, "CasADi writes C in another form than it did"
+    assert found, "CasADi writes C in an unknown form"
     assert "casadi_nan" not in found.group(1), "a symbol was taken for a number"
     # None of the pointers is null.
     plain = re.sub(r"arg\[\d\]\? (arg\[\d\]\[\d+\]) : 0", r"\1", found.group(1))
@@ -340,8 +340,8 @@ def _margin_table(worlds: Mapping[str, World], period: float) -> str:
 
 
 _DELAY = "The\ndesign was sized for {:.3g} to {:.3g} ms of it (`torque_delay` of its `[reality]`)."
-_LEFT = "The design leaves the wheels to the law in stance: `size --desaturate` brakes them down."
-_BRAKED = "After a while on the ground the wheels are braked down too (constants `brake_...`)."
+_LEFT = "This design does not brake the wheels in stance; `size --desaturate` does."
+_BRAKED = "After a while on the ground it brakes the wheels too (constants `brake_...`)."
 
 
 def _order(worlds: Mapping[str, World], joints: Sequence[str]) -> str:

@@ -121,10 +121,10 @@ def _brake_margins(
             ),
         ]
         if shaft is not None:
-            note = f"{SERVICE:g} x what stops the rotor, {where}, by a brake that grips the wheel"
+            note = f"{SERVICE:g} x the torque that stops the rotor, {where}, braked at the wheel"
             rows.append(Margin(BRAKED_SHAFT, rotor, shaft.capacity, "N m", note=note))
         if fit is not None:
-            note = f"{SERVICE:g} x the brake torque, should it not grip the rim itself"
+            note = f"{SERVICE:g} x the brake torque, if the brake does not grip the rim itself"
             rows.append(Margin(BRAKED_RIM, SERVICE * wheel, fit.torque, "N m", note=note))
         yield maneuver.name, tuple(rows)
 
@@ -149,7 +149,7 @@ def _margins_without_motor(
         yield Margin(MOTOR_TORQUE, torques[torque], limit, "N m", note=at, scenario=names[torque])
     elif least > 0.0:
         yield Margin(
-            MOTOR_TORQUE, least, limit, "N m", note="the least that does the maneuvers in time"
+            MOTOR_TORQUE, least, limit, "N m", note="the least that completes the maneuvers in time"
         )
     if wheel.hoop_stress is not None:
         strength = resolved.material.yield_strength

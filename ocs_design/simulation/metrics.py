@@ -162,7 +162,7 @@ which the floating base has six of, are found to within 1e-8."""
 def objection(world: World) -> str:
     """Why a run from here would say nothing, and the cure; empty if nothing is against it."""
     if not (np.isfinite(world.qpos).all() and np.isfinite(world.qvel).all()):
-        return "not judged: the start is not finite; look for numbers beyond measure in the files"
+        return "not judged: the start is not finite; look for absurdly large numbers in the files"
     data = mujoco.MjData(world.model)
     data.qpos[:], data.qvel[:] = world.qpos, world.qvel
     mujoco.mj_forward(world.model, data)
@@ -170,15 +170,15 @@ def objection(world: World) -> str:
     if depth > DEPTH_LIMIT * world.standing_height:
         return (
             f"not judged: at the start the robot reaches {1e3 * depth:.3g} mm into the floor; "
-            f"release it so much higher, or less tilted"
+            f"release it that much higher, or less tilted"
         )
     growth = drive_growth(world.model, data)
     if growth > GROWTH_LIMIT:
         step = 1e3 * world.model.opt.timestep
         return (
-            f"not judged: the joint drives are unstable at steps of {step:.3g} ms: a motion grows "
-            f"by {100.0 * growth:.3g} % in each; lower their gains, or give the links inertia "
-            f"(`ocs-design inspect` names those with next to none)"
+            f"not judged: the joint drives are unstable at a time step of {step:.3g} ms: a motion "
+            f"grows by {100.0 * growth:.3g} % per step; lower their gains, or give the links "
+            f"inertia (`ocs-design inspect` names those with next to none)"
         )
     return ""
 
@@ -196,7 +196,7 @@ def breakdown(recording: Recording, index: int) -> str:
 
 
 _WARNINGS = {
-    int(mujoco.mjtWarning.mjWARN_INERTIA): "an inertia that is close to singular",
+    int(mujoco.mjtWarning.mjWARN_INERTIA): "a nearly singular inertia",
     int(mujoco.mjtWarning.mjWARN_CONTACTFULL): "more contacts than it has room for",
     int(mujoco.mjtWarning.mjWARN_CNSTRFULL): "more constraints than it has room for",
     int(mujoco.mjtWarning.mjWARN_BADQPOS): "a position that is huge or not a number",

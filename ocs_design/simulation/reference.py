@@ -11,8 +11,8 @@ from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 
 _FLATTENED = (
-    f"the turn follows a trapezoid of rate in place of the quintic, which would take more than "
-    f"{RESERVE:.0%} of the motors' voltage or current"
+    f"the turn follows a trapezoidal rate profile instead of the quintic, which would take more "
+    f"than {RESERVE:.0%} of the motors' voltage or current"
 )
 _STEPPED = (
     "the turn is commanded as a step, as in the paper: no smooth profile that the motors can "
@@ -172,7 +172,7 @@ def fit_turn(turn: Turn, body: Gyrostat, limits: MotorLimits) -> Turn:
         stretched.append(replace(option, duration=enough))
     shortest = min(stretched, key=lambda option: option.duration)
     note = (
-        f"the turn takes {shortest.duration:.3g} s in place of the {turn.duration:.3g} s asked "
+        f"the turn takes {shortest.duration:.3g} s instead of the {turn.duration:.3g} s asked "
         f"for: the wheels cannot turn the trunk faster"
     )
     return replace(shortest, note=note)

@@ -236,7 +236,7 @@ def fly(worlds: Sequence[World], options: Options, progress: Progress | None = N
             model.opt.timestep /= 2.0
             step = 1e3 * model.opt.timestep
             why = (
-                f"flown again in steps of {step:g} ms: at {2.0 * step:g} ms its angular momentum "
+                f"flown again with steps of {step:g} ms: at {2.0 * step:g} ms its angular momentum "
                 f"was off by {error:.1e}"
             )
             if drives is not None:
@@ -272,6 +272,6 @@ def refusal(robot: Robot) -> str:
     if not robot.legs or up_axis(robot.tree, robot.trunk, robot.legs)[2] == 1.0:
         return ""
     return (
-        f"not judged: the z axis of the trunk frame '{robot.trunk}' does not point up, so level "
-        f"is not what it seems"
+        f"not judged: the z axis of the trunk frame '{robot.trunk}' does not point up, so roll "
+        f"and pitch do not measure its tilt"
     )

@@ -125,10 +125,10 @@ def _pairs(robot: Robot, geometries: tuple[LegGeometry, ...]) -> FloatArray:
     ).reshape(-1, 3)
     quadrants = len(np.unique(np.sign(feet[:, :2]), axis=0))
     if obstacle or not len(feet) == quadrants == _QUADRANTS:
-        why = obstacle or "it has no foot before and one behind on either side, and no others"
+        why = obstacle or "it does not have just one front foot and one rear foot on each side"
         raise SpecificationError(
             f"{robot.name} cannot trot: {why}",
-            hint="leave out `stride` of the maneuver: the robot is then shoved as it stands",
+            hint="leave `stride` out of the maneuver: the robot is then shoved while it stands",
         )
     return np.where(feet[:, 0] * feet[:, 1] > 0.0, 0.0, 1.0)
 

@@ -109,21 +109,21 @@ def _landing_verdict(
     if not maneuver.gravity:
         return Verdict(True, landing)
     if not lands_on_legs(maneuver):
-        ending = f"; standing is not judged: no legs bear this attitude; ends at {final}"
+        ending = f"; standing is not judged: legs cannot stand in this attitude; ends at {final}"
     elif can_stand is None:
-        ending = "; without legs there is nothing to stand on"
+        ending = "; the robot has no legs to stand on"
     elif not can_stand:
         why = (
-            ", for it takes steps to stay up on fewer than three feet, and none are simulated"
+            ", since a robot on fewer than three feet must step, which is not simulated"
             if legs < STEADY_LEGS
             else ""
         )
         ending = (
-            f"; standing is not judged: the legs do not bear this landing even when level{why}; "
+            f"; standing is not judged: the legs cannot take this landing even if level{why}; "
             f"ends at {final}"
         )
     elif metrics.upright_at_end:
-        ending = f" and stands, in the end at {final}"
+        ending = f" and stands, ending at {final}"
     else:
         return Verdict(False, f"{landing} but does not stay up: ends at {final}", Fault.STANDING)
     return Verdict(True, f"{landing}{ending}")
@@ -133,9 +133,9 @@ def _shove_verdict(metrics: Metrics, maneuver: Maneuver, can_stand: bool | None)
     """Verdict on a robot that is shoved as it stands; see `judge`."""
     unjudged = ""
     if can_stand is None:
-        unjudged = "without legs there is nothing to stand on"
+        unjudged = "the robot has no legs to stand on"
     elif not can_stand:
-        unjudged = "the legs do not keep the robot up, not even unshoved"
+        unjudged = "the legs cannot keep the robot up even without the shove"
     # What a shove has for touchdown is the instant that it begins.
     elif off_at_touchdown(metrics, maneuver) > LANDING_TOLERANCE:
         unjudged = (
@@ -149,7 +149,7 @@ def _shove_verdict(metrics: Metrics, maneuver: Maneuver, can_stand: bool | None)
         )
     if unjudged:
         return Verdict(None, f"not judged: {unjudged}", Fault.UNSOUND)
-    swing = f"swings by {_angles(metrics.pitch_swing, metrics.roll_swing)} from peak to peak"
+    swing = f"swings by {_angles(metrics.pitch_swing, metrics.roll_swing)} peak to peak"
     if not metrics.upright_at_end:
         ends = f"{swing} and does not stay up: ends at {_final_tilt(metrics)}"
         return Verdict(False, ends, Fault.STANDING)
@@ -170,7 +170,7 @@ def _pivot_verdict(metrics: Metrics, maneuver: Pivoted) -> Verdict:
         falls = f"{is_at}, and ends at {_final_tilt(metrics)} off balance"
         return Verdict(False, falls, Fault.BALANCE, stands=False)
     spin = f"{metrics.final_wheel_speed * 30.0 / np.pi:.0f} rpm"
-    held = f"{is_at}, and is held there, in the end with wheels at {spin}"
+    held = f"{is_at}, and stays up, with wheels at {spin} in the end"
     return Verdict(True, held, stands=True)
 
 
@@ -199,20 +199,20 @@ def _unsound(metrics: Metrics | None, maneuver: Maneuver, gate: float = MOMENTUM
     if metrics.nutation > NUTATION_LIMIT:
         return (
             f"not judged: the wheels spin so fast that the trunk nutates by {metrics.nutation:.2g} "
-            f"rad in a step of the physics, more than {NUTATION_LIMIT}: choose heavier and slower "
-            f"wheels by a lower `wheel_speed_max`"
+            f"rad per physics step, more than {NUTATION_LIMIT}: lower `wheel_speed_max` for "
+            "heavier, slower wheels"
         )
     if metrics.momentum_error > gate:
         return (
             f"not judged: angular momentum in flight is off by {metrics.momentum_error:.1e}, "
-            f"more than {gate:.0e}: something moves too fast for the steps of the "
-            "physics; run `ocs-design inspect` and look for links with next to no inertia and for "
-            "implausible values"
+            f"more than {gate:.0e}: something moves too fast for the physics step; run "
+            "`ocs-design inspect` and look for links with next to no inertia and for implausible "
+            "values"
         )
     if metrics.lift_off_time is None:
-        return "not judged: the legs do not bring the robot off the ground"
+        return "not judged: the legs cannot lift the robot off the ground"
     if metrics.touchdown_time is None and maneuver.gravity:
-        return "not judged: nothing of the robot touched the floor"
+        return "not judged: no part of the robot touched the floor"
     return ""
 
 
@@ -235,7 +235,7 @@ def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> Verdict | None:
     if failure := _landing_failure(metrics, maneuver):
         if isinstance(maneuver, Flip) and abs(remainder(maneuver.angle, tau)) > LANDING_TOLERANCE:
             asked = _degrees(maneuver.angle)
-            failure += f": a turn of {asked} deg does not end level, one of 360deg does"
+            failure += f": a turn of {asked} deg does not end level, one of 360 deg does"
         return Verdict(False, failure, Fault.LANDING)
     return None
 

@@ -139,7 +139,7 @@ class WarpPhysics:
             self._give_each_its_own(put.opt, [first.opt, *(each.opt for each in models[1:])])
         except (NotImplementedError, ValueError) as error:
             raise OcsError(
-                f"--engine warp: MuJoCo Warp cannot take these flights: {error}",
+                f"--engine warp: MuJoCo Warp cannot simulate these flights: {error}",
                 hint="leave --engine out",
             ) from error
         # Contacts and sums in the same order, whatever else flies along.
@@ -159,7 +159,7 @@ class WarpPhysics:
             if all(np.array_equal(values[0], each) for each in values[1:]):
                 continue
             if getattr(field.type, "shape", (0,))[0] != "*":
-                raise ValueError(f"they differ in {field.name}, which it has once")
+                raise ValueError(f"they differ in {field.name}, which all worlds share")
             shared = getattr(put, field.name)
             one = shared.numpy()[0]
             rows = np.stack(values).astype(one.dtype).reshape(len(sources), *one.shape)

@@ -259,7 +259,7 @@ def overridden(control: ControlRecord, stated: ValidationSection) -> ControlReco
         period = round(steps) * STEP
         if steps < 0.5 or abs(steps - round(steps)) > 1e-6:
             raise SpecificationError(
-                f"validation.control_period: {steps * STEP:.4g} s is no whole number of "
+                f"validation.control_period: {steps * STEP:.4g} s is not a whole number of "
                 f"milliseconds"
             )
     given = {name: getattr(stated, name) for name in vars(control).keys() & vars(stated).keys()}

@@ -70,8 +70,8 @@ def test_no_screw_reaches_beyond_the_only_depth_that_is_known():
     wheel, stator, _ = fastenings(known_motors(None)["U8 Lite L KV110"])
     assert (wheel.designation, stator.designation) == ("ISO 4762 M4 x 6", "ISO 4762 M4 x 6")
     assert (wheel.engagement, stator.engagement) == pytest.approx((2.5e-3, 3.0e-3))
-    assert wheel.purpose.endswith("a model draws 3 mm: shorten them to 5.5 mm")
-    assert stator.purpose.endswith("a model draws 3.6 mm")
+    assert wheel.purpose.endswith("a CAD model has 3 mm: shorten them to 5.5 mm")
+    assert stator.purpose.endswith("a CAD model has 3.6 mm")
     drawn = 0
     for motor in HELD:
         circles = motor.mounting.rotor, motor.mounting.stator

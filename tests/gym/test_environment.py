@@ -130,7 +130,7 @@ def test_what_cannot_be_flown_is_told(flight, folder, tmp_path):
 @pytest.mark.parametrize("action", [[0.0], [0.0, np.nan]])
 def test_an_action_that_is_none_is_told(flight, action):
     flight.reset(seed=0)
-    with pytest.raises(UsageError, match="an action is"):
+    with pytest.raises(UsageError, match="an action must fit"):
         flight.step(action)
 
 

@@ -109,7 +109,7 @@ def test_a_case_is_filed_whatever_its_maneuver_is_called_and_is_of_its_wheels(
     campaign, outcomes, tmp_path
 ):
     case = replace(case_of(campaign, outcomes, 0, 0, "hash"), scenario="../up and away")
-    with pytest.raises(OcsError, match=r"says nothing of incidence_error\.1, "):
+    with pytest.raises(OcsError, match=r"has no value of incidence_error\.1, "):
         case.drawn(Layout(LayoutName.TRIAD))
     assert write_case(case, tmp_path).parent == tmp_path
     assert [path.name for path in tmp_path.iterdir()] == ["up_and_away-0.json"]

@@ -132,7 +132,7 @@ def test_the_reserve_is_raised_by_what_the_tilt_lacks(campaign, spread):
     [
         ("touchdown_pitch", "attitude_bias.pitch", "a better attitude sensor"),
         ("turned_angle", "com_error.y", "every touchdown is level"),
-        ("touchdown_roll", "com_error.z", "no wheel turns the robot in roll"),
+        ("touchdown_roll", "com_error.z", "however large, turns the robot in roll"),
     ],
 )
 def test_no_reserve_is_raised_where_it_does_not_help(solo12, metric, cause, words):

@@ -47,16 +47,16 @@ def test_chamfer_leaves_half_of_each_face():
     [
         ((replace(RIM, inner_radius=0.03), None), "inner radius"),
         ((replace(RIM, height=0.0, balancing=None), None), "no height"),
-        ((replace(RIM, balancing=HoleRing(0.029, 12, 0.001, 0.002)), None), "edge around"),
+        ((replace(RIM, balancing=HoleRing(0.029, 12, 0.001, 0.002)), None), "outer edge"),
         ((replace(RIM, balancing=HoleRing(0.026, 12, 0.001, 0.005)), None), "meet in the middle"),
         ((RIM, replace(HUB, bore_radius=0.011)), "not narrower"),
         ((RIM, replace(HUB, radius=0.0215)), "leaves no web"),
         ((RIM, replace(HUB, web_thickness=0.0098, height=0.02)), "thicker than the rim"),
         ((RIM, replace(HUB, height=0.001)), "lower than the web"),
-        ((RIM, replace(HUB, bolts=HoleRing(0.004, 4, 0.00145))), "edge inside"),
-        ((RIM, replace(HUB, bolts=HoleRing(0.006, 12, 0.00145))), "reach each other"),
-        ((RIM, replace(HUB, bolts=HoleRing(0.006, 0, 0.00145))), "no number"),
-        ((RIM, replace(HUB, lightening=HoleRing(0.016, 6, 0.0055))), "edge inside"),
+        ((RIM, replace(HUB, bolts=HoleRing(0.004, 4, 0.00145))), "inner edge"),
+        ((RIM, replace(HUB, bolts=HoleRing(0.006, 12, 0.00145))), "too close to each other"),
+        ((RIM, replace(HUB, bolts=HoleRing(0.006, 0, 0.00145))), "no count"),
+        ((RIM, replace(HUB, lightening=HoleRing(0.016, 6, 0.0055))), "inner edge"),
     ],
 )
 def test_what_cannot_be_made_says_why(wheel, clause):

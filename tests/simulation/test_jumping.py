@@ -202,7 +202,7 @@ def test_legs_too_weak_to_jump_are_not_judged(solo12, disturbance, jumps):
         )
     )
     assert [run.passed for run in runs] == [None, None]
-    assert "do not bring the robot off the ground" in runs[0].reason
+    assert "cannot lift the robot off the ground" in runs[0].reason
 
 
 @pytest.mark.slow

@@ -45,11 +45,11 @@ def test_a_drop_from_inside_the_floor_is_not_judged(solo12):
     runs = run_scenarios(Flights(solo12, paper_device(), [low]))
     assert [run.passed for run in runs] == [None, None]
     for run in runs:
-        assert "mm into the floor; release it so much higher" in run.reason
+        assert "mm into the floor; release it that much higher" in run.reason
 
 
 def test_drives_too_stiff_for_the_step_are_found_before_they_are_run(world):
-    assert "drives are unstable at steps of 1 ms" in objection(stiffened(world, 5.0))
+    assert "drives are unstable at a time step of 1 ms" in objection(stiffened(world, 5.0))
 
 
 @pytest.mark.parametrize("factor", [4.0, 5.0, 6.0])
@@ -79,7 +79,7 @@ def test_wheels_too_fast_for_the_step_are_not_judged(builder, drop):
     found = measure(simulate([world]), 0, world)
     verdict = judge(found, drop, can_stand=True)
     assert verdict.passed is None
-    assert "choose heavier and slower wheels by a lower `wheel_speed_max`" in verdict.reason
+    assert "lower `wheel_speed_max` for heavier, slower wheels" in verdict.reason
 
 
 def test_a_state_without_end_is_named(world):

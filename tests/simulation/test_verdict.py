@@ -27,13 +27,13 @@ TILTED = replace(GOOD, touchdown_roll=np.radians(-5.1))
 @pytest.mark.parametrize(
     ("metrics", "maneuver", "can_stand", "passed", "reason"),
     [
-        (GOOD, DROP, True, True, "pitch 1.0, roll 0.0 deg and stands, in the end at pitch 0.0"),
-        (GOOD, DROP, None, True, "without legs"),
-        (replace(GOOD, lift_off_time=None), DROP, True, None, "do not bring the robot off"),
+        (GOOD, DROP, True, True, "pitch 1.0, roll 0.0 deg and stands, ending at pitch 0.0"),
+        (GOOD, DROP, None, True, "no legs"),
+        (replace(GOOD, lift_off_time=None), DROP, True, None, "cannot lift the robot off"),
         (TILTED, DROP, True, False, "roll -5.1 deg, more than 5 deg"),
         (TILTED, DROP, None, False, "roll -5.1 deg"),
         (FALLEN, DROP, True, False, "does not stay up: ends at pitch 180.0"),
-        (FALLEN, DROP, False, True, "even when level; ends at pitch 180.0"),
+        (FALLEN, DROP, False, True, "even if level; ends at pitch 180.0"),
         (GOOD, FLIP, True, False, "turns -29.0 of -360 deg"),
         (replace(GOOD, turned_angle=np.radians(-356.0)), FLIP, True, True, "stands"),
         (replace(GOOD, turned_angle=np.radians(360.0)), FLIP, True, False, "turns 360.0 of -360"),
@@ -42,17 +42,17 @@ TILTED = replace(GOOD, touchdown_roll=np.radians(-5.1))
             replace(FLIP, angle=2.0),
             True,
             False,
-            "a turn of 114.6 deg does not end level, one of 360deg does",
+            "a turn of 114.6 deg does not end level, one of 360 deg does",
         ),
         (
             replace(FALLEN, touchdown_pitch=np.pi / 2.0),
             TurnTo(name="turn", jump_height=1.0, pitch=np.pi / 2.0, duration=0.8),
             None,
             True,
-            "no legs bear this attitude; ends at pitch 180.0",
+            "legs cannot stand in this attitude; ends at pitch 180.0",
         ),
         (replace(GOOD, momentum_error=2e-6), DROP, True, None, "off by 2.0e-06"),
-        (replace(GOOD, touchdown_time=None), DROP, True, None, "nothing of the robot touched"),
+        (replace(GOOD, touchdown_time=None), DROP, True, None, "no part of the robot touched"),
         (None, DROP, True, None, "became unstable"),
         (replace(ASIDE, touchdown_time=None), IN_ORBIT, None, True, "ends at pitch -90.0, roll"),
         (ASIDE, replace(IN_ORBIT, roll=1.4), None, False, "roll 89.0 deg, not at"),
@@ -68,7 +68,7 @@ def test_pass_rule(metrics, maneuver, can_stand, passed, reason):
 
 def test_a_biped_is_told_why_its_legs_do_not_stand():
     reason = judge(FALLEN, DROP, can_stand=False, legs=2).reason
-    assert "even when level, for it takes steps to stay up on fewer than three feet" in reason
+    assert "even if level, since a robot on fewer than three feet must step" in reason
 
 
 def test_a_robot_that_topples_slowly_does_not_count_as_standing():
@@ -83,10 +83,10 @@ def test_a_robot_that_topples_slowly_does_not_count_as_standing():
     [
         (GOOD, True, True, "swings by pitch 3.0, roll 0.0 deg"),
         (FALLEN, True, False, "does not stay up: ends at pitch 180.0"),
-        (FALLEN, False, None, "not even unshoved"),
+        (FALLEN, False, None, "even without the shove"),
         (TILTED, True, None, "does not stand level by itself: it leans by pitch 1.0, roll -5.1"),
         (replace(GOOD, touchdown_rate=0.2), True, None, "does not stand still by itself: it turns"),
-        (GOOD, None, None, "without legs"),
+        (GOOD, None, None, "no legs"),
     ],
 )
 def test_a_shoved_robot_has_to_stay_up(metrics, can_stand, passed, reason):
