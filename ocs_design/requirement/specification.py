@@ -56,13 +56,18 @@ class Specification:
         """Whether the paper's three maneuvers apply by default only."""
         return self.takes_default_maneuvers and self.requirement.maneuvers is None
 
-    def __repr__(self) -> str:
-        stated = [
-            f"{section}.{name}={value!r}"
+    @property
+    def stated(self) -> Mapping[str, object]:
+        """Values that are specified, by the paths of their keys; without maneuvers."""
+        return {
+            f"{section}.{name}": value
             for section in SECTIONS
             for name, value in vars(getattr(self, section)).items()
             if value is not None
-        ]
+        }
+
+    def __repr__(self) -> str:
+        stated = [f"{path}={value!r}" for path, value in self.stated.items()]
         stated += [f"maneuver {each.name}" for each in self.maneuvers]
         text = ", ".join(stated) or "nothing specified"
         more = " ..." if len(text) > LONGEST_REPR else ""

@@ -236,7 +236,7 @@ def validate_design(
     found = Validated(
         design=str(flights.path),
         robot=flights.robot.name,
-        warnings=flights.warnings,
+        warnings=(*flights.warnings, *_unused(request.stated)),
         validation=tuple(map(record_run, runs)),
     )
     if request.many:
@@ -274,6 +274,30 @@ def validate_design(
             again = replace(again, survival=replace(found.survival, mass_without=alone))
         (staging / DESIGN_FILE).write_bytes(to_json(again))
     return Validation(found, request.out, tuple(again.files), flights, runs)
+
+
+_OF_FLIGHTS = ("validation", "reality")
+"""Sections of a specification that apply to the flights of a design."""
+
+_NOT_OF_FLIGHTS = ("validation.enabled", "validation.video")
+_ALSO_OF_FLIGHTS = ("requirement.survives", "requirement.detection")
+
+
+def _unused(stated: Specification) -> tuple[str, ...]:
+    """A sentence on the keys of a specification that do not apply to a finished design."""
+    names = [
+        path
+        for path in stated.stated
+        if path in _NOT_OF_FLIGHTS
+        or not (path.partition(".")[0] in _OF_FLIGHTS or path in _ALSO_OF_FLIGHTS)
+    ]
+    names += [f"maneuver {each.name!r}" for each in stated.maneuvers]
+    if not names:
+        return ()
+    return (
+        f"not used from the specification: {', '.join(names)}: a design is flown as it was sized; "
+        "for another one run `ocs-design size`",
+    )
 
 
 def watch(answer: Validation) -> None:

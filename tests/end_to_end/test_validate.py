@@ -96,6 +96,19 @@ def test_reality_is_taken_from_the_specification(by_hand, folder):
     assert flown[0] != recorded[0]["metrics"]
 
 
+def test_keys_that_do_not_apply_to_a_finished_design_are_named(by_hand, folder):
+    """They were dropped without a word."""
+    Path("other.toml").write_text(
+        f"{DROP}[motor]\nname = 'auto'\n[flywheel]\nr_max = '30mm'\n"
+        "[requirement]\ngravity = 'moon'\n[validation]\nkp = 90\nvideo = false\n"
+    )
+    (told,) = run("validate", by_hand, "--spec", "other.toml", "--json").document["warnings"]
+    named = "requirement.gravity, flywheel.r_max, motor.name, validation.video, maneuver 'drop'"
+    assert f"not used from the specification: {named}: " in told
+    Path("flown.toml").write_text("[validation]\nkp = 90\n[reality]\nair_drag = 1\n")
+    assert not run("validate", by_hand, "--spec", "flown.toml", "--json").document["warnings"]
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [
