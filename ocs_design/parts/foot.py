@@ -148,6 +148,11 @@ class Foot(Generic[Real]):
         return (around + corner + apart) / 2.0 + (LONG_MARK_LENGTH + WALL)
 
     @property
+    def marks_radius(self) -> Real:
+        """Radius of the outer ends of the scale's marks [m]."""
+        return self.base_radius - WALL
+
+    @property
     def placement(self) -> Placement:
         """Its frame in the wheel's: x forward in both, y along the spin axis, z up is -y."""
         return Placement(UPRIGHT.T, np.array([0.0, self.wheel_height, 0.0]))
@@ -313,7 +318,7 @@ def undrilled(foot: Foot[Real]) -> Part[Real]:
     base = Prism(Disc(foot.base_radius), 0.0, foot.base)
     plate = Prism(foot.plate, -foot.back, -foot.housing.half_height, STANDING)
     cut = [Prism(foot.slot, 0.0, foot.base, count=TRUNK_SCREW_COUNT)]
-    end, low = foot.base_radius - WALL, foot.base - MARK_DEPTH
+    end, low = foot.marks_radius, foot.base - MARK_DEPTH
     for third, length in enumerate((LONG_MARK_LENGTH, MARK_LENGTH, MARK_LENGTH)):
         groove = Rectangle(end - length, end, -MARK_WIDTH / 2.0, MARK_WIDTH / 2.0)
         first = 2.0 * pi / LONG_MARKS * third / 3.0

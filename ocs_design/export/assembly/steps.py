@@ -9,7 +9,7 @@ from ocs_design.actuation.fasteners import screw
 from ocs_design.catalogue.materials import materials
 from ocs_design.common.units import format_quantity, significant
 from ocs_design.device.bodies import joint_name
-from ocs_design.device.device import Device
+from ocs_design.device.device import Device, Module
 from ocs_design.device.joints import (
     RUN_OUT,
     SHAFT_JOINT,
@@ -19,7 +19,7 @@ from ocs_design.device.joints import (
     rim_fit,
     unheld_moment,
 )
-from ocs_design.device.layout import PAIR
+from ocs_design.device.layout import PAIR, SIDES
 from ocs_design.device.solids import drive_solids, foot_of, shaft_cut
 from ocs_design.export.assembly.content import LEAST_DRILL, Assembly, Tightened
 from ocs_design.export.device_parts import (
@@ -43,7 +43,6 @@ from ocs_design.parts.printed import (
     LID_SCREW,
     PANEL,
     TRUNK_SCREW,
-    WALL,
     WASHER_HEIGHT,
 )
 
@@ -56,6 +55,10 @@ KEY_LEG, KEY_ARM = 18.0e-3, 50.0e-3
 
 LEAST_ROOM = 6.0e-3
 """Above a head, in which a key with a cut leg can be put in and turned [m]: an assumption."""
+
+LEAST_DEGREE = 1.0
+"""Change of a difference of lengths by a degree, below which a rule does not tell more than the
+scale [mm]: an assumption."""
 
 LARGEST_REAMER = 20.0e-3
 """Diameter of a bore above which it is bored and not reamed [m]: an assumption."""
@@ -401,14 +404,10 @@ def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
         if each[0].startswith("foot on") and each[0] != SEATED
     )
     modules = [each for each in assembly.device.modules if each.name in standing]
-    # Each axis's own, from the lateral direction: those of a ring's modules differ.
-    angles = {
-        module.name: format_quantity(float(np.arctan2(*np.abs(module.axis[:2]))), "deg")
-        for module in modules
-    }
-    alike = len(set(angles.values())) == 1
-    each_own = (f"{value} ({name})" for name, value in angles.items())
-    scale = next(iter(angles.values())) if alike else ", ".join(each_own)
+    line, met = _scribed(assembly.device, modules)
+    values = tuple(dict.fromkeys(met.values()))
+    each_own = (f"{value} ({name})" for name, value in met.items())
+    scale = values[0] if len(values) == 1 else ", ".join(each_own)
     # Away from its motor.
     outward = {
         module.name: float(np.arctan2(module.frame[1, 1], module.frame[0, 1])) for module in modules
@@ -418,7 +417,7 @@ def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
         f"forward ({name})"
         for name, angle in outward.items()
     )
-    long, degree = 360.0 / LONG_MARKS, 1e3 * np.radians(foot.base_radius - WALL)
+    long, degree = 360.0 / LONG_MARKS, 1e3 * np.radians(foot.marks_radius)
     held, plate = found.fastening, assembly.device.plate
     into = "the threads of the plate" if plate else "threads, inserts or nuts of the trunk"
     # Pins through the feet where friction does not keep them from turning.
@@ -432,12 +431,78 @@ def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
         )
     return (
         f"The scale's 0 is the long mark square to the wheel's axis; marks are {long / 3.0:g} deg "
-        f"apart, long ones {long:g}, and a degree is {degree:.2g} mm at their ends. Scribe a line "
-        "forward through the middle of each foot, turn the foot until it meets the scale at "
-        f"{scale}, within half a degree, its lid looking {looks}, and tighten {held.count} x "
+        f"apart, long ones {long:g}, and a degree is {degree:.2g} mm at their ends. {line}, and "
+        f"turn the foot until that line meets the scale at {scale}, its lid looking {looks}: by "
+        f"eye to a degree.{_marks_apart(assembly.device, modules)} Tighten {held.count} x "
         f"{held.designation}{assembly.number(screws)}{found.with_washers}, with "
         f"{significant(found.torque, 2)} N m each, into {into}."
         f"{_under_motor(assembly, found)}{pinned}"
+    )
+
+
+def _mate(module: Module, modules: Sequence[Module]) -> Module | None:
+    """The module that stands opposite, mirrored at the robot's middle; None: none does."""
+    mirrored = module.position * [1.0, -1.0, 1.0]
+    others = (each for each in modules if each is not module)
+    return next((each for each in others if np.allclose(each.position, mirrored)), None)
+
+
+def _scribed(device: Device, modules: Sequence[Module]) -> tuple[str, dict[str, str]]:
+    """The line that feet are set by, and where it meets the scale of each, by its name.
+
+    A base reaches over its plate's edge, but for the arm to the other foot or to the plate's
+    middle; the line is on that. On the trunk, where no foot is opposite, it goes forward.
+    """
+    plate, met = device.plate, dict[str, str]()
+    ring = plate is not None and plate.arms > len(SIDES)
+    if plate is not None and ring:
+        ends = [np.array(plate.position)] * len(modules)
+    else:
+        mates = (_mate(module, modules) for module in modules)
+        ends = [mate.position for mate in mates if mate is not None]
+    if len(ends) < len(modules):
+        # Each axis's own, from the lateral direction: those of a ring's modules differ.
+        for module in modules:
+            angle = float(np.arctan2(*np.abs(module.axis[:2])))
+            met[module.name] = format_quantity(angle, "deg")
+        return "First scribe a line forward on the trunk through the middle of each foot", met
+    for module, end in zip(modules, ends, strict=True):
+        inward = (end - module.position)[:2]
+        inward /= np.linalg.norm(inward)
+        cosine = float(-module.frame[:2, 1] @ inward)
+        below = "under its motor" if cosine >= 0.0 else "under its lid"
+        off = format_quantity(float(np.arccos(min(1.0, abs(cosine)))), "deg")
+        met[module.name] = f"{off} from the long mark {below}"
+    on = "trunk" if plate is None else "plate"
+    to = "that of the plate" if ring else "that of the foot opposite"
+    return f"First scribe a line on the {on} from the middle of each foot to {to}", met
+
+
+def _marks_apart(device: Device, modules: Sequence[Module]) -> str:
+    """How far the 0 marks of opposite feet are apart, to check their angles; empty: none are."""
+    radius, found = foot_of(device).marks_radius, {}
+    for module in modules:
+        mate = _mate(module, modules)
+        if mate is None or module.position[1] < 0.0:
+            continue
+        ends = []
+        for each in (module, mate):
+            x, y = each.frame[:2, 1]
+            ahead = np.array([y, -x]) * (1.0 if y > 0.0 else -1.0)
+            ends.append([each.position[:2] + sense * radius * ahead for sense in (1.0, -1.0)])
+        front, back = (
+            1e3 * float(np.linalg.norm(one - two)) for one, two in zip(*ends, strict=True)
+        )
+        degree = 4e3 * np.radians(radius * abs(module.frame[1, 1]))
+        if degree >= LEAST_DEGREE:
+            found[f"{front:.1f} mm in front and {back:.1f} mm behind"] = degree
+    if not found:
+        return ""
+    distances, degree = " or ".join(found), min(found.values())
+    return (
+        " Then measure with a steel rule on both bases between the outer ends of the 0 marks of "
+        f"opposite feet: {distances}. Each degree of both feet changes the difference by "
+        f"{degree:.2g} mm: when it is right to 1 mm, their mean is right to {1.0 / degree:.1g} deg."
     )
 
 

@@ -30,6 +30,7 @@ from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.export.drawing.sheet import FRAME_BOX, THIN, Circle, Line, Polyline, Text
 from ocs_design.export.electrics import wiring, wiring_parts
 from ocs_design.parts.pedestal import Pedestal
+from ocs_design.parts.printed import WALL
 
 BOTTOM = FRAME_BOX[3]
 
@@ -602,8 +603,31 @@ def test_what_carries_the_wheel_is_told_with_its_screws_and_is_no_step():
 
 
 def test_each_foot_of_a_ring_is_turned_to_its_own_axis():
-    for device, angles in ((TRIAD, "0 deg (1), 60 deg (2), 60 deg (3)"), (AT_30_DEGREES, "30 deg")):
-        assert f"meets the scale at {angles}," in texts(Assembly("solo12", device), "Steps")
+    said = texts(Assembly("solo12", TRIAD), "Steps")
+    assert "First scribe a line forward on the trunk through the middle of each foot" in said
+    assert "meets the scale at 0 deg (1), 60 deg (2), 60 deg (3)," in said
+    assert "steel rule" not in said
+
+
+@pytest.mark.parametrize("on", ["caged", "on a plate"])
+def test_opposite_feet_are_turned_by_a_line_between_them_and_checked_by_their_marks(on):
+    """A base reaches over its plate's edge everywhere but towards the other foot."""
+    device = DEVICES[on].at_incidence(np.pi / 6.0)
+    said, foot = texts(Assembly("solo12", device), "Steps"), foot_of(device)
+    under = "trunk" if device.plate is None else "plate"
+    assert (
+        f"First scribe a line on the {under} from the middle of each foot to that of the foot"
+        in said
+    )
+    assert "meets the scale at 30 deg from the long mark under its motor, its lid looking" in said
+    middle, radius = device.modules[0].position[1], foot.base_radius - WALL
+    front, behind = (2e3 * (middle + sense * radius * 0.5) for sense in (-1.0, 1.0))
+    assert f"the 0 marks of opposite feet: {front:.1f} mm in front and {behind:.1f} mm beh" in said
+    # The lid of the left foot looks forward to the left, so its front mark is nearer the middle.
+    assert device.modules[0].axis[0] > 0.0 < device.modules[0].frame[1, 1]
+    angles = np.radians([29.5, 30.5])
+    change = np.ptp(4e3 * radius * np.sin(angles))
+    assert f"changes the difference by {change:.2g} mm" in said
 
 
 def test_pedestals_of_two_shapes_stand_beside_each_other():
