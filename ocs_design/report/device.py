@@ -198,7 +198,7 @@ def _mass_facts(design: OcsDesign) -> Iterator[tuple[str, str]]:
         count = len(plate.rows)
         name, its = ("carrier plate", "its") if count == 1 else (f"{count} carrier plates", "their")
         on = "" if plate.mast is None else " on a mast behind the trunk"
-        on += "" if plate.relief is None else ", its block formed to it"
+        on += "" if plate.relief is None else ", its block shaped to it"
         yield name, f"{grams(plate.mass)} with {its} screws, {text} mm{on}"
     if ocs.pedestals:
         mass = grams(sum(each.mass for each in ocs.pedestals))

@@ -93,7 +93,7 @@ def flights_title(runs: Iterable[ValidationRecord]) -> str:
     """What the angles of `short_verdict` are, over a table of these flights."""
     pivots = [was_on_pivot(run) for run in runs]
     if all(pivots):
-        return "degrees off balance when it is to be upright"
+        return "degrees off balance when due upright"
     balance = ", or off balance" if any(pivots) else ""
     return f"degrees off level at touchdown{balance}, or turned"
 
@@ -182,23 +182,23 @@ def hand_turn(demand: DemandRecord, design: OcsDesign) -> str:
     )
 
 
-SURVIVAL_TITLE = "A drive stops: degrees off in the end, by the share of the flight until then"
+SURVIVAL_TITLE = "Failure of a drive: final error in degrees, by the time of failure"
 
 
 def survival_sentence(survival: SurvivalRecord) -> str:
     """Whether it lands though a drive stops, how in the worst case, and when it does not."""
     count, lost, worst = len(survival.flights), survival.lost, survival.worst
-    tilt = "not judged" if worst.tilt is None else f"{degrees(worst.tilt)} off in the end"
-    case = f"worst: drive {worst.module} stops {worst.instant:.2f} s into {worst.scenario}, {tilt}"
+    tilt = "not judged" if worst.tilt is None else f"{degrees(worst.tilt)} off at the end"
+    case = f"worst: drive {worst.module} fails {worst.instant:.2f} s into {worst.scenario}, {tilt}"
     if not lost:
-        return f"any one drive may stop ({count} flights); {case}"
+        return f"any one drive may fail ({count} flights); {case}"
     by_scenario: dict[str, dict[str, None]] = {}
     for each in lost:
         by_scenario.setdefault(each.scenario, {})[f"{each.instant:.2f}"] = None
     when = (f"{name} {listed(list(instants))} s" for name, instants in by_scenario.items())
     return (
-        f"{len(lost)} of {count} flights end beyond the allowance, of drives that stop at: "
-        f"{'; '.join(when)}; {case}"
+        f"{len(lost)} of {count} flights with a failed drive end out of tolerance, for failures "
+        f"at: {'; '.join(when)}; {case}"
     )
 
 
@@ -209,7 +209,7 @@ def survival_words(design: OcsDesign) -> Iterator[str]:
         yield survival_sentence(found)
         if found.mass_without is not None:
             more = design.ocs.mass_total - found.mass_without
-            yield f"{grams(more)} more than without ({grams(found.mass_without)})"
+            yield f"{grams(more)} heavier than a device that need not ({grams(found.mass_without)})"
 
 
 def survival_table(survival: SurvivalRecord) -> Table:
@@ -233,8 +233,8 @@ def falls(runs: Sequence[ValidationRecord]) -> str:
     if not fallen:
         return ""
     return (
-        f"{', '.join(fallen)}: the robot lands level and then falls; its legs do not bear such a "
-        "landing by themselves, however level it is"
+        f"{', '.join(fallen)}: the robot lands level and then falls; its legs cannot take such a "
+        "landing, however level it is"
     )
 
 

@@ -36,13 +36,13 @@ _NOTHING = 5e-6
 """Less mass than is shown [kg]."""
 
 _MEANING = {
-    HOUSING: "A larger rim would be lighter, but its housing heavier by more.",
+    HOUSING: "A larger rim would be lighter, but its housing would gain more than the rim saves.",
     MOUNT: "The screws of the motor's mount need a housing of this width.",
-    BELL: "The ring has the bore of the motor's bell with its glue, and its height at most.",
-    BOND: "The bond on the motor's bell holds no wider ring.",
+    BELL: "The motor's bell and the glue gap set the ring's bore, and the bell limits its height.",
+    BOND: "The bond on the motor's bell cannot hold a wider ring.",
     HUB: "The rim's bore must clear the hub.",
     LIGHTENING_HOLES: "The web must have room for its lightening holes.",
-    HOLED_STRESS: "The web must hold at its lightening holes.",
+    HOLED_STRESS: "The web must withstand the stress at its lightening holes.",
     WEB: "The rim must be taller than the web.",
 }
 """Explanation of limits that stand in no specification."""
@@ -65,27 +65,27 @@ MARGIN_NOTE = (
 )
 
 BOUND_NOTE = (
-    "The paper prints I_r d / (d + gamma); from its own momentum follows I_r d / (gamma - d). "
+    "The paper prints I_r d / (d + gamma); its own momentum balance gives I_r d / (gamma - d). "
     "I_r is the robot's inertia, d the change of its rate, gamma the wheel's speed. The bound is "
-    "necessary, never sufficient: it does not ask for torque, angle or time."
+    "necessary but never sufficient: it ignores torque, angle and time."
 )
 """Said wherever the paper's lower bound is shown."""
 
 _PRICE_NOTE = (
-    "The mass of one rim changes by this much if an active limit is moved. Moving a limit that is "
-    "not reached changes nothing."
+    "The mass of one rim changes by this much if an active limit is moved. Moving an inactive "
+    "limit changes nothing."
 )
 
 TURNS = (
     "Turns are sized for constant torque one way and then the other, at a peak rate of 2 theta / T:"
-    " the least torque that does it. With more torque down to half this inertia may do: the "
-    "flights show it."
+    " this needs the least torque. With more torque, as little as half this inertia may suffice; "
+    "the flights decide."
 )
 """Note on demands of wheels without motors."""
 
 DRIVEN = (
     "Momenta are those of constant torque one way and then the other. The spin inertia is what the "
-    "chosen drive needs: it may hold its speed for longer, and then takes less momentum."
+    "chosen drive needs: if it holds its speed for a while, it needs less momentum."
 )
 """Note on demands of a chosen drive."""
 
@@ -107,7 +107,7 @@ def demand_table(design: OcsDesign) -> Table:
     if specified is not None:
         rows.append(("specified", "", "", "", inertia_number(specified), "-"))
     heads = columns(
-        "<asked by", "alpha [deg]", "roll [mN m s]", "pitch [mN m s]", "spin inertia [kg mm2]",
+        "<required by", "alpha [deg]", "roll [mN m s]", "pitch [mN m s]", "spin inertia [kg mm2]",
         "least torque [N m]",
     )  # fmt: skip
     return Table(heads, tuple(rows))
@@ -205,7 +205,7 @@ def alternatives_table(design: OcsDesign) -> Table:
         tuple(
             (
                 each.change,
-                "none does" if each.mass_total is None else grams(each.mass_total),
+                "no device" if each.mass_total is None else grams(each.mass_total),
                 each.motor,
                 each.note,
             )
@@ -225,7 +225,7 @@ def lighter_table(design: OcsDesign) -> Table:
     """What would have to give for a device that is lighter by what was asked."""
     changes = () if design.lighter is None else design.lighter.changes
     rows = tuple((each.change, grams(each.mass_total or 0.0), each.motor) for each in changes)
-    return Table(columns("<any one of these does it", "mass", "<motor"), rows)
+    return Table(columns("<any one of these suffices", "mass", "<motor"), rows)
 
 
 def owed_to(design: OcsDesign) -> str:
@@ -234,9 +234,9 @@ def owed_to(design: OcsDesign) -> str:
     if owed is None:
         return ""
     if not owed.maneuver:
-        return "no single maneuver; without any one of them it weighs the same"
+        return "no single maneuver; dropping any one of them saves nothing"
     if owed.mass_without is None:
-        return f"{owed.maneuver}, the only maneuver asked for"
+        return f"{owed.maneuver}, the only maneuver"
     return f"{owed.maneuver} (without it {grams(owed.mass_without)})"
 
 
@@ -255,9 +255,7 @@ def holding_up(design: OcsDesign) -> list[str]:
 def active_limits(design: OcsDesign) -> tuple[str, str]:
     """Names of the limits that hold the mass up, and what they mean."""
     meanings = (_MEANING[name] for name in design.sizing.binding if name in _MEANING)
-    return ", ".join(holding_up(design)) or "none: the rim lies inside all limits", " ".join(
-        meanings
-    )
+    return ", ".join(holding_up(design)) or "none: the rim is within all limits", " ".join(meanings)
 
 
 def saving_table(design: OcsDesign) -> Table:
@@ -301,7 +299,7 @@ def saving_notes(design: OcsDesign) -> str:
         return _PRICE_NOTE
     chosen, *others = best_drives(selection.ranking)
     note = (
-        f"Each change is made alone, and the device sized anew with {drive_name(chosen)} and its "
+        f"Each limit is changed alone, and the device resized with {drive_name(chosen)} and its "
         "material."
     )
     if others:
@@ -316,7 +314,7 @@ def saving_notes(design: OcsDesign) -> str:
 def reserve_table(kept: ReserveRecord) -> Table:
     """Share of each uncertain quantity in what robots need, and what knowing it would save."""
     return Table(
-        columns("<key of [reality]", "share of the reserve", "known exactly, it saves"),
+        columns("<key of [reality]", "share of the reserve", "saved if known exactly"),
         tuple(
             (cost.key, f"{100.0 * cost.share:.0f} %", grams(max(cost.mass, 0.0)))
             for cost in kept.costs
@@ -335,13 +333,13 @@ def reserve_note(kept: ReserveRecord, mass: float) -> str:
     masses, curve = [each for _, each in kept.curve], ""
     if masses and max(masses) - min(masses) < _NOTHING:
         most = f"{100.0 * kept.curve[-1][0]:g} %"
-        curve = f"The nominal device already has it: nothing up to {most}."
+        curve = f"No extra mass up to {most}."
     elif masses:
         each = ", ".join(f"{grams(mass)} for {100.0 * level:g} %" for level, mass in kept.curve)
-        curve = f"The same motor and material weigh {each}."
+        curve = f"With the same motor and material the device weighs {each}."
     return (
-        f"{100.0 * kept.reliability:g} % of robots need these factors on what maneuvers ask: "
-        f"{factors}; up to 1 the nominal device has it to spare. By the closed forms "
+        f"To cover {100.0 * kept.reliability:g} % of robots, the demands are multiplied by: "
+        f"{factors}; the nominal device covers factors up to 1. The closed forms predict that "
         f"{100.0 * kept.predicted:.1f} % pass; the reserve costs "
         f"{grams(max(mass - kept.nominal, 0.0))}. {curve}"
     )

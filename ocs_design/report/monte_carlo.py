@@ -27,7 +27,7 @@ def campaign_title(record: MonteCarloRecord) -> str:
         what = "interval asked for" if record.certificate is None else "certificate"
         count += f" of {record.asked:,}"
         enough = f"; that was enough for the {what}"
-    return f"{count} robots as they might be built, seed {record.seed}{enough}"
+    return f"{count} sampled robots, seed {record.seed}{enough}"
 
 
 def success_table(record: MonteCarloRecord) -> Table:
@@ -41,10 +41,10 @@ def success_table(record: MonteCarloRecord) -> Table:
         for each in record.scenarios
     ]
     if len(rows) > 1:
-        rows.append(("all of them", *_share(record.success), "-"))
+        rows.append(("all maneuvers", *_share(record.success), "-"))
     return Table(
         columns(
-            "<scenario", "passes", "of all", f"{record.confidence:.0%} interval", "<the others"
+            "<scenario", "passed", "pass rate", f"{record.confidence:.0%} interval", "<failures"
         ),
         tuple(rows),
     )
@@ -66,13 +66,13 @@ def certificate_notes(found: ReliabilityRecord) -> Iterator[str]:
     yield from found.rounds
     asked, worse = (f"{100.0 * value:.3g} %" for value in (found.asked, found.worse))
     yield (
-        f"Robots as they might be built flew all maneuvers, one after the other, until it was "
-        f"clear on which side they are: one of {worse} or worse would be certified in at most 5 of "
-        f"100 cases, one of {asked} or better found to fall short in as many (Wald 1945)"
+        "Sampled robots flew all maneuvers, one robot after another, until the test was decided: "
+        f"a design of {worse} or worse would be certified in at most 5 of 100 cases, and one of "
+        f"{asked} or better would be found to fall short in at most 5 (Wald 1945)"
     )
     low, high = found.whole_interval
     yield (
-        f"By these {found.samples:,} alone, between {floored(100.0 * low, 1)} and "
+        f"From these {found.samples:,} alone, between {floored(100.0 * low, 1)} and "
         f"{ceiled(100.0 * high, 1)} % of robots pass (95 % interval)"
     )
     last = found.first + found.samples - 1
@@ -105,7 +105,7 @@ def spread_table(record: MonteCarloRecord) -> Table:
                 bars = "".join(BARS[int(np.ceil(part * (len(BARS) - 1)))] for part in parts)
                 rows.append((name, quantity, *values, bars))
                 name = ""
-    heads = columns("<scenario", "<in flight", "5 %", "median", "95 %", "most", "least to most")
+    heads = columns("<scenario", "<in flight", "5 %", "median", "95 %", "max", "min to max")
     return Table(heads, tuple(rows))
 
 
@@ -114,11 +114,11 @@ def campaign_remarks(record: MonteCarloRecord) -> Iterator[str]:
     for scenario in record.scenarios:
         found = ", ".join(
             f"{cause.quantity.replace('_', ' ').replace('.', ' ')} "
-            f"({'either way ' if cause.either_way else ''}{cause.correlation:+.2f})"
+            f"({'either sign ' if cause.either_way else ''}{cause.correlation:+.2f})"
             for cause in scenario.causes
         )
         if found:
-            yield f"{scenario.scenario}: off level with {found}"
+            yield f"{scenario.scenario}: the angle off level correlates with {found}"
         known = {"level": scenario.level, "stands": scenario.stands}
         counts = {word: count for word, count in known.items() if count is not None}
         if min(counts.values(), default=record.samples) < record.samples:

@@ -25,7 +25,7 @@ def choice_title(selection: SelectionRecord) -> str:
 def task_table(selection: SelectionRecord) -> Table:
     """What each maneuver asks of the chosen drive."""
     heads = columns(
-        "<asked by", "alpha [deg]", "spin inertia [kg mm2]", "needed [s]", "given [s]",
+        "<required by", "alpha [deg]", "spin inertia [kg mm2]", "needed [s]", "given [s]",
         "peak [rpm]",
     )  # fmt: skip
     return Table(
@@ -51,21 +51,21 @@ _SHOWN = 5e-4
 def task_note(selection: SelectionRecord, maneuvers: Iterable[ManeuverRecord]) -> str:
     """What the needed times are, of these maneuvers, and which of them decides."""
     needed = (
-        f"Needed: the shortest time with {selection.reserve:.0%} of voltage, current and speed "
-        "limit."
+        f"Needed: the shortest time at {selection.reserve:.0%} of the voltage, current and speed "
+        "limits."
     )
     if any("pivot" in each.parameters for each in maneuvers):
         needed += (
-            " On a pivot both times are of a turn without gravity that asks for the same torque "
-            "and momentum."
+            " On a pivot both times are of a turn without gravity that needs the same torque and "
+            "momentum."
         )
     most = max((task.spin_inertia for task in selection.tasks), default=0.0)
     tied = [task.source for task in selection.tasks if task.spin_inertia > most * (1.0 - _SHOWN)]
     if not selection.binding_maneuver or not tied:
         return needed
     if len(tied) == len(selection.tasks) > 1:
-        return f"{needed} All of them ask for the same spin inertia."
-    return f"{needed} The most spin inertia is for {listed(tied)}."
+        return f"{needed} All need the same spin inertia."
+    return f"{needed} The largest spin inertia is for {listed(tied)}."
 
 
 def drive_table(drives: tuple[RankedRecord, ...]) -> Table:
@@ -136,5 +136,5 @@ def co_design_facts(selection: SelectionRecord) -> Rows:
             ("device", f"{grams(found.mass)} against {grams(found.selected_mass)} ({change:+.2%})")
         )
     if found.violation is not None:
-        rows.append(("violation", f"{found.violation:.1e} on a ten times finer grid, relative"))
+        rows.append(("violation", f"{found.violation:.1e} (relative), on a grid ten times finer"))
     return (*rows, ("outcome", found.remark))

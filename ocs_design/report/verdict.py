@@ -61,7 +61,9 @@ def headline(found: OcsDesign | Validated) -> Headline:
     parts += _flights(runs)
     if survival is not None:
         count = len(survival.flights)
-        parts.append(_share("with a drive stopped", count - len(survival.lost), count, Tone.FAIL))
+        parts.append(
+            _share("survives a drive failure", count - len(survival.lost), count, Tone.FAIL)
+        )
     if certified is not None:
         tones = {
             Conclusion.CERTIFIED: Tone.PASS,
@@ -92,8 +94,8 @@ def _buildable(design: OcsDesign) -> Toned:
         return Toned("buildable" if yes else "NOT buildable", Tone.PASS if yes else Tone.FAIL)
     if not has_motor(design):
         return Toned("no motor chosen yet", Tone.OPEN)
-    why = "" if design.robot.sha256 else ", for the robot has no shapes"
-    return Toned(f"buildable: not known{why}", Tone.OPEN)
+    why = "" if design.robot.sha256 else ", because the robot has no geometry"
+    return Toned(f"buildable: unknown{why}", Tone.OPEN)
 
 
 def _flights(runs: Sequence[ValidationRecord]) -> Iterator[Toned]:

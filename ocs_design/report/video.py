@@ -57,7 +57,7 @@ def film_or_tell(
     except MissingToolError as error:
         return (f"{error}; {error.hint}" if error.hint else str(error),)
     if any(film.suffix == ".gif" for film in films):
-        return (f"the video is a GIF, because there is no ffmpeg that makes H.264; {FFMPEG_HINT}",)
+        return (f"the video is a GIF, because no ffmpeg with H.264 was found; {FFMPEG_HINT}",)
     return ()
 
 

@@ -38,13 +38,13 @@ def all_warnings(design: OcsDesign) -> Iterator[str]:
     # A robot by hand has no shape, and nobody thinks that it was looked at.
     if ocs.clearance is None and design.robot.sha256:
         yield (
-            "clearance NOT checked: no geometry of the robot could be read, so its parts may be "
-            "where the device is; make sure that its meshes are found (--package-path NAME=DIR)"
+            "clearance NOT checked: the robot's geometry could not be read, so the device may "
+            "intersect it; make sure that its meshes are found (--package-path NAME=DIR)"
         )
     # What is odd in the robot's file may make all else wrong, but shall not hide it.
     yield from design.robot.warnings[:1]
     if ocs.flywheel.stress_margin is None:
-        yield f"the stress is NOT checked: no strength of {ocs.flywheel.material} is known"
+        yield f"stress NOT checked: the strength of {ocs.flywheel.material} is unknown"
     yield from flight_remarks(design)
     kept = None if design.selection is None else design.selection.kept
     # What ends off level about an axis that its incidence leaves out of reach.
@@ -52,19 +52,19 @@ def all_warnings(design: OcsDesign) -> Iterator[str]:
         if kept is not None and each.lost > 1.0 - kept.reliability:
             yield (
                 f"{each.maneuver}: {each.lost:.0%} of robots as built drift off level about an "
-                "axis that the wheels do not reach at its incidence: state a larger one, or none"
+                "axis that the wheels cannot control at its incidence: specify a larger one or none"
             )
     if kept is not None and kept.reliability > 1.0 - 1.0 / DRAWN:
         yield (
-            f"a reserve for {100.0 * kept.reliability:.8g} % of robots is that for the worst of "
-            f"{DRAWN:,} that are drawn, which tell no more: fly more of them with --certify"
+            f"the reserve for {100.0 * kept.reliability:.8g} % of robots is set by the worst of "
+            f"{DRAWN:,} samples, which cannot show more: fly more of them with --certify"
         )
     yield from ocs.warnings
     motor = ocs.motor
     if motor.bus_voltage and motor.rated_voltage and motor.bus_voltage > motor.rated_voltage:
         yield (
-            f"{motor.name} is rated for {motor.rated_voltage:g} V and fed with "
-            f"{motor.bus_voltage:g} V: ask the makers of motor and controller whether they stand it"
+            f"{motor.name} is rated for {motor.rated_voltage:g} V but runs at "
+            f"{motor.bus_voltage:g} V: ask the makers of motor and controller if this is allowed"
         )
     yield from design.robot.warnings[1:]
     found = () if ocs.mounting is None else ocs.mounting.reachable
@@ -87,7 +87,7 @@ def reached_at(ocs: OcsRecord) -> Iterator[str]:
     if len(found) > _SHOWN_LINKS:
         named.append(f"and {len(found) - _SHOWN_LINKS} more, see design.json")
     if named:
-        yield f"joint values with which links hit a module: {'; '.join(named)}"
+        yield f"joint values at which links hit a module: {'; '.join(named)}"
 
 
 def _motor_notes(design: OcsDesign) -> Iterator[str]:
@@ -99,26 +99,26 @@ def _motor_notes(design: OcsDesign) -> Iterator[str]:
     asked, starts = max(torques, default=0.0), motor.saturation_torque
     if starts is not None and asked > starts:
         yield (
-            f"{motor.name} saturates from {starts:.3g} N m at the wheel and is asked for "
-            f"{asked:.3g}: it takes more current and voltage than its k_t says, and the margins of "
-            "both are too good"
+            f"{motor.name} saturates above {starts:.3g} N m at the wheel, and {asked:.3g} is "
+            "needed: it takes more current and voltage than its k_t implies, so the margins of "
+            "both are optimistic"
         )
     if BY_CONVENTION in motor.confidence:
         yield (
-            f"the bolt threads of {motor.name} are assumed, as usual for motors of its size: look "
-            "at its drawing before you order screws"
+            f"the bolt threads of {motor.name} are assumed from other motors of its size: check "
+            "its drawing before you order screws"
         )
     if motor.rotor_inertia_source:
         yield f"rotor inertia is an {motor.rotor_inertia_source}"
     elif motor.rotor_inertia == 0.0 and motor.gear == DIRECT.name:
-        yield "rotor inertia is unknown and taken as 0: wheels turn slower, never faster"
+        yield "rotor inertia is unknown and taken as 0: real wheels turn slower, never faster"
     rating = controller_rating(motor)
     if rating:
         count = counted(len(design.ocs.modules), "motor controller")
         if motor.controller_mass > 0.0:
-            yield f"not in the mass: cables; in it: {count}, each for {rating}"
+            yield f"the mass includes {count}, each for {rating}, but no cables"
         else:
-            yield f"not in the mass: cables, and {count}, each for {rating}"
+            yield f"the mass does not include cables and {count}, each for {rating}"
 
 
 def shortfalls(design: OcsDesign) -> Iterator[str]:
@@ -127,11 +127,11 @@ def shortfalls(design: OcsDesign) -> Iterator[str]:
     for demand in design.requirement.demands:
         if limit is not None and demand.torque > limit:
             yield (
-                f"{demand.source}: needs at least {demand.torque:.3g} N m a wheel, more than the "
+                f"{demand.source}: needs at least {demand.torque:.3g} N m per wheel, more than the "
                 f"{limit:.3g} N m allowed: no wheel, however large, makes this turn in time"
             )
         if specified is not None and demand.spin_inertia > specified:
-            yield f"{demand.source}: asks for more than the {inertia(specified)} specified"
+            yield f"{demand.source}: needs more than the {inertia(specified)} specified"
         yield from filter(None, [hand_turn(demand, design)])
 
 
@@ -156,7 +156,7 @@ def coupling_notes(design: OcsDesign) -> Iterator[str]:
                 yield (
                     f"{demand.source}: at {degrees(demand.incidence)} the wheels cannot turn the "
                     f"robot in {across}. Robot and device are not symmetric, and drift by "
-                    f"{drift:.2f} deg of {across} per degree of {about}, there and back in a whole "
+                    f"{drift:.2f} deg of {across} per degree of {about}, out and back in a full "
                     "turn"
                 )
             continue
@@ -164,7 +164,7 @@ def coupling_notes(design: OcsDesign) -> Iterator[str]:
         more = asked[1 - axis] / asked[axis]
         if more > WORTH_TELLING:
             yield (
-                f"{demand.source}: robot and device are not symmetric: to {about} alone takes "
-                f"momentum about {across} too, {more:.0%} more from the busier wheel at "
+                f"{demand.source}: robot and device are not symmetric: to {about} alone also takes "
+                f"momentum about {across}, {more:.0%} more from the busier wheel at "
                 f"{degrees(demand.incidence)}; the device is sized for it"
             )

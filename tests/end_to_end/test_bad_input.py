@@ -62,7 +62,7 @@ def test_what_is_only_odd_works_with_a_warning(folder, content, warning):
     (folder / "rover.urdf").write_bytes(content)
     result = run("size", "rover.urdf", *BOUND, "--no-validate")
     assert result.code == 0
-    assert re.search(rf"To mind.* - .*{warning}", result.said)
+    assert re.search(rf"Warnings.* - .*{warning}", result.said)
     strict = run(
         "size", "rover.urdf", *BOUND, "--no-validate", "--strict", "-o", "strict", "--json"
     )

@@ -115,11 +115,11 @@ def odd(folder):
 @pytest.mark.slow
 def test_doubts_are_told_before_the_search_and_assumptions_after_it(odd):
     said = run("size", odd, *WEAK)
-    doubt, search = said.stderr.index("doubt"), said.stderr.index("size the device")
+    doubt, search = said.stderr.index("warning"), said.stderr.index("size the device")
     assert doubt < search < said.stderr.index("Assumed") < said.stderr.index("falls from 1 m")
     assert said.stdout == ""
     front = run("pareto", odd, *WEAK, "--points", "2").stderr
-    assert front.index("doubt") < front.index("choose a device")
+    assert front.index("warning") < front.index("choose a device")
     stated = run("size", SOLO12, *WEAK, "--fall", "1m", "--tilt", "30deg", "--json")
     assert stated.document["error"]["warnings"] == []
     assert "defaults" not in stated.document["error"]["hint"]

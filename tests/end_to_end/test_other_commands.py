@@ -104,7 +104,7 @@ def test_the_demo_sizes_solo12_from_any_folder(folder, monkeypatch):
         monkeypatch.delenv(name, raising=False)
     told, folder = run("demo"), folder / "solo12-ocs"
     assert told.code == 0
-    assert f"no browser to open it in: {folder / 'report.html'}" in told.stderr
+    assert f"no browser to open {folder / 'report.html'}" in told.stderr
     design = read_design(folder / "design.json")
     assert design.robot.name == "solo12"
     assert all(flight.passed for flight in design.validation if flight.ocs)

@@ -53,7 +53,7 @@ def test_a_tool_that_is_missing_is_no_doubt(folder, monkeypatch):
     short = ("--from", "390ms", "--to", "400ms", "--points", "2")
     result = run("pareto", SOLO12, *ONE_MOTOR, *short, "-o", "front")
     assert result.code == 0
-    assert "doubt" not in result.stderr
+    assert "warning" not in result.stderr
     assert "write the front figures are not written as PNG, because resvg-py" in result.said
 
 

@@ -44,7 +44,7 @@ def test_the_commands_of_the_page_work(design, capsys):
     assert pictures == {".svg", ".png"}
     page = Path("with-samples/report.html").read_text()
     assert 'id="samples"' in page
-    assert "20 robots as they might be built" in page
+    assert "20 sampled robots" in page
 
 
 @pytest.mark.slow

@@ -74,7 +74,7 @@ def test_samples_are_told_in_words(by_hand, folder):
     for words in (
         "touches down at pitch",
         "level 1 of 1",
-        "2 robots as they might be built",
+        "2 sampled robots",
         "95% interval",
         "the worst samples are",
         "15.8 .. 100.0 %",

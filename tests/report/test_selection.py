@@ -106,7 +106,7 @@ def test_a_co_design_says_what_it_gained():
     )  # fmt: skip
     text = " ".join(printed(replace(SELECTION, co_design=found)))
     assert "330.0 g against 336.7 g (-1.99%)" in text
-    assert "2.0e-07 on a ten times finer grid" in text
+    assert "2.0e-07 (relative), on a grid ten times finer" in text
     assert "The co-designed device is taken." in text
 
 

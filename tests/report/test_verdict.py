@@ -94,7 +94,7 @@ def test_a_flight_that_fails_is_minded_though_the_verdict_names_one_of_its_lette
     found = replace(design(MOTOR), validation=runs, buildable=Buildable(yes=True))
     print_summary(Console(file=screen, width=100), found, (), Path("out"))
     assert headline(found).flight == "back-flip"
-    _, _, minded = screen.getvalue().partition("To mind")
+    _, _, minded = screen.getvalue().partition("Warnings")
     assert "- flip, with: turns 9" in minded
     assert "- back-flip, with:" not in minded
 
@@ -108,8 +108,8 @@ def test_a_robot_without_legs_does_not_stand():
     ("changes", "words"),
     [
         ({"bus_voltage": None}, "no motor chosen yet"),
-        ({"sha256": ""}, "buildable: not known, for the robot has no shapes"),
-        ({}, "buildable: not known"),
+        ({"sha256": ""}, "buildable: unknown, because the robot has no geometry"),
+        ({}, "buildable: unknown"),
     ],
 )
 def test_where_it_cannot_be_told_it_says_so(changes, words):

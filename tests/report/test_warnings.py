@@ -38,7 +38,7 @@ def said(design, words):
 
 MINDED = {
     "a motor past its saturation": (
-        *("saturates from 0.7 N m", {"asked": 1.7, "saturation_torque": 0.7}, {"asked": 0.69}),
+        *("saturates above 0.7 N m", {"asked": 1.7, "saturation_torque": 0.7}, {"asked": 0.69}),
     ),
     "a rotor that counts as nothing": (
         *("never faster", {"rotor_inertia": 0.0}, {"rotor_inertia": 1e-6}),
@@ -63,7 +63,7 @@ def test_a_reserve_for_more_than_the_robots_drawn_can_tell_is_minded(reliability
         maneuvers=(), costs=(), curve=(),
     )  # fmt: skip
     surer = replace(found, selection=replace(found.selection, kept=kept))
-    assert len(said(surer, f"{100.0 * reliability:g} % of robots is that for the worst")) == told
+    assert len(said(surer, f"{100.0 * reliability:g} % of robots is set by the worst")) == told
 
 
 def test_controllers_are_not_in_the_mass():

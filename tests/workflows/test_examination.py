@@ -87,10 +87,10 @@ def test_what_is_only_optional_is_not_to_be_mended():
     console = Console(file=StringIO(), width=80)
     print_examination(console, Examination("1.0", (), tuple(lacking)))
     said = console.file.getvalue()
-    mend, add = said.split("To mend")[1].split("To add")
+    mend, add = said.split("To fix")[1].split("To add")
     assert "get needed" in mend and "get torn" in mend
     assert "get extra" in add and "get extra" not in mend
-    assert f"all packages of these: {extra_command('one', 'two')}" in add
+    assert f"all of these: {extra_command('one', 'two')}" in add
 
 
 def test_this_python_does():

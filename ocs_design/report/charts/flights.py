@@ -249,7 +249,7 @@ def distribution_charts(record: MonteCarloRecord, pivots: Collection[str] = ()) 
             yield Chart(
                 name=f"{name}_{safe_name(each.scenario)}",
                 title=f"{each.scenario}: {label}",
-                description=f"Histogram over all samples of what was {label}, with its median.",
+                description=f"Histogram over all samples: {label}, with its median.",
                 x=Axis.around(label, unit, ends),
                 y=Axis("flights", "", 0.0, 1.1 * max(counts)),
                 marks=(Area(x, y, Ink.BLUE), Line(x, y, Ink.BLUE), *rules),

@@ -62,8 +62,8 @@ def front_chart(front: Front) -> Chart:
     return Chart(
         name="front",
         title=f"{front.robot}: lightest device",
-        description=f"Mass of the lightest device against {front.label}; each point is a design of "
-        "its own, and has the colour of its motor and gear.",
+        description=f"Mass of the lightest device against {front.label}; each point is a separate "
+        "design, in the colour of its motor and gear.",
         x=Axis.around(front.label, front.unit, values, room=0.04),
         y=y,
         marks=tuple(marks),
@@ -82,12 +82,12 @@ def reserve_charts(selection: SelectionRecord | None) -> Iterator[Chart]:
     yield Chart(
         name="reliability",
         title="Mass against reliability",
-        description="Mass of a device of the same motor and material against how many robots as "
-        "built there are to one that may fail; each point has the reliability that it stands for.",
+        description="Mass of a device of the same motor and material against the number of robots "
+        "of which one may fail; each point is labelled with its reliability.",
         x=Axis("robots of which one may fail", "", 1.5, 1500.0, log=True),
         y=Axis.around("mass of the device", "g", masses, room=0.15),
         marks=(
-            Rule(1.0 / (1.0 - kept.reliability), upright=True, label="as asked", ink=Ink.FAINT),
+            Rule(1.0 / (1.0 - kept.reliability), upright=True, label="as specified", ink=Ink.FAINT),
             Line(robots, masses, Ink.BLUE),
             Points(robots, masses, Ink.BLUE, labels=labels),
         ),

@@ -156,9 +156,9 @@ def momentum_chart(story: Story) -> Chart:
     reach = 1.15 * max([largest, *(each.largest(axis) for each in found for axis in (0, 1))])
     return Chart(
         name="momentum",
-        title="Momentum that the wheels can take, and took",
-        description="Outline of the roll and pitch momenta that the wheels take together at their "
-        "highest speed, and the momenta that they took in each maneuver up to where it is judged.",
+        title="Wheel momentum: capacity and use",
+        description="Outline of the roll and pitch momenta that the wheels can hold together at "
+        "top speed, and the momenta of each maneuver up to where it is judged.",
         x=Axis("roll momentum", "N m s", -reach, reach),
         y=Axis("pitch momentum", "N m s", -reach, reach),
         marks=tuple(marks),
@@ -211,9 +211,9 @@ def bound_charts(story: Story) -> Iterator[Chart]:
             name=f"bound_{name}",
             title=f"Lower bound on the device's inertia, {name}",
             description=f"Inertia that the wheels must present about {name} against the change of "
-            "rate, one curve for each highest wheel speed, and what the design has for the change "
-            "that each maneuver's momentum is worth. A point over the solid curve of the design's "
-            "own wheel speed has inertia to spare.",
+            "rate, one curve for each top wheel speed, and the design's inertia at the change of "
+            "rate that corresponds to each maneuver's momentum. A point above the solid curve "
+            "(the design's wheel speed) has a margin.",
             x=Axis("change of rate", "rad/s", 0.0, float(rates[-1])),
             y=Axis("inertia required", "kg m²", float(ends[0]), float(ends[1]), log=True),
             marks=(*lines, Points(changes, present, Ink.PLAIN, "the design", labels=labels)),

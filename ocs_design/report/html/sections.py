@@ -116,7 +116,7 @@ def limits_section(story: Story) -> Markup:
     if design.selection is not None:
         drive.append(
             note(
-                "How the mass changes with room, voltage or time, drive and all, is drawn by ",
+                "To plot the mass of the whole device against room, voltage or time, run ",
                 element("code", "ocs-design pareto --against radius|height|voltage|time|angle"),
                 ".",
             )
@@ -132,13 +132,13 @@ def limits_section(story: Story) -> Markup:
         "limits",
         "Active limits, and what moving them saves",
         element("p", "The mass is set by: ", element("strong", names), ". ", meaning),
-        element("p", f"It is owed to {owed}.") if owed else "",
+        element("p", f"Driven by {owed}.") if owed else "",
         table("Each limit moved alone", limits.saving_table(design)),
         note(limits.saving_notes(design)),
         *drive,
-        table("What would be lighter otherwise", otherwise) if otherwise.rows else "",
+        table("Lighter alternatives", otherwise) if otherwise.rows else "",
         note(limits.alternatives_note(design)),
-        table(f"What must give for {grams(design.lighter.by)} less", limits.lighter_table(design))
+        table(f"Trade-offs to save {grams(design.lighter.by)}", limits.lighter_table(design))
         if design.lighter is not None
         else "",
     )
@@ -173,7 +173,7 @@ def drive_section(story: Story) -> Markup:
     drives = selection.best_drives(chosen.ranking)
     parts += [
         element("p", f"Chosen from {selection.choice_title(chosen)}."),
-        table("What is asked of the drive", selection.task_table(chosen)),
+        table("Requirements on the drive", selection.task_table(chosen)),
         note(selection.task_note(chosen, asked)),
         table("The lightest drives", selection.drive_table(drives)),
     ]
@@ -217,7 +217,7 @@ def maneuvers_section(
         parts.append(
             element(
                 "article",
-                element("h3", "A drive stops on the way"),
+                element("h3", "Failure of a drive in flight"),
                 table(flights.SURVIVAL_TITLE, flights.survival_table(survival)),
                 *map(note, flights.survival_words(story.design)),
             )
@@ -245,7 +245,7 @@ def monte_carlo_section(story: Story) -> Markup:
         table("How often they pass", monte_carlo.success_table(record)),
         *(element("p", f"{s.scenario}: {s.advice}.") for s in record.scenarios if s.advice),
         figures(distribution_charts(record, story.pivots)),
-        details("What was drawn", facts(drawn_facts(record.reality))),
+        details("Distributions sampled", facts(drawn_facts(record.reality))),
     )
 
 
@@ -286,7 +286,7 @@ def assembly_section(story: Story) -> Markup:
             )
             for each in chapters(assembly)
         ),
-        element("p", "The same stands on paper in ", element("code", "cad/assembly.pdf"), "."),
+        element("p", "To print this, use ", element("code", "cad/assembly.pdf"), "."),
     )
 
 
@@ -312,7 +312,10 @@ def record_section(story: Story) -> Markup:
         with suppress(PackageNotFoundError):
             libraries.append(f"{name} {version(name)}")
     provenance = [
-        ("robot", f"{design.robot.source}, SHA-256 {design.robot.sha256 or 'none: by hand'}"),
+        (
+            "robot",
+            f"{design.robot.source}, SHA-256 {design.robot.sha256 or 'none: by hand'}",
+        ),
         *([("made by", story.command)] if story.command else []),
         ("program", f"{design.tool.name} {design.tool.version}"),
         ("seed", str(design.seed)),
@@ -324,7 +327,7 @@ def record_section(story: Story) -> Markup:
         "Assumptions, sources and provenance",
         element("h3", "Assumed, because nothing else was specified"),
         assumed or element("p", "Nothing: everything was specified."),
-        details("What samples are drawn from", facts(drawn_facts(design.reality))),
+        details("Distributions that samples are drawn from", facts(drawn_facts(design.reality))),
         *((element("h3", "Warnings about the robot's file"), read) if read else ()),
         element("h3", "Sources"),
         facts(sources),

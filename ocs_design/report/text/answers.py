@@ -42,7 +42,7 @@ def print_bound(console: Console, answer: BoundAnswer) -> None:
 
 def print_layouts(console: Console, answer: LayoutsAnswer) -> None:
     """A row for each layout, then why there is none, or what keeps it from being built."""
-    heading(console, f"Layouts for {answer.robot}: mass, and momentum that they can give")
+    heading(console, f"Layouts for {answer.robot}: mass and available momentum")
     axes = (f"{axis} [N m s]" for axis in ("roll", "pitch", "yaw"))
     lost = (f"{axis}, one lost [N m s]" for axis in ("roll", "pitch", "yaw"))
     rows = tuple(
@@ -69,7 +69,7 @@ def print_initialized(console: Console, initialized: Initialized) -> None:
 
 def print_export(console: Console, exported: Exported) -> None:
     """Files by their folders, and notes on them."""
-    files_written(console, exported.folder, exported.files, "the design as it was")
+    files_written(console, exported.folder, exported.files, "the design, unchanged")
     for each in exported.notes:
         note(console, each)
 
@@ -91,11 +91,11 @@ def print_examination(console: Console, examination: Examination) -> None:
         )
     lacking = [each for each in examination.findings if each.state is not State.WORKS]
     optional = [each for each in lacking if not each.required and each.state is State.MISSING]
-    _print_cures(console, "To mend", (each for each in lacking if each not in optional))
-    _print_cures(console, "To add, if you want what it is for", optional)
+    _print_cures(console, "To fix", (each for each in lacking if each not in optional))
+    _print_cures(console, "To add, if you need the feature", optional)
     extras = dict.fromkeys(each.extra for each in optional if each.extra)
     if len(extras) > 1:
-        items(console, [f"all packages of these: {extra_command(*extras)}"], style="")
+        items(console, [f"all of these: {extra_command(*extras)}"], style="")
     console.print()
     broken = [each.name for each in examination.findings if each.stands_in_the_way]
     verdict = f"does not work without {listed(broken)}" if broken else "works here"

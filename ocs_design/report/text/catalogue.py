@@ -128,7 +128,7 @@ def print_motors(console: Console, found: Sequence[Motor]) -> None:
         for motor in sorted(found, key=lambda motor: (motor.mass or math.inf, motor.name))
     )
     show(console, Table(heads, rows))
-    note(console, "+ k_t times the peak current   * stall torque, for want of a rating")
+    note(console, "+ k_t times the peak current   * stall torque, because no rating is given")
     heading(console, "Complete, by short-term torque")
     classes = []
     for least, most in pairwise(TORQUE_CLASSES):

@@ -53,7 +53,7 @@ def open_page(console: Console, file: Path) -> None:
     # Without a screen Python starts a browser in the terminal.
     drawn = not sys.platform.startswith("linux") or any(map(os.environ.get, _SCREENS))
     if not (drawn and webbrowser.open(file.resolve().as_uri())):
-        console.print(f"no browser to open it in: {file.resolve()}", soft_wrap=True)
+        console.print(f"no browser to open {file.resolve()}", soft_wrap=True)
 
 
 _SCREENS = ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")
@@ -166,7 +166,7 @@ class Steps:
     def doubt(self, warnings: Sequence[str]) -> None:
         """Say what is doubtful in the input, before it is worked with."""
         for each in warnings[:MOST_DOUBTS]:
-            self._keep(Text(f"   doubt  {each}", style="yellow"))
+            self._keep(Text(f" warning  {each}", style="yellow"))
         if len(warnings) > MOST_DOUBTS:
             self._keep(Text(f"          {len(warnings) - MOST_DOUBTS} more{self._all_doubts}"))
 

@@ -36,7 +36,7 @@ def print_front(console: Console, front: Front, folder: Path | None = None) -> N
         console,
         [
             ("as specified", _value(front, front.own_value)),
-            *([("in every device", ", ".join(same))] if same else []),
+            *([("same for all", ", ".join(same))] if same else []),
         ],
     )
     items(console, front.remarks)
@@ -48,7 +48,7 @@ def print_front(console: Console, front: Front, folder: Path | None = None) -> N
         heading(console, "No device")
         reasons = (f"{_value(front, point.value)}: {point.reason}" for point in without)
         items(console, reasons, style="yellow")
-    heading(console, "Any point as a whole design")
+    heading(console, "To design any point in full")
     if folder is None:
         note(console, "-o DIR writes the specification of each point for `ocs-design size --spec`")
         return

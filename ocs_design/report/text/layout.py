@@ -160,7 +160,7 @@ def files_written(console: Console, folder: str, files: Iterable[str], held: str
     heading(console, f"Written to {folder}/")
     rows = [(DESIGN_FILE, f"{held}, and the hashes of the other files")] if held else []
     if (Path(folder) / REPORT_FILE).is_file():
-        rows.append((REPORT_FILE, "everything to look at, to mail and to sign: for a browser"))
+        rows.append((REPORT_FILE, "the whole report to read, mail and sign: open it in a browser"))
     folders: dict[str, list[str]] = {}
     for name in files:
         if name != REPORT_FILE:

@@ -17,8 +17,8 @@ PAPER_ANGLE = (
 )
 
 SAME_RATE = (
-    "Here weighted and simultaneous are for the same rate on both axes; `size` takes what is asked "
-    "of each axis."
+    "Here weighted and simultaneous assume the same rate on both axes; `size` uses the demand on "
+    "each axis."
 )
 
 
@@ -33,9 +33,9 @@ def print_inspection(console: Console, inspection: Inspection, *, verbose: bool 
             ends = " and ".join(f"{kind}s" for kind in sorted({leg.ends_in for leg in found.legs}))
             legs = f"{feet} ({len(found.legs)}, ending in {ends})"
         directions = f"forward {found.forward}, left {found.left}, up {found.up}"
-        sure = "as stated"
+        sure = "as specified"
         if not {"trunk", "legs"} <= set(found.stated):
-            stated = "".join(f", {name} as stated" for name in found.stated)
+            stated = "".join(f", {name} as specified" for name in found.stated)
             but = f": but {'; '.join(found.speaks_against)}" if found.speaks_against else ""
             sure = f"{found.confidence:.0%} confidence{stated}{but}"
         recognised = [("directions", f"{directions} of '{found.trunk}'"), ("trunk, legs", sure)]
@@ -51,7 +51,7 @@ def print_inspection(console: Console, inspection: Inspection, *, verbose: bool 
         ],
     )
     if found is not None and found.likely:
-        heading(console, "Trunk and legs are not clear; `size` will ask for one of")
+        heading(console, "Trunk and legs are ambiguous; `size` will ask for one of")
         rows = tuple(
             (
                 f"--trunk {each.trunk} --legs {','.join(each.legs) or 'none'}",

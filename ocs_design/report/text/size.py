@@ -45,7 +45,7 @@ def print_design(console: Console, design: OcsDesign) -> None:
     # The robot's own stand below it.
     minded = [each for each in warnings.all_warnings(design) if each not in design.robot.warnings]
     if minded:
-        heading(console, "To mind")
+        heading(console, "Warnings")
         items(console, (*minded, *warnings.reached_at(design.ocs)), style="yellow")
     print_robot(console, design.robot)
     heading(console, f"Requirement: wheels of at most {rpm(design.requirement.wheel_speed_max)}")
@@ -56,7 +56,7 @@ def print_design(console: Console, design: OcsDesign) -> None:
         heading(console, "Assumed, because nothing else was specified")
         items(console, design.requirement.assumptions)
     if design.reality:
-        heading(console, "What `validate --samples` draws")
+        heading(console, "Distributions that `validate --samples` draws from")
         facts(console, drawn_facts(design.reality))
     if design.selection is not None:
         print_selection(console, design.selection, design.requirement.maneuvers)
@@ -70,7 +70,7 @@ def print_design(console: Console, design: OcsDesign) -> None:
         note(console, meaning)
     owed = limits.owed_to(design)
     if owed:
-        note(console, f"The mass is owed to {owed}.")
+        note(console, f"The mass is driven by {owed}.")
     show(console, limits.saving_table(design))
     note(console, limits.saving_notes(design))
     if design.selection is not None and design.selection.kept is not None:
@@ -92,7 +92,7 @@ def print_design(console: Console, design: OcsDesign) -> None:
 def print_alternatives(console: Console, design: OcsDesign) -> None:
     """What one change of the question would give each; nothing where none was looked for."""
     if design.alternatives:
-        heading(console, "What would be lighter otherwise")
+        heading(console, "Lighter alternatives")
         found = limits.alternatives_table(design)
         if found.rows:
             show(console, found)
@@ -168,7 +168,7 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
     rows = [("robot", f"{robot.name}, {robot.mass:.4g} kg, posture {robot.posture_name}")]
     rows += first_facts(design)
     owed = limits.owed_to(design)
-    why = [listed(limits.holding_up(design)), f"owed to {owed}" if owed else ""]
+    why = [listed(limits.holding_up(design)), f"driven by {owed}" if owed else ""]
     if any(why):
         rows.append(("set by", "; ".join(filter(None, why))))
     for index, (share, names) in enumerate(limits.tightest(design)[:MOST_MARGINS]):
@@ -186,7 +186,7 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
     minded = [each for each in warnings.all_warnings(design) if each not in told]
     if minded:
         # How many more there are tells nobody whether to look: what matters most is here.
-        heading(console, "To mind (-v: all)" if len(minded) > MOST_MINDED else "To mind")
+        heading(console, "Warnings (-v: all)" if len(minded) > MOST_MINDED else "Warnings")
         items(console, minded[:MOST_MINDED], style="yellow")
     changes = limits.lighter(design)[:MOST_CHANGES]
     if changes:
@@ -246,11 +246,11 @@ def print_lighter(console: Console, design: OcsDesign) -> None:
     """What would have to give for a lighter device; nothing where that was not asked."""
     if design.lighter is not None:
         asked = format_quantity(design.lighter.by, "g", 3)
-        heading(console, f"What must give for {asked} less")
+        heading(console, f"Trade-offs to save {asked}")
         if design.lighter.changes:
             show(console, limits.lighter_table(design), fewest=2)
         else:
-            note(console, "No change that was looked for makes it so much lighter.")
+            note(console, "None of the changes tried saves this much.")
 
 
 def print_assumed(console: Console, assumptions: Sequence[str]) -> None:

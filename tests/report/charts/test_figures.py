@@ -69,7 +69,7 @@ def test_mass_against_reliability_is_drawn_by_the_robots_of_which_one_may_fail()
     (chart,) = reserve_charts(replace(told.design.selection, kept=flat))
     (line,) = [mark for mark in chart.marks if isinstance(mark, Line)]
     assert line.y.tolist() == [500.0, 500.0]
-    assert "nothing up to 99.9 %" in reserve_note(flat, 0.5)
+    assert "No extra mass up to 99.9 %" in reserve_note(flat, 0.5)
     assert not list(reserve_charts(story(motor="none").design.selection))
 
 
@@ -170,7 +170,7 @@ def test_the_section_is_there_only_if_samples_were_flown_with_advice_where_there
     assert monte_carlo_section(story()) == ""
     found = record(VALUES)
     section = monte_carlo_section(replace(story(), monte_carlo=found))
-    for text in ("500 robots", "99.8 %", "torque delay", "5 ms"):
+    for text in ("500 sampled robots", "99.8 %", "torque delay", "5 ms"):
         assert text in section
     assert "drop: ." not in section
     advised = replace(found, scenarios=(replace(found.scenarios[0], advice="turn the modules"),))

@@ -78,7 +78,7 @@ def test_a_campaign_has_its_place_in_the_contents_and_says_how_many_were_flown()
     sections = [each.get("id") for each in found.named("section")]
     assert listed == ["samples", "assembly"]
     assert [each for each in sections if each in listed] == listed
-    said = "20 of 10,000 robots as they might be built, seed 0; that was enough for the interval"
+    said = "20 of 10,000 sampled robots, seed 0; that was enough for the interval"
     assert any(text.startswith(said) for text in found.texts)
 
 
