@@ -304,6 +304,17 @@ class Drive:
         return min(self.no_load_speed, self.speed_max or inf)
 
     @property
+    def overvoltage(self) -> str:
+        """One sentence if the supply is above the motor's rating; empty otherwise."""
+        fed, rated = self.bus_voltage, self.rated_voltage
+        if not fed or not rated or fed <= rated:
+            return ""
+        return (
+            f"{self.name} is rated for {rated:g} V but runs at {fed:g} V: ask the makers of motor "
+            "and controller if this is allowed"
+        )
+
+    @property
     def line_left(self) -> float:
         """Fraction of the line left by the motor's friction, 1 - N eta k_t I_0 / tau_s.
 

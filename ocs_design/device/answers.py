@@ -223,6 +223,7 @@ class FrontDevice:
         incidence: of the wheel axes.
         outer_radius, inner_radius, height, rim_mass: of one rim.
         spin_inertia: of one wheel, including the rotor.
+        overvoltage: one sentence if the supply is above the motor's rating; empty otherwise.
     """
 
     mass: float
@@ -236,6 +237,7 @@ class FrontDevice:
     height: float
     rim_mass: float
     spin_inertia: float
+    overvoltage: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -264,7 +266,7 @@ class Front:
         robot: its name. against, label: the varied figure, by name and as text.
         unit: unit for display. si_unit: unit of the values.
         own_value: value in the specification.
-        remarks: what changes with the figure, and what does not.
+        remarks: what changes with the figure and what does not, and motors above their rating.
         assumptions: of the original specification.
         points: by increasing value.
     """

@@ -60,12 +60,8 @@ def all_warnings(design: OcsDesign) -> Iterator[str]:
             f"{DRAWN:,} samples, which cannot show more: fly more of them with --certify"
         )
     yield from ocs.warnings
-    motor = ocs.motor
-    if motor.bus_voltage and motor.rated_voltage and motor.bus_voltage > motor.rated_voltage:
-        yield (
-            f"{motor.name} is rated for {motor.rated_voltage:g} V but runs at "
-            f"{motor.bus_voltage:g} V: ask the makers of motor and controller if this is allowed"
-        )
+    if ocs.motor.overvoltage:
+        yield ocs.motor.overvoltage
     yield from design.robot.warnings[1:]
     found = () if ocs.mounting is None else ocs.mounting.reachable
     if found:

@@ -50,6 +50,7 @@ def draw_front(
             FrontPoint(value=value, file=file, specification=text, device=device, reason=reason)
         )
         progress((index + 1) / len(values))
+    overfed = [point.device.overvoltage for point in points if point.device is not None]
     return Front(
         robot=task.robot.name,
         against=sweep.name,
@@ -57,7 +58,7 @@ def draw_front(
         unit=sweep.unit,
         si_unit=si_unit(sweep.dimension),
         own_value=sweep.own(task),
-        remarks=sweep.remarks(task),
+        remarks=(*sweep.remarks(task), *filter(None, dict.fromkeys(overfed))),
         assumptions=task.resolved.assumptions,
         points=tuple(points),
     )

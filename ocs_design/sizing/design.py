@@ -319,4 +319,5 @@ def lightest_device(task: Task) -> FrontDevice:
         motor=best.motor.name,
         gear=best.gear.name,
         material=best.material.name,
+        overvoltage=designed.device.motor.overvoltage,
     )

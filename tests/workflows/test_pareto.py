@@ -1,5 +1,7 @@
 """Points of a front: where they lie, what each is, and what becomes of those without a device."""
 
+from dataclasses import replace
+
 import pytest
 from fronts import by_hand, made_up, make_front
 
@@ -71,6 +73,18 @@ def test_a_value_that_contradicts_the_robot_is_a_point_without_a_device(task):
     front = make_front(task, "radius", low="2mm", high="50mm", points=2)
     assert "leaves no room" in front.points[0].reason
     assert front.points[1].device is not None
+
+
+def test_motors_above_their_rating_are_told_once_a_voltage(task):
+    """As `size` tells it; a front against the voltage said nothing."""
+
+    def fed(varied):
+        volts = varied.specification.supply.voltage
+        told = f"fed with {volts:g} V" if volts > 25.2 else ""
+        return replace(made_up(task), overvoltage=told)
+
+    front = draw_front(task, SWEEPS["voltage"], (12.0, 36.0, 36.0, 60.0), fed, lambda _: None)
+    assert front.remarks[-2:] == ("fed with 36 V", "fed with 60 V")
 
 
 def test_progress_is_told(task):
