@@ -32,6 +32,7 @@ COLUMNS: Mapping[str, str] = {
     "height": "height_m",
     "rim_mass": "rim_mass_kg",
     "spin_inertia": "spin_inertia_kg_m2",
+    "overvoltage": "overvoltage",
 }
 """Headings of the columns, by the fields of a device."""
 
