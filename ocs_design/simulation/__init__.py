@@ -1,1 +1,1 @@
-"""The proof: robot, device and floor in MuJoCo, the paper's law, its maneuvers, what came of it."""
+"""Validation: robot, device and floor in MuJoCo under the paper's law, its maneuvers, verdicts."""

@@ -1,4 +1,4 @@
-"""Worlds that run in step: physics in MuJoCo's `rollout`, the vectorised law in between."""
+"""Worlds that run in lockstep: physics in MuJoCo's `rollout`, the vectorised law in between."""
 
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
@@ -40,16 +40,16 @@ class Recording:
             (k, n, wheels).
         com: centre of mass in the world [m], (k, n, 3).
         momentum: angular, about the centre of mass, in the world [N m s], (k, n, 3).
-        impulse: of the outer torque since the start, and of gravity's about a pivot, in the world
-            [N m s], (k, n, 3).
+        impulse: of the external torque since the start, and of gravity's about a pivot, in the
+            world [N m s], (k, n, 3).
         height: of the trunk's body over the floor [m], (k, n).
         contact: whether anything touches the floor before the next instant, (k, n).
-        pose_stride: control steps from one recorded pose to the next; 0: none is recorded.
+        pose_stride: control steps from one recorded pose to the next; 0: no poses are recorded.
         qpos: the poses, as the models have them, (frames, n, nq).
         lengths: number of instants of each world, (n,).
-        stable: whether MuJoCo got each world to its end, (n,); it stops one whose state is huge or
-            not finite, and its last state then stands still.
-        warning: what stopped it, an `mjtWarning`, (n,); -1: nothing, or it is not known.
+        stable: whether MuJoCo ran each world to its end, (n,); it stops a world whose state is
+            huge or not finite, and repeats its last state from then on.
+        warning: what stopped it, an `mjtWarning`, (n,); -1: nothing, or unknown.
         lift_off: first control instant in flight, (n,); -1 for a world that never left the ground.
     """
 
@@ -79,12 +79,12 @@ def empty_recording(
     pose_stride: int = 0,
     nq: int = 0,
 ) -> Recording:
-    """Nothing known yet, no impulse at the start; `nq` is the length of a pose."""
+    """Recording filled with NaN, with zero impulse at the start; `nq` is the length of a pose."""
     k, n = len(times), len(lengths)
     frames = len(times[::pose_stride]) if pose_stride else 0
 
     def unknown(*shape: int) -> FloatArray:
-        """One such value per time and world."""
+        """NaN for each instant and world."""
         return np.full((k, n, *shape), np.nan)
 
     impulse = unknown(3)
@@ -114,7 +114,7 @@ def joined(parts: Sequence[Recording], places: Sequence[NDArray[np.intp]]) -> Re
 
     Args:
         parts: with equal control steps.
-        places: for each part, where its worlds belong among all worlds.
+        places: for each part, the indices of its worlds among all worlds.
     """
     longest = max(parts, key=lambda part: len(part.time))
     whole = empty_recording(
@@ -134,7 +134,7 @@ def joined(parts: Sequence[Recording], places: Sequence[NDArray[np.intp]]) -> Re
 
 
 _ONCE = ("lengths", "stable", "warning", "lift_off")
-"""What a world has one value of."""
+"""Quantities with one value per world."""
 
 _SERIES = [
     field.name for field in fields(Recording) if field.name not in {"time", "pose_stride", *_ONCE}
@@ -145,13 +145,13 @@ _CONTROL = mujoco.mjtState.mjSTATE_CTRL.value
 _PUSHED = _CONTROL | mujoco.mjtState.mjSTATE_XFRC_APPLIED.value
 
 _TELLING = 20
-"""Control steps from one report of progress to the next."""
+"""Control steps between two progress reports."""
 
 
 class Batch:
-    """Worlds from start to end, with the buffers that this takes.
+    """Runs worlds from start to end, in preallocated buffers.
 
-    Those that still run are a leading slice of every buffer, a view without copies.
+    The worlds still running are a leading slice of every buffer, so they are views, not copies.
     """
 
     def __init__(
@@ -181,7 +181,7 @@ class Batch:
         self._legs = LegReferences(worlds, hold)
         self._clock = FlightClock(worlds, self._period)
         self._law = WheelLaw.joined([world.law for world in worlds])
-        # Sensors and drives are perfect in all of a batch or in none.
+        # Sensors and drives are perfect in all worlds of a batch or in none.
         own = [world.imperfections for world in worlds if world.imperfections is not None]
         self._sensing = Sensing(own, self._lengths.tolist(), self._period) if own else None
         self._drives = None
@@ -203,7 +203,7 @@ class Batch:
         self._qpos, self._qvel = np.split(
             self._state[:, 1 : 1 + first.nq + first.nv], [first.nq], 1
         )
-        # What `rollout` reads and writes; every step of a control step has its own row.
+        # What `rollout` reads and writes, with one row per physics step of a control step.
         n, ctrl = len(worlds), np.stack([world.ctrl for world in worlds])
         self._states = np.empty((n, hold, self._state.shape[1]))
         self._sensors = np.empty((n, hold, first.nsensordata))
@@ -212,15 +212,15 @@ class Batch:
         self._pushed_control = np.concatenate([self._control, unpushed], axis=2)
         self._push_address = first.nu + 6 * self._addresses.trunk + 3
         self._body_mass = np.stack([world.model.body_mass for world in worlds])
-        # Weight times lever as built, in B; those on a pivot are a batch of their own.
+        # Weight times lever as built, in B; worlds on a pivot form a batch of their own.
         self._pull = np.stack([_pull(world) for world in worlds]) if worlds[0].body.stands else None
 
     def run(self, threads: int, stop: Event, progress: Callable[[float], None]) -> Recording:
         """Run all worlds to their ends, once.
 
         Args:
-            stop: set from elsewhere to give up; the recording is then not complete.
-            progress: told the part of the work that is done, 0..1.
+            stop: set by another thread to abort; the recording is then incomplete.
+            progress: called with the share of the work that is done, 0..1.
         """
         data = [mujoco.MjData(self._models[0]) for _ in range(threads)]
         # Without a pool the calling thread does the work.
@@ -243,12 +243,12 @@ class Batch:
         return self.recorded(data[0])
 
     def recorded(self, last: mujoco.MjData) -> Recording:
-        """What happened, with what is known at the end; `last` is to work with."""
+        """The recording, completed with what is known at the end; `last` is scratch memory."""
         missing = np.abs(self._state[:, 0] - self._lengths * self._period)
         finite = np.isfinite(self._state).all(axis=1)
         self._record.stable[:] = finite & (missing < 0.5 * self._period)
         for index in np.flatnonzero(~self._record.stable).tolist():
-            # What MuJoCo says to the last state as it takes one more step.
+            # One more step from the last state shows which warning MuJoCo raises.
             model = self._models[index]
             mujoco.mj_resetData(model, last)
             mujoco.mj_setState(model, last, self._state[index], mujoco.mjtState.mjSTATE_FULLPHYSICS)
@@ -262,10 +262,10 @@ class Batch:
     def observe_and_decide(
         self, k: int, law: WheelLaw
     ) -> tuple[FloatArray, tuple[FloatArray, FloatArray, FloatArray]]:
-        """Record trunk and wheels at instant `k` of the first n worlds, which have this law.
+        """Record trunk and wheels at instant `k` of the first n worlds, and evaluate their law.
 
         Returns:
-            Torques asked of the motors [N m], (n, wheels); vertical, rate and attitude as they were
+            Torques commanded to the motors [N m], (n, wheels); vertical, rate and attitude as
             measured, see `WheelLaw.torque`.
         """
         running = len(law.stiffness)
@@ -296,9 +296,9 @@ class Batch:
         return asked, (vertical, rate, attitude)
 
     def driven(self, k: int, torque: FloatArray) -> FloatArray:
-        """Torques on the wheels from instant `k` on, which motors make of those asked for.
+        """Torques that the motors apply to the wheels from instant `k` on, given the commands.
 
-        Shape (n, 1, wheels) where they are held for the control step, else (n, hold, wheels).
+        Shape (n, 1, wheels) if they are held for the control step, else (n, hold, wheels).
         """
         n, acting = len(torque), torque[:, None]
         if self._drives is not None:
@@ -307,7 +307,7 @@ class Batch:
         return acting
 
     def advance(self, pool: Physics, data: list[mujoco.MjData], k: int, torque: FloatArray) -> None:
-        """Control step `k` of physics, with the outer torque of that step and its impulse."""
+        """Advance the physics by control step `k`, with its external torque and impulse."""
         n, record = len(torque), self._record
         control, specification = self._control, _CONTROL
         push, gained = self._pushes.at(self._clock.steps(k, n)), None
@@ -342,8 +342,8 @@ class Batch:
     def _by_gravity(self, pull: FloatArray) -> FloatArray:
         """Impulse of gravity's torque about the pivots in a control step [N m s], (n, 3).
 
-        The torque is `z x R (m g l)`, its slope `z x (w x R (m g l))`, and the integral over each
-        step of the physics that of the cubic through both at its ends.
+        The torque is `z x R (m g l)` and its slope `z x (w x R (m g l))`; over each physics step
+        the cubic that matches both at the ends is integrated.
         """
         n, model = len(pull), self._models[0]
         states = np.concatenate([self._state[:n, None], self._states[:n]], axis=1)
@@ -358,7 +358,7 @@ class Batch:
         return np.asarray(step * means.sum(axis=1) + step**2 / 12.0 * ends)
 
     def record_sensors(self, k: int, running: int) -> None:
-        """Record what the sensors saw at the start of the control step; contact throughout it."""
+        """Record the sensors at the start of the control step, and any contact during it."""
         where, record = self._addresses, self._record
         now = self._sensors[:running, 0]
         record.com[k, :running] = now[:, where.com : where.com + 3]
@@ -368,12 +368,12 @@ class Batch:
         record.contact[k, :running] = touches.any(axis=1)
         self._clock.look(k, touches)
         if k > 0:
-            # The last Runge-Kutta stage of the step before has felt this contact already.
+            # The last Runge-Kutta stage of the previous step already felt this contact.
             record.contact[k - 1, :running] |= touches[:, 0]
 
 
 def _pull(world: World) -> FloatArray:
-    """Weight times lever about the pivot of a robot as it was built, in B [N m], shape (3,)."""
+    """Weight times lever about the pivot of the robot as built, in B [N m], shape (3,)."""
     model, data = world.model, mujoco.MjData(world.model)
     data.qpos[:] = world.qpos
     mujoco.mj_kinematics(model, data)

@@ -1,4 +1,4 @@
-"""Braking of the wheels while the robot stands, so that they can take up momentum again."""
+"""Braking of the wheels while the robot stands, so that they can absorb momentum again."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -19,17 +19,17 @@ BRAKING = 0.5
 """Time constant of the wheels' speed, of Solo12 [s]."""
 
 SUPPORT = 0.05
-"""Largest torque of a wheel over weight times standing height: the feet stay down."""
+"""Largest braking torque of a wheel over weight times standing height: the feet stay down."""
 
 
 @dataclass(frozen=True, eq=False)
 class Desaturation(Table):
-    """How the wheels of one world are braked while it stands, or of n, as arrays of shape (n, 1).
+    """Braking of the wheels in stance, for one world or, with arrays of shape (n, 1), for n.
 
-    The law damps the trunk meanwhile: the feet take up what the wheels let go.
+    Meanwhile the law damps the trunk: the feet take up the momentum that the wheels give off.
 
     Attributes:
-        settling: on the ground before it starts [s].
+        settling: time on the ground before braking starts [s].
         damping: torque per wheel speed [N m s/rad]. torque_max: [N m].
     """
 
@@ -41,7 +41,7 @@ class Desaturation(Table):
     def of(
         cls, robot: Robot, standing: float, spin_inertia: float, gravity: float
     ) -> "Desaturation":
-        """Settings with times scaled to the robot, and a torque that its weight outdoes."""
+        """Settings with times scaled to the robot, and a torque too small to lift its feet."""
         time = Scale.of(robot).time(STANDARD_GRAVITY)
         return cls(
             SETTLING * time,
@@ -53,23 +53,24 @@ class Desaturation(Table):
         """Torque that brakes wheels while the robot stands [N m], shape (n, wheels).
 
         Args:
-            speed: of the wheels [rad/s], shape (n, wheels). stood: on the ground [s], shape (n, 1).
+            speed: of the wheels [rad/s], shape (n, wheels).
+            stood: time on the ground [s], shape (n, 1).
         """
         wanted = np.minimum(np.maximum(-self.damping * speed, -self.torque_max), self.torque_max)
         return np.where(stood >= self.settling, wanted, 0.0)
 
 
 class WheelBrake:
-    """Braking of the wheels of n worlds, with the time that each has stood."""
+    """Brakes the wheels of n worlds, and keeps the time that each has stood."""
 
     def __init__(self, own: Sequence[Desaturation | None], period: float) -> None:
-        """Brakes of worlds that decide every `period` [s]."""
+        """Brakes of worlds with control steps of `period` [s]."""
         idle = Desaturation(np.inf, 0.0, 0.0)
         self._brakes = stacked_columns([idle if each is None else each for each in own])
         self._stood, self._period = np.zeros(len(own)), period
 
     def added(self, target: Target, speed: FloatArray, contact: NDArray[np.bool_]) -> Target:
-        """The target with the braking torque on top.
+        """The target with the braking torque added.
 
         Args:
             target: of the first n worlds. speed: of their wheels [rad/s], shape (n, m).

@@ -1,4 +1,4 @@
-"""What computes the steps of the physics between two control instants."""
+"""Engines that compute the physics steps between two control instants."""
 
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
@@ -12,14 +12,14 @@ from ocs_design.common.arrays import FloatArray
 
 
 class EngineName(StrEnum):
-    """What may compute the physics of samples, by the word for it."""
+    """Physics engines for samples, by the name that users give."""
 
     MUJOCO = "mujoco"
     WARP = "warp"
 
 
 class Physics(Protocol):
-    """Takes many worlds through the steps of a control step, as `mujoco.rollout.Rollout` does."""
+    """Steps many worlds through one control step, as `mujoco.rollout.Rollout` does."""
 
     def rollout(
         self,
@@ -34,21 +34,23 @@ class Physics(Protocol):
         state: FloatArray,
         sensordata: FloatArray,
     ) -> object:
-        """Step the first n worlds, and write what comes of it into `state` and `sensordata`.
+        """Step the first n worlds, and write the results into `state` and `sensordata`.
 
-        These have shape (n, nstep, ...), after each step and at its start. `control` holds what the
-        bits of `control_spec` say, the rest is zero. `data` is to work with, one for each thread.
+        These have shape (n, nstep, ...): states after each step, sensors at its start. `control`
+        holds what the bits of `control_spec` name; the rest is zero. `data` is scratch memory, one
+        for each thread.
         """
 
 
 @dataclass(frozen=True, eq=False)
 class Engine:
-    """Physics in place of MuJoCo on the processors.
+    """A physics engine other than MuJoCo on the CPU.
 
     Attributes:
-        name: with its version, by which campaigns are told apart.
+        name: with its version, which tells campaigns apart.
         gate: largest relative momentum error of a flight that is judged at all.
-        physics: of one batch, whose worlds come with the first call, and leave from the end only.
+        physics: makes the physics of one batch, whose worlds are all in the first call; later calls
+            may only drop worlds from the end.
     """
 
     name: str

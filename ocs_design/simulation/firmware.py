@@ -1,7 +1,7 @@
-"""The flown wheel law as C99: traced symbol by symbol from the code that flies it, with its plans.
+"""The flown wheel law and its plans as C99, traced symbolically from the code that flies it.
 
-NumPy runs `WheelLaw.torque` once on arrays of CasADi symbols. What comes out is what the batch
-flies, operation by operation: there is no second law that could differ.
+NumPy runs `WheelLaw.torque` once on arrays of CasADi symbols. The result is, operation by
+operation, what the batch flies: there is no second implementation that could differ.
 """
 
 import operator
@@ -29,11 +29,11 @@ from ocs_design.simulation.wheel_law import WheelLaw
 from ocs_design.simulation.world import World
 
 SENSOR_RATES = (200.0, 1000.0)
-"""Usual rates of IMUs, for which margins are given besides that of the design [1/s]."""
+"""Common IMU rates for which margins are given, besides the design's own rate [1/s]."""
 
 
 class _Traced(np.ndarray):
-    """Array of CasADi scalars: NumPy's functions on it write an expression."""
+    """Array of CasADi scalars: NumPy's functions on it build an expression."""
 
     def __array_ufunc__(
         self, ufunc: np.ufunc, method: str, *inputs: object, **keywords: object
@@ -80,7 +80,7 @@ _OPERATIONS: Mapping[Any, Callable[..., Any]] = {
     np.bitwise_and: ca.logic_and,
     np.isinf: lambda value: isinstance(value, float) and isinf(value),
 }
-"""What NumPy's functions are to CasADi; sums and products go by the scalars' own operators."""
+"""CasADi's equivalents of NumPy's functions; sums and products use the scalars' own operators."""
 
 
 def _symbols(name: str, shape: tuple[int, ...]) -> tuple[ca.SX, Any]:
@@ -99,7 +99,7 @@ class _Columns:
     """Numbers that differ between maneuvers, or between the samples of a plan.
 
     Attributes:
-        shapes: by name, in the order in which they stand in a row.
+        shapes: by name, in their order in a row.
         rows: one for each maneuver or sample, shape (m, k).
     """
 
@@ -108,11 +108,11 @@ class _Columns:
 
     @classmethod
     def of(cls, tables: Sequence[object], *, fixed: bool = False) -> "_Columns":
-        """Columns of the numbers in tables of a single row; infinite ones mean that none is there.
+        """Columns of the numbers in tables of a single row, without those that are infinite.
 
         Args:
             tables: of one type.
-            fixed: keep those that are the same in all.
+            fixed: also keep numbers that are the same in all tables.
         """
         values = [dict(_arrays(table)) for table in tables]
         named = {
@@ -134,16 +134,16 @@ class _Columns:
         return ", ".join(counts)
 
     def traced(self, table: Traceable) -> tuple[ca.SX, Traceable]:
-        """A row of symbols, and a table with them in place of its numbers."""
+        """A row of symbols, and the table with these symbols in place of its numbers."""
         parts = {name: _symbols(name, shape) for name, shape in self.shapes.items()}
         column = ca.vertcat(*(part[0] for part in parts.values()))
-        # The rest is traced too: a plain array would take symbols that are put into it for floats.
+        # The rest is traced too: a plain array would convert symbols assigned to it to floats.
         rest = {name: value.astype(object).view(_Traced) for name, value in _arrays(table)}
         return column, _with(table, {**rest, **{name: part[1] for name, part in parts.items()}})
 
 
 def _arrays(table: object, prefix: str = "") -> Iterator[tuple[str, NDArray[Any]]]:
-    """Arrays of a table and of those in it, by their names."""
+    """Arrays of a table and of the tables in it, by name."""
     for field in fields(table):  # type: ignore[arg-type]
         value, name = getattr(table, field.name), prefix + field.name
         if isinstance(value, np.ndarray):
@@ -153,7 +153,7 @@ def _arrays(table: object, prefix: str = "") -> Iterator[tuple[str, NDArray[Any]
 
 
 def _with(table: Traceable, arrays: Mapping[str, Any], prefix: str = "") -> Traceable:
-    """The table with other arrays by those names."""
+    """The table with the arrays of these names replaced."""
     changed = {}
     for field in fields(table):  # type: ignore[arg-type]
         value, name = getattr(table, field.name), prefix + field.name
@@ -169,8 +169,8 @@ class Flown:
     """What differs between maneuvers.
 
     Attributes:
-        law: of the wheels. brake: in stance, each setting in an array of one world; None: the
-            wheels are left to the law.
+        law: of the wheels.
+        brake: of the wheels in stance, with each setting in an array of one world; None: none.
     """
 
     law: WheelLaw
@@ -184,7 +184,7 @@ class Flown:
 
 
 def targets_of(worlds: Sequence[World], period: float) -> list[list[Target]]:
-    """Targets of each world at its control instants since lift-off, until they change no longer."""
+    """Targets of each world at its control instants since lift-off, until they stop changing."""
     longest = max(world.duration for world in worlds)
     times = period * np.arange(np.ceil(longest / period), dtype=np.float64)
     references = References(worlds, times, period)
@@ -195,7 +195,7 @@ def targets_of(worlds: Sequence[World], period: float) -> list[list[Target]]:
             target = now.take(slice(i, i + 1))
             plan = target.plan
             if plan is not None and not plan.holds.any():
-                # Numbers that do not count, and would be a row of their own at each instant.
+                # Unused numbers, which would make a separate row of each instant.
                 none = {name: np.zeros_like(value) for name, value in _arrays(plan)}
                 target = replace(target, plan=_with(plan, none))
             own.append(target)
@@ -212,7 +212,7 @@ def law_function(
     """The law of one control step in CasADi; constants of each world; numbers of each target.
 
     The function takes attitude, rate, wheel speeds, time on the ground, numbers of a target and
-    constants of a maneuver, and gives the motor torques of a robot that has left the ground once.
+    constants of a maneuver, and returns the motor torques of a robot that has already lifted off.
     """
     flown = [Flown.of(world) for world in worlds]
     constants, columns = _Columns.of(flown, fixed=True), _Columns.of(targets)
@@ -239,14 +239,14 @@ def write_controller(
     period: float,
     delay: tuple[float, float] | None = None,
 ) -> None:
-    """Write the controller in C, its test harness, its Python binding and what to know of them.
+    """Write the controller in C, its test harness, its Python binding and a README.
 
     Args:
-        name: of the robot, fit for the names of files.
-        worlds: of each maneuver with driven wheels, in flight from the start.
+        name: of the robot, safe for file names.
+        worlds: one for each maneuver with driven wheels, in flight from the start.
         joints: of the wheels, in their order.
         period: of the control steps [s].
-        delay: from measurement to torque, the least and the largest that the design was sized
+        delay: smallest and largest delay from measurement to torque that the design was sized
             for [s]; None: none.
     """
     own = list(worlds.values())
@@ -296,18 +296,18 @@ _FILES = {
     "controller/Makefile": "Makefile",
     "controller/README.md": "README.md",
 }
-"""Templates, and the files that they become."""
+"""File written for each template."""
 
 
 def _rows(rows: FloatArray) -> str:
     """Initialiser of a table; each number in the fewest digits that read back the same."""
-    # Zero has no sign: people wonder at -0.0. C has no empty row.
+    # No -0.0, which puzzles readers. C has no empty row.
     lines = (", ".join(repr(float(value) + 0.0) for value in row) or "0" for row in rows)
     return "".join(f"    {{{line}}},\n" for line in lines)
 
 
 def _body(function: ca.Function) -> str:
-    """The function's arithmetic in C, without what CasADi puts around it for its own loader."""
+    """The function's arithmetic in C, without the code that CasADi adds for its own loader."""
     generator = ca.CodeGenerator("ocs_law.c", {"with_header": False})
     generator.add(function)
     found = re.search(
@@ -321,7 +321,7 @@ def _body(function: ca.Function) -> str:
 
 
 def _margin_table(worlds: Mapping[str, World], period: float) -> str:
-    """Margins at the design's own rate and at those of usual sensors, as rows of Markdown."""
+    """Margins at the design's own rate and at those of common sensors, as rows of Markdown."""
     loops: dict[str, Callable[[float], LoopMargins]] = {}
     for name, world in worlds.items():
         if world.trajectory is None or world.trajectory.gains is None:
@@ -345,7 +345,7 @@ _BRAKED = "After a while on the ground it brakes the wheels too (constants `brak
 
 
 def _order(worlds: Mapping[str, World], joints: Sequence[str]) -> str:
-    """Table in Markdown of the wheels' axes, in each maneuver where they are turned by hand."""
+    """Markdown table of the wheels' axes; one column per maneuver if modules are turned by hand."""
     axes = {name: world.body.axes for name, world in worlds.items()}
     first = next(iter(axes.values()))
     if all(np.array_equal(each, first) for each in axes.values()):

@@ -1,12 +1,12 @@
-"""What stands between the wheel law and the wheels: sensors, delay, real motors, friction, air.
+"""Imperfections between wheel law and wheels: sensors, delay, real motors, friction, air drag.
 
-The law believes in the design; each world has its own sensors and drives. Everything is vectorised
-over the worlds of a batch, and costs next to nothing beside their physics.
+The law assumes the design; each world has its own sensors and drives. Everything is vectorised
+over the worlds of a batch, and costs next to nothing compared with their physics.
 
-The faces drag as an enclosed disc (Daily and Nece, J. Basic Engineering 82, 1960, 217-230), the rim
-as a cylinder in a wider one: Couette flow, exact, then with vortices and turbulent (Bilgen and
-Boulos, J. Fluids Engineering 95, 1973, 122-126). Every regime is a power of the Reynolds number,
-and the one that drags most is the one that holds.
+The faces drag like an enclosed disc (Daily and Nece, J. Basic Engineering 82, 1960, 217-230), the
+rim like a cylinder inside a wider one: Couette flow, exact, then with vortices, then turbulent
+(Bilgen and Boulos, J. Fluids Engineering 95, 1973, 122-126). Drag in each regime follows a power of
+the Reynolds number, and the regime with the most drag applies.
 """
 
 from collections.abc import Sequence
@@ -31,12 +31,12 @@ class Imperfections:
     Attributes:
         attitude_bias: of measured roll and pitch [rad], shape (2,). gyro_bias: [rad/s], (3,).
         attitude_noise, gyro_noise: standard deviation of each measurement [rad], [rad/s].
-        stream: that the noise is drawn from; equal streams give equal noise.
+        stream: seed of the noise; equal streams give equal noise.
         torque_gain: torque given over torque commanded, by each of m motors, shape (m,).
         limits: of each real motor, arrays of shape (m,) or (1,).
         coulomb, viscous: friction of each wheel [N m], [N m s/rad], shape (m,).
         air: drag of a wheel in its housing, the same for all worlds of a batch.
-        air_factor: times that.
+        air_factor: multiplies `air`.
         delay: from measurement to torque, in steps of the physics.
     """
 
@@ -63,39 +63,39 @@ class Imperfections:
 
 @dataclass(frozen=True, eq=False)
 class AirDrag:
-    """Torque of the air on a wheel, linear between speeds from zero up, shapes (m,)."""
+    """Air drag torque on a wheel, linear between speeds that rise from zero, shapes (m,)."""
 
     speed: FloatArray
     torque: FloatArray
 
     def at(self, speed: FloatArray) -> FloatArray:
-        """[N m], of any shape; beyond the last speed as there."""
+        """Torque at speeds of any shape [N m]; beyond the last speed, the torque at that speed."""
         return np.interp(speed, self.speed, self.torque)
 
 
 class Sensing:
-    """What n trunks measure."""
+    """Sensors of n trunks."""
 
     def __init__(
         self, imperfections: Sequence[Imperfections], lengths: Sequence[int], period: float
     ) -> None:
-        """Sensors of worlds that run for so many control steps each, of `period` [s]."""
+        """Sensors of worlds that each run for `lengths` control steps of `period` [s]."""
         self._errors = np.zeros((max(lengths), len(lengths), _SENSED))
         for world, (own, length) in enumerate(zip(imperfections, lengths, strict=True)):
             self._errors[:length, world] = own.noise(length)
-        # No gravity tells the heading: it is what the gyroscope adds up to.
+        # Gravity says nothing about heading, so heading comes from integrating the gyroscope.
         self._heading = period * np.cumsum(self._errors[:, :, -1], axis=0)
 
     def measured(
         self, k: int, vertical: FloatArray, rate: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """What the law sees of the first n worlds at control instant `k`.
+        """Measurements of the first n worlds at control instant `k`.
 
-        A trunk that believes to be rolled and pitched by small angles e more than it is sees the
-        vertical v as v + v x e.
+        A trunk whose measured roll and pitch are too large by small angles e sees the vertical v
+        as v + v x e.
 
         Args:
-            vertical: the world's upward direction in B, shape (n, 3); its length is left alone.
+            vertical: the world's upward direction in B, shape (n, 3); it is not renormalised.
             rate: of the trunk in B [rad/s], shape (n, 3).
         """
         error = self._errors[k, : len(rate)]
@@ -105,7 +105,7 @@ class Sensing:
         return seen, rate + error[:, 2:]
 
     def attitude(self, k: int, attitude: FloatArray) -> FloatArray:
-        """Attitudes that the first n worlds believe in, quaternions (n, 4); see `measured`."""
+        """Attitudes that the first n worlds measure, quaternions (n, 4); see `measured`."""
         n = len(attitude)
         error = np.column_stack([self._errors[k, :n, :2], self._heading[k, :n]])
         half = np.column_stack([np.ones(n), 0.5 * error])
@@ -115,7 +115,7 @@ class Sensing:
 
 
 class Drives:
-    """What the m motors of each of n worlds make of their commands."""
+    """Drives that turn commands into torques, for the m motors of each of n worlds."""
 
     def __init__(
         self,
@@ -129,7 +129,7 @@ class Drives:
         """Drives of worlds whose commands are held for `hold` steps of the physics.
 
         Args:
-            response: of a wheel's speed to its motor's torque, see `Gyrostat`, shape (n,).
+            response: acceleration of a wheel per motor torque, see `Gyrostat`, shape (n,).
             instants: control steps of the longest run.
             hold: steps of the physics from one command to the next. step: of the physics [s].
         """
@@ -143,7 +143,7 @@ class Drives:
         self._air_factor = np.array([[own.air_factor] for own in imperfections])
         delay = np.array([own.delay for own in imperfections])
         whole, part = np.divmod(delay, hold)
-        # Before a part of a control step has passed, the command before the last still holds.
+        # Until the fractional part of the delay has passed, the older command still holds.
         self._back = whole[:, None] + (np.arange(hold) < part[:, None])
         self._before = int(self._back.max())
         self._commands = np.zeros((self._before + instants, *self._coulomb.shape))
@@ -152,27 +152,27 @@ class Drives:
     def driven(
         self, k: int, command: FloatArray, speed: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Torque of the motors, and what friction leaves of it for the wheels [N m].
+        """Torque of the motors, and the torque left for the wheels after friction [N m].
 
         Args:
-            command: of the law to the motors of the first n worlds at that instant [N m], (n, m).
-            speed: of the wheels then [rad/s], shape (n, m).
+            command: of the law to the motors of the first n worlds at instant `k` [N m], (n, m).
+            speed: of the wheels at instant `k` [rad/s], shape (n, m).
 
         Returns:
-            Mean over the control step, shape (n, m), and of every step of the physics,
-            shape (n, hold, m).
+            Mean motor torque over the control step, shape (n, m); torque on the wheels in every
+            physics step, shape (n, hold, m).
         """
         n = len(command)
         self._commands[self._before + k, :n] = command
         heard = self._commands[self._before + k - self._back[:n], self._worlds[:n]]
         limits, gain = self._limits.take(slice(n)), self._gain[:n, None]
         motor = limits.clipped(heard * self._torque_gain[:n, None], speed[:, None], gain)
-        # The law limits what it commands by the nominal motor's power, the supply the real one.
+        # The law limits its commands to the nominal motor's power; the supply limits the real one.
         motor = limits.within_supply(motor, speed[:, None], gain)
-        # So written, the mean of equal torques is that torque to the last bit.
+        # Written so that the mean of equal torques is that torque to the last bit.
         mean = motor[:, 0] + (motor - motor[:, :1]).mean(axis=1)
-        # Friction is implicit: it brings a wheel to rest at most, and one at rest stays so until
-        # its motor overcomes it.
+        # Friction is implicit: at most it brings a wheel to rest, and a wheel at rest stays there
+        # until its motor overcomes friction.
         turning = np.abs(speed)
         air = self._air_factor[:n] * self._air.at(turning)
         largest = self._coulomb[:n] + self._viscous[:n] * turning + air
@@ -182,17 +182,17 @@ class Drives:
 
 
 AIR_DENSITY = 1.225
-"""Density of the standard atmosphere at sea level, 15 degrees [kg/m^3] (ISO 2533)."""
+"""Density of the standard atmosphere at sea level, 15 degrees Celsius [kg/m^3] (ISO 2533)."""
 
 AIR_VISCOSITY = 1.4607e-5
-"""Kinematic, of the same [m^2/s]."""
+"""Kinematic viscosity of the same air [m^2/s]."""
 
 _SPEEDS = np.concatenate([[0.0], np.geomspace(0.1, 2e4, 600)])
-"""Close enough for straight lines to be within 1e-3 of the formulas [rad/s]."""
+"""Speeds close enough for linear interpolation to be within 1e-3 of the formulas [rad/s]."""
 
 
 def air_drag(wheel: Flywheel, gap: float = CLEARANCE) -> AirDrag:
-    """Air drag of a wheel in its housing, `gap` [m] away from it all round."""
+    """Air drag of a wheel in its housing, with a clearance of `gap` [m] all round."""
     turning = _SPEEDS[1:]
     torque = disc_drag(turning, wheel.outer_radius, gap) + cylinder_drag(
         turning, wheel.outer_radius, wheel.height, gap
@@ -203,7 +203,7 @@ def air_drag(wheel: Flywheel, gap: float = CLEARANCE) -> AirDrag:
 def disc_drag(speed: FloatArray, radius: float, gap: float) -> FloatArray:
     """Drag torque on both faces of a disc between two walls [N m], `C rho W^2 R^5 / 2`.
 
-    Laminar and turbulent, each with merged and with separate boundary layers.
+    Laminar and turbulent flow, each with merged and with separate boundary layers.
 
     Args:
         speed: positive [rad/s].

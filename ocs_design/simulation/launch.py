@@ -1,4 +1,4 @@
-"""The start of a maneuver: where the robot is put, its turn, and what hits it on the way."""
+"""The start of a maneuver: initial pose and motion, planned turn, and external push."""
 
 from dataclasses import dataclass, field, replace
 
@@ -26,10 +26,11 @@ class Push:
     """A torque on the trunk in B [N m], shape (3,), from `onset` for `duration` [s].
 
     Attributes:
-        acceleration: of all of the robot by a force beside it, in B [m/s^2], shape (3,): on each
+        acceleration: of the whole robot by an additional force, in B [m/s^2], shape (3,): on each
             body in proportion to its mass, so that it turns nothing.
-        force: in B [N], shape (3,); where it is not zero, torque and acceleration are those that
-            it has on the robot which flies (`of_force`). point: that it hits, in B [m], shape (3,).
+        force: in B [N], shape (3,); if it is not zero, `of_force` replaces torque and acceleration
+            by its effect on the robot as flown.
+        point: where the force acts, in B [m], shape (3,).
     """
 
     torque: FloatArray
@@ -40,12 +41,12 @@ class Push:
     point: FloatArray = field(default_factory=lambda: np.zeros(3))
 
     def of_force(self, mass: float, com: FloatArray) -> "Push":
-        """The torque about the centre of mass of a body [kg; in B, m], and its acceleration."""
+        """The push of its force on a body of this mass [kg] and centre of mass in B [m]."""
         arm = self.point - com
         return replace(self, torque=np.cross(arm, self.force), acceleration=self.force / mass)
 
     def share(self, starts: FloatArray, period: float) -> FloatArray:
-        """Part of each control step, from `starts`, in which it acts: its impulse is exact."""
+        """Share of each control step, from `starts`, in which it acts: its impulse is exact."""
         begin = np.maximum(starts, self.onset)
         end = np.minimum(starts + period, self.onset + self.duration)
         share: FloatArray = np.clip(end - begin, 0.0, None) / period
@@ -61,10 +62,10 @@ class Launch:
 
     Attributes:
         rotation: of the trunk in the world, shape (3, 3).
-        height: of the trunk frame's origin [m]; None: the feet just clear of the ground.
+        height: of the trunk frame's origin [m]; None: the feet are just clear of the ground.
         velocity: of its centre of mass [m/s], shape (3,).
         turn: what the trunk should do.
-        push: what hits it.
+        push: external push on the trunk.
         rate: of the whole robot, in B [rad/s], shape (3,).
         wheel_speed: of all wheels [rad/s].
     """
@@ -79,7 +80,7 @@ class Launch:
 
 
 def launch(maneuver: Maneuver, standing_height: float, profile: Profile) -> Launch:
-    """The start that a maneuver asks for.
+    """The start of a maneuver other than one about a pivot.
 
     Args:
         standing_height: of the trunk over the ground with the feet on it [m].
@@ -133,10 +134,10 @@ def launch(maneuver: Maneuver, standing_height: float, profile: Profile) -> Laun
 
 
 def on_pivot(maneuver: Pivoted, gyrostat: Gyrostat) -> Launch:
-    """The start of a maneuver about a pivot, which stands at the height of the floor.
+    """The start of a maneuver about a pivot, which is at floor height.
 
     Args:
-        maneuver: of robot and device. gyrostat: of both, about the pivot.
+        maneuver: the maneuver. gyrostat: robot and device, about the pivot.
     """
     asked = pivot_boundary(maneuver, gyrostat)
     rotation = quaternions.matrix(asked.attitude)
@@ -153,7 +154,7 @@ def flight_time(maneuver: Maneuver, start: Launch, standing_height: float) -> fl
         return maneuver.duration
     gravity = maneuver.gravity
     drop = 0.0 if start.height is None else start.height - standing_height
-    # Longer by what the push adds, were it at lift-off: a little too long.
+    # The push is counted as if at lift-off, which makes the flight a little too long.
     gained = start.push.acceleration[2] * start.push.duration
     up = start.velocity[2] + max(gained, 0.0)
     return float((up + np.sqrt(up**2 + 2.0 * gravity * drop)) / gravity)
@@ -169,7 +170,7 @@ def _rotation_vector(rotation: FloatArray) -> FloatArray:
 
 
 _AFLOAT = 100.0
-"""Height of a robot in orbit over the model's floor, which it does not meet [m]."""
+"""Height of a robot in orbit over the model's floor, which it never touches [m]."""
 
 _CLEARANCE = 1e-3
 """Gap under the feet at lift-off, over the standing height."""
@@ -186,7 +187,8 @@ def place(
     data.qvel[first : first + 3] = start.velocity
     if start.rate.any():
         mujoco.mj_forward(model, data)
-        # All turn about the centre of mass as one; the free joint's rate is in its own body.
+        # Everything turns about the centre of mass as one rigid body; the free joint's angular rate
+        # is in the frame of its own body.
         base = np.array(data.xmat[model.jnt_bodyid[free]]).reshape(3, 3)
         rate = start.rotation @ start.rate
         arm = data.xpos[model.jnt_bodyid[free]] - data.subtree_com[0]
