@@ -28,7 +28,15 @@ from ocs_design.export.drawing.sheet import (
     upright_dimension,
     viewing_arrow,
 )
-from ocs_design.export.drawing.wheel import diameters, fitted_bore, holes, plain, toleranced, widest
+from ocs_design.export.drawing.wheel import (
+    WEB_GRADE,
+    diameters,
+    fitted_bore,
+    holes,
+    plain,
+    toleranced,
+    widest,
+)
 from ocs_design.parts.joints import Grade
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre
 
@@ -140,7 +148,8 @@ def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
         elif cut is not None:
             inside = cut.radius + cut.hole_radius
         away = max(NEAREST, scale(inside + outside) / 2.0)
-        items += _width(plain(hub.web_thickness), hub.web_thickness, wheel, layout, y=y - away)
+        thick = toleranced(hub.web_thickness, WEB_GRADE)
+        items += _width(thick, hub.web_thickness, wheel, layout, y=y - away)
         items += _width(
             plain(hub.height), hub.height, wheel, layout, y=y + away, start=y + scale(hub.radius)
         )

@@ -34,10 +34,10 @@ from ocs_design.export.drawing.views import front_view, lay_out, section_view
 from ocs_design.export.drawing.wheel import (
     BROKEN_EDGE,
     WheelDrawing,
+    inertia_error,
     inside_corners,
     lost_by_breaking,
     plain,
-    rim_inertia_error,
     seat_limits,
     shrunk_on,
 )
@@ -150,8 +150,8 @@ def notes(drawing: WheelDrawing) -> Iterator[str]:
             f"(e~=~{off}~µm), in one plane. Done on the motor: cad/assembly.pdf."
         )
     yield (
-        f"Inertia of the rim within ±{_percent(rim_inertia_error(wheel))} over its tolerances; "
-        "the motor's rotor not included."
+        f"Spin inertia within ±{_percent(inertia_error(wheel))} over all tolerances together; the "
+        "motor's rotor not included."
     )
     chamfer, broken = (
         wheel.rim.made_chamfer,

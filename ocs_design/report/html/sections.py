@@ -14,11 +14,12 @@ from ocs_design.export.assembly.booklet import chapters, pictures, piece_rows, s
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.wheel import (
+    WEB_GRADE,
     bore_diameter,
     fitted_bore,
+    inertia_error,
     plain,
     rim_diameter,
-    rim_inertia_error,
     toleranced,
 )
 from ocs_design.parts.joints import Grade
@@ -90,10 +91,10 @@ def sizes_section(design: OcsDesign) -> Markup:
         rows.append(("hub, height", plain(wheel.hub.height)))
         if wheel.hub.bore_radius > 0.0:
             rows.append(("hub, bore", fitted_bore(wheel.hub.bore_radius)))
-        rows.append(("web, thickness", plain(wheel.hub.web_thickness)))
+        rows.append(("web, thickness", toleranced(wheel.hub.web_thickness, WEB_GRADE)))
     inertia_note = (
-        "Within these tolerances the rim's spin inertia stays within "
-        f"±{rim_inertia_error(wheel):.1%} (to first order)."
+        "Within all tolerances together, ISO 2768-m where none is told, the wheel's spin inertia "
+        f"stays within ±{inertia_error(wheel):.1%} (to first order, without the rotor's)."
     )
     return section(
         "sizes",

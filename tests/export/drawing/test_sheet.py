@@ -70,7 +70,7 @@ def test_the_largest_scale_of_the_standard_at_which_all_fit_and_the_smallest_if_
 
 
 STEPS = [3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500, 630, 800, 1000]
-UNITS = {Grade.IT7: 16.0, Grade.IT9: 40.0, Grade.IT11: 100.0}
+UNITS = {Grade.IT7: 16.0, Grade.IT9: 40.0, Grade.IT11: 100.0, Grade.IT12: 160.0}
 
 
 def unit(low, high):
