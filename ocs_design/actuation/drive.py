@@ -19,6 +19,7 @@ from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import FloatArray, Table, finite_or_none
 from ocs_design.common.errors import OcsError
 from ocs_design.common.records import recorded
+from ocs_design.common.units import rpm
 
 RESERVE = 0.95
 """Fraction of voltage, current and mechanical speed that a design may use; the rest is margin for
@@ -313,6 +314,14 @@ class Drive:
             f"{self.name} is rated for {rated:g} V but runs at {fed:g} V: ask the makers of motor "
             "and controller if this is allowed"
         )
+
+    @property
+    def top_speed_reason(self) -> str:
+        """What limits `top_speed`, in words: the supply, or what is allowed if that is less."""
+        free = "without load" + (f" at {self.bus_voltage:g} V" if self.bus_voltage else "")
+        if self.speed_max is None or self.no_load_speed <= self.speed_max:
+            return free
+        return f"the most allowed; {rpm(self.no_load_speed)} {free}"
 
     @property
     def line_left(self) -> float:

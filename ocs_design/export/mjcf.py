@@ -125,7 +125,7 @@ def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> st
         "motor": motor.full_name + ("" if motor.gear == DIRECT.name else f" with {motor.gear}"),
         "highest speed of a wheel": "not limited"
         if np.isinf(speed)
-        else f"{rpm(speed)} ({format_quantity(speed, 'rad/s')})",
+        else f"{rpm(speed)} ({format_quantity(speed, 'rad/s')}), {motor.top_speed_reason}",
         "largest torque of a motor": "not limited"
         if torque is None
         else format_quantity(torque, "N m"),

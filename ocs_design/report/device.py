@@ -121,14 +121,10 @@ def device_facts(design: OcsDesign) -> Rows:
         if motor.gear != DIRECT.name:
             loss = f"efficiency {motor.gear_efficiency:.0%}"
             rows.append(("gear", f"{motor.gear}, ratio {motor.gear_ratio:.3g}, {loss}"))
-        allowed = []
-        if motor.speed_max is not None:
-            allowed.append(rpm(motor.speed_max))
+        limits = [f"{rpm(motor.top_speed)} ({motor.top_speed_reason})"]
         if motor.torque_limit is not None:
-            allowed.append(f"{motor.torque_limit:.3g} N m")
-        free = f"{rpm(motor.no_load_speed)} without load at {motor.bus_voltage:g} V"
-        drive = f"{free}; allowed {listed(allowed)}" if allowed else free
-        rows.append(("drive at the wheel", drive))
+            limits.append(f"{motor.torque_limit:.3g} N m")
+        rows.append(("drive at the wheel", f"at most {listed(limits)}"))
     at = (f"{each.name} ({', '.join(map(tenths, each.position))})" for each in ocs.modules)
     rows.append(("wheels at", f"{', '.join(at)} mm"))
     rows.append(("nearest, standing", _nearest(ocs.clearance)))

@@ -12,6 +12,7 @@ import numpy as np
 
 from ocs_design.actuation.drive import speed_limit
 from ocs_design.common.arrays import FloatArray, finite_or_none
+from ocs_design.common.units import rpm
 from ocs_design.device.joints import BEARING_MOMENT
 from ocs_design.device.records.device import Margin
 from ocs_design.parts.joints import OVERSPEED
@@ -280,7 +281,13 @@ def _drive_margins(motion: SampledMotion, wheel: DrivenWheel) -> Iterator[Margin
     """Current limit, voltage line and speeds (docs/theory.md, What a motor can do)."""
     line, gear = wheel.line, wheel.gear
     speed = _peak(motion.wheel_speed)
-    yield Margin(WHEEL_SPEED, speed, finite_or_none(line.speed_max), "rad/s")
+    reached = ""
+    if line.no_load_speed < line.speed_max < np.inf:
+        reached = (
+            f"the most allowed; at {wheel.supply.voltage:g} V the drive reaches "
+            f"{rpm(float(line.no_load_speed))}, see voltage line"
+        )
+    yield Margin(WHEEL_SPEED, speed, finite_or_none(line.speed_max), "rad/s", note=reached)
     of_motor = speed_limit(wheel.motor) or np.inf
     capacity, note = min(of_motor, gear.motor_speed_max), ""
     if gear.motor_speed_max < of_motor:

@@ -35,7 +35,7 @@ def test_a_motor_fed_beyond_its_rating_is_remarked(folder, voltage, remarked):
     asked = ("--layout", "pair", "--fall", "1m", "-o", "out")
     result = run("size", "--mass", "1.2", "--inertia", "0.02,0.03,0.035", *given, *asked)
     assert result.code == 0, result.said
-    words = f"{name} is rated for 16.8 V and fed with 24 V: ask the makers"
+    words = f"{name} is rated for 16.8 V but runs at 24 V: ask the makers"
     assert (words in result.said) is remarked
 
 
