@@ -1,8 +1,8 @@
-"""How much delay the wheels' loop stands, discretised as it runs.
+"""Delay margin of the wheels' control loop, discretised as it runs.
 
 The torque is held from one control instant to the next, so the linear plant is exact between them:
-`x' = A_d x + B_d tau`, `tau = -K x`. With all motors late alike, the loop of n wheels is stable on
-the same terms as n single ones whose gains are the eigenvalues of `K (z - A_d)^-1 B_d`
+`x' = A_d x + B_d tau`, `tau = -K x`. With the same delay in all motors, the loop of n wheels is
+stable if n single loops are, whose gains are the eigenvalues of `K (z - A_d)^-1 B_d`
 (Postlethwaite and MacFarlane, A Complex Variable Approach to the Analysis of Linear Multivariable
 Feedback Systems, 1979).
 """
@@ -22,27 +22,27 @@ from ocs_design.sizing.trajectory.motion import Trajectory
 from ocs_design.sizing.trajectory.tracking import linearised
 
 _GRID = 4000
-"""Frequencies that crossings are looked for between."""
+"""Number of frequencies between which crossings are searched."""
 
 _INSTANTS = 21
-"""Instants of a plan whose margins are looked at."""
+"""Number of instants of a plan at which margins are computed."""
 
 _DRIFT = 0.1
-"""How much faster a motion may grow in the closed loop than in the open one [1/s]: rounding."""
+"""Allowance for rounding in a motion's growth rate, closed loop over open loop [1/s]."""
 
 _SMALL = 1e-4
-"""Step of the central differences that linearise the law [rad, rad/s]: they are off by its square,
-and by the rounding of one in 1e12."""
+"""Step of the central differences that linearise the law [rad, rad/s]: their error is of the order
+of its square, plus rounding of one in 1e12."""
 
 
 @dataclass(frozen=True)
 class LoopMargins:
-    """Margins of a loop that is closed once in every period.
+    """Margins of a loop that is closed once per period.
 
     Attributes:
-        crossover: frequency at which the loop's gain is one, of the margin [rad/s].
+        crossover: frequency with loop gain one at which the margin is smallest [rad/s].
         phase: margin there [rad].
-        delay: that the loop stands beyond its own hold [s].
+        delay: margin, beyond the loop's own hold [s].
     """
 
     crossover: float
@@ -60,15 +60,16 @@ def loop_margins(
         feedback: K, shape (n, m). period: [s].
 
     Returns:
-        Margins at the crossover that stands the least delay; no limit where the gain is below one
-        at every frequency. All are zero where the feedback itself makes a motion grow, as one that
-        is held for too long does.
+        Margins at the crossover with the smallest delay margin; an infinite delay if the gain is
+        below one at every frequency. All are zero if the loop is unstable without any delay, as one
+        held for too long is.
     """
     size, inputs = control.shape
     held = expm(period * np.block([[state, control], [np.zeros((inputs, size + inputs))]]))
     step, gain = held[:size, :size], held[:size, size:]
     alone, closed = (np.abs(np.linalg.eigvals(a)).max() for a in (step, step - gain @ feedback))
-    # What wheels do not reach may grow as it did: a trunk that spins about its middle axis.
+    # Motions that the wheels do not reach may grow as without them: a trunk that spins about its
+    # intermediate axis.
     if closed > max(alone, 1.0) * np.exp(_DRIFT * period):
         return LoopMargins(0.0, 0.0, 0.0)
 
@@ -115,7 +116,7 @@ def level_margins(law: WheelLaw, body: Gyrostat, period: float) -> LoopMargins:
 
 
 def plan_margins(trajectory: Trajectory, body: Gyrostat, period: float) -> LoopMargins:
-    """Smallest margins along a trajectory with gains, as if each instant lasted; `period` [s]."""
+    """Smallest margins along a trajectory with gains, frozen at each instant; `period` [s]."""
     assert trajectory.gains is not None, "only gains have margins"
     size = trajectory.gains.shape[2]
     systems = linearised(body, trajectory.rate, trajectory.wheel_speed, trajectory.vertical)

@@ -1,4 +1,4 @@
-"""Margins of a device: what its maneuvers ask of it, planned and flown, over what it can do."""
+"""Margins of a device: the demands of its maneuvers, planned and flown, over its capacity."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
@@ -38,8 +38,8 @@ def record_margins(
     """Worst of each margin over all maneuvers, as planned and as flown until the run ends.
 
     Args:
-        resolved: what was asked for. designed: the device.
-        runs: flights, of which those without the device say nothing; a run begins at push-off.
+        resolved: what was specified. designed: the device.
+        runs: flights; those without the device are ignored. A run begins at push-off.
         plans: references of the maneuvers, by name.
     """
     if designed.choice is None:
@@ -65,10 +65,10 @@ def record_margins(
 def _motions(
     plans: Mapping[str, "Reference"], runs: Sequence[Run]
 ) -> Iterator[tuple[str, SampledMotion]]:
-    """Each plan; then each run from its start to its end, and from lift-off to touchdown once more.
+    """Each plan; then each run, once from its start to its end and once from lift-off to touchdown.
 
-    What the wheels do as the robot lands and while they are damped is asked of the drive too. Means
-    over time are of the maneuver alone: on the ground a motor has time to cool.
+    The drive must also bear the landing, and the damping after it. Means over time are taken over
+    the maneuver alone: on the ground a motor has time to cool.
     """
     for name, reference in plans.items():
         if reference.trajectory is None:
@@ -76,7 +76,7 @@ def _motions(
         motion = SampledMotion.along(reference.trajectory)
         yield name, motion
         if reference.spun:
-            # Before the brake stops them in an instant all wheels run at up to this speed.
+            # All wheels run at up to this speed before the brake stops them in an instant.
             wheels = np.full((2, motion.wheel_speed.shape[1]), reference.spun)
             still = np.zeros((2, 3))
             yield name, SampledMotion(np.array([0.0, 1e-3]), wheels, 0.0 * wheels, still, still)
@@ -103,7 +103,7 @@ def _motions(
 def _brake_margins(
     resolved: Resolved, designed: Designed, plans: Mapping[str, "Reference"]
 ) -> Iterator[tuple[str, tuple[Margin, ...]]]:
-    """What a brake that grips the wheels, as the Cubli's does, asks of them and their joints."""
+    """Demands on the wheels and their joints of a brake that grips the wheels, as the Cubli's."""
     device, drive = designed.device, designed.device.motor
     shaft = next((each for each in joints_of(device) if each.name == SHAFT_JOINT), None)
     fit = rim_fit(device)
@@ -132,7 +132,7 @@ def _brake_margins(
 def _margins_without_motor(
     resolved: Resolved, designed: Designed, runs: Sequence[Run]
 ) -> Iterator[Margin]:
-    """What can be said without a motor's figures."""
+    """Margins that are known without a motor's figures."""
     device, wheel = designed.device, designed.device.flywheel
     driven = [run for run in runs if run.ocs and run.metrics is not None]
     limit = device.motor.torque_limit

@@ -1,6 +1,7 @@
 """Figures of a run, and whether its start and its integration were sound.
 
-What shows in the figures of a run, momentum and wheels that are too fast, is for the `verdict`.
+Faults that show in the figures themselves, a momentum error or wheels that are too fast, are left
+to `verdict`.
 """
 
 import mujoco
@@ -16,10 +17,10 @@ UPRIGHT_HEIGHT = 0.5
 """Smallest height of the trunk of a robot that stands, over its standing height."""
 
 _SLOW = np.radians(1.0)
-"""Rate below which a flight counts as one without any turning [rad/s]."""
+"""Turning rate below which a flight counts as one without any turning [rad/s]."""
 
 _AT_REST = np.radians(1.0)
-"""How near to where it ends a trunk must stay to have settled [rad]."""
+"""Largest angle from its final attitude at which a trunk has settled [rad]."""
 
 
 def series_of(recording: Recording, index: int, world: World) -> Series:
@@ -32,8 +33,8 @@ def series_of(recording: Recording, index: int, world: World) -> Series:
     lowest, highest = (None, None) if limits is None else limits.torque_range(speed)
     power, current = None, None
     if limits is not None and limits.voltage is not None:
-        # A held torque takes most at one end of its step.
-        # A run that broke down ends with speeds beyond all measure.
+        # A held torque draws the most power at one end of its step.
+        # A run that became unstable ends with huge speeds.
         with np.errstate(invalid="ignore", over="ignore"):
             first = limits.bus_power(speed, torque)
             last = limits.bus_power(np.vstack([speed[1:], speed[-1:]]), torque)
@@ -64,7 +65,7 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
     series = series_of(recording, index, world)
     end = len(series.time) - 1
 
-    # Instants in free flight, at least one; a robot that never left the ground has it at its end.
+    # Instants in free flight, at least one; for a robot that never left the ground, its last one.
     lift_off = int(recording.lift_off[index])
     touching = np.flatnonzero(series.contact[lift_off:]) if lift_off >= 0 else np.empty(0, int)
     first = lift_off if lift_off >= 0 else end
@@ -81,7 +82,7 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
         roll, pitch = quaternions.tilt(attitude)
         pitch = np.unwrap(pitch)
 
-    # Roll and pitch have settled once they stay near where they end.
+    # Roll and pitch have settled once they stay near their final values.
     off = np.maximum(np.abs(roll - roll[-1]), np.abs(pitch - pitch[-1]))
     moving = np.flatnonzero(off[after] > _AT_REST)
     settled = last + (int(moving[-1]) + 1 if moving.size else 0)
@@ -89,13 +90,13 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
     _, x, y, _ = attitude[end]
     rises = 1.0 - 2.0 * (x * x + y * y) > np.cos(UPRIGHT_TILT)
     above = recording.height[end, index] > UPRIGHT_HEIGHT * world.standing_height
-    # Of `J w_dot = -w x h A W`, across the two smallest inertias.
+    # Nutation of `J w_dot = -w x h A W`, about the axes of the two smallest inertias.
     body = world.body
     momentum = (
         body.spin_inertia * np.linalg.norm(series.wheel_speed[driven] @ body.axes.T, axis=1).max()
     )
     smallest = np.linalg.eigvalsh(body.actuated_inertia)[:2]
-    # About the vertical only wheels that reach it can stop the trunk.
+    # Only wheels with a component about z can stop the trunk about the vertical.
     turning = np.hypot(*series.rate[last, :2])
     if body.reach[2]:
         turning = np.hypot(turning, series.rate[last, 2])
@@ -123,16 +124,16 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
 
 
 def _momentum_error(recording: Recording, index: int, flown: slice, world: World) -> float:
-    """`|H(t) - H(0) - impulse|` over what was moved about (docs/validation.md, The momentum gate).
+    """Relative momentum error `|H(t) - H(0) - impulse|` (docs/validation.md, The momentum gate).
 
     H itself is near zero in most of these flights, as trunk and wheels turn against each other, so
-    the scale is the largest momentum of the wheels plus that of the trunk with its legs, as if they
-    were locked. Gravity has no moment about the centre of mass. About a pivot, whose anchor has the
-    centre of mass of all there, it has, and its impulse counts like an outer one's; about an edge
-    that axis alone does.
+    the scale is the largest momentum of the wheels plus that of the trunk with its legs locked.
+    Gravity has no moment about the centre of mass. It has one about a pivot, where the anchor puts
+    the centre of mass of the whole, and there its impulse counts as an external one. About an edge
+    only that axis counts.
     """
-    # Between two looks at the contacts a stage of a step may feel the floor, as a foot scrapes off
-    # it or is about to touch it: the first and the last control step are left out.
+    # Contacts are checked once per step, so a stage in between may feel the floor as a foot scrapes
+    # off it or is about to touch it: the first and the last control step are left out.
     first = min(flown.start + 1, flown.stop - 1)
     flight = slice(first, max(flown.stop - 1, first + 1))
     momentum, impulse = recording.momentum[flight, index], recording.impulse[flight, index]
@@ -152,15 +153,15 @@ def _within_half_turn(angle: float) -> float:
 
 
 DEPTH_LIMIT = 0.01
-"""Deepest start below the floor, over the standing height: springs of contact throw it out."""
+"""Deepest start below the floor, over the standing height: contact springs throw it out."""
 
 GROWTH_LIMIT = 1e-3
-"""Largest growth of any motion of the joint drives in a step. Motions that neither grow nor decay,
-which the floating base has six of, are found to within 1e-8."""
+"""Largest growth of any motion of the joint drives per step. Motions that neither grow nor decay,
+six of which belong to the floating base, are computed to within 1e-8."""
 
 
 def objection(world: World) -> str:
-    """Why a run from here would say nothing, and the cure; empty if nothing is against it."""
+    """Why a run of this world could not be judged, and the cure; empty if it can."""
     if not (np.isfinite(world.qpos).all() and np.isfinite(world.qvel).all()):
         return "not judged: the start is not finite; look for absurdly large numbers in the files"
     data = mujoco.MjData(world.model)
@@ -184,7 +185,7 @@ def objection(world: World) -> str:
 
 
 def breakdown(recording: Recording, index: int) -> str:
-    """What ended a run before its time, and the cure; empty if nothing did."""
+    """Why a run ended early, and the cure; empty if it did not."""
     if recording.stable[index]:
         return ""
     code = int(recording.warning[index])
@@ -209,11 +210,11 @@ _WARNINGS = {
 def drive_growth(model: mujoco.MjModel, data: mujoco.MjData) -> float:
     """Growth per step of the fastest growing motion of drives and joint friction, in free flight.
 
-    `M q'' = -K q - D q'`, linear about the pose in `data`. Runge-Kutta of order four takes a motion
-    `exp(l t)` to `R(l dt)` times itself, `R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24` (Hairer and
+    `M q'' = -K q - D q'`, linearised about the pose in `data`. A step of fourth-order Runge-Kutta
+    multiplies a motion `exp(l t)` by `R(l dt)`, `R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24` (Hairer and
     Wanner, Solving ODEs II, section IV.2).
     """
-    # Of every degree of freedom, by its drive and in itself.
+    # Stiffness and damping of every degree of freedom, from its drive and its joint.
     damping = np.array(model.dof_damping, dtype=np.float64)
     stiffness = np.zeros(model.nv)
     stiffness[model.jnt_dofadr] = model.jnt_stiffness

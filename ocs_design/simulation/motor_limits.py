@@ -1,6 +1,6 @@
-"""What motors and their supply can do at the wheels, for a batch of worlds at once.
+"""Limits of motors and their supply at the wheels, for a batch of worlds at once.
 
-The same limits cut the torques of a control step and judge a motion that is planned.
+The same limits clip the torques of a control step and judge a planned motion.
 """
 
 from dataclasses import dataclass, replace
@@ -12,30 +12,30 @@ from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import FloatArray, Table
 
 _ENDLESS = 1e100
-"""Stands for a power without limit: its products with others are finite [W]."""
+"""Stand-in for unlimited power, finite so that its products are too [W]."""
 
 USED = 0.99
-"""Share of voltage and of the supply's power that the law uses: what else turns the wheels within a
-control step, as the trunk hits the ground, changes speed and power by less than the rest."""
+"""Share of voltage and of the supply's power that the law uses. The rest exceeds what else changes
+the wheels' speed and power within a control step, as when the trunk hits the ground."""
 
 
 @dataclass(frozen=True, eq=False)
 class MotorLimits(Table):
     """Limits of a motor at its wheel (docs/theory.md, What a motor can do).
 
-    Of one motor they are numbers; of n worlds arrays that broadcast to the torques of their wheels,
-    of shape (n, 1), or (n, 1, m) of m motors each (`stacked_columns`).
+    Numbers for one motor; for n worlds, arrays that broadcast to the torques of their wheels, of
+    shape (n, 1), or (n, 1, m) with m motors each (`stacked_columns`).
 
     Attributes:
-        no_load_speed: where the line ends that friction leaves [rad/s]; inf: not limited.
-        line_slope: speed lost per torque on the voltage line, w_0 / tau_s [rad/s/(N m)]; 0 where no
-            stall torque is given: full torque up to w_0.
+        no_load_speed: end of the torque-speed line, less friction [rad/s]; inf: not limited.
+        line_slope: speed lost per torque on the voltage line, w_0 / tau_s [rad/s/(N m)]; 0 without
+            a stall torque: full torque up to w_0.
         torque_limit: at the current limit [N m]; inf: not limited.
         speed_max: mechanical [rad/s]; inf: not limited.
         copper: heat in the winding over the squared torque, R / (N eta k_t)^2 [W/(N m)^2].
         efficiency: of the gear.
-        power_max: of the supply, for all motors together, without what their friction takes at the
-            most [W]; inf: not limited.
+        power_max: of the supply, for all motors together, less the most that their friction takes
+            [W]; inf: not limited.
         voltage: of the supply [V]; None: the winding or the supply is not known.
     """
 
@@ -53,7 +53,7 @@ class MotorLimits(Table):
         """The limits of a catalogue or assumed motor.
 
         Args:
-            supply: that feeds all motors; None: nothing is known of it.
+            supply: feeds all motors; None: unknown.
             wheels: how many motors it feeds.
         """
         limit = np.inf if motor.torque_limit is None else motor.torque_limit
@@ -79,14 +79,15 @@ class MotorLimits(Table):
         )
 
     def clipped(self, torque: FloatArray, speed: FloatArray, gain: FloatArray) -> FloatArray:
-        """Torques cut to current limit, voltage line and top speed at the end of the control step.
+        """Torques clipped to current limit, voltage line and top speed.
 
-        Both taken at the end, at `W + tau * gain`, are backward Euler: the exact line as the period
-        goes to zero, stable for any motor, and a wheel just keeps from passing its top speed. They
-        cut driving torque and leave braking.
+        Voltage line and top speed are taken at the end of the control step, at `W + tau * gain`.
+        This is backward Euler: it tends to the exact line as the period goes to zero, is stable for
+        any motor, and a wheel just stays below its top speed. Both clip driving torque and leave
+        braking torque alone.
 
         Args:
-            torque: asked for [N m]. speed: of the wheels now [rad/s].
+            torque: commanded [N m]. speed: of the wheels now [rad/s].
             gain: change of speed in a control step per torque [rad/s/(N m)].
         """
         give, line = gain + self.line_slope, self.no_load_speed
@@ -96,16 +97,16 @@ class MotorLimits(Table):
         return np.minimum(np.maximum(driven, -self.torque_limit), self.torque_limit)
 
     def within_supply(self, torque: FloatArray, speed: FloatArray, gain: FloatArray) -> FloatArray:
-        """Torques of a world, all scaled down alike until the supply can give or take their power.
+        """Torques of a world, scaled by one factor so that the supply can give or take their power.
 
-        Held torques speed wheels up and let them take more and more: a control step draws most at
+        Held torques speed the wheels up and draw more and more power: a control step draws most at
         its end and feeds back most at its start. With all torques times f, the power at the end is
-        convex in f and zero at f = 0; each of its parts is `a f^2 + b f`, which is P at
+        convex in f and zero at f = 0; each of its pieces is `a f^2 + b f`, which equals P at
         2 P / (b + root).
 
         Args:
             torque: that the motors could give [N m], (..., wheels).
-            speed: of the wheels now [rad/s], broadcast to that.
+            speed: of the wheels now [rad/s], broadcast to `torque`.
             gain: change of speed in a control step per torque [rad/s/(N m)], shape (..., 1).
         """
         if np.isinf(self.power_max).all():
@@ -115,18 +116,19 @@ class MotorLimits(Table):
         heat = (self.copper * torque**2).sum(axis=-1)
         factor = np.ones_like(heat)
         for _ in range(torque.shape[-1] + 1):
-            # A motor that brakes at the start may drive at the end: each change takes another look.
+            # A motor that brakes at the start may drive at the end: each such change needs another
+            # iteration.
             ends = factor[..., None] * gain * torque**2 + shaft
             share = np.where(ends > 0.0, 1.0 / efficiency, efficiency)
             square = heat + (share * gain * torque**2).sum(axis=-1)
             linear = (share * shaft).sum(axis=-1)
-            # Factor f up to which `square f^2 + linear f` is within the limit; inf: all.
+            # Largest factor f with `square f^2 + linear f` within the limit; inf: any.
             depth = linear + np.sqrt(linear**2 + 4.0 * square * limit)
             most = np.where(depth > 0.0, 2.0 * limit / np.where(depth > 0.0, depth, 1.0), np.inf)
             factor = np.minimum(factor, most)
         share = np.where(shaft > 0.0, 1.0 / efficiency, efficiency)
         given = (share * shaft).sum(axis=-1)
-        # Beyond the larger root, more torque burns what it brakes in the windings.
+        # Beyond the larger root, the windings burn enough of the braking power.
         root = np.sqrt(np.maximum(given**2 - 4.0 * heat * limit, 0.0))
         feeds = factor * (heat * factor + given) < -limit
         least = 2.0 * limit / np.where(feeds, root - given, 1.0)
@@ -140,12 +142,12 @@ class MotorLimits(Table):
 
     @property
     def used(self) -> "MotorLimits":
-        """What the wheel law counts on (`USED`); the supply's voltage says nothing to it."""
+        """Limits that the wheel law uses (`USED`); it does not need the supply's voltage."""
         line, power = USED * self.no_load_speed, USED * self.power_max
         return replace(self, no_load_speed=line, power_max=power, voltage=None)
 
     def reserved(self) -> "MotorLimits":
-        """What a reference may take; the rest of voltage, current and speed is for the feedback."""
+        """Limits for references; the rest of voltage, current, speed and power is for feedback."""
         return replace(
             self,
             no_load_speed=RESERVE * self.no_load_speed,
@@ -155,12 +157,12 @@ class MotorLimits(Table):
         )
 
     def torque_range(self, speed: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Lowest and highest torque at each wheel speed [rad/s], shapes as that [N m].
+        """Lowest and highest torque at each wheel speed [N m], in the shape of `speed` [rad/s].
 
-        On the voltage line, within the current limit; none that drives the wheel beyond its top
+        On the voltage line and within the current limit; no torque drives a wheel beyond its top
         speed.
         """
-        # No slope: all or nothing on either side of the line's end.
+        # Without a slope: all or nothing on either side of the line's end.
         with np.errstate(divide="ignore", invalid="ignore"):
             highest = np.nan_to_num((self.no_load_speed - speed) / self.line_slope, posinf=np.inf)
             lowest = np.nan_to_num((-self.no_load_speed - speed) / self.line_slope, neginf=-np.inf)
@@ -172,8 +174,8 @@ class MotorLimits(Table):
     def utilisation(self, speed: FloatArray, torque: FloatArray) -> float:
         """The largest share of bus voltage, current, power or top speed that a motion takes.
 
-        At most 1 for what motor and supply can do: `|W + slope * tau| <= w_0`, `|tau| <= tau_L`,
-        `|W| <= speed_max` and a power of all wheels together of at most `power_max` either way.
+        At most 1 if motor and supply can do it: `|W + slope * tau| <= w_0`, `|tau| <= tau_L`,
+        `|W| <= speed_max`, and at most `power_max` drawn or fed back by all wheels together.
         """
         voltage = np.abs(speed + self.line_slope * torque).max() / self.no_load_speed
         current = np.abs(torque).max() / self.torque_limit
@@ -183,9 +185,9 @@ class MotorLimits(Table):
         return float(max(voltage, current, np.abs(speed).max() / self.speed_max, power))
 
     def bus_power(self, speed: FloatArray, torque: FloatArray) -> FloatArray:
-        """Power of all motors of a world at the bus [W], shape (n,): R i^2, and what shafts take.
+        """Power of all motors of a world at the bus [W], shape (n,): R i^2 and shaft power.
 
-        A gear's loss is drawn where its motor drives and lost where it brakes.
+        A gear's loss adds to the power drawn in driving and reduces the power fed back in braking.
 
         Args:
             speed, torque: of the wheels [rad/s, N m], shape (n, wheels).

@@ -1,4 +1,4 @@
-"""One world whose wheels something else than the law drives, a control step at a time."""
+"""One world whose wheels are driven by something other than the law, one control step at a time."""
 
 from dataclasses import dataclass
 
@@ -14,14 +14,14 @@ from ocs_design.simulation.world import World
 
 @dataclass(frozen=True, eq=False)
 class Seen:
-    """What the sensors tell at one control instant, of a trunk with m wheels.
+    """Sensor readings of a trunk with m wheels at one control instant.
 
     Attributes:
         vertical: the world's upward direction in B, shape (3,).
-        heading: turn about the vertical since it stood at the start [rad], within half a turn.
+        heading: turn about the vertical since the start [rad], within half a turn.
         rate: in B [rad/s], (3,).
         wheel_speed: relative to the trunk [rad/s], (m,).
-        law_torque: what the wheel law would ask of the motors [N m], (m,).
+        law_torque: that the wheel law would command [N m], (m,).
         lowest, highest: torques that the motors can give [N m], (m,).
     """
 
@@ -37,11 +37,11 @@ class Seen:
 class PilotedFlight(Batch):
     """A flight from start to end with the batch's own physics, sensors, drives, legs and pushes.
 
-    Until lift-off the wheels wait, as they do under the law.
+    The wheels wait for lift-off, as they do under the law.
     """
 
     def __init__(self, world: World, hold: int) -> None:
-        """Flight of a world with its wheels active; `hold` steps of the physics a control step."""
+        """Flight of a world with active wheels; `hold` physics steps per control step."""
         super().__init__([world], hold)
         self._physics = [mujoco.MjData(world.model)]
         self._pool = Rollout(nthread=0)
@@ -72,7 +72,7 @@ class PilotedFlight(Batch):
         return found
 
     def fly(self, torque: FloatArray) -> None:
-        """One control step with these torques asked of the motors [N m], (m,), cut as the law's."""
+        """One control step with these motor commands [N m], (m,), clipped as the law's are."""
         k, speed = self._instant, self.seen.wheel_speed[None]
         asked = self._law.possible(torque[None], speed, self._period)
         if self.flown < 0:

@@ -1,4 +1,4 @@
-"""Turns that the wheels can follow, as references of attitude and rate."""
+"""Turns that the wheels can follow, as reference attitude and rate."""
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
@@ -25,7 +25,7 @@ class Profile(ABC):
 
     @abstractmethod
     def position(self, s: FloatArray) -> FloatArray:
-        """Part of the turn done at `s`."""
+        """Share of the turn completed at `s`."""
 
     @abstractmethod
     def rate(self, s: FloatArray) -> FloatArray:
@@ -70,10 +70,10 @@ class Quintic(Profile):
 
 @dataclass(frozen=True)
 class SmoothTrapezoid(Profile):
-    """Constant rate between two ramps without jumps of acceleration.
+    """Constant rate between two ramps, without jumps in acceleration.
 
     Attributes:
-        ramp: part of the time for each ramp, 0..0.5; the peak rate is 1 / (1 - ramp), the peak
+        ramp: share of the time for each ramp, 0..0.5; the peak rate is 1 / (1 - ramp), the peak
             acceleration 1.5 / (ramp (1 - ramp)).
     """
 
@@ -107,8 +107,8 @@ class Turn:
         axis: unit vector, shape (3,).
         start, end: angle about it from level [rad].
         duration: [s], from lift-off.
-        extendable: whether it may take longer where the wheels need it; a fall does not wait.
-        note: what had to be changed for the wheels to follow it, one sentence; empty: nothing.
+        extendable: whether it may take longer if the wheels need it; a fall does not wait.
+        note: how it was changed so that the wheels can follow, one sentence; empty: unchanged.
     """
 
     axis: FloatArray
@@ -124,7 +124,7 @@ class Turn:
         return self.start + self.span * self.profile.position(self._unit(time))
 
     def rate(self, time: FloatArray) -> FloatArray:
-        """[rad/s]."""
+        """Rate at `time` from lift-off [rad/s]."""
         return self.span / self.duration * self.profile.rate(self._unit(time))
 
     @property
@@ -143,9 +143,9 @@ NO_TURN = Turn(np.array([0.0, 1.0, 0.0]), 0.0, 0.0, 1.0, Step())
 def fit_turn(turn: Turn, body: Gyrostat, limits: MotorLimits) -> Turn:
     """Turn with the first profile that leaves the feedback its reserve (`actuation.drive.RESERVE`).
 
-    The profile asked for comes first, then trapezoids from gentle to short ramps, which trade wheel
-    speed for torque. If none will do in the time asked, the turn takes longer; where it may not, it
-    is commanded as the paper's step, which lets the feedback take all that the motors have.
+    The turn's own profile is tried first, then trapezoids from gentle to short ramps, which trade
+    wheel speed for torque. If none suffices in the given time, the turn takes longer; if it may
+    not, it is commanded as the paper's step, which lets the feedback use all that the motors have.
     """
     usable = limits.reserved()
     if turn.span == 0.0 or utilisation(turn, body, usable) <= 1.0:
@@ -181,7 +181,7 @@ def fit_turn(turn: Turn, body: Gyrostat, limits: MotorLimits) -> Turn:
 def utilisation(turn: Turn, body: Gyrostat, limits: MotorLimits) -> float:
     """Largest share of the limits that the wheels need along the turn, from zero momentum.
 
-    Of a gyrostat with no momentum, `I_tot w + h A W = 0` and `J w_dot = -g A tau`, g the reaction
+    A gyrostat with no momentum has `I_tot w + h A W = 0` and `J w_dot = -g A tau`, g the reaction
     (see `Gyrostat`). The pseudo-inverse leaves out an axis that the wheels do not reach.
     """
     s = np.linspace(0.0, 1.0, 401)
@@ -194,7 +194,7 @@ def utilisation(turn: Turn, body: Gyrostat, limits: MotorLimits) -> float:
 
 
 def _turned(inertia: FloatArray, axis: FloatArray) -> FloatArray:
-    """Momentum per rate of a turn that the heading follows, so that none is about yaw, (3,)."""
+    """Momentum per rate of a turn whose heading drifts so that none is about yaw, shape (3,)."""
     drift = -(inertia[2, :2] @ axis[:2]) / inertia[2, 2]
     momentum: FloatArray = inertia @ np.append(axis[:2], drift)
     return momentum

@@ -1,4 +1,4 @@
-"""One flight as plain values: its time series, its figures, its poses and its verdict."""
+"""One flight as plain data: its time series, figures, poses and verdict."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -8,12 +8,12 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 
 UPRIGHT_TILT = np.radians(45.0)
-"""Largest angle between the trunk's z axis and the vertical of a robot that stands [rad]."""
+"""Largest angle between trunk z axis and vertical at which a robot counts as standing [rad]."""
 
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """Time series of one run with n wheels; every array has the instants first.
+    """Time series of one run with n wheels; instants are the first axis of every array.
 
     Attributes:
         time: [s], shape (k,).
@@ -22,13 +22,13 @@ class Series:
         rate: of the trunk in B [rad/s], (k, 3).
         wheel_speed: relative to the trunk [rad/s], (k, n).
         wheel_torque: of the motors [N m], (k, n).
-        torque_lowest, torque_highest: that the motors can give at these speeds [N m], (k, n); None
-            where that is not limited.
+        torque_lowest, torque_highest: that the motors can give at these speeds [N m], (k, n); None:
+            not limited.
         contact: whether anything touches the floor, (k,).
         wheels: their names.
-        bus_power: of all motors together, drawn (+) or fed back (-), where it is largest in size
-            from this instant to the next [W], (k,); None: the winding or the supply is not known.
-        bus_current: likewise, at the voltage of the supply [A], (k,).
+        bus_power: of all motors together, drawn (+) or fed back (-), of largest magnitude from
+            this instant to the next [W], (k,); None: the winding or the supply is not known.
+        bus_current: `bus_power` over the supply voltage [A], (k,).
     """
 
     time: FloatArray
@@ -47,7 +47,7 @@ class Series:
     bus_current: FloatArray | None = None
 
     def columns(self) -> Mapping[str, FloatArray]:
-        """Each scalar by name and unit, as in a CSV file."""
+        """Each scalar series by name and unit, as in a CSV file."""
         axes, supply = "xyz", {"bus_power_w": self.bus_power, "bus_current_a": self.bus_current}
         return {
             "time_s": self.time,
@@ -65,7 +65,7 @@ class Series:
         }
 
     def _of_wheels(self, name: str, values: FloatArray | None) -> Mapping[str, FloatArray]:
-        """One column a wheel; none where there is nothing to tell."""
+        """One column per wheel; none without values."""
         if values is None:
             return {}
         return {name.format(wheel): values[:, i] for i, wheel in enumerate(self.wheels)}
@@ -76,12 +76,12 @@ class Metrics:
     """Figures of one run; None where there is nothing to measure.
 
     Attributes:
-        touchdown_time: of the last instant in free flight [s], or when a robot on a pivot is to be
+        touchdown_time: last instant in free flight [s], or when a robot on a pivot is to be
             upright and at rest; None: it never touches the floor.
-        touchdown_roll, touchdown_pitch: of the trunk against level at that instant, within half a
-            turn [rad]; of a robot on a pivot against where it balances, here and below.
-        touchdown_rate: of roll and pitch together at that instant, and of yaw where the wheels
-            reach it [rad/s].
+        touchdown_roll, touchdown_pitch: of the trunk from level at that instant, within half a
+            turn [rad]; on a pivot, from the balanced attitude, here and below.
+        touchdown_rate: of roll and pitch together at that instant, and of yaw if the wheels can
+            control it [rad/s].
         turned_angle: of pitch since lift-off, whole turns counted [rad].
         heading_drift: about the vertical since lift-off [rad].
         peak_wheel_speed: in flight [rad/s]. peak_wheel_torque: in flight [N m].
@@ -90,10 +90,11 @@ class Metrics:
         upright_at_end: trunk within 45 deg of upright and above half its standing height.
         final_roll, final_pitch: at the end, within half a turn [rad].
         roll_swing, pitch_swing: peak to peak after touchdown [rad].
-        settling_time: from touchdown until roll and pitch stay within 1 deg of where they end [s].
-        lift_off_time: of the first instant in free flight [s], or of the torque that hits a robot
-            that stands; None: it never leaves the ground.
-        rise: of the centre of mass from lift-off to its highest [m].
+        settling_time: from touchdown until roll and pitch stay within 1 deg of their final values
+            [s].
+        lift_off_time: first instant in free flight [s], or the start of the shove of a standing
+            robot; None: it never leaves the ground.
+        rise: of the centre of mass from lift-off to its highest point [m].
         final_wheel_speed: of the faster wheel at the end [rad/s].
         nutation: largest angle per physics step by which the spinning wheels make the trunk
             nutate in flight [rad].
@@ -122,16 +123,16 @@ class Metrics:
 
 @dataclass(frozen=True, eq=False)
 class Poses:
-    """What a model looked like, again and again.
+    """Poses of a model at successive instants.
 
     Attributes:
         time: [s], shape (n,).
         qpos: of the simulated model, free joint first as (x, y, z) [m] and quaternion (w, x, y, z),
             then joints [rad or m]; shape (n, nq).
-        bodies: names of the model's b bodies, the world left out.
+        bodies: names of the model's b bodies, without the world.
         position: of their frames in the world [m], shape (n, b, 3).
         attitude: of their frames in the world, quaternions (w, x, y, z), shape (n, b, 4).
-        wheel_angle: of each wheel, all turns counted [rad], shape (n, wheels).
+        wheel_angle: of each wheel, whole turns counted [rad], shape (n, wheels).
     """
 
     time: FloatArray
@@ -147,10 +148,10 @@ class Run:
     """One flight.
 
     Attributes:
-        scenario: name of the maneuver. ocs: with the device, or the bare robot.
-        passed: True, False, or None where it cannot be judged. reason: one sentence.
+        scenario: name of the maneuver. ocs: True with the device, False for the bare robot.
+        passed: True, False, or None if it cannot be judged. reason: one sentence.
         metrics: None if the simulation became unstable.
-        series: of time. note: see `World`.
+        series: time series. note: see `World`.
         poses: to show the flight again; None if none were recorded.
         can_stand: whether the legs bear a level landing from this flight, see `judge`.
         level, stands: see `Verdict`.

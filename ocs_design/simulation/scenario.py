@@ -1,8 +1,8 @@
-"""The proof of a design: every maneuver flown with the device and without it, in one batch.
+"""Validation of a design: every maneuver flown with the device and without it, in one batch.
 
-Whether a robot stands at the end is judged only where its legs bear a level landing at all. A run
-that comes down well and stands shows that they do. Where none of a maneuver does, a second batch
-flies that maneuver once more, level and undisturbed, to tell the device's fault from the legs'.
+Whether a robot stands at the end is judged only if its legs can bear a level landing at all. A run
+that lands well and stands shows that they can. If no run of a maneuver does, a second batch flies
+that maneuver once more, level and undisturbed, to tell the device's fault from the legs'.
 """
 
 from collections.abc import Mapping, Sequence
@@ -49,12 +49,12 @@ class Flown:
 
     @property
     def objection(self) -> str:
-        """Why the flight says nothing, see `judge`; empty if nothing is against it."""
+        """Why the flight cannot be judged, see `judge`; empty if it can."""
         return objection(self.world) or breakdown(self.recording, self.place)
 
     @property
     def series(self) -> Series:
-        """Series of time."""
+        """Time series."""
         return series_of(self.recording, self.place, self.world)
 
     @property
@@ -84,11 +84,11 @@ class Flights:
     """Robot, device and maneuvers to be flown, as designed and as they might be built.
 
     Attributes:
-        robot: at its nominal posture, which its joints hold. device: on it.
-        references: what the device tracks in a maneuver, by its name; one without follows a smooth
-            turn that its wheels can do, and a disturbance, not known beforehand, is met by feedback
-            alone.
-        jumps: how the legs make a maneuver, by its name; one without starts at lift-off.
+        robot: at its nominal posture, which its joints hold. device: on the robot.
+        references: trajectory that the device tracks, by name of the maneuver. Without one it
+            follows a smooth turn within its wheels' limits; a disturbance, not known beforehand, is
+            met by feedback alone.
+        jumps: plans for the legs, by name of the maneuver; without one it starts at lift-off.
     """
 
     robot: Robot
@@ -118,7 +118,7 @@ class Flights:
 def run_scenarios(flights: Flights, progress: Progress | None = None) -> tuple[Run, ...]:
     """Fly every maneuver with the device and then without, in that order.
 
-    `progress` is told the part of the work that is done, 0..1.
+    `progress` is called with the share of the work that is done, 0..1.
     """
     robot, maneuvers, builder = flights.robot, flights.maneuvers, flights.builder
     worlds = [
@@ -133,7 +133,7 @@ def run_scenarios(flights: Flights, progress: Progress | None = None) -> tuple[R
     pairs = list(zip(flown[::2], flown[1::2], strict=True))
     unclear = refusal(robot)
 
-    # Where flights come down well but none of those stands, it is the legs or the device.
+    # If flights land well but none of them stands, either the legs or the device is at fault.
     # In orbit there is nothing to stand on, and no robot stands on its back.
     can_stand = [
         True if robot.legs and each.gravity and lands_on_legs(each) else None for each in maneuvers
@@ -167,7 +167,7 @@ def run_scenarios(flights: Flights, progress: Progress | None = None) -> tuple[R
 
 
 STOPS = 8
-"""Instants of a maneuver at which each drive stops in turn, evenly from lift-off or release on."""
+"""Instants at which each drive stops in turn, evenly spaced from lift-off or release."""
 
 
 def fly_stopped(
@@ -176,8 +176,8 @@ def fly_stopped(
     """Fly every maneuver with each drive stopping at each of `STOPS` instants, and judge landings.
 
     Args:
-        flights: as designed. detection: until the law knows of a stop [s].
-        progress: told the part of the work that is done, 0..1.
+        flights: as designed. detection: time until the law knows of a stop [s].
+        progress: called with the share of the work that is done, 0..1.
     """
     device = flights.device
     flown: list[tuple[Maneuver, StoppedDrive, World]] = []
@@ -191,7 +191,7 @@ def fly_stopped(
     ends = fly(worlds, flights.options, progress)
     for (maneuver, stopped, _), flight in zip(flown, ends, strict=True):
         against = refusal(flights.robot) or flight.objection
-        # Of a flight the landing counts, and not what the legs make of it.
+        # The landing counts, not whether the legs then keep the robot up.
         shoved = isinstance(maneuver, Shove)
         verdict = judge(
             flight.metrics, maneuver, can_stand=True if shoved else None, objection=against
@@ -214,13 +214,13 @@ def fly_stopped(
 
 
 HALVINGS = 2
-"""How often the step of the physics is halved at most; each leaves a sixteenth of the error."""
+"""Most times that the physics step is halved; each halving leaves a sixteenth of the error."""
 
 
 def fly(worlds: Sequence[World], options: Options, progress: Progress | None = None) -> list[Flown]:
-    """Fly worlds; where angular momentum is off by more than the gate, again at half the step."""
+    """Fly worlds, and again at half the step those whose momentum error exceeds the gate."""
     flights = _flown(worlds, options, progress)
-    # In single precision it is off by what is rounded, of which shorter steps make more.
+    # In single precision the error is rounding, which shorter steps increase.
     for _ in range(HALVINGS if options.engine is None else 0):
         coarse = [
             (index, flight.metrics.momentum_error)
@@ -268,7 +268,7 @@ def _flown(
 
 
 def refusal(robot: Robot) -> str:
-    """Why no flight of this robot says anything; empty if they do."""
+    """Why no flight of this robot can be judged; empty if they can."""
     if not robot.legs or up_axis(robot.tree, robot.trunk, robot.legs)[2] == 1.0:
         return ""
     return (

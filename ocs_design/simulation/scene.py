@@ -25,7 +25,7 @@ FLOOR = "ocs_floor"
 
 
 def add_floor(spec: mujoco.MjSpec) -> None:
-    """A plane at z = 0 that meets every geom of the robot, while these do not meet each other."""
+    """Add a plane at z = 0 that collides with every geom of the robot; no others collide."""
     meet_no_link(spec)
     spec.worldbody.add_geom(
         name=FLOOR,
@@ -39,12 +39,13 @@ def add_floor(spec: mujoco.MjSpec) -> None:
 
 
 JUMP_STEP = 5e-4
-"""Time step where legs push off [s]. As they brake after lift-off they turn at 10 to 30 rad/s, and
-Runge-Kutta at 1 ms loses up to 4e-6 of the angular momentum; at half of that, twenty times less."""
+"""Time step of runs in which legs push off [s]. As they brake after lift-off they turn at 10 to
+30 rad/s, and Runge-Kutta at 1 ms loses up to 4e-6 of the angular momentum; at half of that step,
+twenty times less."""
 
 
 class Wheels(StrEnum):
-    """What becomes of the wheels; all worlds have the same sizes, so that they run as one batch."""
+    """State of the wheels; in all of them models have the same sizes, and can run as one batch."""
 
     ACTIVE = "active"
     BRAKED = "braked"
@@ -52,7 +53,7 @@ class Wheels(StrEnum):
 
 
 class Sensor(StrEnum):
-    """What the model measures at the start of each step."""
+    """Sensors of the model, read at the start of each step."""
 
     CONTACT = "ocs_contact"
     COM = "ocs_com"
@@ -61,16 +62,16 @@ class Sensor(StrEnum):
 
 
 def robot_scene(robot: Robot) -> mujoco.MjSpec:
-    """The bare robot on a floor, its legs on drives, with sensors; free to fall."""
+    """The bare robot over a floor, free to fall, with drives on its legs and sensors."""
     spec = build_spec(robot, visuals=False).spec
-    # The robot's own control has no part in the flights.
+    # The robot's own controllers are not simulated.
     for element in [*spec.actuators, *spec.sensors, *spec.keys]:
         spec.delete(element)
-    # Nor what stands in for such a control: only the floor bears the robot's weight.
+    # Nor is the gravity compensation that stands in for them: only the floor bears its weight.
     for body in spec.bodies[1:]:
         body.gravcomp = 0.0
-    # Posture and drives are the tree's, which has closed chains cut open and as free what an
-    # equality holds still or leads along a curve.
+    # Posture and drives follow the tree, in which closed chains are cut open and joints are free
+    # that an equality would hold still or couple nonlinearly.
     led = {name for name, joint in robot.tree.joints.items() if joint.mimic is not None}
     for tie in list(spec.equalities):
         if tie.type in TIES or (tie.type == mujoco.mjtEq.mjEQ_JOINT and tie.name1 not in led):
@@ -80,7 +81,7 @@ def robot_scene(robot: Robot) -> mujoco.MjSpec:
     hold_other_joints(spec, robot)
     kind, object_kind = mujoco.mjtSensor, mujoco.mjtObj
     root, trunk = robot.tree.bodies[0].name, trunk_body(spec, robot)[0].name
-    # Data "found", no reduction, one slot: it counts the contacts of the floor.
+    # Data "found", no reduction, one slot: the sensor counts contacts with the floor.
     found = [1, 0, 1]
     for name, measured, of, target, parameters in (
         (Sensor.CONTACT, kind.mjSENS_CONTACT, object_kind.mjOBJ_GEOM, FLOOR, found),
@@ -98,16 +99,17 @@ def robot_scene(robot: Robot) -> mujoco.MjSpec:
 ANCHOR = "ocs_pivot"
 
 ANCHORED, _LITTLE = 1e7, 1e-10
-"""Mass and inertia of an anchor over those of the robot, by which the pivot gives way, and inertia
-about what is free."""
+"""Mass of an anchor, and its inertia about held axes, over the robot's, which set how little the
+pivot yields; its inertia about free axes."""
 
 
 def _anchor(spec: mujoco.MjSpec, robot: Robot, maneuver: Pivoted) -> None:
-    """Hold a point of the trunk in place, or an edge, by a body that gravity does not pull.
+    """Hold a point or an edge of the trunk in place by a body without weight.
 
-    The free joint stays, and with it the layout of the state. The body has so much mass that the
-    centre of mass of all is at the pivot, and for an edge so much inertia across it that nothing
-    turns but about it. All joints of the robot are held, and nothing meets the floor.
+    The free joint stays, and with it the layout of the state. The body is so heavy that the centre
+    of mass of the whole is at the pivot; for an edge its inertia across the edge is so large that
+    the robot turns about the edge only. All joints of the robot are held, and nothing touches the
+    floor.
     """
     trunk, base = trunk_body(spec, robot)
     mass = ANCHORED * robot.mass
@@ -144,11 +146,11 @@ def compile_scene(
     *,
     pivoted: Pivoted | None = None,
 ) -> mujoco.MjModel:
-    """The scene with the device on it, on a pivot if told; `scene` itself stays as it is."""
+    """The scene with the device, and a pivot if given; `scene` itself is not changed."""
     spec = scene.copy()
     attach_device(spec, robot, device)
     if wheels is Wheels.ABSENT:
-        # Without mass, at the same place: all worlds of a batch have the same sizes.
+        # Massless, but still there: all worlds of a batch have the same sizes.
         for each in device_bodies(device):
             body = spec.body(each.name)
             body.mass, body.inertia = 1e-9, np.full(3, 1e-12)
@@ -163,8 +165,8 @@ def compile_scene(
             spec.joint(name).armature = HELD_ARMATURE
     model = spec.compile()
     if wheels is Wheels.ABSENT:
-        # Only now: a geom that touches nothing would be compiled to other sizes, and the worlds
-        # of a batch share their working memory.
+        # Only after compiling: a geom that collides with nothing would change the compiled sizes,
+        # and the worlds of a batch share their working memory.
         flywheels = [model.body(name).id for name in flywheel_names(device)]
         model.geom_conaffinity[np.isin(model.geom_bodyid, flywheels)] = 0
     return model

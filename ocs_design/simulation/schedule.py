@@ -1,8 +1,8 @@
-"""What is known of a run before it starts: references of trunk and legs, and outer torques.
+"""Schedule of a run, known before it starts: references of trunk and legs, and external torques.
 
 `K_p (q_ref - q) + K_d (q_dot_ref - q_dot) + tau_ref` (paper, section 4) is what a position drive
-does whose command is `q_ref + (K_d q_dot_ref + tau_ref) / K_p`; its limit of force holds for the
-sum. Unlike the wheels' law it needs no feedback from the batch, and changes at every physics step.
+gives for the command `q_ref + (K_d q_dot_ref + tau_ref) / K_p`; its force limit applies to the sum.
+Unlike the wheel law it needs no feedback from the batch, and changes at every physics step.
 """
 
 from collections.abc import Sequence
@@ -23,13 +23,14 @@ from ocs_design.sizing.trajectory.gyrostat import shared_by_others
 from ocs_design.sizing.trajectory.motion import Trajectory
 
 _EARLIEST = 0.5
-"""Share of the push-off before which feet that let go of the ground do not count."""
+"""Share of the push-off before which lost ground contact does not count as lift-off."""
 
 SURE = 5e-3
-"""How long nothing may touch the ground before a robot is taken to fly [s]."""
+"""Time without ground contact after which a robot counts as in flight [s]."""
 
 SCRAPE = 30e-3
-"""A foot that touches so soon after has not let go yet [s]: a hop as short rises by 1 mm."""
+"""A foot that touches again within this time has not lifted off yet [s]: a hop as short rises by
+1 mm."""
 
 NEVER = -1
 
@@ -37,8 +38,8 @@ NEVER = -1
 class FlightClock:
     """Counts each world's control steps since lift-off.
 
-    A ballistic world flies from the start. One that stands is left to itself until its legs have
-    come to rest under its weight, and counts from then.
+    A ballistic world flies from the start. A standing one waits until its legs have come to rest
+    under its weight, and counts from then.
     """
 
     def __init__(self, worlds: Sequence[World], period: float) -> None:
@@ -71,13 +72,13 @@ class FlightClock:
         left[flies] = k + 1 - self._sure
 
     def bears(self, k: int, contact: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Which worlds touch the ground and do not push off from it, whose plan has torques."""
+        """Which worlds touch the ground and are not pushing off, for which plans have torques."""
         n = len(contact)
         return np.asarray(contact & ((self.steps(k, n) >= 0) | (self._earliest[:n] == 0.0)))
 
 
 class LegReferences:
-    """Commands of the joint drives of all worlds, those of equal worlds held once."""
+    """Commands of the joint drives of all worlds; worlds with equal commands share a table."""
 
     def __init__(self, worlds: Sequence[World], hold: int) -> None:
         # Equal for worlds with the same commands.
@@ -96,7 +97,7 @@ class LegReferences:
         self._hold, self._last = hold, length - hold
         self._row = np.array([rows[key] for key in keys])
         self._support = np.stack([world.support for world in worlds])
-        # The last command holds on.
+        # The last command is held.
         self._commands = np.stack(
             [np.pad(table, ((0, length - len(table)), (0, 0)), mode="edge") for table in tables]
         )
@@ -106,7 +107,7 @@ class LegReferences:
 
         Args:
             control: of the first n worlds.
-            bears: whether the legs of each are to bear its weight, shape (n,).
+            bears: whether the legs of each must support its weight, shape (n,).
         """
         first = min(k * self._hold, self._last)
         now = self._commands[self._row[: len(control)], first : first + self._hold]
@@ -147,7 +148,7 @@ def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: floa
         period: from one to the next [s].
 
     Returns:
-        Those instants in place of worlds. The acceleration is zero: the torque holds it.
+        Target with instants in place of worlds. Its acceleration is zero: the torque includes it.
     """
     flying = (times < trajectory.time[-1])[:, None]
     vertical = interpolated(times, trajectory.time, trajectory.vertical)
@@ -156,7 +157,7 @@ def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: floa
     speed = interpolated(times, trajectory.time, trajectory.wheel_speed)
 
     # The mean over each control step of a torque that is linear between samples and zero after the
-    # last: held for a step, it gives the momentum that was planned for that step.
+    # last: held for a step, it gives the momentum planned for that step.
     samples, values = trajectory.time, trajectory.wheel_torque
     until = np.clip(np.append(times, times[-1] + period), samples[0], samples[-1])
     before = np.clip(np.searchsorted(samples, until, side="right") - 1, 0, len(samples) - 2)
@@ -182,18 +183,18 @@ def track(trajectory: Trajectory, law: WheelLaw, times: FloatArray, period: floa
             flying[:, 0],
         )
         return Target(ends, rate, np.zeros_like(rate), np.zeros_like(given), stands, plan)
-    # The law adds the gyroscopic torque of the motion that it sees; that of the motion that was
-    # planned is in the planned torque already.
+    # The law adds the gyroscopic torque of the measured motion; that of the planned motion is
+    # already in the planned torque.
     planned = law.gyroscopic(rate, speed) @ law.torque_map[0, :, 2:].T
     return Target(ends, rate, np.zeros_like(rate), given - planned, stands)
 
 
 Steps: TypeAlias = NDArray[np.int64]
-"""Control steps since lift-off, one number a world; negative on the ground."""
+"""Control steps since lift-off, one number per world; negative on the ground."""
 
 
 class References:
-    """What every trunk should do at each control instant of its flight, tabulated before it."""
+    """References of every trunk at each control instant of its flight, tabulated in advance."""
 
     def __init__(self, worlds: Sequence[World], times: FloatArray, period: float) -> None:
         later = np.append(times, times[-1] + period)
@@ -202,10 +203,10 @@ class References:
         rates = np.stack([world.turn.rate(later) for world in worlds], axis=1)[..., None]
         self._vertical = quaternions.vertical(quaternions.from_axis_angle(axis, angle))
         self._rate = rates[:-1] * axis
-        # The mean over the step that the torque is held for brings the rate to where it should be.
+        # The mean over the step for which the torque is held brings the rate to its next reference.
         self._acceleration = np.diff(rates, axis=0) / period * axis
         self._torque = np.zeros((len(times), len(worlds), len(worlds[0].wheels)))
-        # Where each world's regulated plan begins among the rows of all; samples share theirs.
+        # First row of each world's regulated plan among the rows of all; samples share theirs.
         plans: dict[int, RegulatedPlan] = {}
         self._first_row = np.full(len(worlds), NEVER)
         for index, world in enumerate(worlds):
@@ -221,7 +222,7 @@ class References:
         self._plans = RegulatedPlan.joined(list(plans.values())) if plans else None
 
     def at(self, steps: Steps) -> Target:
-        """References of the worlds in the air, each so many control steps after its lift-off."""
+        """References of the worlds in the air, each at its number of steps since lift-off."""
         rows, plan = (np.maximum(steps, 0), np.arange(len(steps))), None
         if self._plans is not None:
             first = self._first_row[: len(steps)]
@@ -238,7 +239,7 @@ class References:
 
 
 class Pushes:
-    """Outer torques on the trunks [N m] and accelerations [m/s^2] in B, by control steps."""
+    """External torques on the trunks [N m] and accelerations [m/s^2] in B, per control step."""
 
     def __init__(self, worlds: Sequence[World], times: FloatArray, period: float) -> None:
         self._pushed = np.zeros((len(times), len(worlds), 2, 3))
@@ -246,7 +247,7 @@ class Pushes:
             for given in world.pushes:
                 push = given
                 if given.force.any():
-                    # Centre of mass of all that flies, at the start in B.
+                    # Centre of mass of everything that flies, at the start, in B.
                     model, data = world.model, mujoco.MjData(world.model)
                     data.qpos[:] = world.qpos
                     mujoco.mj_kinematics(model, data)
@@ -264,7 +265,7 @@ class Pushes:
         self._last = int(acting[-1]) if acting.size else 0
 
     def at(self, steps: Steps) -> FloatArray | None:
-        """Torque and acceleration of the first worlds, shape (n, 2, 3); None: of none of them."""
+        """Torque and acceleration of the first n worlds, shape (n, 2, 3); None: all are zero."""
         if not ((steps >= self._first) & (steps <= self._last)).any():
             return None
         rows = np.maximum(steps, 0), np.arange(len(steps))
@@ -272,7 +273,7 @@ class Pushes:
 
 
 class StoppedDrives:
-    """Drives that stop in flight, and what the law makes of it once it knows."""
+    """Drives that stop in flight, and how the law shares torques once it knows."""
 
     def __init__(self, worlds: Sequence[World], period: float) -> None:
         count, wheels = len(worlds), len(worlds[0].wheels)
@@ -287,12 +288,12 @@ class StoppedDrives:
                 self._shared[row] = shared_by_others(world.body.axes, stopped.wheel)
 
     def shared(self, steps: Steps) -> FloatArray:
-        """What each motor gives of what all are asked for, see `Target`, shape (n, m, m)."""
+        """Matrices from commands to torques of the running motors, see `Target`, (n, m, m)."""
         known = steps >= self._known[: len(steps)]
         unshared = np.eye(self._runs.shape[1])
         return np.where(known[:, None, None], self._shared[: len(steps)], unshared)
 
     def left(self, steps: Steps, torque: FloatArray) -> FloatArray:
-        """Torques without those of motors that have stopped, shape (n, m)."""
+        """Torques with those of stopped motors set to zero, shape (n, m)."""
         runs = self._runs[: len(steps)] | (steps < self._last[: len(steps)])[:, None]
         return np.where(runs, torque, 0.0)

@@ -1,8 +1,8 @@
-"""The batch engine: one world or thousands, and the poses to show them again.
+"""The batch engine: runs one world or thousands, and extracts poses for replay.
 
-With more than one thread the worlds are dealt to two batches that run beside each other. One
-computes its law while the other has the processors for its physics, and neither waits at every
-control step for threads to wake up, which took as long as the physics of a few worlds.
+With more than one thread the worlds are dealt to two batches that run in parallel. One computes its
+law while the other uses the processors for its physics, and neither waits at every control step for
+threads to wake up, which took as long as the physics of a few worlds.
 """
 
 from collections.abc import Callable, Sequence
@@ -35,16 +35,17 @@ def simulate(
 ) -> Recording:
     """Run all worlds to their ends.
 
-    Worlds of one time step run together, those of another after them, and so do those on a pivot.
+    Worlds with equal time steps run together, one group after another; worlds on a pivot form
+    groups of their own.
 
     Args:
-        worlds: with models of equal sizes, but for the anchor of a pivot.
-        hold: steps of `STEP` per control step, through which torques stay as they are.
-        threads: of the physics; None: one per processor. The numbers do not depend on it.
-        pose_rate: of the recorded poses [1/s]; None: none are, which thousands of worlds have no
-            memory for.
-        progress: told the part of the work that is done, 0..1.
-        engine: that has all worlds in one batch; None: MuJoCo on the processors.
+        worlds: with models of equal sizes, except for the anchor of a pivot.
+        hold: steps of `STEP` per control step, over which torques are held.
+        threads: of the physics; None: one per processor. The results do not depend on it.
+        pose_rate: of the recorded poses [1/s]; None: no poses, for which thousands of worlds would
+            have no memory.
+        progress: called with the share of the work that is done, 0..1.
+        engine: takes all worlds as one batch; None: MuJoCo on the CPU.
     """
     recordings: list[Recording] = []
     places: list[NDArray[np.intp]] = []
@@ -55,7 +56,7 @@ def simulate(
     for step, count in sorted(set(zip(steps.tolist(), bodies.tolist(), strict=True))):
         group = np.flatnonzero((steps == step) & (bodies == count))
         part = float(work[group].sum() / work.sum())
-        # Longest first, and of a pair of equals one to each batch.
+        # Longest first, and equal ones alternate between the batches.
         order = group[
             np.argsort([-worlds[index].duration for index in group.tolist()], kind="stable")
         ]
@@ -67,7 +68,7 @@ def simulate(
             for share in shares
         ]
         within = scaled(progress, done, done + part)
-        # MuJoCo would write MUJOCO_LOG.TXT where the user stands; `Recording.stable` tells.
+        # MuJoCo would write MUJOCO_LOG.TXT into the working directory; `Recording.stable` has it.
         before = mujoco.get_mju_user_warning()
         mujoco.set_mju_user_warning(lambda _message: None)
         try:
@@ -81,14 +82,14 @@ def simulate(
 
 
 def scaled(progress: Progress | None, begin: float, end: float) -> Progress:
-    """Progress of a part of the work that begins and ends at these shares of all of it."""
+    """Progress of a part of the work that runs from share `begin` to share `end` of the whole."""
     if progress is None:
         return _ignore
     return lambda share: progress(begin + (end - begin) * share)
 
 
 def _run_beside(batches: Sequence[Batch], threads: int, progress: Progress) -> list[Recording]:
-    """Run the first batch here, whose progress is told, and the others each in its own thread."""
+    """Run the first batch here and report its progress; run each other one in a thread."""
     stop = Event()
     with ThreadPoolExecutor(max(len(batches) - 1, 1)) as others:
         try:
@@ -96,13 +97,13 @@ def _run_beside(batches: Sequence[Batch], threads: int, progress: Progress) -> l
             first = batches[0].run(threads, stop, progress)
             recordings = [first, *(future.result() for future in running)]
         finally:
-            # Whatever ends the first batch early, an interrupt above all, must end the others too.
+            # Whatever ends the first batch early, such as an interrupt, must end the others too.
             stop.set()
     return recordings
 
 
 def _ignore(_done: float) -> None:
-    """Progress that nobody watches."""
+    """Ignore progress."""
 
 
 POSE_RATE = 60.0

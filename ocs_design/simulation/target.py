@@ -1,4 +1,4 @@
-"""What trunks should do at one instant: what the wheel law is told besides what it measures."""
+"""Targets of trunks at one instant: the wheel law's input besides its measurements."""
 
 from dataclasses import dataclass, replace
 
@@ -11,13 +11,13 @@ from ocs_design.common.arrays import FloatArray, Table
 
 @dataclass(frozen=True, eq=False)
 class RegulatedPlan(Table):
-    """Planned states of n worlds at one instant, and the gains that keep a trunk on them.
+    """Planned states of n worlds at one instant, and the gains that hold a trunk to them.
 
     Attributes:
         attitude: quaternions (n, 4). rate: in B [rad/s], (n, 3). wheel_speed: [rad/s], (n, m).
         wheel_torque: of the motors [N m], (n, m).
         gains: see `Trajectory`, (n, m, 6 + m).
-        holds: whether a world follows such a plan now, (n,).
+        holds: whether each world follows such a plan now, (n,).
     """
 
     attitude: FloatArray
@@ -28,7 +28,7 @@ class RegulatedPlan(Table):
     holds: NDArray[np.bool_]
 
     def torque(self, attitude: FloatArray, rate: FloatArray, speed: FloatArray) -> FloatArray:
-        """Planned torque less the gains times the errors [N m], shape (n, m)."""
+        """Planned torque minus the gains times the errors [N m], shape (n, m)."""
         off = quaternions.product(quaternions.conjugate(self.attitude), attitude)
         error = np.concatenate(
             [quaternions.rotation_vector(off), rate - self.rate, speed - self.wheel_speed], axis=1
@@ -44,16 +44,16 @@ class Target(Table):
     Attributes:
         vertical: the world's upward direction in B, unit vectors (n, 3). The heading
             is free.
-        rate, acceleration: in B [rad/s, rad/s^2], shape (n, 3); about yaw they count where the
+        rate, acceleration: in B [rad/s, rad/s^2], shape (n, 3); about yaw they count only if the
             wheels span all three axes.
-        torque: of the motors, on top of what the acceleration and the gyroscopic torque of the
-            moment ask for [N m], shape (n, m).
-        stands: whether the feet are on the ground, shape (n,). Three legs and more then hold the
-            attitude and the wheels only damp: whatever the stance leans by, wheels that push
-            against it run up to their top speed and are of no use any more.
-        plan: that worlds follow with gains of their own in place of all this; None: none does.
-        shared: what each motor gives of what all are asked for, shape (n, m, m), where drives have
-            stopped (`shared_by_others`); None: all run.
+        torque: of the motors, in addition to those for the acceleration and the present gyroscopic
+            torque [N m], shape (n, m).
+        stands: whether the feet are on the ground, shape (n,). Three or more legs then hold the
+            attitude and the wheels only damp: if the stance leans, wheels that push against it run
+            up to their top speed and become useless.
+        plan: that worlds follow with its own gains instead of all this; None: none does.
+        shared: matrices from the torques asked of all motors to those of the motors still running
+            (`shared_by_others`), shape (n, m, m); None: all run.
     """
 
     vertical: FloatArray
@@ -65,7 +65,7 @@ class Target(Table):
     shared: FloatArray | None = None
 
     def landed(self, contact: NDArray[np.bool_]) -> "Target":
-        """Target with the worlds at rest whose feet are on the ground, as plans end there."""
+        """Target with rest for worlds whose feet are on the ground, where plans end."""
         left, plan = ~contact[:, None], self.plan
         return Target(
             self.vertical,
@@ -82,8 +82,8 @@ class StoppedDrive:
     """A drive that stops in flight: its motor gives no torque, and its wheel runs on.
 
     Attributes:
-        wheel: which, from 0. instant: from lift-off or release [s].
-        detection: from then until the law knows of it [s].
+        wheel: index, from 0. instant: from lift-off or release [s].
+        detection: time from `instant` until the law knows of it [s].
     """
 
     wheel: int

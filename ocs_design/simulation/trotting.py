@@ -1,7 +1,7 @@
-"""A trot on the spot by the joint drives alone: the feet lift in diagonal pairs, turn by turn.
+"""A trot on the spot by the joint drives alone: the feet lift in alternating diagonal pairs.
 
-Nothing places the feet by what the trunk does: what calms a robot that is shoved is that its feet
-stand apart, and the device.
+Foot placement does not react to the trunk: only the width of the stance and the device steady a
+robot that is shoved.
 """
 
 from collections.abc import Iterable
@@ -19,21 +19,21 @@ from ocs_design.robot.robot import Robot
 from ocs_design.robot.stance import lifted
 
 STEP_HEIGHT = 0.02
-"""How high Solo12 lifts its feet [m]; other robots in proportion."""
+"""Height to which Solo12 lifts its feet [m]; other robots in proportion."""
 
 DUTY = 0.8
 """Share of its stride that a foot is on the ground: all four are for three fifths of it. While two
-are in the air a robot with narrow feet topples, and has to be caught again (A1 is not at 0.7)."""
+are in the air a robot with a narrow stance topples, and must recover (A1 does not at 0.7)."""
 
 _UNLOADING = 3.0
-"""A foot bears nothing from a ninth of its swing on: `3 sin(pi s) = 1`."""
+"""A foot is unloaded after a ninth of its swing: `3 sin(pi s) = 1`."""
 
 TROTTED = 3.0
-"""How long it trots before it is shoved, over how long others stand."""
+"""Time of trotting before the shove, over the time for which robots otherwise stand."""
 
 _QUADRANTS = 4
 _SAMPLE = 2e-3
-"""[s], between two samples of the references."""
+"""Time between two samples of the references [s]."""
 
 _HEIGHTS = 21
 
@@ -41,19 +41,19 @@ _HEIGHTS = 21
 def waiting(
     maneuver: Maneuver, robot: Robot, weight: float, settling: float
 ) -> tuple[float | None, LegTrajectory | None]:
-    """How long a robot waits on the ground until it is shoved [s], and what its legs track.
+    """Time that a robot waits on the ground for its shove [s], and what its legs track meanwhile.
 
-    It stands until they have given way under its weight, or trots.
+    It stands until its legs have settled under its weight, or trots.
 
     Returns:
-        None: it is not shoved; None: the legs hold their posture.
+        Time, None if it is not shoved; trajectory, None if the legs hold their posture.
 
     Args:
         weight: of the robot with what it carries [N].
-        settling: how long it stands, and is watched afterwards [s].
+        settling: how long it stands, and is simulated after the shove [s].
 
     Raises:
-        SpecificationError: it is to trot and has no two diagonal pairs of point feet.
+        SpecificationError: it is to trot but lacks two diagonal pairs of point feet.
     """
     if not isinstance(maneuver, Shove):
         return None, None
@@ -64,10 +64,10 @@ def waiting(
 
 
 def require_trot(maneuvers: Iterable[Maneuver], robot: Robot) -> None:
-    """Refuse what the robot cannot do before anything else is done for it.
+    """Refuse maneuvers with a trot for a robot that cannot trot.
 
     Raises:
-        SpecificationError: one of them has it trot, and it cannot.
+        SpecificationError: one of them needs a trot, and the robot cannot trot.
     """
     if any(isinstance(maneuver, Shove) and maneuver.stride for maneuver in maneuvers):
         _pairs(robot, leg_geometries(robot.tree, robot.trunk, robot.legs))
@@ -76,21 +76,21 @@ def require_trot(maneuvers: Iterable[Maneuver], robot: Robot) -> None:
 def trot(
     robot: Robot, stride: float, start: float, duration: float, weight: float
 ) -> LegTrajectory:
-    """What the joints track in a trot on the spot.
+    """Joint references of a trot on the spot.
 
     Args:
-        stride: of each foot [s].
-        start: in which the steps grow from nothing to their height [s]. duration: of all of it [s].
+        stride: period of each foot [s].
+        start: time over which the steps grow from zero to full height [s]. duration: in all [s].
         weight: of the robot with what it carries [N].
 
     Raises:
-        SpecificationError: the robot has no two diagonal pairs of point feet.
+        SpecificationError: the robot lacks two diagonal pairs of point feet.
     """
     geometries = leg_geometries(robot.tree, robot.trunk, robot.legs)
     height = STEP_HEIGHT * Scale.of(robot).length
     time = np.arange(0.0, duration + _SAMPLE, _SAMPLE)
     growth = np.clip(time / start, 0.0, 1.0)
-    # Share of its swing that each foot has behind it, 0 where it stands.
+    # Completed share of each foot's swing; 0 in stance.
     phase = (time / stride + 0.5 * _pairs(robot, geometries)[:, None]) % 1.0
     swing = np.maximum(phase - DUTY, 0.0) / (1.0 - DUTY)
     share = 1.0 - growth * np.minimum(1.0, _UNLOADING * np.sin(np.pi * swing))
@@ -109,12 +109,12 @@ def trot(
 
 
 def shoved_at(stride: float, earliest: float) -> float:
-    """The first instant from `earliest` on at which the first pair of feet lifts [s]."""
+    """First instant not before `earliest` at which the first pair of feet lifts [s]."""
     return float((np.ceil(earliest / stride - DUTY) + DUTY) * stride)
 
 
 def _pairs(robot: Robot, geometries: tuple[LegGeometry, ...]) -> FloatArray:
-    """Which of both diagonals each foot is on, shape (feet,)."""
+    """Diagonal that each foot is on, 0 or 1, shape (feet,)."""
     obstacle = obstacle_to_jumping(robot)
     postures = [np.array([robot.posture[n] for n in each.chain.names]) for each in geometries]
     feet = np.array(
@@ -141,13 +141,13 @@ def _lifting(
     The foot goes straight up from the nominal posture.
 
     Args:
-        each: the leg. highest: it lifts its foot [m].
+        each: the leg. highest: largest lift of its foot [m].
         lift: of the foot [m], shape (k,). force: of the ground on it, upwards [N], shape (k,).
     """
     chain, leg, heights = each.chain, each.leg, np.linspace(0.0, highest, _HEIGHTS)
     posture = np.array([robot.posture[name] for name in chain.names])
     positions = lifted(chain, leg.foot, leg.length, posture, heights)
-    # Torques with which the joints hold against 1 N on the foot.
+    # Joint torques that balance 1 N on the foot.
     poses = [chain.pose(values) for values in positions]
     bearing = [-chain.point_jacobian(pose, pose.point(leg.foot))[2] for pose in poses]
     torques = interpolated(lift, heights, np.array(bearing)) * force[:, None]

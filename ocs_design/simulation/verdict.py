@@ -18,18 +18,18 @@ from ocs_design.simulation.wheel_law import tilt_error
 from ocs_design.sizing.trajectory.boundary import boundary
 
 REST_RATE = np.radians(5.0)
-"""Largest rate of a robot that stands at rest before it is shoved [rad/s]."""
+"""Largest turning rate of a robot that counts as at rest [rad/s]."""
 
 MOMENTUM_GATE = 1e-6
 """Largest relative momentum error of a flight that is judged at all."""
 
 NUTATION_LIMIT = 0.05
-"""Largest nutation per step [rad]: Runge-Kutta turns `x` by `x^5 / 120` too little (the first term
-that it leaves out of `exp(i x)`), here 1e-3 rad in four hundred steps."""
+"""Largest nutation per step [rad]: Runge-Kutta turns a nutation of `x` by `x^5 / 120` too little
+(the first term of `exp(i x)` that it omits), here 1e-3 rad in four hundred steps."""
 
 
 class Fault(StrEnum):
-    """What kept a run from passing."""
+    """Reasons why a run did not pass."""
 
     UNSOUND = "not judged"
     TURN = "turned too little or too far"
@@ -40,14 +40,14 @@ class Fault(StrEnum):
 
 @dataclass(frozen=True)
 class Verdict:
-    """What is to be said of a run.
+    """Verdict on a run.
 
     Attributes:
-        passed: see `judge`; None where it cannot be judged. reason: why, in one sentence.
+        passed: see `judge`; None if it cannot be judged. reason: why, in one sentence.
         fault: what kept it from passing.
         level: whether it touches down level; None: not judged, or there is no touchdown.
-        stands: whether it is upright at the end, whatever its legs bear; None: not judged, or it
-            has no legs.
+        stands: whether it is upright at the end, even if its legs cannot bear a level landing;
+            None: not judged, or there is nothing to stand on.
     """
 
     passed: bool | None
@@ -71,9 +71,9 @@ def judge(
     Args:
         metrics: of the run; None if it became unstable.
         can_stand: whether the robot stays up on its joint drives after a level landing from this
-            flight; None for a robot without legs, and in orbit. Where it does not, "upright at the
+            flight; None for a robot without legs, and in orbit. If it does not, "upright at the
             end" says nothing about the device and is not judged.
-        objection: to the run whatever its figures are, see `metrics`; empty if there is none.
+        objection: reason not to judge the run whatever its figures, see `metrics`; empty if none.
         gate: largest relative momentum error that is judged.
     """
     unsound = objection or _unsound(metrics, maneuver, gate)
@@ -99,7 +99,7 @@ def judge(
 def _landing_verdict(
     metrics: Metrics, maneuver: Maneuver, can_stand: bool | None, legs: int
 ) -> Verdict:
-    """Verdict on a robot that comes down from the air; see `judge`."""
+    """Verdict on a robot that lands from a flight; see `judge`."""
     failure = _flight_failure(metrics, maneuver)
     if failure is not None:
         return failure
@@ -130,13 +130,13 @@ def _landing_verdict(
 
 
 def _shove_verdict(metrics: Metrics, maneuver: Maneuver, can_stand: bool | None) -> Verdict:
-    """Verdict on a robot that is shoved as it stands; see `judge`."""
+    """Verdict on a robot that is shoved while it stands; see `judge`."""
     unjudged = ""
     if can_stand is None:
         unjudged = "the robot has no legs to stand on"
     elif not can_stand:
         unjudged = "the legs cannot keep the robot up even without the shove"
-    # What a shove has for touchdown is the instant that it begins.
+    # For a shove, touchdown is the instant at which it begins.
     elif off_at_touchdown(metrics, maneuver) > LANDING_TOLERANCE:
         unjudged = (
             f"the robot does not stand level by itself: it leans by {_tilt(metrics)} before the "
@@ -175,16 +175,16 @@ def _pivot_verdict(metrics: Metrics, maneuver: Pivoted) -> Verdict:
 
 
 def comes_down_well(metrics: Metrics | None, maneuver: Maneuver) -> bool:
-    """Whether a run passes in everything but standing."""
+    """Whether a run passes in everything except standing."""
     if metrics is None or _unsound(metrics, maneuver):
         return False
     return _flight_failure(metrics, maneuver) is None
 
 
 def stands(metrics: Metrics | None) -> bool:
-    """Whether a run ends on the feet, with half the tilt still to spare.
+    """Whether a run ends on the feet, within half the tilt allowed.
 
-    A robot that is slowly toppling over passes 45 deg some time after it was last looked at.
+    A robot that is slowly toppling may pass 45 deg only after the run has ended.
     """
     if metrics is None or not metrics.upright_at_end:
         return False
@@ -193,7 +193,7 @@ def stands(metrics: Metrics | None) -> bool:
 
 
 def _unsound(metrics: Metrics | None, maneuver: Maneuver, gate: float = MOMENTUM_GATE) -> str:
-    """Why a run says nothing; empty if it is sound."""
+    """Why a run cannot be judged; empty if it is sound."""
     if metrics is None:
         return "not judged: the simulation became unstable"
     if metrics.nutation > NUTATION_LIMIT:
@@ -241,7 +241,7 @@ def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> Verdict | None:
 
 
 def landing_attitude(maneuver: Maneuver) -> tuple[float, float, float | None]:
-    """Roll, pitch and heading that a trunk shall have at touchdown [rad]; None: any heading."""
+    """Roll, pitch and heading specified for touchdown [rad]; None: any heading."""
     if not isinstance(maneuver, TurnTo) or maneuver.end != End.ATTITUDE:
         return 0.0, 0.0, None
     attitude = boundary(maneuver, 0.0).final_attitude
@@ -250,18 +250,18 @@ def landing_attitude(maneuver: Maneuver) -> tuple[float, float, float | None]:
 
 
 def lands_on_legs(maneuver: Maneuver) -> bool:
-    """Whether the attitude that is asked for at touchdown is one in which a robot stands."""
+    """Whether a robot can stand in the attitude specified for touchdown."""
     roll, pitch, _ = landing_attitude(maneuver)
     return bool(np.cos(roll) * np.cos(pitch) >= np.cos(UPRIGHT_TILT))
 
 
 def ends_anyhow(maneuver: Maneuver) -> bool:
-    """Whether a maneuver may end at any attitude, as a turn that shall only stop may."""
+    """Whether a maneuver may end at any attitude, such as a turn that only has to stop."""
     return isinstance(maneuver, TurnTo) and maneuver.end == End.AT_REST
 
 
 def _landing_failure(metrics: Metrics, maneuver: Maneuver) -> str:
-    """What is wrong with the attitude at touchdown; empty if it is level, or as asked."""
+    """What is wrong with the attitude at touchdown; empty if it is level, or as specified."""
     if ends_anyhow(maneuver):
         if metrics.touchdown_rate <= REST_RATE:
             return ""
@@ -277,21 +277,22 @@ def _landing_failure(metrics: Metrics, maneuver: Maneuver) -> str:
 
 
 def _vertical(roll: FloatArray, pitch: FloatArray) -> FloatArray:
-    """World's upward direction in B, of angles as `quaternions.tilt` has them, shape (3, ...)."""
+    """World's upward direction in B for angles as `quaternions.tilt` gives, shape (3, ...)."""
     return np.array([-np.sin(pitch) * np.cos(roll), np.sin(roll), np.cos(pitch) * np.cos(roll)])
 
 
 def off_at_touchdown(metrics: Metrics, maneuver: Maneuver) -> float:
-    """Off what is asked at touchdown [rad]: larger of roll and pitch, or angle of the verticals.
+    """Attitude error at touchdown [rad]: larger of roll and pitch, or angle between the verticals.
 
-    Of a trunk on its side the pitch is any angle: what counts there is where the vertical is.
+    The verticals count unless a level landing is specified: a trunk on its side has no definite
+    pitch.
     """
     ended = np.array([metrics.touchdown_roll]), np.array([metrics.touchdown_pitch])
     return float(off_asked(*ended, maneuver)[0])
 
 
 def off_asked(roll: FloatArray, pitch: FloatArray, maneuver: Maneuver) -> FloatArray:
-    """Angles off what is asked at n touchdowns with this roll and pitch [rad], each (n,)."""
+    """Attitude errors at n touchdowns with this roll and pitch [rad], shape (n,)."""
     asked_roll, asked_pitch, _ = landing_attitude(maneuver)
     if asked_roll == asked_pitch == 0.0:
         return np.maximum(np.abs(roll), np.abs(pitch))
@@ -300,10 +301,10 @@ def off_asked(roll: FloatArray, pitch: FloatArray, maneuver: Maneuver) -> FloatA
 
 
 def tilts_off(roll: FloatArray, pitch: FloatArray, maneuver: Maneuver) -> FloatArray:
-    """Roll and pitch off what is asked at n touchdowns [rad], shape (2, n).
+    """Errors of roll and pitch at n touchdowns [rad], shape (2, n).
 
-    Where it is not level, about the trunk's own axes: a pitch of -179 deg is 1 deg off 180, and on
-    its side a trunk has no pitch.
+    They are about the trunk's own axes unless a level landing is specified: a pitch of -179 deg is
+    1 deg off 180, and a trunk on its side has no definite pitch.
     """
     asked_roll, asked_pitch, _ = landing_attitude(maneuver)
     if asked_roll == asked_pitch == 0.0:
@@ -329,6 +330,6 @@ def _angles(pitch: float, roll: float) -> str:
 
 
 def _degrees(angle: float) -> str:
-    """Angle [rad] in degrees with one digit, and no minus in front of zero."""
+    """Angle [rad] in degrees with one decimal, and no minus sign before zero."""
     text = f"{np.degrees(angle):.1f}"
     return "0.0" if text == "-0.0" else text

@@ -1,7 +1,7 @@
 """MuJoCo Warp as the physics of campaigns: all worlds at once on a GPU, in single precision.
 
-Models go to the device before the first step, those of their arrays that differ with a row for each
-world. States and commands follow at every control step, and the law stays where it is.
+Models go to the device before the first step; arrays that differ between them have a row for each
+world. States and commands follow at every control step, and the law stays on the CPU.
 """
 
 from collections.abc import Sequence
@@ -23,29 +23,29 @@ from ocs_design.simulation.engine import Engine
 from ocs_design.simulation.scene import ANCHOR
 
 SINGLE_GATE = 1e-4
-"""Largest relative momentum error of a flight in single precision that is judged at all: of a whole
-turn it is 0.04 deg."""
+"""Largest relative momentum error of a flight in single precision that is judged at all: 0.04 deg
+in a whole turn."""
 
 _DENSE = 60
-"""Most degrees of freedom for which MuJoCo Warp takes a dense Jacobian."""
+"""Most degrees of freedom for which MuJoCo Warp supports a dense Jacobian."""
 
 _TOUCHES = 4
 """Most contacts of a geom with a plane."""
 
 _NO_MATTER = {"disableflags", "dof_length"}
-"""What may differ all the same: a flag that is lowered for all, and what sleeping is decided by."""
+"""Fields that may differ: a flag that is cleared for all, and a length used only for sleeping."""
 
 _PUSHED = mujoco.mjtState.mjSTATE_XFRC_APPLIED.value
 
 
 def warp_engine(device: str | None = None) -> Engine:
-    """MuJoCo Warp on a device by its name there; None: the first GPU.
+    """MuJoCo Warp on a device, by Warp's name for it; None: the first GPU.
 
     Raises:
         MissingToolError: it is not installed, or there is no GPU.
     """
     try:
-        # First: it says on standard output what it compiles.
+        # Before the import below: Warp reports on standard output what it compiles.
         warp = import_module("warp")
         warp.config.log_level = warp.LOG_WARNING
         simulator = import_module("mujoco_warp")
@@ -71,7 +71,7 @@ class WarpPhysics:
 
     def __init__(self, warp: ModuleType, simulator: ModuleType, device: str) -> None:
         self._warp, self._simulator, self._device = warp, simulator, device
-        # What is there once the first worlds are: host's model, device's model, and its state.
+        # Set with the first worlds: the host's model, the device's model, and the device's state.
         self._first: Any = None
         self._model: Any = None
         self._data: Any = None
@@ -104,7 +104,7 @@ class WarpPhysics:
                 self._data = self._simulator.make_data(
                     self._first, nworld=len(model), nconmax=contacts, njmax=rows
                 )
-            # Where the worlds are, with nothing left of what was before.
+            # Set the states of the worlds, and clear everything left from earlier steps.
             first = self._first
             qpos, qvel = np.split(initial_state[:, 1 : 1 + first.nq + first.nv], [first.nq], axis=1)
             self._data.qpos.assign(_single(qpos))
@@ -112,24 +112,24 @@ class WarpPhysics:
             self._data.qacc_warmstart.zero_()
             self._data.xfrc_applied.zero_()
             self._step(control, bool(control_spec & _PUSHED), nstep, state, sensordata)
-        # Time is exact: in single precision the sum of the steps is not.
+        # Time computed exactly: the sum of the steps in single precision is not exact.
         steps = np.arange(1, nstep + 1) * model[0].opt.timestep
         state[..., 0] = initial_state[:, :1] + steps
 
     def _put(self, models: Sequence[mujoco.MjModel]) -> None:
-        """Copy the models to the device, equal arrays once.
+        """Copy the models to the device, with equal arrays only once.
 
         Raises:
-            OcsError: MuJoCo Warp cannot take them.
+            OcsError: MuJoCo Warp cannot simulate them.
         """
         if mujoco.mj_name2id(models[0], mujoco.mjtObj.mjOBJ_BODY, ANCHOR) >= 0:
-            # Beside 1e7 times its mass nothing is left of a robot's in seven digits.
+            # Added to an anchor of 1e7 times its mass, a robot's mass vanishes in seven digits.
             raise OcsError(
                 "--engine warp: maneuvers about a pivot need double precision",
                 hint="leave --engine out",
             )
         first = copy(models[0])
-        # It never resets a state that is not finite, and knows no flag for that.
+        # Warp never resets a state that is not finite, and does not know this flag.
         first.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
         if first.nv > _DENSE:
             first.opt.jacobian = mujoco.mjtJacobian.mjJAC_AUTO
@@ -142,15 +142,15 @@ class WarpPhysics:
                 f"--engine warp: MuJoCo Warp cannot simulate these flights: {error}",
                 hint="leave --engine out",
             ) from error
-        # Contacts and sums in the same order, whatever else flies along.
+        # Contacts and sums in the same order, whichever worlds run together.
         put.opt.deterministic = int(self._simulator.DeterminismType.ALL)
         self._first, self._model = first, put
 
     def _give_each_its_own(self, put: Any, sources: Sequence[Any]) -> None:  # noqa: ANN401 - optional
-        """Replace every array of `put` by one with a row for each source where these differ.
+        """Replace every array of `put` in which sources differ by one with a row for each source.
 
         Raises:
-            ValueError: they differ in what there is one of for all.
+            ValueError: sources differ in a field that all worlds share.
         """
         for field in fields(put):
             values: list[Any] = [getattr(each, field.name, None) for each in sources]
@@ -168,7 +168,7 @@ class WarpPhysics:
     def _step(
         self, control: FloatArray, pushed: bool, nstep: int, state: FloatArray, sensed: FloatArray
     ) -> None:
-        """Step all worlds; wrenches follow the commands of the actuators where they are pushed."""
+        """Step all worlds; if `pushed`, wrenches follow the actuators' commands in `control`."""
         warp, data, first = self._warp, self._data, self._first
         commands = warp.array(_single(control[..., : first.nu].swapaxes(0, 1)))
         wrenches = None
@@ -193,10 +193,10 @@ class WarpPhysics:
 
 
 def room(model: mujoco.MjModel) -> tuple[int, int]:
-    """Most contacts with the floor of a scene, and most rows of its constraints."""
+    """Most floor contacts of a scene, and most rows of its constraints."""
     meets = (model.geom_contype | model.geom_conaffinity) != 0
     contacts = _TOUCHES * int(np.count_nonzero(meets & (model.geom_bodyid > 0)))
-    # Pyramids of friction have two edges for each of its directions.
+    # A friction pyramid has two edges for each of its directions.
     widest = max(1, 2 * (int(model.geom_condim.max()) - 1))
     others = model.nv + model.njnt + 6 * model.neq + 2 * model.ntendon
     return max(contacts, 1), widest * contacts + others

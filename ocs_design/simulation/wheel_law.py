@@ -1,8 +1,8 @@
 """The wheel law of the paper, within the motors' limits, for a batch of worlds at once.
 
-`tau_fb = -I_r (K_p e + K_d e_dot) - w x (I_r w)`, `u = C^T tau_fb` (paper, section 3.3), with what
-docs/theory.md adds: the motor torque acts on the wheel and its reaction on the trunk; the
-wheels' own momentum is compensated; the pseudo-inverse gives the commanded torque where the
+`tau_fb = -I_r (K_p e + K_d e_dot) - w x (I_r w)`, `u = C^T tau_fb` (paper, section 3.3), with the
+additions of docs/theory.md: the motor torque acts on the wheel and its reaction on the trunk; the
+wheels' own momentum is compensated; the pseudo-inverse gives the commanded torque, whereas the
 paper's transpose gives it scaled by `C C^T`.
 """
 
@@ -34,17 +34,17 @@ class Gains:
 
 @dataclass(frozen=True, eq=False)
 class WheelLaw(Table):
-    """The law's constants for n worlds of m wheels each; every array has the worlds first.
+    """The law's constants for n worlds of m wheels each; worlds are the first axis of every array.
 
     Attributes:
         momentum_map: `[I_tot, h A]`, from trunk rate and wheel speeds to momentum,
             shape (n, 3, 3 + m).
         torque_map: from roll and pitch acceleration and the gyroscopic torque to motor torques,
             shape (n, m, 5).
-        heading_map: from yaw acceleration to motor torques, shape (n, m); zero where the wheels do
+        heading_map: from yaw acceleration to motor torques, shape (n, m); zero if the wheels do
             not span all three axes.
         stiffness, damping: `Gains`, shape (n,).
-        standing_stiffness, standing_damping: in their place on the ground, shape (n,).
+        standing_stiffness, standing_damping: gains used on the ground instead, shape (n,).
         limits: of the motors as the law uses them, arrays of shape (n, 1).
         wheel_response: see `Gyrostat`, shape (n,).
     """
@@ -76,8 +76,8 @@ class WheelLaw(Table):
         J = body.actuated_inertia
         from_tilt, from_gyroscopic, from_yaw = J[:, :2], np.eye(3), J[:, 2]
         if np.linalg.matrix_rank(body.axes, NO_AUTHORITY) < len(J):
-            # The wheels cannot push about z, so its row is no command but says which yaw
-            # acceleration comes with the other two.
+            # The wheels cannot push about z, so its row is not a command but gives the yaw
+            # acceleration that comes with the other two.
             yaw = J[:, 2:] / J[2, 2]
             from_tilt = J[:, :2] - yaw @ J[2:, :2]
             from_gyroscopic = np.eye(3) - yaw @ np.array([[0.0, 0.0, 1.0]])
@@ -105,7 +105,7 @@ class WheelLaw(Table):
 
     @property
     def is_off(self) -> bool:
-        """Whether none of the motors ever pushes."""
+        """Whether no motor ever gives torque."""
         return not np.any(self.limits.torque_limit)
 
     def torque(
@@ -125,7 +125,7 @@ class WheelLaw(Table):
             rate: of the trunk in B [rad/s], (n, 3).
             wheel_speed: relative to the trunk [rad/s], (n, m).
             period: for which the torque will be held [s].
-            attitude: quaternions (n, 4), where the target has a regulated plan.
+            attitude: quaternions (n, 4), needed if the target has a regulated plan.
         """
         error = tilt_error(vertical, target.vertical)
         slip = target.rate - rate
@@ -147,7 +147,7 @@ class WheelLaw(Table):
         return self.possible(asked, wheel_speed, period)
 
     def possible(self, torque: FloatArray, wheel_speed: FloatArray, period: float) -> FloatArray:
-        """Torques cut to what motors and supply can give; shapes as of `torque`."""
+        """Torques clipped to what motors and supply can give; shapes as in `torque`."""
         gain = (self.wheel_response * period)[:, None]
         cut = self.limits.clipped(torque, wheel_speed, gain)
         return self.limits.within_supply(cut, wheel_speed, gain)
@@ -163,10 +163,10 @@ class WheelLaw(Table):
 def tilt_error(vertical: FloatArray, target: FloatArray) -> FloatArray:
     """Turn about roll and pitch that takes the trunk to its target [rad], in B, shape (n, 2).
 
-    The attitude error in SO(3) after the target is turned about the vertical to the heading that
-    the trunk has: two wheels cannot command yaw, and a heading that drifts must not twist roll and
-    pitch. What is left is the swing of the swing-twist split: the smallest turn that brings the
-    vertical, as seen from the trunk, to where the target sees it.
+    The attitude error in SO(3) after the target is turned about the vertical to the trunk's
+    heading: two wheels cannot command yaw, and a heading that drifts must not couple into roll and
+    pitch. What remains is the swing of the swing-twist decomposition: the smallest turn that brings
+    the vertical, as seen from the trunk, to where the target sees it.
 
     Args:
         vertical: the world's upward direction as seen from the trunk, unit vectors (n, 3).
@@ -175,7 +175,7 @@ def tilt_error(vertical: FloatArray, target: FloatArray) -> FloatArray:
     axis = _cross(target, vertical)
     sine = np.sqrt((axis * axis).sum(axis=1))
     angle = np.arctan2(sine, (target * vertical).sum(axis=1))
-    # Added, not taken for a largest: no branch, and representable in single precision too.
+    # Added instead of a maximum: no branch, and representable in single precision too.
     error: FloatArray = axis[:, :2] * (angle / (sine + 1e-30))[:, None]
     return error
 

@@ -1,7 +1,7 @@
-"""One simulated world: a model, where it starts, what its wheels and its surroundings do.
+"""One simulated world: a model, its initial state, its wheel law and what acts on it.
 
-The wheels and the law live on the trunk, which in some robots hangs below the floating base by
-joints (a humanoid's chest over its pelvis). For most robots the chain is empty.
+Wheels and law refer to the trunk, which in some robots joints connect to the floating base (a
+humanoid's chest to its pelvis). For most robots this chain is empty.
 """
 
 from collections.abc import Sequence
@@ -48,8 +48,8 @@ class TrunkChain:
     """Chain of bodies from the floating base to the trunk's frame B.
 
     Attributes:
-        position, velocity: where the free joint starts in qpos and in qvel.
-        links: from the base outwards; slides do not turn the trunk and are left out.
+        position, velocity: first index of the free joint in qpos and in qvel.
+        links: from the base outwards; prismatic joints do not turn the trunk and are left out.
         end: frame B in the last body, quaternion (4,). origin: that of B there [m], shape (3,).
     """
 
@@ -136,29 +136,29 @@ class Addresses:
 
 @dataclass(frozen=True, eq=False)
 class World:
-    """Everything that a run needs; a batch takes any number with models of equal sizes.
+    """Everything that a run needs; a batch takes any number of them with models of equal sizes.
 
     Attributes:
         model: compiled.
         qpos, qvel: at the start, shapes (nq,) and (nv,).
         ctrl: of the joint drives, which hold the nominal posture, shape (nu,).
-        support: added to it while the feet bear the weight, so that the legs do not give way under
-            it, shape (nu,); zero where a trot has torques of its own.
+        support: added to `ctrl` while the feet bear the weight, so that the legs do not sag under
+            it, shape (nu,); zero if a trot has torques of its own.
         wheels: their names.
-        body: what the law believes in, measured on the model at the start.
-        law: of the wheels. turn: what the trunk should do. pushes: what hits it.
-        limits: of the motors; None where the wheels are not driven, or by no limited torque.
-        trajectory: what it should do in place of the turn, with its feed-forward torque.
-        legs: how they push the robot off the ground, or trot; None: they hold their posture.
+        body: the law's model of the robot, measured on the simulated model at the start.
+        law: of the wheels. turn: of the trunk, to be followed. pushes: external ones.
+        limits: of the motors; None: the wheels are not driven, or torque is not limited.
+        trajectory: to be followed instead of the turn, with its feed-forward torque; None: none.
+        legs: trajectory of their push-off or trot; None: they hold their posture.
         standing_height: of the trunk frame's origin when level with the feet on the ground [m].
-        stands: or trots, for how long before the maneuver [s]; None: it flies or jumps.
+        stands: how long it stands, or trots, before the maneuver [s]; None: it flies or jumps.
         takes_off: whether its legs send it up, in the run or right before it.
         flight_time: expected [s]. duration: of the run, push-off included [s].
-        note: why it starts in flight where a jump was asked for; how the turn was changed to suit
-            the wheels, or what is to be said of the trajectory; empty if nothing.
-        settles: when a robot on a pivot is to be upright and at rest, what touchdown is to others
-            [s]; None: it stands on none.
-        imperfections: of sensors and drives; None: they are as the law believes.
+        note: why it starts in flight although a jump was specified; how the turn was changed to
+            suit the wheels, or a note on the trajectory; empty if nothing.
+        settles: when a robot on a pivot is to be upright and at rest, which counts as its touchdown
+            [s]; None: it is not on a pivot.
+        imperfections: of sensors and drives; None: they are as the law assumes.
         desaturation: of the wheels in stance; None: they are left to the law.
         stopped: a drive that stops in flight; None: all run.
     """

@@ -1,4 +1,4 @@
-"""From a maneuver to the worlds that fly it: start, law, legs and wheels of one robot."""
+"""Builds the worlds that fly a maneuver: start, law, legs and wheels of one robot."""
 
 from dataclasses import dataclass, field, replace
 
@@ -46,12 +46,12 @@ from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.motion import Trajectory
 
 PAPER_GAINS = Gains(stiffness=60.0, damping=12.0)
-"""K_p and K_d of all robots where none are stated."""
+"""K_p and K_d of Solo12, from which those of other robots are scaled unless specified."""
 
 
 @dataclass(frozen=True)
 class Options:
-    """How to simulate.
+    """Options of a simulation.
 
     Attributes:
         allocation: of the torque to the wheels.
@@ -60,8 +60,8 @@ class Options:
         hold: steps of 1 ms per control step.
         desaturate: whether the wheels are braked while the robot stands.
         threads: of the physics; None: one per processor.
-        pose_rate: of the recorded poses [1/s]; None: none are.
-        engine: of the physics; None: MuJoCo on the processors.
+        pose_rate: of the recorded poses [1/s]; None: no poses.
+        engine: of the physics; None: MuJoCo on the CPU.
     """
 
     allocation: Allocation = Allocation.PSEUDO_INVERSE
@@ -75,7 +75,7 @@ class Options:
 
     @classmethod
     def under(cls, control: ControlRecord) -> "Options":
-        """Options of flights under a wheel law that is recorded."""
+        """Options of flights under a recorded wheel law."""
         return cls(
             allocation=Allocation(control.projection),
             gains=Gains(control.kp, control.kd),
@@ -108,8 +108,8 @@ class WorldBuilder:
         Args:
             trajectory: that active wheels track; None: a smooth turn that suits them. A disturbance
                 is not known beforehand, and is met by feedback alone.
-            jump: how the legs push the robot off the ground, if they do.
-            level: fly it level and undisturbed, which shows what the legs can bear.
+            jump: plan of the legs' push-off, if any.
+            level: fly it level and undisturbed, to see whether the legs can bear the landing.
         """
         if wheels is not Wheels.ACTIVE or isinstance(maneuver, Unforeseen):
             trajectory = None
@@ -129,7 +129,7 @@ class WorldBuilder:
             standing_torques(model, data, self._robot) / model.actuator_gainprm[drives, 0]
         )
         if legs is not None:
-            # Only now: in every flight the drives are the same.
+            # Only now, since the drives must be the same in every flight.
             model.opt.timestep = JUMP_STEP
         body = Gyrostat(
             whole_mass(model, data).inertia,
@@ -142,14 +142,14 @@ class WorldBuilder:
             body = replace(body, inertia=pivoted.inertia, pull=pivoted.pull, edge=pivoted.axis)
             start = on_pivot(pivoted, body)
             if trajectory is None:
-                # No brake stops what cannot be spun up, or is not there.
+                # Without a plan, or without wheels, there is nothing to spin up and brake.
                 start = replace(start, rate=pivoted.struck)
         else:
             start = launch(maneuver, standing, self._options.drop_profile)
             if level:
                 start = Launch(np.eye(3), start.height, start.velocity, NO_TURN, NO_PUSH)
         flight = flight_time(maneuver, start, standing)
-        # For how long it is watched after touchdown: one second for Solo12 on Earth.
+        # Time simulated after touchdown: one second for Solo12 on Earth.
         settling = Scale.of(self._robot).time(maneuver.gravity or STANDARD_GRAVITY)
         stands, trot = waiting(
             maneuver, self._robot, float(model.body_mass.sum()) * maneuver.gravity, settling
@@ -166,7 +166,7 @@ class WorldBuilder:
         changed = turn.note if trajectory is None else trajectory.note
         law, desaturation = WheelLaw.off(len(device.modules)), None
         if active:
-            # One leg or two on the ground hold no attitude.
+            # One or two legs on the ground cannot hold an attitude.
             balances = 0 < len(self._robot.legs) < STEADY_LEGS
             law = WheelLaw.of(
                 body, self._gains, self._limits, self._options.allocation, balances=balances
@@ -178,7 +178,7 @@ class WorldBuilder:
 
         takes_off = bool(start.velocity.any())
         if legs is not None:
-            # At rest on its feet: the legs make the flight.
+            # At rest on its feet: the legs produce the flight.
             start = replace(start, height=standing, velocity=np.zeros(3))
         place(self._robot, model, data, start, standing)
         where = addresses(model, device)
@@ -203,7 +203,7 @@ class WorldBuilder:
             standing_height=standing,
             stands=stands,
             takes_off=takes_off,
-            # Who is shoved on the ground does not fly: all that is watched counts.
+            # A robot shoved on the ground does not fly: the whole simulated time counts.
             flight_time=flight or settling,
             duration=duration,
             settles=None if pivoted is None else pivoted.duration,
@@ -213,7 +213,7 @@ class WorldBuilder:
 
 
 def wheel_gains(robot: Robot) -> Gains:
-    """The gains of Solo12 with times scaled by the Froude number: `K_p ~ 1/T^2`, `K_d ~ 1/T`."""
+    """The gains of Solo12 with times Froude-scaled to the robot: `K_p ~ 1/T^2`, `K_d ~ 1/T`."""
     time = Scale.of(robot).time(STANDARD_GRAVITY)
     return Gains(PAPER_GAINS.stiffness / time**2, PAPER_GAINS.damping / time)
 
@@ -235,7 +235,7 @@ def addresses(model: mujoco.MjModel, device: Device) -> Addresses:
 
 
 def control_of(stated: ValidationSection, robot: Robot) -> ControlRecord:
-    """Wheel law as it is stated, with the defaults in place of the rest."""
+    """Wheel law as specified, with defaults for the rest."""
     gains = wheel_gains(robot)
     default = ControlRecord(
         projection=Allocation.PSEUDO_INVERSE,
@@ -248,10 +248,10 @@ def control_of(stated: ValidationSection, robot: Robot) -> ControlRecord:
 
 
 def overridden(control: ControlRecord, stated: ValidationSection) -> ControlRecord:
-    """Wheel law as it was recorded, with everything that is stated in its place.
+    """Wheel law as recorded, with the specified values replaced.
 
     Raises:
-        SpecificationError: the control period is no whole number of the physics' steps.
+        SpecificationError: the control period is not a whole number of physics steps.
     """
     period = control.period
     if stated.control_period is not None:
