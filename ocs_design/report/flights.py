@@ -18,7 +18,7 @@ from ocs_design.device.records.flights import (
 )
 from ocs_design.device.records.requirement import DemandRecord
 from ocs_design.report.table import Cell, Table, Tone, Toned, columns
-from ocs_design.requirement.maneuver import Flip, Maneuver
+from ocs_design.requirement.maneuver import Disturbance, Flip, Maneuver
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.simulation.run import UPRIGHT_TILT
@@ -29,6 +29,9 @@ WORSE = np.radians(1.0)
 
 SAME_ANGLE = 1e-9
 """Incidences that differ by less are equal [rad]."""
+
+JUMP_OFF = 0.05
+"""A jump is reported if its height is off by more than this share of the height asked for."""
 
 SPENT = 0.95
 """Share of its top speed from which a wheel takes up next to nothing more."""
@@ -266,6 +269,29 @@ def landing_remarks(design: OcsDesign) -> Iterator[str]:
             f"{', '.join(spent)}: a wheel ends at {rpm(max(speeds.values()))}, near its top speed, "
             "and cannot help again until it is braked (try `validate --desaturate`)"
         )
+
+
+def jump_remark(design: OcsDesign) -> str:
+    """Sentence on jumps that are flown higher or lower than asked; empty: there is none."""
+    asked = {each.name: each.maneuver() for each in design.requirement.maneuvers}
+    told = []
+    for run in design.validation:
+        maneuver, rise = asked.get(run.scenario), run.metrics.get("rise")
+        # A push upwards or downwards in flight changes the height, too.
+        pushed = isinstance(maneuver, Disturbance) and maneuver.velocity_change[2] != 0.0
+        if not run.ocs or maneuver is None or not maneuver.lift_off or not rise or pushed:
+            continue
+        height = maneuver.lift_off**2 / (2.0 * maneuver.gravity)
+        if abs(rise / height - 1.0) > JUMP_OFF:
+            told.append(
+                f"{run.scenario} {rise:.3f} m for {height:.3f} m ({rise / height - 1.0:+.1%})"
+            )
+    if not told:
+        return ""
+    return (
+        f"jumps are flown higher or lower than asked: {', '.join(told)}; the legs follow the "
+        "planned push-off with an error, and --ballistic starts at the lift-off speed asked for"
+    )
 
 
 def _angles(metrics: Mapping[str, float | bool | None], name: str) -> tuple[float, float]:

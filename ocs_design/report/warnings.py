@@ -12,7 +12,7 @@ from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.records.device import OcsRecord
 from ocs_design.export.electrics import controller_rating
 from ocs_design.report.device import has_motor
-from ocs_design.report.flights import flight_remarks, hand_turn
+from ocs_design.report.flights import flight_remarks, hand_turn, jump_remark
 from ocs_design.requirement.bound import AXES, authority
 from ocs_design.requirement.vocabulary import DRAWN
 from ocs_design.sizing.margins import MOTOR_TORQUE
@@ -69,6 +69,7 @@ def all_warnings(design: OcsDesign) -> Iterator[str]:
         links = f"{first} and {counted(len(others), 'more link')}" if others else first
         yield f"{links} can hit a module within the joints' limits"
     yield from _motor_notes(design)
+    yield from filter(None, [jump_remark(design)])
     # A part of one's own comes before what is done by hand.
     yield from sorted(ocs.fitting, key=lambda note: _NOT_DESIGNED not in note)
 

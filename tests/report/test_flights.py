@@ -12,9 +12,16 @@ from rich.console import Console
 from stories import design
 
 from ocs_design.device.records.flights import ValidationRecord
+from ocs_design.device.records.requirement import ManeuverRecord
 from ocs_design.report.charts.chart import Points
 from ocs_design.report.charts.front import COLUMNS, front_chart
-from ocs_design.report.flights import flight_remarks, flight_table, flights_title, short_verdict
+from ocs_design.report.flights import (
+    flight_remarks,
+    flight_table,
+    flights_title,
+    jump_remark,
+    short_verdict,
+)
 from ocs_design.report.text.front import NONE, OWN, print_front
 from ocs_design.requirement.maneuver import Drop, End, Flip
 from ocs_design.requirement.turns import TurnTo
@@ -40,6 +47,18 @@ def run(scenario="kerb", *, ocs=True, swing=5.0, final=0.0, speed=0.0, **told):
 
 def remarks(*runs):
     return list(flight_remarks(replace(design(), validation=runs)))
+
+
+@pytest.mark.parametrize(("ratio", "told"), [(1.109, "(+10.9%)"), (0.9, "(-10.0%)"), (1.02, "")])
+def test_a_jump_that_is_not_as_high_as_asked_is_told(ratio, told):
+    """The back-flip rose by 1.109 m for 1 m, and nothing said so."""
+    made = design()
+    jumps = (ManeuverRecord.of(FLIP),)
+    asked = replace(made, requirement=replace(made.requirement, maneuvers=jumps))
+    flown = [run("flip", rise=ratio * FLIP.jump_height), run("flip", ocs=False, rise=9.0)]
+    said = jump_remark(replace(asked, validation=flown))
+    assert (told in said) is bool(said)
+    assert bool(said) is bool(told)
 
 
 def test_a_good_landing_is_not_minded():
