@@ -28,6 +28,7 @@ from ocs_design.parts.housing import LID_SCREWS, guard_ring
 from ocs_design.parts.joints import BOND_STRENGTH, EPOXY
 from ocs_design.parts.printed import (
     CLEARANCE,
+    GUARD_GAP,
     PANEL,
     TRUNK_SCREW,
     TRUNK_SCREW_COUNT,
@@ -118,10 +119,15 @@ def bill_rows(device: Device, margins: Sequence[Margin] = ()) -> Sequence[BillRo
             rows.append(BillRow("cage", count, "PETG", size, caged[0], made))
         if device.guard_wall:
             ring = guard_ring(foot.housing)
-            inside = foot.housing.inner_radius - device.guard_wall
+            outside = foot.housing.inner_radius - GUARD_GAP
+            inside = outside - device.guard_wall
             tall = foot.housing.rim_height + 2.0 * CLEARANCE
             size = f"ring {_mm(2.0 * inside)} inside x {_mm(device.guard_wall)} wall x {_mm(tall)}"
-            made = "bent and welded or turned from tube, bonded into the drum; holds a burst rim"
+            made = (
+                "bent and welded or turned from tube, no wall thinner; outside "
+                f"{_mm(2.0 * outside)} (0/-0.2), with epoxy in a drum of "
+                f"{_mm(2.0 * foot.housing.inner_radius)}; holds a burst rim"
+            )
             rows.append(BillRow("guard ring", count, "mild steel (S235)", size, ring.mass(), made))
         # The screws of wheel and motor only where the catalogue has their threads.
         screwed = (each.fastening for each in mount.screwed)
@@ -229,9 +235,13 @@ def _unweighed_rows(device: Device, margins: Sequence[Margin]) -> Iterator[BillR
     if device.wheels_alone:
         return
     fixture = ring_fixture(device)
-    if fixture is not None:
-        where = "ring on bell, or an epoxy that is as strong at 80 deg C; follow its maker's sheet"
+    bonds = ["ring on bell"] if fixture is not None else []
+    bonds += ["guard ring in drum"] if device.guard_wall else []
+    if bonds:
+        bonded = " and ".join(bonds)
+        where = f"{bonded}, or an epoxy that is as strong at 80 deg C; follow its maker's sheet"
         yield BillRow(f"epoxy {EPOXY}", 1, "", "", 0.0, where)
+    if fixture is not None:
         where = "3-D print ring_fixture.stl, one per ring: glue spoils it; not in the device"
         yield BillRow("fixture for ring and bell", len(device.modules), "PETG", "", 0.0, where)
     elif any(joint.note.startswith("bonded") for joint in joints_of(device)):

@@ -21,7 +21,7 @@ from math import ceil, pi, sin, sqrt
 from ocs_design.actuation.fasteners import STEEL
 from ocs_design.catalogue.materials import material
 from ocs_design.parts.moments import cylinder_mass
-from ocs_design.parts.printed import CLEARANCE
+from ocs_design.parts.printed import CLEARANCE, GUARD_GAP
 
 PIECES = 3
 """Equal parts that a rim bursts into."""
@@ -127,7 +127,7 @@ class Containment:
         # thickness squared (A. C. Hagg, G. O. Sankey, The Containment of Disk Burst Fragments by
         # Cylindrical Shells, J. Eng. Power 96(2), 1974).
         aluminium = steel * sqrt(STEEL_STRENGTH / ALUMINIUM_STRENGTH)
-        room = outer_radius + CLEARANCE, height + 2.0 * CLEARANCE
+        room = outer_radius + CLEARANCE - GUARD_GAP, height + 2.0 * CLEARANCE
         return cls(fragment, *room, steel, aluminium)
 
     @property

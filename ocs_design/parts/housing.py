@@ -17,6 +17,7 @@ from ocs_design.common.errors import PartError
 from ocs_design.parts.moments import MassMoments, Real, cylinder_mass
 from ocs_design.parts.printed import (
     CLEARANCE,
+    GUARD_GAP,
     LID_SCREW,
     PANEL,
     PETG,
@@ -133,8 +134,11 @@ def lid_sag(housing: Housing[float]) -> float:
 
 
 def guard_ring(housing: Housing[Real]) -> Part[Real]:
-    """The ring of mild steel in the drum, from its floor to the lid, in the wheel's frame."""
-    half, inside = housing.rim_height / 2.0 + CLEARANCE, housing.rim_radius + CLEARANCE
+    """The ring of mild steel in the drum, from its floor to the lid, in the wheel's frame.
+
+    Its glue is between ring and drum; the rim is as much nearer to it.
+    """
+    half, inside = housing.rim_height / 2.0 + CLEARANCE, housing.rim_radius + CLEARANCE - GUARD_GAP
     room: Prism[Real] = Prism(Disc(inside), -half, half)
     return Part("guard", STEEL, (Prism(Disc(inside + housing.guard_wall), -half, half),), (room,))
 
@@ -152,7 +156,8 @@ def housing_mass_per_height(outer_radius: Real, guard_wall: float = 0.0) -> Real
     across = housing_outer_radius(outer_radius) + guard_wall
     room, thread = Disc(across - WALL), pi / 4.0 * LID_SCREW.tapping_drill**2
     printed = eared(across, LID_SCREW, FIRST_EAR).area - room.area - EAR_COUNT * thread
-    steel: Real = (outer_radius + (CLEARANCE + guard_wall / 2.0)) * (2.0 * pi * guard_wall)
+    middle = outer_radius + (CLEARANCE - GUARD_GAP + guard_wall / 2.0)
+    steel: Real = middle * (2.0 * pi * guard_wall)
     return PETG.density * printed + STEEL * steel
 
 

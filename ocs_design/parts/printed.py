@@ -32,6 +32,10 @@ CLEARANCE = 2.0e-3
 """[m], between rim and shell on all sides: ten times what a printer is out over 100 mm (0.2 %), and
 room for a screw's head."""
 
+GUARD_GAP = 0.1e-3
+"""Width of the epoxy between a guard ring and its drum, as around a motor's bell [m]; the ring
+is as much nearer to the rim."""
+
 
 class Bulk(NamedTuple):
     """What parts are made of: density [kg/m^3], yield strength and elastic modulus [Pa]."""

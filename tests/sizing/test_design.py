@@ -18,7 +18,7 @@ from ocs_design.device.layout import Criterion
 from ocs_design.device.solids import foot_of
 from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.parts.foot import foot_shock
-from ocs_design.parts.printed import CLEARANCE, SHOCK
+from ocs_design.parts.printed import CLEARANCE, GUARD_GAP, SHOCK
 from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.phrases import Kick
 from ocs_design.requirement.sections import RequirementSection, RobotSection
@@ -134,7 +134,7 @@ def test_guard_rings_hold_the_wheel_that_they_were_sized_with():
     device, wall = found.device, burst_of(found.device).steel
     assert wall <= device.guard_wall <= wall + 2e-4
     rows = {row.part: row for row in bill_rows(device)}
-    inside = device.flywheel.outer_radius + CLEARANCE
+    inside = device.flywheel.outer_radius + CLEARANCE - GUARD_GAP
     height = device.flywheel.height + 2.0 * CLEARANCE
     area = np.pi * ((inside + device.guard_wall) ** 2 - inside**2)
     assert rows["guard ring"].mass == pytest.approx(7850.0 * area * height, rel=1e-9)

@@ -40,6 +40,7 @@ from ocs_design.parts.module import part_name
 from ocs_design.parts.pedestal import SEATED
 from ocs_design.parts.printed import (
     CLEARANCE,
+    GUARD_GAP,
     LID_SCREW,
     PANEL,
     TRUNK_SCREW,
@@ -147,7 +148,9 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
     if "guard" in assembly.numbers:
         yield (
             f"Bond the guard ring{assembly.number('guard')} into the drum{assembly.number('drum')} "
-            "with epoxy, down to its floor; its seam, if it has one, is welded through."
+            f"with epoxy ({EPOXY}, or one that is as strong at 80 °C), {1e3 * GUARD_GAP:g} mm all "
+            "around, down to its floor; roughen and degrease both. Its seam, if it has one, is "
+            "welded through."
         )
     yield from _drive_steps(assembly)
     if "lid" in assembly.numbers:

@@ -254,6 +254,14 @@ def test_a_guard_ring_is_built_and_told_with_its_limits():
     assert "no ring of this kind has been tested" in said
     rows = {row.name: row for row in piece_rows(assembly)}
     assert rows["guard ring"].file == "guard_ring.stl"
+    # Its epoxy has room between ring and drum, and is on the bill.
+    pieces = {piece.name: piece.mesh for piece in assembly.pieces}
+    drum = foot_of(device).housing.inner_radius
+    assert drum - pieces["guard"].vertices[:, 0].max() == pytest.approx(0.1e-3, abs=5e-5)
+    assert "0.1 mm all around, down to its floor" in texts(assembly, "Steps")
+    bill = {row.part: row for row in bill_rows(device)}
+    assert bill["epoxy 3M Scotch-Weld DP760"].remark.startswith("guard ring in drum, or an epoxy")
+    assert f"outside {2e3 * (drum - 0.1e-3):.2f} (0/-0.2)" in bill["guard ring"].remark
     thin = texts(Assembly("solo12", replace(device, guard_wall=wall / 2.0)), "Safety")
     assert "It does not hold a burst rim" in thin
 
