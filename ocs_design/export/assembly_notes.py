@@ -59,13 +59,13 @@ def drive_notes(device: Device) -> tuple[str, ...]:
         stator = None if known is None or known.mounting is None else known.mounting.stator
         threads = "" if stator is None else f"; the motor's threads are {stator}"
         stands = (
-            f"the motor stands {format_quantity(room.depth, 'mm')} behind the plate{beside}, where "
+            f"the motor sits {format_quantity(room.depth, 'mm')} behind the plate{beside}, where "
             "it is counted and shown"
             if room.depth
             else "the motor is counted right behind the plate"
         )
         held = (
-            f"how motor and gear are held is not designed, because the gear's {unknown} are not "
+            f"the mounting of motor and gear is not designed, because the gear's {unknown} are not "
             f"in the catalogue: {stands}; {_UNDRILLED}{threads}"
         )
         return (held, *_overlap_notes(device, foot), *_landing_notes(device, foot))
@@ -108,18 +108,18 @@ def _mounting_notes(mounting: Mounting, device: Device) -> Iterator[str]:
         format_quantity(middle + side * wheel.height / 2.0, "mm", digits=3) for side in (-1.0, 1.0)
     )
     yield (
-        f"the ring is {low} to {high} from the motor's back; that the bell is straight there is an "
-        f"estimate, {BELL_SHARE:.0%} of the motor's length in its middle, which no source gives: "
+        f"the ring is {low} to {high} from the motor's back; that the bell is straight there, over "
+        f"the middle {BELL_SHARE:.0%} of the motor's length, is an estimate without a source: "
         "measure it before the ring is made"
     )
     if mounting.shaft_diameter is not None and mounting.shaft_length is None:
         yield (
-            "how far the shaft stands out of the motor is in no source, and counts as nothing: if "
-            "it touches the lid, cut it off"
+            "no source gives how far the shaft protrudes from the motor, and 0 is assumed: if it "
+            "touches the lid, cut it off"
         )
     yield (
         "the motor turns in the closed drum: cut a slot into its floor for the three wires, and "
-        "watch its temperature, as its continuous torque holds in free air"
+        "watch its temperature, because its continuous torque is for free air"
     )
 
 
@@ -129,7 +129,7 @@ def _shaft_notes(mounting: Mounting, device: Device) -> Iterator[str]:
     if off > 0.0:
         yield (
             f"the shaft would run into the lid: cut {format_quantity(off, 'mm', digits=3)} off its "
-            f"end, so that {format_quantity(left, 'mm', digits=3)} stand out of the motor, before "
+            f"end, so that {format_quantity(left, 'mm', digits=3)} protrude from the motor, before "
             "the motor is built in and with its bearings covered"
         )
     web, mount = device.flywheel.web, motor_mount(device)
@@ -143,12 +143,12 @@ def _shaft_notes(mounting: Mounting, device: Device) -> Iterator[str]:
     )
     if mounting.rotor is not None:
         yield (
-            f"the hub stands {near} off the rotor that it is screwed to, plate and floor between "
+            f"the hub is {near} away from the rotor that it is screwed to, plate and floor between "
             "them: make a spacer, which is not designed"
         )
     elif mounting.shaft_length is None:
         yield (
-            f"the shaft has to stand out by {reach} to reach the hub's middle, by {far} to go "
+            f"the shaft must protrude by {reach} to reach the hub's middle, by {far} to go "
             "through it; its length is not in the catalogue"
         )
     elif mounting.shaft_length < middle:
@@ -185,30 +185,30 @@ def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
             f", and let it sway at {mode.frequency:.0f} Hz" for mode in modes if mode.name == "foot"
         )
         yield (
-            f"printed of PETG the feet bear {bears / STANDARD_GRAVITY:.2g} g of {module:.2g} kg "
-            f"along the wheel's axis, and not {SHOCK / STANDARD_GRAVITY:.0f}{sway}: where landings "
-            f"are harder, mill them of 6061-T6 to the same file, at least {stronger:.0f} times as "
-            f"strong, {stiffer:.2g} times as high a frequency and {1e3 * heavier:.0f} g heavier "
+            f"printed in PETG, the feet take {bears / STANDARD_GRAVITY:.2g} g of {module:.2g} kg "
+            f"along the wheel's axis, not {SHOCK / STANDARD_GRAVITY:.0f}{sway}: where landings "
+            f"are harder, mill them from 6061-T6 to the same file, at least {stronger:.0f} times "
+            f"as strong, {stiffer:.2g} times as high a frequency and {1e3 * heavier:.0f} g heavier "
             "each"
         )
     if hold.heads_bear < SHOCK:
         yield (
-            f"mill the feet of 6061-T6 to the same file: at {SHOCK / STANDARD_GRAVITY:.0f} g the "
+            f"mill the feet from 6061-T6 to the same file: at {SHOCK / STANDARD_GRAVITY:.0f} g the "
             f"heads of their screws press with {1e-6 * hold.pull / hold.area:.0f} MPa even on "
             f"washers, and PETG yields at {1e-6 * PETG.strength:.0f}"
         )
     for each in joints_of(device):
         if each.name == FLOOR_SHOCK and each.capacity is not None and each.capacity < SHOCK:
             yield (
-                "printed of PETG cage and drum hold motor and wheel up to "
-                f"{each.capacity / STANDARD_GRAVITY:.2g} g along the wheel's axis, and not "
-                f"{SHOCK / STANDARD_GRAVITY:.0f}: where landings are harder, mill both of 6061-T6 "
-                "to the same files"
+                "printed in PETG, cage and drum hold motor and wheel up to "
+                f"{each.capacity / STANDARD_GRAVITY:.2g} g along the wheel's axis, not "
+                f"{SHOCK / STANDARD_GRAVITY:.0f}: where landings are harder, mill both from "
+                "6061-T6 to the same files"
             )
     for mode in modes:
         if mode.acceleration > STANDARD_GRAVITY:
             yield (
-                f"let no wheel stay at {60.0 * mode.frequency:,.0f} rpm: there the {mode.name}'s "
+                f"let no wheel dwell at {60.0 * mode.frequency:,.0f} rpm: there the {mode.name}'s "
                 f"first mode shakes the module with "
                 f"{mode.acceleration / STANDARD_GRAVITY:.1f} times its weight "
                 f"({mode.frequency:.0f} Hz, unbalance of grade G {GRADE:g}, damping {DAMPING:.0%})"
@@ -278,7 +278,7 @@ def trunk_threads(device: Device) -> str:
         return (
             f"printed pedestals carry the feet that lean; the trunk needs threads "
             f"{TRUNK_SCREW.name} for {count} screws, whose places in the base frame are on "
-            "cad/drilling.pdf; whether its wall bears them is not looked at"
+            "cad/drilling.pdf; whether its wall can carry them is not checked"
         )
     if plate is None:
         return (
@@ -295,12 +295,12 @@ def trunk_threads(device: Device) -> str:
         else ""
     )
     if plate.relief is not None:
-        sleeved = ", through a block that has the trunk's form"
+        sleeved = ", through a block shaped to the trunk"
     if plate.mast is not None:
         return (
             f"a mast behind the trunk carries the feet; the trunk's back needs threads "
             f"{plate.thread} for its {len(plate.trunk)} screws at y, z = {at} mm of the base "
-            f"frame{sleeved}; whether its wall bears them is not looked at"
+            f"frame{sleeved}; whether its wall can carry them is not checked"
         )
     return (
         f"a plate carries the feet; the trunk needs threads {plate.thread} for its "

@@ -175,7 +175,7 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
                 low, high = plate.block
                 size = " x ".join(map(_mm, (mast.side, high - low, mast.off)))
                 made = (
-                    "milled to block.stl or block.step, its front has the trunk's form; welded "
+                    "milled to block.stl or block.step, its front shaped to the trunk; welded "
                     "before the upright and drilled with it"
                 )
                 mass = block_part(plate, plate.relief).mass()
@@ -297,7 +297,7 @@ def bill_csv(device: Device, margins: Sequence[Margin] = (), refused: str = "") 
     # Designs of versions before 0.2 count no screws, and not all that holds the motor.
     remark = "as designed"
     if abs(total - device.mass) > _MASSLESS:
-        remark = f"the design counts {_grams(device.mass)} g: size it again"
+        remark = f"the design has {_grams(device.mass)} g: size it again"
     writer.writerow(["total", "", "", "", "", _grams(total), remark, ""])
     return text.getvalue()
 

@@ -97,7 +97,7 @@ class Drilling:
         if self.refused:
             return (
                 f"{self.robot}: drill nothing by this sheet. The device cannot be built as it "
-                "stands, and what cures that may move its holes, or they lie off the trunk.",
+                "stands, and the cure may move its holes, or they lie off the trunk.",
                 f"At the crosses it would have {len(self.holes)} holes for {self.screw.name}; "
                 f"{frame}. Thin lines: {self.standing}.",
             )
@@ -111,8 +111,8 @@ class Drilling:
         if self.tilt > 0.0:
             jig.append(
                 "Drill through the mast's block, held where it fits, in bushes: along the screws, "
-                f"up to {format_quantity(self.tilt, 'deg', digits=2)} off square. Paper is out on "
-                "what is round."
+                f"up to {format_quantity(self.tilt, 'deg', digits=2)} off square. On curved "
+                "surfaces paper is inaccurate."
             )
         return (
             f"{self.robot}: drill {len(self.holes)} holes of "
@@ -120,11 +120,11 @@ class Drilling:
             f"{self.screw.name}; {frame}.",
             *jig,
             f"The screws go {' to '.join(ends)} mm into the trunk: thread at least {deep} deep, "
-            f"the hole through the wall or {blind} deep. Look first what is behind the wall.",
+            f"the hole through the wall or {blind} deep. First check what is behind the wall.",
             f"In a wall thinner than {MILLIMETRES * self.screw.diameter:.3g} mm, a print or "
             f"carbon: drill {MILLIMETRES * self.screw.clearance_hole:.3g} mm through, nuts and "
             "washers behind, screws longer by both and by the wall.",
-            "Assumed is a trunk of aluminium: no robot file tells what its wall is. Thin lines: "
+            "The trunk is assumed to be aluminium: robot files do not say. Thin lines: "
             f"{self.standing}.",
         )
 

@@ -64,27 +64,27 @@ def wiring_parts(device: Device, margins: Sequence[Margin]) -> Iterator[tuple[st
         return
     bus = _bus_current(margins)
     rated = f"{_up(VOLTAGE_RESERVE * voltage)} V direct voltage or more"
-    flows = rated if bus is None else f"{_up(bus)} A, as long as a maneuver takes, and {rated}"
+    flows = rated if bus is None else f"{_up(bus)} A for the length of a maneuver, and {rated}"
     fastest = motor.top_speed * motor.gear_ratio
     up_to = f", up to {rpm(fastest)}" if math.isfinite(fastest) else ""
     yield (
-        "sensor of the rotor's angle",
+        "rotor angle sensor",
         count,
         "encoder at the motor's back with its magnet, or Hall sensors, that the controller "
-        f"reads{up_to}; none where the motor has one",
+        f"reads{up_to}; not needed if the motor has one",
     )
     yield "fuse with holder", 1, f"between battery and switch; carries {flows}"
     yield "switch", 1, f"cuts the supply within reach; carries and breaks {flows}"
-    yield "cables of the bus, two wires", 1, f"battery to controllers, short; {flows}"
+    yield "bus cables, two wires", 1, f"battery to controllers, short; {flows}"
     least = "" if current is None else f"; each wire {_up(current)} A at the torque limit"
-    yield "cables of a motor, three wires", count, f"controller to motor{least}; and the sensor's"
+    yield "motor cables, three wires", count, f"controller to motor{least}; and the sensor's"
 
 
 def wiring(device: Device, margins: Sequence[Margin]) -> Iterator[str]:
     """What to tell a builder."""
     motor, supply, count = device.motor, device.supply, len(device.modules)
     rating, gives = controllers(motor), battery(motor, margins)
-    counted = "are" if motor.controller_mass > 0.0 else "are not either"
+    counted = "but controllers are" if motor.controller_mass > 0.0 else "nor are controllers"
     if motor.bus_voltage is None:
         return
     each = "a controller next to the motor"
@@ -101,18 +101,18 @@ def wiring(device: Device, margins: Sequence[Margin]) -> Iterator[str]:
     yield (
         "design.json has the wheel law's gains and period (`control`). `ocs-design export DESIGN "
         "--formats controller` writes that law with its plans and limits in C, for the robot's "
-        "computer: it asks for the attitude and the rate of the trunk and for the wheels' speeds "
-        "in every period. validation/*.csv has torque and speed of each wheel over time, to hold "
-        "the first flights against."
+        "computer: it needs the attitude and the rate of the trunk and the wheels' speeds in "
+        "every period. validation/*.csv has torque and speed of each wheel over time, to compare "
+        "with the first flights."
     )
     yield (
-        "Torque is asked for from standstill and through zero speed: each motor needs a sensor "
+        "Torque is needed from standstill and through zero speed: each motor needs a sensor "
         "of its rotor's angle (an encoder at its back, or Hall sensors), or a controller that "
-        "holds torque at low speed without one. No part here holds a sensor: see that the "
+        "holds torque at low speed without one. No part here holds a sensor: make sure that the "
         "motor has one, or fit it before the motor is screwed in. Sensors and cables are not "
-        f"in the device's mass, controllers {counted}. No part here holds controllers either: tie "
+        f"in the device's mass, {counted}. No part here holds controllers either: tie "
         "each to the stem of its foot, clear of what turns; fuse, switch and battery go where the "
-        "robot has room, and into its file with what they weigh."
+        "robot has room; add their mass to its file."
     )
     if gives:
         yield (
@@ -151,13 +151,15 @@ def _settings(motor: Drive) -> Iterator[str]:
     limits = [f"{_up(current)} A through two lines"]
     if math.isfinite(fastest):
         limits.append(rpm(fastest))
-    friction = "" if not idle else f" Its friction takes {idle:g} A on top, the way it turns."
+    friction = (
+        "" if not idle else f" Friction takes another {idle:g} A in the direction of rotation."
+    )
     yield (
-        "Set each controller to torque, zero where no command has come for two periods: "
+        "Set each controller to torque, zero if no command arrives for two periods: "
         f"{significant(k_t, 4)} N m/A through two lines ({significant(per_amplitude, 4)} of a "
         f"phase's amplitude), {significant(resistance, 3)} ohm between two lines (half of it a "
-        f"phase), limits {' and '.join(limits)}. Inductance and poles are in no source: let the "
-        f"controller measure the one, and count the magnets.{friction}"
+        f"phase), limits {' and '.join(limits)}. No source gives inductance and poles: let the "
+        f"controller measure the former, and count the magnets.{friction}"
     )
 
 

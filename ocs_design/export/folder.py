@@ -69,7 +69,7 @@ def check_target(target: Path, *, force: bool) -> None:
     ours = any((target / name).is_file() for name in (DESIGN_FILE, FRONT_FILE))
     if any(target.iterdir()) and not ours:
         raise OutputError(
-            f"{target}: exists already, and is no output of ocs-design: it holds no {DESIGN_FILE} "
+            f"{target}: exists already and is not an output of ocs-design: it has no {DESIGN_FILE} "
             f"and no {FRONT_FILE}",
             hint="choose another folder with -o",
         )

@@ -156,7 +156,7 @@ class Format:
 
 
 FORMATS = (
-    Format("stl", "wheel and what else is of metal, as meshes", "cad", "stl"),
+    Format("stl", "wheel and other metal parts, as meshes", "cad", "stl"),
     Format(
         "bom", "parts list with stock and masses", "cad", "bill_of_materials", needs_margins=True
     ),
@@ -170,7 +170,7 @@ FORMATS = (
     Format("step", "exact parts", "cad", "step", on_request=True, library="OCP"),
     Format(
         "dxf",
-        "wheel and plate in the plane, drilling template",
+        "outlines of wheel and plate, drilling template",
         "cad",
         "dxf",
         on_request=True,
@@ -182,7 +182,7 @@ FORMATS = (
     ),
     Format("urdf", "whole robot", "robot", "urdf", needs_robot=True),
     Format("mjcf", "whole robot", "robot", "mjcf", needs_robot=True),
-    Format("glb", "whole robot to look at", "robot", "glb", needs_robot=True),
+    Format("glb", "whole robot, for viewing", "robot", "glb", needs_robot=True),
     Format("snippets", "device alone as URDF, xacro, MJCF and SDF", "snippets", "snippets"),
     Format("ros2", "ROS 2 description package", "ros2", "ros2", needs_robot=True, on_request=True),
     Format("pictures", "views as PNG", "pictures", "pictures", needs_robot=True, on_request=True),

@@ -129,20 +129,18 @@ def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> st
         "largest torque of a motor": "not limited"
         if torque is None
         else format_quantity(torque, "N m"),
-        "height of the trunk's frame where it stands": format_quantity(
-            float(data.site(IMU).xpos[2]), "m"
-        ),
+        "standing height of the trunk's frame": format_quantity(float(data.site(IMU).xpos[2]), "m"),
     }
     own = "The robot's own actuators, unchanged; `ocs_home` has commands for those on joints."
     drives = (
-        f"{len(legs)} position servos, one for each joint of a leg and of its name: kp from weight "
+        f"{len(legs)} position servos, one for each leg joint and named after it: kp from weight "
         "and length of the leg, kv from its Froude time, the force limited to the file's effort. "
-        "The flights have the same."
+        "The flights use the same."
     )
     held = [each.name for each in model.spec.equalities if each.name.startswith(HOLD)]
     others = (
-        f"- **Other joints.** {len(held)} joints that are in no leg are held in the posture by the "
-        f"equalities `{HOLD}...`, as in the flights. Switch them off for drives of your own.\n"
+        f"- **Other joints.** {len(held)} joints outside the legs are held in the posture by the "
+        f"equalities `{HOLD}...`, as in the flights. Disable them to drive these joints.\n"
     )
     values = {
         "name": subject.name,
@@ -161,7 +159,7 @@ def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> st
         "others": others if held else "",
         "contact": "The robot's own contacts are as in its file"
         if robot.format is Format.MJCF
-        else "Links meet floors and things, not each other, as in the flights",
+        else "Links collide with floors and objects, not with each other, as in the flights",
         "wheels": ", ".join(f"`{joint}`" for joint in joint_names(device)),
     }
     return fill("robot_readme.md", {**_CONTACT, **values})

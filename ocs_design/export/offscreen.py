@@ -204,7 +204,7 @@ def try_opengl() -> None:
     model = mujoco.MjModel.from_xml_string(TRIAL)
     sheet = sheet_of_views(model, model.qpos0)
     if min(sheet[sheet.shape[0] // 4, sheet.shape[1] // 4]) == WHITE:
-        sys.exit("a box was drawn and is not to be seen")
+        sys.exit("a box was rendered but is not visible")
 
 
 def main(arguments: list[str]) -> None:

@@ -91,7 +91,7 @@ def write(subject: Subject, folder: Path) -> Notes:
     }
     for place, text in texts.items():
         (root / place).write_text(text, encoding="utf-8", newline="\n")
-    notes = ["package.xml has no maintainer and no license yet: put yours there"]
+    notes = ["package.xml has no maintainer and no license yet: add yours"]
     if lost:
         found = f"{len(lost)} meshes that were not found: {', '.join(lost)}"
         notes.append(f"the ROS 2 package lacks {found}")

@@ -82,7 +82,7 @@ def urdf_notes(robot: Robot) -> Notes:
         return ()
     return (
         f"the URDF with the device names {len(relative)} of its meshes relative to the robot's own "
-        "file, as that does: to see them, copy it and its meshes folder beside that file",
+        "file, as that does: to see them, copy it and its meshes folder next to that file",
     )
 
 
@@ -230,7 +230,9 @@ def limit_urdf(device: Device) -> str:
     )
     if motor.armature == 0.0:
         return limit
-    return f"{limit}\n    <!-- armature {numbers(motor.armature)} kg m^2, which URDF cannot say -->"
+    return (
+        f"{limit}\n    <!-- armature {numbers(motor.armature)} kg m^2, which URDF cannot state -->"
+    )
 
 
 def ros2_control_urdf(

@@ -25,7 +25,7 @@ PAUSE = 1.0
 """Time between the end of a run and its next beginning [s]."""
 
 DISPLAY_HINT = (
-    "run it where there is a screen, or film the flights by `ocs-design size ROBOT --video`; a "
+    "run it where there is a screen, or film the flights with `ocs-design size ROBOT --video`; a "
     "virtual screen comes with: apt install xvfb"
 )
 

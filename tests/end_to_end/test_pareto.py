@@ -138,5 +138,5 @@ def test_a_foreign_folder_is_refused_before_any_work(tmp_path):
     (tmp_path / "letter.txt").write_text("dear")
     result = run("pareto", SOLO12, "-o", tmp_path, "--force")
     assert result.code == 3
-    assert "no output of ocs-design" in result.said
+    assert "not an output of ocs-design" in result.said
     assert "choose a device" not in result.stderr

@@ -124,7 +124,7 @@ def test_the_mjcf_snippet_has_them(device, tmp_path):
 def test_urdf_says_what_it_cannot_hold():
     drive = geared(3.0)
     text = robot_urdf(BLOCK, driven_device(drive=drive)).decode()
-    said = re.findall(r"<!-- armature (\S+) kg m\^2, which URDF cannot say -->", text)
+    said = re.findall(r"<!-- armature (\S+) kg m\^2, which URDF cannot state -->", text)
     assert [float(value) for value in said] == [drive.armature] * 2
     plain = robot_urdf(BLOCK, driven_device()).decode()
     assert "armature" not in plain

@@ -60,9 +60,9 @@ def test_feet_bear_the_shock_or_it_is_told(mass, share):
     thick = plate_thickness(foot_of(device), mass + device.flywheel.mass)
     device = replace(device, foot_plate=0.005 + share * (thick - 0.005))
     bears = foot_shock(foot_of(device), mass + device.flywheel.mass) / 9.80665
-    told = "printed of PETG the feet bear" in said(device)
+    told = "printed in PETG, the feet take" in said(device)
     assert told == (bears < 20.0)
-    assert "mill them of 6061-T6" in said(device) or not told
+    assert "mill them from 6061-T6" in said(device) or not told
     if share == 1.0 and thick < foot_of(device).stem:
         assert not told
 
@@ -85,7 +85,7 @@ ROTOR = BoltCircle(0.012, 3, "M2")
             replace(FLAT, shaft_length=BACK_OF_PLATE - 0.0021),
             "^the shaft ends 2.1 mm short of the hub's middle$",
         ),
-        (FLAT, "stand out by 13.2 mm to reach the hub's middle, by 15.7 mm to go through"),
+        (FLAT, "protrude by 13.2 mm to reach the hub's middle, by 15.7 mm to go through"),
         (None, "the motor's threads are not in the catalogue: drill floor and plate"),
         (Mounting(0.004), "the motor's threads are not in the catalogue"),
         (
@@ -101,7 +101,10 @@ ROTOR = BoltCircle(0.012, 3, "M2")
             "4 x M3 on 62 mm, do not fit the housing's floor of 64 mm",
         ),
         # From the back of the plate to the hub's face, 2.5 mm off the wheel's middle.
-        (replace(FLAT, rotor=ROTOR), "the hub stands 10.7 mm off the rotor that it is screwed to"),
+        (
+            replace(FLAT, rotor=ROTOR),
+            "the hub is 10.7 mm away from the rotor that it is screwed to",
+        ),
     ],
 )
 def test_what_does_not_fit_the_mounting_is_told(mounting, words):
@@ -110,15 +113,15 @@ def test_what_does_not_fit_the_mounting_is_told(mounting, words):
 
 def test_behind_a_gear_nothing_is_known():
     drive = replace(geared(2.0), diameter=0.04, length=0.1)
-    assert said(device_on(None, drive)).startswith("how motor and gear are held is not designed")
+    assert said(device_on(None, drive)).startswith("the mounting of motor and gear is not designed")
 
 
 def test_a_heavy_module_behind_a_gear_lands_as_hard_as_any():
     drive = replace(geared(2.0), diameter=0.04, length=0.1)
     device = replace(device_on(None, drive), foot_plate=0.005)
     heavy = replace(device, carrier=replace(device.carrier, mass=20.0))
-    assert "printed of PETG the feet bear" in said(heavy)
-    assert "printed of PETG the feet bear" not in said(device)
+    assert "printed in PETG, the feet take" in said(heavy)
+    assert "printed in PETG, the feet take" not in said(device)
 
 
 def test_feet_in_each_other_s_way():

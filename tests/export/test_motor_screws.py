@@ -34,7 +34,7 @@ def test_a_design_that_counts_no_screws_is_told_from_one_that_does():
     old = replace(device, carrier=replace(device.carrier, mass=device.carrier.mass - 0.0025))
     total = bill_csv(old).splitlines()[-1]
     assert total.startswith(f"total,,,,,{1e3 * device.mass:.3f},")
-    assert f"the design counts {1e3 * old.mass:.3f} g" in total
+    assert f"the design has {1e3 * old.mass:.3f} g" in total
 
 
 LIDS_AND_FEET = {

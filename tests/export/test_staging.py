@@ -238,7 +238,7 @@ def test_an_existing_folder_is_kept_without_force(tmp_path):
 @pytest.mark.parametrize(
     ("name", "why"),
     [
-        ("photographs", r"holds no design\.json"),
+        ("photographs", r"has no design\.json"),
         ("file", "not a folder"),
         ("link", "not a folder"),
         ("nowhere/robot-ocs", r"nowhere: no such folder"),

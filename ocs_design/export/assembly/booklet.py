@@ -83,7 +83,7 @@ _LABELS = {
     "mast": "mast behind the trunk",
     BLOCK: "block between mast and trunk",
     "sleeves": "sleeves around the trunk's screws",
-    "ring_fixture": "fixture to bond a ring in",
+    "ring_fixture": "bonding fixture for a ring",
 }
 
 
@@ -233,7 +233,7 @@ def _text_pages(assembly: Assembly, texts: Sequence[Chapter]) -> list[list[Item]
     for drawn, scale, what, box in _sections(assembly):
         items += [*drawn, *_scale(what, scale, box)]
     rows = [tuple(map(str, row)) for row in screw_rows(assembly)]
-    header = ("No.", "Qty", "Screw", "What it holds", "Thread that holds", "Torque", "Set by")
+    header = ("No.", "Qty", "Screw", "What it holds", "Thread engaged", "Torque", "Set by")
     widths = (6.0, 8.0, 28.0, 0.0, 26.0, 18.0, 78.0)
     across = (LEFT + _INSET, TOP + 14.0, RIGHT - _INSET)
     table, bottom = _table(header, rows, widths, across) if rows else ([], TOP + 15.0)
@@ -406,24 +406,22 @@ def _motor_threads(assembly: Assembly) -> Iterator[str]:
     if model is not None and not stated:
         at = [model.rotor if name.startswith("wheel") else model.stator for name in found]
         drawn = (
-            f" Of {model.model}, whose threads the catalogue counts for this motor, a model draws "
-            f"{' and '.join(f'{1e3 * depth:.1f} mm' for depth in at)}: its modeller's figures, not "
-            "the maker's."
+            f" For {model.model}, whose threads the catalogue assumes for this motor, a CAD model "
+            f"shows {' and '.join(f'{1e3 * depth:.1f} mm' for depth in at)}: its modeller's "
+            "figures, not the maker's."
         )
         reached = (each.engagement for each in found.values())
         fits = all(
             deep <= depth - OFF_BOTTOM + 1e-9 for deep, depth in zip(reached, at, strict=True)
         )
         # Designs of older versions did not count them.
-        drawn += (
-            " The screws fit it." if fits else " Were they right, these screws would be too long."
-        )
+        drawn += " The screws fit it." if fits else " If it is right, these screws are too long."
     known = "its maker's figures are in the table of screws" if stated else "no maker states it"
     yield (
-        "Measure how deep the motor's threads are before you put screws into them: "
+        "Measure the depth of the motor's threads before you put screws into them: "
         f"{known}. The screws of this design reach {reach} into it.{drawn} A screw that is too "
-        "long cuts into the winding; take a shorter one, or washers, so that its tip stays 0.5 mm "
-        "off the bottom, and tighten it less by as much as there is less thread."
+        "long cuts into the winding; use a shorter one, or washers, so that its tip stays 0.5 mm "
+        "off the bottom, and reduce its torque in proportion to the thread lost."
     )
 
 

@@ -84,7 +84,7 @@ def tightened(
         strength = fastening.strength
         held = min(1.0, engagement / (CLASSES[strength].depth * screw.diameter))
         share = held * joint_preload(screw, strength) / (sheared * ALUMINIUM_SHEAR)
-        rule = f"the joint, as computed; {share:.0%} of what strips a thread in 6061-T6"
+        rule = f"the joint, as computed; {share:.0%} of the load that strips a thread in 6061-T6"
         return Tightened(fastening, held * tightening_torque(screw, strength), rule, engagement)
     limits = [(screw.preload, "class 8.8 at 90 % of yield (VDI 2230, friction 0.12)")]
     if head_on_print:
@@ -96,10 +96,10 @@ def tightened(
         limits.append((pressed, f"{where} at half its yield strength"))
     if fastening.depth >= IN_PLASTIC:
         stripped = STRIP_SHARE * sheared * PETG.strength / sqrt(3.0)
-        limits.append((stripped, "thread in PETG at a third of what strips it"))
+        limits.append((stripped, "thread in PETG at a third of the load that strips it"))
     else:
         stripped = THREAD_SHARE * sheared * ALUMINIUM_SHEAR
-        limits.append((stripped, "thread in aluminium at half of what strips it"))
+        limits.append((stripped, "thread in aluminium at half the load that strips it"))
     preload, rule = min(limits)
     return Tightened(fastening, screw.torque(preload), rule, engagement, head_on_print, washers)
 
@@ -176,9 +176,9 @@ class Assembly(Documented):
         joint = "Lid on drum" if name.startswith("lid") else short(name).capitalize()
         lock = "no threadlocker"
         if held.depth < IN_PLASTIC:
-            lock = "threadlocker of medium strength"
+            lock = "medium-strength threadlocker"
             if found.on_print:
-                lock += ", a drop on the tips alone, for it attacks the print"
+                lock += ", a drop on the tips only, because it attacks the print"
         plate, where = self.device.plate, ""
         fastenings = () if plate is None else plate.fastenings
         # Which of the trunk's screws these are, where their lengths differ [mm].

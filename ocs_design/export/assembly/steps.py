@@ -89,7 +89,7 @@ def tools(assembly: Assembly) -> Iterator[str]:
     if assembly.top_speed is not None and cuts.holes:
         yield f"drill of {2e3 * cuts.hole_radius:.2g} mm to balance"
     elif assembly.top_speed is not None:
-        small = f"drills of {2e3 * hole:.2g} mm, some to spare,"
+        small = f"drills of {2e3 * hole:.2g} mm, with spares,"
         yield f"{small if hole >= LEAST_DRILL / 2.0 else 'small grinder'} to balance"
     cut = ["the motor's shaft"] if shaft_cut(device)[1] > 0.0 else []
     for name, found in assembly.screws.items():
@@ -136,11 +136,11 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
         hole = foot_of(device).housing.mount.pilot_radius
         supports = "no supports"
         if sqrt(2.0) * hole > FREE_SPAN:
-            supports += f" but in the hole of {2e3 * hole:.0f} mm of the standing foot"
+            supports += f" except in the hole of {2e3 * hole:.0f} mm of the standing foot"
         yield (
-            f"Print drum, lid{', foot and cage' if caged else ' and foot'} in PETG as they lie "
+            f"Print drum, lid{', foot and cage' if caged else ' and foot'} in PETG, oriented as "
             "in cad/housing.3mf, one of each, arranged on your bed by the slicer: 0.2 mm layers, "
-            f"100 % infill, for strength and masses are those of solid parts, {supports}. Tap the "
+            f"100 % infill (strength and masses assume solid parts), {supports}. Tap the "
             "ears of "
             f"{'drum and cage' if caged else 'the drum'} {LID_SCREW.name}."
         )
@@ -154,7 +154,7 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
         )
     yield from _drive_steps(assembly)
     if "lid" in assembly.numbers:
-        loose = " Nothing but its screws centres it: loosen them, shift it and tighten them again."
+        loose = " Only its screws centre it: loosen them, shift it and tighten them again."
         yield (
             "Turn the wheel by hand: it is free all around, and a strip of "
             f"{1e3 * CLEARANCE - 0.5:g} mm passes between rim and housing. Check the rim's "
@@ -180,13 +180,14 @@ def _drive_steps(assembly: Assembly) -> Iterator[str]:
         # Its threads are not known, and behind a gear neither is a hole for it.
         if device.motor.gear_room is not None:
             yield (
-                f"Fix gear{assembly.number('gear')} and motor{assembly.number('motor')} as said "
-                f"above, the gear's output within {1e3 * RUN_OUT:g} mm of the wheel's axis."
+                f"Fix gear{assembly.number('gear')} and motor{assembly.number('motor')} as "
+                f"described above, the gear's output within {1e3 * RUN_OUT:g} mm of the wheel's "
+                "axis."
             )
         else:
             yield (
                 f"Fix the motor{assembly.number('motor')} to plate and drum, its axis within "
-                f"{1e3 * RUN_OUT:g} mm of the middle of their hole, as said above."
+                f"{1e3 * RUN_OUT:g} mm of the middle of their hole, as described above."
             )
     # What holds the wheel on its drive; a ring around a bell is bonded already.
     joint = None
@@ -201,13 +202,13 @@ def _drive_steps(assembly: Assembly) -> Iterator[str]:
                 told = f" They carry the wheel by {joint.note}."
             yield f"{assembly.screwed(name)}{told}"
     if joint is not None and joint.capacity is None:
-        yield f"Hold the wheel on its drive by a joint of your own: {joint.note}."
+        yield f"Mount the wheel on its drive by a joint of your own: {joint.note}."
     elif joint is not None and not any(name.startswith("wheel") for name in assembly.screws):
         room = foot_of(device).housing.rim_height - device.flywheel.height
         yield (
             f"Put the wheel on the motor's shaft: {joint.note}. Strips of "
-            f"{1e3 * (CLEARANCE + room / 2.0):.1f} mm between rim and floor set its height; they "
-            "come out when the compound is hard."
+            f"{1e3 * (CLEARANCE + room / 2.0):.1f} mm between rim and floor set its height; remove "
+            "them when the compound has cured."
         )
 
 
@@ -221,9 +222,8 @@ def _near_lid(assembly: Assembly) -> str:
     if gap >= lid_sag(housing):
         return ""
     return (
-        f" With the lid on, what turns in its middle is {1e3 * gap:.1f} mm from it, and "
-        f"{FINGER:g} N on the lid press it in by {1e3 * lid_sag(housing):.1f} mm: nobody touches "
-        "it while the wheel turns."
+        f" The hub clears the lid by {1e3 * gap:.1f} mm, and {FINGER:g} N on the lid press it in "
+        f"by {1e3 * lid_sag(housing):.1f} mm: nobody touches it while the wheel turns."
     )
 
 
@@ -243,8 +243,8 @@ def robot_steps(assembly: Assembly) -> Iterator[str]:
     yield (
         "Name the drives as the robot files do. Seen from its lid, a positive torque turns the "
         f"wheel {told}. Axes are in the base frame, x forward, y left, z up, and the "
-        "wheel turns about them by the right hand. Try each at low torque, lid on; where it is "
-        "wrong, swap two of the motor's three wires, and set up its sensor again."
+        "wheel turns about them by the right-hand rule. Test each at low torque, lid on; if it "
+        "turns the wrong way, swap two of the motor's three wires and recalibrate its sensor."
     )
 
 
@@ -269,7 +269,7 @@ def _wheel_steps(assembly: Assembly) -> Iterator[str]:
         yield (
             f"Shrink the rim{assembly.number('rim')} on the web{assembly.number('hub')}: heat it "
             f"in an oven{hot} until it drops on the web, both on a flat plate{shim} and let both "
-            "cool: so the web is in the rim's middle."
+            "cool: this centres the web in the rim."
         )
     if not device.on_bell:
         return
@@ -316,11 +316,11 @@ def _trunk_steps(assembly: Assembly) -> Iterator[str]:
     stand = " and ".join(dict.fromkeys(f"{1e3 * height:.1f}" for height in heights))
     if device.layout == PAIR:
         yield (
-            "Both modules are of the same parts. On the robot the right one is turned by half "
-            "a turn about the vertical, so that both motors are on the inner side."
+            "Both modules have the same parts. On the robot the right one is turned by half "
+            "a turn about the vertical, so that both motors face inward."
         )
     else:
-        yield "All modules are of the same parts, each turned as its wheel's axis points."
+        yield "All modules have the same parts, each turned to the direction of its wheel's axis."
     frame = "in mm forward and to the left of the origin of the base frame (see Before you start)"
     what = "feet and pedestals" if standing and holes else "pedestals" if holes else "the feet"
     places_of = f"{'; '.join(drilled)}; {what} stand at z = {stand} mm"
@@ -351,13 +351,13 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
     )
     if plate.mast is None:
         yield (
-            f"{cut} {plate.thread} where its other {len(plate.trunk)} holes come to lie "
+            f"{cut} {plate.thread} under its other {len(plate.trunk)} holes "
             "(cad/drilling.pdf, printed at 100 %, which says how deep)."
         )
     else:
         yield (
             f"{cut}'s back {plate.thread} by cad/drilling.pdf, printed at 100 %. Whether "
-            "its wall bears them is not looked at: put a plate behind it where it is thin."
+            "its wall can carry them is not checked: put a plate behind it where it is thin."
         )
         mast, (arms, its, each) = plate.mast, ("an arm", "its top", "it")
         if len(plate.heights) > 1:
@@ -380,11 +380,11 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
             tilt = format_quantity(steepest(plate), "deg", digits=2)
             yield (
                 f"Mill the block{assembly.number(BLOCK)} to cad/block.stl or block.step, {thin:.1f}"
-                f" to {thick:.1f} mm thick: its front has the trunk's form. Weld it before the "
+                f" to {thick:.1f} mm thick: its front is shaped to the trunk. Weld it before the "
                 "upright, its lower end level with the end of the block in cad/plate.pdf, and "
-                "drill both together. Hold the mast on the trunk where the block fits: it does in "
-                f"one place, and nowhere is more than {1e3 * TOUCH:g} mm between them. With bushes "
-                f"of {bush} mm in its holes it is the jig for the trunk's, which go along the "
+                "drill both together. Hold the mast on the trunk where the block fits: it fits in "
+                f"one place, with gaps of at most {1e3 * TOUCH:g} mm. With bushes "
+                f"of {bush} mm in its holes it is the jig for the trunk's, which run along the "
                 f"screws, up to {tilt} off square to the trunk. Bed it in filled epoxy."
             )
     own = zip(places(trunk_holes(plate)), plate.sleeves, strict=True)
@@ -428,7 +428,7 @@ def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
     if asked:
         pinned = (
             " Then drill 3 mm through the base of each foot, clear of its slots, into what it "
-            "stands on, and put a pin in: in a maneuver the wheel turns its foot with up to "
+            "stands on, and put a pin in: in a maneuver the wheel twists its foot with up to "
             f"{significant(asked, 2)} N m, and the friction of its screws holds "
             f"{significant(foot_hold(assembly.device).turning, 2)} N m."
         )
@@ -560,9 +560,9 @@ def _pedestal_steps(assembly: Assembly) -> Iterator[str]:
         )
         yield (
             f"Print {len(kind.alike)} x {name}{assembly.number(name)} (cad/{name}.stl) in PETG on "
-            "its side, of solid layers, as strong as it is computed; tap the 2 holes of its seat "
+            "its side at 100 % infill, as its strength assumes; tap the 2 holes of its seat "
             f"{one.base_screws.screw.name}. Its seat's far end points, from forward to the "
-            f"left, to {turned}. It goes on the trunk before the foot is on it. "
+            f"left, to {turned}. Fit it to the trunk before the foot is on it. "
             + assembly.screwed(kind.screws.purpose)
         )
     if assembly.device.pedestals:

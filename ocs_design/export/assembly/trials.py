@@ -50,7 +50,7 @@ def balance(assembly: Assembly) -> Iterator[str]:
         yield (
             f"As built it may be {1e6 * balance.off_centre:.0f} µm off, {_two(1e6 * found)} g "
             f"mm (turning, and {balance.centred_by}). So balance it on its motor, and mark "
-            "both: taken apart, they go together again the same way."
+            "both, so that they go back together the same way."
         )
     holes, cuts = balance.correction, wheel.cuts
     if cuts.holes:
@@ -63,11 +63,11 @@ def balance(assembly: Assembly) -> Iterator[str]:
             f"Remove mass on the heavy side with a drill of {2e3 * holes.hole_radius:.2g} mm, at "
             f"most {1e3 * holes.depth:.2g} mm deep, in both faces of the rim, one hole opposite "
             f"the other, {1e3 * holes.radius:.1f} mm from the axis and {1e3 * holes.apart:.2g} mm "
-            f"from the next: so deep a pair takes {_two(1e3 * holes.mass)} g, which are "
+            f"from the next: a pair this deep removes {_two(1e3 * holes.mass)} g, or "
             f"{_two(1e6 * holes.mass * holes.radius)} g mm; half as deep, half of it. One half of "
-            f"the rim has room for {holes.count} pairs, {_two(1e6 * holes.most)} g mm: a wheel "
-            "that is off by more is made "
-            f"anew.{'' if wheel.web is None else ' Nothing is taken off web and hub.'}"
+            f"the rim has room for {holes.count} pairs, {_two(1e6 * holes.most)} g mm: remake a "
+            "wheel that is off by "
+            f"more.{'' if wheel.web is None else ' Take nothing off web and hub.'}"
         )
         yield from _at_the_rim(assembly)
     else:
@@ -79,7 +79,7 @@ def balance(assembly: Assembly) -> Iterator[str]:
         weights = _two(mode.acceleration / STANDARD_GRAVITY)
         yield (
             f"The {mode.name}'s first mode: {mode.frequency:.0f} Hz, {60.0 * mode.frequency:,.0f} "
-            f"rpm. What is left pushes with {_two(mode.force)} N; a wheel that stays there shakes "
+            f"rpm. What is left pushes with {_two(mode.force)} N; a wheel held at it shakes "
             f"the module by {_two(1e6 * mode.amplitude)} µm, with {weights} "
             f"times its weight ({DAMPING:.0%} damping, assumed)."
         )
@@ -119,8 +119,8 @@ def _at_the_rim(assembly: Assembly) -> Iterator[str]:
         yield (
             f"The inner face is {1e3 * CLEARANCE:g} mm off the drum's floor: undo the motor's "
             f"{screws}, unplug it, mark how it stood in its cage, and wheel and motor come out "
-            f"together on the lid's side, for its {1e3 * across:.1f} mm pass through the window of "
-            f"{1e3 * window:.1f} mm. {chips} {back}"
+            f"together on the lid's side, because its {1e3 * across:.1f} mm pass through the "
+            f"window of {1e3 * window:.1f} mm. {chips} {back}"
         )
     elif on_rotor := next((name for name in assembly.screws if name.startswith("wheel")), None):
         yield (
@@ -133,7 +133,7 @@ def _at_the_rim(assembly: Assembly) -> Iterator[str]:
             f"The inner face is {1e3 * CLEARANCE:g} mm off the drum's floor, and the motor's "
             f"{screws} are behind the wheel: drill the outer face alone, two holes beside each "
             "other for a pair, half of that room. Hold a vacuum cleaner to the drill, with tape "
-            "over the motor's hole, for chips stick to its magnets."
+            "over the motor's hole, because chips stick to its magnets."
         )
 
 
@@ -156,13 +156,13 @@ def spin_test(assembly: Assembly) -> Iterator[str]:
         f" Pass quickly through {60.0 * mode.frequency:,.0f} rpm, where the foot shakes."
         for mode in foot
     )
-    yield f"One minute each at {steps}; stop, and feel the motor and look at all screws.{past}"
+    yield f"Run one minute each at {steps}; stop, feel the motor and check all screws.{past}"
     motor = assembly.device.motor
     allowed = math.inf if motor.speed_max is None else motor.speed_max
     share = min(SPIN_TEST, allowed / speed)
     over = rpm(share * speed)
     if share < SPIN_TEST:
-        over += ", the most that motor and wheel are allowed"
+        over += ", the limit of motor and wheel"
     supply = (
         ""
         if motor.bus_voltage is None or share <= 1.0
@@ -177,11 +177,11 @@ def spin_test(assembly: Assembly) -> Iterator[str]:
         "It fails if anything hums that did not before, if the vibration rises between two "
         "steps other than with the square of the speed, if the run-out has changed, if a screw "
         f"has moved, or if the print at the motor is warmer than {_SOFT - 8:.0f} °C (PETG "
-        f"gives way at {_SOFT:.0f} °C). Then balance again, or build again."
+        f"softens at {_SOFT:.0f} °C). Then balance again, or build again."
     )
     yield (
         "Brake from full speed with the battery that will be used, and watch the bus voltage: "
-        "it must stay below what controllers and battery stand."
+        "it must stay below the limits of controllers and battery."
     )
 
 
@@ -202,8 +202,8 @@ def sweep(assembly: Assembly) -> Iterator[str]:
         "Hold the robot by its trunk, lids on, nobody in the wheels' planes, an accelerometer "
         "taped to one foot. Run that module's wheel alone from standstill to "
         f"{rpm(reached)}, {most}, in about a minute; then the others. "
-        f"Write down where each shakes most. Computed are: {computed}; a trunk or screws that "
-        "give way make them lower, and damping is assumed."
+        f"Write down where each shakes most. Computed speeds: {computed}; a trunk or screws that "
+        "give make them lower, and damping is assumed."
     )
     fastest = "The largest speed of the maneuvers" if flown else "The wheel's top speed"
     for mode in modes:
@@ -217,7 +217,7 @@ def sweep(assembly: Assembly) -> Iterator[str]:
             )
     cures = [
         f"balance that wheel again, to G {FINE_GRADE:g}, which leaves "
-        f"{FINE_GRADE / GRADE:.0%} of what shakes",
+        f"{FINE_GRADE / GRADE:.0%} of the excitation",
         "stick damping tape (butyl under aluminium foil) on the "
         f"{'plate beside its feet' if device.plate is not None else 'stem of the foot'}",
         *_stiffer(device, modes),
@@ -288,8 +288,8 @@ def safety(assembly: Assembly) -> Iterator[str]:
             f"{1e3 * steel:.0f} g each ({2e3 * burst.inner_radius:.1f} mm inside, "
             f"{1e3 * burst.height:.1f} mm wide; {rule}), or by an estimate without tests "
             f"behind it {_at_least(burst.aluminium)} mm of 6061-T6, "
-            f"{1e3 * aluminium:.0f} g each. `size --guard containing` builds the one of "
-            "steel in."
+            f"{1e3 * aluminium:.0f} g each. `size --guard containing` builds in the "
+            "steel one."
         )
     yield from _runaway(assembly)
     if "cage" in assembly.numbers:
@@ -300,7 +300,7 @@ def safety(assembly: Assembly) -> Iterator[str]:
     yield (
         "Whenever the supply is on: nobody in the plane of a wheel, eye protection for "
         "everybody in the room, no loose sleeves or cables, the lid on. Wheels coast on "
-        "after the supply is cut; wait until they stand."
+        "after the supply is cut; wait until they stop."
     )
     yield (
         "After a crash, a fall on a wheel, or a touch of rim and housing: run-out, balance and "
@@ -323,7 +323,7 @@ def _runaway(assembly: Assembly) -> Iterator[str]:
     yield (
         f"The wheel law, which computes with {motor.bus_voltage:g} V, drives no wheel past "
         f"{rpm(top)}, however full the battery is, and brakes one that is faster. A controller "
-        "that does not heed it may run away: on a battery with "
+        "that ignores it may run away: on a battery with "
         f"{SPIN_TEST:.0%} of that voltage to {rpm(speed)}, where a third of the wheel has "
         f"{_two(worst.fragment.energy)} J; {asked}."
     )

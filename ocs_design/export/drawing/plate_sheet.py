@@ -263,7 +263,7 @@ def _plate_notes(plate: CarrierPlate) -> Iterator[str]:
         lengths = ", ".join(dict.fromkeys(plain(each) for each in plate.sleeves if each > 0.0))
         yield (
             f"Sleeves Ø{plain(2.0 * plate.sleeve_radius)} × {plain(plate.sleeve_wall)} of the same "
-            f"material go under it, {lengths} long: which where is in cad/assembly.pdf."
+            f"material go under it, {lengths} long: cad/assembly.pdf says which goes where."
         )
 
 
@@ -356,7 +356,7 @@ def _mast_notes(plate: CarrierPlate, mast: Mast) -> Iterator[str]:
         thin, thick = plain(min(map(min, mast.formed))), plain(mast.off)
         yield (
             f"A block of {plain(mast.side)} × {plain(high - low)}, {thin} to {thick} thick, milled "
-            "to cad/block.stl or block.step, whose front has the trunk's form, is welded before "
+            "to cad/block.stl or block.step, its front shaped to the trunk, is welded before "
             f"the upright from z = {1e3 * low:.2f} up, and drilled with it."
         )
     elif mast.spacer > 0.0:
@@ -365,7 +365,7 @@ def _mast_notes(plate: CarrierPlate, mast: Mast) -> Iterator[str]:
             "before the upright, around the holes, and drilled with it."
         )
     yield (
-        "Square within 0.5 over the arm's length; edges broken 0.2. Its strength is counted as "
+        "Square within 0.5 over the arm's length; edges broken 0.2. Its strength is taken as "
         "that beside a weld (EN~1999-1-1)."
     )
 

@@ -124,11 +124,11 @@ def whole_sheet(
     """
     items, sentences = [*frame(), *views], [*notes]
     if refused:
-        words = "NOT buildable as it stands: make nothing of this sheet, note 1 says why"
+        words = "NOT buildable as it stands: make nothing from this sheet, note 1 says why"
         items.append(Text((RIGHT - 4.0, TOP + 4.1), words, 3.0, Anchor.END))
         if len(refused) > _MOST_WORDS:
             points = refused[:_MOST_WORDS].rpartition(". ")[0]
-            refused = f"{points}. All that is open is in cad/assembly.pdf."
+            refused = f"{points}. cad/assembly.pdf has all open points."
         sentences.insert(0, refused)
     # The notes above the title block and the list of parts are as wide as the sheet.
     block = min([BLOCK_TOP, *(part.start[1] for part in parts if isinstance(part, Line))])

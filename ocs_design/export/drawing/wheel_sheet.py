@@ -171,7 +171,7 @@ def notes(drawing: WheelDrawing) -> Iterator[str]:
     if drawing.yield_strength is not None:
         yield (
             f"Material with a yield strength of at least {drawing.yield_strength / 1e6:.0f}~MPa, "
-            "as it was sized with."
+            "as assumed in sizing."
         )
     run_out = f"Run-out of the rim, around and on its faces, to the bore at most {RUN_OUT:g}."
     if drawing.bonded:

@@ -50,7 +50,7 @@ PAPER = (
 )
 
 _SCREWS = (
-    *("No.", "quantity", "<screw", "<what it holds", "<thread that holds"),
+    *("No.", "quantity", "<screw", "<what it holds", "<thread engaged"),
     *("<torque", "<set by"),
 )
 """Columns of `ScrewRow`."""

@@ -101,7 +101,7 @@ def test_the_bench_is_told_what_the_foot_does_and_what_can_be_touched():
     assert "Between the posts of the cage the motor's bell turns" in caged
     assert "Between the posts" not in by_face
     hole = 2e3 * foot_of(DEVICES["caged"]).housing.mount.pilot_radius
-    assert f"no supports but in the hole of {hole:.0f} mm" in caged
+    assert f"no supports except in the hole of {hole:.0f} mm" in caged
 
 
 def test_modes_are_swept_for_on_the_robot_and_what_is_near_one_is_told():
@@ -274,7 +274,7 @@ def test_the_balance_says_how_much_is_left_and_what_holes_take():
     holes, rim = balance.correction, device.flywheel
     pair = 2.0 * np.pi * holes.hole_radius**2 * holes.depth * rim.density
     away = (rim.inner_radius + rim.outer_radius) / 2.0
-    assert f"a pair takes {1e3 * pair:.2g} g, which are {1e6 * pair * away:.2g} g mm" in said
+    assert f"pair this deep removes {1e3 * pair:.2g} g, or {1e6 * pair * away:.2g} g mm" in said
     assert f"drill of {2e3 * holes.hole_radius:.1f} mm, at most {1e3 * holes.depth:.1f} mm" in said
     assert balance.centred_by in said
 
@@ -356,7 +356,7 @@ def test_work_on_the_robot_is_not_told_for_each_module():
     )  # fmt: skip
     assert (each.title, once.title) == ("Steps, for each module", "Steps, once for the robot")
     assert (each.first, once.first) == (1, len(each.texts) + 1)
-    robot = ("Make the plate", "Plate on trunk", "Name the drives", "Both modules are")
+    robot = ("Make the plate", "Plate on trunk", "Name the drives", "Both modules have")
     assert not any(text.startswith(robot) for text in each.texts)
     assert {start for start in robot for text in once.texts if text.startswith(start)} == set(robot)
     assert each.texts[-1].startswith("Weigh the module")
@@ -404,8 +404,8 @@ def test_the_screws_reach_into_the_motor_is_told_beside_what_its_model_draws():
         assert f"The screws of this design reach {reached} into it." in said
         drawn = [of_rotor[model] if name.startswith("wheel") else 3.6 for name in names]
         figures = " and ".join(f"{depth:.1f} mm" for depth in drawn)
-        assert (f"a model draws {figures}: its modeller" in said) == bool(model)
-        assert f"Of {model}, whose" in said or not model
+        assert (f"a CAD model shows {figures}: its modeller" in said) == bool(model)
+        assert f"For {model}, whose" in said or not model
         # Half a millimetre is to be left below each tip.
         long = any(1e3 * deep + 0.5 > depth for deep, depth in zip(reach, drawn, strict=True))
         assert ("these screws would be too long" in said) == (bool(model) and long)
@@ -423,7 +423,7 @@ def test_behind_a_gear_nothing_is_fixed_in_a_hole_or_bonded_on_a_shaft():
         assert (rows[name].made, rows[name].file) == (f"bought: {device.motor.gear}", "")
     steps = texts(assembly, "Steps")
     numbers = [assembly.numbers[name] for name in ("gear", "motor")]
-    assert "Fix gear ({}) and motor ({}) as said above".format(*numbers) in steps
+    assert "Fix gear ({}) and motor ({}) as described above".format(*numbers) in steps
     assert "the gear's output within 0.05 mm of the wheel's axis" in steps
     assert "middle of their hole" not in steps
     assert "by a joint of your own: how a wheel is mounted on this gear is not in" in steps
@@ -553,8 +553,8 @@ def test_a_wheel_whose_speed_is_not_known_is_not_tested():
     ("allowed", "says"),
     [
         (1.5, "ten seconds, 110%: 11,000 rpm, which takes 26.4 V."),
-        (1.05, "ten seconds, 105%: 10,500 rpm, the most that motor and wheel are allowed, which"),
-        (1.0, "ten seconds, 100%: 10,000 rpm, the most that motor and wheel are allowed."),
+        (1.05, "ten seconds, 105%: 10,500 rpm, the limit of motor and wheel, which"),
+        (1.0, "ten seconds, 100%: 10,000 rpm, the limit of motor and wheel."),
     ],
 )
 def test_the_spin_test_keeps_to_the_speed_that_the_motor_is_allowed(allowed, says):
@@ -585,7 +585,7 @@ def test_a_hub_that_a_pressed_lid_touches_is_told(apart):
     near = replace(device, flywheel=replace(device.flywheel, web=web))
     said = texts(Assembly("solo12", near), "Steps, for each")
     told = re.search(
-        r"is ([\d.]+) mm from it, and 10 N on the lid press it in by ([\d.]+) mm", said
+        r"the lid by ([\d.]+) mm, and 10 N on the lid press it in by ([\d.]+) mm", said
     )
     assert bool(told) == (apart < sag)
     if told:
@@ -599,7 +599,7 @@ def test_a_wheel_that_only_its_screws_centre_is_shifted(shaft, told):
     caged = DEVICES["caged"]
     motor = replace(caged.motor, mounting=replace(caged.motor.mounting, shaft_diameter=shaft))
     said = texts(Assembly("solo12", replace(caged, motor=motor)), "Steps")
-    assert ("Nothing but its screws centres it" in said) == told
+    assert ("Only its screws centre it" in said) == told
 
 
 def test_what_carries_the_wheel_is_told_with_its_screws_and_is_no_step():

@@ -153,4 +153,4 @@ def test_a_plate_that_is_not_to_be_made_says_so_first(plate):
         assert_refused(short)
         check_words(long)
         said = " ".join(item.text for item in texts(long))
-        assert "cures it. All that is open is in cad/assembly.pdf." in said
+        assert "cures it. cad/assembly.pdf has all open points." in said
