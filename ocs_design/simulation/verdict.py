@@ -106,6 +106,9 @@ def _landing_verdict(
     landing, final = f"{_ends(maneuver)} at {_tilt(metrics)}", _final_tilt(metrics)
     if isinstance(maneuver, TurnTo):
         landing += f", heading turned by {_degrees(metrics.heading_drift)} deg"
+        if any(landing_attitude(maneuver)[:2]):
+            off = _degrees(off_at_touchdown(metrics, maneuver))
+            landing += f", its vertical {off} deg off what is asked"
     if not maneuver.gravity:
         return Verdict(True, landing)
     if not lands_on_legs(maneuver):

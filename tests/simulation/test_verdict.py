@@ -6,7 +6,7 @@ from campaigns import calm_metrics
 
 from ocs_design.requirement.maneuver import Drop, Flip, Shove
 from ocs_design.requirement.turns import TurnTo
-from ocs_design.simulation.verdict import comes_down_well, judge, stands
+from ocs_design.simulation.verdict import comes_down_well, judge, landing_attitude, stands
 
 GOOD = calm_metrics(
     touchdown_time=0.39,
@@ -64,6 +64,17 @@ def test_pass_rule(metrics, maneuver, can_stand, passed, reason):
     assert reason in verdict.reason
     without_legs = judge(metrics, maneuver, can_stand=None)
     assert comes_down_well(metrics, maneuver) is (without_legs.passed is True)
+
+
+def test_a_turn_to_an_attitude_is_told_by_how_much_it_misses_it():
+    """Roll and pitch of the vertical are not the angles that it was asked for by."""
+    asked = TurnTo(name="turn", gravity=0.0, roll=0.7, pitch=-0.5, duration=2.0)
+    roll, pitch, heading = landing_attitude(asked)
+    assert (roll, pitch) != (0.7, -0.5)
+    flown = replace(GOOD, touchdown_roll=roll, touchdown_pitch=pitch, heading_drift=heading)
+    assert "its vertical 0.0 deg off what is asked" in judge(flown, asked, can_stand=None).reason
+    off = replace(flown, touchdown_pitch=pitch + 0.05)
+    assert "deg off what is asked" in judge(off, asked, can_stand=None).reason
 
 
 def test_a_biped_is_told_why_its_legs_do_not_stand():
