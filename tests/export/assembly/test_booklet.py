@@ -408,7 +408,7 @@ def test_the_screws_reach_into_the_motor_is_told_beside_what_its_model_draws():
         assert f"For {model}, whose" in said or not model
         # Half a millimetre is to be left below each tip.
         long = any(1e3 * deep + 0.5 > depth for deep, depth in zip(reach, drawn, strict=True))
-        assert ("these screws would be too long" in said) == (bool(model) and long)
+        assert ("these screws are too long" in said) == (bool(model) and long)
 
 
 def test_behind_a_gear_nothing_is_fixed_in_a_hole_or_bonded_on_a_shaft():
