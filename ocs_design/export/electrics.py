@@ -78,6 +78,18 @@ def wiring_parts(device: Device, margins: Sequence[Margin]) -> Iterator[tuple[st
     yield "bus cables, two wires", 1, f"battery to controllers, short; {flows}"
     least = "" if current is None else f"; each wire {_up(current)} A at the torque limit"
     yield "motor cables, three wires", count, f"controller to motor{least}; and the sensor's"
+    yield (
+        "connectors, a set",
+        1,
+        f"for bus, motors and sensors; each carries what its cable does, {rated}",
+    )
+    yield "cable ties, a set", 1, "controllers to the feet, wires clear of what turns"
+    yield (
+        "IMU",
+        1,
+        "attitude and rate of the trunk, which the wheel law asks for in every period; none where "
+        "the robot has one",
+    )
 
 
 def wiring(device: Device, margins: Sequence[Margin]) -> Iterator[str]:

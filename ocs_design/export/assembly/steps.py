@@ -20,6 +20,7 @@ from ocs_design.device.joints import (
     unheld_moment,
 )
 from ocs_design.device.layout import PAIR, SIDES
+from ocs_design.device.resonances import resonances_of
 from ocs_design.device.solids import drive_solids, foot_of, shaft_cut
 from ocs_design.export.assembly.content import LEAST_DRILL, Assembly, Tightened
 from ocs_design.export.device_parts import (
@@ -56,6 +57,9 @@ KEY_LEG, KEY_ARM = 18.0e-3, 50.0e-3
 
 LEAST_ROOM = 6.0e-3
 """Above a head, in which a key with a cut leg can be put in and turned [m]: an assumption."""
+
+HAND_STRIP = CLEARANCE - 0.5e-3
+"""Thickness of what passes between rim and housing all around [m]."""
 
 LEAST_DEGREE = 1.0
 """Change of a difference of lengths by a degree, below which a rule does not tell more than the
@@ -100,7 +104,15 @@ def tools(assembly: Assembly) -> Iterator[str]:
             cut.append("screws")
     if cut:
         yield f"cutting disc for {' and '.join(dict.fromkeys(cut))}"
-    yield from ("dial gauge", "hand drill on a stand", "scales to 0.01 g", "tachometer")
+    if "lid" in assembly.numbers:
+        strips = [HAND_STRIP, *filter(None, [_height_strip(assembly)])]
+        yield f"strips of {' and '.join(f'{1e3 * each:.1f}' for each in strips)} mm for gaps"
+    yield from ("steel rule", "dial gauge", "hand drill on a stand", "scales to 0.01 g")
+    if assembly.top_speed is not None:
+        yield from ("tachometer", "accelerometer that shows its amplitude, and wax, to balance")
+        yield "steel box or wall for the spin test, as said there"
+        if resonances_of(device):
+            yield "damping tape for the sweep, if it shakes"
 
 
 def _cutters(assembly: Assembly) -> Iterator[str]:
@@ -157,7 +169,7 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
         loose = " Only its screws centre it: loosen them, shift it and tighten them again."
         yield (
             "Turn the wheel by hand: it is free all around, and a strip of "
-            f"{1e3 * CLEARANCE - 0.5:g} mm passes between rim and housing. Check the rim's "
+            f"{1e3 * HAND_STRIP:g} mm passes between rim and housing. Check the rim's "
             f"run-out on its motor: at most {2e3 * RUN_OUT:g} mm.{_near_lid(assembly)}"
             f"{loose if balance_of(device).shifted else ''}"
         )
@@ -203,13 +215,21 @@ def _drive_steps(assembly: Assembly) -> Iterator[str]:
             yield f"{assembly.screwed(name)}{told}"
     if joint is not None and joint.capacity is None:
         yield f"Mount the wheel on its drive by a joint of your own: {joint.note}."
-    elif joint is not None and not any(name.startswith("wheel") for name in assembly.screws):
-        room = foot_of(device).housing.rim_height - device.flywheel.height
+    elif joint is not None and (strip := _height_strip(assembly)) is not None:
         yield (
             f"Put the wheel on the motor's shaft: {joint.note}. Strips of "
-            f"{1e3 * (CLEARANCE + room / 2.0):.1f} mm between rim and floor set its height; remove "
-            "them when the compound has cured."
+            f"{1e3 * strip:.1f} mm between rim and floor set its height; remove them when the "
+            "compound has cured."
         )
+
+
+def _height_strip(assembly: Assembly) -> float | None:
+    """Thickness of strips that set the height of a wheel on its shaft [m]; None: none is bonded."""
+    device = assembly.device
+    screwed = any(name.startswith("wheel") for name in assembly.screws)
+    if screwed or not any(each.note.startswith("bonded") for each in joints_of(device)):
+        return None
+    return CLEARANCE + (foot_of(device).housing.rim_height - device.flywheel.height) / 2.0
 
 
 def _near_lid(assembly: Assembly) -> str:

@@ -348,6 +348,23 @@ def test_a_key_that_is_cut_has_a_cutter():
     assert "cutting disc for the short leg of a hex key of 2.5 mm" in told
 
 
+@pytest.mark.parametrize(
+    ("name", "strips"), [("caged", "1.5 mm"), ("by its face", "1.5 and 2.0 mm")]
+)
+def test_what_steps_and_tests_ask_for_is_under_the_tools(name, strips):
+    assembly = Assembly("dog", DEVICES[name])
+    told = texts(assembly, "Before")
+    told = told[told.index("Tools: ") :]
+    assert f"strips of {strips} for gaps" in told
+    steps = " ".join(texts(assembly, title) for title in ("Steps", "Balance", "Spin", "Sweep"))
+    for tool in ("accelerometer", "wax", "damping tape", "steel box", "steel rule"):
+        assert tool in told
+        assert tool in steps
+    rows = {row.part: row.remark for row in bill_rows(assembly.device)}
+    assert "none where the robot has one" in rows["IMU"]
+    assert {"connectors, a set", "cable ties, a set"} <= set(rows)
+
+
 def test_work_on_the_robot_is_not_told_for_each_module():
     """Its numbers go on."""
     each, once = (
