@@ -286,7 +286,11 @@ def _assumptions(
         yield from _assumed_supply(specification.supply, choice.supply)
         if motor.name in {None, AUTO}:
             which = "with enough data" if motor.any else "that can be built with"
-            yield f"Motor: the one that gives the lightest device, of all {which}."
+            yield (
+                f"Motor: {choice.motors[0].name}, the only one {which}."
+                if len(choice.motors) == 1
+                else f"Motor: the one that gives the lightest device, of all {which}."
+            )
         if motor.gear in {None, AUTO}:
             stages = len(choice.gears) - 1
             yield (
@@ -322,7 +326,8 @@ def _assumed_supply(stated: SupplySection, supply: Supply) -> Iterator[str]:
     assumed = []
     if stated.voltage is None:
         assumed.append(f"{supply.voltage:g} V")
-    if stated.power_max is None:
+    # A stated current may be the tighter limit; then the default does not count.
+    if stated.power_max is None and supply.power_max <= supply.power:
         power = format_quantity(supply.power_max, "kW" if supply.power_max >= 1e3 else "W", 3)
         assumed.append(f"at most {power} ({POWER_PER_MASS:g} W per kg of robot)")
     if assumed:

@@ -19,6 +19,7 @@ from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import strong_materials
 from ocs_design.common.errors import Infeasible, OcsError, SpecificationError
 from ocs_design.common.units import format_quantity, round_outwards
+from ocs_design.common.wording import degrees
 from ocs_design.device.records.selection import SAVES_NOTHING, Alternative, Owed
 from ocs_design.requirement.choices import BUS_VOLTAGES, any_motors, motor_choice
 from ocs_design.requirement.kinds import change_text, milder, slower
@@ -201,7 +202,7 @@ class Change:
     def notes(self, found: Candidate, choice: Choice) -> Iterator[str]:
         """Notes on the device found, besides its mass and motor."""
         if self.turns:
-            yield f"alpha {format_quantity(found.incidence, 'deg', 3)}"
+            yield f"alpha {degrees(found.incidence)}"
         if found.material != choice.chosen.material:
             yield found.material.name
         rated = found.motor.rated_voltage

@@ -11,7 +11,7 @@ from urdf_text import LIMIT, inertial, joint, link, robot
 
 from ocs_design.common.errors import RobotError, SpecificationError, UsageError
 from ocs_design.requirement.bound import spin_demands
-from ocs_design.requirement.device_sections import MotorSection
+from ocs_design.requirement.device_sections import MotorSection, SupplySection
 from ocs_design.requirement.froude import WHEEL_SPEED_MAX, default_envelope
 from ocs_design.requirement.reading import parse_specification, read_specification, specify
 from ocs_design.requirement.resolving import default_specification, read_specified_robot, resolve
@@ -57,6 +57,22 @@ def test_nothing_stated_is_everything_assumed(solo12):
         "95% of voltage, current and speed limit",
         "broken by 0.2 mm",
     )
+
+
+def test_a_stated_current_that_is_the_tighter_limit_leaves_no_power_to_assume(solo12):
+    """24 V at 30 A are 720 W, less than 400 W per kg of 2.5 kg; at 100 A they are more."""
+    for current, told in ((30.0, False), (100.0, True)):
+        asked = Specification(supply=SupplySection(current_max=current))
+        (supply,) = (
+            each for each in resolve(asked, solo12, SIZE).assumptions if each.startswith("Supply")
+        )
+        assert ("at most 1 kW" in supply) == told
+
+
+def test_a_file_of_one_motor_leaves_no_choice(solo12):
+    one = Path(__file__).parents[1] / "data" / "one_motor.toml"
+    assumed = resolve(Specification(motor=MotorSection(motors=one)), solo12, SIZE).assumptions
+    assert "Motor: shelf 6215 KV170, the only one that can be built with." in assumed
 
 
 def test_nothing_stated_but_that_there_is_no_motor(solo12):
