@@ -1,6 +1,6 @@
 """The designed robot as an environment: `gymnasium.make("ocs_design.gym:OcsFlight-v0")`.
 
-Gymnasium imports what stands before the colon, so this loads nothing else.
+Gymnasium imports the module named before the colon, so this module loads nothing else.
 """
 
 from ocs_design.common.errors import MissingToolError, extra_command

@@ -1,7 +1,7 @@
 """A flight of the designed robot whose wheels a policy drives, judged as `validate` judges it.
 
-World, legs, sensors, motors and what is drawn for a sample are those of the Monte Carlo campaign:
-under the torques of the wheel law an episode is that very flight.
+World, legs, sensors, motors and sampled values are those of the Monte Carlo campaign: under the
+torques of the wheel law an episode equals the campaign's flight.
 """
 
 from math import remainder, tau
@@ -31,28 +31,28 @@ from ocs_design.workflows.validate import campaign_of
 Observation: TypeAlias = NDArray[np.float32]
 
 BOUND = 10.0
-"""Largest size of a normalised observation; flights that are judged stay below 4."""
+"""Bound on normalised observations; in flights that can be judged they stay below 4."""
 
 SAMPLES = 2**31
-"""Number of samples of which an episode draws one."""
+"""Number of samples from which an episode draws one."""
 
 
 class OcsFlight(gymnasium.Env[Observation, Observation]):
     """A flight from lift-off, or from the push, to its end some time after touchdown.
 
-    Observation, of n wheels, as the sensors measure it: the vertical in B (3), the trunk's rate in
+    Observation with n wheels, as the sensors measure it: the vertical in B (3), the trunk's rate in
     half turns per flight (3), the wheels' speeds over their top speed (n), roll, pitch and heading
-    left to turn in half turns (3, zero where they are free), the time left over that of the flight,
-    and whether anything touches the ground; shape (11 + n,).
+    left to turn in half turns (3, zero where free), the share of the flight time that is left, and
+    whether anything touches the ground; shape (11 + n,).
 
     Action: torque of each motor over the most that it can give at its speed, -1..1, shape (n,).
     The legs hold their posture or follow their plans, as under the law.
 
-    Reward: at each step in the air, by how many half turns the trunk has come nearer to where it
-    shall touch down; at the end one each for a pass, a level touchdown and standing.
+    Reward: at each step in the air, the decrease of the angle left to turn, in half turns; at the
+    end, one each for a pass, a level touchdown and standing.
 
     Attributes:
-        metrics: figures of the last flight that ended; None: it broke down, or none has.
+        metrics: figures of the last flight that ended; None: it became unstable, or none has ended.
     """
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array", "rgb_array_list"], "render_fps": 200}  # noqa: RUF012
@@ -71,11 +71,11 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         Args:
             design: its folder, or its `design.json`.
             maneuver: one of the design's own; None: each episode draws one.
-            randomise: whether each episode draws a robot as it might be built; else it is as
-                designed, and its sensors and drives are perfect.
-            robot_file: of the robot, where it has moved.
+            randomise: whether each episode draws a sampled robot; otherwise the robot is as
+                designed, with perfect sensors and drives.
+            robot_file: file of the robot, if it has moved.
             render_mode: `rgb_array`, `rgb_array_list` or None. OpenGL runs in a process of its own,
-                which takes a second to start: a list of all is drawn at once.
+                which takes a second to start; a list is rendered in one go.
 
         Raises:
             OcsError: the design or its robot cannot be read, its flights cannot be judged, or it
@@ -83,7 +83,7 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
             UsageError: it has no such maneuver.
         """
         flights = read_flights(design, Specification(), robot_file=robot_file)
-        # What its legs bear is in the record, unless it was not flown.
+        # The record says what the legs can bear, unless the design was never flown.
         flown = flights.design.validation or flights.fly(Steps())
         self._campaign = campaign_of(flights, flown)
         names = [flight.maneuver.name for flight in self._campaign.flights]
@@ -112,11 +112,11 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         """Begin a flight.
 
         Args:
-            seed: of what episodes draw.
-            options: `maneuver` by its name; `sample`, as of `ocs-design validate --sample`.
+            seed: of the random draws of episodes.
+            options: `maneuver`, a name; `sample`, as in `ocs-design validate --sample`.
 
         Raises:
-            UsageError: of the options.
+            UsageError: an option has a wrong value.
         """
         super().reset(seed=seed)
         given = options or {}
@@ -142,12 +142,12 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         return observed, {**told, "law": self._law_action()}
 
     def step(self, action: Observation) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
-        """Fly one control step; `info["law"]` is what the law would do next.
+        """Fly one control step; `info["law"]` is the action that the law would take next.
 
         At the end `info` has the verdict: `passed`, `level`, `stands` and `reason`.
 
         Raises:
-            UsageError: an action of another shape, or with NaN.
+            UsageError: the action has another shape, or a NaN.
         """
         pilot = self._flying()
         low, high = pilot.seen.lowest, pilot.seen.highest
@@ -172,7 +172,7 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         return observed, reward, False, False, {"law": self._law_action()}
 
     def render(self) -> RenderFrame | list[RenderFrame] | None:
-        """Picture of the robot now, shape (height, width, 3), or list of those since `reset`.
+        """Picture of the robot now, shape (height, width, 3), or list since `reset` or the last call.
 
         Raises:
             MissingToolError: OpenGL does not work here.
@@ -202,7 +202,7 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         return self._pilot
 
     def _observed(self) -> Observation:
-        """Observation now; remembers it and what is left to turn [half turns]."""
+        """Observation now; keeps it, and the angles left to turn [half turns]."""
         pilot, world = self._flying(), self._world
         seen, time = pilot.seen, 1.0 - pilot.flown * self._period / world.flight_time
         x, y, z = seen.vertical
@@ -221,7 +221,7 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         return last
 
     def _goal(self) -> FloatArray:
-        """Roll, pitch with its whole turns, and heading at touchdown [rad]; NaN: it is free."""
+        """Target roll, pitch with whole turns, and heading at touchdown [rad]; NaN: free."""
         maneuver, turn = self._maneuver, self._world.turn
         roll, pitch = turn.end * turn.axis[:2]
         if not isinstance(maneuver, TurnTo):

@@ -1,1 +1,1 @@
-"""How often a design does its work in a world that is not as designed."""
+"""Reliability of a design under tolerances and disturbances, by Monte Carlo simulation."""

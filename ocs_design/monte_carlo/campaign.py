@@ -1,4 +1,4 @@
-"""What is flown over and over: campaigns, their results in a folder, single samples flown again."""
+"""Campaigns: flights of many samples, their results in a folder, and replay of single samples."""
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -36,7 +36,7 @@ class DesignedFlight:
     """One scenario as designed.
 
     Attributes:
-        maneuver: that is flown. world: with the wheels active.
+        maneuver: the one flown. world: with the wheels active.
         can_stand, objection: see `judge`.
     """
 
@@ -48,15 +48,15 @@ class DesignedFlight:
 
 @dataclass(frozen=True, eq=False)
 class Campaign:
-    """Scenarios, what is uncertain about them, and the seed of its samples.
+    """Scenarios, their uncertainty, and the seed of the samples.
 
     Attributes:
         flights: one of each scenario, as designed.
-        uncertainty: how everything is spread.
+        uncertainty: distributions of all sampled quantities.
         air: drag of a wheel.
-        limits: of a motor before friction, which is drawn, takes its part.
-        seed: of all samples. hold: steps of the physics per control step.
-        engine: of the physics; None: MuJoCo on the processors.
+        limits: of a motor before friction, which is sampled, is subtracted.
+        seed: of all samples. hold: physics steps per control step.
+        engine: of the physics; None: MuJoCo on the CPU.
     """
 
     flights: tuple[DesignedFlight, ...]
@@ -68,7 +68,7 @@ class Campaign:
     engine: Engine | None = None
 
     def sample(self, index: int) -> Sample:
-        """What is drawn for one robot."""
+        """Sampled values for one robot."""
         return Sample.draw(self.uncertainty, self.seed, index)
 
     def worlds(self, sample: Sample) -> list[World]:
@@ -76,7 +76,7 @@ class Campaign:
         return [self.built(sample, number) for number in range(len(self.flights))]
 
     def built(self, sample: Sample, number: int, scratch: mujoco.MjData | None = None) -> World:
-        """Scenario `number` of one robot; `scratch`: see the function of that name."""
+        """Scenario `number` of one robot; `scratch`: see the function `built`."""
         return built(
             self.flights[number].world,
             sample,
@@ -110,7 +110,7 @@ def make_campaign(
 
     Args:
         flights: as designed.
-        can_stand: of each maneuver, as its flights as designed showed it.
+        can_stand: of each maneuver, as found in its flights as designed.
         seed: of all samples.
     """
     worlds, device = map(flights.driven, flights.maneuvers), flights.device
@@ -124,7 +124,7 @@ def make_campaign(
 
 
 MEMORY = 512 << 20
-"""Memory of the worlds flown at once [bytes]; a humanoid's meshes are in each of its models."""
+"""Memory for worlds that are flown together [bytes]; each model of a humanoid has its meshes."""
 
 
 def fly_samples(
@@ -134,19 +134,19 @@ def fly_samples(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Outcomes:
-    """Every scenario of these samples, as many at once as `MEMORY` has room for.
+    """Fly every scenario of these samples, as many at once as fit into `MEMORY`.
 
     Args:
         campaign: what is flown.
-        indices: of the samples. Each has the same numbers whatever it is flown together with.
+        indices: of the samples. Results of a sample do not depend on what it is flown with.
         threads: of the physics; None: one per processor.
-        progress: told the part of the work that is done, 0..1.
+        progress: called with the share of the work that is done, 0..1.
     """
-    # A model that is let go of shall leave no hole in the heap of the C library, which else grows
-    # with every batch: glibc's mallopt(M_MMAP_THRESHOLD, 1 MiB), where there is one.
+    # Freed models must leave no holes in the C library's heap, which would otherwise grow with
+    # every batch: glibc's mallopt(M_MMAP_THRESHOLD, 1 MiB), where it exists.
     with suppress(OSError, AttributeError, TypeError):
         CDLL(None).mallopt(-3, 1 << 20)
-    # Measured: a model takes half as much again, and 490 bytes a control step are recorded.
+    # Measured: a model takes half as much again, and each control step records 490 bytes.
     period = campaign.hold * STEP
     size = sum(1.5 * flight.world.model.nbuffer for flight in campaign.flights)
     size += sum(490.0 * flight.world.duration / period for flight in campaign.flights)
@@ -163,7 +163,7 @@ def fly_samples(
 def _flown_at_once(
     campaign: Campaign, indices: Sequence[int], threads: int | None, progress: Progress
 ) -> Outcomes:
-    """Every scenario of these samples in one batch, whose memory is free on return."""
+    """Fly every scenario of these samples in one batch, whose memory is freed on return."""
     samples = [campaign.sample(index) for index in indices]
     scratch = [mujoco.MjData(flight.world.model) for flight in campaign.flights]
     worlds = [
@@ -194,13 +194,13 @@ _KIND = TextKind("case", 1 << 20, 1 << 20, "give a file from the folder worst/",
 
 @dataclass(frozen=True, kw_only=True)
 class Case:
-    """A sample with what came of it.
+    """A sample with its results.
 
     Attributes:
         design: SHA-256 of what was designed.
-        seed, sample: which its noise follows from.
-        scenario: for which it was kept. verdict: on it, in one sentence.
-        values: that were drawn, by name (SI).
+        seed, sample: determine its noise.
+        scenario: for which it was kept. verdict: on that scenario, in one sentence.
+        values: sampled, by name (SI).
         metrics: of each scenario by its name; null where there is no value.
     """
 
@@ -214,10 +214,10 @@ class Case:
     metrics: Mapping[str, Mapping[str, float | None]]
 
     def drawn(self, layout: Layout, detection: float | None = None) -> Sample:
-        """The sample itself, of a device with this layout, whose drives stop or not.
+        """The sample itself, for a device with this layout; `detection`: see `Uncertainty`.
 
         Raises:
-            OcsError: it lacks a quantity that is drawn.
+            OcsError: it lacks a sampled quantity.
         """
         names = quantities(layout, one_stops=detection is not None)
         if missing := [name for name in names if name not in self.values]:
@@ -230,7 +230,7 @@ class Case:
 
 
 def case_of(campaign: Campaign, outcomes: Outcomes, row: int, scenario: int, design: str) -> Case:
-    """The sample in one row of the outcomes, kept for one scenario."""
+    """Case of the sample in one row of the outcomes, kept for one scenario."""
     names = [flight.maneuver.name for flight in campaign.flights]
     return Case(
         schema_version=SCHEMA_VERSION,
@@ -286,7 +286,7 @@ def write_results(
     """Write the results of a campaign in place of earlier ones.
 
     Args:
-        campaign: that was flown. outcomes: of its samples. record: what they say together.
+        campaign: the one flown. outcomes: of its samples. record: their summary.
         folder: to write to.
         design: hash of the design, for the cases.
 
@@ -307,7 +307,7 @@ def write_results(
                 for sample in scenario.worst:
                     write_case(case_of(campaign, outcomes, rows[sample], number, design), worst)
             (staging / RESULT_FILE).write_bytes(to_json(record))
-            # The record comes last: it is gone while the others are not of one run.
+            # The record comes last: it is absent while the other files are not all of one run.
             (folder / RESULT_FILE).unlink(missing_ok=True)
             (folder / WORST_FOLDER).mkdir(exist_ok=True)
             for old in (folder / WORST_FOLDER).glob("*.json"):
@@ -322,10 +322,10 @@ def write_results(
 def replayed(
     campaign: Campaign, sample: Sample, *, pose_rate: float | None = None
 ) -> tuple[Run, ...]:
-    """Every scenario of one sample; the numbers are those that it had among others.
+    """Fly every scenario of one sample again; results equal those in the campaign.
 
     Args:
-        campaign: that it belongs to. sample: to fly.
+        campaign: of the sample. sample: to fly.
         pose_rate: see `simulate`.
     """
     flights = fly(campaign.worlds(sample), Options(hold=campaign.hold, pose_rate=pose_rate))

@@ -1,7 +1,7 @@
-"""Wald's sequential test (1945): does a device do its work as often as was asked?
+"""Wald's sequential test (1945): does a device reach the specified reliability?
 
-Robots as they might be built fly one after the other until the question is decided. What is tested
-is that one of them does all of its maneuvers.
+Sampled robots fly one after the other until the test decides. A sample passes if it passes all of
+its maneuvers.
 """
 
 from dataclasses import dataclass
@@ -21,27 +21,26 @@ ERROR = 0.05
 """Largest probability of either wrong verdict."""
 
 WORSE = 3.0
-"""Odds of failure of a device that must not be certified, over those that were asked for."""
+"""Odds of failure of a device that must not be certified, over the specified odds."""
 
 
 @dataclass(frozen=True)
 class SequentialTest:
-    """Test between the reliability that was asked for and one with `WORSE` odds of failure.
+    """Test of the specified reliability against one with `WORSE` times its odds of failure.
 
-    The likelihood ratio of the worse over the better exceeds 1 / `ERROR` with a probability of at
-    most `ERROR` if the better one is true, however long one looks, and the other way round (Ville
-    1939, Wald 1945). So neither wrong verdict is likelier than that, also where the test is cut
-    short.
+    If the better one is true, the likelihood ratio of the worse over the better ever exceeds
+    1 / `ERROR` with a probability of at most `ERROR`, and vice versa (Ville 1939, Wald 1945). So
+    neither wrong verdict is likelier than that, even if the test is cut short.
 
     Attributes:
-        asked: share of robots that do all of their maneuvers, between 0 and 1.
+        asked: share of robots that pass all of their maneuvers, between 0 and 1.
     """
 
     asked: float
 
     @property
     def worse(self) -> float:
-        """The lower reliability that the test tells from the one asked for."""
+        """The lower reliability that the test tells from the specified one."""
         return self.asked / (self.asked + WORSE * (1.0 - self.asked))
 
     @property
@@ -50,7 +49,7 @@ class SequentialTest:
         return ceil(10.0 / (1.0 - self.asked) - 1e-9)
 
     def found(self, passed: NDArray[np.bool_]) -> tuple[Conclusion | None, int]:
-        """Verdict on flights in their order, and how many of them it took; None: not decided yet.
+        """Verdict on flights in order, None if undecided so far, and how many flights it took.
 
         Args:
             passed: shape (n,).
@@ -65,16 +64,17 @@ class SequentialTest:
         return Conclusion.UNDECIDED if len(passed) == self.most else None, len(passed)
 
     def decided(self, outcomes: Outcomes) -> bool:
-        """Whether these outcomes decide it."""
+        """Whether these outcomes decide the test."""
         return self.found(outcomes.all_passed)[0] is not None
 
 
 ROUND = 1 << 20
 """Samples of a round of `size --certify` begin at its number times this, those of `validate` at 0.
-A sample's index is the spawn key of its generator: no round sees what another has learnt from."""
+A sample's index is the spawn key of its generator: no round tests a device on samples that it was
+sized with."""
 
 ROUNDS = 3
-"""How often a device is sized at most: what its flights taught raises the reserve of the next."""
+"""Most times that a device is sized: flights of each round raise the reserve for the next."""
 
 
 def certificate(
@@ -84,10 +84,10 @@ def certificate(
     *,
     number: int = 0,
 ) -> ReliabilityRecord:
-    """What these outcomes say; those after the verdict are not counted.
+    """Result of a test on these outcomes; those after the verdict are not counted.
 
     Args:
-        test: that they are flown for. campaign, outcomes: what was flown.
+        test: to apply. campaign, outcomes: what was flown.
         number: of the round, see `ReliabilityRecord`.
     """
     finding, count = test.found(outcomes.all_passed)
@@ -110,17 +110,16 @@ def certificate(
 
 
 LEAST, LARGEST = 1.1, 2.0
-"""Factors between which the reserve is raised in a round."""
+"""Smallest and largest factor by which a round raises the reserve."""
 
 
 @dataclass(frozen=True)
 class Lesson:
-    """What flights that fall short say of the reserve.
+    """Conclusion on the reserve from flights that fell short.
 
     Attributes:
-        factor: by which deviations are larger than the reserve takes them to be; 1: it is not the
-            reserve that is short.
-        told: what was seen, a sentence.
+        factor: by which to raise the reserve; 1: a larger reserve does not help.
+        told: the observation, in one sentence.
     """
 
     factor: float
@@ -128,14 +127,14 @@ class Lesson:
 
 
 def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Lesson:
-    """How much larger a reserve must be for the maneuver and the axis that fail most often.
+    """Factor to raise the reserve by, for the maneuver and the axis that fail most often.
 
-    Tilt at touchdown is nearly linear in what is drawn (docs/theory.md), and what is drawn is
+    Tilt at touchdown is nearly linear in the sampled quantities (docs/theory.md), and these are
     independent: so tilt is nearly normal, and the square of its correlation with a quantity is the
-    share of its variance that the quantity makes.
+    share of its variance due to that quantity.
 
     Args:
-        test: that they fell short of. campaign, outcomes: what was flown.
+        test: that was failed. campaign, outcomes: what was flown.
     """
     names = ("roll", "pitch")
     tilts = np.stack([outcomes.metric(f"touchdown_{name}") for name in names])
@@ -164,7 +163,7 @@ def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Less
     if not campaign.flights[number].world.body.reach[axis]:
         factor, ending = 1.0, f"no wheel, however large, turns the robot in {names[axis]}"
     elif cause.startswith("attitude_bias"):
-        # The law brings to level what the sensor calls level, whatever the wheels can do.
+        # The law levels the trunk by its sensor, so wheels cannot correct the sensor's bias.
         factor, ending = 1.0, "a better attitude sensor helps, a larger reserve does not"
     quantity = cause.replace("_", " ").replace(".", " ")
     return Lesson(

@@ -1,4 +1,4 @@
-"""Blocks of samples and their outcomes, as arrays, shares, tables and the folder of a campaign."""
+"""Blocks of samples and their outcomes: arrays, pass rates, tables, the folder of a campaign."""
 
 import csv
 import math
@@ -25,7 +25,7 @@ from ocs_design.simulation.run import Metrics
 from ocs_design.simulation.verdict import Fault, Verdict
 
 BLOCK = 32
-"""Samples of a block: enough for the processors, few enough to stop soon after enough is known."""
+"""Samples per block: enough to keep the processors busy, few enough to stop early."""
 
 
 Block: TypeAlias = range
@@ -33,7 +33,7 @@ Block: TypeAlias = range
 
 
 def blocks_of(samples: int, size: int = BLOCK, *, first: int = 0) -> tuple[Block, ...]:
-    """So many samples from index `first` on in blocks; the last may be smaller."""
+    """Blocks of `samples` samples from index `first` on; the last may be smaller."""
     stop = first + samples
     return tuple(range(start, min(start + size, stop)) for start in range(first, stop, size))
 
@@ -51,9 +51,9 @@ class Outcomes(Table):
 
     Attributes:
         index: of each sample, shape (n,).
-        values: that were drawn (SI), shape (n, len(names)).
-        metrics: in the order of `METRICS`, NaN where there is none (SI), (n, s, len(METRICS)).
-        codes: 0 for a pass, otherwise of the fault, see `FAULTS`, shape (n, s).
+        values: sampled (SI), shape (n, len(names)).
+        metrics: in the order of `METRICS`, NaN for none (SI), shape (n, s, len(METRICS)).
+        codes: 0 for a pass, otherwise the code of the fault, see `FAULTS`, shape (n, s).
         names: of the values.
     """
 
@@ -65,12 +65,12 @@ class Outcomes(Table):
 
     @property
     def passed(self) -> NDArray[np.bool_]:
-        """Shape (n, s)."""
+        """Whether each sample passes each scenario, shape (n, s)."""
         return np.asarray(self.codes == 0)
 
     @property
     def all_passed(self) -> NDArray[np.bool_]:
-        """Whether a sample passes all of its scenarios, shape (n,)."""
+        """Whether each sample passes all of its scenarios, shape (n,)."""
         return np.asarray(self.passed.all(axis=1))
 
     def metric(self, name: str) -> FloatArray:
@@ -98,7 +98,7 @@ class Outcomes(Table):
 
 
 def code_of(verdict: Verdict) -> int:
-    """Number of a fault in `FAULTS`."""
+    """Code of a verdict, see `FAULTS`."""
     return 0 if verdict.fault is None else 1 + FAULTS.index(verdict.fault)
 
 
@@ -106,11 +106,12 @@ NAME = "samples"
 
 
 def share(passed: int, flown: int) -> Share:
-    """Successes of `flown` > 0 trials, with their exact interval at `CONFIDENCE`.
+    """Pass rate in `flown` > 0 trials, with its exact confidence interval at `CONFIDENCE`.
 
-    It is that of Clopper and Pearson (Biometrika 26, 1934, 404-413).
+    The interval is that of Clopper and Pearson (Biometrika 26, 1934, 404-413).
     """
-    # Importing SciPy's special functions takes a tenth of a second, its statistics a second more.
+    # Importing SciPy's special functions takes a tenth of a second; its statistics module would
+    # take a second more.
     from scipy.special import betaincinv  # noqa: PLC0415
 
     tail = 0.5 * (1.0 - CONFIDENCE)
@@ -122,13 +123,13 @@ def share(passed: int, flown: int) -> Share:
 
 
 def shares(outcomes: Outcomes) -> tuple[Share, ...]:
-    """How often each scenario passes."""
+    """Pass rate of each scenario."""
     passed = outcomes.passed.sum(axis=0).tolist()
     return tuple(share(count, len(outcomes.index)) for count in passed)
 
 
 def write_tables(outcomes: Outcomes, scenarios: Sequence[str], folder: Path) -> tuple[Path, ...]:
-    """One row per sample and scenario: verdict, figures of the flight, what was drawn (SI).
+    """Write one row per sample and scenario: verdict, figures of the flight, sampled values (SI).
 
     Args:
         outcomes: of all samples.
@@ -146,7 +147,7 @@ def write_tables(outcomes: Outcomes, scenarios: Sequence[str], folder: Path) -> 
         **dict(zip(METRICS, figures.T, strict=True)),
         **dict(zip(outcomes.names, drawn.T, strict=True)),
     }
-    # Numbers to six digits; an empty cell where there is none.
+    # Numbers to six digits; empty cells for missing ones.
     cells = [
         ["" if math.isnan(value) else f"{value:.6g}" for value in values.tolist()]
         if values.dtype.kind == "f"
@@ -160,7 +161,7 @@ def write_tables(outcomes: Outcomes, scenarios: Sequence[str], folder: Path) -> 
         writer.writerows(zip(*cells, strict=True))
     if find_spec("pyarrow") is None:
         return (table,)
-    # Parquet has all digits.
+    # The Parquet file has all digits.
     arrow, parquet = import_module("pyarrow"), import_module("pyarrow.parquet")
     all_digits = folder / f"{NAME}.parquet"
     parquet.write_table(arrow.table(dict(columns)), all_digits)
@@ -175,13 +176,13 @@ _HINT = "choose another folder with -o, or start over with --force"
 
 @dataclass(frozen=True, kw_only=True)
 class Identity:
-    """What the numbers of a campaign follow from; equal ones may share a folder.
+    """Everything that determines a campaign's numbers; campaigns with equal ones share a folder.
 
     Attributes:
         tool, simulator: versions of this program and of MuJoCo.
         design: SHA-256 of what was designed. robot: SHA-256 of its file.
         reality: the distribution of each key. seed: of all samples.
-        hold: steps of the physics per control step. desaturate: see `Options`.
+        hold: physics steps per control step. desaturate: see `Options`.
     """
 
     schema_version: int
@@ -196,15 +197,15 @@ class Identity:
 
 
 class Storage:
-    """Blocks in files of their own, each complete or not there."""
+    """Blocks in separate files, each complete or absent."""
 
     def __init__(self, folder: Path, identity: Identity, *, force: bool) -> None:
         """Open or create a folder.
 
         Args:
-            folder: with the samples of this campaign, or of none.
+            folder: with samples of this campaign, or without any.
             identity: of the campaign.
-            force: throw away the samples of another one.
+            force: discard the samples of another campaign.
 
         Raises:
             OutputError: it holds something else, or cannot be written.
@@ -235,8 +236,8 @@ class Storage:
                         f"{', '.join(differs)}",
                         hint=_HINT,
                     )
-                # Delete the old results first, so that they never stand beside another campaign's
-                # samples.
+                # Delete the old results first, so that they are never found beside another
+                # campaign's samples.
                 (folder / RESULT_FILE).unlink(missing_ok=True)
                 shutil.rmtree(folder / BLOCKS, ignore_errors=True)
             (folder / BLOCKS).mkdir(parents=True, exist_ok=True)
@@ -252,7 +253,7 @@ class Storage:
             try:
                 outcomes = Outcomes.load(self._path(block))
             except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
-                # Not there, or spoilt by whatever: it is flown again.
+                # Missing or damaged: the block is flown again.
                 continue
             if outcomes.index.tolist() == list(block):
                 kept[block] = outcomes

@@ -1,7 +1,7 @@
-"""Blocks of samples, one after the other, many at once, or on a cluster, until enough is known.
+"""Runs blocks of samples in sequence, several at once, or on a cluster, until enough is known.
 
 A block is a pure function of its campaign and its indices: where and how often it is flown makes no
-difference. A worker that is lost costs the blocks that it was at, which others take over.
+difference. If a worker is lost, other workers take over its unfinished blocks.
 """
 
 import pickle
@@ -20,25 +20,25 @@ from ocs_design.simulation.simulate import Progress, scaled
 Arrivals = Generator[tuple[Block, Outcomes], None, None]
 
 Enough: TypeAlias = Callable[[Outcomes], bool]
-"""Rule that stops a campaign: whether what was flown so far will do."""
+"""Stopping rule of a campaign: whether the outcomes so far suffice."""
 
 
 def narrow(width: float) -> Enough:
-    """Stop as soon as the interval of each scenario is no wider than this."""
+    """Stop as soon as the confidence interval of each scenario is no wider than `width`."""
     return lambda outcomes: all(share.width <= width for share in shares(outcomes))
 
 
 Fly: TypeAlias = Callable[[Campaign, Sequence[Block], Progress], Arrivals]
-"""Who flies blocks: each with its outcomes, in any order.
+"""Function that flies blocks and yields each with its outcomes, in any order.
 
-Progress is told how much of all of them is done, 0..1, as often as that is known.
+It reports progress as the share of all blocks that is done, 0..1.
 """
 
 AT_ONCE = 4
-"""Blocks that are flown at once where all of them are wanted."""
+"""Number of blocks that are flown together if all of them are needed."""
 
 AT_ONCE_ON_DEVICE = 64
-"""The same where a GPU steps all worlds together; the memory of the worlds limits it, too."""
+"""The same number if a GPU steps all worlds together; `MEMORY` also limits it."""
 
 
 def fly_here(
@@ -49,11 +49,11 @@ def fly_here(
     threads: int | None = None,
     at_once: int = 1,
 ) -> Arrivals:
-    """Fly one block after the other, or a few at once, on the processors of this machine (`Fly`).
+    """Fly one block after the other, or a few at once, on this machine (`Fly`).
 
-    What is computed between the steps of the physics takes about as long for few samples as for
-    many: where all are wanted, more blocks `at_once` are faster. `threads` are those of the
-    physics; None: one per processor.
+    Computation between the physics steps takes about as long for few samples as for many: if all
+    are needed, more blocks `at_once` are faster. `threads` are those of the physics; None: one per
+    processor.
     """
     for start in range(0, len(blocks), at_once):
         some = blocks[start : start + at_once]
@@ -75,16 +75,16 @@ def run_campaign(
 ) -> Outcomes:
     """Fly blocks until all are flown, or enough is known.
 
-    The rule is asked after each block in the order of the samples, so that what is counted does not
-    depend on who was faster.
+    The rule is applied after each block in the order of the samples, so that the counted samples do
+    not depend on which block was fastest.
 
     Args:
         campaign: what is flown.
         blocks: of samples, in order.
-        fly: who flies them.
-        storage: where blocks are kept as they come, and found if they have been flown already.
-        enough: whether the samples flown so far will do; None: all are flown.
-        progress: told the part of the work that is done, 0..1.
+        fly: flies the blocks.
+        storage: keeps blocks as they arrive, and has those flown already; None: nothing is kept.
+        enough: stopping rule; None: all blocks are flown.
+        progress: called with the share of the work that is done, 0..1.
     """
     flown = {} if storage is None else dict(storage.found(blocks))
     missing = [block for block in blocks if block not in flown]
@@ -103,21 +103,21 @@ def run_campaign(
 
 
 PATIENCE = 10.0
-"""How long a scheduler may take to answer [s]."""
+"""Time that a scheduler has to answer [s]."""
 
 RETRIES = 10
-"""How often a block is flown again whose worker was lost."""
+"""Number of times that a block is flown again after its worker was lost."""
 
 
 class Cluster:
-    """The workers of a Dask scheduler, each thread of theirs at one block."""
+    """The workers of a Dask scheduler; each of their threads flies one block."""
 
     def __init__(self, address: str) -> None:
         """Connect to the scheduler at `address`, as in `tcp://host:8786`.
 
         Raises:
             MissingToolError: Dask is not installed.
-            OcsError: nobody answers there.
+            OcsError: no scheduler answers there.
         """
         try:
             self._dask = import_module("distributed")
@@ -136,7 +136,7 @@ class Cluster:
 
     def fly(self, campaign: Campaign, blocks: Sequence[Block], progress: Progress) -> Arrivals:
         """Fly these blocks (`Fly`)."""
-        # The scheduler keeps the bytes: what was sent to a worker that is lost is sent again.
+        # The scheduler keeps the bytes, and sends them again if a worker is lost.
         shared = self._client.submit(_Unpacked, pickle.dumps(campaign), pure=False)
         futures = [
             self._client.submit(_Unpacked.fly, shared, block, retries=RETRIES, pure=False)
@@ -152,16 +152,16 @@ class Cluster:
             self._client.cancel([shared, *futures], force=True)
 
     def close(self) -> None:
-        """Leave the cluster as it was."""
+        """Disconnect; the cluster keeps running."""
         self._client.close()
 
 
 class _Unpacked:
-    """A campaign on its worker; unpacked there once, whatever Dask does with its arguments."""
+    """A campaign on a worker, unpacked there only once."""
 
     def __init__(self, content: bytes) -> None:
         self.campaign: Campaign = pickle.loads(content)
 
     def fly(self, block: Block) -> tuple[Block, Outcomes]:
-        """Fly a block in one thread: the others fly other blocks."""
+        """Fly a block in one thread: other threads fly other blocks."""
         return block, fly_samples(self.campaign, block, threads=1)

@@ -1,4 +1,4 @@
-"""What many samples say together: causes of failures, spreads, advice."""
+"""Summary of many samples: causes of failures, spreads, advice."""
 
 import copy
 from collections.abc import Callable, Mapping
@@ -28,15 +28,16 @@ from ocs_design.simulation.world import World
 from ocs_design.simulation.world_builder import Options
 
 SIGNIFICANT = 4.0
-"""Standard deviations of a rank correlation of independent numbers; 60 are looked at at a time."""
+"""Correlation that counts as significant, in standard deviations of the rank correlation of
+independent numbers; about 60 are tested together."""
 
 MOST_CAUSES = 4
 
 
 def attitude_error(outcomes: Outcomes, maneuver: Maneuver, number: int) -> FloatArray:
-    """Off the attitude asked for at touchdown, and what a flip falls short by [rad], (n,).
+    """Largest error of attitude at touchdown and of a flip's total turn [rad], shape (n,).
 
-    NaN where any attitude will do.
+    NaN for a maneuver that may end at any attitude.
     """
     roll, pitch = (outcomes.metric(f"touchdown_{axis}")[:, number] for axis in ("roll", "pitch"))
     if ends_anyhow(maneuver):
@@ -53,18 +54,18 @@ def attitude_error(outcomes: Outcomes, maneuver: Maneuver, number: int) -> Float
 
 
 def order(outcomes: Outcomes, maneuver: Maneuver, number: int) -> np.ndarray:
-    """Samples from the best to the worst: passes first, each by its attitude error, (n,)."""
+    """Samples from best to worst: passes before failures, each by attitude error, shape (n,)."""
     failed = ~outcomes.passed[:, number]
     error = np.nan_to_num(attitude_error(outcomes, maneuver, number), nan=np.inf)
     return np.lexsort((error, failed))
 
 
 def causes(outcomes: Outcomes, ranking: np.ndarray) -> tuple[Cause, ...]:
-    """The quantities whose rank goes with that of the outcome, most telling first.
+    """Quantities whose rank correlates with that of the outcome, strongest first.
 
     Args:
         outcomes: of n samples.
-        ranking: from the best to the worst, see `order`.
+        ranking: from best to worst, see `order`.
     """
     n = len(ranking)
     varied = np.ptp(outcomes.values, axis=0) > 0.0
@@ -74,7 +75,7 @@ def causes(outcomes: Outcomes, ranking: np.ndarray) -> tuple[Cause, ...]:
     severity[ranking] = np.arange(n)
     away = np.abs(outcomes.values - np.median(outcomes.values, axis=0))
     found = np.array([_correlations(outcomes.values, severity), _correlations(away, severity)])
-    # One that goes up and down with its quantity does so with its distance too.
+    # An outcome that is monotonic in a quantity also correlates with its distance from the median.
     found[1] *= np.abs(found[1]) > 2.0 * np.abs(found[0])
     found[:, ~varied] = 0.0
     strongest = np.abs(found).max(axis=0)
@@ -92,7 +93,7 @@ def causes(outcomes: Outcomes, ranking: np.ndarray) -> tuple[Cause, ...]:
 
 
 def _correlations(values: FloatArray, severity: FloatArray) -> FloatArray:
-    """Spearman's of each column with the severity, a permutation of 0..n-1; shape (columns,)."""
+    """Spearman's correlation of each column with a severity that permutes 0..n-1, (columns,)."""
     n = len(severity)
     ranks = np.argsort(np.argsort(values, axis=0, kind="stable"), axis=0)
     middle = 0.5 * (n - 1.0)
@@ -101,19 +102,19 @@ def _correlations(values: FloatArray, severity: FloatArray) -> FloatArray:
 
 
 _BLIND = 1e-3
-"""Share of its momentum with which a device reaches an axis that it as good as does not."""
+"""Share of its momentum below which a device as good as does not reach an axis."""
 
 
 def advice(outcomes: Outcomes, maneuver: Maneuver, number: int) -> str:
-    """How to land level about an axis that the modules, as they are set by hand, do not turn.
+    """How to land level about an axis that modules turned by hand do not control.
 
-    Whatever rate the robot leaves the ground with about such an axis it keeps until it lands.
+    The rate about such an axis at lift-off stays until landing.
 
     Args:
         outcomes: of n samples. maneuver: of scenario `number`.
 
     Returns:
-        One sentence; empty if no sample fails for that.
+        One sentence; empty if no sample fails for this reason.
     """
     if maneuver.incidence is None:
         return ""
@@ -133,14 +134,14 @@ def advice(outcomes: Outcomes, maneuver: Maneuver, number: int) -> str:
 
 
 TRIED = 8
-"""Level landings that fall and are flown again, of each scenario."""
+"""Most level landings with a fall, per scenario, that are flown again."""
 
 
 def standing_advice(campaign: Campaign, outcomes: Outcomes, number: int) -> str:
-    """Which change keeps robots up that land level and then fall, by flying them again with it.
+    """Changes that keep up robots that land level and then fall, found by flying them again.
 
     Args:
-        campaign: that was flown. outcomes: of it. number: of the scenario.
+        campaign: the one flown. outcomes: of it. number: of the scenario.
 
     Returns:
         One sentence; empty if none falls.
@@ -170,7 +171,7 @@ def standing_advice(campaign: Campaign, outcomes: Outcomes, number: int) -> str:
 
 
 def _with_stiff_legs(world: World) -> World:
-    """The flight with leg drives twice as stiff, damped alike."""
+    """The flight with leg drives twice as stiff, at the same damping ratio."""
     model = copy.copy(world.model)
     drives = np.setdiff1d(np.arange(model.nu), world.addresses.motors)
     model.actuator_gainprm[drives, 0] *= 2.0
@@ -194,11 +195,11 @@ REMEDIES: Mapping[str, Callable[[World], World]] = MappingProxyType(
 
 
 WORST = 3
-"""Cases of each scenario that are kept."""
+"""Number of worst cases kept per scenario."""
 
 
 def summarised(campaign: Campaign, outcomes: Outcomes, asked: int) -> MonteCarloRecord:
-    """The record of these outcomes."""
+    """Record that summarises these outcomes."""
     flown, whole = len(outcomes.index), outcomes.all_passed
     scenarios = []
     for number, (flight, success) in enumerate(
@@ -242,7 +243,7 @@ def summarised(campaign: Campaign, outcomes: Outcomes, asked: int) -> MonteCarlo
 
 
 def _spread(values: FloatArray) -> Spread | None:
-    """Spread of a figure over the flights; None where none reached its end."""
+    """Spread of a figure over the flights; None if no flight has it."""
     finite = values[np.isfinite(values)]
     if not finite.size:
         return None

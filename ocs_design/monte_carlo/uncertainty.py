@@ -1,4 +1,4 @@
-"""Everything that is drawn for a sample, and the simulated world as it was built with it."""
+"""Sampled quantities, and the simulated world of a robot built with them."""
 
 import copy
 from collections.abc import Mapping
@@ -34,13 +34,14 @@ KEYS = tuple(spreads())
 
 
 STOPPED, SHARE = STOPS = ("stopped_drive", "stopped_at")
-"""Number of the drive that stops, from 1, and share of the flight that has passed then."""
+"""Number of the drive that stops, from 1, and share of the flight at which it stops."""
 
 
 def quantities(layout: Layout, *, one_stops: bool = False) -> tuple[str, ...]:
-    """Every number that is drawn for a sample of a device with this layout, in order.
+    """Names of all numbers sampled for a device with this layout, in order.
 
-    `one_stops`: whether a drive stops in every flight. It is drawn last: all else stays.
+    `one_stops`: whether a drive stops in every flight. That is sampled last, so that all other
+    values stay the same.
     """
     parts = ((key, part) for key in KEYS for part in parts_of(key, layout.names))
     names = tuple(f"{key}.{part}" if part else key for key, part in parts)
@@ -53,8 +54,8 @@ class Uncertainty:
 
     Attributes:
         spreads: by key. layout: of the device.
-        detection: time until the law knows of a drive that stops, where one does in every flight
-            [s]; None: all run.
+        detection: time until the law knows of a stopped drive, if one stops in every flight [s];
+            None: all run.
     """
 
     spreads: Mapping[str, Distribution]
@@ -69,7 +70,7 @@ class Uncertainty:
         device: Device,
         detection: float | None = None,
     ) -> "Uncertainty":
-        """What is stated, and the defaults in place of the rest."""
+        """Specified distributions, with defaults for the rest."""
         complete = complete_uncertainty(stated, standing_height(robot), device.motor)
         return cls({key: getattr(complete, key) for key in KEYS}, device.layout, detection)
 
@@ -88,10 +89,10 @@ def key_of(name: str) -> str:
 
 @dataclass(frozen=True, eq=False)
 class Sample:
-    """What was drawn.
+    """Sampled values of one robot.
 
     Attributes:
-        seed, index: which the values follow from, whatever else is drawn with them.
+        seed, index: determine the values, independently of other samples.
         layout: of the device.
         values: SI, in the order of `quantities`, shape (numbers,).
         detection: see `Uncertainty`.
@@ -105,7 +106,7 @@ class Sample:
 
     @classmethod
     def draw(cls, uncertainty: Uncertainty, seed: int, index: int) -> "Sample":
-        """Sample `index` of `seed`, by a counter-based generator of its own."""
+        """Sample `index` of `seed`, from its own counter-based generator."""
         names, detection = quantities(uncertainty.layout), uncertainty.detection
         generator = np.random.Generator(np.random.Philox(_sequence(seed, index)))
         values = [
@@ -148,7 +149,7 @@ class Sample:
         return float(self.of(key)[0])
 
     def noise(self, flight: int) -> np.random.SeedSequence:
-        """Random numbers for the noise of a flight, by the flight's number."""
+        """Seed of the noise of a flight, by the flight's number."""
         return _sequence(self.seed, self.index, flight)
 
 
@@ -157,7 +158,7 @@ def _sequence(seed: int, *key: int) -> np.random.SeedSequence:
 
 
 PUSH_OFF_END = 5e-3
-"""Time in which a sample's rate at take-off comes about, once it is known to fly [s]."""
+"""Duration of the push that gives a sample its rate at take-off, once lift-off is certain [s]."""
 
 
 def built(
@@ -170,20 +171,20 @@ def built(
     period: float,
     scratch: mujoco.MjData | None = None,
 ) -> World:
-    """Flight of one robot as it was built.
+    """World of one flight of a robot as built.
 
     Args:
         world: as designed, with its wheels active.
         flight: its number, for the noise.
         air: drag of a wheel, the same for all.
-        limits: of a motor as designed, before friction takes its part. The law counts on them here,
-            as one does that leaves the current of friction to the drive.
+        limits: of a motor as designed, before friction is subtracted. The law uses these limits
+            here, as it would if the drive itself supplied the current for friction.
         period: of the wheel law [s].
-        scratch: to work with, of the world's model: to make one takes as long as the rest; None:
-            one is made.
+        scratch: data of the world's model to work with, since making it takes as long as the rest;
+            None: it is made here.
     """
     model = copy.copy(world.model)
-    # The robot's masses; the device is made and weighed with more care.
+    # The robot's masses only; the device is made and weighed with more care.
     own = [
         index for index in range(1, model.nbody) if not model.body(index).name.startswith(PREFIX)
     ]
@@ -196,12 +197,12 @@ def built(
         turn = quaternions.from_axis_angle(foot, error)
         model.body_quat[body] = quaternions.product(turn, model.body_quat[body])
     model.geom_friction[:, 0] = sample.only("contact_friction")
-    # The real motor's limits are those of its drive; friction adds to them when it brakes.
+    # The drives below apply the real motor's limits; friction can exceed them in braking.
     motors = list(world.addresses.motors)
     model.actuator_ctrllimited[motors] = model.actuator_forcelimited[motors] = 0
     mujoco.mj_setConst(model, mujoco.MjData(model) if scratch is None else scratch)
 
-    # What friction is drawn is taken off once, from what the motor gives.
+    # Sampled friction is subtracted only once, from the motor's torque.
     law = replace(world.law, limits=stacked_columns([limits.used]))
     constant = 1.0 + sample.of("torque_constant_error")
     voltage = 1.0 + sample.only("bus_voltage_error")
@@ -245,10 +246,10 @@ def built(
 
 
 def _alter_trunk(model: mujoco.MjModel, trunk: int, base: FloatArray, sample: Sample) -> None:
-    """Shift the trunk's centre of mass and scale its inertia as drawn, along the axes of B.
+    """Shift the trunk's centre of mass and scale its inertia as sampled, along the axes of B.
 
-    The matrix of second moments `S = tr(I)/2 - I` is scaled from both sides, so that an inertia
-    stays one that some distribution of mass has, however far it is off.
+    The matrix of second moments `S = tr(I)/2 - I` is scaled from both sides, so that the inertia
+    stays physically possible, however large the error.
     """
     model.body_ipos[trunk] += base @ sample.of("com_error")
     error = sample.of("inertia_error")
@@ -260,5 +261,5 @@ def _alter_trunk(model: mujoco.MjModel, trunk: int, base: FloatArray, sample: Sa
         values, axes = np.linalg.eigh(np.trace(moments) * np.eye(3) - moments)
         model.body_inertia[trunk] = values
         model.body_iquat[trunk] = quaternion(axes * np.linalg.det(axes))
-    # MuJoCo takes a short cut where the inertial frame is the body's own.
+    # MuJoCo takes a short cut if the inertial frame is the body's own.
     model.body_sameframe[trunk] = 0
