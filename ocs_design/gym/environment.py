@@ -172,7 +172,7 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         return observed, reward, False, False, {"law": self._law_action()}
 
     def render(self) -> RenderFrame | list[RenderFrame] | None:
-        """Picture of the robot now, shape (height, width, 3), or list since `reset` or the last call.
+        """Picture of the robot, shape (height, width, 3), or list since `reset` or the last call.
 
         Raises:
             MissingToolError: OpenGL does not work here.

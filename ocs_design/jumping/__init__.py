@@ -1,1 +1,1 @@
-"""Push-off from the ground by optimal control: from a jump that is asked for to leg references."""
+"""Push-off from the ground by optimal control: from a specified jump to leg references."""

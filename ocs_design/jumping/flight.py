@@ -1,7 +1,7 @@
-"""The legs in flight: they brake, and go back to the nominal posture to land on.
+"""The legs in flight: they brake, and return to the nominal posture for landing.
 
-The trunk turns against them, for angular momentum is kept in flight. What
-that does to its attitude at touchdown is found by integrating the free robot.
+The trunk turns against them, since angular momentum is conserved in flight. Integrating the free
+robot gives the effect on its attitude at touchdown.
 """
 
 from dataclasses import dataclass
@@ -18,13 +18,13 @@ _STEP = 4e-3
 
 @dataclass(frozen=True, eq=False)
 class LegReturn:
-    """Motion of the joints from lift-off to the posture to land in.
+    """Motion of the joints from lift-off to the landing posture.
 
-    First at constant deceleration to rest, then rest to rest on a quintic.
+    First constant deceleration to rest, then a quintic from rest to rest.
 
     Attributes:
-        position, velocity: at lift-off, shape (n,). posture: to land in, shape (n,).
-        brake, swing: how long both parts take [s].
+        position, velocity: at lift-off, shape (n,). posture: for landing, shape (n,).
+        brake, swing: durations of the two parts [s].
     """
 
     position: FloatArray
@@ -81,7 +81,7 @@ class LegFlight:
 
 
 class FreeRobot:
-    """The robot in the air, its joints moved as given."""
+    """The robot in the air, with prescribed joint motion."""
 
     def __init__(self, base: FloatingBase) -> None:
         unknown, known = base.a[:POSE], base.a[POSE:]
@@ -94,14 +94,14 @@ class FreeRobot:
         pose = ca.solve(slope[:POSE, :], -still[:POSE])
         torque = still[POSE:] + slope[POSE:, :] @ pose
         self._step = _runge_kutta(base, ca.vertcat(pose, torque), known)
-        # Angular momentum is linear in the rates, which at a level trunk are those of its angles.
+        # Angular momentum is linear in the rates, which for a level trunk equal its angle rates.
         locked = ca.jacobian(base.spin, base.v[3:POSE])
         self._locked = ca.Function("locked", [base.y, base.load.packed()], [locked])
 
     def inertia(self, y: FloatArray, load: FloatArray) -> FloatArray:
-        """Inertia of the whole with its joints locked, about its centre of mass, level [kg m^2].
+        """Inertia of the robot with locked joints about its centre of mass [kg m^2], shape (3, 3).
 
-        Shape (3, 3).
+        The trunk is level.
         """
         return np.asarray(self._locked(y, load))
 
@@ -118,7 +118,7 @@ class FreeRobot:
         steps = int(np.ceil(legs.duration / _STEP))
         halves = legs.at(np.linspace(0.0, legs.duration, 2 * steps + 1))
         given = np.hstack(halves)
-        # One step more than there is: it gives the torque at the end.
+        # An additional step gives the torque at the end.
         given = np.vstack([given, given[-1:], given[-1:]]).T
         run = self._step.mapaccum("flight", steps + 1)
         start = np.append(y[:POSE], v[:POSE])
@@ -126,16 +126,16 @@ class FreeRobot:
         found, torque = run(start, *instants, legs.duration / steps, load)
         _, tilt, _, turning = np.split(np.asarray(found)[:, steps - 1], 4)
         time = np.linspace(0.0, legs.duration, steps + 1)
-        # From then on nothing moves in the robot, and what is left of its spin stays.
+        # From then on no joint moves, and the remaining spin stays constant.
         tilt = tilt + turning * (duration - legs.duration)
         return LegFlight(time, halves[0][::2], halves[1][::2], np.asarray(torque).T, tilt)
 
 
 def _runge_kutta(base: FloatingBase, response: ca.SX, known: ca.SX) -> ca.Function:
-    """One step of the pose and its rate, and the torques at its start.
+    """Function for one step of the pose and its rate, which also gives the torques at its start.
 
-    It takes both, the joints' positions, velocities and accelerations at the start, in the middle
-    and at the end of the step, its length and the load.
+    Its arguments are the pose with its rate; the joints' positions, velocities and accelerations at
+    start, middle and end of the step; the length of the step; and the load.
     """
     given = ca.vertcat(base.y[POSE:], base.v[POSE:], known)
     state = ca.vertcat(base.y[:POSE], base.v[:POSE])

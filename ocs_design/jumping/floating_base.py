@@ -1,9 +1,9 @@
-"""The whole robot in symbols: a free trunk, its legs, and the forces of the ground.
+"""Symbolic model of the whole robot: a free trunk, its legs, and the ground reaction forces.
 
 Recursive Newton-Euler, each body in its own frame (Featherstone, Rigid Body Dynamics Algorithms,
-2008, section 5.3). A linear acceleration is taken against free fall, so that gravity needs no term
-of its own. The trunk's pose is its position and roll, pitch and yaw in the world, as coordinates;
-a jump from a level stance never comes near their singularity.
+2008, section 5.3). Linear accelerations are relative to free fall, so that gravity needs no term of
+its own. The trunk's coordinates are its position and its roll, pitch and yaw in the world; a jump
+from a level stance never comes near their singularity.
 """
 
 from dataclasses import dataclass
@@ -17,15 +17,15 @@ from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.tree import JointKind
 
 POSE = 6
-"""Coordinates of the trunk, in front of those of the joints."""
+"""Number of trunk coordinates, which precede those of the joints."""
 
 _SLOW = 0.1
-"""Speed over which dry friction changes sign [rad/s or m/s]: a step has no derivative."""
+"""Speed over which dry friction changes sign [rad/s or m/s], since a step has no derivative."""
 
 
 @dataclass(frozen=True, eq=False)
 class SymbolicBody:
-    """Mass [kg], centre of mass [m] and inertia about it [kg m^2] in symbols, in one frame."""
+    """Symbolic mass [kg], centre of mass [m] and inertia about it [kg m^2], in one frame."""
 
     mass: ca.SX
     com: ca.SX
@@ -34,7 +34,7 @@ class SymbolicBody:
 
 @dataclass(frozen=True, eq=False)
 class Load:
-    """What differs from one jump of a robot to the next, in symbols.
+    """Symbols for everything that differs between jumps of one robot.
 
     Attributes:
         gravity: [m/s^2]. trunk: with what it carries, in B.
@@ -61,14 +61,14 @@ class Load:
 
 @dataclass(frozen=True, eq=False)
 class FloatingBase:
-    """Robot in symbols; what depends on the coordinates y, their rates v and a, and the forces f.
+    """Symbolic robot, as functions of coordinates y, their derivatives v and a, and forces f.
 
     Attributes:
         y, v, a: pose and joints, shape (6 + n, 1). f: of the ground on each foot, in the world,
             shape (3 legs, 1).
         torque: of the joints [N m or N], shape (n, 1).
-        imbalance: force and moment about B's origin that the trunk lacks, in B, shape (6, 1).
-        momentum: of the whole in the world [kg m/s], shape (3, 1).
+        imbalance: residual force and moment on the trunk about B's origin, in B, shape (6, 1).
+        momentum: of the whole robot in the world [kg m/s], shape (3, 1).
         spin: angular momentum about the centre of mass, in B [kg m^2/s], shape (3, 1).
         feet: centres of the feet's balls in the world [m], each (3, 1).
         shanks: rotations of the legs' last bodies in the world, each (3, 3).
@@ -90,7 +90,7 @@ class FloatingBase:
 
     @classmethod
     def of(cls, body: LeggedBody) -> "FloatingBase":
-        """Robot in symbols, by Newton-Euler over trunk and legs."""
+        """Symbolic robot, by Newton-Euler over trunk and legs."""
         size = POSE + len(body.joints)
         y, v, a = (ca.SX.sym(name, size) for name in "yva")
         f, load = ca.SX.sym("f", 3 * len(body.legs)), Load.symbols()
@@ -131,7 +131,7 @@ class _Motion:
     Attributes:
         rate, angular_acceleration: [rad/s], [rad/s^2].
         velocity: of the frame's origin [m/s].
-        acceleration: of the frame's origin, less gravity's [m/s^2].
+        acceleration: of the frame's origin, minus that of gravity [m/s^2].
     """
 
     rate: ca.SX
@@ -151,7 +151,7 @@ class _Motion:
         )
 
     def seen_from(self, rotation: ca.SX) -> "_Motion":
-        """Motion in components of axes that stand at `rotation` in this frame."""
+        """Motion in components along axes at `rotation` in this frame."""
         return _Motion(
             rotation.T @ self.rate,
             rotation.T @ self.angular_acceleration,
@@ -170,7 +170,7 @@ class _Motion:
         )
 
     def slid(self, axis: ca.SX, speed: ca.SX, acceleration: ca.SX) -> "_Motion":
-        """Motion of a frame that a slide moves against this one, already at its place."""
+        """Motion of a frame that a slide moves against this one, at its present position."""
         along = axis * speed
         return _Motion(
             self.rate,
@@ -191,18 +191,18 @@ class _Wrench:
         return _Wrench(self.force + other.force, self.moment + other.moment)
 
     def in_parent(self, rotation: ca.SX, offset: ca.SX) -> "_Wrench":
-        """Wrench in a frame in which this one stands at `rotation` and `offset`."""
+        """Wrench in a frame in which this one is at `rotation` and `offset`."""
         force = rotation @ self.force
         return _Wrench(force, rotation @ self.moment + ca.cross(offset, force))
 
 
 @dataclass(frozen=True, eq=False)
 class _LegState:
-    """What a leg does under a trunk that moves.
+    """State of a leg on a moving trunk.
 
     Attributes:
         torque: of its joints, friction and armature included [N m or N], shape (n, 1).
-        load: what its inertia and the ground leave for the trunk to balance, in B [N, N m].
+        load: wrench from its inertia and the ground that the trunk must balance, in B [N, N m].
         momentum: in B [kg m/s, kg m^2/s]. mass_moment: mass times centre of mass in B [kg m].
         foot: centre of the foot's ball in B [m]. shank: rotation of the last body in B.
         reach: square of the distance from the hip's axis to the foot [m^2].
@@ -223,7 +223,7 @@ class _Link:
 
     Attributes:
         rotation, offset: of its frame in the parent's.
-        placement, origin: rotation and place of its frame in B.
+        placement, origin: rotation and position of its frame in B.
         motion: of its frame, in its own components.
     """
 
@@ -268,7 +268,7 @@ def _leg_state(
     beyond = _Wrench(-force, -ca.cross(contact, force))
     momentum, mass_moment = _Wrench(ca.SX.zeros(3), ca.SX.zeros(3)), ca.SX.zeros(3)
     torques: list[ca.SX] = []
-    # From the foot inwards: each joint bears all that is beyond it.
+    # From the foot inwards: each joint carries everything beyond it.
     for link, mass, joint in reversed(list(zip(links, leg.bodies, leg.chain.joints, strict=True))):
         own = SymbolicBody(ca.SX(mass.mass), _constant(mass.com), _constant(mass.inertia))
         beyond = beyond + _inertial_wrench(own, link.motion)
@@ -279,7 +279,7 @@ def _leg_state(
         torques.insert(0, ca.dot(_constant(joint.axis), borne))
         beyond = beyond.in_parent(link.rotation, link.offset)
         momentum = momentum.in_parent(link.rotation, link.offset)
-    # What the joints themselves take of their drives.
+    # Torque that the drives lose in the joints themselves.
     _, velocity, acceleration = joints
     resistance = [
         joint.armature * acceleration[i]
@@ -303,7 +303,7 @@ def _leg_state(
 
 
 def _links(leg: JumpingLeg, base: _Motion, joints: tuple[ca.SX, ca.SX, ca.SX]) -> list[_Link]:
-    """Bodies of a leg, from the trunk outwards: where they are and how they move."""
+    """Position and motion of a leg's bodies, from the trunk outwards."""
     position, velocity, acceleration = joints
     start = leg.chain.start
     rotation, offset = _constant(start.rotation), _constant(start.position)
@@ -347,7 +347,7 @@ def _constant(values: FloatArray) -> ca.SX:
 def _turn(axis: FloatArray, angle: ca.SX) -> ca.SX:
     """Rotation about a fixed unit vector (Rodrigues), shape (3, 3).
 
-    Constant matrices in front of sine and cosine: about a frame's own axis most entries vanish.
+    Sine and cosine multiply constant matrices, most of whose entries vanish for a coordinate axis.
     """
     along = np.outer(axis, axis)
     cross = ca.skew(_constant(axis))

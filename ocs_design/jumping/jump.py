@@ -1,4 +1,4 @@
-"""A jump as it is asked for, and what the legs track to make it; no solver is needed to read it."""
+"""A specified jump, and the leg references that make it; importing this needs no solver."""
 
 from dataclasses import dataclass
 from math import sqrt
@@ -30,12 +30,12 @@ class Jump:
 
 @dataclass(frozen=True, eq=False)
 class LegTrajectory:
-    """Joint references from the nominal stance to the touchdown posture; between samples linear.
+    """Joint references from the nominal stance to the touchdown posture, linear between samples.
 
     Attributes:
         joints: names, n of them.
         time: from the start of the push-off [s], shape (k,), increasing, from 0; after the last
-            the joints are held there.
+            sample the joints are held.
         position: [rad or m], shape (k, n).
         velocity: [rad/s or m/s], shape (k, n).
         torque: of the drives [N m or N], shape (k, n).
@@ -55,8 +55,8 @@ class JumpPlan:
     """How the legs make a jump, or which limit forbids it.
 
     Attributes:
-        legs: what they track; None: they cannot make the jump.
-        note: one sentence; empty if there is nothing to say.
+        legs: trajectory to track; None: the legs cannot make the jump.
+        note: one sentence; empty if none is needed.
     """
 
     legs: LegTrajectory | None
@@ -64,10 +64,10 @@ class JumpPlan:
 
 
 class JumpPlans(NamedTuple):
-    """A jump as each robot makes it: a plan for each, for the device is a load on the legs.
+    """Plans of one jump with and without the device, which is a load on the legs.
 
     Attributes:
-        carrying: of the robot with its device. bare: of the robot that carries nothing.
+        carrying: of the robot with its device. bare: of the robot without it.
     """
 
     carrying: JumpPlan
@@ -75,20 +75,20 @@ class JumpPlans(NamedTuple):
 
 
 IN_FLIGHT = JumpPlan(None, "")
-"""No push-off is asked for: the start is at lift-off or release."""
+"""Plan without a push-off: the start is at lift-off or release."""
 
 BALLISTIC = JumpPlans(IN_FLIGHT, IN_FLIGHT)
-"""Neither robot pushes off."""
+"""Plans in which neither robot pushes off."""
 
 
 def jump_of(maneuver: Maneuver) -> Jump | None:
-    """What a maneuver asks of the legs; None: it starts in the air."""
+    """Jump that a maneuver requires of the legs; None: it starts in the air."""
     match maneuver:
         case Disturbance():
             forward, upward = maneuver.takeoff_velocity
             return Jump(forward, upward, maneuver.gravity)
         case TurnTo() if any(maneuver.rate) or maneuver.wheel_speed or not maneuver.gravity:
-            # No push-off is planned that leaves these, and none is needed in orbit.
+            # No push-off is planned that ends with these, and none is needed in orbit.
             return None
         case TimedTurn():
             upward = sqrt(2.0 * maneuver.gravity * maneuver.jump_height)

@@ -1,4 +1,4 @@
-"""A robot as a trunk with legs: everything that is in no leg is held, and part of the trunk."""
+"""A robot as a trunk with legs: all bodies outside the legs are locked to the trunk."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -14,20 +14,21 @@ from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import Joint
 
 _FEWEST_JOINTS = 3
-"""A leg that holds its foot still while the trunk moves in six directions."""
+"""Fewest joints with which a leg keeps its foot in place while the trunk moves in all six
+directions."""
 
 
 @dataclass(frozen=True, eq=False)
 class JumpingLeg:
-    """One leg, its chain seen from the base frame B.
+    """One leg, with its chain relative to the base frame B.
 
     Attributes:
         chain: from the trunk to the foot.
-        bodies: mass properties of each body of the chain in its own frame, with all that hangs on
-            it and is no part of the chain.
+        bodies: mass properties of each body of the chain in its own frame, including everything
+            attached to it that is not part of the chain.
         foot: centre of the foot's ball in the last body's frame [m], shape (3,).
         foot_radius: of that ball [m].
-        hip: which joint of the chain is the hip's pitch.
+        hip: index in the chain of the hip pitch joint.
         length: of the stretched leg [m].
     """
 
@@ -41,10 +42,10 @@ class JumpingLeg:
 
 @dataclass(frozen=True, eq=False)
 class LeggedBody:
-    """A robot as a push-off sees it.
+    """Model of a robot for push-offs.
 
     Attributes:
-        trunk: mass properties of all that is in no leg, in B.
+        trunk: mass properties of everything outside the legs, in B.
         joints: of all legs, in their order.
         posture: of those joints in the nominal stance [rad or m], shape (n,).
         height: of B's origin over the ground in the nominal stance [m].
@@ -107,7 +108,7 @@ class LeggedBody:
 
     @property
     def joint_slices(self) -> Iterator[tuple[JumpingLeg, slice]]:
-        """Each leg with the places of its joints among all."""
+        """Each leg with the slice of its joints among all joints."""
         first = 0
         for leg in self.legs:
             last = first + len(leg.chain.joints)
@@ -116,7 +117,7 @@ class LeggedBody:
 
 
 def obstacle_to_jumping(robot: Robot) -> str:
-    """Reason why no push-off can be planned for a robot, as half a sentence; empty if one can."""
+    """Reason why no push-off can be planned for a robot, as a clause; empty if one can."""
     if not robot.legs:
         return "the robot has no legs"
     if up_axis(robot.tree, robot.trunk, robot.legs)[2] != 1.0:

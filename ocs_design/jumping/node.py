@@ -1,12 +1,12 @@
-"""One instant of a push-off: when it is, its unknowns, what it costs, and what it must keep to.
+"""One node of a push-off: its instant, its unknowns, its cost and its constraints.
 
-The nodes lie closer towards the end, where the legs are quickest. Between them the second
+The nodes are closer together towards the end, where the legs are fastest. Between them the second
 derivatives are linear in time: the coordinates are cubic splines (de Boor, A Practical Guide to
 Splines, chapter IV).
 
-The unknowns of a node are the coordinates y, their first two derivatives by the share of the time
-that has passed, the forces on the feet in units of the weight, and the duration. Every node has
-its own copy of the duration, so that the program stays banded. All rows are free of units.
+The unknowns of a node are the coordinates y, their first two derivatives with respect to the share
+of time passed, the forces on the feet in units of the weight, and the duration. Every node has its
+own copy of the duration, so that the program stays banded. All rows are dimensionless.
 """
 
 from dataclasses import dataclass
@@ -32,17 +32,17 @@ SHARES = frozen(np.append(0.0, np.cumsum(STEPS)))
 """Share of the duration that has passed at each node, shape (NODES,)."""
 
 WEIGHTS = frozen((np.append(0.0, STEPS) + np.append(STEPS, 0.0)) / 2.0)
-"""Weights of the nodes in an integral over the shares, by trapezoids, shape (NODES,)."""
+"""Trapezoidal weights of the nodes in an integral over the shares, shape (NODES,)."""
 
 FRICTION = 0.6
-"""Coefficient that a plan relies on: rubber on most dry floors has more."""
+"""Coefficient of friction that a plan relies on: rubber on most dry floors has more."""
 
 REACH = (0.40, 0.95)
-"""Length of a leg over that of the stretched one: it folds no further, and keeps its knee bent."""
+"""Smallest and largest leg length over the stretched length: the knee always stays bent."""
 
 
 class Limit(IntEnum):
-    """Limits that a jump may overdraw."""
+    """Limits that a plan may exceed, at a price."""
 
     TORQUE = 0
     SPEED = 1
@@ -50,10 +50,10 @@ class Limit(IntEnum):
 
 
 class NodeLayout(NamedTuple):
-    """Places of the unknowns in a node's column.
+    """Indices of the unknowns in a node's column.
 
     Attributes:
-        joints, legs: how many there are.
+        joints, legs: their numbers.
         y, v, a: coordinates of trunk and joints [m, rad], their first and second derivatives.
         f: forces on the feet over the weight.
         duration: of the push-off [s].
@@ -71,7 +71,7 @@ class NodeLayout(NamedTuple):
 
     @classmethod
     def of(cls, body: LeggedBody) -> "NodeLayout":
-        """Places in the nodes of a robot."""
+        """Layout for a robot's nodes."""
         joints, legs = len(body.joints), len(body.legs)
         count = POSE + joints
         y, v, a = (slice(k * count, (k + 1) * count) for k in range(3))
@@ -84,11 +84,11 @@ class Constraints:
     """Constraints of one kind: lower <= fold @ values <= upper.
 
     Attributes:
-        values: quantities without unit, shape (k, 1).
-        fold: which of them make which row, and with which sign, shape (m, k).
+        values: dimensionless quantities, shape (k, 1).
+        fold: matrix of coefficients from values to rows, shape (m, k).
         lower, upper: bounds of every row.
-        limit: which `Limit` may be overdrawn to keep the rows; -1: none.
-        first, stop: nodes from and before which the rows hold.
+        limit: the `Limit` whose excess relaxes the rows; -1: none.
+        first, stop: the rows hold at nodes from `first` on, before `stop`.
     """
 
     values: ca.SX
@@ -102,14 +102,14 @@ class Constraints:
 
 @dataclass(frozen=True, eq=False)
 class Node:
-    """One node in symbols.
+    """Symbolic node.
 
     Attributes:
         unknowns: one column, see `NodeLayout`. load: parameters, see `floating_base.Load`.
-        residuals: the cost per share of the time is the sum of the squares of both columns.
-        blocks: all constraints but those of `end`.
-        end: velocity of the centre of mass and angular momentum, as numbers without unit: what the
-            last node has to reach, shape (6, 1).
+        residuals: two columns; the sum of their squares is the cost per share of the time.
+        blocks: all constraints except that of `end`.
+        end: dimensionless velocity of the centre of mass and angular momentum, which the last node
+            has to reach, shape (6, 1).
         torque: of the joints [N m or N], shape (n, 1).
         layout: of the unknowns.
     """
@@ -124,7 +124,7 @@ class Node:
 
     @classmethod
     def of(cls, body: LeggedBody, base: FloatingBase) -> "Node":
-        """The node of a robot; what differs between its jumps stays a symbol."""
+        """Node of a robot; everything that differs between its jumps stays symbolic."""
         layout = NodeLayout.of(body)
         z, units = ca.SX.sym("z", layout.size), _Units.of(body, base)
         duration = z[layout.duration]
@@ -138,7 +138,7 @@ class Node:
         )
         shared = base.f / units.force * len(body.legs)
         swing = base.a * units.time**2
-        # Terms of the cost besides the torques: small ones, which decide what these leave open.
+        # Small terms of the cost that settle what the torques leave undetermined.
         minor = ca.vertcat(
             np.sqrt(0.01) * shared,
             np.sqrt(0.3) * ca.vertcat(shared[0::3], shared[1::3]),
@@ -149,7 +149,7 @@ class Node:
         )
         balance, slips, torque, speed, force, reach, minor, end = ca.substitute(
             [
-                # Nothing but the ground pushes the trunk.
+                # Only the ground pushes the robot.
                 ca.vertcat(base.imbalance[:3] / units.force, base.imbalance[3:] / units.moment),
                 _slips(body, base) / body.length,
                 base.torque,
@@ -169,12 +169,12 @@ class Node:
             np.array([limit_or_inf(getattr(joint, name)) for joint in body.joints])
             for name in ("effort", "velocity")
         )
-        # Values of the joints over their limits, both ways, where they have one, shape (m, n).
+        # Joint values over their limits, in both directions, for joints with limits, shape (m, n).
         efforts, velocities = (
             _sparse(np.kron(np.diag(1.0 / each)[np.isfinite(each)], [[1.0], [-1.0]]))
             for each in limits
         )
-        # Forces beyond the pyramid inscribed into the friction cone, shape (4 legs, 3 legs).
+        # Forces outside the pyramid inscribed in the friction cone, shape (4 legs, 3 legs).
         side = FRICTION / np.sqrt(2.0)
         sides = [[1.0, 0.0, -side], [-1.0, 0.0, -side], [0.0, 1.0, -side], [0.0, -1.0, -side]]
         pyramids = _sparse(np.kron(np.eye(layout.legs), sides))
@@ -189,7 +189,7 @@ class Node:
                 Constraints(slips, ca.DM.eye(slips.numel()), 0.0, 0.0, first=1),
                 Constraints(torque, efforts, -np.inf, 1.0, Limit.TORQUE),
                 Constraints(speed, velocities, -np.inf, 1.0, Limit.SPEED),
-                # At the end the feet let go.
+                # At the end the feet lift off.
                 Constraints(force, pyramids, -np.inf, 0.0, Limit.FRICTION, stop=NODES - 1),
                 Constraints(reach, ca.DM.eye(layout.legs), REACH[0] ** 2, REACH[1] ** 2),
             ),
@@ -200,9 +200,9 @@ class Node:
 
 
 def spline_slopes(values: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """First and second derivatives, by the share, of the spline through `values` at the nodes.
+    """First and second derivatives, by share of time, of the spline through `values` at the nodes.
 
-    It starts at rest, and its end is natural; all of shape (m, NODES).
+    The spline starts at rest and has a natural end; all arrays have shape (m, NODES).
     """
     rise = np.diff(values, axis=1) / STEPS
     matrix, right = np.eye(NODES), np.zeros_like(values)
@@ -242,10 +242,10 @@ class _Units:
 
 
 def _slips(body: LeggedBody, base: FloatingBase) -> ca.SX:
-    """Slip of each foot from where it stood [m]; a ball rolls as its shank turns.
+    """Slip of each foot from its stance position [m]; a foot's ball rolls as its shank turns.
 
-    A ball of radius r that turns by phi about y and chi about x rolls to (r phi, -r chi): exact as
-    long as it turns about one axis, and these balls nearly do.
+    A ball of radius r that turns by phi about y and chi about x rolls to (r phi, -r chi): exact for
+    a turn about one axis, which is nearly true of these balls.
     """
     rows: list[ca.SX] = []
     standing = np.concatenate([[0.0, 0.0, body.height, 0.0, 0.0, 0.0], body.posture])
@@ -261,7 +261,7 @@ def _slips(body: LeggedBody, base: FloatingBase) -> ca.SX:
 
 
 def limit_or_inf(value: float) -> float:
-    """Limit of a joint; files write 0 where the author left it open."""
+    """Limit of a joint; 0 in a file means that the author left it open."""
     return value if value > 0.0 else np.inf
 
 

@@ -1,4 +1,4 @@
-"""Plans of jumps: what the legs track, or why they cannot make it."""
+"""Plans of jumps: references for the legs, or the reason why they cannot make a jump."""
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -22,21 +22,21 @@ from ocs_design.sizing.place import with_device
 
 _BRAKE = 0.15
 _SWING = 1.5
-"""Times in which the legs brake and go back, over sqrt(L / g) on Earth: the drives are the same
-wherever they are."""
+"""Times in which the legs brake and swing back, over sqrt(L / g) with Earth's g: the drives are the
+same under any gravity."""
 
 _LATEST = 0.7
-"""Largest share of the flight that their swing back takes."""
+"""Largest share of the flight for the legs' swing back."""
 
 _LEVEL = np.radians(0.5)
-"""A trunk that comes down off level by less needs no correction [rad]."""
+"""Tilt at touchdown below which no correction is needed [rad]."""
 
 _SAMPLE = 1e-3
-"""[s], between two samples of the references."""
+"""Time between two samples of the references [s]."""
 
 
 _FALLBACK = "starts at lift-off"
-"""What a run does whose push-off cannot be planned."""
+"""Note on a run whose push-off cannot be planned."""
 
 _BARE_LEGS = "bare robot's legs"
 
@@ -44,10 +44,10 @@ _BARE_LEGS = "bare robot's legs"
 def plan_jumps(
     robot: Robot, device: Device, maneuvers: Sequence[Maneuver]
 ) -> Mapping[str, JumpPlans]:
-    """How the robot makes each maneuver from the ground, with its device and without, by its name.
+    """Plans for each maneuver from the ground, with the device and without, by maneuver name.
 
-    A drop has no push-off and is left out. Where the legs cannot make a jump with the device, the
-    bare robot starts in flight as well, and the other way round: what is compared must be alike.
+    A drop has no push-off and is left out. If the legs cannot make a jump with the device, the bare
+    robot starts in flight as well, and vice versa, so that the two can be compared.
     """
     planning = JumpPlanning(robot, maneuvers)
     planning.carry(device)
@@ -55,10 +55,11 @@ def plan_jumps(
 
 
 class JumpPlanning:
-    """Jumps that are planned in threads, beside other work: IPOPT runs without Python's lock.
+    """Jumps planned in threads, in parallel with other work: IPOPT releases Python's lock.
 
-    The bare robot's plans begin at once. Those of the robot with its device begin as soon as it is
-    known; each search starts from the bare robot's push-off, which takes a third of the time.
+    Planning for the bare robot begins immediately, and for the robot with its device as soon as the
+    device is known. Then each search starts from the bare robot's push-off and takes a third of the
+    time.
     """
 
     def __init__(self, robot: Robot, maneuvers: Sequence[Maneuver]) -> None:
@@ -76,7 +77,7 @@ class JumpPlanning:
                 self._bare[jump] = self._threads.submit(self._plan, jump, self._body.trunk)
 
     def carry(self, device: Device) -> None:
-        """Begin with the plans of the robot that carries a device."""
+        """Begin to plan for the robot that carries this device."""
         if self._bare:
             for maneuver, jump in self._jumps:
                 # Nothing drives the wheels until lift-off.
@@ -87,7 +88,7 @@ class JumpPlanning:
                 )
 
     def plans(self) -> Mapping[str, JumpPlans]:
-        """All plans, by the names of their maneuvers, as soon as they are done."""
+        """All plans by maneuver name; waits until they are done."""
         found: dict[str, JumpPlans] = {}
         for each, jump in self._jumps:
             if self._obstacle:
@@ -104,31 +105,31 @@ class JumpPlanning:
         return found
 
     def cancel(self) -> None:
-        """Begin no further plan."""
+        """Start no further plans."""
         self._threads.shutdown(wait=False, cancel_futures=True)
 
     def _plan(
         self, jump: Jump, trunk: MassProperties, similar: "Future[Planned] | None" = None
     ) -> "Planned":
-        # Threads take their work in order, so what is waited for here has begun.
+        # Threads take their work in order, so the awaited plan has already begun.
         known = None if similar is None else similar.result().push_off
         return self._planner.result().plan(jump, trunk, similar=known)
 
 
 def _both(note: str) -> JumpPlans:
-    """Robots with and without the device that start in flight, for one reason."""
+    """Plans without a push-off, with and without the device, for the same reason."""
     return JumpPlans(JumpPlan(None, note), JumpPlan(None, note))
 
 
 class Planned(NamedTuple):
-    """A jump's plan, and the push-off to begin the search for a similar one at."""
+    """A jump's plan, and its push-off, from which to start the search for a similar one."""
 
     plan: JumpPlan
     push_off: PushOff
 
 
 class JumpPlanner:
-    """Plans the jumps of one robot; what does not depend on the jump is made once."""
+    """Plans the jumps of one robot; everything independent of the jump is built once."""
 
     def __init__(self, body: LeggedBody) -> None:
         base = FloatingBase.of(body)
@@ -137,11 +138,11 @@ class JumpPlanner:
         self._free = FreeRobot(base)
 
     def plan(self, jump: Jump, trunk: MassProperties, similar: PushOff | None = None) -> Planned:
-        """A push-off from which the robot comes down level by itself.
+        """Plan a jump from which the robot lands level without any help.
 
         Args:
-            trunk: of `LeggedBody`, with what it carries.
-            similar: a push-off of this jump with another trunk, to begin the search at.
+            trunk: of `LeggedBody`, with its load.
+            similar: a push-off of this jump with another trunk, from which the search starts.
         """
         load = Load.values(jump.gravity, trunk)
         time = float(np.sqrt(self._body.length / STANDARD_GRAVITY))
@@ -155,10 +156,10 @@ class JumpPlanner:
             flight = self._free.fly(y, v, legs, load, jump.flight_time)
             if corrected or np.abs(flight.tilt).max() <= _LEVEL:
                 break
-            # The legs turn the trunk as they go back: a spin at lift-off turns it as far again.
+            # The legs turn the trunk as they swing back: a spin at lift-off turns it back as far.
             inertia = self._free.inertia(y, load)
             spin, similar = -inertia @ flight.tilt / jump.flight_time, push_off
-        # Push-off and flight one after the other.
+        # Push-off, then flight.
         lift_off = float(push_off.time[-1])
         pushing = np.arange(0.0, lift_off, _SAMPLE)
         position, velocity = push_off.joints_at(pushing)

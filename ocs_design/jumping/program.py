@@ -1,7 +1,7 @@
-"""The push-off as a nonlinear program of equal nodes, and IPOPT's answer to it.
+"""The push-off as a nonlinear program of identical nodes, and its solution by IPOPT.
 
-The derivatives of all nodes are those of one, which is differentiated once; left to itself, CasADi
-would colour the whole program and evaluate every node for every colour.
+One node is differentiated once, and its derivatives serve all nodes; left to itself, CasADi would
+colour the whole program and evaluate every node for every colour.
 """
 
 from dataclasses import dataclass
@@ -20,12 +20,13 @@ _ITERATIONS_MAX = 120
 
 _EXCESS = len(Limit)
 _PENALTY = 1000.0
-"""Price of overdrawing a limit, far above what any jump gains by it: none is unless it must."""
+"""Penalty for exceeding a limit, far above any gain from it: limits are exceeded only if the jump
+is otherwise impossible."""
 
 
 _MUMPS: dict[str, Any] = {"ipopt.mumps_pivot_order": 5, "ipopt.mumps_permuting_scaling": 0}
-"""Elimination in the order of METIS, no permutation for the sake of scaling: all is of order one.
-Fewer matrices seem singular, which halves the time and spares a third of the iterations."""
+"""METIS elimination order, no permutation for scaling, since everything is of order one. Fewer
+matrices appear singular, which halves the time and saves a third of the iterations."""
 
 _WARM: dict[str, Any] = {
     "ipopt.warm_start_init_point": "yes",
@@ -40,13 +41,13 @@ _WARM: dict[str, Any] = {
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """What IPOPT found.
+    """Solution found by IPOPT.
 
     Attributes:
         nodes: unknowns, shape (size, nodes).
         torque: of the joints [N m or N], shape (n, nodes).
-        excess: share by which each `Limit` had to be overdrawn, shape (3,).
-        x, on_bounds, on_rows: the whole answer and its multipliers, to begin a similar search at.
+        excess: share by which each `Limit` had to be exceeded, shape (3,).
+        x, on_bounds, on_rows: the whole solution and its multipliers, to start a similar search.
         solved: whether it is a local optimum.
     """
 
@@ -60,7 +61,7 @@ class Found:
 
 
 class Program:
-    """The push-off of a robot: made once, solved for each of its jumps."""
+    """The push-off program of a robot: built once, solved for each of its jumps."""
 
     def __init__(self, node: Node) -> None:
         self._rows = _Rows.of(node)
@@ -73,7 +74,7 @@ class Program:
 
         goal = ca.dot(weights, pieces["cost"].map(NODES)(z, load)) + _PENALTY * ca.sum1(excess)
         climbs = pieces["cost_slope"].map(NODES)(z, load) * ca.repmat(weights, size, 1)
-        # IPOPT takes the gradient as dense, whatever its sparsity.
+        # IPOPT needs a dense gradient, whatever its sparsity.
         gradient = ca.densify(ca.vertcat(ca.vec(climbs), _PENALTY * ca.DM.ones(_EXCESS)))
 
         kept = rows.selection @ ca.vec(pieces["rows"].map(NODES)(z, load)) + rows.overdrawn @ excess
@@ -115,12 +116,12 @@ class Program:
         end: FloatArray,
         load: FloatArray,
     ) -> Found:
-        """The push-off of least cost; several threads may search at once.
+        """The push-off of least cost; several threads may solve at once.
 
         Args:
-            start: unknowns to begin at, shape (size, nodes), or the answer for a similar jump.
+            start: initial unknowns, shape (size, nodes), or the solution for a similar jump.
             lower, upper: bounds of the nodes' unknowns, shape (size, nodes).
-            end: what `Node.end` must be, shape (6,).
+            end: required value of `Node.end`, shape (6,).
             load: gravity and trunk, see `floating_base.Load.values`.
         """
         rows, options = self._rows, self._options
@@ -129,7 +130,7 @@ class Program:
             begin = {"x0": start.x, "lam_x0": start.on_bounds, "lam_g0": start.on_rows}
         else:
             begin = {"x0": np.append(start.ravel("F"), np.full(_EXCESS, 0.5))}
-        # A solver keeps the statistics of one call: each call has its own.
+        # A solver keeps the statistics of one call, so each call has its own solver.
         solver = ca.nlpsol("push_off", "ipopt", self._nlp, options)
         found = solver(
             **begin,
@@ -157,9 +158,9 @@ class _Rows:
     """Constraints of the program: the splines' first, then the nodes', without those of the end.
 
     Attributes:
-        defects: matrix of what the spline's nodes have to do with each other.
-        selection: from the rows of all nodes to those that hold at them.
-        overdrawn: what each `Limit`'s excess takes off these.
+        defects: matrix of the spline conditions between nodes.
+        selection: matrix that selects, from the rows of all nodes, those that hold there.
+        overdrawn: matrix by which each `Limit`'s excess relaxes the selected rows.
         lower, upper: of all rows.
     """
 
@@ -210,15 +211,15 @@ class _Rows:
 def _pieces(node: Node) -> dict[str, ca.Function]:
     """Functions of one node's unknowns and the load.
 
-    Of a sum of squares r^2 the Hessian is 2 J^T J and that of 2 r as multipliers: a third of the
-    operations that differentiating the sum twice takes. CasADi chooses between forward and reverse
-    mode by the shape of a Jacobian, so each block has its own.
+    The Hessian of a sum of squares r^2 is 2 J^T J plus that of r with multipliers 2 r: a third of
+    the operations of differentiating the sum twice. CasADi chooses between forward and reverse mode
+    by the shape of a Jacobian, so each block has its own.
 
     Returns:
         `rows` and `slope`: constraints of any node, and their Jacobian. `cost` and `cost_slope`:
-        per share of the time, and its gradient. `curvature`: upper triangle of the Hessian of rows
-        and cost, weighed by multipliers. `end`, `end_slope` and `end_curvature`: likewise of the
-        rows that only the last node has.
+        cost per share of the time, and its gradient. `curvature`: upper triangle of the Hessian of
+        rows and cost, weighted by multipliers. `end`, `end_slope` and `end_curvature`: the same for
+        the rows that only the last node has.
     """
     z, given = node.unknowns, [node.unknowns, node.load]
     rows = [block.fold @ block.values for block in node.blocks]

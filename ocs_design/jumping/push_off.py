@@ -1,4 +1,4 @@
-"""The push-off of least effort for a jump, and which limit forbids it where none will do."""
+"""The push-off of least effort for a jump, or the limits that forbid one."""
 
 from dataclasses import dataclass
 
@@ -25,19 +25,19 @@ from ocs_design.robot.stance import lifted
 from ocs_design.robot.tree import JointKind
 
 _CROUCH = 0.25
-"""Depth of the crouch where the search begins, over the leg's length."""
+"""Depth of the crouch at the start of the search, over the leg's length."""
 
 _LEAST_LOAD = 0.2
-"""Least load of a foot until lift-off, over its share of the weight: less could let it slip."""
+"""Least load of a foot until lift-off, over its share of the weight: with less it might slip."""
 
 _TILT = 0.3
 """Largest roll, pitch and yaw of the trunk while it pushes [rad]."""
 
 _WINDING = 6.0
-"""Joints without limits turn no further than this [rad]."""
+"""Largest angle of joints without limits [rad]."""
 
 _OVERDRAWN = 1e-3
-"""A limit that is overdrawn by less than this share is kept."""
+"""Share by which a limit may be exceeded and still counts as kept."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,8 +49,8 @@ class PushOff:
         y: trunk and joints [m, rad], shape (k, 6 + n); v and a: their derivatives.
         torque: of the joints [N m or N], shape (k, n).
         force: of the ground on each foot, in the world [N], shape (k, legs, 3).
-        forbidden: which limit forbids it, as a sentence; empty if none does.
-        answer: of the program, to begin the search for a similar push-off at.
+        forbidden: limits that forbid it, as a sentence; empty if none does.
+        answer: solution of the program, from which to start the search for a similar push-off.
     """
 
     time: FloatArray
@@ -74,7 +74,7 @@ class PushOff:
 
 
 class PushOffs:
-    """Finds the push-offs of one robot; its program is made once.
+    """Finds the push-offs of one robot; its program is built once.
 
     Attributes:
         body: the robot.
@@ -96,10 +96,10 @@ class PushOffs:
         """The push-off of least effort.
 
         Args:
-            trunk: with all that it carries, in B.
+            trunk: with everything that it carries, in B.
             spin: angular momentum about the centre of mass at lift-off, in B [kg m^2/s], shape
                 (3,); None: none.
-            similar: another push-off of this jump, to begin the search at.
+            similar: another push-off of this jump, from which to start the search.
         """
         body, layout = self.body, self._node.layout
         duration, height = _crouch(body, jump)
@@ -130,12 +130,12 @@ class PushOffs:
 
 
 def _crouch(body: LeggedBody, jump: Jump) -> tuple[float, FloatArray]:
-    """The trunk's way down and up again, where the search begins.
+    """Initial guess of the trunk's motion, down and up again.
 
-    It falls at 0.6 g, and rises at constant acceleration to the speed asked for.
+    It falls at 0.6 g, and rises at constant acceleration to the specified speed.
 
     Returns:
-        How long it takes [s]; height of the trunk over its stance at the nodes [m].
+        Duration [s]; height of the trunk above its stance at the nodes [m].
     """
     depth, stretched = _CROUCH * body.length, 0.0
     for leg, where in body.joint_slices:
@@ -157,7 +157,7 @@ def _crouch(body: LeggedBody, jump: Jump) -> tuple[float, FloatArray]:
 def _initial_guess(
     body: LeggedBody, layout: NodeLayout, gravity: float, duration: float, height: FloatArray
 ) -> FloatArray:
-    """Unknowns where the search begins: level, over still feet, shape (size, nodes)."""
+    """Initial guess of the unknowns: level trunk over fixed feet, shape (size, nodes)."""
     found = np.zeros((layout.size, NODES))
     found[2] = body.height + height
     for leg, where in body.joint_slices:
@@ -188,7 +188,7 @@ def _bounds_of_unknowns(
     stance = np.concatenate([[0.0, 0.0, body.height, 0.0, 0.0, 0.0], body.posture])
     lower[layout.y, 0] = upper[layout.y, 0] = stance
     lower[layout.v, 0] = upper[layout.v, 0] = 0.0
-    # Level where the feet let go, which by then carry nothing.
+    # Level at lift-off, when the feet carry nothing.
     lower[3:6, -1] = upper[3:6, -1] = 0.0
     lower[layout.f, -1] = upper[layout.f, -1] = 0.0
     return lower, upper
@@ -198,7 +198,7 @@ def _exceeded_limits(body: LeggedBody, layout: NodeLayout, found: Found) -> str:
     """Limits that the push-off exceeds, and by how much, as text; empty if none."""
     duration, sentences = found.nodes[layout.duration, -1], []
     speed = found.nodes[layout.v][-layout.joints :] / duration
-    # Units are those of hinges and of slides.
+    # Units for hinges and for slides.
     for limit, quantity, name, units, values in (
         (Limit.TORQUE, "torque", "effort", ("N m", "N"), found.torque),
         (Limit.SPEED, "speed", "velocity", ("rad/s", "m/s"), speed),
@@ -206,7 +206,7 @@ def _exceeded_limits(body: LeggedBody, layout: NodeLayout, found: Found) -> str:
         if found.excess[limit] <= _OVERDRAWN:
             continue
         limits = np.array([limit_or_inf(getattr(joint, name)) for joint in body.joints])
-        # The joint that needs the largest share of its limit, and when; of equals the last.
+        # The joint that needs the largest share of its limit, and when; the last of equal ones.
         share = np.abs(values) / limits[:, None]
         row, instant = np.argwhere(share >= (1.0 - _OVERDRAWN) * share.max())[-1]
         joint, time = body.joints[row], duration * float(SHARES[instant])
