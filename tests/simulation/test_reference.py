@@ -99,7 +99,7 @@ def test_a_wheel_far_too_slow_gets_more_time_and_says_so():
     limits = MotorLimits(700.0, 350.0, 1.0)
     fitted = fit_turn(FLIP, BODY, limits)
     assert utilisation(fitted, BODY, limits) == pytest.approx(RESERVE, rel=1e-6)
-    assert "in place of the 2 s" in fitted.note
+    assert "instead of the 2 s" in fitted.note
     faster = replace(fitted, duration=0.999 * fitted.duration)
     assert utilisation(faster, BODY, limits) > RESERVE
 
