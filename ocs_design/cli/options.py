@@ -118,7 +118,7 @@ Reality: TypeAlias = Annotated[
     option(
         "--reality",
         "FILE",
-        "Sample from the distributions in this file instead, TOML.",
+        "Sample from the distributions in [reality] of this TOML file instead.",
         completion.files(".toml"),
     ),
 ]
@@ -223,8 +223,8 @@ TASK_OPTIONS: Mapping[str, object] = {
     "layout": _text(
         "NAME",
         "Arrangement of the wheels' axes: pair, double-pair or triple-pair (default: the first "
-        "for which a motor is strong enough), single, triad, orthogonal, pyramid; all compares "
-        "them and writes no folder.",
+        "for which a motor is strong enough), single (pitch only), triad, orthogonal, pyramid; all "
+        "compares them and writes no folder.",
         completion.of_key("ocs.layout"),
     ),
     "alpha": _text("ANGLE", "Incidence angle, e.g. 40deg; elevation of a pyramid."),

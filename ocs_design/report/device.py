@@ -21,6 +21,7 @@ from ocs_design.device.records.requirement import RobotRecord
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.report.table import Rows, Table, columns
 from ocs_design.requirement.uncertainty import Entry, spreads, uncertainty_of_texts
+from ocs_design.requirement.vocabulary import CRITERIA, LIGHTEST
 
 _NO_PRODUCT = 5e-5
 """Products of inertia below this part of the largest moment, whose last digit they do not reach."""
@@ -34,6 +35,7 @@ FIRST_FACTS = {
     "mass of a module": "module",
     "carrier plate": "plate",
     "incidence alpha*": "alpha*",
+    "incidence alpha": "alpha",
     "layout": "layout",
     "rim": "rim",
     "motor": "motor",
@@ -146,7 +148,10 @@ def _wheel_facts(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
     if alone is not None:
         chosen += f"; {degrees(alone)} for the robot alone"
     if ocs.axes == PAIR:
-        yield "incidence alpha*", f"{degrees(ocs.incidence, 2)} ({chosen})"
+        # alpha* is what a criterion gives; the lightest and a stated angle are not.
+        named = ocs.incidence_criterion in CRITERIA and ocs.incidence_criterion != LIGHTEST
+        name = "incidence alpha*" if named else "incidence alpha"
+        yield name, f"{degrees(ocs.incidence, 2)} ({chosen})"
     else:
         yield "layout", layout_text(ocs)
     outer, inner, height = (

@@ -65,8 +65,13 @@ def certificate_notes(found: ReliabilityRecord) -> Iterator[str]:
     """What each round taught, how sure the verdict is, and which samples it rests on."""
     yield from found.rounds
     asked, worse = (f"{100.0 * value:.3g} %" for value in (found.asked, found.worse))
+    if found.verdict == Conclusion.UNDECIDED:
+        yield (
+            f"{found.samples:,} robots do not decide it: --certify without --samples flies as many "
+            "as the test takes"
+        )
     yield (
-        "Sampled robots flew all maneuvers, one robot after another, until the test was decided: "
+        "Sampled robots flew all maneuvers, one robot after another, for a sequential test: "
         f"a design of {worse} or worse would be certified in at most 5 of 100 cases, and one of "
         f"{asked} or better would be found to fall short in at most 5 (Wald 1945)"
     )

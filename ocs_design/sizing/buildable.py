@@ -114,8 +114,8 @@ def buildable(
         points.append(
             OpenPoint(
                 what=f"no source gives the {listed(gaps)} of {motor.name}",
-                cure="leave the choice to the program, which takes a motor with all data needed to "
-                "build, or give its figures in your own file (--motors FILE)",
+                cure="add them to its row in a file of your own (--motors FILE), or leave the "
+                "choice to the program, which takes a motor with all data needed to build",
             )
         )
     for joint in joints:

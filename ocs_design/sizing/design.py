@@ -179,6 +179,7 @@ def survivors(specification: Specification, robot: Robot, progress: Progress) ->
         progress: called with the fraction done.
     """
     masses: dict[str, float] = {}
+    against: list[str] = []
     for done, layout in enumerate(SURVIVORS):
         progress(done / len(SURVIVORS))
         ocs = replace(
@@ -188,10 +189,13 @@ def survivors(specification: Specification, robot: Robot, progress: Progress) ->
         asked = replace(specification, ocs=ocs)
         if any(contradictions(asked)):
             continue
-        with suppress(Infeasible):
+        try:
             masses[layout] = design_device(Task.of(asked, robot), ranked=False).device.mass
+        except Infeasible as error:
+            against.append(f"{layout}: {error.message.rstrip('.')}")
     if not masses:
-        return "No layout that survives it has a feasible device either."
+        why = f" ({'; '.join(against)})" if against else ""
+        return f"No layout that survives it has a feasible device either{why}."
     told = some_of([f"`--layout {name}` {1e3 * mass:.0f} g" for name, mass in masses.items()])
     return (
         f"Layouts that survive it: {told}. `validate DESIGN --survives one` reports at which "

@@ -14,6 +14,7 @@ from stories import design
 from ocs_design.device.records.design import read_design
 from ocs_design.device.records.device import Margin
 from ocs_design.device.records.selection import ReserveRecord
+from ocs_design.report.device import device_facts
 from ocs_design.report.html.elements import Markup
 from ocs_design.report.html.sections import robot_section
 from ocs_design.report.story import Story
@@ -147,3 +148,14 @@ def test_with_v_and_in_the_report_everything_to_mind_is_told():
     for each in minded:
         assert console.file.getvalue().count(each) == 1
         assert escape(each) in page
+
+
+@pytest.mark.parametrize(
+    ("criterion", "name"),
+    [("equal-rate", "alpha*"), ("lightest", "alpha"), ("as specified", "alpha")],
+)
+def test_only_an_angle_by_a_criterion_is_called_alpha_star(criterion, name):
+    """The lightest one was too."""
+    ocs = replace(design().ocs, incidence_criterion=criterion)
+    facts = dict(device_facts(replace(design(), ocs=ocs)))
+    assert [each for each in facts if "alpha" in each] == [f"incidence {name}"]

@@ -25,7 +25,7 @@ from ocs_design.requirement.sections import RequirementSection, RobotSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing import on_robot
-from ocs_design.sizing.design import design_device
+from ocs_design.sizing.design import design_device, survivors
 from ocs_design.sizing.footing.feet import Footing
 from ocs_design.workflows.pareto import read_task
 
@@ -187,3 +187,22 @@ def test_a_device_that_is_held_another_way_each_time_is_refused(monkeypatch, kil
         )
         assert float(mass[1]) == pytest.approx(device, rel=0.2)
         assert refused.binding == ("ocs.place",)
+
+
+def test_layouts_that_would_survive_and_have_no_device_say_why(monkeypatch):
+    """It was told that there is none, and not by how much they miss it."""
+
+    def none(task, **_):
+        reason = f"{task.specification.ocs.layout} lacks 20 %."
+        raise Infeasible(
+            reason,
+            binding=("r_max",),
+            required_spin_inertia=2.0,
+            largest_spin_inertia=1.0,
+            relaxations={},
+        )
+
+    monkeypatch.setattr("ocs_design.sizing.design.design_device", none)
+    task = solo12()
+    told = survivors(task.specification, task.robot, lambda _: None)
+    assert "triad: triad lacks 20 %; double-pair: double-pair lacks 20 %; pyramid: " in told

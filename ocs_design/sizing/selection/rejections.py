@@ -260,6 +260,8 @@ def _reason(
     if part.reason == SlewReason.AXIS:
         at = np.degrees(part.incidence)
         place = f"at {at:.4g} deg" if problem.layout.pairs else f"of {problem.layout.text}"
+        if not problem.layout.pairs:
+            place += ", whatever the motor"
         return Reason.INCIDENCE, f"{part.name} requires an axis out of reach {place}"
     if not part.late > 1.0:
         # A wheel would fit except for its hoop stress, or for what it adds to the robot's inertia.
