@@ -1,4 +1,4 @@
-"""Bodies of the robot and its device, as a GLB of ours shows them."""
+"""Bodies of the robot and its device, read from an exported GLB."""
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
@@ -18,7 +18,7 @@ _HEADER, _CHUNK = 12, 8
 """Sizes of the heads of a GLB and of its chunks [bytes] (glTF 2.0, section 4)."""
 
 _TYPES = {5123: "<u2", 5125: "<u4", 5126: "<f4"}
-"""NumPy types of the components of an accessor; others are not written."""
+"""NumPy types of the components of an accessor; our GLB files have no others."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,8 +26,8 @@ class Surface:
     """Triangles in one colour.
 
     Attributes:
-        vertices: in the frame of their body [m], shape (n, 3).
-        faces: corners of each triangle, shape (m, 3).
+        vertices: points in the frame of their body [m], shape (n, 3).
+        faces: vertex indices of each triangle, shape (m, 3).
     """
 
     vertices: FloatArray
@@ -40,8 +40,8 @@ class ShownBody:
     """Surfaces that move together.
 
     Attributes:
-        name: of the body in MuJoCo.
-        placement: of its frame in B, in the posture of the file.
+        name: name of the body in MuJoCo.
+        placement: placement of its frame in B, in the posture of the file.
         surfaces: one for each colour.
     """
 
@@ -51,7 +51,7 @@ class ShownBody:
 
 
 def read_bodies(glb: bytes) -> tuple[ShownBody, ...]:
-    """Every body that has something to show, in the order of the tree."""
+    """All bodies that have surfaces, in tree order."""
     return tuple(body for body in _Reading(glb).bodies() if body.surfaces)
 
 
@@ -67,7 +67,7 @@ def still(bodies: Sequence[ShownBody]) -> NDArray[np.uint8]:
 
 
 class _Reading:
-    """One file, written by `export.glb`: nodes with a mesh are geoms, the others bodies."""
+    """Reader of one file by `export.glb`: nodes with a mesh are geoms, the others bodies."""
 
     def __init__(self, glb: bytes) -> None:
         length = int.from_bytes(glb[_HEADER : _HEADER + 4], "little")
@@ -125,6 +125,6 @@ def _placement(node: Mapping[str, Any]) -> Placement:
 
 
 def _screen(part: float) -> float:
-    """Code of an intensity in sRGB (IEC 61966-2-1), inverse of what the GLB was written by."""
+    """Code of an intensity in sRGB (IEC 61966-2-1), the inverse of the conversion in the writer."""
     code = 12.92 * part if part <= 0.0031308 else 1.055 * part ** (1.0 / 2.4) - 0.055
     return float(round(code, 4))

@@ -1,4 +1,4 @@
-"""Facts about the robot and its device: what was read, what is to be built, where it sits."""
+"""Facts about the robot and its device: robot as read, parts to build, and their placement."""
 
 from collections.abc import Iterator, Mapping
 
@@ -24,7 +24,7 @@ from ocs_design.requirement.uncertainty import Entry, spreads, uncertainty_of_te
 from ocs_design.requirement.vocabulary import CRITERIA, LIGHTEST
 
 _NO_PRODUCT = 5e-5
-"""Products of inertia below this part of the largest moment, whose last digit they do not reach."""
+"""Share of the largest moment below which a product of inertia is shown as 0 (its last digit)."""
 
 _NO_MASS = 1e-9
 """Mass below which a part of a module is not listed [kg]."""
@@ -42,17 +42,17 @@ FIRST_FACTS = {
     "gear": "gear",
     "drive at the wheel": "drive",
 }
-"""Facts of the device at a first look, and the short names that they have there."""
+"""Key facts of the device and their short names in summaries."""
 
 
 def first_facts(design: OcsDesign) -> Rows:
-    """What a first look at a device shows, by short names."""
+    """Key facts of a device, by short names."""
     found = dict(device_facts(design))
     return tuple((short, found[name]) for name, short in FIRST_FACTS.items() if name in found)
 
 
 def robot_facts(robot: RobotRecord) -> Rows:
-    """What was read of a robot: mass, trunk, posture and locked inertia."""
+    """Data read of a robot: mass, trunk, posture and locked inertia."""
     trunk = robot.trunk
     if robot.floating_base != trunk:
         trunk += f" (floating base: {robot.floating_base})"
@@ -78,10 +78,10 @@ def robot_facts(robot: RobotRecord) -> Rows:
 
 
 def drawn_facts(reality: Mapping[str, str]) -> Rows:
-    """Distributions that samples are drawn from, in units that people think in."""
+    """Distributions that samples are drawn from, in practical units."""
     known = {name: text for name, text in reality.items() if name in spreads()}
     drawn = uncertainty_of_texts(known, "reality")
-    # Which drive stops is drawn too, by no key of the specification.
+    # The drive that fails is sampled too, but has no key in the specification.
     others = tuple(
         (name.replace("_", " "), text) for name, text in reality.items() if name not in known
     )
@@ -93,20 +93,20 @@ def drawn_facts(reality: Mapping[str, str]) -> Rows:
 
 
 def heading_drift(drift: tuple[float, float]) -> str:
-    """Yaw that comes with roll and with pitch."""
+    """Yaw that accompanies roll and pitch."""
     roll, pitch = drift
     return f"{signed(roll)} rad of yaw per rad of roll, {signed(pitch)} per rad of pitch"
 
 
 def device_title(design: OcsDesign) -> str:
-    """Number of its wheels, and whether motors were chosen."""
+    """Title with the number of wheels, and a note if no motors were chosen."""
     modules = len(design.ocs.modules)
     wheels = f"{_COUNTS[modules]} flywheel{'' if modules == 1 else 's'}"
     return f"Device: {wheels}{'' if has_motor(design) else ', no motors yet'}"
 
 
 def has_motor(design: OcsDesign) -> bool:
-    """Whether a motor was chosen; else wheels are sized alone, at an assumed speed."""
+    """Whether a motor was chosen; otherwise only wheels are sized, at an assumed speed."""
     return design.ocs.motor.bus_voltage is not None
 
 
@@ -224,7 +224,7 @@ def _nearest(clearance: Clearance | None) -> str:
 
 
 def layout_text(ocs: OcsRecord) -> str:
-    """How the axes lie, as in "pyramid at 35.3 deg"."""
+    """Layout of the axes, as in "pyramid at 35.3 deg"."""
     return f"{ocs.layout} at {degrees(ocs.incidence)}" if ocs.incidence else ocs.layout
 
 

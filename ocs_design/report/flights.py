@@ -1,4 +1,4 @@
-"""Facts about the flights: verdicts, attitudes, what the wheels did, and what no verdict says."""
+"""Facts about the flights: verdicts, attitudes, wheel speeds and torques, and further remarks."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
@@ -25,24 +25,24 @@ from ocs_design.simulation.run import UPRIGHT_TILT
 from ocs_design.simulation.verdict import ends_anyhow, landing_attitude, off_asked
 
 WORSE = np.radians(1.0)
-"""A swing on the ground with the device is reported if it is larger by this than without [rad]."""
+"""Increase of the swing on the ground by the device above which it is reported [rad]."""
 
 SAME_ANGLE = 1e-9
-"""Incidences that differ by less are equal [rad]."""
+"""Difference below which incidences count as equal [rad]."""
 
 JUMP_OFF = 0.05
 """A jump is reported if its height is off by more than this share of the height asked for."""
 
 SPENT = 0.95
-"""Share of its top speed from which a wheel takes up next to nothing more."""
+"""Share of its top speed above which a wheel can absorb almost no more momentum."""
 
 _COLUMNS = (
     "\nroll [deg]", "end\npitch [deg]", "\nroll [deg]", "turned [deg]", "wheel\nspeed [rpm]",
     "motor\ntorque [N m]",
 )  # fmt: skip
-"""Behind the verdict and the pitch at touchdown."""
+"""Columns after the verdict and the pitch at touchdown."""
 
-# A robot that fails without the device is what one expects, and no alarm.
+# A robot is expected to fail without the device, so that is no alarm.
 _WITH = {
     True: Toned("pass", Tone.PASS),
     False: Toned("FAIL", Tone.FAIL),
@@ -57,9 +57,9 @@ def off_level(roll: ArrayLike, pitch: ArrayLike) -> FloatArray:
 
 
 def flight_table(runs: Sequence[ValidationRecord], *, of_one: bool = False) -> Table:
-    """Verdict, attitude at touchdown and at the end, and what the wheels did, of each run.
+    """Verdict, attitude at touchdown and at the end, and peak wheel figures of each run.
 
-    Rows `of_one` scenario are named by the device alone.
+    With `of_one`, all rows are of one scenario and are named "with" and "without".
     """
     first, bare = ("<device", "without") if of_one else ("<scenario", "  without")
     names = ((("with" if of_one else run.scenario) if run.ocs else bare) for run in runs)
@@ -93,7 +93,7 @@ def flight_table(runs: Sequence[ValidationRecord], *, of_one: bool = False) -> T
 
 
 def flights_title(runs: Iterable[ValidationRecord]) -> str:
-    """What the angles of `short_verdict` are, over a table of these flights."""
+    """Meaning of the angles of `short_verdict`, as title of a table of these flights."""
     pivots = [was_on_pivot(run) for run in runs]
     if all(pivots):
         return "degrees off balance when due upright"
@@ -102,21 +102,21 @@ def flights_title(runs: Iterable[ValidationRecord]) -> str:
 
 
 def short_verdict(run: ValidationRecord, maneuver: Maneuver | None) -> Toned:
-    """Verdict with the angle it rests on: of a flip what it turned by, of a turn the heading.
+    """Verdict with its decisive angle: the angle turned for a flip, the heading for a turn.
 
-    Without the maneuver the flight is taken for one that is to end level.
+    Without the maneuver the flight is assumed to end level.
     """
     word = (_WITH if run.ocs else _WITHOUT)[run.passed]
     found = run.metrics
     if run.passed is None or not found:
         return word
     roll, pitch = _angles(found, "touchdown_{}")
-    # As `judge` has it.
+    # As in `judge`.
     angle, what = max(abs(roll), abs(pitch)), ""
     if isinstance(maneuver, Flip):
         angle, what = abs(found["turned_angle"] or 0.0), " turned"
     elif found["touchdown_time"] == found["lift_off_time"]:
-        # Pushed as it stands.
+        # A push on a standing robot.
         angle, what = float(np.hypot(*_angles(found, "{}_swing"))), " swing"
     elif isinstance(maneuver, TurnTo):
         if ends_anyhow(maneuver):
@@ -129,7 +129,7 @@ def short_verdict(run: ValidationRecord, maneuver: Maneuver | None) -> Toned:
 
 
 def verdict_table(design: OcsDesign) -> Table:
-    """Verdict on each maneuver with the device and without, with the angles that they rest on."""
+    """Verdicts on each maneuver with the device and without, with their decisive angles."""
     asked = {each.name: each.maneuver() for each in design.requirement.maneuvers}
     bare = {run.scenario: run for run in design.validation if not run.ocs}
     rows = (
@@ -147,14 +147,14 @@ def verdict_table(design: OcsDesign) -> Table:
 
 
 def run_sentence(run: ValidationRecord, *, with_note: bool = True) -> str:
-    """Why a run passes or fails; with its note, also what was changed about the turn."""
+    """Reason why a run passes or fails; with its note, also what was changed about the turn."""
     device = "with" if run.ocs else "without"
     reasons = (run.reason, run.note if with_note else "")
     return f"{run.scenario}, {device}: {'; '.join(filter(None, reasons))}"
 
 
 def flight_remarks(design: OcsDesign) -> Iterator[str]:
-    """Flights that do not pass or are not judged, poor landings, and what was changed."""
+    """Remarks on flights that fail or are not judged, on poor landings, and on changed turns."""
     carrying = [run for run in design.validation if run.ocs]
     for run in carrying:
         if run.passed is not True or (run.can_stand is False and run.stands is not False):
@@ -169,13 +169,13 @@ def flight_remarks(design: OcsDesign) -> Iterator[str]:
 
 
 def turned_by_hand(design: OcsDesign) -> tuple[str, ...]:
-    """Maneuvers for which somebody has to turn the modules first."""
+    """Maneuvers for which the modules must be turned by hand first."""
     demands = design.requirement.demands
     return tuple(filter(None, (hand_turn(demand, design) for demand in demands)))
 
 
 def hand_turn(demand: DemandRecord, design: OcsDesign) -> str:
-    """How the modules are turned for a maneuver; empty: they stay as they are."""
+    """Sentence on how the modules are turned for a maneuver; empty if they are not."""
     own = design.ocs.incidence
     if abs(demand.incidence - own) <= SAME_ANGLE:
         return ""
@@ -189,7 +189,7 @@ SURVIVAL_TITLE = "Failure of a drive: final error in degrees, by the time of fai
 
 
 def survival_sentence(survival: SurvivalRecord) -> str:
-    """Whether it lands though a drive stops, how in the worst case, and when it does not."""
+    """Whether it lands despite the failure of a drive, the worst case, and when it does not."""
     count, lost, worst = len(survival.flights), survival.lost, survival.worst
     tilt = "not judged" if worst.tilt is None else f"{degrees(worst.tilt)} off at the end"
     case = f"worst: drive {worst.module} fails {worst.instant:.2f} s into {worst.scenario}, {tilt}"
@@ -206,7 +206,7 @@ def survival_sentence(survival: SurvivalRecord) -> str:
 
 
 def survival_words(design: OcsDesign) -> Iterator[str]:
-    """Sentence on a drive that stops, and what the device weighs more for it if that is known."""
+    """Sentences on the failure of a drive, and on the mass added to survive it if known."""
     found = design.survival
     if found is not None:
         yield survival_sentence(found)
@@ -216,7 +216,7 @@ def survival_words(design: OcsDesign) -> Iterator[str]:
 
 
 def survival_table(survival: SurvivalRecord) -> Table:
-    """Angle off at touchdown by the drive that stops and the share of the flight until then."""
+    """Final error angle by the drive that fails and the share of the flight before the failure."""
     rows: dict[tuple[str, str], list[Cell]] = {}
     for each in survival.flights:
         told = "-" if each.tilt is None else degrees_number(each.tilt)
@@ -231,7 +231,7 @@ def survival_table(survival: SurvivalRecord) -> Table:
 
 
 def falls(runs: Sequence[ValidationRecord]) -> str:
-    """Sentence on the flights that end on legs which do not bear them; empty: there is none."""
+    """Sentence on level landings that the legs cannot take; empty if there are none."""
     fallen = [run.scenario for run in runs if run.passed and run.stands is False]
     if not fallen:
         return ""
@@ -242,7 +242,7 @@ def falls(runs: Sequence[ValidationRecord]) -> str:
 
 
 def landing_remarks(design: OcsDesign) -> Iterator[str]:
-    """Landings that the device does not mend, and wheels that are left at speed."""
+    """Remarks on landings that the device does not improve, and on wheels left at high speed."""
     carrying = [run for run in design.validation if run.ocs]
     bare = {run.scenario: run for run in design.validation if not run.ocs}
     swings = []
@@ -295,15 +295,15 @@ def jump_remark(design: OcsDesign) -> str:
 
 
 def _angles(metrics: Mapping[str, float | bool | None], name: str) -> tuple[float, float]:
-    """Roll and pitch of that name [rad]; 0 where they are not known."""
+    """Roll and pitch metrics of that name [rad]; 0 where unknown."""
     roll, pitch = (metrics.get(name.format(axis)) for axis in ("roll", "pitch"))
     return roll or 0.0, pitch or 0.0
 
 
 def _swing(run: ValidationRecord) -> float | None:
-    """Swings of roll and pitch together [rad]; None where they are not known.
+    """Combined swing of roll and pitch [rad]; None where it is not known.
 
-    They are widths, of more than a full turn where a robot rolls over, and no attitude.
+    A swing is a range of angles, above a full turn where a robot rolls over, not an attitude.
     """
     roll, pitch = (run.metrics.get(f"{axis}_swing") for axis in ("roll", "pitch"))
     return None if roll is None or pitch is None else float(np.hypot(roll, pitch))

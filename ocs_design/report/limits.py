@@ -1,4 +1,4 @@
-"""Facts about demand and capacity: what is asked, the margins, and which limits set the mass."""
+"""Facts about demand and capacity: demands, margins, and the limits that set the mass."""
 
 from collections.abc import Sequence
 
@@ -30,10 +30,10 @@ from ocs_design.sizing.limits import LIMITS, TIME
 from ocs_design.sizing.margins import RMS_CURRENT
 
 _SHARE = 0.005
-"""Least share of the reserve that is shown."""
+"""Smallest share of the reserve that is shown."""
 
 _NOTHING = 5e-6
-"""Less mass than is shown [kg]."""
+"""Mass below the resolution of the report [kg]."""
 
 _MEANING = {
     HOUSING: "A larger rim would be lighter, but its housing would gain more than the rim saves.",
@@ -45,19 +45,19 @@ _MEANING = {
     HOLED_STRESS: "The web must withstand the stress at its lightening holes.",
     WEB: "The rim must be taller than the web.",
 }
-"""Explanation of limits that stand in no specification."""
+"""Explanation of limits that the user cannot set."""
 
 _ROUNDED = 105
-"""Per cent of a capacity above which it is exceeded by more than its figures are good for."""
+"""Per cent of a capacity above which the excess is larger than the error of its figures."""
 
 _ROOM = {"outer radius": "r_max", "height": "h_max", "rim mass": "wheel_mass_max"}
-"""Margins of the rim's room, and the limits that they are margins to."""
+"""Margins of the rim's envelope, and the limits that they refer to."""
 
 _LEFT_TO_US = (
     *("Maneuvers", "Incidence", "Reserve", "Rim mass", "Stress"),
     *("Wheel", "Web", "Edges", "Housing", "Controllers", "Gear"),
 )
-"""Names of assumptions that few would change."""
+"""Names of assumptions that few users would change."""
 
 MARGIN_NOTE = (
     "The worst over all maneuvers, as planned and as flown from push-off to the end, landing "
@@ -69,7 +69,7 @@ BOUND_NOTE = (
     "I_r is the robot's inertia, d the change of its rate, gamma the wheel's speed. The bound is "
     "necessary but never sufficient: it ignores torque, angle and time."
 )
-"""Said wherever the paper's lower bound is shown."""
+"""Note shown with the paper's lower bound."""
 
 _PRICE_NOTE = (
     "The mass of one rim changes by this much if an active limit is moved. Moving an inactive "
@@ -91,7 +91,7 @@ DRIVEN = (
 
 
 def demand_table(design: OcsDesign) -> Table:
-    """Momentum, spin inertia and torque that each maneuver asks for."""
+    """Momentum, spin inertia and torque that each maneuver needs."""
     rows: list[tuple[Cell, ...]] = [
         (
             demand.source,
@@ -126,19 +126,19 @@ def margin_table(margins: tuple[Margin, ...]) -> Table:
                 margin.scenario,
             )
             for margin in margins
-            # What is shown as 1.00 is kept.
+            # A margin that is shown as 1.00 is met.
             for factor in ("-" if margin.margin is None else floored(margin.margin, 2),)
         ),
     )
 
 
 def margin_notes(margins: tuple[Margin, ...]) -> tuple[str, ...]:
-    """What the figures of the margins rest on."""
+    """Basis of the figures of the margins."""
     return tuple(f"{margin.name}: {margin.note}" for margin in margins if margin.note)
 
 
 def tightest(design: OcsDesign) -> Rows:
-    """What is used of each limit, the most first: per cent, and which they are."""
+    """Utilization of each limit in per cent, the highest first, and the names of the limits."""
     used: dict[tuple[int, str], list[Margin]] = {}
     for margin in design.margins:
         if margin.margin is not None and not _heats(margin):
@@ -146,7 +146,7 @@ def tightest(design: OcsDesign) -> Rows:
             used.setdefault((percent, margin.scenario), []).append(margin)
     rows = []
     for (percent, scenario), found in sorted(used.items(), key=lambda item: -item[0][0]):
-        # The place where it is so, and what helps where it is too much.
+        # The maneuver, and the remedy where the capacity is exceeded.
         notes = [each.note for each in found] if percent > _ROUNDED else []
         told = "; ".join(filter(None, [scenario, *notes]))
         names = listed([each.name for each in found])
@@ -155,12 +155,12 @@ def tightest(design: OcsDesign) -> Rows:
 
 
 def _heats(margin: Margin) -> bool:
-    """Whether it is a current above the rating for hours, for which a pause is stated."""
+    """Whether this is a current above the continuous rating, which requires a pause."""
     return margin.name == RMS_CURRENT and margin.margin is not None and margin.margin < 1.0
 
 
 def heat(design: OcsDesign) -> str:
-    """The current above what the motor bears for hours, and the pause after it; empty if none."""
+    """Current above the motor's continuous rating, and the pause it requires; empty if none."""
     hot = [each for each in design.margins if _heats(each)]
     return "; ".join(
         f"{quantity(each.demand, each.unit)} rms in {each.scenario} "
@@ -170,7 +170,7 @@ def heat(design: OcsDesign) -> str:
 
 
 def assumed(sentences: Sequence[str]) -> Rows:
-    """What was assumed that an engineer would change, by its name."""
+    """Assumptions that an engineer may want to change, by name."""
     named = (sentence.partition(": ") for sentence in sentences)
     return tuple(
         (name[0].lower() + name[1:], value.rstrip("."))
@@ -180,7 +180,7 @@ def assumed(sentences: Sequence[str]) -> Rows:
 
 
 def lighter(design: OcsDesign) -> Rows:
-    """Changes of the question that save mass, the most first: how much, and what else changes."""
+    """Changes of the specification that save mass, largest first, and what else they change."""
     now, motor = design.ocs.mass_total, design.ocs.motor.name
     found = [
         (each.mass_total - now, each)
@@ -199,7 +199,7 @@ def lighter(design: OcsDesign) -> Rows:
 
 
 def alternatives_table(design: OcsDesign) -> Table:
-    """What one change of the question would give each, but for those that save nothing."""
+    """Result of each single change of the specification, except those that save nothing."""
     return Table(
         columns("<change", "mass", "<motor", "<note"),
         tuple(
@@ -216,20 +216,20 @@ def alternatives_table(design: OcsDesign) -> Table:
 
 
 def alternatives_note(design: OcsDesign) -> str:
-    """The changes that save nothing; empty if all do."""
+    """Sentence on the changes that save nothing; empty if all save mass."""
     vain = [each.change for each in design.alternatives if each.note == SAVES_NOTHING]
     return f"These save nothing: {'; '.join(vain)}." if vain else ""
 
 
 def lighter_table(design: OcsDesign) -> Table:
-    """What would have to give for a device that is lighter by what was asked."""
+    """Changes that would each make the device lighter by the requested mass."""
     changes = () if design.lighter is None else design.lighter.changes
     rows = tuple((each.change, grams(each.mass_total or 0.0), each.motor) for each in changes)
     return Table(columns("<any one of these suffices", "mass", "<motor"), rows)
 
 
 def owed_to(design: OcsDesign) -> str:
-    """The maneuver that the mass is owed to, after these words; empty: none is known."""
+    """Maneuver that drives the mass, to follow "driven by"; empty if it is not known."""
     owed = design.owed
     if owed is None:
         return ""
@@ -241,28 +241,28 @@ def owed_to(design: OcsDesign) -> str:
 
 
 def open_points(design: OcsDesign) -> Table:
-    """What keeps the device from being built, and the cure of each."""
+    """Points that keep the device from being built, each with its cure."""
     points = design.buildable.open
     return Table(columns("<what", "<cure"), tuple((each.what, each.cure) for each in points))
 
 
 def holding_up(design: OcsDesign) -> list[str]:
-    """Limits that hold the mass up: keys of the specification as they are, others in words."""
+    """Limits that set the mass: keys of the specification verbatim, others in words."""
     keys = {limit.label for limit in LIMITS.values()}
     return [name if name in keys else name.replace("_", " ") for name in design.sizing.binding]
 
 
 def active_limits(design: OcsDesign) -> tuple[str, str]:
-    """Names of the limits that hold the mass up, and what they mean."""
+    """Names of the limits that set the mass, and their explanations."""
     meanings = (_MEANING[name] for name in design.sizing.binding if name in _MEANING)
     return ", ".join(holding_up(design)) or "none: the rim is within all limits", " ".join(meanings)
 
 
 def saving_table(design: OcsDesign) -> Table:
-    """What moving each limit changes: of a device with its drive, else of one rim."""
+    """Mass saved by moving each limit, for a device with its drive, else for one rim."""
     selection = design.selection
     if selection is None or not selection.prices:
-        # Room of the rim, from the margins; then every active limit that is none of them.
+        # The rim's envelope, from the margins; then every other active limit.
         active = {}
         for margin in design.margins:
             name = _ROOM.get(margin.name)
@@ -293,7 +293,7 @@ def saving_table(design: OcsDesign) -> Table:
 
 
 def saving_notes(design: OcsDesign) -> str:
-    """What the savings hold for."""
+    """Conditions under which the savings hold."""
     selection = design.selection
     if selection is None or not selection.prices:
         return _PRICE_NOTE
@@ -312,7 +312,7 @@ def saving_notes(design: OcsDesign) -> str:
 
 
 def reserve_table(kept: ReserveRecord) -> Table:
-    """Share of each uncertain quantity in what robots need, and what knowing it would save."""
+    """Share of each uncertain quantity in the reserve, and the mass that knowing it would save."""
     return Table(
         columns("<key of [reality]", "share of the reserve", "saved if known exactly"),
         tuple(
@@ -324,7 +324,7 @@ def reserve_table(kept: ReserveRecord) -> Table:
 
 
 def reserve_note(kept: ReserveRecord, mass: float) -> str:
-    """What the reserve is, what it costs, and how the mass goes with the reliability."""
+    """Size of the reserve, its cost, and the mass as a function of the reliability."""
     factors = ", ".join(
         f"{each.maneuver} {each.needed:.2f}"
         + (f" with a roll of {degrees(each.undone)}/s at lift-off" if each.undone else "")
@@ -346,7 +346,7 @@ def reserve_note(kept: ReserveRecord, mass: float) -> str:
 
 
 def rim_price(design: OcsDesign, name: str) -> str:
-    """Shadow price per unit that an engineer would change: kg per m is g per mm."""
+    """Shadow price per practical unit: kg per m is g per mm."""
     if name not in design.sizing.binding:
         return "0, not reached"
     price = design.sizing.shadow_prices.get(name)

@@ -1,4 +1,4 @@
-"""Facts about many flights, none quite as designed: how often they pass, and how they spread."""
+"""Facts about Monte Carlo flights: how often they pass, and how their results spread."""
 
 from collections.abc import Iterator
 
@@ -10,7 +10,7 @@ from ocs_design.device.records.flights import Conclusion, ReliabilityRecord
 from ocs_design.report.table import Table, columns
 
 BARS = " ▁▂▃▄▅▆▇█"
-"""Eighths of a character's height, and none."""
+"""Bars of 0 to 8 eighths of a character's height."""
 
 _SPREAD = (
     ("off level deg", 180.0 / np.pi, ".2f"),
@@ -21,7 +21,7 @@ _SPREAD = (
 
 
 def campaign_title(record: MonteCarloRecord) -> str:
-    """How many robots were flown, and from which seed they were drawn."""
+    """Number of robots flown, and the seed that they were drawn from."""
     count, enough = f"{record.samples:,}", ""
     if record.samples != record.asked:
         what = "interval asked for" if record.certificate is None else "certificate"
@@ -31,7 +31,7 @@ def campaign_title(record: MonteCarloRecord) -> str:
 
 
 def success_table(record: MonteCarloRecord) -> Table:
-    """How many flights pass, their share of all with its interval, and what the others do."""
+    """Number of flights that pass, the pass rate with its interval, and the kinds of failure."""
     rows = [
         (
             each.scenario,
@@ -51,7 +51,7 @@ def success_table(record: MonteCarloRecord) -> Table:
 
 
 def certificate_line(found: ReliabilityRecord) -> str:
-    """What was asked for and how sure it is, short enough for the first line."""
+    """Verdict on the requested reliability, short enough for the first line."""
     words = {
         Conclusion.CERTIFIED: "certified for",
         Conclusion.SHORT: "falls short of",
@@ -62,7 +62,7 @@ def certificate_line(found: ReliabilityRecord) -> str:
 
 
 def certificate_notes(found: ReliabilityRecord) -> Iterator[str]:
-    """What each round taught, how sure the verdict is, and which samples it rests on."""
+    """Findings of each round, confidence of the verdict, and the samples that it rests on."""
     yield from found.rounds
     asked, worse = (f"{100.0 * value:.3g} %" for value in (found.asked, found.worse))
     if found.verdict == Conclusion.UNDECIDED:
@@ -88,7 +88,7 @@ def certificate_notes(found: ReliabilityRecord) -> Iterator[str]:
 
 
 def _share(share: Share) -> tuple[str, str, str]:
-    # Rounded towards the unsure side: all is said of nothing less than all.
+    # Rounded to the conservative side: 100 % means every flight.
     return (
         f"{share.passed:,}",
         f"{floored(100.0 * share.estimate, 1)} %",
@@ -105,7 +105,7 @@ def spread_table(record: MonteCarloRecord) -> Table:
         for spread, (quantity, factor, form) in zip(spreads, _SPREAD, strict=True):
             if spread is not None:
                 values = (format(factor * value, form) for value in spread.quantiles[1:])
-                # Bins as bars, one character each; whatever is not empty shows.
+                # Bins as bars, one character each; every bin that is not empty is visible.
                 parts = (count / max(spread.counts) for count in spread.counts)
                 bars = "".join(BARS[int(np.ceil(part * (len(BARS) - 1)))] for part in parts)
                 rows.append((name, quantity, *values, bars))
@@ -115,7 +115,7 @@ def spread_table(record: MonteCarloRecord) -> Table:
 
 
 def campaign_remarks(record: MonteCarloRecord) -> Iterator[str]:
-    """What goes with bad outcomes, what to do about them, and which samples are the worst."""
+    """Correlates of bad outcomes, advice, and the worst samples."""
     for scenario in record.scenarios:
         found = ", ".join(
             f"{cause.quantity.replace('_', ' ').replace('.', ' ')} "

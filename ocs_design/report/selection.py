@@ -1,4 +1,4 @@
-"""Facts about the choice of the drive: what was asked of it, the lightest ones, those ruled out."""
+"""Facts about the choice of the drive: its demands, the lightest drives, those ruled out."""
 
 from collections import Counter
 from collections.abc import Iterable
@@ -15,7 +15,7 @@ SHOWN = 5
 
 
 def choice_title(selection: SelectionRecord) -> str:
-    """How many combinations were compared, and at which voltage."""
+    """Number of combinations compared, and the voltage."""
     return (
         f"{selection.candidates:,} combinations of motor, gear, material and incidence at "
         f"{selection.bus_voltage:g} V"
@@ -23,7 +23,7 @@ def choice_title(selection: SelectionRecord) -> str:
 
 
 def task_table(selection: SelectionRecord) -> Table:
-    """What each maneuver asks of the chosen drive."""
+    """Demands of each maneuver on the chosen drive."""
     heads = columns(
         "<required by", "alpha [deg]", "spin inertia [kg mm2]", "needed [s]", "given [s]",
         "peak [rpm]",
@@ -45,11 +45,11 @@ def task_table(selection: SelectionRecord) -> Table:
 
 
 _SHOWN = 5e-4
-"""Relative difference of spin inertias that their four digits do not show."""
+"""Relative difference of spin inertias that is invisible in four digits."""
 
 
 def task_note(selection: SelectionRecord, maneuvers: Iterable[ManeuverRecord]) -> str:
-    """What the needed times are, of these maneuvers, and which of them decides."""
+    """Meaning of the needed times, and the maneuver that decides."""
     needed = (
         f"Needed: the shortest time at {selection.reserve:.0%} of the voltage, current and speed "
         "limits."
@@ -69,7 +69,7 @@ def task_note(selection: SelectionRecord, maneuvers: Iterable[ManeuverRecord]) -
 
 
 def drive_table(drives: tuple[RankedRecord, ...]) -> Table:
-    """Lightest drives: mass of the whole device; rim and incidence."""
+    """Lightest drives, each with the mass of the whole device, its rim and incidence."""
     return Table(
         columns("<lightest drives", "device [g]", "<rim", "R [mm]", "h [mm]", "alpha [deg]"),
         tuple(
@@ -100,7 +100,7 @@ def best_drives(ranking: tuple[RankedRecord, ...]) -> tuple[RankedRecord, ...]:
 
 
 def shown_drives(ranking: tuple[RankedRecord, ...]) -> tuple[RankedRecord, ...]:
-    """Lightest drive of each motor, as not every one can be bought; then the same with gears."""
+    """Lightest drive of each motor, since not all can be bought; then more gears, up to `SHOWN`."""
     drives = best_drives(ranking)
     motors: dict[str, RankedRecord] = {}
     for entry in drives:
@@ -111,7 +111,7 @@ def shown_drives(ranking: tuple[RankedRecord, ...]) -> tuple[RankedRecord, ...]:
 
 
 def ruled_out(selection: SelectionRecord) -> str:
-    """How many motors have no place in the ranking, counted by reason; empty: none."""
+    """Number of motors ruled out, by reason; empty if none was."""
     counts = Counter(each.reason for each in selection.rejections).most_common()
     if not counts:
         return ""
@@ -125,7 +125,7 @@ def rejection_details(selection: SelectionRecord) -> tuple[str, ...]:
 
 
 def co_design_facts(selection: SelectionRecord) -> Rows:
-    """What optimal control made of the selected device; empty where it was not asked for."""
+    """Result of the co-design by optimal control; empty if it was not requested."""
     found = selection.co_design
     if found is None:
         return ()

@@ -1,4 +1,4 @@
-"""What was recognised of a robot, drawn from three sides: an SVG of lines, boxes and words."""
+"""Recognised structure of a robot drawn from three sides: an SVG of lines, boxes and words."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from html import escape
@@ -29,10 +29,10 @@ _VIEWS = (
 
 
 def stick_figure(robot: Robot, legs: Sequence[Leg], words: Sequence[str]) -> str:
-    """An SVG of a robot in its posture, from the right, the front and above, with words below.
+    """SVG of a robot in its posture, from the right, the front and above, with words below.
 
-    The trunk is a box, every other body a line to what it hangs on; the legs, those recognised or
-    the likeliest, are in colour and their feet named.
+    The trunk is a box and every other body a line to its parent. The legs, recognised or most
+    likely, are coloured and their feet named.
     """
     places = robot.tree.placements_from(robot.trunk, robot.posture)
     feet = {leg.name: places[leg.body].point(leg.foot) for leg in legs}
@@ -78,13 +78,14 @@ def _drawn(
     feet: Mapping[str, FloatArray],
     corners: Sequence[FloatArray],
 ) -> Iterator[str]:
-    """One view: the robot in B on the page.
+    """Elements of one view of the robot.
 
     Args:
-        origin: of B on the page [px].
-        axes: of B there, to the right and down, shape (2, 3) [px/m].
+        origin: origin of B on the page [px].
+        axes: axes of B on the page, right and down, shape (2, 3) [px/m].
         robot, legs: see `stick_figure`.
-        feet: by the names of their legs [m]. corners: of the box around the trunk [m].
+        feet: feet in B by the names of their legs [m].
+        corners: corners of the box around the trunk in B [m].
     """
     places = robot.tree.placements_from(robot.trunk, robot.posture)
     joints = [origin + axes @ place.position for place in places]
@@ -114,7 +115,7 @@ def _drawn(
             f'<circle cx="{foot[0]:.1f}" cy="{foot[1]:.1f}" r="{radius:.1f}" fill="{paint}" '
             f'fill-opacity="0.5" stroke="{paint}"/>'
         )
-        # Feet one behind the other would be named on one spot.
+        # Names of feet that lie behind each other would overlap.
         x, y, across = float(foot[0]) + 5.0, float(foot[1]) + 12.0, _LETTER * len(leg.name)
         while any(
             abs(y - other) < _LINE and start < x + across and x < start + wide

@@ -1,4 +1,4 @@
-"""What a report is made of: the design, its flights and the shapes to show."""
+"""Content of a report: the design, its flights and the shapes to show."""
 
 import csv
 from collections.abc import Mapping, Sequence
@@ -26,14 +26,14 @@ from ocs_design.simulation.run import Poses, Run
 
 @dataclass(frozen=True, eq=False)
 class RecordedFlight:
-    """One simulated run, to be drawn.
+    """One simulated run, ready for plotting.
 
     Attributes:
         scenario: name of the maneuver. ocs: whether the device was on the robot.
-        columns: time series by the headings of the CSV files, which name the units; SI.
-        lift_off: when it leaves the ground, or is pushed as it stands [s]; None: it never does.
-        touchdown: when it comes down [s]; None: it never does.
-        poses: to show it again; None: only its time series are known.
+        columns: time series by the headings of the CSV files, which name the SI units.
+        lift_off: time of lift-off, or of the push on a standing robot [s]; None if there is none.
+        touchdown: time of touchdown [s]; None if there is none.
+        poses: poses for the replay; None if only the time series are known.
         on_pivot: see `was_on_pivot`.
     """
 
@@ -55,7 +55,7 @@ class RecordedFlight:
 
     @property
     def time(self) -> FloatArray:
-        """Instants [s], shape (k,)."""
+        """Sample times [s], shape (k,)."""
         return self.columns["time_s"]
 
     @property
@@ -75,9 +75,9 @@ class RecordedFlight:
 
     @property
     def driven(self) -> slice:
-        """Instants from lift-off, or the push, to touchdown: when the wheels are at work.
+        """Samples from lift-off, or the push, to touchdown, while the wheels work.
 
-        A robot that never left the ground has its last instant for them.
+        For a robot that never left the ground this is the last sample.
         """
         if self.lift_off is None:
             return slice(-1, None)
@@ -95,7 +95,7 @@ class RecordedFlight:
 def flights_of(
     records: Sequence[ValidationRecord], runs: Sequence[Run]
 ) -> tuple[RecordedFlight, ...]:
-    """Runs of a simulation, with their records, as flights to be drawn."""
+    """Runs of a simulation and their records as flights to plot."""
     pairs = zip(records, runs, strict=True)
     return tuple(
         RecordedFlight.of(record, run.series.columns(), run.poses) for record, run in pairs
@@ -107,12 +107,12 @@ class Story:
     """Everything that a report is made from.
 
     Attributes:
-        design: the artefact.
-        flights: in the order of its validation.
-        bodies: of the robot with its device; empty where there is no picture of them.
-        postures: alpha* in other postures; empty where the robot was not read.
-        monte_carlo: many flights, where some were flown.
-        command: that made the report; empty: none, a program did.
+        design: the design.
+        flights: flights in the order of `design.validation`.
+        bodies: bodies of the robot with its device; empty if the folder has no GLB.
+        postures: alpha* in other postures; empty if the robot was not read.
+        monte_carlo: record of a Monte Carlo campaign, if any was flown.
+        command: command line that made the report; empty if a program did.
         assembly: how the device is built; None: as the design records it.
     """
 
@@ -141,12 +141,12 @@ def story_in(
 ) -> Story:
     """Story of a design from its output folders: flights from their CSV files, bodies from the GLB.
 
-    The first folder that has a file is asked for it. Flights that were just simulated are `runs`,
-    and are not read; for the others see `Story`.
+    A file is read from the first folder that has it. Flights that were just simulated are passed as
+    `runs` and not read; for the other arguments see `Story`.
     """
     flights: list[RecordedFlight] = []
     for record in design.validation if not runs else ():
-        # The file of its time series may not be there any more.
+        # The CSV file may have been deleted.
         path = _first_file(folders, f"validation/{series_file(record.scenario, ocs=record.ocs)}")
         if path is not None:
             with path.open(encoding="utf-8", newline="") as file:
@@ -161,17 +161,17 @@ def story_in(
 
 
 def _first_file(folders: Sequence[Path], name: str) -> Path | None:
-    """File of that name below the first folder that has it."""
+    """Path of that file in the first folder that has it."""
     return next((folder / name for folder in folders if (folder / name).is_file()), None)
 
 
 def read_campaign(folders: Sequence[Path]) -> MonteCarloRecord | None:
-    """Record of many flights in one of these folders, or below one; None: there is none.
+    """Monte Carlo record in or below one of these folders; None if there is none.
 
-    Those that `validate --samples` flew come before those of the certificate.
+    A record from `validate --samples` takes precedence over that of the certificate.
 
     Raises:
-        OcsError: it is there and cannot be read.
+        OcsError: the record exists but cannot be read.
     """
     places = (path for folder in folders for path in sorted(folder.glob(f"**/{RESULT_FILE}")))
     path = min(places, key=lambda each: each.parent.name == CERTIFICATE_FOLDER, default=None)

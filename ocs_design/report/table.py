@@ -1,6 +1,6 @@
-"""Plain values that facts are given in: names with values, tables, words with a tone.
+"""Plain data types for facts: names with values, tables, words with a tone.
 
-Each renderer has a look of its own for them.
+Each renderer formats them in its own way.
 """
 
 import re
@@ -43,9 +43,9 @@ class Column:
     """Heading of one column.
 
     Attributes:
-        name: what it holds; lines where a narrow heading has several.
-        unit: of all values; empty: there is none, or each value has its own.
-        words: whether it holds words, which are aligned at the left.
+        name: name of the content; may have several lines in a narrow heading.
+        unit: unit of all values; empty if there is none or each value has its own.
+        words: whether it holds words, which are aligned left.
     """
 
     name: str
@@ -57,7 +57,7 @@ _HEADING = re.compile(r"(<?)(.*?)(?: \[(.*)\])?", re.DOTALL)
 
 
 def columns(*headings: str) -> tuple[Column, ...]:
-    """Columns from headings such as `mass [g]`; a `<` stands before the name of words."""
+    """Columns from headings such as `mass [g]`; a leading `<` marks a column of words."""
     parts = (_HEADING.fullmatch(heading) for heading in headings)
     return tuple(Column(each[2], each[3] or "", bool(each[1])) for each in parts if each)
 
@@ -82,5 +82,5 @@ _TIED = re.compile(
 
 
 def tied(text: str) -> str:
-    """Text in which no line ends between a number and its unit."""
+    """Text with non-breaking spaces between numbers and their units."""
     return _TIED.sub("\N{NO-BREAK SPACE}", text)

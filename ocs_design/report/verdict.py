@@ -1,4 +1,4 @@
-"""The verdict on a design in one line: buildable, level, stands; and what matters most about it."""
+"""One-line verdict on a design (buildable, level, stands) and the finding that matters most."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -20,9 +20,9 @@ class Headline:
     """The verdict in one line, and what matters most.
 
     Attributes:
-        parts: of the line, each with its tone.
-        matter: the one thing that matters most, a sentence; empty: nothing is in the way.
-        flight: scenario whose verdict that is; empty: it is another matter.
+        parts: parts of the line, each with its tone.
+        matter: the finding that matters most, as a sentence; empty if there is none.
+        flight: scenario that `matter` is about; empty if it is about something else.
     """
 
     parts: tuple[Toned, ...]
@@ -72,7 +72,7 @@ def headline(found: OcsDesign | Validated) -> Headline:
         }
         verdict = f"{100.0 * certified.asked:.4g} % {certified.verdict}"
         parts.append(Toned(verdict, tones[certified.verdict]))
-    # Those that fail before those that are not judged.
+    # Failures come before flights that were not judged.
     worst = sorted(runs, key=lambda run: run.passed is None)
     fault = next((run for run in worst if run.passed is not True), None)
     if fault is not None and not shortage:
@@ -109,7 +109,7 @@ def _flights(runs: Sequence[ValidationRecord]) -> Iterator[Toned]:
         yield _share("level", touching.count(True), len(touching), Tone.FAIL)
     standing = [run for run in runs if run.stands is not None]
     if standing:
-        # A robot whose legs do not bear even a level landing is no fault of the device.
+        # The device is not at fault if the legs cannot take even a level landing.
         fault = any(run.stands is False and run.passed is False for run in standing)
         up = [run.stands for run in standing].count(True)
         yield _share("stands", up, len(standing), Tone.FAIL if fault else Tone.OPEN)

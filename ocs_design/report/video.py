@@ -1,4 +1,4 @@
-"""Each maneuver as a film: with the device and without it, side by side, in real time."""
+"""Films of each maneuver, with the device and without it side by side, in real time."""
 
 import subprocess
 from collections.abc import Sequence
@@ -34,15 +34,15 @@ MARGIN = 10
 INK, GOOD, BAD = (30, 30, 35), (20, 120, 50), (170, 40, 40)
 _PAPER = (255, 255, 255)
 _HALO = 2
-"""Width of the paper around letters, so that they are read before anything [pixels]."""
+"""Width of the white halo around letters, which keeps them legible on any image [pixels]."""
 
 GIF_EVERY = 2
-"""Every so many frames one is in a GIF, which packs badly."""
+"""A GIF keeps one of so many frames, because GIFs compress badly."""
 
 GIF_COLORS = 128
 
 _SAMPLES = 8
-"""Frames that a GIF's colours are chosen from."""
+"""Number of frames from which a GIF's palette is chosen."""
 
 _TIME_LIMIT = 300.0
 """Longest time that ffmpeg may take [s]."""
@@ -51,7 +51,7 @@ _TIME_LIMIT = 300.0
 def film_or_tell(
     robot: Robot, device: Device, maneuvers: Sequence[Maneuver], runs: Sequence[Run], folder: Path
 ) -> tuple[str, ...]:
-    """Write the films of `film_flights` where they can be made, never failing; gives remarks."""
+    """Write the films of `film_flights` if OpenGL works; gives remarks on what is missing."""
     try:
         films = film_flights(robot, device, maneuvers, runs, folder)
     except MissingToolError as error:
@@ -64,7 +64,7 @@ def film_or_tell(
 def film_flights(
     robot: Robot, device: Device, maneuvers: Sequence[Maneuver], runs: Sequence[Run], folder: Path
 ) -> tuple[Path, ...]:
-    """A film of each maneuver, `<name>.mp4` or `.gif`, of runs with their poses.
+    """Write a film `<name>.mp4` or `.gif` of each maneuver from runs with poses.
 
     Raises:
         MissingToolError: OpenGL does not work here.
@@ -105,7 +105,7 @@ def film_flights(
 
 
 def captioned(picture: Picture, title: str, good: bool | None, lines: Sequence[str]) -> Picture:
-    """The picture with a title, in a colour for how it went if that is known, and lines below."""
+    """The picture with a title, coloured by the verdict if there is one, and lines below."""
     # Importing it takes time, and only films need it.
     from PIL import Image, ImageDraw, ImageFont  # noqa: PLC0415
 
@@ -122,9 +122,10 @@ def captioned(picture: Picture, title: str, good: bool | None, lines: Sequence[s
 
 
 def encode(pictures: Sequence[Picture], seconds: float, stem: Path) -> Path:
-    """Write a film of pictures of one even size, one every so many seconds.
+    """Write a film of pictures of equal, even size, one every so many seconds.
 
-    Its path is `stem` with the suffix of what could be made: MP4 where there is ffmpeg, else GIF.
+    Returns:
+        The path: `stem` with the suffix `.mp4` if ffmpeg is available, else `.gif`.
     """
     from PIL import Image  # noqa: PLC0415 - as above
 
@@ -158,10 +159,10 @@ def encode(pictures: Sequence[Picture], seconds: float, stem: Path) -> Path:
         # Remove what ffmpeg left unfinished.
         path.unlink(missing_ok=True)
     path, kept = stem.with_suffix(".gif"), pictures[::GIF_EVERY]
-    # All frames in the colours of some: one palette is small, and nothing flickers.
+    # One palette from a few frames keeps the file small and prevents flicker.
     some = kept[:: max(1, len(kept) // _SAMPLES)]
     palette = Image.fromarray(np.concatenate(some)).quantize(GIF_COLORS)
-    # Dithered colours pack badly: twice the size and more.
+    # Dithered colours compress badly: to twice the size and more.
     plain = Image.Dither.NONE
     frames = [Image.fromarray(each).quantize(palette=palette, dither=plain) for each in kept]
     duration = round(1e3 * GIF_EVERY * seconds)

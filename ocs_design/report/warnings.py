@@ -1,4 +1,4 @@
-"""Warnings about a design: what a reader could miss or take wrongly, a sentence each."""
+"""Warnings about a design: what a reader could miss or misread, one sentence each."""
 
 from collections.abc import Iterator
 
@@ -18,36 +18,36 @@ from ocs_design.requirement.vocabulary import DRAWN
 from ocs_design.sizing.margins import MOTOR_TORQUE
 
 WORTH_TELLING = 0.02
-"""Coupling below this share of what the turn alone asks is left out.
+"""Coupling is reported only above this share of the momentum that the turn alone needs.
 
-30 of 31 public robots with legs couple both axes by less than 0.9 % of their inertia, which is this
-much only at small incidences.
+30 of 31 public legged robots couple both axes by less than 0.9 % of their inertia, which amounts to
+this share only at small incidences.
 """
 
 _SHOWN_LINKS = 2
 """Links whose joints are spelt out where they can hit a module."""
 
 _NOT_DESIGNED = "not designed"
-"""Words in notes for the workshop that ask for a part of one's own."""
+"""Phrase that marks notes about a part that the builder must design."""
 
 
 def all_warnings(design: OcsDesign) -> Iterator[str]:
-    """Everything to mind, what matters most first: the device, its flights, the robot's file."""
+    """All warnings, the most important first: the device, its flights, the robot's file."""
     ocs = design.ocs
     yield from shortfalls(design)
-    # A robot by hand has no shape, and nobody thinks that it was looked at.
+    # A robot entered by hand has no geometry, so nobody expects a check.
     if ocs.clearance is None and design.robot.sha256:
         yield (
             "clearance NOT checked: the robot's geometry could not be read, so the device may "
             "intersect it; make sure that its meshes are found (--package-path NAME=DIR)"
         )
-    # What is odd in the robot's file may make all else wrong, but shall not hide it.
+    # An oddity in the robot's file may invalidate everything else, but must not hide it.
     yield from design.robot.warnings[:1]
     if ocs.flywheel.stress_margin is None:
         yield f"stress NOT checked: the strength of {ocs.flywheel.material} is unknown"
     yield from flight_remarks(design)
     kept = None if design.selection is None else design.selection.kept
-    # What ends off level about an axis that its incidence leaves out of reach.
+    # Maneuvers that end off level about an axis that their incidence cannot control.
     for each in () if kept is None else kept.maneuvers:
         if kept is not None and each.lost > 1.0 - kept.reliability:
             yield (
@@ -70,12 +70,12 @@ def all_warnings(design: OcsDesign) -> Iterator[str]:
         yield f"{links} can hit a module within the joints' limits"
     yield from _motor_notes(design)
     yield from filter(None, [jump_remark(design)])
-    # A part of one's own comes before what is done by hand.
+    # Parts that the builder must design come before work done by hand.
     yield from sorted(ocs.fitting, key=lambda note: _NOT_DESIGNED not in note)
 
 
 def reached_at(ocs: OcsRecord) -> Iterator[str]:
-    """Joint values at which links of the robot hit a module, of the first few of them."""
+    """Joint values at which links of the robot hit a module, for the first few links."""
     found = () if ocs.mounting is None else ocs.mounting.reachable
     named = [
         f"{each.part} ({', '.join(f'{name} {at:.2f}' for name, at in each.joints.items())})"
@@ -88,7 +88,7 @@ def reached_at(ocs: OcsRecord) -> Iterator[str]:
 
 
 def _motor_notes(design: OcsDesign) -> Iterator[str]:
-    """Notes on the motor's figures and its controllers; none where no motor was chosen."""
+    """Notes on the motor's figures and its controllers; none without a motor."""
     motor = design.ocs.motor
     if not has_motor(design):
         return
@@ -119,7 +119,7 @@ def _motor_notes(design: OcsDesign) -> Iterator[str]:
 
 
 def shortfalls(design: OcsDesign) -> Iterator[str]:
-    """What the design cannot do, or does in another state than it is delivered in."""
+    """Maneuvers that the design cannot do, or only after its modules are turned by hand."""
     limit, specified = design.ocs.motor.torque_limit, design.requirement.spin_inertia_by_hand
     for demand in design.requirement.demands:
         if limit is not None and demand.torque > limit:
@@ -133,7 +133,7 @@ def shortfalls(design: OcsDesign) -> Iterator[str]:
 
 
 def coupling_notes(design: OcsDesign) -> Iterator[str]:
-    """What it costs that a robot which pitches also rolls, where it is not symmetric."""
+    """Cost of the coupling of pitch and roll in a robot that is not symmetric."""
     maneuvers = {maneuver.name: maneuver for maneuver in design.requirement.maneuvers}
     whole = TiltInertia.of(design.ocs.total_inertia)
     for demand in design.requirement.demands:
@@ -142,7 +142,7 @@ def coupling_notes(design: OcsDesign) -> Iterator[str]:
             continue
         roll, pitch = (maneuver.parameters.get(name, 0.0) != 0.0 for name in AXES)
         pitch = pitch or maneuver.kind == "flip"
-        # It turns about both, or about none.
+        # It turns about both axes, or about neither.
         if roll == pitch:
             continue
         axis = int(pitch)
