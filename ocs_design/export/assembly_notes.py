@@ -302,7 +302,8 @@ def trunk_threads(device: Device) -> str:
             f"{plate.thread} for its {len(plate.trunk)} screws at y, z = {at} mm of the base "
             f"frame{sleeved}; whether its wall can carry them is not checked"
         )
+    carried = "a plate carries" if len(plate.rows) == 1 else f"{len(plate.rows)} plates carry"
     return (
-        f"a plate carries the feet; the trunk needs threads {plate.thread} for its "
+        f"{carried} the feet; the trunk needs threads {plate.thread} for its "
         f"{len(plate.trunk)} screws at x, y = {at} mm of the base frame{sleeved}"
     )

@@ -73,7 +73,8 @@ def wiring_parts(device: Device, margins: Sequence[Margin]) -> Iterator[tuple[st
         "encoder at the motor's back with its magnet, or Hall sensors, that the controller "
         f"reads{up_to}; not needed if the motor has one",
     )
-    yield "fuse with holder", 1, f"between battery and switch; carries {flows}"
+    fuse = "" if bus is None else f"; the next usual rating is {_fuse(bus)} A"
+    yield "fuse with holder", 1, f"between battery and switch; carries {flows}{fuse}"
     yield "switch", 1, f"cuts the supply within reach; carries and breaks {flows}"
     yield "bus cables, two wires", 1, f"battery to controllers, short; {flows}"
     least = "" if current is None else f"; each wire {_up(current)} A at the torque limit"
@@ -90,6 +91,15 @@ def wiring_parts(device: Device, margins: Sequence[Margin]) -> Iterator[tuple[st
         "attitude and rate of the trunk, which the wheel law asks for in every period; none where "
         "the robot has one",
     )
+
+
+FUSES = (10, 15, 20, 25, 30, 40, 50, 60, 70, 80, 100, 125, 150, 175, 200, 250, 300, 400, 500)
+"""Usual ratings of fuses of vehicles [A]: ISO 8820-3 and -5."""
+
+
+def _fuse(current: float) -> int:
+    """The next usual rating of a fuse [A]; beyond the largest of them the current itself."""
+    return next((each for each in FUSES if each >= current), _up(current))
 
 
 def wiring(device: Device, margins: Sequence[Margin]) -> Iterator[str]:

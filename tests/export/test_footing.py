@@ -39,6 +39,10 @@ def test_the_holes_of_the_plate_are_told(robot, plated):
     x += plated.plate.position[0]
     assert f"({1e3 * x:.1f}, {1e3 * y:.1f})" in said
     assert "M3" in said
+    assert said.startswith("a plate carries the feet")
+    two = replace(plated.plate, rows=(0.09, -0.09))
+    said, _ = trunk_notes(replace(plated, plate=two), robot)
+    assert said.startswith("2 plates carry the feet")
 
 
 def test_feet_on_the_trunk_need_threads_in_it_and_wheels_without_feet_none(robot, plated):

@@ -261,8 +261,9 @@ def robot_steps(assembly: Assembly) -> Iterator[str]:
         )
     told = "; ".join(f"{way}: {', '.join(names)}" for way, names in turns.items() if names)
     yield (
-        "Name the drives as the robot files do. Seen from its lid, a positive torque turns the "
-        f"wheel {told}. Axes are in the base frame, x forward, y left, z up, and the "
+        "In the controllers and in your program, give the drives the names of their joints in the "
+        f"robot files. Seen from its lid, a positive torque turns the wheel {told}. "
+        "Axes are in the base frame, x forward, y left, z up, and the "
         "wheel turns about them by the right-hand rule. Test each at low torque, lid on; if it "
         "turns the wrong way, swap two of the motor's three wires and recalibrate its sensor."
     )
@@ -535,20 +536,27 @@ def room_above(device: Device, found: Tightened) -> float | None:
     corner = driven.key / sqrt(3.0)
     top = float(foot.base) + driven.head_height + (WASHER_HEIGHT if found.washers else 0.0)
     rooms = []
+    for along, across in _screws_aside(device):
+        beside = max(0.0, abs(across) - corner)
+        rooms += [
+            foot.wheel_height + solid.up - sqrt(solid.radius**2 - beside**2) - top
+            for solid in drive_solids(device)
+            if solid.low < along + corner and along - corner < solid.high and beside < solid.radius
+        ]
+    return min(rooms, default=None)
+
+
+def _screws_aside(device: Device) -> Iterator[tuple[float, float]]:
+    """Screws of all feet from the feet's middles, towards the lid and across [m]."""
     for module in device.modules:
         out = module.frame[:2, 1]
         for hole in foot_holes(device).get(module.name, ()):
             aside = np.array(hole) - module.position[:2]
-            along = float(aside @ out)
-            beside = max(0.0, abs(float(out[0] * aside[1] - out[1] * aside[0])) - corner)
-            rooms += [
-                foot.wheel_height + solid.up - sqrt(solid.radius**2 - beside**2) - top
-                for solid in drive_solids(device)
-                if solid.low < along + corner
-                and along - corner < solid.high
-                and beside < solid.radius
-            ]
-    return min(rooms, default=None)
+            yield float(aside @ out), float(out[0] * aside[1] - out[1] * aside[0])
+    if device.pedestals:
+        # On a seat they are at 45 degrees to the wheel's axis, which is along it.
+        off = foot_of(device).slot_radius / sqrt(2.0)
+        yield from ((off, off), (-off, -off))
 
 
 def _under_motor(assembly: Assembly, found: Tightened) -> str:
@@ -592,4 +600,5 @@ def _pedestal_steps(assembly: Assembly) -> Iterator[str]:
             f"Scribe a line across each seat, {middles} up from its low end, put the foot's "
             "middle on it with the wheel's axis along the seat, and turn the foot until the "
             f"line meets the scale at 0 deg. {assembly.screwed(name)}"
+            f"{_under_motor(assembly, assembly.screws[name])}"
         )

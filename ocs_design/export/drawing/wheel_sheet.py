@@ -193,7 +193,7 @@ def notes(drawing: WheelDrawing) -> Iterator[str]:
         if hub.bolts is None and drawing.on_shaft:
             yield "No bolt circle: bonded on the motor's shaft."
         elif not drawing.on_shaft:
-            yield "Bore: a pilot hole and the datum; open it where the rotor has a boss."
+            yield "Bore: a pilot hole and the datum; open it to a boss of the rotor, H7."
 
 
 def _rim_note(drawing: WheelDrawing) -> str:

@@ -286,6 +286,7 @@ def test_no_limit_of_a_controller_is_asked_for_beyond_what_the_fuse_carries():
     (fuse,) = (what for name, _, what in wiring_parts(device, margins) if "fuse" in name)
     assert "set that limit to no less than 104 A" in said
     assert "carries 104 A" in fuse
+    assert "the next usual rating is 125 A" in fuse
 
 
 def test_blades_are_not_said_to_show_what_friction_holds():
@@ -373,7 +374,7 @@ def test_work_on_the_robot_is_not_told_for_each_module():
     )  # fmt: skip
     assert (each.title, once.title) == ("Steps, for each module", "Steps, once for the robot")
     assert (each.first, once.first) == (1, len(each.texts) + 1)
-    robot = ("Make the plate", "Plate on trunk", "Name the drives", "Both modules have")
+    robot = ("Make the plate", "Plate on trunk", "In the controllers and", "Both modules have")
     assert not any(text.startswith(robot) for text in each.texts)
     assert {start for start in robot for text in once.texts if text.startswith(start)} == set(robot)
     assert each.texts[-1].startswith("Weigh the module")
@@ -674,6 +675,21 @@ def test_pedestals_of_two_shapes_stand_beside_each_other():
     # In their places they have one seat.
     placed = {piece.name: piece for piece in assembly.pieces}
     assert placed["pedestal_left"].aside == 0.0 > placed["pedestal_right"].aside
+
+
+def test_a_foot_s_inner_screw_is_under_its_motor_on_a_pedestal_too():
+    device = around(Layout(LayoutName.PYRAMID))
+    foot = foot_of(device)
+    seats = tuple(
+        Pedestal(foot.base_radius, foot.slot_radius, foot.wheel_height, 0.6, 0.04, module=each.name)
+        for each in device.modules
+    )
+    leaning = Assembly("solo12", replace(device, pedestals=seats))
+    (seated,) = (each for each in all_texts(leaning) if each.startswith("Scribe a line across"))
+    upright = all_texts(Assembly("solo12", DEVICES["caged"].at_incidence(0.0)))
+    (standing,) = (each for each in upright if each.startswith("The scale's 0"))
+    room = re.compile(r"One of them is under the motor, with \d+ mm above its head")
+    assert room.search(seated)[0] in standing
 
 
 @pytest.mark.parametrize("device", [AT_30_DEGREES, TRIAD], ids=["pair", "triad"])
