@@ -1,4 +1,4 @@
-"""Answers of the smaller commands in the terminal: bound, init, export and doctor."""
+"""Terminal output of the smaller commands: bound, layouts, init, export and doctor."""
 
 from collections.abc import Iterable
 
@@ -17,7 +17,7 @@ from ocs_design.report.text.layout import facts, files_written, heading, items, 
 
 
 def print_bound(console: Console, answer: BoundAnswer) -> None:
-    """Bound as printed in the paper and as it should be, for each wheel, and its curve."""
+    """Print the bound as in the paper and corrected, for each wheel, and its curve."""
     heading(console, f"Lower bound on the device's inertia about {answer.axis}")
     facts(
         console,
@@ -41,7 +41,7 @@ def print_bound(console: Console, answer: BoundAnswer) -> None:
 
 
 def print_layouts(console: Console, answer: LayoutsAnswer) -> None:
-    """A row for each layout, then why there is none, or what keeps it from being built."""
+    """Print a row for each layout, then reasons why one is missing or cannot be built."""
     heading(console, f"Layouts for {answer.robot}: mass and available momentum")
     axes = (f"{axis} [N m s]" for axis in ("roll", "pitch", "yaw"))
     lost = (f"{axis}, one lost [N m s]" for axis in ("roll", "pitch", "yaw"))
@@ -63,12 +63,12 @@ def print_layouts(console: Console, answer: LayoutsAnswer) -> None:
 
 
 def print_initialized(console: Console, initialized: Initialized) -> None:
-    """File that was written, and the command that designs by it."""
+    """Print the file that was written, and the command that uses it."""
     facts(console, [("written", initialized.file), ("next", initialized.next)])
 
 
 def print_export(console: Console, exported: Exported) -> None:
-    """Files by their folders, and notes on them."""
+    """Print the files by folder, and notes on them."""
     files_written(console, exported.folder, exported.files, "the design, unchanged")
     for each in exported.notes:
         note(console, each)
@@ -83,7 +83,7 @@ _TONES = {
 
 
 def print_examination(console: Console, examination: Examination) -> None:
-    """A table of all findings, how to mend what does not work, and the verdict last."""
+    """Print all findings, remedies for what does not work, and the verdict last."""
     _print_findings(console, "Machine", examination.machine)
     for title, required in (("Packages", True), ("Extras", False)):
         _print_findings(

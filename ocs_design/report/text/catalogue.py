@@ -21,22 +21,22 @@ from ocs_design.report.table import Table, columns
 from ocs_design.report.text.layout import heading, items, note, show
 
 BASIS_MARK = {"peak current": "+", "stall torque": "*"}
-"""Mark behind a short-term torque that is not the maker's own."""
+"""Mark after a short-term torque that is not the maker's rating, by its basis."""
 
 KINDS = ("motors", "gears", "materials")
 """Names of the catalogues."""
 
 MOST_NAMES = 8
-"""Entries that are spelt out before a source they share."""
+"""Number of entries with a common source above which they are counted and not named."""
 
 
 TORQUE_CLASSES = (0.0, 0.05, 0.2, 0.5, 1.0, 2.0, 5.0, 20.0, math.inf)
-"""Limits of the classes of short-term torque that motors are counted in [N m]."""
+"""Limits of the torque classes in which motors are counted [N m]."""
 
 
 @dataclass(frozen=True)
 class Listing:
-    """One catalogue, ready to be printed: every entry, all as one document, and for people.
+    """One catalogue ready for output: its entries, the JSON document and the printed table.
 
     `warnings` are about a user's file, one sentence each.
     """
@@ -47,7 +47,7 @@ class Listing:
     warnings: tuple[str, ...] = ()
 
     def show(self, console: Console, *, verbose: bool) -> None:
-        """Print the table and the sources, with `verbose` of each row."""
+        """Print the table and the sources; with `verbose`, the source of each row."""
         self.print_table(console)
         heading(console, "Sources")
         by_source: dict[str, list[str]] = {}
@@ -110,7 +110,7 @@ def motor_mounting(mounting: Mounting | None) -> str:
 
 
 def print_motors(console: Console, found: Sequence[Motor]) -> None:
-    """Every motor with the figures to choose by, the lightest first; then what some lack."""
+    """Print every motor with its key figures, the lightest first; then the missing data."""
     heading(console, "Motors")
     heads = columns(
         "<name", "mass [g]", "rated [V]", "max [rpm]", "peak  [N m ]", "k_t [mN m/A]", "<lacks"
@@ -139,7 +139,7 @@ def print_motors(console: Console, found: Sequence[Motor]) -> None:
             classes.append((limits, str(complete), str(len(of_class))))
     show(console, Table(columns("<peak [N m]", "complete", "motors"), tuple(classes)))
     note(console, "size chooses among complete motors; with --motors-any among all")
-    # What a builder misses of the others: one line for each set of gaps.
+    # Data that the others lack for building: one line for each set of gaps.
     by_gaps: dict[tuple[str, ...], list[str]] = {}
     for motor in found:
         by_gaps.setdefault(build_gaps(motor), []).append(motor.name)
@@ -153,9 +153,9 @@ def print_motors(console: Console, found: Sequence[Motor]) -> None:
 
 
 def _shortly(gaps: Sequence[str]) -> str:
-    """The first gap in a word or two, and how many there are besides; a dash where there is none.
+    """The first gap in a word or two, and the number of further gaps; a dash if there is none.
 
-    Each gap begins with them, before a comma, a colon or `of the`.
+    These words are the start of the gap, up to a comma, a colon or `of the`.
     """
     if not gaps:
         return "-"
@@ -164,12 +164,12 @@ def _shortly(gaps: Sequence[str]) -> str:
 
 
 def _names_of(names: Sequence[str]) -> str:
-    """Names, or how many there are where there are many."""
+    """Names, or their number if there are more than `MOST_NAMES`."""
     return f"{len(names)} of the above" if len(names) > MOST_NAMES else ", ".join(names)
 
 
 def print_gears(console: Console, found: Sequence[GearSheet]) -> None:
-    """Every stage that the gears offer; then the gears that offer none, with what they lack."""
+    """Print every stage of the gears; then the gears without one, and the data they lack."""
     heading(console, "Gears")
     figures = (
         ("ratio", "ratio", "", ".3f"),
@@ -188,7 +188,7 @@ def print_gears(console: Console, found: Sequence[GearSheet]) -> None:
 
 
 def print_materials(console: Console, found: Sequence[Material]) -> None:
-    """Every material with its figures."""
+    """Print every material with its figures."""
     heading(console, "Materials")
     figures = (
         ("density [kg/m3]", "density", "", ".0f"),
@@ -202,7 +202,7 @@ def print_materials(console: Console, found: Sequence[Material]) -> None:
 def _figures(
     found: Sequence[Gear | Material], figures: Sequence[tuple[str, str, str, str]]
 ) -> Table:
-    """Names and figures; of each the heading, the attribute, and its unit and form."""
+    """Table of names and figures; each figure is given as heading, attribute, unit and format."""
     rows = (
         (row.name, *(_figure(getattr(row, name), unit, form) for _, name, unit, form in figures))
         for row in found
@@ -211,7 +211,7 @@ def _figures(
 
 
 def _figure(value: float | None, unit: str, form: str) -> str:
-    """SI value in `unit`, if any; a dash for what is not known or not limited."""
+    """SI value in `unit`, if any; a dash if it is unknown or unlimited."""
     if value is None or math.isinf(value):
         return "-"
     return f"{to_unit(value, unit) if unit else value:{form}}"

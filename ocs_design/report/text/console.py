@@ -1,7 +1,7 @@
-"""Consoles at any width, with or without colour: answers go to standard output, the rest beside it.
+"""Consoles of any width, with or without colour; only answers go to standard output.
 
-Progress, warnings and errors go to standard error, so that an answer can be kept or searched. In a
-pipe no line is broken, and there are neither plots nor frames, so that `grep` finds whole facts.
+Progress, warnings and errors go to standard error, so that an answer can be stored or searched. In
+a pipe no line is broken, and there are no plots or frames, so that `grep` finds whole facts.
 """
 
 import os
@@ -35,38 +35,38 @@ from rich.text import Text
 NARROWEST = 60
 WIDEST = 110
 UNBROKEN = 10_000
-"""Columns of a pipe: whatever reads it breaks lines itself. The variable COLUMNS overrules it."""
+"""Columns of a pipe, whose reader breaks lines itself. The variable COLUMNS overrides it."""
 
 _LAST_SPACES = re.compile("(?<! ) +(?=\n)")
-"""Without what stands before them each of a pipe's 10,000 spaces would be tried as the first."""
+"""Trailing spaces; without the lookbehind each of a pipe's 10,000 would be tried as the first."""
 
 _CONTROL = [*range(0x20), *range(0x7F, 0xA0), *range(0x202A, 0x202F), *range(0x2066, 0x206A)]
 _REPLACED = {code: "\ufffd" for code in (*_CONTROL, 0x2028, 0x2029) if chr(code) not in "\n\t"}
-"""Characters that terminals obey (ECMA-48) or that turn a line around (Unicode), and their mark.
+"""Control characters (ECMA-48) and direction overrides (Unicode), and their replacement.
 
-Names come from robot files, catalogues and `design.json`.
+They could come in with names from robot files, catalogues and `design.json`.
 """
 
 
 def open_page(console: Console, file: Path) -> None:
-    """Open a page in the browser, or print where it lies if there is no screen or no browser."""
-    # Without a screen Python starts a browser in the terminal.
+    """Open a page in the browser, or print its path if there is no screen or no browser."""
+    # Without a screen Python would start a text browser in the terminal.
     drawn = not sys.platform.startswith("linux") or any(map(os.environ.get, _SCREENS))
     if not (drawn and webbrowser.open(file.resolve().as_uri())):
         console.print(f"no browser to open {file.resolve()}", soft_wrap=True)
 
 
 _SCREENS = ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")
-"""Variables of which one is set where a browser can be opened."""
+"""Variables of which at least one is set if a browser can be opened."""
 
 
 def cleaned(text: str) -> str:
-    """The text with a mark in place of each control character but tabs and ends of lines."""
+    """The text with each control character replaced, except tabs and line ends."""
     return text.translate(_REPLACED)
 
 
 class CleanHook(RenderHook):
-    """Cleans whatever a console prints; colours and the like are no part of the texts."""
+    """Cleans whatever a console prints; colours are not part of the texts and stay."""
 
     def process_renderables(self, renderables: list[ConsoleRenderable]) -> list[ConsoleRenderable]:
         """Called by rich before it prints."""
@@ -74,7 +74,7 @@ class CleanHook(RenderHook):
 
 
 class _Clean:
-    """Anything to print, with its texts cleaned."""
+    """A renderable whose texts are cleaned."""
 
     def __init__(self, inner: ConsoleRenderable) -> None:
         self._inner = inner
@@ -85,7 +85,7 @@ class _Clean:
             if segment.control:
                 yield segment
                 continue
-            # Spaces are printed once something stands behind them on their line.
+            # Spaces are printed only when something follows them on their line.
             text = _LAST_SPACES.sub("", spaces + cleaned(segment.text))
             shown = text.rstrip(" ")
             spaces = text[len(shown) :]
@@ -99,8 +99,8 @@ class _Clean:
 def make_console(*, color: bool = True, stderr: bool = False) -> Console:
     """A console on standard output; without colour there is no bold or dim text either.
 
-    In a pipe its lines are not broken, unless the variable COLUMNS says where. What nobody asked
-    for, progress, warnings and errors, goes to standard error instead.
+    In a pipe its lines are not broken, unless the variable COLUMNS sets a width. With `stderr`, it
+    is on standard error, for progress, warnings and errors.
     """
     plain = not color or bool(os.environ.get("NO_COLOR"))
     console = Console(stderr=stderr, color_system=None if plain else "auto", highlight=False)
@@ -113,12 +113,12 @@ def make_console(*, color: bool = True, stderr: bool = False) -> Console:
 
 
 def breaks_lines(console: Console) -> bool:
-    """Whether people look at it, for whom plots and frames are; not `grep`."""
+    """Whether a person reads it, and not `grep`: then it gets plots and frames."""
     return console.width <= WIDEST
 
 
 def error_panel(lines: Sequence[str], hint: str, *, color: bool = True) -> None:
-    """What is wrong and how to mend it: one panel, in a pipe plain lines."""
+    """Print an error and its remedy: one panel, in a pipe plain lines."""
     console = make_console(color=color, stderr=True)
     if not breaks_lines(console):
         console.print(Text("\n".join(filter(None, ["error: " + lines[0], *lines[1:], hint]))))
@@ -144,12 +144,12 @@ class Steps:
 
     @classmethod
     def of(cls, progress: "Steps | Tell | None") -> "Steps":
-        """Progress as told by a function, or nowhere, but in a notebook below the cell."""
+        """Progress reported to a function if given, in a notebook below the cell, else nowhere."""
         if isinstance(progress, Steps):
             return progress
         if progress is not None:
             return _ToldSteps(progress)
-        # A kernel is what tells a notebook from IPython on a terminal.
+        # Only a notebook has a kernel; IPython on a terminal has none.
         shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
         return cls() if getattr(shell, "kernel", None) is None else _NotebookSteps()
 
@@ -164,7 +164,7 @@ class Steps:
         self._keep(Text.assemble((seconds, "dim"), f"  {label}{note}"))
 
     def doubt(self, warnings: Sequence[str]) -> None:
-        """Say what is doubtful in the input, before it is worked with."""
+        """Report warnings about the input before work on it starts."""
         for each in warnings[:MOST_DOUBTS]:
             self._keep(Text(f" warning  {each}", style="yellow"))
         if len(warnings) > MOST_DOUBTS:
@@ -195,10 +195,10 @@ class Steps:
 
 
 _WIDE = 80
-"""Columns from which on there is room for the time that is left."""
+"""Number of columns from which there is room for the remaining time."""
 
 MOST_DOUBTS = 3
-"""Told before the search; `inspect` has all."""
+"""Number of warnings shown before the search; `inspect` shows all."""
 
 
 class Step:
@@ -215,11 +215,11 @@ class Step:
 
 
 Tell: TypeAlias = Callable[[str, float], None]
-"""Function that is told which step runs and what part of it is done, 0..1."""
+"""Callback that receives the running step and the fraction of it that is done, 0..1."""
 
 
 class _ToldSteps(Steps):
-    """Progress as a function is told."""
+    """Progress reported to a callback."""
 
     def __init__(self, tell: Tell) -> None:
         super().__init__()
@@ -227,7 +227,7 @@ class _ToldSteps(Steps):
 
     @contextmanager
     def _running(self, label: str) -> Iterator[Step]:
-        """Told of at its start, as it moves, and at its end."""
+        """Report a step at its start, as it advances, and at its end."""
         self._tell(label, 0.0)
         yield Step(lambda completed: self._tell(label, completed))
         self._tell(label, 1.0)
@@ -268,14 +268,14 @@ class _NotebookSteps(Steps):
 
 
 NOTEBOOK_REST = 0.5
-"""Least time between two pictures of a bar in a notebook, each a message to the browser [s]."""
+"""Minimum time between updates of a bar in a notebook, each a message to the browser [s]."""
 
 
 class _Left(ProgressColumn):
-    """The time that is left, once it is known how far a step is."""
+    """Column with the remaining time, once the progress of a step is known."""
 
     def render(self, task: Task) -> Text:
-        """Time left of one step; empty while nothing is known."""
+        """Remaining time of one step; empty while it is not known."""
         left = task.time_remaining
         known = left is not None and not task.finished
         return Text(f"{timedelta(seconds=int(left or 0))} left" if known else "", style="dim")

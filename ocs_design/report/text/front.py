@@ -1,4 +1,4 @@
-"""A front in the terminal: table, plot of dots of Braille, and why some points have no device."""
+"""Pareto front in the terminal: table, Braille plot, and why some points have no device."""
 
 import shlex
 from collections.abc import Mapping, Sequence
@@ -22,14 +22,14 @@ PLOT_HEIGHT = 12
 """Rows of the plot's area."""
 
 MARGIN = 14
-"""Columns beside the plot's area, for indent and names."""
+"""Columns beside the plot's area, for the indent and the axis labels."""
 
 OWN, NONE = "┴", "×"
 """Marks on the plot's axis: the specification's own value, and a value without a device."""
 
 
 def print_front(console: Console, front: Front, folder: Path | None = None) -> None:
-    """Everything that the terminal shows of a front, and where its files are, if anywhere."""
+    """Print a front, and the place of its files if they were written."""
     heading(console, f"Lightest device against {front.label}: {front.robot}")
     same = [f"{name} {value}" for name, value in _same(front).items()]
     facts(
@@ -59,7 +59,7 @@ def print_front(console: Console, front: Front, folder: Path | None = None) -> N
 
 
 def _same(front: Front) -> Mapping[str, str]:
-    """Gear and material where all devices have the same."""
+    """Gear and material that all devices have in common."""
     found = {
         name: {getattr(point.device, name) for point in front.feasible}
         for name in ("gear", "material")
@@ -68,7 +68,7 @@ def _same(front: Front) -> Mapping[str, str]:
 
 
 def _table(front: Front) -> Table:
-    """Mass, rim, incidence and drive at each value; a value without a device says so."""
+    """Mass, rim, incidence and drive at each value, or a note that there is no device."""
     names = [name for name in ("motor", "gear", "material") if name not in _same(front)]
     heads = columns(
         f" [{front.unit}]", "mass [g]", f"<{', '.join(names)}", "of robot [%]", "R [mm]", "r [mm]",
@@ -96,7 +96,7 @@ def _table(front: Front) -> Table:
 
 
 def _print_plot(console: Console, front: Front) -> None:
-    """Mass against the value, where there is a terminal that has Braille."""
+    """Plot the mass against the value if the terminal can show Braille."""
     if not console.encoding.startswith("utf") or not breaks_lines(console):
         return
     heading(console, f"Mass of the device against {front.label}")
@@ -108,7 +108,7 @@ def _print_plot(console: Console, front: Front) -> None:
     marked = [(point.value, NONE) for point in front.points if point.device is None]
     if front.spans_own_value:
         marked.append((front.own_value, OWN))
-    # The characters that hold the dots there.
+    # Characters that contain the dots at these values.
     places = across.parts(np.array([value for value, _ in marked])) * (2 * width - 1)
     columns_of = (np.rint(places).astype(np.int64) // 2).tolist()
     marks = {column: mark for column, (_, mark) in zip(columns_of, marked, strict=True)}
@@ -124,13 +124,13 @@ def _value(front: Front, value: float) -> str:
 
 _BLANK = 0x2800
 _DOTS = np.array([[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]])
-"""Bit of each dot of a cell by its row and column (Unicode, Braille Patterns)."""
+"""Bit of each dot of a cell, by row and column (Unicode, Braille Patterns)."""
 
 
 def braille(x: FloatArray, y: FloatArray, width: int, height: int) -> list[str]:
-    """Lines of characters, from the top, with points and the straight lines between neighbours.
+    """Braille plot of points joined by straight lines, as lines of text from the top.
 
-    Coordinates are parts of width and height, 0..1 from the lower left; NaN breaks the curve.
+    Coordinates are fractions of width and height, 0..1 from the lower left; NaN breaks the curve.
     """
     steps = np.linspace(0.0, 1.0, 4 * (width + height))[:, None]
     right, up = (
@@ -149,7 +149,7 @@ def braille(x: FloatArray, y: FloatArray, width: int, height: int) -> list[str]:
 def frame(
     plot: Sequence[str], *, x_ends: tuple[str, str], y_ends: tuple[str, str], marks: dict[int, str]
 ) -> list[str]:
-    """Lines of a plot with its axes: words at their ends, and marks on x by their columns."""
+    """Plot with axes, labels at their ends, and marks on the x axis by their columns."""
     (bottom, top), (left, right), width = y_ends, x_ends, len(plot[0])
     margin = max(len(bottom), len(top))
     names = [top, *[""] * (len(plot) - 2), bottom]

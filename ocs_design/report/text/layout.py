@@ -1,4 +1,4 @@
-"""Layout of what people read: headings, facts, tables, notes and lists of files."""
+"""Layout of terminal output: headings, facts, tables, notes and lists of files."""
 
 import sys
 import textwrap
@@ -20,13 +20,13 @@ from ocs_design.report.text.console import breaks_lines
 INDENT = (0, 0, 0, 2)
 
 _NARROWEST = 16
-"""Characters that a column of words keeps at least."""
+"""Minimum width of a column of words [characters]."""
 
 _PLAIN = box.Box("    \n    \n -- \n    \n    \n    \n    \n    \n", ascii=True)
-"""Rule below the headings of a table, of letters that any program can search."""
+"""Rule below the headings of a table, in ASCII for pipes."""
 
 MOST_LISTED = 6
-"""Files of one folder that are named; more are counted."""
+"""Number of files of one folder above which they are counted and not named."""
 
 STYLES = {Tone.PLAIN: "dim", Tone.PASS: "green", Tone.FAIL: "bold red", Tone.OPEN: "yellow"}
 
@@ -56,7 +56,7 @@ def warn(console: Console, warnings: Iterable[str]) -> None:
 
 
 def items(console: Console, texts: Iterable[str], *, style: str = "dim") -> None:
-    """Print a list; what wraps stays indented behind its dash."""
+    """Print a list; wrapped lines stay indented after the dash."""
     found = list(texts)
     if not found:
         return
@@ -80,11 +80,11 @@ def facts(console: Console, rows: Iterable[tuple[str, str]]) -> None:
 
 
 def show(console: Console, table: Table, *, fewest: int = 0) -> None:
-    """Print a table, indented like everything under a heading; closer where it would break a line.
+    """Print a table, indented like everything under a heading; with less padding if it is too wide.
 
-    Where the terminal is too narrow, words are broken into lines, and where that does not do, the
-    last columns are left out, and named: a number is never broken. Down to the `fewest` columns, if
-    any, they are left out without a word, before words are broken.
+    If the terminal is too narrow, words are wrapped, and if that is not enough, the last columns
+    are left out and named in a note; a number is never broken. With `fewest`, columns are first
+    left out down to that number, without a note, before words are wrapped.
     """
     room = console.width - INDENT[-1]
     for count in range(len(table.columns), 0, -1):
@@ -104,7 +104,7 @@ def show(console: Console, table: Table, *, fewest: int = 0) -> None:
 
 
 def _drawn(table: Table, console: Console) -> rich_table.Table:
-    """Table of rich: names over units, words at the left, numbers at the right."""
+    """Table of rich: names above units, words aligned left, numbers right."""
     rule = box.SIMPLE_HEAD if breaks_lines(console) else _PLAIN
     drawn = rich_table.Table(box=rule, pad_edge=False, show_edge=False, padding=(0, 1))
     lines = max(column.name.count("\n") for column in table.columns)
@@ -123,7 +123,7 @@ def _drawn(table: Table, console: Console) -> rich_table.Table:
 
 
 def _narrower(table: Table, excess: int) -> Table:
-    """Table by so many characters narrower: the longest words are broken, none in itself."""
+    """Table that is narrower by so many characters: the widest texts are wrapped between words."""
     wordy = {
         index: max(
             [*map(len, column.name.split("\n")), *(len(plain(row[index])) for row in table.rows)]
@@ -139,7 +139,7 @@ def _narrower(table: Table, excess: int) -> Table:
         cells = list(row)
         for index, width in wordy.items():
             text = plain(row[index])
-            # A cell of several lines, as plots have them, stays.
+            # A cell of several lines, such as a plot, is left as it is.
             if len(text) > width and "\n" not in text:
                 lines, cell = wrapped(text, width), row[index]
                 cells[index] = replace(cell, text=lines) if isinstance(cell, Toned) else lines
@@ -148,14 +148,14 @@ def _narrower(table: Table, excess: int) -> Table:
 
 
 def _width(console: Console, drawn: rich_table.Table) -> int:
-    """Columns that it takes where no line is broken."""
+    """Width without line breaks [characters]."""
     return console.measure(drawn, options=console.options.update(max_width=sys.maxsize)).maximum
 
 
 def files_written(console: Console, folder: str, files: Iterable[str], held: str = "") -> None:
-    """Print the files that a folder got but design.json, by the folders in it.
+    """Print the files written to a folder, by subfolder.
 
-    `held` says what its design.json holds; empty: it has none.
+    `held` says what its design.json contains; empty if it has none.
     """
     heading(console, f"Written to {folder}/")
     rows = [(DESIGN_FILE, f"{held}, and the hashes of the other files")] if held else []

@@ -1,4 +1,4 @@
-"""The robot in the terminal: what was read of it, as `inspect` and `size` show it."""
+"""The robot in the terminal: data read from its file, as shown by `inspect` and `size`."""
 
 from collections.abc import Iterable
 
@@ -23,12 +23,12 @@ SAME_RATE = (
 
 
 def print_inspection(console: Console, inspection: Inspection, *, verbose: bool = False) -> None:
-    """Mass, posture, inertia, incidence angles and how they change with the posture."""
+    """Print mass, posture, inertia, incidence angles and their change with the posture."""
     robot, found = inspection.robot, inspection.recognition
     legs, recognised = ", ".join(robot.legs) or "none found", []
     if found is not None:
         if found.legs:
-            # Feet with what they are.
+            # Feet and the kinds of their end links.
             feet = ", ".join(leg.foot for leg in found.legs)
             ends = " and ".join(f"{kind}s" for kind in sorted({leg.ends_in for leg in found.legs}))
             legs = f"{feet} ({len(found.legs)}, ending in {ends})"
@@ -92,14 +92,14 @@ def print_inspection(console: Console, inspection: Inspection, *, verbose: bool 
 
 
 def print_joints(console: Console, robot: RobotRecord) -> None:
-    """Value of every joint in the nominal posture."""
+    """Print the value of every joint in the nominal posture."""
     heading(console, f"Joints at {robot.posture_name}")
     rows = ((name, f"{value:.4f}", degrees_number(value)) for name, value in robot.posture.items())
     show(console, Table(columns("<joint", "rad or m", "deg"), tuple(rows)))
 
 
 def print_robot(console: Console, robot: RobotRecord, more: Iterable[tuple[str, str]] = ()) -> None:
-    """What was read of a robot, and more of it; then the warnings about its file."""
+    """Print the data read of a robot and `more` facts; then the warnings about its file."""
     heading(console, f"Robot: {robot.name}")
     facts(console, [*robot_facts(robot), *more])
     warn(console, robot.warnings)

@@ -1,4 +1,4 @@
-"""A design in the terminal: its story on one screen, and with `-v` all of it."""
+"""A design in the terminal: a summary on one screen, and with `-v` all of it."""
 
 from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
@@ -32,17 +32,17 @@ from ocs_design.report.verdict import headline
 from ocs_design.simulation.run import Run, Series
 
 LEAST_SPAN = np.radians(5.0)
-"""Smallest angle of a full bar [rad]: what counts as level is drawn as level."""
+"""Smallest angle of a full bar [rad], so that a level flight looks level."""
 
 _FEWEST = 2
-"""Columns of the ranking that the narrowest terminal shows: drive and mass."""
+"""Number of columns of the ranking on the narrowest terminal: drive and mass."""
 
 
 def print_design(console: Console, design: OcsDesign) -> None:
-    """Everything about a design and its flights, the verdict first."""
+    """Print everything about a design and its flights, the verdict first."""
     print_headline(console, headline(design))
     items(console, (f"{each.what}; {each.cure}" for each in design.buildable.open[1:]))
-    # The robot's own stand below it.
+    # Warnings about the robot's file follow with the robot.
     minded = [each for each in warnings.all_warnings(design) if each not in design.robot.warnings]
     if minded:
         heading(console, "Warnings")
@@ -90,7 +90,7 @@ def print_design(console: Console, design: OcsDesign) -> None:
 
 
 def print_alternatives(console: Console, design: OcsDesign) -> None:
-    """What one change of the question would give each; nothing where none was looked for."""
+    """Print the effect of each single change of the specification; nothing if none was tried."""
     if design.alternatives:
         heading(console, "Lighter alternatives")
         found = limits.alternatives_table(design)
@@ -103,7 +103,7 @@ def print_alternatives(console: Console, design: OcsDesign) -> None:
 
 
 def print_solution(console: Console, design: OcsDesign) -> None:
-    """Posture joint by joint, and how the optimum was found."""
+    """Print the posture joint by joint, and how the optimum was found."""
     if design.robot.posture:
         print_joints(console, design.robot)
     sizing, chosen = design.sizing, design.selection is not None
@@ -127,7 +127,7 @@ def print_solution(console: Console, design: OcsDesign) -> None:
 def print_selection(
     console: Console, chosen: SelectionRecord, maneuvers: Sequence[ManeuverRecord] = ()
 ) -> None:
-    """What the drive is asked for, the lightest ones, and how many were ruled out."""
+    """Print the demands on the drive, the lightest drives, and how many were ruled out."""
     heading(console, f"Choice: {selection.choice_title(chosen)}")
     show(console, selection.task_table(chosen))
     note(console, selection.task_note(chosen, maneuvers))
@@ -143,7 +143,7 @@ def print_selection(
 
 
 def print_outcome(console: Console, design: OcsDesign, folder: Path) -> None:
-    """What was written, and the verdict in one line."""
+    """Print the files written, and the verdict in one line."""
     files_written(console, str(folder), design.files, "everything in this report")
     console.print()
     print_headline(console, headline(design))
@@ -157,7 +157,7 @@ BESIDE_PLOTS = 64
 
 
 def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], folder: Path) -> None:
-    """The verdict first, and last once more, where the eye is when a command ends."""
+    """Print the summary with the verdict first and again last, where the user looks."""
     line = headline(design)
     print_headline(console, line)
     if design.reliability is not None:
@@ -180,12 +180,12 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
     facts(console, rows)
     if runs:
         _print_flights(console, design, runs)
-    # What the verdict says already.
+    # Already said by the verdict.
     flown = (run for run in design.validation if run.ocs and run.scenario == line.flight)
     told = {line.matter, *(flights.run_sentence(run, with_note=False) for run in flown)}
     minded = [each for each in warnings.all_warnings(design) if each not in told]
     if minded:
-        # How many more there are tells nobody whether to look: what matters most is here.
+        # The number of further warnings would not help; the most important ones are here.
         heading(console, "Warnings (-v: all)" if len(minded) > MOST_MINDED else "Warnings")
         items(console, minded[:MOST_MINDED], style="yellow")
     changes = limits.lighter(design)[:MOST_CHANGES]
@@ -195,7 +195,7 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
     print_lighter(console, design)
     print_assumed(console, design.requirement.assumptions)
     console.print()
-    # The report, the artefact, the other files beside them, and the folders.
+    # The report, the design, the other files beside them, and the folders.
     paths = [PurePosixPath(name) for name in design.files]
     beside = sorted(str(path) for path in paths if len(path.parts) == 1)
     folders = sorted({f"{path.parts[0]}/" for path in paths if len(path.parts) > 1})
@@ -205,7 +205,7 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
 
 
 def _print_flights(console: Console, design: OcsDesign, runs: Sequence[Run]) -> None:
-    """Each scenario with the device and without, and a curve of its tilt where there is room."""
+    """Print each scenario with the device and without, and a tilt curve if there is room."""
     width = min((console.width - BESIDE_PLOTS) // 2, WIDEST_PLOT)
     plotted = (
         width >= NARROWEST_PLOT and console.encoding.startswith("utf") and breaks_lines(console)
@@ -226,9 +226,9 @@ def _print_flights(console: Console, design: OcsDesign, runs: Sequence[Run]) -> 
 
 
 def tilt_plots(runs: Sequence[Series], width: int) -> tuple[list[str], float]:
-    """Bars of the tilt of each flight, all to one scale, and the tilt of a full bar [rad].
+    """Tilt of each flight as bars to a common scale, and the tilt of a full bar [rad].
 
-    A bar is the largest tilt of its part of the time; where a flight has ended there is none.
+    A bar shows the largest tilt in its time interval; after the end of a flight there are none.
     """
     tilts = [flights.off_level(series.roll, series.pitch) for series in runs]
     end = max(float(series.time[-1]) for series in runs)
@@ -243,7 +243,7 @@ def tilt_plots(runs: Sequence[Series], width: int) -> tuple[list[str], float]:
 
 
 def print_lighter(console: Console, design: OcsDesign) -> None:
-    """What would have to give for a lighter device; nothing where that was not asked."""
+    """Print the trade-offs for a lighter device; nothing if they were not requested."""
     if design.lighter is not None:
         asked = format_quantity(design.lighter.by, "g", 3)
         heading(console, f"Trade-offs to save {asked}")
@@ -254,7 +254,7 @@ def print_lighter(console: Console, design: OcsDesign) -> None:
 
 
 def print_assumed(console: Console, assumptions: Sequence[str]) -> None:
-    """What was taken where nothing was stated, as a short list."""
+    """Print the values assumed where none was specified, as a short list."""
     rows = limits.assumed(assumptions)
     if rows:
         heading(console, "Assumed; `--help` has the option for each")

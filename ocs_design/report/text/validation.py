@@ -1,4 +1,4 @@
-"""Flights in the terminal: as `size` and `validate` show them, one by one and many at once."""
+"""Flights in the terminal, as shown by `size` and `validate`, one by one and as campaigns."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -20,7 +20,7 @@ from ocs_design.requirement.uncertainty import spreads
 def print_runs(
     console: Console, runs: Sequence[ValidationRecord], survival: SurvivalRecord | None = None
 ) -> None:
-    """Flights with and without the device: verdicts, attitudes, wheels, and why."""
+    """Print the flights with and without the device: verdicts, attitudes, wheels, reasons."""
     heading(console, "Flights in MuJoCo, with the device and without")
     show(console, flights.flight_table(runs))
     items(console, map(flights.run_sentence, runs))
@@ -31,7 +31,7 @@ def print_runs(
 
 
 def print_headline(console: Console, line: Headline, *more: Text) -> None:
-    """Verdict in one line, what is more to it, and what matters most below."""
+    """Print the verdict and `more` in one line, and below it what matters most."""
     parts = (Text(part.text, style=f"bold {STYLES[part.tone]}") for part in line.parts)
     console.print(Text(SEPARATOR).join(parts), *more)
     if line.matter:
