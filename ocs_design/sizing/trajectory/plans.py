@@ -345,7 +345,46 @@ def gentlest(
         solution = solve([turn], line, (intervals,))
         flight = fly(turn, line, solution.motions[0])
         found.append(Planned(**vars(flight), solution=solution))
-    return min(found, key=lambda planned: (planned.failure != "", planned.solution.cost))
+    best = min(found, key=lambda planned: (planned.failure != "", planned.solution.cost))
+    alike = 0 if one_stops or np.ndim(asked.wheel_speed) else _wheels_alike(gyrostat)
+    if not best.failure or alike < 2:
+        return best
+    # Wheels of one axis share evenly, but the program may fail in what they can do against each
+    # other: it is solved with one wheel for all of an axis.
+    whole = replace(
+        gyrostat,
+        axes=gyrostat.axes[:, : gyrostat.axes.shape[1] // alike],
+        spin_inertia=alike * gyrostat.spin_inertia,
+        armature=alike * gyrostat.armature,
+    )
+    stronger = replace(
+        line,
+        stall_torque=alike * line.stall_torque,
+        torque_limit=alike * line.torque_limit,
+        power_max=alike * line.power_max,
+    )
+    planned = gentlest(asked, whole, stronger, intervals)
+    if planned.failure:
+        return best
+    flown, steps = planned.trajectory, planned.trajectory.step_torque
+    shared = replace(
+        flown,
+        wheel_speed=np.tile(flown.wheel_speed, alike),
+        wheel_torque=np.tile(flown.wheel_torque, alike) / alike,
+        step_torque=None if steps is None else np.tile(steps, alike) / alike,
+    )
+    return replace(planned, trajectory=shared)
+
+
+def _wheels_alike(gyrostat: Gyrostat) -> int:
+    """Number of wheels on each axis, if the axes are those of equal groups one after the other."""
+    axes = gyrostat.axes
+    wheels = int(axes.shape[1])
+    for different in range(1, wheels):
+        alike, rest = divmod(wheels, different)
+        if not rest and np.array_equal(np.tile(axes[:, :different], alike), axes):
+            return alike
+    return 1
 
 
 def quickest(asked: Boundary, gyrostat: Gyrostat, line: DriveLine) -> float | None:

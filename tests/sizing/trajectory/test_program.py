@@ -31,6 +31,7 @@ from ocs_design.sizing.trajectory.equations import after_push
 from ocs_design.sizing.trajectory.flight import limit_violation
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.plans import gentlest
+from ocs_design.sizing.trajectory.program import solve
 from ocs_design.sizing.trajectory.transcription import Turn
 
 FORTY = np.radians(40.0)
@@ -322,3 +323,33 @@ def test_an_uneven_guess_moves_the_trunk_no_further_in_the_end(name):
     gained = uneven.torques - even.torques
     steps = gained.reshape(len(change), -1, 3).mean(axis=2) * even.lengths
     np.testing.assert_allclose(steps.sum(axis=1), 1.2e-4 * change[:, -1], rtol=0, atol=1e-12)
+
+
+def test_where_four_wheels_find_no_plan_two_of_their_strength_make_it(monkeypatch):
+    """A double pair was refused a turn, and grown, that two lighter wheels made."""
+
+    def lost(turns, *arguments):
+        found = solve(turns, *arguments)
+        return replace(found, solved=turns[0].gyrostat.axes.shape[1] < 4)
+
+    monkeypatch.setattr("ocs_design.sizing.trajectory.plans.solve", lost)
+    pair = body(np.radians(30.0), spin_inertia=1.4e-4, armature=1e-6)
+    four = replace(pair, axes=np.tile(pair.axes, 2), spin_inertia=0.7e-4, armature=0.5e-6)
+    weak = replace(
+        EC_45_FLAT,
+        stall_torque=EC_45_FLAT.stall_torque / 2.0,
+        torque_limit=EC_45_FLAT.torque_limit / 2.0,
+    )
+    turn = asked(drop(20.0, 10.0))
+    found, expected = gentlest(turn, four, weak), gentlest(turn, pair, EC_45_FLAT)
+    assert not found.failure
+    flown = found.trajectory
+    assert missed(turn, flown) == pytest.approx(missed(turn, expected.trajectory))
+    np.testing.assert_array_equal(flown.wheel_speed, np.tile(expected.trajectory.wheel_speed, 2))
+    held = flown.rate @ four.inertia + four.spin_inertia * flown.wheel_speed @ four.axes.T
+    np.testing.assert_allclose(held, 0.0, atol=1e-6)
+    # h A^T w_dot + (h + a) W_dot = tau, over each step.
+    driven = four.spin_inertia * flown.rate @ four.axes
+    driven += (four.spin_inertia + four.armature) * flown.wheel_speed
+    given = flown.step_torque.mean(axis=1) * np.diff(flown.time)[:, None]
+    np.testing.assert_allclose(np.diff(driven, axis=0), given, atol=1e-6)
