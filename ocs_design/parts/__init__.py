@@ -1,1 +1,1 @@
-"""Parts as exact solids, their meshes and their files; the CAD kernel only here."""
+"""Parts of a module as exact solids, with the formulas for their strength."""

@@ -1,8 +1,8 @@
-"""The bell of an outrunner that a ring is bonded around in place of a wheel on a web.
+"""The bell of an outrunner with a ring bonded around it, instead of a wheel with a web.
 
-No web, no hub, no joint on a shaft, and a flat module, as Mini Wheelbot has it with brass around an
-MN4006 (github.com/wheelbot/Mini-Wheelbot, hardware/how-to-assemble-motors.md). The motor stands on
-the floor of the housing, inside the ring, and is screwed to floor and plate by its back.
+This needs no web, hub or shaft joint and makes a flat module, as in Mini Wheelbot with brass around
+an MN4006 (github.com/wheelbot/Mini-Wheelbot, hardware/how-to-assemble-motors.md). The motor stands
+on the floor of the housing, inside the ring; its back is screwed to floor and plate.
 """
 
 from typing import NamedTuple, TypeAlias
@@ -13,28 +13,28 @@ from ocs_design.parts.printed import CLEARANCE, PETG, WALL
 from ocs_design.parts.solids import Part, revolved
 
 GLUE_GAP = 0.1e-3
-"""Gap between bell and ring [m]: what epoxy fills and a printed fixture keeps even."""
+"""Gap between bell and ring [m], filled with epoxy and kept even by a printed fixture."""
 
 BELL_SHARE = 0.45
-"""Straight part of a bell over its motor's length, in its middle: 11 of the 25 mm of an MN5006. An
+"""Length of a bell's straight middle part over the motor's length: 11 of the 25 mm of an MN5006. An
 estimate: no row of the catalogue has that figure."""
 
 FIXTURE_FLOOR = 3.0e-3
-"""Least thickness [m]: the bell's front is pressed on it while the glue sets."""
+"""Least thickness of the fixture's floor [m]: the bell's front is pressed on it while glue sets."""
 
 FIXTURE_FIT = 0.1e-3
-"""Play of bell and ring in their fixture, on the radius [m]: to be scraped until both slide in."""
+"""Radial play of bell and ring in their fixture [m]: scrape it until both slide in."""
 
 GLUE_ROOM = 1.0e-3
-"""Width and depth of the groove under the glue gap [m]: what is squeezed out of it."""
+"""Width and depth of the groove under the glue gap, for glue that is squeezed out [m]."""
 
 
 HeldMotor: TypeAlias = Motor | Drive
-"""What has the figures of a motor that its mount, or a ring around its bell, needs."""
+"""Types with the figures of a motor that its mount, or a ring around its bell, needs."""
 
 
 class Bell(NamedTuple):
-    """What a bell leaves a ring.
+    """Limits that a bell sets for a ring around it.
 
     Attributes:
         bore: radius of the ring's bore [m].
@@ -42,7 +42,7 @@ class Bell(NamedTuple):
         room: height of a rim whose housing has room for motor and shaft [m].
         front: from the ring's middle to the motor's front [m].
         shaft: radius of the shaft there, or 0 [m].
-        shaft_length: by which it stands out of the front, as far as known [m].
+        shaft_length: by which the shaft protrudes from the front; 0 if unknown [m].
     """
 
     bore: float
@@ -54,16 +54,16 @@ class Bell(NamedTuple):
 
     @property
     def fixture_floor(self) -> float:
-        """Thickness of the fixture's floor, out of which the shaft must not stand [m]."""
+        """Thickness of the fixture's floor, through which the shaft must not protrude [m]."""
         return max(FIXTURE_FLOOR, self.shaft_length + FIXTURE_FIT)
 
 
 def bell_of(motor: HeldMotor) -> Bell | None:
-    """Bell of a motor that is held by its back; None: it turns inside, or its size is not known.
+    """Bell of a motor with threads at its back; None: there is none, or its size is not known.
 
-    The motor stands on the housing's floor, its shaft clear of the lid. So the middle of the
-    housing is beyond the bell's by half of shaft and clearance, and the ring may be that much lower
-    on both sides.
+    The motor stands on the housing's floor, with its shaft clear of the lid. So the middle of the
+    housing is beyond the bell's by half of shaft and clearance, and the ring must be that much
+    lower on both sides.
     """
     mounting, diameter, length = motor.mounting, motor.diameter, motor.length
     if mounting is None or mounting.stator is None or mounting.stator_face is not Face.BACK:
@@ -85,9 +85,9 @@ def bell_of(motor: HeldMotor) -> Bell | None:
 
 
 def fixture_part(bell: Bell, outer_radius: float, height: float) -> Part[float]:
-    """What holds ring and bell on one axis while the glue sets, in the frame that it is printed in.
+    """Fixture that holds ring and bell coaxial while the glue sets, in its printing frame.
 
-    The bell stands on its front in a bore, the ring around it on a step and inside a wall.
+    The bell stands on its front in a bore, the ring around it on a step inside a wall.
 
     Args:
         bell: of the motor. outer_radius, height: of the ring [m].

@@ -1,13 +1,13 @@
-"""The cage: the bracket that carries a motor by its back, as outrunners are screwed on.
+"""The cage: a bracket for a motor that is screwed on by its back, as outrunners are.
 
 A cup around the motor on the back of the foot's plate. Its floor holds the motor's back; four posts
 with ears between floor and plate take the screws that come through the housing's floor and the
-plate. The motor reaches through both, so that its turning front is at the wheel's hub: no spacer is
-between them, and how long the posts are depends on the rim's height. Between the posts there is
-room for air and wires; printed on its floor nothing overhangs.
+plate. The motor reaches through both, so that its rotating front is at the wheel's hub without a
+spacer, and the length of the posts depends on the rim's height. Between the posts there is room for
+air and wires. Printed on its floor it has no overhangs.
 
-Its own frame stands in the middle of the underside of its floor, the wheel's axis along z and up
-along -y, as in the wheel's frame.
+The origin of its frame is the middle of the underside of its floor; the wheel's axis is along z and
+up is along -y, as in the wheel's frame.
 """
 
 from dataclasses import dataclass
@@ -40,22 +40,22 @@ from ocs_design.parts.shapes import EAR_COUNT, Eared, Post
 from ocs_design.parts.solids import Part, Prism
 
 LEAST_POST = 6.0e-3
-"""Shortest post [m]: three diameters of the thread of M2 that is cut into it."""
+"""Shortest post [m]: three diameters of the M2 thread that is cut into it."""
 
 HALF_POST = pi / 8.0
-"""Half of each post's angle around the axis [rad]: half of the wall is open. 20 g on
-0.2 kg of motor and wheel bend each of four posts, 35 mm long, with 9 MPa."""
+"""Half of each post's angle around the axis [rad]: half of the wall is open. At 20 g, 0.2 kg of
+motor and wheel bend each of four posts, 35 mm long, with 9 MPa."""
 
 FIRST_EAR = -pi / 2.0
-"""Angle from the x axis [rad]: straight up, as the first of a ring's holes."""
+"""Angle of the first ear from the x axis [rad]: straight up, as the first hole of a ring."""
 
 
 @dataclass(frozen=True)
 class Posts(Table, Generic[Real]):
-    """Posts of the cages around motors, as long as a rim's height leaves them; arrays broadcast.
+    """Posts of the cages around motors, whose length depends on the rim; arrays broadcast.
 
     Attributes:
-        area: of all four less the holes in their ears [m^2]; 0: there is no cage.
+        area: of all four, minus the holes in their ears [m^2]; 0: there is no cage.
         gyration: radius of gyration of that area about the axis [m].
         seat: from the wheel's middle to the motor's back, where the posts begin [m].
         foot_plate: thickness of the foot's plate, where they end [m].
@@ -67,7 +67,7 @@ class Posts(Table, Generic[Real]):
     foot_plate: Real | float = PLATE_THICKNESS
 
     def length(self, height: Real) -> Real:
-        """Length up to the foot's plate, with a rim of that height [m]."""
+        """Length up to the foot's plate for a rim of this height [m]."""
         return self.seat - (half_height(height) + self.foot_plate)
 
     def mass(self, height: Real) -> Real:
@@ -96,7 +96,7 @@ class Cage:
 
     Attributes:
         motor_radius, motor_length: [m].
-        holes: in its floor, for the motor's screws and for what stands out of its back.
+        holes: in its floor, for the motor's screws and for anything protruding from its back.
         front: from the wheel's middle to the motor's turning front [m].
         rim_height: of the wheel that its motor turns [m].
         foot_plate: thickness of the foot's plate [m].
@@ -141,18 +141,18 @@ class Cage:
 
     @property
     def rim_height_max(self) -> float:
-        """Height of a rim that leaves the shortest posts [m]."""
+        """Height of a rim at which posts have their least length [m]."""
         room = self.seat - self.foot_plate - LEAST_POST - half_height(0.0)
         return 2.0 * room
 
     @property
     def reach(self) -> float:
-        """Radius that its ears stay within [m]."""
+        """Radius within which its ears stay [m]."""
         return ear_axis(self.across, LID_SCREW) + ear_radius(LID_SCREW)
 
     @property
     def passage(self) -> MountHoles:
-        """Holes in floor and plate: the motor reaches through, screws go into the posts' ears.
+        """Holes in housing floor and foot plate, for the motor and the screws into the posts' ears.
 
         The first ear is straight up.
         """
@@ -185,13 +185,13 @@ class Cage:
 def floor_at_shock(cage: Cage, motor: float, wheel: float) -> float:
     """Thickness at which a cage's floor breaks under `SHOCK` [m].
 
-    Motor and wheel stand on it and tilt it by M, as a stiff middle of radius b, around the heads of
-    the motor's screws, does in a plate that is clamped at radius a: Kirchhoff's plate with
+    Motor and wheel on it apply a tilting moment M, as does a rigid centre of radius b, around the
+    heads of the motor's screws, in a plate that is clamped at radius a. Kirchhoff's plate with
     w = (A r + B / r + C r^3 + D r log r) cos(theta) has at b the stress
 
         3 M (a^2 - b^2) / (pi b t^2 (a^2 + b^2)).
 
-    Posts clamp half of the edge, so that it is counted twice.
+    Posts clamp only half of the edge, so this stress is doubled.
 
     Args:
         cage: with the holes of the motor's screws. motor, wheel: mass of each [kg].
@@ -207,7 +207,7 @@ def floor_at_shock(cage: Cage, motor: float, wheel: float) -> float:
 def heads_at_shock(cage: Cage, motor: float, wheel: float) -> float:
     """Acceleration along the axis at which the heads of a cage's screws sink into PETG [m/s^2].
 
-    They press on the housing's floor, and hold motor and wheel, masses [kg], and cage on the foot.
+    They press on the housing's floor, and hold motor, wheel (masses in kg) and cage on the foot.
     """
     held = motor + wheel + float(cage_part(cage).mass())
     return EAR_COUNT * PETG.strength * LID_SCREW.head_area / held

@@ -1,17 +1,17 @@
-"""The carrier plate: what the feet stand on where the trunk is too narrow or too curved for them.
+"""The carrier plate, on which the feet stand if the trunk is too narrow or too curved for them.
 
-One flat plate of aluminium across the trunk: a ring under each foot, around the circle of its
-screws, whose threads are in it, and from its middle an arm to each ring. A pair's arms are one
-neck; three and more are a star. Two screws in each arm hold it on the trunk, each through a sleeve
-where the trunk lies lower there. Its axes are those of the base frame B, its origin the middle of
-its underside. Several pairs of modules, one behind the other, have as many equal plates at one
-height, each with screws of its own; together they are one body.
+One flat plate of aluminium across the trunk: a ring under each foot, with threads for the foot's
+screws, and from its middle an arm to each ring. The arms of a pair form one neck; three or more
+form a star. Two screws in each arm hold it on the trunk, each through a sleeve where the trunk lies
+lower. Its axes are those of the base frame B, its origin is the middle of its underside. Several
+pairs of modules, one behind the other, have one such plate each, at one height and with their own
+screws; together they count as one body.
 
-Where nothing stands on top of the trunk, a mast carries the plates behind it, one above the other:
-a square tube upright on its back, with an arm of the same tube under each plate. Four screws
-through the tube hold it, each in a sleeve that keeps the walls apart. A block before the upright
-keeps it off what stands out; where the trunk is nowhere flat, its front has the trunk's own form.
-What all this bears is in `plate_strength`.
+If nothing can stand on top of the trunk, a mast behind it carries the plates one above the other: a
+square tube upright on the trunk's back, with an arm of the same tube under each plate. Four screws
+through the tube hold it, each in a sleeve that keeps the walls apart. A block in front of the
+upright keeps it clear of protrusions; if the trunk is nowhere flat, the block's front is shaped to
+the trunk. The strength of all this is computed in `plate_strength`.
 """
 
 from collections.abc import Iterator
@@ -42,7 +42,7 @@ SHEAR_MODULUS = 26e9
 """Shear modulus of 6061 [Pa]: Hibbeler, Mechanics of Materials, Appendix C."""
 
 STOCK = (3.0e-3, 4.0e-3, 5.0e-3, 6.0e-3, 8.0e-3, 10.0e-3, 12.0e-3, 15.0e-3, 20.0e-3)
-"""Thicknesses of rolled plate, EN 485-4 sizes that are kept in stock [m]."""
+"""Thicknesses of rolled plate commonly in stock, EN 485-4 [m]."""
 
 SAFETY = 2.0
 """Least ratio of yield strength to bending stress."""
@@ -51,22 +51,22 @@ SLEEVE_WALL = 2.0e-3
 """Wall of a sleeve around its screw [m]: 7.4 mm outside for M3, wider than the screw's head."""
 
 SLEEVE_MAX = 0.03
-"""Longest sleeve under a plate, four times as long as wide for M3 [m]; longer are posts alone."""
+"""Longest sleeve under a plate, four times as long as wide for M3 [m]; only posts are longer."""
 
 POST_DEPTH = 1.9
-"""Depth of the threads of posts over their diameter, at least: aluminium then bears all of M8's
-preload with half of what strips it."""
+"""Least thread depth of posts over their diameter: in aluminium an M8's full preload is then half
+of what strips the thread."""
 
 EDGE = 1.5
-"""Least distance of a hole's middle from an edge, over its diameter: EN 1993-1-8, table 3.3, asks
-for 1.2."""
+"""Least distance of a hole's middle from an edge, over its diameter: EN 1993-1-8, table 3.3,
+requires 1.2."""
 
 SLOT_EDGE = max(AROUND_SLOT, EDGE * TRUNK_SCREW.diameter)
 """Least width of a plate on either side of the circle of a foot's slots [m]."""
 
 MAST_YIELD = 115e6 / 1.25
-"""Of 6061-T6 beside a weld, over the partial factor of joints [Pa]: f_o,haz of EN 1999-1-1, table
-3.2b, and table 8.1."""
+"""Yield strength of 6061-T6 beside a weld, over the partial factor of joints [Pa]: f_o,haz of EN
+1999-1-1, table 3.2b, and table 8.1."""
 
 TUBES = (
     (0.025, 2.0e-3),
@@ -79,13 +79,13 @@ TUBES = (
     (0.08, 4.0e-3),
     (0.1, 5.0e-3),
 )
-"""Sides and walls of square tube that is kept in stock [m]; tolerances: EN 755-8."""
+"""Sides and walls of square tube commonly in stock [m]; tolerances: EN 755-8."""
 
 TOUCH = 0.5e-3
-"""Farthest that a formed block is off the trunk anywhere [m]: filled epoxy beds it there."""
+"""Largest gap between a formed block and the trunk [m], to be filled with loaded epoxy."""
 
 _AROUND = 24
-"""Places around a screw at which the thickness of a formed block is looked at."""
+"""Number of points around a screw at which the thickness of a formed block is evaluated."""
 
 Point: TypeAlias = tuple[float, float]
 
@@ -94,17 +94,17 @@ Hole = TypeVar("Hole", Point, float)
 
 @dataclass(frozen=True)
 class Mast:
-    """Square tube upright on the trunk's back, with an arm of it backwards under each plate.
+    """Upright square tube on the trunk's back, with an arm of it backwards under each plate.
 
     Attributes:
         side: of the tube, outside [m]. wall: of the tube [m].
         face: x of the upright's side on the trunk, in the plate's frame [m].
-        below, high: how far its ends are below and above the origin, likewise [m].
-        overhang: farthest that an arm is above or below the trunk's screws [m].
+        below, high: distance of its lower and upper end below and above the plate's origin [m].
+        overhang: largest distance of an arm above or below the trunk's screws [m].
         spacer: thickness of the block between the upright and the trunk, around the screws [m].
-        formed: thickness of a block that has the trunk's form, at the corners of even cells all
-            over its front, the rows to the left and upwards [m]; `spacer` is then about the least.
-            Empty: it is flat.
+        formed: thickness of a block shaped to the trunk, at the corners of a regular grid over its
+            front, first index to the left, second upwards [m]; `spacer` is then about the least.
+            Empty: the block is flat.
     """
 
     side: float
@@ -118,7 +118,7 @@ class Mast:
 
     @property
     def off(self) -> float:
-        """How far the upright is from the trunk where the block is thickest [m]."""
+        """Distance of the upright from the trunk where the block is thickest [m]."""
         return max(map(max, self.formed), default=self.spacer)
 
     @property
@@ -142,7 +142,7 @@ class Mast:
         return (self.side**4 - self.bore**4) / 12.0
 
     def stress(self, bending: float, twisting: float) -> float:
-        """Stress of the tube under two moments [N m], of von Mises [Pa].
+        """Von Mises stress of the tube under a bending and a twisting moment [N m] [Pa].
 
         M a / (2 I), and Bredt's T / (2 t (a - t)^2): Roark's Formulas for Stress and Strain, 7th
         edition, table A.1 and section 10.3.
@@ -160,19 +160,20 @@ class CarrierPlate:
         position: of the middle of its underside, or of all their undersides, in B [m].
         radius, half_length, neck: of its outline; see `DogBone` [m].
         thickness: [m].
-        across: of the middle of each foot from its own, the first one's along y [m].
+        across: distance of the middle of each foot from the plate's, the first one's along y [m].
         window: radius of the hole under each foot, 0: none [m].
-        feet: of the holes with threads for the feet's screws, x and y from its middle, as many for
-            each plate, one plate after the other [m].
-        trunk: of the holes for the trunk's screws, likewise; those of a mast, y and z [m].
-        sleeves: length of the sleeve under each of those, 0: none [m].
-        thread, foot_thread: of both kinds of screws.
+        feet: positions of the threaded holes for the feet's screws, x and y from its middle, the
+            same number for each plate, one plate after the other [m].
+        trunk: positions of the holes for the trunk's screws, in the same order; for a mast, y and
+            z [m].
+        sleeves: length of the sleeve under each hole in `trunk`, 0: none [m].
+        thread, foot_thread: of the trunk's screws and of the feet's screws.
         material: name. density: [kg/m^3].
-        rows: forward coordinate of the middle of each plate from the common one [m].
-        levels: height of the underside of each, likewise; empty: 0 [m].
-        mast: that carries them; None: the trunk does.
-        arms: of each plate, as many as feet on it.
-        sleeve_wall: of its sleeves around their screws [m].
+        rows: forward coordinate of the middle of each plate, from the common middle [m].
+        levels: height of the underside of each plate above the common one; empty: 0 [m].
+        mast: carries the plates; None: the trunk does.
+        arms: number of arms of each plate, one for each foot on it.
+        sleeve_wall: wall of the sleeves around their screws [m].
     """
 
     position: tuple[float, float, float]
@@ -213,7 +214,7 @@ class CarrierPlate:
 
     @property
     def each(self) -> tuple["CarrierPlate", ...]:
-        """Every plate on its own, with the screws that are its own."""
+        """Every plate on its own, with its own screws."""
         x, y, z = self.position
         trunk = () if self.mast else self.trunk
         sleeves = () if self.mast else self.sleeves
@@ -237,7 +238,7 @@ class CarrierPlate:
 
     @property
     def screw_places(self) -> tuple[Placement, ...]:
-        """Frames of the trunk's screws in its own, z away from the trunk, above their sleeves."""
+        """Frames of the trunk's screws in the plate's, z away from the trunk, above the sleeves."""
         if self.mast is None:
             return tuple(Placement(np.eye(3), np.array([x, y, 0.0])) for x, y in self.trunk)
         front = self.mast.face + self.mast.spacer
@@ -245,7 +246,7 @@ class CarrierPlate:
 
     @property
     def clamped(self) -> float:
-        """What the trunk's screws go through behind their sleeves [m]."""
+        """Thickness clamped by the trunk's screws, without their sleeves [m]."""
         return self.thickness if self.mast is None else self.mast.side + self.mast.spacer
 
     @property
@@ -256,9 +257,9 @@ class CarrierPlate:
 
     @property
     def relief(self) -> Relief | None:
-        """The mast's block that has the trunk's form, drilled, in its own frame; None: it has none.
+        """The mast's block shaped to the trunk, drilled, in the plate's frame; None: none.
 
-        Its z axis points forward, from the upright.
+        The block's z axis points forward, away from the upright.
         """
         mast = self.mast
         if mast is None or not mast.formed:
@@ -271,7 +272,7 @@ class CarrierPlate:
 
     @property
     def gaps(self) -> tuple[float, ...]:
-        """How far the trunk is from block or plate at each of its screws, all around it [m]."""
+        """Largest distance of the trunk from plate or spacer around each of its screws [m]."""
         mast, relief = self.mast, self.relief
         if mast is None or relief is None:
             return self.sleeves
@@ -283,7 +284,7 @@ class CarrierPlate:
     def slopes(self) -> FloatArray:
         """Slope of the block's front under each of the trunk's screws, left and up, shape (n, 2).
 
-        That of a plane through what is under the screw's head; 0 without a block that is formed.
+        The slope of a plane fitted to the area under the screw's head; 0 without a formed block.
         """
         relief = self.relief
         if relief is None:
@@ -293,13 +294,13 @@ class CarrierPlate:
         return np.asarray(2.0 / radius * np.array(thick) @ around / _AROUND)
 
     def own(self, holes: tuple[Hole, ...], index: int) -> tuple[Hole, ...]:
-        """Holes of the plate with this index."""
+        """Share of the holes that belongs to the plate with this index."""
         count = len(holes) // len(self.rows)
         return holes[index * count : (index + 1) * count]
 
     @property
     def screw(self) -> Screw:
-        """Screw that holds it on the trunk."""
+        """Screw that holds the plate on the trunk."""
         return screw(self.thread)
 
     @property
@@ -328,17 +329,17 @@ class CarrierPlate:
 
     @property
     def thread_depth(self) -> float:
-        """Depth of the trunk's threads over their diameter, at least."""
+        """Least depth of the trunk's threads over their diameter."""
         return POST_DEPTH if self.on_posts else 1.0
 
     @property
     def on_posts(self) -> bool:
-        """Whether its sleeves are posts: with that wall they are clamped, however short."""
+        """Whether its sleeves are posts, by their wall: these are clamped, however short."""
         return self.sleeve_wall > SLEEVE_WALL
 
     @property
     def fastenings(self) -> tuple[Fastening, ...]:
-        """The trunk's screws, those of one length together; each through its longest sleeve."""
+        """The trunk's screws, grouped by length; each group has its longest sleeve."""
         longest = dict(sorted(zip(self.screw_lengths, self.gaps, strict=True)))
         return tuple(
             Fastening(
@@ -354,7 +355,7 @@ class CarrierPlate:
         )
 
     def net_width(self, across: FloatArray) -> FloatArray:
-        """Width of one plate's sections at some y less screw holes and its windows [m]."""
+        """Width of one plate's sections at some y, minus screw holes and windows [m]."""
         whole = 2.0 * self.shape.half_width(across)
         for middle in (self.across, -self.across):
             whole -= 2.0 * _chord(self.window, across - middle)
@@ -364,12 +365,12 @@ class CarrierPlate:
 
     @property
     def support(self) -> float:
-        """How far from the middle it is held last along y [m]: by screws, or by its arm."""
+        """Distance along y from the middle to the outermost support, screws or mast's arm [m]."""
         return self.mast.side / 2.0 if self.mast else max(y for _, y in self.trunk)
 
     @property
     def half_pattern(self) -> tuple[float, float]:
-        """Half the distances of four screws, forward and sideways [m]."""
+        """Half the spacing of four screws, forward and sideways; sideways and up on a mast [m]."""
         along, across = np.ptp(np.array(self.trunk), axis=0) / 2.0
         return float(along), float(across)
 
@@ -398,17 +399,17 @@ class CarrierPlate:
 
 
 def steepest(plate: CarrierPlate) -> float:
-    """Largest angle of the trunk under a screw's head off square to it [rad], by its block."""
+    """Largest angle between a screw's axis and the trunk's normal under it, by the block [rad]."""
     return float(np.arctan(np.linalg.norm(plate.slopes, axis=1).max(initial=0.0)))
 
 
 def _chord(radius: float, off: FloatArray) -> FloatArray:
-    """Half the chord of a circle so far off its middle [m]."""
+    """Half the chord of a circle at a distance `off` from its middle [m]."""
     return np.asarray(np.sqrt(np.maximum(0.0, radius**2 - off**2)))
 
 
 def plate_bodies(plate: CarrierPlate) -> Iterator[tuple[Part[float], Placement]]:
-    """Plates, mast, formed block and sleeves, each with its place in the plate's own frame."""
+    """Plates, mast, formed block and sleeves, each with its placement in the plate's frame."""
     here = Placement.identity()
     yield plate_part(plate), here
     if plate.mast is not None:
@@ -425,7 +426,7 @@ def plate_bodies(plate: CarrierPlate) -> Iterator[tuple[Part[float], Placement]]
 
 
 def plate_part(plate: CarrierPlate) -> Part[float]:
-    """The plate, or all plates in their places, with its holes, in its own frame."""
+    """The plate, or all plates in position, with their holes, in the plate's frame."""
     kinds = (
         (plate.feet, screw(plate.foot_thread).tapping_drill),
         (() if plate.mast else plate.trunk, plate.screw.clearance_hole),
@@ -451,7 +452,7 @@ def mast_part(plate: CarrierPlate, mast: Mast) -> Part[float]:
     """The mast's tubes, welded, with the holes for its screws, in the plate's frame."""
     half, bore = mast.side / 2.0, mast.side / 2.0 - mast.wall
     tube, inside = (Rectangle(-each, each, -each, each) for each in (half, bore))
-    # Faces that meet are one to the last bit, or meshes come apart there and holes stay closed.
+    # Faces that touch must coincide to the last bit: otherwise meshes separate and holes stay shut.
     face, far = mast.face, mast.side - mast.wall
     upright = Rectangle(mast.back, face, -half, half)
     within = Rectangle(face - far, face - mast.wall, -bore, bore)
@@ -477,12 +478,12 @@ def mast_part(plate: CarrierPlate, mast: Mast) -> Part[float]:
 
 
 def block_part(plate: CarrierPlate, relief: Relief) -> Part[float]:
-    """The block that has the trunk's form, in the plate's frame."""
+    """The block shaped to the trunk, in the plate's frame."""
     return Part("block", plate.density, (relief,))
 
 
 def sleeve_part(plate: CarrierPlate, length: float) -> Part[float]:
-    """A sleeve of that length, its upper end at the origin."""
+    """A sleeve of this length [m], with its upper end at the origin."""
     bore = plate.screw.clearance_hole / 2.0
     return Part(
         "sleeve", plate.density, (hollow_cylinder(bore, plate.sleeve_radius, -length, 0.0),)

@@ -13,29 +13,29 @@ from ocs_design.parts.outline import Outline
 from ocs_design.parts.shapes import flat
 
 FILLET = 10.0e-3
-"""Radius between neck and ends [m], or what there is room for: a cutter's, and no sharp notch."""
+"""Largest fillet radius between neck and discs [m]: fits a milling cutter, and avoids a notch."""
 
 
 def directions(arms: int) -> FloatArray:
-    """Unit vectors along so many arms, evenly around, the first one to the left, shape (n, 2)."""
+    """Unit vectors along evenly spaced arms, the first one to the left, shape (n, 2)."""
     angles = 2.0 * pi * np.arange(arms) / arms
-    # No sine of half a turn leaves rounding errors in the files.
+    # Rounded, so that the sine of half a turn leaves no rounding errors in files.
     return np.round(np.stack([-np.sin(angles), np.cos(angles)], axis=1), 15) + 0.0
 
 
 @dataclass(frozen=True)
 class DogBone:
-    """Discs evenly around a middle, with a neck from there to each, rounded where they meet.
+    """Discs evenly around a middle, with a neck from there to each, filleted where they meet.
 
-    Two have one neck between them, along y. With a neck as wide as the discs it is a rectangle with
-    half a disc at either end.
+    Two discs have one neck between them, along y. With a neck as wide as the discs the shape is a
+    rectangle with half a disc at each end.
 
     Attributes:
         radius: of the discs [m].
-        half_length: from the middle to any end, that of the first disc along y [m].
+        half_length: from the middle to any end; the first disc is along y [m].
         neck: half of a neck's width, at most the radius [m].
         x: of its middle [m].
-        arms: how many discs there are, two or more.
+        arms: number of discs, two or more.
     """
 
     radius: float
@@ -46,22 +46,22 @@ class DogBone:
 
     @property
     def across(self) -> float:
-        """Distance of any disc's middle from its own [m]."""
+        """Distance of any disc's middle from that of the shape [m]."""
         return self.half_length - self.radius
 
     @property
     def hub(self) -> float:
-        """How far along an arm its sides are those of the next ones [m]; 0: of two, in line."""
+        """Distance along an arm at which its sides meet those of the next arms [m]; 0 for two."""
         return 0.0 if self.arms == 2 else self.neck / tan(pi / self.arms)
 
     @property
     def fits(self) -> bool:
-        """Whether discs are clear of each other, and a neck is seen between them."""
+        """Whether the discs are clear of each other and of the hub."""
         return min(self.across * sin(pi / self.arms), self.across - self.hub) >= self.radius
 
     @property
     def fillet(self) -> float:
-        """Radius of the rounding, so that two of them have room on either side [m]."""
+        """Radius of the fillet, limited by the length of the neck [m]."""
         beyond = self.radius - self.neck
         if beyond <= 0.0:
             return FILLET
@@ -76,7 +76,7 @@ class DogBone:
 
     @property
     def meets(self) -> tuple[float, float]:
-        """Point where a rounding meets its disc, x and y [m]."""
+        """Point where a fillet meets its disc, x and y [m]."""
         share = self.radius / (self.radius + self.fillet)
         out = self.neck + self.fillet
         return share * out, self.across - share * (self.across - self.straight)
@@ -88,10 +88,10 @@ class DogBone:
 
     @property
     def moments(self) -> MassMoments[float]:
-        """Moments about the origin, of unit density: about its middle those of half an arm's.
+        """Moments about the origin, of unit density, from those of half an arm.
 
         int x dy, int x^3 / 3 dy and int x y^2 dy along the hub, x = w y / h, along the neck, x = w,
-        along the rounding, x = w + f - q(s) with s = y - y_0, and along the disc, x = q(s) with s =
+        along the fillet, x = w + f - q(s) with s = y - y_0, and along the disc, x = q(s) with s =
         y - c; see `_Circle`.
         """
         w, f, r, c, low = self.neck, self.fillet, self.radius, self.across, self.straight
@@ -99,7 +99,7 @@ class DogBone:
         h = self.hub
         area, cubes, second = w * (low - h / 2.0), w**3 * (low - 0.75 * h), w * low**3 / 3.0
         second -= w * h**3 / 12.0
-        # The rounding: of its tangent's distance less a circle.
+        # The fillet: distance of its tangent, minus a circle.
         a, end, gone = w + f, top - low, _Circle(f, 0.0, top - low)
         area += a * end - gone.one
         cubes += a**3 * end - 3.0 * a**2 * gone.one - gone.cube
@@ -111,9 +111,9 @@ class DogBone:
         return around.moved(self.x, 0.0, 0.0)
 
     def outline(self) -> Outline:
-        """The necks' sides, and the discs between their roundings."""
+        """The necks' sides, and the discs between their fillets."""
         (x, y), low, middle = self.meets, self.straight, np.array([self.x, 0.0])
-        # The right side of the first arm, seen from the middle, and its disc up to the left side.
+        # The right side of the first arm, seen from the middle, then its disc to the left side.
         right, bulges = [[self.neck, low]], [1.0]
         if self.neck < self.radius:
             angle = acos((self.neck + self.fillet) / (self.radius + self.fillet))
@@ -121,7 +121,7 @@ class DogBone:
             right, bulges = [[self.neck, low], [x, y]], [inward, around, inward]
         arm, bulges = [*right, *([-off, along] for off, along in reversed(right))], [*bulges, 0.0]
         if self.arms > 2:
-            # The corner that it shares with the next arm.
+            # The corner shared with the next arm.
             arm, bulges = [*arm, [-self.neck, self.hub]], [*bulges, 0.0]
         corners = [
             np.array(arm) @ np.array([[along, -off], [off, along]])
@@ -130,7 +130,7 @@ class DogBone:
         return Outline(np.concatenate(corners) + middle, np.array(bulges * self.arms))
 
     def holds(self, points: FloatArray) -> NDArray[np.bool_]:
-        """Whether points are within it, shape (n,); those are x and y [m], shape (n, 2)."""
+        """Whether points, x and y of shape (n, 2) [m], are within it, shape (n,)."""
         found = np.zeros(len(points), dtype=bool)
         for off, along in directions(self.arms):
             out, aside = np.array([[off, along], [along, -off]]) @ (points - [self.x, 0.0]).T
@@ -138,7 +138,7 @@ class DogBone:
         return found
 
     def half_width(self, across: FloatArray) -> FloatArray:
-        """Half its width at some distances from its middle along y, 0 beyond its ends [m]."""
+        """Half its width at distances along y from its middle, 0 beyond its ends [m]."""
         off, f = np.abs(across), self.fillet
         _, top = self.meets
         within = np.clip(off - self.straight, 0.0, f)
@@ -152,7 +152,7 @@ class _Circle:
     """Integrals along a piece of a circle, q(s) = sqrt(r^2 - s^2), in closed form.
 
     Attributes:
-        radius: r [m]. low, high: between which s goes [m].
+        radius: r [m]. low, high: limits of s [m].
     """
 
     radius: float
@@ -166,14 +166,14 @@ class _Circle:
 
     @property
     def cube(self) -> float:
-        """Integral of q^3: s q^3 / 4 + 3/4 r^2 times that of q [m^4]."""
+        """Integral of q^3: s q^3 / 4 plus 3/4 r^2 times that of q [m^4]."""
         own = self._between(lambda s, q: s * q**3 / 4.0)
         return own + 0.75 * self.radius**2 * self.one
 
     def about(self, offset: float) -> float:
         """Integral of (s + offset)^2 q [m^4].
 
-        That of s q is -q^3 / 3, that of s^2 q is -s q^3 / 4 and r^2 / 4 times that of q.
+        The integral of s q is -q^3 / 3; that of s^2 q is -s q^3 / 4 plus r^2 / 4 times that of q.
         """
         first = self._between(lambda _, q: -(q**3) / 3.0)
         own = self._between(lambda s, q: -s * q**3 / 4.0) + self.radius**2 / 4.0 * self.one

@@ -1,12 +1,12 @@
 """The foot: a turntable with a plate, which holds motor and housing at the incidence angle.
 
 A disc on the trunk, held by two screws through arc slots, with marks along its edge: a line on the
-trunk from one foot to the other stands at the mark of the angle. On it a plate behind the housing's
-floor: a stem with a disc around the mount's holes. Its own frame is the one that it is printed in:
-origin in the middle of its underside, z up, the wheel's axis along y.
+trunk from one foot to the other points to the mark of the angle. On the disc stands a plate behind
+the housing's floor: a stem with a disc around the mount's holes. The foot's frame is the one in
+which it is printed: origin in the middle of its underside, z up, the wheel's axis along y.
 
-Sizes, the rim's outer radius R and height h and the reach of the mount's holes [m], are numbers,
-arrays that broadcast, or CasADi's symbols.
+Sizes, which are the rim's outer radius R, its height h and the reach of the mount's holes [m], are
+numbers, arrays that broadcast, or CasADi symbols.
 """
 
 from dataclasses import dataclass, replace
@@ -50,30 +50,31 @@ PLATE_SHARE = 0.5
 """Least radius of the plate's disc over the housing's radius."""
 
 STEM_SHARE = 0.45
-"""Least half width of its stem, likewise."""
+"""Least half width of its stem over the housing's radius."""
 
 STEEPEST = sqrt(0.5)
 """Least half width of the stem over the disc's radius: printed upright, the disc grows out of it at
 45 degrees at most, which needs no support."""
 
 HALF_SWING = pi / 4.0
-"""Angle of each slot to both sides of the wheel's axis [rad]: incidence 0..90 degrees.
+"""Angle of each slot to both sides of the wheel's axis [rad], for an incidence of 0..90 degrees.
 
-So the trunk's screws stand at 45 degrees to the lateral direction.
+This puts the trunk's screws at 45 degrees to the lateral direction.
 """
 
 KNEE = 1.0e-3
-"""Width of the transition between both radii of the base, so that it has a slope everywhere [m].
+"""Width of the transition between the two lower bounds of the base's radius, to make it smooth [m].
 
-One is what its slots ask for, the other what its stem does.
+One bound comes from its slots, the other from its stem.
 """
 
 LONG_MARKS = 12
-"""All around, every 30 degrees, with two short ones after each: left and right feet are the same
-part, turned by 180 degrees."""
+"""Number of long marks, all around every 30 degrees, each followed by two short ones: left and
+right feet are the same part, turned by 180 degrees."""
 
 MARK_WIDTH, MARK_DEPTH, MARK_LENGTH, LONG_MARK_LENGTH = 0.8e-3, 0.4e-3, 2.5e-3, 4.0e-3
-"""[m]: two lines of a 0.4 mm nozzle wide, two layers of 0.2 mm deep."""
+"""Sizes of the marks [m]: as wide as two lines of a 0.4 mm nozzle, as deep as two layers of
+0.2 mm."""
 
 STANDING = Placement(UPRIGHT, np.zeros(3))
 """The wheel's axes in the foot's frame: x forward in both, z along the wheel's axis, y down."""
@@ -86,10 +87,10 @@ def larger(one: Real, other: Real | float) -> Real:
 
 @dataclass(frozen=True)
 class Foot(Generic[Real]):
-    """What carries a housing on the trunk.
+    """Bracket that carries a housing on the trunk.
 
     Attributes:
-        housing: that it carries, with the holes that its plate shares.
+        housing: carried by it, with the holes that its plate shares.
         thickness: of its plate, stem and disc [m].
     """
 
@@ -103,7 +104,7 @@ class Foot(Generic[Real]):
 
     @property
     def screws(self) -> Fastening:
-        """Screws that hold it on the trunk; its thickness is a number."""
+        """Screws that hold it on the trunk; its thickness must be a number."""
         return trunk_screws(float(self.thickness))
 
     @property
@@ -130,7 +131,7 @@ class Foot(Generic[Real]):
 
     @property
     def slot_radius(self) -> Real:
-        """Radius of the slots, at whose ends heads clear the plate [m]."""
+        """Radius of the slots, such that screw heads at their ends clear the plate [m]."""
         return sqrt(2.0) * (self.back + TRUNK_SCREW.head_diameter / 2.0 + WALL)
 
     @property
@@ -141,10 +142,10 @@ class Foot(Generic[Real]):
 
     @property
     def base_radius(self) -> Real:
-        """Radius around the marks outside the slots, the heads in them and the plate [m]."""
+        """Radius that encloses slots, screw heads and plate, with the marks outside of them [m]."""
         around, corner = self.slot_radius + AROUND_SLOT, self.corner
         apart: Real = ((around - corner) ** 2 + KNEE**2) ** 0.5
-        # The larger of both, or up to half of `KNEE` more where they are alike, without a kink.
+        # A smooth maximum, larger by up to half of `KNEE` where both are equal.
         return (around + corner + apart) / 2.0 + (LONG_MARK_LENGTH + WALL)
 
     @property
@@ -154,7 +155,7 @@ class Foot(Generic[Real]):
 
     @property
     def placement(self) -> Placement:
-        """Its frame in the wheel's: x forward in both, y along the spin axis, z up is -y."""
+        """Its frame in the wheel's: x is forward in both, y along the spin axis, z (up) is -y."""
         return Placement(UPRIGHT.T, np.array([0.0, self.wheel_height, 0.0]))
 
     @property
@@ -164,7 +165,7 @@ class Foot(Generic[Real]):
 
     @property
     def slot(self) -> ArcSlot[Real]:
-        """The slot away from the other module; the other one is opposite."""
+        """The slot facing away from the other module; the other slot is opposite."""
         ends = pi / 2.0 - HALF_SWING, pi / 2.0 + HALF_SWING
         return ArcSlot(self.slot_radius, TRUNK_SCREW.clearance_hole, *ends)
 
@@ -175,8 +176,8 @@ def foot_shock(foot: Foot[float], mass: float, edge: float | None = None) -> flo
     `mass` and `edge`: see `screw_pull`.
     """
     stem = float(foot.thickness) / _stem_at_shock(foot, mass)
-    # The base as a cantilever as wide as the stem, which the screw on the far side pulls at: the
-    # same case, but bent along its layers.
+    # The base as a cantilever as wide as the stem, pulled by the screw on the far side: the same
+    # case, but bent along its layers.
     arm, width = foot.slot_radius + foot.housing.half_height, 2.0 * foot.stem
     base = float(foot.base) / sqrt(
         6.0 * screw_pull(foot, mass, edge) * arm / (width * PETG.strength)
@@ -185,14 +186,14 @@ def foot_shock(foot: Foot[float], mass: float, edge: float | None = None) -> flo
 
 
 def plate_thickness(foot: Foot[float], mass: float, floor: float = 0.0) -> float:
-    """Thickness of a plate with which a foot and a cage bear `SHOCK`, to the next 0.1 mm [m].
+    """Plate thickness with which a foot and a cage bear `SHOCK`, rounded up to 0.1 mm [m].
 
-    Stem, base and the cage's floor are as thick as it or a share of it. It is never less than
-    `PLATE_THICKNESS`, and never more than half the stem's width, a solid block. The foot tilts as
-    on a carrier plate, which may end within its base.
+    Stem, base and the cage's floor are as thick as the plate or a share of it. It is at least
+    `PLATE_THICKNESS`, and at most half the stem's width, a solid block. The foot tilts as on a
+    carrier plate, which may end within its base.
 
     Args:
-        foot: whose plate's own thickness is not looked at. mass: of the module above it [kg].
+        foot: with any plate thickness, which is ignored. mass: of the module above it [kg].
         floor: least thickness of the cage's floor (`floor_at_shock`) [m]; 0: there is no cage.
     """
     asked = max(PLATE_THICKNESS, _stem_at_shock(foot, mass))
@@ -225,7 +226,7 @@ def screw_pull(foot: Foot[float], mass: float, edge: float | None = None) -> flo
 
     Args:
         foot: of PETG. mass: of the module above it [kg].
-        edge: radius of what it stands on, whose edge it tilts about [m]; None: all of its base.
+        edge: radius of its support, about whose edge it tilts [m]; None: its whole base.
     """
     edge = foot.base_radius if edge is None else edge
     return mass * SHOCK * foot.wheel_height / screw_lever(edge, foot.slot_radius)
@@ -233,15 +234,15 @@ def screw_pull(foot: Foot[float], mass: float, edge: float | None = None) -> flo
 
 @dataclass(frozen=True)
 class FootHold:
-    """How the two screws of a foot hold it: heads on slots, and their friction.
+    """Hold of a foot by its two screws: heads on slots, and their friction.
 
     Attributes:
-        pull: largest of one screw under `SHOCK` along the wheel's axis [N].
-        washers: whether washers go under the heads: without, what the print lets them be
-            tightened to is less than that pull.
-        area: that a head, or its washer, presses on beside its slot [m^2].
+        pull: largest on one screw under `SHOCK` along the wheel's axis [N].
+        washers: whether washers go under the heads: without them the preload that the print allows
+            would be less than that pull.
+        area: pressed by a head, or its washer, beside its slot [m^2].
         prints_bear: acceleration at which stem or base break [m/s^2].
-        slot_radius: of the circle that the screws stand on [m].
+        slot_radius: of the circle of the screws [m].
     """
 
     pull: float
@@ -257,18 +258,18 @@ class FootHold:
 
     @property
     def preload(self) -> float:
-        """Force that a screw is tightened to, by the print under it [N]."""
+        """Preload of a screw, limited by the print under it [N]."""
         return PRESSURE_SHARE * PETG.strength * self.area
 
     @property
     def turning(self) -> float:
-        """Moment about the vertical that their friction bears at the least preload [N m]."""
+        """Moment about the vertical that friction resists at the least preload [N m]."""
         least = self.preload / TIGHTENING_FACTOR
         return FRICTION * TRUNK_SCREW_COUNT * least * self.slot_radius
 
     @classmethod
     def of(cls, foot: Foot[float], mass: float, edge: float) -> "FootHold":
-        """What holds a foot under a module of a mass [kg]; `edge`: see `screw_pull` [m]."""
+        """Hold of a foot under a module of this mass [kg]; `edge`: see `screw_pull` [m]."""
         pull = screw_pull(foot, mass, edge)
         bare = TRUNK_SCREW.slot_area(TRUNK_SCREW.head_diameter)
         washers = pull > PRESSURE_SHARE * PETG.strength * bare
@@ -284,18 +285,18 @@ def stem_frequency(
     *,
     in_plane: bool = False,
 ) -> float:
-    """First bending mode of the stem along the wheel's axis, its base held [Hz].
+    """First bending mode of the stem along the wheel's axis, with its base fixed [Hz].
 
     Rayleigh's quotient with the shape of a cantilever under a force at its end, v = y^2 (3 L - y) /
     2 L^3: 3 E I / L^3 over m + 33/140 m_stem + J (3 / 2 L)^2.
 
     Args:
-        foot: that it is the stem of.
-        mass: at the wheel's middle [kg]. inertia: of it about the axis that it turns about there,
-            the forward one [kg m^2].
-        modulus: of what the foot is made of, PETG [Pa]; it is as heavy as of PETG.
-        in_plane: across the wheel's axis instead, forward, where the stem is as thick as it is
-            wide; the inertia is that about the wheel's axis.
+        foot: of the stem.
+        mass: at the wheel's middle [kg]. inertia: about the axis that the mass rotates about in
+            this mode, the forward one [kg m^2].
+        modulus: of the foot's material [Pa]; its density is always that of PETG.
+        in_plane: bending forward, across the wheel's axis, instead: width and thickness of the stem
+            swap roles, and `inertia` is that about the wheel's axis.
     """
     arm, width = foot.wheel_height - foot.base, 2.0 * foot.stem
     thickness = float(foot.thickness)
@@ -327,7 +328,7 @@ def undrilled(foot: Foot[Real]) -> Part[Real]:
 
 
 def foot_mass_per_height(foot: Foot[Real]) -> Real:
-    """Change of the base's mass with the rim's height, R held [kg/m]."""
+    """Change of the base's mass with the rim's height at constant R [kg/m]."""
     corner = foot.corner
     beyond = foot.slot_radius + AROUND_SLOT - corner
     by_slot = (1.0 + beyond / (beyond**2 + KNEE**2) ** 0.5) / 2.0
