@@ -1,4 +1,4 @@
-"""A chart as a value: lines, areas, points and rules on two axes, and where ticks stand."""
+"""Charts as plain data: lines, areas, points and rules on two axes, and the ticks."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -15,21 +15,21 @@ _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 """Distances between ticks, times a power of ten."""
 
 _ANGLES = (15.0, 30.0, 45.0, 90.0, 180.0, 360.0)
-"""Distances between ticks of degrees, from the first one on."""
+"""Distances between ticks of degrees, used if the smallest is not too coarse."""
 
 _MOST_DECADES = 6
 
 _BEYOND_MEASURE = 1e100
-"""Largest value that stretches an axis: a run that breaks down may end with NaN or more."""
+"""Largest value that an axis must include: a diverged run may end with NaN or huge values."""
 
 _FLAT = 1e-6
-"""Spread of values, relative to the largest, below which they are equal: rounding is not drawn."""
+"""Spread relative to the largest value below which values count as equal: it is rounding."""
 
 _FAR = 1e3
-"""Lengths of an axis beyond its ends, where lines leave the chart for good."""
+"""Distance beyond the ends at which values are clipped, in lengths of the axis."""
 
 MOST_POINTS = 320
-"""Points of a line: more than there are pixels."""
+"""Maximum number of points of a line, enough for the pixels of a chart."""
 
 
 @dataclass(frozen=True)
@@ -37,8 +37,8 @@ class Axis:
     """One direction of a chart.
 
     Attributes:
-        label: what is measured. unit: of its values, empty for plain numbers.
-        low, high: ends. log: equal ratios at equal distances.
+        label: name of the quantity. unit: its unit, empty for plain numbers.
+        low, high: ends. log: whether the scale is logarithmic.
     """
 
     label: str
@@ -51,7 +51,7 @@ class Axis:
     def around(
         cls, label: str, unit: str, values: Iterable[float], *, room: float = 0.06
     ) -> "Axis":
-        """Axis over all values that can be drawn, with room at both ends."""
+        """Axis that spans all values that can be drawn, with room at both ends."""
         found = np.array([value for value in values if abs(value) < _BEYOND_MEASURE])
         low, high = (float(found.min()), float(found.max())) if found.size else (0.0, 1.0)
         spread = high - low
@@ -60,11 +60,11 @@ class Axis:
 
     @property
     def title(self) -> str:
-        """Label and unit as under an axis."""
+        """Label with the unit in brackets."""
         return f"{self.label} [{self.unit}]" if self.unit else self.label
 
     def parts(self, values: FloatArray | float) -> FloatArray:
-        """Places along the axis, 0 at the low and 1 at the high end."""
+        """Positions along the axis, 0 at the low and 1 at the high end."""
         if self.log:
             low, high = log10(self.low), log10(self.high)
             positive = np.where(np.asarray(values) > 0.0, values, self.low * 1e-3)
@@ -95,7 +95,7 @@ class Axis:
 
 
 def tick_text(value: float) -> str:
-    """A tick's number: plain where that is short, else as a power of ten."""
+    """Text of a tick: a plain number if that is short, else with a power of ten."""
     if value == 0.0:
         return "0"
     size = abs(value)
@@ -109,10 +109,10 @@ def tick_text(value: float) -> str:
 
 
 class Ink(StrEnum):
-    """Colours by what they say; the style sheet has them for light and for dark.
+    """Colours by meaning; the style sheet defines them for light and dark themes.
 
-    The first six are those of M. Okabe and K. Ito ("Color universal design", 2008), told apart by
-    colour-blind eyes too; where two lines lie close, one of them is dashed as well.
+    The first six are those of M. Okabe and K. Ito ("Color universal design", 2008), which
+    colour-blind people can distinguish; where two lines lie close, one is also dashed.
     """
 
     BLUE = "blue"
@@ -126,7 +126,7 @@ class Ink(StrEnum):
 
 
 SERIES = (Ink.BLUE, Ink.VERMILION, Ink.GREEN, Ink.PURPLE, Ink.ORANGE, Ink.SKY)
-"""Colours of curves, in the order in which they are taken."""
+"""Colours of curves, in the order of use."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,7 +154,7 @@ class Area(_Drawn):
 
 @dataclass(frozen=True, eq=False)
 class Points(_Drawn):
-    """Discs; `hollow` ones are rings. `labels` stand beside them; empty: none."""
+    """Discs, or rings if `hollow`, with optional `labels` beside them."""
 
     hollow: bool = False
     labels: tuple[str, ...] = ()
@@ -164,7 +164,7 @@ class Points(_Drawn):
 class Rule:
     """A dashed line across the chart at one value of an axis.
 
-    A `label` stands at an upright one; `name` goes into the legend.
+    An upright rule may have a `label` beside it; `name` goes into the legend.
     """
 
     value: float
@@ -182,13 +182,13 @@ class Chart:
     """One pair of axes.
 
     Attributes:
-        name: of the file and of the element. title: above it.
-        description: what one sees in it, for those who cannot.
+        name: name of the file and of the element. title: title above the chart.
+        description: text alternative for readers who cannot see the chart.
         x, y: axes.
-        marks: drawn in this order.
+        marks: marks in drawing order.
         rows: names at y = 0, 1, ... in place of numbers; empty: numbers.
-        equal: one unit is as long on both axes.
-        height: of the drawing, whose width is always the same [px].
+        equal: whether both axes have the same scale.
+        height: height of the drawing, whose width is fixed [px].
     """
 
     name: str
@@ -203,11 +203,11 @@ class Chart:
 
 
 def thinned(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """A line with fewer points that has the same peaks: the least and the largest of each piece."""
+    """Line with fewer points and the same peaks: the minimum and maximum of each piece."""
     if len(x) <= MOST_POINTS:
         return x, y
     pieces, size = MOST_POINTS // 2, len(x) // (MOST_POINTS // 2)
-    # The first pieces are longer by one, as those of `array_split`.
+    # The first pieces are longer by one, as in `array_split`.
     longer = (size + 1) * (len(x) % pieces)
     ends = (*_ends(y[:longer], size + 1), *(longer + end for end in _ends(y[longer:], size)))
     kept = np.unique(np.concatenate([[0], *ends, [len(x) - 1]]))
@@ -215,7 +215,7 @@ def thinned(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _ends(y: FloatArray, size: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Indices of the least and of the largest value of each piece of that size."""
+    """Indices of the minimum and maximum of each piece of that size."""
     rows = y.reshape(-1, size)
     first = np.arange(len(rows)) * size
     return first + rows.argmin(axis=1), first + rows.argmax(axis=1)

@@ -1,4 +1,4 @@
-"""Every figure of a report: of the design, of its drive, of each maneuver."""
+"""All figures of a report: on the design, its drive and each maneuver."""
 
 from collections.abc import Iterator, Mapping
 
@@ -9,11 +9,11 @@ from ocs_design.report.charts.momentum import bound_charts, incidence_charts
 from ocs_design.report.story import Story
 
 FOLDER = "figures"
-"""Subfolder of an output folder."""
+"""Subfolder of an output folder for the figures."""
 
 
 def scenario_charts(story: Story) -> Mapping[str, tuple[Chart, ...]]:
-    """Time series of each maneuver, by its name."""
+    """Time series of each maneuver, by name."""
     scenarios = dict.fromkeys(flight.scenario for flight in story.flights)
     return {
         scenario: tuple(

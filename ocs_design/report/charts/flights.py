@@ -1,4 +1,4 @@
-"""Time series of flights, their paths in the plane of torque and speed, and histograms of many."""
+"""Charts of flights: time series, paths in the torque-speed plane, and Monte Carlo histograms."""
 
 from collections.abc import Callable, Collection, Iterator, Sequence
 
@@ -25,9 +25,9 @@ _AXES = (("pitch", "y", Ink.BLUE), ("roll", "x", Ink.VERMILION))
 
 
 def time_charts(scenario: str, flights: Sequence[RecordedFlight]) -> Iterator[Chart]:
-    """Attitude, rates, and speed and torque of the wheels over time, of flights of one maneuver.
+    """Time series of the flights of one maneuver: attitude, rates, wheel speeds and torques.
 
-    With the device comes first.
+    The flight with the device comes first.
     """
     tolerance = to_unit(LANDING_TOLERANCE, "deg")
     on_pivot = any(flight.on_pivot for flight in flights)
@@ -88,7 +88,7 @@ def time_charts(scenario: str, flights: Sequence[RecordedFlight]) -> Iterator[Ch
             _of_wheels(flight, flight.wheel_speed, "rpm", "wheel", thin=False),
             of=[flight],
         )
-        # Torques that the first motor can give; none where they are not limited.
+        # Torque range of the first motor; none if its torque is not limited.
         possible = []
         lowest, highest = (
             flight.columns.get(f"wheel_torque_{end}_{flight.wheels[0]}_nm")
@@ -145,7 +145,7 @@ def _of_wheels(
 
 
 def _events(flights: Sequence[RecordedFlight]) -> list[Rule]:
-    """Rules where the last flight leaves the ground, or is pushed, and the first comes down."""
+    """Rules at the last lift-off, or push, and at the first touchdown of the flights."""
     left = max((flight.lift_off or 0.0 for flight in flights), default=0.0)
     down = [each.touchdown for each in flights if each.flies and each.touchdown is not None]
     first = "lift-off" if any(flight.flies for flight in flights) else "push"
@@ -156,7 +156,7 @@ def _events(flights: Sequence[RecordedFlight]) -> list[Rule]:
 
 
 def _highest(motor: Drive, speed: FloatArray, share: float) -> FloatArray:
-    """Largest torque at the wheel forwards at a speed, on a share of voltage and current [N m]."""
+    """Largest forward torque at the wheel at a speed, with a share of voltage and current [N m]."""
     if motor.stall_torque is None:
         line = np.where(np.abs(speed) <= share * motor.no_load_speed, np.inf, 0.0)
     else:
@@ -166,11 +166,11 @@ def _highest(motor: Drive, speed: FloatArray, share: float) -> FloatArray:
 
 
 def drive_charts(motor: Drive, flights: Sequence[RecordedFlight]) -> Iterator[Chart]:
-    """Torque and speed in all four quadrants; none where nothing was flown with the device."""
+    """Torque and speed in all four quadrants; none if no flight has the device."""
     driven = [flight for flight in flights if flight.ocs]
     if not driven:
         return
-    # The path of each wheel up to where it is judged; what follows is no part of the maneuver.
+    # The path of each wheel up to the instant of the verdict; the rest is not part of the maneuver.
     paths = [
         Line(
             in_unit(flight.wheel_speed(wheel)[flight.driven], "rpm"),
@@ -189,7 +189,7 @@ def drive_charts(motor: Drive, flights: Sequence[RecordedFlight]) -> Iterator[Ch
     fastest = np.inf if motor.speed_max is None else in_unit(motor.speed_max, "rpm")
     top = min(widest, fastest)
     marks: list[Mark] = []
-    # Whole range of the drive, and the edge of what the design may use.
+    # Whole range of the drive, and the limit that the design may use.
     speed_rpm = np.linspace(-top, top, _SAMPLES)
     speed = speed_rpm * np.pi / 30.0
     limited = motor.stall_torque is not None or motor.torque_limit is not None
@@ -221,9 +221,9 @@ def drive_charts(motor: Drive, flights: Sequence[RecordedFlight]) -> Iterator[Ch
 
 
 def distribution_charts(record: MonteCarloRecord, pivots: Collection[str] = ()) -> Iterator[Chart]:
-    """Attitude where it is judged, peak speed and peak torque of each scenario.
+    """Histograms of the judged attitude, the peak speed and the peak torque of each scenario.
 
-    `pivots`: scenarios about a pivot, which have no touchdown.
+    `pivots` are the scenarios about a pivot, which have no touchdown.
     """
     for each in record.scenarios:
         judged = "when due" if each.scenario in pivots else "at touchdown"
@@ -237,7 +237,7 @@ def distribution_charts(record: MonteCarloRecord, pivots: Collection[str] = ()) 
                 continue
             quantiles, counts = in_unit(np.array(spread.quantiles), unit), spread.counts
             low, median, high = quantiles[[0, len(quantiles) // 2, -1]].tolist()
-            # All flights alike: one narrow bin.
+            # Identical flights still get a bin of some width.
             width = max(high - low, 1e-3 * max(abs(high), 1.0))
             x = np.repeat(np.linspace(low, low + width, len(counts) + 1), 2)
             y = np.concatenate([[0.0], np.repeat(counts, 2), [0.0]]).astype(float)

@@ -1,4 +1,4 @@
-"""Mass of the lightest device against one figure of the specification: charts, and a folder."""
+"""Mass of the lightest device against one key of the specification: charts and output folder."""
 
 import csv
 from collections.abc import Iterator, Mapping, Sequence
@@ -34,11 +34,11 @@ COLUMNS: Mapping[str, str] = {
     "spin_inertia": "spin_inertia_kg_m2",
     "overvoltage": "overvoltage",
 }
-"""Headings of the columns, by the fields of a device."""
+"""Column headings of the CSV file, by the fields of a device."""
 
 
 def front_chart(front: Front) -> Chart:
-    """A line, broken where there is no device, and points in the colours of their drives."""
+    """Chart of a front: a line, broken where there is no device, and points coloured by drive."""
     values = _values(front, front.points)
     masses = np.array([1e3 * p.device.mass if p.device else np.nan for p in front.points])
     y = Axis.around("mass of the device", "g", masses, room=0.1)
@@ -48,13 +48,13 @@ def front_chart(front: Front) -> Chart:
         if point.device is not None:
             drives.setdefault(f"{point.device.motor}, {point.device.gear}", []).append(point)
     for index, (name, points) in enumerate(drives.items()):
-        # Once all colours are taken, rings.
+        # Rings once all colours are used.
         hollow, ink = index // len(SERIES) % 2 == 1, SERIES[index % len(SERIES)]
         heights = np.array([1e3 * point.device.mass for point in points if point.device])
         marks.append(Points(_values(front, points), heights, ink, name, hollow=hollow))
     without = [point for point in front.points if point.device is None]
     if without:
-        # Rings at the foot.
+        # Rings on the x axis.
         foot = np.full(len(without), y.low)
         marks.append(Points(_values(front, without), foot, Ink.PLAIN, "no device", hollow=True))
     if front.spans_own_value:
@@ -73,7 +73,7 @@ def front_chart(front: Front) -> Chart:
 
 
 def reserve_charts(selection: SelectionRecord | None) -> Iterator[Chart]:
-    """Mass of the same parts against robots of which one need not pass; none if not known."""
+    """Mass for the same motor and material against the number of robots of which one may fail."""
     kept = None if selection is None else selection.kept
     if kept is None or not kept.curve:
         return
@@ -103,7 +103,7 @@ def write_front(front: Front, folder: Path, *, force: bool = False) -> tuple[str
     """Write a front with its chart and specifications: all of it or nothing.
 
     Returns:
-        What could not be written, and the cure.
+        Remarks on what could not be written, and the cure.
 
     Raises:
         OutputError: see `staged_folder`.
@@ -119,7 +119,7 @@ def write_front(front: Front, folder: Path, *, force: bool = False) -> tuple[str
 
 
 def front_csv(front: Front) -> str:
-    """A row for each point, SI, all digits; a point without a device has its reason."""
+    """CSV with a row for each point in SI units and full precision, or the reason for no device."""
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
     value = f"{front.against}_{front.si_unit}"

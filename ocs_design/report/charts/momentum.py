@@ -1,4 +1,4 @@
-"""Momentum of the wheels against inertia and lower bound, and how their axes could stand."""
+"""Charts of wheel momentum, inertia, lower bound and incidence of the wheel axes."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -20,12 +20,12 @@ _SIDE = 300.0
 """Height of charts in the plane of the axes [px]."""
 
 _SPEEDS = (0.25, 0.5, 1.0, 2.0)
-"""Wheel speeds of the curves of the bound, over the highest one of the design."""
+"""Wheel speeds of the curves of the bound, relative to the design's maximum."""
 
 _SAMPLES = 160
 
 _HARDLY = 0.02
-"""A maneuver that takes less than this part of the largest momentum about an axis is left out."""
+"""Share of the largest momentum about an axis below which a maneuver is left out."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,8 +33,8 @@ class Taken:
     """Momentum of the wheels in one maneuver.
 
     Attributes:
-        source: name of the maneuver, or of what else asks for it.
-        incidence: of the modules in it [rad].
+        source: name of the maneuver or of another demand.
+        incidence: incidence of the modules in it [rad].
         path: roll and pitch momentum of all wheels together [N m s], shape (n, 2).
     """
 
@@ -48,10 +48,10 @@ class Taken:
 
 
 def taken(story: Story) -> tuple[Taken, ...]:
-    """Momenta of each flight with the device until it is judged; if none, those asked for.
+    """Momenta of each flight with the device up to its verdict; without flights, those demanded.
 
-    A motor's choice may turn a robot with less momentum than constant torque one way and then the
-    other would take, which is what the demands count: then only flights tell.
+    A chosen drive may turn a robot with less momentum than the constant torque, one way and then
+    the other, that the demands assume. Then only flights show the momentum.
     """
     ocs = story.design.ocs
     own = {each.name: each.incidence for each in story.design.requirement.maneuvers}
@@ -77,9 +77,9 @@ def taken(story: Story) -> tuple[Taken, ...]:
 
 
 def ellipsoid_chart(design: OcsDesign) -> Chart:
-    """The inertia's ellipse from above, with the wheel axes at alpha* (paper, figures 3 and 4).
+    """Inertia ellipse from above, with the wheel axes at alpha* (paper, figures 3 and 4).
 
-    As in the paper, its half axes are the eigenvalues of the inertia in the horizontal plane.
+    As in the paper, its semi-axes are the eigenvalues of the inertia in the horizontal plane.
     Forward is up, left is left.
     """
     total = np.array(design.ocs.total_inertia)[:2, :2]
@@ -100,7 +100,7 @@ def ellipsoid_chart(design: OcsDesign) -> Chart:
         )
     seen = f"of the layout {str(design.ocs.layout)!r}"
     if design.ocs.axes == PAIR:
-        # From the lateral direction to the axis at alpha*.
+        # Arc from the lateral direction to the axis at alpha*.
         marks.append(
             Line(*_seen(0.5 * reach * np.stack([np.sin(arc), np.cos(arc)])), Ink.PLAIN, thin=True)
         )
@@ -120,23 +120,23 @@ def ellipsoid_chart(design: OcsDesign) -> Chart:
 
 
 def _ellipse(inertia: FloatArray) -> FloatArray:
-    """Points in B, forward and left, shape (2, n)."""
+    """Points of the ellipse in B, forward and left, shape (2, n)."""
     values, axes = np.linalg.eigh(inertia)
     angle = np.linspace(0.0, 2.0 * np.pi, 121)
     return np.asarray(axes @ (values[:, None] * np.stack([np.cos(angle), np.sin(angle)])))
 
 
 def _seen(points: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Coordinates on the sheet of points in B: forward is up, left is left."""
+    """Chart coordinates of points in B: forward is up, left is left."""
     return -points[1], points[0]
 
 
 def momentum_chart(story: Story) -> Chart:
-    """Momenta that the wheels can take at once, and those that they took.
+    """Momentum envelope of the wheels, and the momenta of the maneuvers.
 
-    What n wheels can take is the zonotope of their axes; of a pair it is the rhombus
+    The envelope of n wheels is the zonotope of their axes; for a pair it is the rhombus
     `|L_x| / sin a + |L_y| / cos a <= 2 I_w w_max` (docs/theory.md, Incidence angle). There is one
-    for each incidence that a maneuver is flown at.
+    for each incidence at which a maneuver is flown.
     """
     ocs, found = story.design.ocs, taken(story)
     each_wheel = ocs.spin_inertia * story.design.requirement.wheel_speed_max
@@ -149,7 +149,7 @@ def momentum_chart(story: Story) -> Chart:
     for each, ink in zip(found, SERIES * 2, strict=False):
         roll, pitch = each.path.T
         most = int(np.argmax(np.hypot(roll, pitch)))
-        # The way there, and a ring where it was most.
+        # The path, and a ring at its largest momentum.
         marks.append(Line(roll, pitch, ink, each.source))
         marks.append(Points(roll[most : most + 1], pitch[most : most + 1], ink, hollow=True))
     largest = len(ocs.modules) * each_wheel
@@ -168,7 +168,7 @@ def momentum_chart(story: Story) -> Chart:
 
 
 def _zonotope(sides: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Closed outline of all sums of the columns times -1..1, shapes (2 n + 1,), from (2, n)."""
+    """Closed outline, shapes (2 n + 1,), of all sums of the columns, shape (2, n), times -1..1."""
     upwards = sides * np.where(sides[1] < 0.0, -1.0, 1.0)
     turned = upwards[:, np.argsort(np.arctan2(upwards[1], upwards[0]))]
     steps = 2.0 * np.concatenate([turned, -turned], axis=1)
@@ -177,12 +177,12 @@ def _zonotope(sides: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def bound_charts(story: Story) -> Iterator[Chart]:
-    """Lower bound on the device's inertia and where the design lies, for each axis (figure 2)."""
+    """Lower bound on the device's inertia, and the design, for each axis (paper, figure 2)."""
     found, design = taken(story), story.design
     speeds = [part * design.requirement.wheel_speed_max for part in _SPEEDS]
     for axis, name in reversed(list(enumerate(AXES))):
-        # Name, change of rate that its momentum is worth, and the device's inertia for it, of each
-        # maneuver but those that hardly turn about this axis.
+        # Name, equivalent change of rate and device inertia of each maneuver, without those that
+        # hardly turn about this axis.
         asked = []
         most = max((each.largest(axis) for each in found), default=0.0)
         for each in found:
@@ -199,11 +199,11 @@ def bound_charts(story: Story) -> Iterator[Chart]:
         bound = design.robot.inertia[axis][axis] * bound_curve(rates, speeds)
         curves = np.where(np.isfinite(bound), bound, np.nan)
         lines = [
-            # That of the design's own speed is solid.
+            # The curve of the design's own speed is solid.
             Line(rates, curve, ink, rpm(speed), dashed=part != 1.0)
             for part, speed, curve, ink in zip(_SPEEDS, speeds, curves, SERIES, strict=False)
         ]
-        # Nearer to zero the curves fall without end.
+        # Closer to zero the curves fall without limit.
         least = min(float(line.y[int(0.15 * len(line.y))]) for line in lines)
         ends = (0.3 * min(least, present.min()), 3.0 * max(present.max(), lines[1].y[-1]))
         labels = tuple(source for source, _, _ in asked)
@@ -222,7 +222,7 @@ def bound_charts(story: Story) -> Iterator[Chart]:
 
 
 _ROW, _FRAME = 22.0, 110.0
-"""Height of a row, and of what is around all rows [px]."""
+"""Height of a row, and of the margins around all rows [px]."""
 
 
 def criterion_chart(design: OcsDesign) -> Chart:
@@ -243,7 +243,7 @@ def criterion_chart(design: OcsDesign) -> Chart:
 
 
 def posture_chart(design: OcsDesign, postures: Sequence[PostureLine]) -> Chart:
-    """Best incidence under the paper's criterion in other postures of the robot alone."""
+    """Best incidence under the paper's criterion for other postures of the robot alone."""
     angles = [(row, each.incidence) for row, each in enumerate(postures)]
     return _rows(
         design,
@@ -265,7 +265,7 @@ def _rows(
     rows: tuple[str, ...],
     angles: Mapping[str, Sequence[tuple[int, float]]],
 ) -> Chart:
-    """A row for each name, the first one on top, with angles [rad] and that of the design."""
+    """Chart with a row for each name, the first on top, its angles [rad] and the design's angle."""
     chosen = design.ocs.incidence
     label = f"α* {degrees(chosen)}"
     marks: list[Mark] = [Rule(in_unit(chosen, "deg"), upright=True, label=label, ink=Ink.VERMILION)]
@@ -277,7 +277,7 @@ def _rows(
         name=name,
         title=title,
         description=description,
-        # Margins so that discs at 0 and 90 deg are drawn whole.
+        # Margins so that discs at 0 and 90 deg are not clipped.
         x=Axis("incidence angle", "deg", -3.0, 93.0),
         y=Axis("", "", len(rows) - 0.4, -0.6),
         marks=tuple(marks),
@@ -287,7 +287,7 @@ def _rows(
 
 
 def incidence_charts(story: Story) -> Iterator[Chart]:
-    """Inertia and momenta in the plane of the wheel axes, and how the axes could stand."""
+    """Inertia and momenta in the plane of the wheel axes, and alternative incidences."""
     yield ellipsoid_chart(story.design)
     yield momentum_chart(story)
     if story.design.ocs.axes != PAIR:

@@ -1,4 +1,4 @@
-"""Charts as SVG, inside a page, whose style sheet colours them, or as files; PNG of the files."""
+"""Charts as SVG, inline in a page with its style sheet or as files, and as PNG files."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -30,7 +30,7 @@ WIDTH = 440.0
 
 _LEFT, _RIGHT, _BOTTOM, _TITLE = 62.0, 22.0, 40.0, 22.0
 _LETTER = 6.8
-"""Mean width of a letter [px], generously: of DejaVu Sans, the widest that machines put in."""
+"""Mean width of a letter [px], a high estimate for DejaVu Sans, the widest usual fallback font."""
 
 _COLORS = {
     Ink.BLUE: "#0072b2",
@@ -58,24 +58,24 @@ _SHEET = _SHAPES + "".join(
 """Style sheet of files, on white; pages have their own."""
 
 _MOST_ROW = 26
-"""Letters of a row's name that are shown."""
+"""Maximum number of letters of a row's name."""
 
 _ROW, _SAMPLE, _APART = 16.0, 20.0, 14.0
-"""Height of a row of the legend, width of a sample, and from one entry to the next [px]."""
+"""Height of a row of the legend, width of a sample, and gap between entries [px]."""
 
 _LEGEND_LETTER = 6.0
 """Mean width of a letter of the legend [px]."""
 
 
 _DOT, _GAP = 4.0, 7.0
-"""Radius of a disc, and from its middle to its word [px]."""
+"""Radius of a disc, and distance from its middle to its label [px]."""
 
 _RISES = (0.0, -11.0, 11.0, -22.0, 22.0, -33.0, 33.0)
-"""Steps by which a word gives way to others, the least first [px]."""
+"""Vertical shifts by which a label avoids others, the smallest first [px]."""
 
 
 class _Box(NamedTuple):
-    """What a word or a disc takes of the sheet [px]."""
+    """Bounding box of a label or a disc [px]."""
 
     left: float
     top: float
@@ -89,17 +89,17 @@ class _Box(NamedTuple):
 
 
 def inline_svg(chart: Chart) -> str:
-    """An element for a page; its colours are classes."""
+    """SVG element for a page; its colours are classes."""
     return _Drawing(chart).text("")
 
 
 def svg_file(chart: Chart) -> bytes:
-    """A file of its own, on white."""
+    """SVG file with its own style sheet, on white."""
     return _Drawing(chart).text(f"<style>{_SHEET}</style>").encode()
 
 
 class _Drawing:
-    """Places of one chart on its sheet, x to the right and y down."""
+    """Layout of one chart on its sheet, x to the right and y down."""
 
     def __init__(self, chart: Chart) -> None:
         self._named = _named(chart.marks)
@@ -125,7 +125,7 @@ class _Drawing:
         self._curves: list[FloatArray] = []
 
     def text(self, style: str) -> str:
-        """Text of the whole element."""
+        """SVG text of the whole chart."""
         chart = self._chart
         legend = "".join(
             f"{_sample(mark, x, _TITLE + _ROW * row + 6.0)}"
@@ -154,7 +154,7 @@ class _Drawing:
             f'width="{self._right - self._left:g}" '
             f'height="{self._bottom - self._top:g}"/></clipPath>'
             f'<g clip-path="url(#{chart.name}-c)">{"".join(map(self._shape_of, chart.marks))}</g>'
-            # Words lie over everything, and may reach over the frame.
+            # Labels lie on top of everything and may cross the frame.
             f"{''.join(map(self._label_of, chart.marks))}{titles}</svg>"
         )
 
@@ -196,7 +196,7 @@ class _Drawing:
                     if len(whole) > 1
                 ]
                 for curve in curves:
-                    # Points along it, a pixel apart or less across and down, shape (n, 2).
+                    # Points along the curve at most a pixel apart in x and y, shape (n, 2).
                     steps = np.ceil(np.abs(np.diff(curve, axis=0)).max(axis=1)).astype(int).clip(1)
                     nodes = np.concatenate([[0], np.cumsum(steps)])
                     along = np.arange(nodes[-1] + 1)
@@ -219,7 +219,7 @@ class _Drawing:
                 words = zip(places, labels, strict=True)
                 return "".join(self._beside(x, y, text) for (x, y), text in words)
             case Rule(label=label, upright=True) if label:
-                # Below, above or in between, right or left of it, where no curve is in the way.
+                # At the bottom, top or in between, right or left of it, clear of curves.
                 x, low, high = self._rule(mark)[0], self._bottom - 9.0, self._top + 9.0
                 heights = [low, high, *np.arange(low, high, _RISES[1]).tolist()]
                 free = (
@@ -233,12 +233,12 @@ class _Drawing:
         return ""
 
     def _beside(self, x: float, y: float, text: str, *, left: bool = False) -> str:
-        """A word right of a place, or left of it where that is asked for or there is no room.
+        """Label to the right of a point, or to the left if requested or if there is no room.
 
-        It is clear of all others, and of the curves where it can be.
+        It overlaps no other label, and no curve if possible.
         """
         boxes = [self._box(x, y + rise, text, left=left) for rise in _RISES]
-        # Below are the figures of the axis.
+        # The axis labels are below.
         tried = [each for each in boxes if each.bottom <= self._bottom] or boxes
         apart = [each for each in tried if not any(map(each.meets, self._taken))]
         box = next(filter(self._free, apart), (apart or tried)[0])
@@ -247,7 +247,7 @@ class _Drawing:
         return _word("note", far, box.top + 9.5, text, anchor)
 
     def _free(self, box: _Box) -> bool:
-        """Whether neither words and discs nor curves, all of them drawn by now, are in a box."""
+        """Whether a box is clear of labels, discs and curves, all of which are already drawn."""
         if any(map(box.meets, self._taken)):
             return False
         corner, opposite = box[:2], box[2:]
@@ -255,7 +255,7 @@ class _Drawing:
         return not any(map(np.any, inside))
 
     def _box(self, x: float, y: float, text: str, *, left: bool = False) -> _Box:
-        """Box of a word beside a place; see `_beside`."""
+        """Box of a label beside a point; see `_beside`."""
         reach = _LETTER * len(text)
         near = x - _GAP - reach if left or x + _GAP + reach > WIDTH else x + _GAP
         return _Box(near, y - 6.0, near + reach, y + 5.0)
@@ -269,7 +269,7 @@ class _Drawing:
 
 
 def _named(marks: Sequence[Mark]) -> list[Mark]:
-    """Marks for the legend: the first one of each name."""
+    """Marks for the legend: the first mark of each name."""
     found: dict[str, Mark] = {}
     for mark in marks:
         if mark.name:
@@ -289,7 +289,7 @@ def _legend_places(named: Sequence[Mark], right: float) -> Iterator[tuple[Mark, 
 
 
 def _sample(mark: Mark, x: float, y: float) -> str:
-    """A short piece of a mark for the legend."""
+    """Sample of a mark for the legend."""
     look = _look(mark)
     if isinstance(mark, Points):
         return _disc(look, x + _SAMPLE / 2.0, y)
@@ -320,7 +320,7 @@ def _stretched(axis: Axis, span: float) -> Axis:
 def _path(places: FloatArray, *, closed: bool = False) -> str:
     rounded = places.round(1)
     steps = np.diff(rounded, axis=0)
-    # Points inside a horizontal stretch are dropped.
+    # Points inside a horizontal section are dropped.
     onwards = steps[1:, 0] * steps[:-1, 0] >= 0.0
     level = (steps[1:, 1] == 0.0) & (steps[:-1, 1] == 0.0)
     kept = rounded[np.concatenate([[True], ~(level & onwards), [True]])]
@@ -343,12 +343,12 @@ def _word(look: str, x: float, y: float, text: str, anchor: str) -> str:
 
 
 _FONTS = tuple(f"report/fonts/Roboto-{weight}.ttf" for weight in ("Regular", "Bold"))
-"""Our own fonts: a machine may have none, and pictures are the same everywhere."""
+"""Bundled fonts: a machine may have none, and the pictures shall be the same everywhere."""
 
 _FAMILY = "Roboto"
 
 _ZOOM = 2
-"""Pixels for each of the SVG's."""
+"""Pixels of the picture per pixel of the SVG."""
 
 
 def write_svgs(charts: Sequence[Chart], folder: Path) -> None:
@@ -371,13 +371,13 @@ def write_charts(charts: Sequence[Chart], folder: Path) -> tuple[str, ...]:
 
 
 def png_of(svg: str) -> bytes:
-    """An SVG as a picture, twice as many pixels wide and high.
+    """PNG of an SVG, with twice as many pixels in width and height.
 
     Raises:
         MissingToolError: resvg is not installed.
     """
     try:
-        # An extra.
+        # An optional dependency.
         from resvg_py import svg_to_bytes  # noqa: PLC0415
     except ImportError as error:
         raise MissingToolError(

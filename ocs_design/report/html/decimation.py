@@ -1,8 +1,8 @@
-"""Fewer triangles for the same shape: vertices in one cell of a grid become one.
+"""Mesh decimation: the vertices in each cell of a grid are merged into one.
 
-Where that one lies comes from the planes of the triangles around it, so that edges and corners stay
-where they are (P. Lindstrom, "Out-of-core simplification of large polygonal models", Proceedings of
-SIGGRAPH 2000).
+The merged vertex is computed from the planes of the surrounding triangles, so that edges and
+corners stay in place (P. Lindstrom, "Out-of-core simplification of large polygonal models",
+Proceedings of SIGGRAPH 2000).
 """
 
 from collections.abc import Sequence
@@ -16,23 +16,23 @@ from ocs_design.device.bodies import PREFIX
 from ocs_design.report.bodies import ShownBody, Surface
 
 FINEST = 1.0 / 4096.0
-"""Smallest cell in which points are merged, over the size of the robot."""
+"""Smallest cell in which points are merged, relative to the size of the robot."""
 
 DEVICE_GRAIN = 0.2
-"""Size of the device's cells over that of the robot's."""
+"""Size of the device's cells relative to the robot's."""
 
 _LEAST_GROWTH = 1.1
-"""Least growth of the cell from one attempt to the next."""
+"""Smallest growth factor of the cell from one attempt to the next."""
 
 _BITS = 21
-"""Bits of the number of a vertex: three of them make the number of a face."""
+"""Bits of a vertex number: three vertex numbers make a face number."""
 
 _FLAT = 0.05
-"""Singular values of a quadric below this part of its largest one say nothing of the place."""
+"""Relative eigenvalue of a quadric below which it does not determine the position."""
 
 
 def decimated(bodies: Sequence[ShownBody], most_triangles: int) -> tuple[ShownBody, ...]:
-    """The bodies with at most so many triangles, all merged to cells of one size."""
+    """The bodies with at most so many triangles, decimated with a common cell size."""
     points = [surface.vertices for body in bodies for surface in body.surfaces]
     extent = max((float(np.ptp(each, axis=0).max()) for each in points), default=0.0)
     if extent == 0.0:
@@ -45,7 +45,7 @@ def decimated(bodies: Sequence[ShownBody], most_triangles: int) -> tuple[ShownBo
     cell = FINEST * extent
 
     def left() -> int:
-        """Number of triangles whose corners are in three cells."""
+        """Number of triangles whose corners lie in three different cells."""
         count = 0
         for grain, places, faces in boxed:
             cells = _cells(places, grain * cell)
@@ -53,7 +53,7 @@ def decimated(bodies: Sequence[ShownBody], most_triangles: int) -> tuple[ShownBo
         return count
 
     while (count := left()) > most_triangles:
-        # A surface takes as many cells as it has area.
+        # The number of cells is proportional to the area of a surface.
         cell *= max(_LEAST_GROWTH, float(np.sqrt(count / most_triangles)))
     made = []
     for body in bodies:
@@ -63,34 +63,34 @@ def decimated(bodies: Sequence[ShownBody], most_triangles: int) -> tuple[ShownBo
 
 
 def _grain(body: ShownBody) -> float:
-    """Size of a body's cells over the robot's: the device is what one looks for."""
+    """Relative cell size of a body: finer for the device, on which the interest lies."""
     return DEVICE_GRAIN if body.name.startswith(PREFIX) else 1.0
 
 
 def _offsets(surface: Surface) -> list[FloatArray]:
-    """Vertices from the lowest corner of the surface's box [m], columns of shape (n,)."""
+    """Vertices relative to the lowest corner of the surface's box [m], columns of shape (n,)."""
     return [column - column.min() for column in surface.vertices.T]
 
 
 def _cells(offsets: Sequence[FloatArray], cell: float) -> NDArray[np.int64]:
-    """A number below 2^21 for each vertex, the same for those in one cell."""
+    """Cell number below 2^21 of each vertex."""
     x, y, z = (np.floor(column / cell).astype(np.int64) for column in offsets)
     number = (x * (int(y.max()) + 1) + y) * (int(z.max()) + 1) + z
     return number if number.max() < 1 << _BITS else _numbered(number)
 
 
 def clustered(surface: Surface, cell: float) -> Surface:
-    """A surface whose vertices in one cell [m] are one; triangles that shrink to nothing go."""
+    """Surface with one vertex per cell [m], without the triangles that collapse."""
     cluster = _numbered(_cells(_offsets(surface), cell))
     # Faces of three corners, each once.
     moved = cluster[surface.faces]
     kept, key = _keyed(*moved.T)
     faces = moved[kept][np.unique(key, return_index=True)[1]]
-    # Point of each cluster nearest to the planes of its triangles, no further than a cell.
+    # Point of each cluster nearest to the planes of its triangles, at most a cell away.
     count = int(cluster.max()) + 1
     weight = np.bincount(cluster, minlength=count)[:, None]
     middle = _summed(surface.vertices, cluster, count) / weight
-    # Sums of n n^T and n d over the triangles at each cluster, areas as weights, from `middle`.
+    # Sums of n n^T and n d over the triangles at each cluster, area-weighted, about `middle`.
     corners = surface.vertices[surface.faces]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     outer = np.einsum("ni,nj->nij", normal, normal).reshape(-1, 9)
@@ -111,14 +111,14 @@ def clustered(surface: Surface, cell: float) -> Surface:
 
 
 def _numbered(values: NDArray[np.int64]) -> NDArray[np.int64]:
-    """The place of each among the distinct ones, from zero."""
+    """Index of each value among the sorted distinct values."""
     return np.asarray(np.unique(values, return_inverse=True)[1].ravel())
 
 
 def _keyed(
     a: NDArray[np.int64], b: NDArray[np.int64], c: NDArray[np.int64]
 ) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
-    """Mask of faces with three corners, and a number for each by its corners in any order."""
+    """Mask of faces with three distinct corners, and a key for each by its corners in any order."""
     kept = (a != b) & (b != c) & (c != a)
     a, b, c = a[kept], b[kept], c[kept]
     low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
@@ -126,6 +126,6 @@ def _keyed(
 
 
 def _summed(values: FloatArray, at: NDArray[np.intp], count: int) -> FloatArray:
-    """Rows of `values` added up by where they belong, shape (count, columns)."""
+    """Sums of the rows of `values` by their index `at`, shape (count, columns)."""
     columns = [np.bincount(at, column, minlength=count) for column in values.T]
     return np.stack(columns, axis=1)

@@ -1,4 +1,4 @@
-"""Elements of HTML. Every text is escaped unless it is `Markup` already."""
+"""HTML elements. Every text is escaped unless it is `Markup`."""
 
 import re
 from collections.abc import Iterable
@@ -15,61 +15,61 @@ _ESCAPED = {
     "\u2028": "\\u2028",
     "\u2029": "\\u2029",
 }
-"""Letters that must not stand in a script's element, as JSON may write them too."""
+"""Characters that are unsafe in a script element, and their JSON escapes."""
 
 _LONG = 12
-"""Characters of a cell from which a line of it would hold one word on a telephone."""
+"""Length of a cell's text above which a phone would show one word per line."""
 
 _POWER = re.compile(r"\b(kg m|kg mm|m/s|rad/s)\^?([23])\b")
 
 
 class Markup(str):
-    """Text that is HTML."""
+    """Text that is already HTML."""
 
     __slots__ = ()
 
 
 def element(name: str, *content: str, **attributes: str | bool) -> Markup:
-    """An element with its content; `class_` and `for_` stand for the words of Python."""
+    """Element with its content; `class_` and `for_` stand for the reserved words."""
     inside = "".join(map(_safe, content))
     return Markup(f"<{name}{_attributes(attributes)}>{inside}</{name}>")
 
 
 def void(name: str, **attributes: str | bool) -> Markup:
-    """An element that has no content."""
+    """Element without content."""
     return Markup(f"<{name}{_attributes(attributes)}>")
 
 
 def joined(parts: Iterable[str]) -> Markup:
-    """Parts one behind the other."""
+    """Concatenated parts."""
     return Markup("".join(map(_safe, parts)))
 
 
 def note(*content: str) -> Markup:
-    """A paragraph about what stands beside it."""
+    """Paragraph with a note on the neighbouring element."""
     return element("p", *content, class_="note")
 
 
 def facts(rows: Iterable[tuple[str, str]]) -> Markup:
-    """Names and values."""
+    """Definition list of names and values."""
     pairs = (joined((element("dt", name), element("dd", value))) for name, value in rows)
     return element("dl", *pairs)
 
 
 def items(texts: Iterable[str], *, look: str = "") -> Markup:
-    """A list; empty where there is nothing in it."""
+    """List; empty markup if it has no items."""
     found = [element("li", text) for text in texts]
     return element("ul", *found, class_=look) if found else Markup("")
 
 
 def table(caption: str, content: Table) -> Markup:
-    """A table with its caption; units stand in brackets."""
+    """Table with its caption; units are in brackets."""
     heads, looks = [], []
     for index, column in enumerate(content.columns):
         name = column.name.replace("\n", " ").strip()
         head = f"{name} [{column.unit.strip()}]" if column.unit else name
         texts = (plain(row[index]) for row in content.rows)
-        # A long text keeps some width on a narrow screen.
+        # Long texts keep some width on a narrow screen.
         long = column.words and max(map(len, texts), default=0) > _LONG
         looks.append("word long" if long else "word" if column.words else "number")
         heads.append(element("th", head, scope="col", class_="word" if column.words else "number"))
@@ -91,36 +91,36 @@ def table(caption: str, content: Table) -> Markup:
         element("thead", element("tr", *heads)),
         element("tbody", *body),
     )
-    # Wide tables scroll by themselves on a narrow screen, and by keys too.
+    # Wide tables scroll on their own on a narrow screen, also by keyboard.
     return element("div", whole, class_="scroll", tabindex="0", role="region", aria_label=caption)
 
 
 def section(name: str, title: str, *content: str) -> Markup:
-    """A part of the page that its contents lead to."""
+    """Section of the page with an anchor for the table of contents."""
     head = element("h2", title, id=f"{name}-title")
     return element("section", head, *content, id=name, aria_labelledby=f"{name}-title")
 
 
 def details(summary: str, *content: str) -> Markup:
-    """An element that is folded away until it is wanted; left out in print."""
+    """Element that is collapsed until opened; left out in print."""
     return element("details", element("summary", summary), *content)
 
 
 def figures(charts: Iterable[Chart], *, flight: str = "") -> Markup:
-    """Charts, of the maneuver of that number or of none, beside each other where there is room."""
+    """Charts, side by side if there is room; `flight` is the number of their maneuver, if any."""
     shown = (element("figure", Markup(inline_svg(chart))) for chart in charts)
     return element("div", *shown, class_="charts", data_flight=flight)
 
 
 def data(name: str, text: str) -> Markup:
-    """A text of JSON for scripts and other programs; nothing in it can end the element."""
+    """JSON element for scripts and other programs, escaped so that it cannot end the element."""
     for letter, code in _ESCAPED.items():
         text = text.replace(letter, code)
     return Markup(f'<script type="application/json" id="{name}">{text}</script>')
 
 
 def _attributes(attributes: dict[str, str | bool]) -> str:
-    """Attributes as text: no value for what is true, nothing for what is false or empty."""
+    """Attributes as text: without value if true, left out if false or empty."""
     named = ((key.rstrip("_").replace("_", "-"), value) for key, value in attributes.items())
     return "".join(
         f" {key}" if value is True else f' {key}="{escape(value)}"'
@@ -130,7 +130,7 @@ def _attributes(attributes: dict[str, str | bool]) -> str:
 
 
 def _safe(content: str) -> str:
-    """Markup as it is; else text that is escaped, with raised figures in its units."""
+    """Markup unchanged, other text escaped, with superscripts in its units."""
     if isinstance(content, Markup):
         return content
     return escape(_POWER.sub(lambda found: found[1] + {"2": "²", "3": "³"}[found[2]], content))

@@ -1,4 +1,4 @@
-"""Results as notebooks show them: a few lines of HTML with a picture, and nothing fetched."""
+"""Results in notebooks: a few lines of HTML with a picture, without external resources."""
 
 import base64
 from pathlib import Path
@@ -25,9 +25,9 @@ _WIDTH = "420"
 
 
 def as_html(found: OcsDesign | Front | Validated, folder: Path | None = None) -> str:
-    """A result as HTML without style sheets, scripts or anything from elsewhere.
+    """Result as HTML without style sheets, scripts or external resources.
 
-    A design in its folder shows the picture of the robot, else wheel axes and inertia.
+    A design with its folder shows a picture of the robot, else wheel axes and inertia.
     """
     if isinstance(found, OcsDesign):
         runs = verdict_table(found)

@@ -1,4 +1,4 @@
-"""The whole page: one file without network, which a browser shows and prints."""
+"""The report page: one self-contained file that a browser shows and prints offline."""
 
 import base64
 import hashlib
@@ -25,7 +25,7 @@ from ocs_design.report.verdict import headline
 from ocs_design.sizing.margins import HOOP_STRESS
 
 MOST_TRIANGLES = 30_000
-"""Triangles of the robot: a few hundred kilobytes, and fluent without a graphics card."""
+"""Triangles of the robot: a few hundred kilobytes, and smooth without a graphics card."""
 
 _PARTS = {
     "robot": "Robot and device",
@@ -39,7 +39,7 @@ _PARTS = {
     "assembly": "Assembly",
     "record": "Provenance",
 }
-"""Sections and their short names in the contents."""
+"""Sections and their short names in the table of contents."""
 
 
 def write_report(story: Story, folder: Path) -> Path:
@@ -53,7 +53,7 @@ def report_page(story: Story) -> str:
     """Text of the whole page."""
     style = template_text("report/report.css")
     script = "\n".join(template_text(f"report/{name}.js") for name in ("viewer", "report"))
-    # Nothing is fetched, and nothing runs but what is here by its hash.
+    # Nothing is fetched, and only the scripts and styles with these hashes are allowed.
     policy = ["default-src 'none'", "img-src data:"]
     for kind, text in (("style-src", style), ("script-src", script)):
         digest = base64.b64encode(hashlib.sha256(text.encode()).digest()).decode("ascii")
@@ -124,13 +124,13 @@ def _body(story: Story) -> Iterator[Markup]:
 
 
 def _tiles(design: OcsDesign) -> Markup:
-    """Figures that everyone asks for: a name, a value and a note each."""
+    """Key figures, each with a name, a value and a note."""
     ocs, wheel = design.ocs, design.ocs.flywheel
     lengths = " / ".join(map(tenths, (wheel.outer_radius, wheel.inner_radius, wheel.height)))
     drive = f"at {ocs.motor.bus_voltage:g} V" if has_motor(design) else "no motor chosen"
     if ocs.motor.gear != DIRECT.name:
         drive += f", {ocs.motor.gear}"
-    # As in the table of margins, else at the design's speed.
+    # As in the table of margins if present, else at the design's speed.
     stress = next((each for each in design.margins if each.name == HOOP_STRESS), None)
     if stress is not None and stress.margin is not None:
         bears = f"stress margin {stress.margin:.2f} {stress.note}"

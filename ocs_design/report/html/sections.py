@@ -1,4 +1,4 @@
-"""Sections of the page: the facts of the report beside its charts."""
+"""Sections of the page: the facts of the report with its charts."""
 
 import platform
 from collections.abc import Sequence
@@ -62,7 +62,7 @@ def robot_section(story: Story, view: Markup) -> Markup:
     """View, facts and warnings of the robot with its device."""
     design = story.design
     points = design.buildable.open
-    # Those about the robot's file stand where it is told what was read.
+    # Warnings about the robot's file are in the section on provenance.
     minded = [each for each in warnings.all_warnings(design) if each not in design.robot.warnings]
     return section(
         "robot",
@@ -108,7 +108,7 @@ def sizes_section(design: OcsDesign) -> Markup:
 
 
 def limits_section(story: Story) -> Markup:
-    """Active limits, and what moving each of them saves."""
+    """Active limits, and the mass that moving each of them saves."""
     design = story.design
     names, meaning = limits.active_limits(design)
     owed = limits.owed_to(design)
@@ -146,7 +146,7 @@ def limits_section(story: Story) -> Markup:
 
 
 def bound_section(story: Story) -> Markup:
-    """The paper's lower bound and where the design lies."""
+    """The paper's lower bound and the design's position."""
     return section(
         "bound",
         "The lower bound, and where the design lies",
@@ -192,9 +192,9 @@ def drive_section(story: Story) -> Markup:
 def maneuvers_section(
     story: Story, charts: dict[str, Sequence[Chart]], scenarios: Sequence[str]
 ) -> Markup:
-    """A part for each maneuver, flown with the device and without, with its charts.
+    """Article for each maneuver, flown with the device and without, with its charts.
 
-    `scenarios` can be shown again, in the order of the viewer.
+    `scenarios` are those that can be replayed, in the order of the viewer.
     """
     names = dict.fromkeys(run.scenario for run in story.design.validation)
     if not names:
@@ -227,7 +227,7 @@ def maneuvers_section(
 
 
 def monte_carlo_section(story: Story) -> Markup:
-    """How often many flights pass and how they spread; nothing where none were flown."""
+    """Pass rates and spread of the Monte Carlo flights; empty if there are none."""
     record = story.monte_carlo
     if record is None:
         return Markup("")
@@ -253,7 +253,7 @@ def monte_carlo_section(story: Story) -> Markup:
 def assembly_section(story: Story) -> Markup:
     """Pictures, pieces, screws and all instructions."""
     design, ocs = story.design, story.design.ocs
-    # Its exploded view takes a second to draw: what is written on paper too is drawn once.
+    # The exploded view takes a second to draw, so the drawing for the PDF is reused.
     assembly = story.assembly
     if assembly is None:
         assembly = Assembly(design.robot.name, ocs.device(design.supply)).recorded(design)

@@ -1,4 +1,4 @@
-"""The view of the robot that can be turned: a picture, its controls, and what the script takes."""
+"""Interactive view of the robot: a still picture, its controls, and the data for the script."""
 
 import base64
 import json
@@ -25,7 +25,7 @@ from ocs_design.simulation.run import Poses
 
 
 def view(story: Story, bodies: Sequence[ShownBody], scenarios: Sequence[str]) -> Markup:
-    """Picture, canvas and controls; nothing where there are no bodies."""
+    """Picture, canvas and controls; empty if there are no bodies."""
     if not bodies:
         return Markup("")
     options = (element("option", name, value=str(i)) for i, name in enumerate(scenarios))
@@ -37,12 +37,12 @@ def view(story: Story, bodies: Sequence[ShownBody], scenarios: Sequence[str]) ->
         "height": str(HEIGHT),
         "replay": replay,
     }
-    # Ends of lines are for those who read the template.
+    # Line breaks only help readers of the template.
     return Markup(fill("report/view.html", values).replace("\n", ""))
 
 
 def view_data(story: Story, bodies: Sequence[ShownBody], scenarios: Sequence[str]) -> Markup:
-    """Data that the script shows, at the end of the page, so that the page is there first."""
+    """Data for the script, at the end of the page so that the page shows first."""
     if not bodies:
         return Markup("")
     blob = Blob()
@@ -52,31 +52,31 @@ def view_data(story: Story, bodies: Sequence[ShownBody], scenarios: Sequence[str
 
 
 Record = dict[str, Any]
-"""Value that becomes an object of JSON."""
+"""Value that becomes a JSON object."""
 
 _LARGEST = 32767
-"""Largest number of 16 bits with a sign, for parts of quaternions."""
+"""Largest signed 16-bit number, for components of quaternions."""
 
 _MOST_UINT16 = 65535
 
 _FINE = 1e4
-"""Positions are kept to a tenth of a millimetre, which packs well."""
+"""Positions are rounded to a tenth of a millimetre, which compresses well."""
 
 _BESIDE = 1.25
-"""Distance between two robots shown side by side, over the width of one."""
+"""Distance between two robots shown side by side, relative to the width of one."""
 
 
 class Blob:
-    """Arrays one behind the other, which the script in a page unpacks."""
+    """Concatenated arrays, which the script in the page unpacks."""
 
     def __init__(self) -> None:
         self._content = bytearray()
 
     def add(self, values: NDArray[Any], kind: str) -> Record:
-        """Append an array as little-endian `f4`, `i2`, `u2` or `u4`; gives where it lies."""
+        """Append an array as little-endian `f4`, `i2`, `u2` or `u4`; returns its position."""
         content = np.ascontiguousarray(values, dtype=f"<{kind}").tobytes()
         place = {"at": len(self._content), "kind": kind, "length": int(values.size)}
-        # A view of an array must begin at a multiple of the size of its numbers.
+        # A typed array must start at a multiple of its element size.
         self._content += content + b"\0" * (-len(content) % 4)
         return place
 
@@ -91,7 +91,7 @@ def encoded_scene(
     scenarios: Sequence[str],
     blob: Blob,
 ) -> Record:
-    """Everything that the viewer shows, at least one body; its arrays go into the blob.
+    """Everything that the viewer shows, for at least one body; its arrays go into the blob.
 
     Flights with poses can be replayed, in the order of `scenarios`.
     """
@@ -105,7 +105,7 @@ def encoded_scene(
         for surface in body.surfaces:
             points = surface.vertices
             low_corner, size = points.min(axis=0), np.ptp(points, axis=0)
-            # Coordinates as parts of the surface's box, 0..65535.
+            # Coordinates as fractions of the surface's box, 0..65535.
             offsets = points - low_corner
             parts = np.divide(offsets, size, out=np.zeros_like(points), where=size > 0.0)
             kind = "u2" if len(points) <= _MOST_UINT16 else "u4"
@@ -149,7 +149,7 @@ def _flight(flight: RecordedFlight, poses: Poses, names: Sequence[str], blob: Bl
     places = [poses.bodies.index(name) for name in names]
     tilt = [flight.columns[f"{axis}_rad"] for axis in ("pitch", "roll")]
     at_frames = [np.interp(poses.time, flight.time, np.degrees(angle)) for angle in tilt]
-    # Without the wheels' own turns, which are many from one pose to the next.
+    # Without the wheels' own rotation, which is many turns from one pose to the next.
     attitude = poses.attitude.copy()
     for wheel, name in enumerate(flywheels_among(poses.bodies)):
         body = poses.bodies.index(name)
@@ -158,7 +158,7 @@ def _flight(flight: RecordedFlight, poses: Poses, names: Sequence[str], blob: Bl
     return {
         "scenario": flight.scenario,
         "ocs": flight.ocs,
-        # What swings on a pivot swings below any floor.
+        # A robot on a pivot would swing through the floor.
         "floor": not flight.on_pivot,
         "frames": len(poses.time),
         "time": blob.add(poses.time, "f4"),
@@ -170,12 +170,12 @@ def _flight(flight: RecordedFlight, poses: Poses, names: Sequence[str], blob: Bl
 
 
 def _radius(low: FloatArray, high: FloatArray) -> float:
-    """Radius of the ball around a box."""
+    """Radius of the sphere around a box."""
     return float(np.linalg.norm(high - low)) / 2.0
 
 
 def _box(bodies: Sequence[ShownBody]) -> tuple[FloatArray, FloatArray]:
-    """Lowest and highest corner of all that is shown, in B [m]."""
+    """Lowest and highest corner of everything shown, in B [m]."""
     corners = np.concatenate(
         [
             surface.vertices @ body.placement.rotation.T + body.placement.position

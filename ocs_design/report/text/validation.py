@@ -41,7 +41,7 @@ def print_headline(console: Console, line: Headline, *more: Text) -> None:
 def print_validated(
     console: Console, found: Validated, folder: Path | None, files: Sequence[str], again: str = ""
 ) -> None:
-    """Flights as `size` prints them, what many samples show, files written, and the verdict.
+    """Print the flights as `size` does, the campaign, the files written, and the verdict.
 
     Args:
         again: how to fly one of the samples again.
