@@ -2,7 +2,7 @@
 
 A selection on the present device's footing quickly finds the lightest drive after a change; the
 changed specification is then sized in full with that drive (docs/theory.md, The selection:
-Alternatives, What must give). Where the mass to save is specified, each answer is the smallest
+Alternatives, Trade-offs). Where the mass to save is specified, each answer is the smallest
 change that saves it.
 """
 
