@@ -1,10 +1,10 @@
-"""The housing around a wheel: what keeps fingers and legs out of it, and carries its motor.
+"""The housing around a wheel: it keeps fingers and legs out, and carries the motor.
 
-A drum with a floor, and a lid that is its guard, with four ears around the band for the lid's
-screws. Both stand around the wheel in the wheel's frame, the floor at -z, and are printed as they
-stand: floor or lid on the bed, nothing overhangs.
+A drum with a floor, and a lid as guard, with four ears around the band for the lid's screws. Both
+are modelled in the wheel's frame, the floor at -z, and printed in this orientation: with floor or
+lid on the bed, nothing overhangs.
 
-Sizes of a rim, its outer radius R and height h [m], are numbers, arrays that broadcast, or CasADi's
+Sizes of a rim, its outer radius R and height h [m], are numbers, arrays that broadcast, or CasADi
 symbols.
 """
 
@@ -32,13 +32,13 @@ from ocs_design.parts.shapes import EAR_COUNT, Disc, Eared
 from ocs_design.parts.solids import Part, Prism, Shape
 
 FIRST_EAR = pi / 4.0
-"""Angle from the x axis [rad]: nothing stands out below, above, before and behind."""
+"""Angle of the first ear from the x axis [rad]: none protrudes below, above, in front or behind."""
 
 LID_SCREWS = Fastening(LID_SCREW, EAR_COUNT, PANEL, "lid on drum, which is tapped", IN_PLASTIC)
 
 
 def housing_outer_radius(outer_radius: Real) -> Real:
-    """Radius of the band around a rim, outside [m]."""
+    """Outer radius of the band around a rim [m]."""
     return outer_radius + (CLEARANCE + WALL)
 
 
@@ -47,10 +47,10 @@ class Housing(Generic[Real]):
     """Drum and lid around a rim.
 
     Attributes:
-        rim_radius, rim_height: outer ones of the rim [m].
+        rim_radius, rim_height: outer radius and height of the rim [m].
         mount: holes in the floor.
-        lid_screw: of the ears outside the band, cut into the drum's; None: no ears.
-        guard_wall: of the steel ring in the band that holds a rim that bursts [m]; 0: none.
+        lid_screw: screw of the ears outside the band, tapped into the drum's; None: no ears.
+        guard_wall: of the steel ring in the band that contains a bursting rim [m]; 0: none.
     """
 
     rim_radius: Real
@@ -61,12 +61,12 @@ class Housing(Generic[Real]):
 
     @property
     def radius(self) -> Real:
-        """Radius of the band, outside [m]."""
+        """Outer radius of the band [m]."""
         return housing_outer_radius(self.rim_radius) + self.guard_wall
 
     @property
     def inner_radius(self) -> Real:
-        """Radius of the band, inside [m]."""
+        """Inner radius of the band [m]."""
         return self.radius - WALL
 
     @property
@@ -76,7 +76,7 @@ class Housing(Generic[Real]):
 
     @property
     def band(self) -> Shape[Real]:
-        """The band's disc, with ears where they are wanted."""
+        """The band's disc, with ears if there is a screw for them."""
         if self.lid_screw is None:
             return Disc(self.radius)
         return eared(self.radius, self.lid_screw, FIRST_EAR)
@@ -120,11 +120,11 @@ FINGER = 10.0
 """Force of the test finger of IEC 60529 [N]."""
 
 PETG_POISSON = 0.38
-"""Of PETG, as of PET (MatWeb, overview of polyesters: 0.37 to 0.40)."""
+"""Poisson's ratio of PETG, taken as that of PET (MatWeb, overview of polyesters: 0.37 to 0.40)."""
 
 
 def lid_sag(housing: Housing[float]) -> float:
-    """How far `FINGER` presses the middle of a lid in, its edge held [m].
+    """Deflection of the middle of a lid with a clamped edge under `FINGER` [m].
 
     W a^2 / (16 pi D), D = E t^3 / (12 (1 - nu^2)): Roark's Formulas for Stress and Strain, 7th
     edition, table 11.2, case 17.
@@ -136,7 +136,7 @@ def lid_sag(housing: Housing[float]) -> float:
 def guard_ring(housing: Housing[Real]) -> Part[Real]:
     """The ring of mild steel in the drum, from its floor to the lid, in the wheel's frame.
 
-    Its glue is between ring and drum; the rim is as much nearer to it.
+    The glue is between ring and drum, so the ring is that much closer to the rim.
     """
     half, inside = housing.rim_height / 2.0 + CLEARANCE, housing.rim_radius + CLEARANCE - GUARD_GAP
     room: Prism[Real] = Prism(Disc(inside), -half, half)

@@ -1,4 +1,4 @@
-"""Joints of a wheel, as formulas: shrink fits, screws, shafts, bonds, balance."""
+"""Formulas for the joints of a wheel: shrink fits, screws, shafts, bonds, balance."""
 
 from bisect import bisect_left
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.parts.turning_rings import Ring, TurningRings
 
 OVERSPEED = 1.2
-"""Speed at which a wheel must hold, over the highest that it can get to."""
+"""Speed at which a wheel must hold, over the highest that it can reach."""
 
 SERVICE = 1.5
 """Torque that a joint must carry, over the peak torque of its drive: it starts and stops hard."""
@@ -23,34 +23,34 @@ _NO_WALL = 1e-15
 """Least difference of the squares of two radii [m^2]."""
 
 _ROUNDED = 1e-6
-"""Share of a radius that rounding takes no more of."""
+"""Share of a radius that exceeds rounding."""
 
 _HALVINGS = 40
-"""Of an interval of radii, to rounding."""
+"""Number of halvings that reduce an interval of radii to rounding."""
 
 
 # --- screws -----------------------------------------------------------------------------------
 
 PRELOAD_SHARE = 0.75
-"""Preload over proof load of a joint that is taken apart again: Shigley, equation 8-31."""
+"""Preload over proof load of a joint with reused fasteners: Shigley, equation 8-31."""
 
 TIGHTENING_FACTOR = 1.6
-"""Largest preload over the least that a torque wrench leaves: VDI 2230-1, table A8."""
+"""Largest preload over the smallest, tightened with a torque wrench: VDI 2230-1, table A8."""
 
 FRICTION = 0.1
-"""Least coefficient between dry, clean faces of steel and aluminium: VDI 2230-1, table A6."""
+"""Least friction coefficient between dry, clean steel and aluminium: VDI 2230-1, table A6."""
 
 SHEAR_SHARE = 0.577
 """Shear strength over yield strength by distortion energy: Shigley, equation 5-21."""
 
 
 def joint_preload(held: Screw, strength: str = USUAL_CLASS) -> float:
-    """Force that a screw of a property class is tightened to, 0.75 of its proof load [N]."""
+    """Preload of a screw of a property class, 0.75 of its proof load [N]."""
     return PRELOAD_SHARE * CLASSES[strength].proof * held.stress_area
 
 
 def tightening_torque(held: Screw, strength: str = USUAL_CLASS) -> float:
-    """Torque for that preload [N m]; see `Screw.torque`."""
+    """Tightening torque for `joint_preload` [N m]; see `Screw.torque`."""
     return held.torque(joint_preload(held, strength))
 
 
@@ -58,25 +58,25 @@ def friction_torque(held: Screw, count: int, radius: float, strength: str = USUA
     """Torque that screws on a circle carry by friction under their least preload [N m].
 
     Args:
-        held: each of them. count: of them. radius: of their circle [m].
+        held: the screw. count: of screws. radius: of their circle [m].
         strength: their property class.
     """
     return FRICTION * count * joint_preload(held, strength) / TIGHTENING_FACTOR * radius
 
 
 def shear_torque(held: Screw, count: int, radius: float, strength: str = USUAL_CLASS) -> float:
-    """Torque at which their threads yield in shear, should the faces slip [N m]."""
+    """Torque at which screws on a circle yield in shear, if the faces slip [N m]."""
     return SHEAR_SHARE * CLASSES[strength].yields * held.stress_area * count * radius
 
 
 SCREW_TENSION, SCREW_SHEAR = 0.9 * 800e6 / 1.25, 0.6 * 800e6 / 1.25
-"""Of screws of class 8.8 over their stress area [Pa]: EN 1993-1-8, table 3.4."""
+"""Strength of class 8.8 screws over their stress area [Pa]: EN 1993-1-8, table 3.4."""
 
 
 def screw_use(held: Screw, tension: FloatArray, shear: FloatArray) -> FloatArray:
-    """Share of a screw's strength that tension and shear take [N]: EN 1993-1-8, table 3.4.
+    """Share of a screw's strength used by tension and shear [N]: EN 1993-1-8, table 3.4.
 
-    F_v / F_v,Rd + F_t / (1.4 F_t,Rd), and F_t / F_t,Rd at the least.
+    F_v / F_v,Rd + F_t / (1.4 F_t,Rd), but at least F_t / F_t,Rd.
     """
     area = held.stress_area
     pulled, sheared = tension / (SCREW_TENSION * area), shear / (SCREW_SHEAR * area)
@@ -90,15 +90,16 @@ def pattern_use(
     half: tuple[FloatArray, FloatArray],
     sheared: float | FloatArray = 0.0,
 ) -> FloatArray:
-    """Largest share of strength that a force along any one axis takes of four screws.
+    """Largest share of strength used in four screws by a force along any one axis.
 
-    They stand at +-p above and +-q beside their middle: a moment pulls at two of them, and a push
+    They are at +-p above and +-q beside their middle: a moment pulls at two of them, and a push
     sideways shears them by itself and by its moment over 4 sqrt(p^2 + q^2).
 
     Args:
-        held: the screws. force: on all that they hold [N].
-        arms: of the force, off what they are in and above their middle [m]. half: p and q [m].
-        sheared: what shears each besides, whatever the force [N].
+        held: the screws. force: on everything that they hold [N].
+        arms: of the force, from the face that they are in and above their middle [m].
+        half: p and q [m].
+        sheared: additional shear force on each, whatever the force [N].
     """
     (off, up), (p, q), share = arms, half, force / 4.0
     down = screw_use(held, share * off / p, np.asarray(share + sheared))
@@ -110,26 +111,27 @@ def pattern_use(
 # --- shafts -----------------------------------------------------------------------------------
 
 BOND_STRENGTH = 25e6
-"""Shear strength of a retaining compound on steel [Pa]: an assumption; what Loctite 638, which is
-made for such joints, is sold with for pins and collars of ISO 10123, at least."""
+"""Shear strength of a retaining compound on steel [Pa]: an assumption, the least value quoted for
+Loctite 638, made for such joints, on pins and collars of ISO 10123."""
 
 BOND_SHARE = 0.5
-"""Share of that: half is left at 80 deg C, on stainless steel and in wide gaps."""
+"""Usable share of a bond's strength: half remains at 80 deg C, on stainless steel, in wide gaps."""
 
 
 def cylinder_torque(diameter: float, length: float, shear: float) -> float:
     """Torque of a shear stress on a shaft's surface, pi d L tau d / 2 [N m].
 
-    tau is mu p in a press fit or clamp, and the strength of the compound in a bond. A bore that
-    slides on has neither, and carries nothing.
+    tau is mu p in a press fit or clamp, and the strength of the compound in a bond. A sliding fit
+    has neither, and carries nothing.
     """
     return pi * diameter * length * shear * diameter / 2.0
 
 
 def hub_joint(mounting: Mounting, bond_length: float) -> float | None:
-    """Torque that a hub's joint on its motor carries [N m]; None: nothing that is known carries.
+    """Torque that a hub's joint on its motor carries [N m]; None: no joint is known.
 
-    Friction under the screws in the rotor's threads, as deep as they are, else a bond on the shaft.
+    Friction under the screws in the rotor's threads, allowing for their depth; otherwise a bond on
+    the shaft.
 
     Args:
         mounting: of the motor.
@@ -147,19 +149,19 @@ def hub_joint(mounting: Mounting, bond_length: float) -> float | None:
 # --- bonds around bells -----------------------------------------------------------------------
 
 EPOXY = "3M Scotch-Weld DP760"
-"""A toughened two-part epoxy that cures at room temperature."""
+"""Epoxy of the bond: toughened, two-part, cures at room temperature."""
 
 EPOXY_STRENGTH = 24.1e6
 """Its overlap shear strength at 80 deg C, cured at 23 deg C for a week [Pa]: product data sheet,
-3M, February 2009 (28.2 MPa at 23 deg C, 16.2 at 120; aluminium, etched, 0.15 mm of glue). Its
-strength in tension, which the sheet does not have, is taken for no more."""
+3M, February 2009 (28.2 MPa at 23 deg C, 16.2 at 120; etched aluminium, 0.15 mm of glue). The sheet
+has no tensile strength, which is assumed to be no higher."""
 
 HOTTEST = 80.0
 """Temperature that a bond on a bell must hold at [deg C]; the other end is `COLDEST`."""
 
 BELL_EXPANSION = 11.7e-6
 """Thermal expansion of a bell [1/K]: its straight part is the magnets' yoke, of low-carbon steel
-(Callister, Materials Science and Engineering, 1020)."""
+(Callister, Materials Science and Engineering, steel 1020)."""
 
 
 def bell_bond_tension(
@@ -172,17 +174,16 @@ def bell_bond_tension(
     expansion: float | FloatArray,
     speed: float | FloatArray,
 ) -> FloatArray:
-    """Most that a bond around a bell is pulled by a ring that turns, cold or warm [Pa].
+    """Largest tension in the bond between a bell and a spinning ring, cold or warm [Pa].
 
-    The bell counts as rigid: whatever it grows by itself, and gives way, takes from the pull. The
-    ring's constants A and B follow from no displacement at its bore and no stress at its edge, and
-    a ring whose bore has to give way by a strain e is pulled with
-    E e / ((R^2 + r^2) / (R^2 - r^2) + nu).
+    The bell counts as rigid: its own growth and its compliance would reduce the tension. The ring's
+    constants A and B follow from zero displacement at its bore and zero stress at its outer edge. A
+    bore forced by a strain e adds the tension E e / ((R^2 + r^2) / (R^2 - r^2) + nu).
 
     Args:
         inner, outer: radii [m].
         density, elastic_modulus, poisson_ratio: of the ring; a modulus of 0 leaves temperature out.
-        expansion: of it [1/K].
+        expansion: of the ring [1/K].
         speed: [rad/s].
     """
     inner, outer = np.asarray(inner), np.asarray(outer)
@@ -198,7 +199,7 @@ def bell_bond_tension(
 
 
 def bell_bond_radius(bore: FloatArray, most: float, **ring: FloatArray) -> FloatArray:
-    """Largest outer radius, up to `most` [m], of rings whose bond holds; the bore where none does.
+    """Largest outer radius, up to `most` [m], of rings whose bond holds; the bore if none does.
 
     Args:
         bore: radius [m]. most: [m]. ring: see `bell_bond_tension`.
@@ -217,11 +218,11 @@ GRADE = 6.3
 """Balance quality grade of flywheels [mm/s]: ISO 21940-11, table 1."""
 
 _STEPS_MM = (3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500, 630, 800, 1000)
-"""Upper ends of the steps of nominal sizes [mm]: ISO 286-1, table 1."""
+"""Upper limits of the ranges of nominal sizes [mm]: ISO 286-1, table 1."""
 
 
 class Grade(Enum):
-    """Widths of the tolerance interval over the steps of nominal sizes [um]: ISO 286-1, table 1."""
+    """Tolerance width in each range of nominal sizes [um]: ISO 286-1, table 1."""
 
     IT6 = (6, 8, 9, 11, 13, 16, 19, 22, 25, 29, 32, 36, 40, 44, 50, 56)
     IT7 = (10, 12, 15, 18, 21, 25, 30, 35, 40, 46, 52, 57, 63, 70, 80, 90)
@@ -241,27 +242,27 @@ def tolerance_width(size: float, grade: Grade) -> float:
 
 
 def slip_fit_eccentricity(diameter: float) -> float:
-    """Distance that an H7/h6 fit may be off centre: half of its largest play [m]."""
+    """Largest eccentricity of an H7/h6 fit: half of its largest play [m]."""
     return (tolerance_width(diameter, Grade.IT7) + tolerance_width(diameter, Grade.IT6)) / 2.0
 
 
 CORRECTION_HOLE = 0.8e-3
-"""Radius of holes that take an unbalance away, at most [m]."""
+"""Largest radius of holes that correct an unbalance [m]."""
 
 
 @dataclass(frozen=True)
 class Correction:
-    """Holes in a rim's faces, on its middle radius, that take an unbalance away.
+    """Holes in a rim's faces, on its middle radius, that correct an unbalance.
 
-    They are drilled where balancing asks for them, one opposite the other in both faces.
+    They are drilled where balancing requires them, in pairs, opposite each other in both faces.
 
     Attributes:
-        radius: that they are on [m].
+        radius: of the circle of their middles [m].
         hole_radius, depth: of each [m]; 0: there is no room for any.
-        mass: that a pair of them takes [kg].
-        apart: distance of neighbours [m].
-        count: pairs that have room on one half of the rim.
-        most: largest unbalance that these take [kg m].
+        mass: removed by a pair [kg].
+        apart: distance between neighbours [m].
+        count: number of pairs that fit on one half of the rim.
+        most: largest unbalance that these correct [kg m].
     """
 
     radius: float
@@ -276,7 +277,7 @@ class Correction:
 def correction(
     inner: float, outer: float, height: float, density: float, *, chamfer: float, ligament: float
 ) -> Correction:
-    """Largest correction that holes in a rim can make, drilled to tenths of a millimetre.
+    """Largest correction by holes in a rim, with depths in steps of 0.1 mm.
 
     Args:
         inner, outer, height, density: of the rim [m], [kg/m^3].
@@ -285,7 +286,7 @@ def correction(
     """
     middle = (inner + outer) / 2.0
     beside = (outer - inner) / 2.0 - chamfer - ligament
-    # Narrower ones where the wall asks for them.
+    # Narrower holes if the wall requires it.
     hole = _whole(max(min(CORRECTION_HOLE, beside), 0.0), 0.05e-3)
     depth = _whole(max((height - ligament) / 2.0, 0.0), 0.1e-3)
     if hole == 0.0 or depth == 0.0:
@@ -300,25 +301,25 @@ def correction(
 
 
 def _whole(length: float, step: float) -> float:
-    """A length cut to whole steps [m]."""
+    """A length rounded down to whole steps [m]."""
     return step * floor(length / step + 1e-6)
 
 
 # --- shrink fits ------------------------------------------------------------------------------
 
 COLDEST, MADE, WARMEST = -10.0, 20.0, 50.0
-"""Temperatures that a shrink fit must hold at, and the one that it is made at [deg C]."""
+"""Extreme temperatures at which a shrink fit must hold, and that at which it is made [deg C]."""
 
 
 SEAT_ROUGHNESS = 1.6e-6
-"""Arithmetic mean height Ra of both seats of a shrink fit, as they are drawn [m]."""
+"""Arithmetic mean roughness Ra of both seats of a shrink fit, as on the drawing [m]."""
 
 _TURNED = 4.0
-"""Greatest height Rz over Ra of a triangular profile, as turning leaves."""
+"""Rz over Ra of a triangular profile, as left by turning."""
 
 SMOOTHING = 0.8 * 2.0 * _TURNED * SEAT_ROUGHNESS
-"""Interference on the diameter that is lost as the peaks of both seats are smoothed,
-0.8 (Rz_i + Rz_a) [m]: DIN 7190-1:2017."""
+"""Interference on the diameter lost to smoothing of both seats, 0.8 (Rz_i + Rz_a) [m]:
+DIN 7190-1:2017."""
 
 
 @dataclass(frozen=True)
@@ -327,8 +328,8 @@ class ShrinkFit:
 
     Attributes:
         least, most: radial interference at `MADE`, before smoothing [m].
-        torque: that friction carries at the least pressure: at the least interference less
-            `SMOOTHING`, turning or not, cold or warm [N m].
+        torque: carried by friction at the least pressure: at the least interference minus
+            `SMOOTHING`, spinning or not, cold or warm [N m].
         stress_web, stress_rim: largest, at the largest interference [Pa].
         squeezed: largest pressure on the web [Pa].
         buckling: pressure at which the web buckles [Pa].
@@ -344,8 +345,9 @@ class ShrinkFit:
 
 
 _BUCKLING = 14.68
-"""Of a full plate with a clamped edge, N = 14.68 D / a^2: Timoshenko and Gere, Theory of Elastic
-Stability, 2nd ed., section 9.1. The rim holds the web's edge, its hub stiffens the middle."""
+"""Buckling coefficient of a full plate with a clamped edge, N = 14.68 D / a^2: Timoshenko and Gere,
+Theory of Elastic Stability, 2nd ed., section 9.1. The rim clamps the web's edge, and the hub
+stiffens its middle."""
 
 
 def shrink_fit(
@@ -356,17 +358,17 @@ def shrink_fit(
     *,
     holes: float | None = None,
 ) -> ShrinkFit:
-    """The loosest shrink fit that holds at that speed and at rest, cold and warm.
+    """The loosest shrink fit that holds at a given speed and at rest, cold and warm.
 
-    Web and rim grow by their expansions; bore and web are made to grade 6 each. Interferences are
-    whole micrometres across, as they are drawn. Smoothing counts where the fit must hold, and not
-    where it must not yield or buckle.
+    Web and rim expand differently; bore and web are each made to IT6. Interferences on the diameter
+    are whole micrometres, as on the drawing. Smoothing is subtracted where the fit must hold, but
+    not where it must not yield or buckle.
 
     Args:
         rings: hub, web and rim, or web and rim.
-        expansions: of web and rim [1/K].
-        speed: that it holds at [rad/s].
-        torque: that it carries at least [N m].
+        expansions: thermal expansion of web and rim [1/K].
+        speed: at which it must hold [rad/s].
+        torque: that it must carry [N m].
         holes: radius of the circle of the hub's screws [m]; None: it has none.
     """
     web = rings[-2]
@@ -375,7 +377,7 @@ def shrink_fit(
     grown = [(expansions[0] - expansions[1]) * (at - MADE) * radius for at in (COLDEST, WARMEST)]
 
     def turning(interference: float, at: float) -> TurningRings:
-        """Rings with this interference at the joint [m], at this speed [rad/s]."""
+        """Rings with an interference at the joint [m], at a speed [rad/s]."""
         return TurningRings.of(rings, at, [0.0] * joint + [interference])
 
     # Pressure is linear in the interference.

@@ -1,4 +1,4 @@
-"""A module without its wheel: motor, gear, housing and foot, with what holds them together."""
+"""A module without its wheel: motor, gear, housing and foot, with their fasteners."""
 
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -26,7 +26,7 @@ from ocs_design.parts.solids import Carrier
 
 
 def part_name(part: str, module: str) -> str:
-    """Part of a module for people, as in "left foot"; with a number "foot 1" or "foot left_1"."""
+    """Readable name of a part, as in "left foot"; with a number "foot 1" or "foot left_1"."""
     return f"{part} {module}" if module[-1:].isdigit() else f"{module} {part}"
 
 
@@ -35,12 +35,12 @@ class Printed:
     """Drum, lid and foot, with their screws, and the posts of a cage.
 
     Attributes:
-        mount_reach: of the holes in floor and plate, which the foot's plate is as wide as [m]; a
-            scalar, or an array that broadcasts. The holes themselves are not in any mass.
+        mount_reach: reach of the holes in floor and plate, which determines the width of the foot's
+            plate [m]; a scalar, or an array that broadcasts. No mass accounts for the holes.
         posts: of the motor's cage, whose floor is not in any mass either.
         guard_wall: of the steel ring in the housing [m]; 0: none.
         foot_plate: thickness of the foot's plate [m].
-        room: least height of a rim that the housing is made for (`MotorMount.room`) [m].
+        room: least rim height that the housing is made for (`MotorMount.room`) [m].
     """
 
     mount_reach: float | FloatArray
@@ -50,7 +50,7 @@ class Printed:
     room: float | FloatArray = 0.0
 
     def mass(self, outer_radius: FloatArray, height: FloatArray) -> FloatArray:
-        """Mass of all of it [kg]."""
+        """Total mass [kg]."""
         foot = self._foot(outer_radius, height)
         ring = (housings.guard_ring(foot.housing),) if self.guard_wall else ()
         parts = (*housings.undrilled(foot.housing), *ring, feet.undrilled(foot))
@@ -58,7 +58,7 @@ class Printed:
         return sum((part.mass() for part in parts), bought)
 
     def mass_per_height(self, outer_radius: FloatArray, height: FloatArray) -> FloatArray:
-        """Change of its mass with the rim's height, R held [kg/m]."""
+        """Change of its mass with the rim's height at constant R [kg/m]."""
         foot = self._foot(outer_radius, height)
         around: FloatArray = housing_mass_per_height(outer_radius, self.guard_wall)
         around = around + foot_mass_per_height(foot)
@@ -66,11 +66,12 @@ class Printed:
         return around + self.posts.mass_per_height()
 
     def moments(self, outer_radius: Real, height: Real) -> MassMoments[Real]:
-        """Moments of all but the posts (`Posts.moments`) about the wheel's centre.
+        """Moments of everything except the posts (`Posts.moments`) about the wheel's centre.
 
-        Screws are points, their heads on lid and base. The trunk's stay at 45 degrees to the
-        lateral direction while the foot turns under them, opposite each other: as much forward as
-        sideways. Their product of both is the left one's against the right one's, and is left out.
+        Screws are points, with their heads on lid and base. The trunk's screws, opposite each
+        other, stay at 45 degrees to the lateral direction while the foot turns under them: as far
+        forward as sideways. Their product of inertia cancels between the left and the right foot,
+        and is left out.
         """
         foot: Foot[Real] = self._foot(outer_radius, height)
         housing, held = foot.housing, foot.screws
@@ -91,15 +92,15 @@ class Printed:
 
 
 Shell: TypeAlias = Printed | PlainDrum
-"""What stands around a wheel, whose mass grows with the rim's outer radius and height [m]."""
+"""Structure around a wheel, whose mass grows with the rim's outer radius and height [m]."""
 
 
 def drive_moments(motor: HeldMotor) -> MassMoments[float]:
     """Moments of a motor about its middle.
 
-    A solid cylinder; a thin disc if its length is not known, a point without its diameter. Either
-    errs on the side of less inertia, by little: a motor of 0.1 kg and 40 mm has 2e-5 kg m^2 about
-    its axis, Solo12 5e-2 kg m^2. Its controller, a board behind it, is a point in the middle too.
+    A solid cylinder; a thin disc if its length is not known, a point without a diameter. Both
+    underestimate the inertia slightly: a motor of 0.1 kg and 40 mm has 2e-5 kg m^2 about its axis,
+    Solo12 5e-2 kg m^2. Its controller, a board behind it, is a point in the middle too.
     """
     mass, radius = motor.mass or 0.0, (motor.diameter or 0.0) / 2.0
     across = mass * (3.0 * radius**2 + (motor.length or 0.0) ** 2) / 12.0
@@ -113,9 +114,10 @@ def gear_moments(gear: Gear, foot_plate: float) -> MassMoments[float]:
 
 
 def by_floor(motor: HeldMotor, gear: Gear, mount: MotorMount) -> MassMoments[float]:
-    """Moments of what stands at the floor, about the middle of its outside: the same for any wheel.
+    """Moments of parts attached to the housing's floor, about the middle of its outside.
 
-    Screws and gear, less the mount's holes through floor and plate, and a motor behind the plate.
+    Screws and gear, minus the mount's holes through floor and plate, and a motor behind the plate.
+    They are the same for any wheel.
     """
     held = gear_moments(gear, mount.foot_plate) + mount.by_floor()
     if mount.cage is not None:
@@ -125,9 +127,10 @@ def by_floor(motor: HeldMotor, gear: Gear, mount: MotorMount) -> MassMoments[flo
 
 
 def by_wheel(motor: HeldMotor, mount: MotorMount) -> MassMoments[float]:
-    """Moments of what stands at the wheel's hub, about the wheel's middle: the same for any rim.
+    """Moments of parts positioned by the wheel's hub, about the wheel's middle.
 
-    Screws, and a motor in its cage with the cage's floor; of its posts see `Posts`.
+    Screws, and a motor in its cage with the cage's floor; for the posts see `Posts`. They are the
+    same for any rim.
     """
     if mount.cage is None:
         return mount.by_wheel()
@@ -145,7 +148,7 @@ def standing(
     foot_plate: float = PLATE_THICKNESS,
     on_bell: bool = False,
 ) -> Carrier:
-    """All that stands still around a wheel of that outer radius and height [m]."""
+    """All stationary parts around a wheel of this outer radius and height [m]."""
     mount = mount_of(motor, gear.room, foot_plate, on_bell=on_bell)
     height = max(height, mount.room)
     held = by_floor(motor, gear, mount).shifted(-half_height(height), 0.0) + by_wheel(motor, mount)

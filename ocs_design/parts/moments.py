@@ -1,10 +1,10 @@
-"""Mass with its first and second moments, which add up: of one body, or of many as arrays.
+"""Mass with its first and second moments, which are additive: of one body, or of many as arrays.
 
-A module's own frame stands at the wheel's centre: x forward across the wheel's axis, y along it
-away from the other module, z up. Both modules are symmetric to their yz plane, and each is the
+The origin of a module's frame is the wheel's centre: x forward across the wheel's axis, y along it
+away from the other module, z up. Both modules are symmetric about their yz planes, and each is the
 other turned about the vertical: left and right are the same parts.
 
-Everything is built of operators alone, for numbers, arrays and CasADi's symbols alike.
+Everything uses operators only, and so works for numbers, arrays and CasADi symbols.
 """
 
 from dataclasses import dataclass, replace
@@ -33,8 +33,8 @@ class MassMoments(Table, Generic[Real]):
     Attributes:
         mass: [kg].
         y, z, x: of the coordinates [kg m].
-        xx, yy, zz, yz, xy, xz: of their products [kg m^2]. Those with a single x are zero in a body
-            that is symmetric to the yz plane.
+        xx, yy, zz, yz, xy, xz: of their products [kg m^2]. Those with a single x are zero for a
+            body symmetric about the yz plane.
     """
 
     mass: Real
@@ -53,7 +53,7 @@ class MassMoments(Table, Generic[Real]):
         return MassMoments(*(own + more for own, more in both))
 
     def times(self, factor: float) -> "MassMoments[Real]":
-        """Moments of so many equal bodies; -1: of one that is cut out."""
+        """Moments of `factor` equal bodies; -1: of one that is cut out."""
         return MassMoments(*(factor * own for own in vars(self).values()))
 
     def moved(self, x: Real | float, y: Real | float, z: Real | float) -> "MassMoments[Real]":
@@ -78,7 +78,7 @@ class MassMoments(Table, Generic[Real]):
         return self.moved(0.0, along, up)
 
     def turned(self, rotation: FloatArray) -> "MassMoments[Real]":
-        """Moments in the axes of another frame, to which `rotation` takes coordinates."""
+        """Moments in the axes of another frame, into which `rotation` transforms coordinates."""
         rows = [[(k, entry) for k, entry in enumerate(row) if entry] for row in rotation.tolist()]
         first = (self.x, self.y, self.z)
         second = (
@@ -106,11 +106,11 @@ class MassMoments(Table, Generic[Real]):
         )
 
     def around(self, count: int, first: float = 0.0) -> "MassMoments[Real]":
-        """Moments of so many equal flat bodies, evenly spaced around the z axis.
+        """Moments of `count` equal flat bodies, evenly spaced around the z axis.
 
         Args:
-            count: of bodies; three and more have the same about every axis across.
-            first: by which the first of them is turned [rad].
+            count: of bodies; with three or more, moments are equal about every transverse axis.
+            first: angle by which the first is turned [rad].
         """
         if count > 2:
             across = count * (self.xx + self.yy) / 2.0
@@ -121,7 +121,7 @@ class MassMoments(Table, Generic[Real]):
 
 
 def product(one: Real | float, other: Real | float) -> Real | float:
-    """Product of two; nothing of anything is the number nothing, and costs no array."""
+    """Product of two; a zero number times anything stays a number, without an array."""
     return 0.0 if isinstance(one, float) and one == 0.0 else one * other
 
 
@@ -143,7 +143,7 @@ def round_body(mass: Real, axial_inertia: Real, transverse_inertia: Real) -> Mas
 
     Args:
         mass: [kg].
-        axial_inertia, transverse_inertia: about y, and about any axis across it [kg m^2].
+        axial_inertia, transverse_inertia: about y, and about any transverse axis [kg m^2].
     """
     zero = 0.0 * mass
     across, along = axial_inertia / 2.0, transverse_inertia - axial_inertia / 2.0
@@ -167,6 +167,6 @@ def ring(mass: Real, radius: Real, count: int = 4) -> MassMoments[Real]:
 
 
 def flat_ring(mass: Real, radius: Real) -> MassMoments[Real]:
-    """Moments of points evenly on a circle around the vertical, in its plane [kg, m]."""
+    """Moments of points evenly spaced on a horizontal circle around the vertical [kg, m]."""
     zero, across = 0.0 * mass * radius, mass * radius**2 / 2.0
     return MassMoments(mass + zero, zero, zero, across, across, zero, zero)

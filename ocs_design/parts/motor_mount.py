@@ -1,8 +1,8 @@
-"""How a motor is held behind the foot's plate, and with which screws.
+"""Mount of a motor behind the foot's plate, and its screws.
 
-By the face that its shaft comes out of, through plate and floor; by its back, in a cage, from which
-it reaches through plate and floor up to the wheel's hub; or, where its threads are not known or a
-gear is between, on the plate with nothing but a hole for what turns.
+A motor is held by its output face, with screws through plate and floor; or by its back, in a cage,
+from which it reaches through plate and floor to the wheel's hub; or, if its threads are not known
+or there is a gear, it stands on the plate, which then has only a hole for the rotating part.
 """
 
 from collections.abc import Iterator
@@ -28,14 +28,14 @@ from ocs_design.parts.printed import (
 from ocs_design.parts.rim import BOLTED_HUB_HEIGHT, HUB_WALL, hub_height
 
 SHAFT_ROOM = 1.0e-3
-"""Room around a shaft that turns in a hole of a print [m]: prints are out by 0.2 mm."""
+"""Clearance of a shaft that turns in a printed hole [m]: prints are off by 0.2 mm."""
 
 ROTOR_ROOM = HUB_WALL + SHAFT_ROOM
-"""Room around the holes of what is screwed to a rotor [m]: its wall, and the same to turn in."""
+"""Room around the holes of a hub on a rotor [m]: its wall, and clearance to turn."""
 
 LEAST_RIM = 2.0e-3
-"""Height of a rim that a cage leaves room for, at the least [m]: a motor as flat as that is not
-held by a cage."""
+"""Least height of a rim for which a cage must leave room [m]: flatter motors are not held by a
+cage."""
 
 _LEAST_EDGE = 0.1
 """Least angle of a post's wall beside its ear [rad]."""
@@ -45,14 +45,15 @@ _DEPTH = "check the depth of the motor's thread"
 
 @dataclass(frozen=True)
 class Screwed:
-    """Screws at their places.
+    """Screws in position.
 
     Attributes:
-        fastening: what they are.
-        circle: that they are on.
-        along: of the undersides of their heads, from the outside of the housing's floor [m].
+        fastening: the screws.
+        circle: their bolt circle.
+        along: position of the undersides of their heads, from the outside of the housing's floor
+            [m].
         towards: 1: their tips point to the wheel, -1: away from it.
-        by_wheel: whether `along` is from the wheel's middle instead.
+        by_wheel: whether `along` is measured from the wheel's middle instead.
     """
 
     fastening: Fastening
@@ -62,7 +63,7 @@ class Screwed:
     by_wheel: bool = False
 
     def moments(self) -> MassMoments[float]:
-        """Moments as points, about what `along` is from.
+        """Moments as points, about the origin of `along`.
 
         A screw's own inertia is 1e-9 kg m^2.
         """
@@ -73,12 +74,12 @@ class Screwed:
 
 @dataclass(frozen=True)
 class Behind(Table, Generic[Real]):
-    """How far back a motor and what holds it reach.
+    """Extent of a motor and its mount behind the plate.
 
     Attributes:
-        depth: behind the foot's plate, whatever the rim's height [m].
+        depth: behind the foot's plate, for any rim height [m].
         radius: to the sides [m].
-        from_wheel: behind the wheel's middle at the least, whatever the rim's height [m].
+        from_wheel: least extent behind the wheel's middle, for any rim height [m].
     """
 
     depth: Real | float
@@ -88,18 +89,18 @@ class Behind(Table, Generic[Real]):
 
 @dataclass(frozen=True)
 class MotorMount:
-    """How one motor is held.
+    """Mount of one motor.
 
     Attributes:
         holes: in the housing's floor and in the foot's plate.
         cage: around the motor; None: it stands on the plate.
-        screwed: that hold it.
-        gap: between plate and motor [m]; below 0 where it stands in the housing.
-        up: of its axis from the wheel's [m].
+        screwed: screws that hold it.
+        gap: between plate and motor [m]; below 0 if it stands in the housing.
+        up: height of its axis above the wheel's [m].
         foot_plate: thickness of the foot's plate [m].
-        bell: of the motor, with a ring around it; None: its wheel stands before it.
-        shaft_rim: height of a rim behind which the motor's shaft goes through the hub [m]; inf: any
-            rim, or none.
+        bell: of the motor, with a ring around it; None: its wheel is in front of it.
+        shaft_rim: largest height of a rim behind which the motor's shaft still goes through the
+            hub [m]; inf: any rim, or none.
     """
 
     holes: MountHoles = field(default_factory=MountHoles)
@@ -112,7 +113,7 @@ class MotorMount:
     shaft_rim: float = inf
 
     def around(self, rim_height: float) -> "MotorMount":
-        """The mount behind a rim of that height [m]."""
+        """The mount behind a rim of this height [m]."""
         if self.cage is None:
             return self
         return replace(self, cage=replace(self.cage, rim_height=rim_height))
@@ -124,24 +125,24 @@ class MotorMount:
 
     @property
     def rim_height_max(self) -> float:
-        """Height of a rim that it leaves room for [m]; inf: any."""
+        """Largest height of a rim for which it leaves room [m]; inf: any."""
         if self.bell is not None:
             return self.bell.straight
         return self.shaft_rim if self.cage is None else self.cage.rim_height_max
 
     @property
     def room(self) -> float:
-        """Least height of a rim that its housing is made for [m]; 0: any."""
+        """Least rim height that its housing is made for [m]; 0: any."""
         return 0.0 if self.bell is None else self.bell.room
 
     @property
     def head_reach(self) -> float:
-        """Radius that the heads in the housing stay within [m]; 0: there are none."""
+        """Radius within which the heads in the housing stay [m]; 0: there are none."""
         found = self.holes.screws
         return 0.0 if found is None else found.radius + screw(found.thread).head_diameter / 2.0
 
     def behind(self, motor: HeldMotor) -> Behind[float]:
-        """How far back it reaches with the motor."""
+        """Extent behind the plate, with the motor."""
         if self.bell is not None:
             return Behind(max(each.fastening.screw.head_height for each in self.screwed), 0.0)
         if self.cage is not None:
@@ -150,13 +151,13 @@ class MotorMount:
         return Behind(self.gap + (motor.length or 0.0), (motor.diameter or 0.0) / 2.0)
 
     def by_floor(self) -> MassMoments[float]:
-        """Moments of screws less the holes, about the middle of the outside of the floor."""
+        """Moments of screws minus holes, about the middle of the outside of the floor."""
         walls = self.holes.cut_out(PANEL + self.foot_plate)
         total = walls.shifted((PANEL - self.foot_plate) / 2.0, 0.0)
         return sum((each.moments() for each in self.screwed if not each.by_wheel), total)
 
     def by_wheel(self) -> MassMoments[float]:
-        """Moments of screws and of the cage's floor about the wheel's middle; see `posts` too."""
+        """Moments of screws and of the cage's floor about the wheel's middle, without `posts`."""
         total = point(0.0) if self.cage is None else self.cage.floor_moments()
         return sum((each.moments() for each in self.screwed if each.by_wheel), total)
 
@@ -172,9 +173,9 @@ def mount_of(
 
     Args:
         motor: with its mounting and size.
-        room: of the gear between motor and wheel; None: its wheel is on its shaft or rotor.
+        room: of the gear between motor and wheel; None: the wheel is on the motor's shaft or rotor.
         foot_plate: thickness of the foot's plate [m].
-        on_bell: whether its wheel is a ring around its bell.
+        on_bell: whether the wheel is a ring around the motor's bell.
     """
     mounting = motor.mounting
     bell = bell_of(motor) if on_bell and room is None else None
@@ -192,8 +193,8 @@ def mount_of(
     stator, rotor = mounting.stator, mounting.rotor
     wheel: tuple[Screwed, ...] = ()
     if rotor is not None:
-        # Counted with what stands still. Their spin inertia is left out: it would be 0.3 % of that
-        # of the lightest wheel on such a motor, and on the safe side.
+        # These screws count as stationary. Their spin inertia, which would add 0.3 % to that of the
+        # lightest wheel on such a motor, is left out, which is conservative.
         depth = CLASSES[rotor.screws].depth
         purpose = f"wheel on rotor; {_DEPTH}"
         # Their thread counts in the joint, all of it.
@@ -210,12 +211,12 @@ def mount_of(
             None,
             (*wheel, held),
             foot_plate=foot_plate,
-            # One too short behind any rim is told as what its joint lacks.
+            # A shaft too short behind any rim is reported as a fault of its joint.
             shaft_rim=through if through >= LEAST_RIM else inf,
         )
     cage = cage_of(motor, mounting, foot_plate) if mounting.stator_face is Face.BACK else None
     if cage is None or stator is None:
-        # A hole for the shaft, or for what stands between rotor and hub.
+        # A hole for the shaft, or for the hub on the rotor.
         pilot = 0.0
         if rotor is not None:
             pilot = rotor.reach + ROTOR_ROOM
@@ -234,20 +235,20 @@ def mount_of(
 def is_held(motor: HeldMotor, room: GearRoom | None) -> bool:
     """True if known screws hold the motor: through plate and floor, or in a cage.
 
-    False behind any gear: how gear and motor are fixed to each other is in no row of the catalogue.
+    False behind any gear: the catalogue does not say how gear and motor are fixed to each other.
     """
     return mount_of(motor, room).holes.screws is not None
 
 
 def cage_of(motor: HeldMotor, mounting: Mounting, foot_plate: float) -> Cage | None:
-    """The cage of a motor with threads at its back; None where its size is unknown or does not do.
+    """Cage of a motor with threads at its back; None if its size is unknown or unsuitable.
 
     `foot_plate` is the thickness of the foot's plate [m].
     """
     stator, diameter, length = mounting.stator, motor.diameter, motor.length
     if stator is None or diameter is None or length is None:
         return None
-    # Behind its rotor's threads, or clear of a hub on its shaft.
+    # Behind the hub on its rotor's threads, or clear of a hub on its shaft.
     front = hub_height(mounting) / 2.0 + (SHAFT_ROOM if mounting.rotor is None else 0.0)
     holes = screwed_by_face(mounting, stator)
     cage = Cage(diameter / 2.0, length, holes, front, foot_plate=foot_plate)
@@ -257,7 +258,7 @@ def cage_of(motor: HeldMotor, mounting: Mounting, foot_plate: float) -> Cage | N
 
 
 def screwed_by_face(mounting: Mounting, stator: BoltCircle) -> MountHoles:
-    """Holes for a motor whose threads are in the face that its shaft comes out of.
+    """Holes for the screws into a motor's face, and for its shaft.
 
     The hole in the middle takes any centring collar that fits between the screws.
     """
@@ -266,7 +267,7 @@ def screwed_by_face(mounting: Mounting, stator: BoltCircle) -> MountHoles:
 
 
 def _through_walls(circle: BoltCircle, foot_plate: float, purpose: str, depth: float) -> Screwed:
-    """Screws through floor and plate, with their heads inside the housing."""
+    """Screws through floor and plate, with heads inside the housing."""
     thickness = PANEL + foot_plate
     return Screwed(_fastening(circle, thickness, purpose, depth), circle, PANEL, -1.0)
 
@@ -313,13 +314,13 @@ def _fastening(
 
 @dataclass(frozen=True)
 class DriveSolid:
-    """A cylinder about an axis that is parallel to the wheel's.
+    """A cylinder about an axis parallel to the wheel's.
 
     Attributes:
         name: "motor", "gear" or "cage".
         radius: [m].
-        low, high: where it begins and ends along the left wheel's axis, from its centre [m].
-        up: of its axis above the wheel's [m].
+        low, high: its ends along the left wheel's axis, from the wheel's centre [m].
+        up: height of its axis above the wheel's [m].
     """
 
     name: str
@@ -330,19 +331,19 @@ class DriveSolid:
 
 
 def motor_front(mount: MotorMount, height: float) -> float:
-    """Place of a motor's front along the left wheel's axis, behind a rim of that height [m]."""
+    """Position of a motor's front along the left wheel's axis, for a rim of this height [m]."""
     if mount.cage is not None:
         return -mount.cage.front
     return -(half_height(height) + mount.foot_plate + mount.gap)
 
 
 def bond_length(mounting: Mounting, hub_height: float, chamfer: float, front: float) -> float:
-    """Length of a hub's bore between its chamfers that the motor's shaft reaches into [m].
+    """Length of a hub's bore between its chamfers that the motor's shaft fills [m].
 
-    All of it where no source gives the shaft's length.
+    The whole bore if the shaft's length is not known.
 
     Args:
-        mounting: of the motor. hub_height: of the hub, about the wheel's middle [m].
+        mounting: of the motor. hub_height: of the hub, centred on the wheel's middle [m].
         chamfer: of its bore at both ends [m].
         front: of the motor, behind the wheel's middle and so below 0 [m].
     """
@@ -355,10 +356,10 @@ def bond_length(mounting: Mounting, hub_height: float, chamfer: float, front: fl
 def drive_cylinders(
     motor: HeldMotor, room: GearRoom | None, mount: MotorMount, height: float
 ) -> Iterator[DriveSolid]:
-    """Gear, motor and cage of a wheel whose rim has that height [m], as far as sizes are known.
+    """Gear, motor and cage of a wheel with this rim height [m], as far as sizes are known.
 
-    A gear is what turns with the wheel, and beside it what turns with the motor. The cage has the
-    heads of the motor's screws behind it.
+    A gear has one cylinder that turns with the wheel and, if offset, one that turns with the motor.
+    The cage includes the heads of the motor's screws behind it.
     """
     back = -(half_height(height) + mount.foot_plate)
     if room is not None and room.depth > 0.0:
