@@ -1,1 +1,1 @@
-"""Files for printers, robots and simulators."""
+"""Export of a design to files for manufacturing, robots and simulators."""

@@ -1,1 +1,1 @@
-"""How the device is put together, tested and wired: pictures and text for its builder."""
+"""Assembly, test and wiring instructions: pictures and text for the builder."""

@@ -1,6 +1,6 @@
 """`assembly.pdf`: exploded view, section, steps, screws, tests, wiring and safety on A4 sheets.
 
-The report's section shows the same tables and chapters.
+The report's assembly section shows the same tables and chapters.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -44,10 +44,10 @@ from ocs_design.parts.printed import WASHER
 
 LEFT, TOP, RIGHT, BOTTOM = FRAME_BOX
 _INSET = 4.0
-"""Distance between the frame and what is in it [mm]."""
+"""Distance between the frame and its content [mm]."""
 
 _TEXT, _LEADING, _AFTER = 1.9, 3.9, 1.3
-"""Height of capitals, distance of lines and of paragraphs [mm]."""
+"""Height of capitals, and spacing of lines and of paragraphs [mm]."""
 
 _HEADING, _TITLE = 2.5, 3.5
 """Heights of capitals of headings and of a page's title [mm]."""
@@ -88,12 +88,12 @@ _LABELS = {
 
 
 class PieceRow(NamedTuple):
-    """A piece, or equal screws, as the pictures number them.
+    """A piece, or a set of equal screws, with its number in the pictures.
 
     Attributes:
-        number: in the pictures. quantity: in the whole device. name: for people.
-        made: "bought", "turned" or "printed", and of what.
-        file: to make it from; empty: none.
+        number: number in the pictures. quantity: in the whole device. name: readable name.
+        made: how and of what it is made, or "bought".
+        file: file to make it from; empty if there is none.
     """
 
     number: int
@@ -117,7 +117,7 @@ class ScrewRow(NamedTuple):
 
 @dataclass(frozen=True)
 class Chapter:
-    """Sentences under a heading; in order where `numbered`, from the number `first` on."""
+    """Sentences under a heading; if `numbered`, they are steps counted from `first`."""
 
     title: str
     texts: tuple[str, ...]
@@ -136,7 +136,7 @@ def write(subject: Subject, folder: Path) -> Notes:
 
 def assembly_pages(assembly: Assembly) -> list[list[Item]]:
     """Sheets of the booklet."""
-    # The exploded view, and below it the pieces by their numbers.
+    # The exploded view, and below it the numbered pieces.
     view, scale = _exploded(assembly)
     first = [*view, *_scale("One module pulled apart", scale, EXPLODED_BOX)]
     for line, text in enumerate(_refused_lines(assembly)):
@@ -148,7 +148,7 @@ def assembly_pages(assembly: Assembly) -> list[list[Item]]:
     header = ("No.", "Qty", "Piece (of the whole device)", "Made", "File in cad/")
 
     def halves(count: int) -> tuple[list[Item], float]:
-        """So many rows on the left and the others on the right, and where they end [mm]."""
+        """The first `count` rows on the left, the others on the right, and their end [mm]."""
         items, ends = [], []
         for column, part in enumerate((cells[:count], cells[count:])):
             left = LEFT + _INSET + column * (width + _GUTTER)
@@ -185,12 +185,12 @@ def _exploded(assembly: Assembly) -> tuple[list[Item], Scale]:
 
 
 def _refused_lines(assembly: Assembly) -> list[str]:
-    """Why the device cannot be built, in lines across the first sheet; none where it can."""
+    """Lines across the first sheet on why the device cannot be built; empty if it can."""
     return wrapped(assembly.refused, RIGHT - LEFT - 2.0 * _INSET, _HEADING)
 
 
 def pictures(assembly: Assembly) -> Iterator[str]:
-    """The exploded view, then the sections, each alone as SVG for web pages."""
+    """The exploded view, then the sections, each as its own SVG for web pages."""
     items, _ = _exploded(assembly)
     yield svg_text(items, "Exploded view of one module", _around(items))
     for items, _, what, _ in _sections(assembly):
@@ -198,7 +198,7 @@ def pictures(assembly: Assembly) -> Iterator[str]:
 
 
 def _sections(assembly: Assembly) -> Iterator[tuple[list[Item], Scale, str, Box]]:
-    """Section of a module, and of a ring in its fixture: lines, scale, what it is, and its box."""
+    """Sections of a module and of a ring in its fixture: lines, scale, caption and box."""
     numbers, box = assembly.numbers, _SECTION_BOX
     if assembly.bonding:
         box = (*box[:3], _BONDING_BOX[1] - 6.0)
@@ -213,7 +213,7 @@ def _sections(assembly: Assembly) -> Iterator[tuple[list[Item], Scale, str, Box]
 
 
 def _above_caption(box: Box) -> Box:
-    """Room of a view and its numbers above the words below it [mm]."""
+    """Space for a view and its numbers above the caption [mm]."""
     left, top, right, bottom = box
     return left, top, right, bottom - _LEADING
 
@@ -228,7 +228,7 @@ def _around(items: Iterable[Item]) -> Box:
 
 
 def _text_pages(assembly: Assembly, texts: Sequence[Chapter]) -> list[list[Item]]:
-    """Text in columns: beside the section, then below the table of screws, then alone."""
+    """Text in columns: beside the section, then below the table of screws, then full pages."""
     items: list[Item] = []
     for drawn, scale, what, box in _sections(assembly):
         items += [*drawn, *_scale(what, scale, box)]
@@ -254,7 +254,7 @@ def _text_pages(assembly: Assembly, texts: Sequence[Chapter]) -> list[list[Item]
         lines = _lines(number, text, here)
         need = _LEADING * len(lines)
         if not number:
-            # No heading stands alone at the end of a column.
+            # A heading must not be the last line of a column.
             need += _LEADING * len(_lines("–", following, here)) + 2.0 * _AFTER
         if y + need - _LEADING > here[1][3]:
             if not columns:
@@ -277,13 +277,13 @@ def _text_pages(assembly: Assembly, texts: Sequence[Chapter]) -> list[list[Item]
 
 
 def _lines(number: str, text: str, column: tuple[int, Box]) -> list[str]:
-    """Lines of a paragraph in a column; of a heading, which has no number, the one that it is."""
+    """Lines of a paragraph in a column; a heading, which has no number, is one line."""
     left, _, right, _ = column[1]
     return wrapped(text, right - left - _NUMBER, _TEXT) if number else [text]
 
 
 def _halves(top: float) -> list[Box]:
-    """Two columns of a page below that height [mm]."""
+    """Two columns of a page below the height `top` [mm]."""
     middle = (LEFT + RIGHT) / 2.0
     return [
         (LEFT + _INSET, top, middle - _GUTTER / 2.0, BOTTOM - 3.0),
@@ -303,7 +303,8 @@ def _table(
 ) -> tuple[list[Item], float]:
     """Rows of wrapped cells between thin lines, and the height where they end.
 
-    `widths` of the columns [mm], 0: what is left; `box`: left, top and right [mm].
+    `widths` are those of the columns [mm], 0 for the remaining width; `box` is the left, top and
+    right edge [mm].
     """
     left, y, right = box
     rest = right - left - sum(widths)
@@ -324,7 +325,7 @@ def _table(
 
 
 def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]:
-    """How a piece is made, and the file to make it from."""
+    """How a piece is made, and the file for it."""
     motor = device.motor
     if name == "motor":
         return f"bought: {motor.full_name}", ""
@@ -383,13 +384,13 @@ def screw_rows(assembly: Assembly) -> Iterator[ScrewRow]:
 
 
 def _count(assembly: Assembly, piece: Piece) -> int:
-    """How many of it the device has."""
+    """Number of this piece in the device."""
     modules = 1 if piece.shared else piece.modules or len(assembly.device.modules)
     return modules * (piece.count if piece.fastening is None else piece.fastening.count)
 
 
 def _motor_threads(assembly: Assembly) -> Iterator[str]:
-    """What is known of the motor's threads, and how far the screws reach into them."""
+    """Known depth of the motor's threads, and the reach of the screws into them."""
     found = {
         name: each
         for name, each in assembly.screws.items()
@@ -430,7 +431,7 @@ def chapters(assembly: Assembly) -> tuple[Chapter, ...]:
     notes = dict.fromkeys((*drive_notes(assembly.device), *assembly.fitting))
     before = []
     if assembly.refused:
-        # No hole is asked of the trunk before it is known where it comes.
+        # The trunk is not drilled before the places of the holes are final.
         threads = trunk_threads(assembly.device)
         notes = dict.fromkeys(note for note in notes if not note.startswith(threads))
         before.append(assembly.refused)

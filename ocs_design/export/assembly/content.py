@@ -1,6 +1,6 @@
-"""What a builder has to know of a device, as plain values: its pieces and its screws.
+"""Data of a device for its builder: pieces, and screws with their torques.
 
-`booklet` has the rows and the chapters that pages and the report's section show of it.
+`booklet` turns them into the rows and chapters of the PDF and the report's section.
 """
 
 import math
@@ -21,30 +21,30 @@ from ocs_design.parts.joints import joint_preload, tightening_torque
 from ocs_design.parts.printed import PETG, PRESSURE_SHARE, WASHER
 
 STRIP_SHARE = 1.0 / 3.0
-"""Preload of a screw in a print over the one that strips its thread: prints shear along layers, and
-creep."""
+"""Preload of a screw in a print relative to the load that strips its thread: prints shear along
+layers, and creep."""
 
 ALUMINIUM_SHEAR = 207e6
-"""Shear strength of 6061-T6 [Pa] (ASM), for motors' bells and trunks whose alloy is not known."""
+"""Shear strength of 6061-T6 [Pa] (ASM), assumed for motor bells and trunks of unknown alloy."""
 
 LEAST_DRILL = 0.8e-3
-"""Diameter below which steel is ground and not drilled [m]."""
+"""Hole diameter below which steel is ground instead of drilled [m]."""
 
 THREAD_SHARE = 0.5
-"""Preload of a screw in aluminium over the one that strips its thread."""
+"""Preload of a screw in aluminium relative to the load that strips its thread."""
 
 
 @dataclass(frozen=True)
 class Tightened:
-    """Screws with the torque to tighten them with.
+    """Screws with their tightening torque.
 
     Attributes:
-        fastening: what they are.
-        torque: [N m].
-        rule: what limits it.
-        engagement: length of thread that holds, at least [m].
-        on_print: whether their heads press on a print, and they go through it.
-        washers: whether each has one under its head.
+        fastening: the screws.
+        torque: tightening torque [N m].
+        rule: limit that sets the torque.
+        engagement: minimum length of engaged thread [m].
+        on_print: whether the screws go through a print and their heads press on it.
+        washers: whether there is a washer under each head.
     """
 
     fastening: Fastening
@@ -56,7 +56,7 @@ class Tightened:
 
     @property
     def with_washers(self) -> str:
-        """What goes under each head; empty: nothing."""
+        """Words on the washers under the heads; empty if there are none."""
         return f", a washer {WASHER} under each head" if self.washers else ""
 
 
@@ -68,13 +68,14 @@ def tightened(
     on_slot: FootHold | None = None,
     deepest: float = math.inf,
 ) -> Tightened:
-    """Torque of screws, those of the wheel, metal on metal, as their joint is computed.
+    """Screws with their tightening torque; for the wheel's metal joints, that of the joint model.
 
-    Others, of class 8.8, with the least of: 90 % of the screw's yield strength (VDI 2230); half of
-    the force that shears off a thread in aluminium, or a third of it in a print, on half of the
-    thread's cylinder; under a head on a print, half the print's yield strength as pressure, and on
-    a foot's slots what `on_slot` says, the fastening going through its washers too. A print's shear
-    strength is its tensile one over sqrt(3). No thread is deeper than `deepest` [m].
+    For other screws, of class 8.8, the preload is the smallest of: 90 % of the screw's yield
+    strength (VDI 2230); half of the force that shears off a thread in aluminium, or a third of it
+    in a print, on half of the thread's cylinder; under a head on a print, the force that presses on
+    it with half its yield strength; and on a foot's slots that of `on_slot`, where the fastening
+    includes any washers. A print's shear strength is its tensile strength over sqrt(3). No thread
+    is deeper than `deepest` [m].
     """
     screw = fastening.screw
     engagement = min(fastening.engagement, deepest)
@@ -106,7 +107,7 @@ def tightened(
 
 @dataclass(frozen=True, eq=False)
 class Assembly(Documented):
-    """Everything that the pages and the report's section are made of."""
+    """Source of the pages of the PDF and of the report's section."""
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
@@ -115,18 +116,18 @@ class Assembly(Documented):
 
     @cached_property
     def bonding(self) -> tuple[Piece, ...]:
-        """Ring and motor in the fixture that they are bonded in; none without a ring."""
+        """Ring and motor in their bonding fixture; empty without a ring."""
         return bonding_pieces(self.device)
 
     @cached_property
     def numbers(self) -> dict[str, int]:
-        """Numbers of the pieces by their names, the tool's last."""
+        """Numbers of the pieces by their names, the fixture's last."""
         names = dict.fromkeys(piece.name for piece in (*self.pieces, *self.bonding))
         return {name: number for number, name in enumerate(names, start=1)}
 
     @cached_property
     def screws(self) -> dict[str, Tightened]:
-        """Screws by what they hold."""
+        """Screws by their purpose."""
         on_wheel = {
             each.fastening.purpose for each in motor_mount(self.device).screwed if holds_wheel(each)
         }
@@ -146,23 +147,23 @@ class Assembly(Documented):
 
     @cached_property
     def top_speed(self) -> float | None:
-        """Highest that motor, voltage and gear let the wheel reach [rad/s]; None: not limited."""
+        """Top speed of the wheel with its motor, voltage and gear [rad/s]; None: not limited."""
         speed = self.device.motor.top_speed
         return speed if math.isfinite(speed) else None
 
     @cached_property
     def burst(self) -> Containment | None:
-        """What would hold a wheel that bursts at its top speed; None where that is not known."""
+        """Containment of a wheel that bursts at top speed; None if the speed is not known."""
         return None if self.top_speed is None else burst_of(self.device)
 
     def number(self, name: str) -> str:
-        """Number of a piece in the pictures as text refers to it; empty: there is none."""
+        """Reference to a piece's number in the pictures; empty if it has none."""
         number = self.numbers.get(name)
         return "" if number is None else f" ({number})"
 
     @property
     def late(self) -> tuple[str, ...]:
-        """Screws that come after balancing: those of lid and trunk."""
+        """Screws that are tightened after balancing: those of lid and trunk."""
         return tuple(
             name
             for name in self.screws
@@ -170,7 +171,7 @@ class Assembly(Documented):
         )
 
     def screwed(self, name: str) -> str:
-        """The step that tightens equal screws."""
+        """Step that tightens a set of equal screws."""
         found = self.screws[name]
         held = found.fastening
         joint = "Lid on drum" if name.startswith("lid") else short(name).capitalize()
@@ -181,7 +182,7 @@ class Assembly(Documented):
                 lock += ", a drop on the tips only, because it attacks the print"
         plate, where = self.device.plate, ""
         fastenings = () if plate is None else plate.fastenings
-        # Which of the trunk's screws these are, where their lengths differ [mm].
+        # Places of these screws on the trunk [mm] if their lengths differ.
         if (
             plate is not None
             and len(fastenings) > 1
@@ -203,5 +204,5 @@ def assembly_of(subject: Subject) -> Assembly:
 
 
 def short(purpose: str) -> str:
-    """What screws hold, without the notes on it."""
+    """Purpose of screws without its notes."""
     return purpose.split(";", maxsplit=1)[0].split(", ", maxsplit=1)[0]

@@ -1,4 +1,4 @@
-"""Line drawings of triangle meshes with their hidden lines left out, and sections through them."""
+"""Line drawings of triangle meshes with hidden lines removed, and sections through meshes."""
 
 from collections.abc import Iterable, Sequence
 
@@ -10,22 +10,24 @@ from ocs_design.export.meshes import Mesh
 from ocs_design.export.raster import covered_pixels, ranges
 
 PIXEL = 0.2e-3
-"""Size of the depth map's pixels [m], at least."""
+"""Minimum pixel size of the depth map [m]."""
 
 MOST_PIXELS = 16e6
-"""Of a depth map: what is larger, as the device of a humanoid pulled apart, has larger pixels."""
+"""Maximum number of pixels; large subjects, such as an exploded humanoid device, get larger ones.
+"""
 
 _CHUNK = 1 << 12
-"""Triangles that are filled at once: all of them would take a hundred megabytes."""
+"""Triangles filled per pass: all at once would take a hundred megabytes."""
 
 _CREASE = np.cos(np.radians(25.0))
-"""Cosine between the normals of two faces whose common edge is drawn."""
+"""Cosine of the angle between face normals below which the common edge is drawn as a crease."""
 
 
 def visible_lines(meshes: Sequence[Mesh]) -> tuple[tuple[FloatArray, ...], ...]:
     """Visible creases and outlines of each mesh as chains of points, shape (k, 2) [m].
 
-    Meshes are in the picture's axes. A line is visible where no pixel around it is nearer.
+    Meshes are in the picture's axes. A point of a line is visible if no surrounding surface hides
+    it in the depth map.
     """
     depth = _DepthMap(np.concatenate([mesh.corners for mesh in meshes]))
     return tuple(_chains(_visible_parts(mesh, depth)) for mesh in meshes)
@@ -34,10 +36,10 @@ def visible_lines(meshes: Sequence[Mesh]) -> tuple[tuple[FloatArray, ...], ...]:
 def section_lines(mesh: Mesh) -> tuple[FloatArray, ...]:
     """Section of a mesh in the plane x = 0, as chains of points (y, z), shape (k, 2) [m]."""
     start = mesh.corners
-    # No corner lies exactly in the plane.
+    # Shifted so that no corner lies exactly in the plane.
     before = start[:, :, 0] - 1e-9
     end, after = np.roll(start, -1, axis=1), np.roll(before, -1, axis=1)
-    # None or two sides of each triangle cross it.
+    # Zero or two sides of each triangle cross it.
     crossing = (before > 0.0) != (after > 0.0)
     share = before[crossing] / (before[crossing] - after[crossing])
     points = start[crossing] + share[:, None] * (end[crossing] - start[crossing])
@@ -45,7 +47,7 @@ def section_lines(mesh: Mesh) -> tuple[FloatArray, ...]:
 
 
 class _DepthMap:
-    """Largest depth towards the eye on a grid of pixels, whose size is `pixel` [m]."""
+    """Depth map towards the eye on a grid with pixels of size `pixel` [m]."""
 
     def __init__(self, corners: FloatArray) -> None:
         flat = corners.reshape(-1, 3)
@@ -53,10 +55,9 @@ class _DepthMap:
         self.pixel = max(PIXEL, float(np.sqrt(across.prod() / MOST_PIXELS)))
         self._low = flat[:, :2].min(axis=0) - 2.0 * self.pixel
         size = np.ceil((flat[:, :2].max(axis=0) - self._low) / self.pixel).astype(int) + 3
-        # Ten million pixels: single precision tells a thousandth of one.
+        # Single precision resolves a thousandth of a pixel.
         self._depth = np.full((size[1], size[0]), -np.inf, dtype=np.float32)
-        # Triangles that look at the eye, line by line of the grid; of closed meshes the others are
-        # behind them.
+        # Triangles that face the eye, row by row; in closed meshes the others are behind them.
         for begin in range(0, len(corners), _CHUNK):
             points = corners[begin : begin + _CHUNK].copy()
             points[:, :, :2] = (points[:, :, :2] - self._low) / self.pixel
@@ -64,17 +65,17 @@ class _DepthMap:
             front = edge_1[:, 0] * edge_2[:, 1] - edge_1[:, 1] * edge_2[:, 0] > 1e-9
             _, rows, columns, depth = covered_pixels(points[front], 0.0)
             np.maximum.at(self._depth, (rows, columns), depth)
-        # The farthest around each pixel: what lies at an edge of a face is not hidden by it.
+        # Farthest depth around each pixel, so that a face does not hide its own edges.
         self._farthest = minimum_filter(self._depth, 3, mode="wrap")
 
     def sees(self, points: FloatArray) -> FloatArray:
-        """Whether nothing is in front of each point, shape (n,)."""
+        """Whether each point is unobstructed, shape (n,)."""
         columns, rows = np.rint((points[:, :2] - self._low) / self.pixel).astype(int).T
         return np.asarray(points[:, 2] + 0.5 * self.pixel >= self._farthest[rows, columns])
 
 
 def _visible_parts(mesh: Mesh, depth: _DepthMap) -> list[FloatArray]:
-    """Parts of creases and outlines that are seen, each by its two ends, shape (2, 2)."""
+    """Visible parts of creases and outlines, each given by its two ends, shape (2, 2)."""
     corners = mesh.corners
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1)
@@ -88,7 +89,7 @@ def _visible_parts(mesh: Mesh, depth: _DepthMap) -> list[FloatArray]:
     front = (one[:, 2] > 0.0).astype(int) + (other[:, 2] > 0.0)
     crease = np.einsum("ij,ij->i", one, other) < _CREASE
     drawn = (front == 1) | (crease & (front == 2))
-    # Creases and outlines that look at the eye on one side, by their ends, shape (n, 2, 3).
+    # Creases and outlines with a face towards the eye, by their ends, shape (n, 2, 3).
     edges = np.asarray(mesh.vertices[ends[pairs[drawn]]])
     if not len(edges):
         return []
@@ -104,7 +105,7 @@ def _visible_parts(mesh: Mesh, depth: _DepthMap) -> list[FloatArray]:
         position += count
         turns = np.flatnonzero(flags[1:] != flags[:-1])
         for begin, end in zip(turns[::2], turns[1::2], strict=True):
-            # Specks are noise of the depth map.
+            # Single visible points are noise of the depth map.
             if end - begin > 1 or count <= 2:
                 shares = np.array([begin, end])[:, None] / count
                 found.append(edge[0] + shares * (edge[1] - edge[0]))
@@ -125,7 +126,7 @@ def _chains(segments: Iterable[FloatArray]) -> tuple[FloatArray, ...]:
             continue
         left.discard(number)
         chain = list(pieces[number])
-        # On from its end, then, turned round, from its start.
+        # Extend it at its end, then, reversed, at its start.
         for end in reversed(keys[number]):
             last = end
             while found := [each for each in by_end[last] if each in left]:
@@ -140,6 +141,6 @@ def _chains(segments: Iterable[FloatArray]) -> tuple[FloatArray, ...]:
 
 
 def _key(point: FloatArray) -> tuple[int, int]:
-    """Point to the hundredth of a micrometre."""
+    """Point rounded to a hundredth of a micrometre."""
     x, y = np.rint(1e8 * point).astype(int).tolist()
     return x, y

@@ -1,6 +1,6 @@
-"""The pieces of one module in their places, as meshes in the frame of the left wheel.
+"""Pieces of one module in place, as meshes in the frame of the left wheel.
 
-The wheel's axis is z, the floor of its housing at -z, the motor behind it; y points down.
+The wheel's axis is z, the floor of its housing is at -z with the motor behind it; y points down.
 """
 
 from collections.abc import Iterator, Mapping
@@ -36,7 +36,7 @@ SECTIONS = 64
 """Chords of a full circle."""
 
 _APART = 0.25
-"""Gap between pieces that are pulled apart up or down, over the housing's radius."""
+"""Vertical gap between exploded pieces, relative to the housing's radius."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,14 +46,13 @@ class Piece:
     Attributes:
         name: "drum", "lid", "foot", "cage", "motor", "gear", names of the wheel's pieces, or the
             purpose of screws.
-        mesh: in its place in the wheel's frame [m].
-        fastening: of screws; None: no screws.
-        drop: how far down it is drawn from its place where pieces are pulled apart [m]; None: it
-            is pulled off along the axis.
-        aside: how far along the axis besides [m]: pedestals of several shapes have one place.
-        shared: whether the device has it once, for both modules.
-        count: of equal ones in the mesh; screws have theirs in `fastening`.
-        modules: how many modules have it; None: all.
+        mesh: mesh in place in the wheel's frame [m].
+        fastening: data of screws; None for other pieces.
+        drop: downward shift in the exploded view [m]; None: it is moved along the axis instead.
+        aside: additional shift along the axis [m]: pedestals of several shapes share one place.
+        shared: whether the device has it once, for all modules.
+        count: number of equal pieces in the mesh; for screws see `fastening`.
+        modules: number of modules that have it; None: all.
     """
 
     name: str
@@ -66,15 +65,15 @@ class Piece:
     modules: int | None = None
 
     def moved(self, offset: FloatArray) -> "Piece":
-        """The piece elsewhere."""
+        """The piece shifted by an offset [m]."""
         return replace(self, mesh=self.mesh.moved(offset))
 
 
 def placed_parts(device: Device) -> Mapping[str, tuple[Part[float], Placement]]:
-    """Wheel, printed parts, motor and gear of one module by their names, each with its place.
+    """Wheel, printed parts, motor and gear of one module by name, each with its placement.
 
-    Motor and gear are cylinders of their mass, the motor with its shaft; a gear of two wheels has
-    one by the name of each.
+    Motor and gear are cylinders with their mass, the motor with its shaft; a gear of two wheels is
+    two cylinders, named after each wheel.
     """
     found = {
         name.removeprefix("flywheel_"): (part, HERE)
@@ -109,8 +108,8 @@ def placed_parts(device: Device) -> Mapping[str, tuple[Part[float], Placement]]:
 def _drive_bodies(device: Device, solid: DriveSolid) -> tuple[Revolution, ...]:
     """Motor or gear as a cylinder, and the shaft in front of a motor.
 
-    It goes through the hub where its length is not known. None is shown where the wheel is screwed
-    to the rotor, and the shaft in no source.
+    A shaft of unknown length is drawn through the hub. None is drawn if the wheel is screwed to the
+    rotor and no source gives a shaft.
     """
     body = hollow_cylinder(0.0, solid.radius, solid.low, solid.high)
     mounting, web = device.motor.mounting, device.flywheel.web
@@ -126,7 +125,7 @@ def _drive_bodies(device: Device, solid: DriveSolid) -> tuple[Revolution, ...]:
 
 
 def module_pieces(device: Device) -> tuple[Piece, ...]:
-    """Pieces in the order along the axis in which they come apart, the motor's end first.
+    """Pieces in the order of disassembly along the axis, the motor's end first.
 
     Wheels alone have no other pieces.
     """
@@ -156,7 +155,7 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
     inside = [piece for each, piece in screws if each.towards < 0.0 and not holds_wheel(each)]
     behind = [piece for each, piece in screws if each.towards > 0.0]
     back, guard = ([parts.pop(name)] if name in parts else [] for name in ("cage", "guard"))
-    # A motor whose bell has a ring stands in the drum.
+    # A motor with a ring on its bell sits in the drum.
     within = [parts.pop("motor")] if mount.bell is not None else []
     drum, lid, base = (parts.pop(name) for name in ("drum", "lid", "foot"))
     lid_screws = _ring(
@@ -181,9 +180,9 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
 
 
 def bonding_pieces(device: Device) -> tuple[Piece, ...]:
-    """Ring, motor and the fixture that both stand in while the glue sets; none without a ring.
+    """Ring, motor and the fixture that holds both while the glue sets; none without a ring.
 
-    The motor's front is down, y points down.
+    The motor's front faces down; y points down.
     """
     fixture, bell = ring_fixture(device), motor_mount(device).bell
     if fixture is None or bell is None:
@@ -201,7 +200,7 @@ def bonding_pieces(device: Device) -> tuple[Piece, ...]:
 
 
 def holds_wheel(screwed: Screwed) -> bool:
-    """Whether screws hold the wheel, not the motor or what carries it."""
+    """Whether screws hold the wheel, and not the motor or its support."""
     return screwed.fastening.purpose.startswith("wheel")
 
 
@@ -210,8 +209,8 @@ def _ring(
 ) -> Piece:
     """Screws on a circle, with the undersides of their heads at `along` [m].
 
-    The first stands at the angle `first` from the x axis [rad]; `towards` 1: their tips point
-    outward, -1: to the motor.
+    The first is at the angle `first` from the x axis [rad]; with `towards` 1 their tips point
+    outward, with -1 to the motor.
     """
     one, flip = _screw(fastening), np.diag([1.0, -towards, -towards])
     meshes = []
@@ -223,19 +222,19 @@ def _ring(
 
 
 def _foot_screws(device: Device) -> Iterator[Piece]:
-    """Screws of the foot from above, through its slots; into what each foot stands on."""
+    """Screws of the foot, from above through its slots into its support."""
     foot = foot_of(device)
     feet = [foot_screws(device, module) for module in device.modules]
     holes = foot_holes(device)
     for held in dict.fromkeys(feet):
         module = device.modules[feet.index(held)]
         if module.name in holes:
-            # The holes stay, the foot is turned over them.
+            # The holes are fixed, and the foot is turned over them.
             places = list(holes[module.name])
             place = (wheel_placement(module) @ carrier_placement(module)).inverse()
             under = float(module.position[2]) - foot.wheel_height
         else:
-            # What leans is not turned on its foot, whose slots end where its pedestal has holes.
+            # A leaning foot is not turned: the ends of its slots match the pedestal's holes.
             off = foot.slot_radius * sin(pi / 4.0)
             places, place = [(off, off), (-off, -off)], foot.placement
             under = 0.0
@@ -246,7 +245,7 @@ def _foot_screws(device: Device) -> Iterator[Piece]:
 
 
 def _pieces_below(device: Device) -> Iterator[Piece]:
-    """Plate, mast and sleeves, or a pedestal of each kind, and the screws that hold them."""
+    """Plate, mast and sleeves, or a pedestal of each kind, and their screws."""
     foot, plate = foot_of(device), device.plate
     apart, beside = _APART * foot.housing.radius, np.inf
     if plate is not None:

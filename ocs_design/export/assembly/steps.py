@@ -1,4 +1,4 @@
-"""The steps of a builder, in the order of the work."""
+"""Assembly steps, in the order of the work."""
 
 from collections.abc import Iterator, Sequence
 from math import sqrt
@@ -49,31 +49,31 @@ from ocs_design.parts.printed import (
 )
 
 FREE_SPAN = 10.0e-3
-"""Width that a printer bridges without supports [m]: an assumption. Of a round hole with its axis
-level, what hangs over by more than 45 degrees is sqrt(2) times its radius wide."""
+"""Width that a printer bridges without supports [m]: an assumption. In a round hole with a
+horizontal axis, the part that overhangs by more than 45 degrees is sqrt(2) radii wide."""
 
 KEY_LEG, KEY_ARM = 18.0e-3, 50.0e-3
-"""Short leg of a hex key for M3, and where its long one is pushed [m]: ISO 2936, 18 and 56 mm."""
+"""Short leg of a hex key for M3, and lever arm on its long leg [m]: ISO 2936, 18 and 56 mm."""
 
 LEAST_ROOM = 6.0e-3
-"""Above a head, in which a key with a cut leg can be put in and turned [m]: an assumption."""
+"""Space above a head needed to insert and turn a key with a cut leg [m]: an assumption."""
 
 HAND_STRIP = CLEARANCE - 0.5e-3
 """Thickness of what passes between rim and housing all around [m]."""
 
 LEAST_DEGREE = 1.0
-"""Change of a difference of lengths by a degree, below which a rule does not tell more than the
-scale [mm]: an assumption."""
+"""Change of a length difference per degree below which a ruler is no better than the scale [mm]: an
+assumption."""
 
 LARGEST_REAMER = 20.0e-3
-"""Diameter of a bore above which it is bored and not reamed [m]: an assumption."""
+"""Bore diameter above which it is bored instead of reamed [m]: an assumption."""
 
 DROP = 0.03e-3
-"""Air on the diameter with which a hot rim drops on its web before it has cooled [m]."""
+"""Diametral clearance with which a hot rim drops onto its web before it cools [m]."""
 
 
 def tools(assembly: Assembly) -> Iterator[str]:
-    """Tools that this design needs, one after another; what turns, mills and prints is not told."""
+    """Tools that this design needs, without lathe, mill and printer."""
     device, screws = assembly.device, assembly.screws.values()
     if screws:
         least = min(each.torque for each in screws)
@@ -116,9 +116,9 @@ def tools(assembly: Assembly) -> Iterator[str]:
 
 
 def _cutters(assembly: Assembly) -> Iterator[str]:
-    """Drills and taps of prints, plate and trunk, by what they cut.
+    """Drills and taps for prints, plate and trunk, with what they cut.
 
-    Where the device cannot be built as it stands, nothing is cut but prints.
+    If the device cannot be built as it stands, only prints are cut.
     """
     plate, printed = assembly.device.plate, "drum" in assembly.numbers
     settled = not assembly.refused
@@ -141,7 +141,7 @@ def _cutters(assembly: Assembly) -> Iterator[str]:
 
 
 def module_steps(assembly: Assembly) -> Iterator[str]:
-    """How one module is made, put together and tried."""
+    """Steps to make, assemble and test one module."""
     device = assembly.device
     if "drum" in assembly.numbers:
         caged = "cage" in assembly.numbers
@@ -184,12 +184,12 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
 
 
 def _drive_steps(assembly: Assembly) -> Iterator[str]:
-    """How motor, housing, foot and wheel are held together."""
+    """Steps to assemble motor, housing, foot and wheel."""
     device = assembly.device
     if "motor" in assembly.numbers and not any(
         name.startswith("motor") for name in assembly.screws
     ):
-        # Its threads are not known, and behind a gear neither is a hole for it.
+        # The motor's threads are not known, nor, behind a gear, its hole.
         if device.motor.gear_room is not None:
             yield (
                 f"Fix gear{assembly.number('gear')} and motor{assembly.number('motor')} as "
@@ -201,7 +201,7 @@ def _drive_steps(assembly: Assembly) -> Iterator[str]:
                 f"Fix the motor{assembly.number('motor')} to plate and drum, its axis within "
                 f"{1e3 * RUN_OUT:g} mm of the middle of their hole, as described above."
             )
-    # What holds the wheel on its drive; a ring around a bell is bonded already.
+    # Joint of the wheel on its drive; a ring around a bell is already bonded.
     joint = None
     if "drum" in assembly.numbers and not device.on_bell:
         joint = next((each for each in joints_of(device) if each.name == SHAFT_JOINT), None)
@@ -233,7 +233,7 @@ def _height_strip(assembly: Assembly) -> float | None:
 
 
 def _near_lid(assembly: Assembly) -> str:
-    """How near the hub or its screws are to the lid, where a finger presses it that far in."""
+    """Warning on the gap of the hub or its screws to the lid if a finger can close it."""
     device, housing = assembly.device, foot_of(assembly.device).housing
     web = device.flywheel.web
     if web is None or device.on_bell:
@@ -248,7 +248,7 @@ def _near_lid(assembly: Assembly) -> str:
 
 
 def robot_steps(assembly: Assembly) -> Iterator[str]:
-    """How the modules are set on the robot, and their drives named."""
+    """Steps to mount the modules on the robot and name their drives."""
     device = assembly.device
     if "lid" in assembly.numbers:
         yield from _trunk_steps(assembly)
@@ -270,7 +270,7 @@ def robot_steps(assembly: Assembly) -> Iterator[str]:
 
 
 def _wheel_steps(assembly: Assembly) -> Iterator[str]:
-    """How the wheel is turned, shrunk on its web, or bonded around the bell of its motor."""
+    """Steps to turn the wheel, and to shrink it on its web or bond it to the motor's bell."""
     device = assembly.device
     yield (
         "Turn the wheel to cad/wheel.pdf (`export --formats step,dxf` writes it for a shop's "
@@ -317,7 +317,7 @@ def _wheel_steps(assembly: Assembly) -> Iterator[str]:
 
 
 def _trunk_steps(assembly: Assembly) -> Iterator[str]:
-    """How trunk, plate, mast, feet and pedestals come together."""
+    """Steps to assemble trunk, plate, mast, feet and pedestals."""
     device, foot, standing = assembly.device, foot_of(assembly.device), foot_holes(assembly.device)
     drilled = [
         f"{part_name('foot', module)} {' and '.join(places(ends))}"
@@ -363,7 +363,7 @@ def _trunk_steps(assembly: Assembly) -> Iterator[str]:
 
 
 def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterator[str]:
-    """How plate, mast and sleeves are made and come on the trunk; `holes`: those for the feet."""
+    """Steps to make and mount plate, mast and sleeves; `holes` describes those for the feet."""
     through = f"holes of {1e3 * plate.screw.clearance_hole:g} mm for the trunk's screws, and "
     cut = (
         f"Make the plate{assembly.number('plate')} to cad/plate.pdf (`export --formats dxf` writes "
@@ -395,7 +395,7 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
             f"a sleeve of {1e3 * mast.bore:.1f} mm between them around each screw."
         )
         if plate.relief is not None:
-            # A block that has the trunk's form is the jig for the trunk's holes.
+            # A block shaped to the trunk is the drill jig for its holes.
             thin, thick = 1e3 * min(map(min, mast.formed)), 1e3 * mast.off
             bush = f"{1e3 * plate.screw.clearance_hole:g} x {1e3 * plate.screw.tapping_drill:g}"
             tilt = format_quantity(steepest(plate), "deg", digits=2)
@@ -420,7 +420,7 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
 
 
 def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
-    """How the feet of these modules are turned to the incidence by their scales."""
+    """Step that turns the feet of these modules to the incidence by their scales."""
     foot = foot_of(assembly.device)
     screws, found = next(
         each
@@ -444,7 +444,7 @@ def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
     long, degree = 360.0 / LONG_MARKS, 1e3 * np.radians(foot.marks_radius)
     held, plate = found.fastening, assembly.device.plate
     into = "the threads of the plate" if plate else "threads, inserts or nuts of the trunk"
-    # Pins through the feet where friction does not keep them from turning.
+    # Pins through the feet if friction alone does not keep them from turning.
     asked, pinned = unheld_moment(assembly.device, assembly.margins), ""
     if asked:
         pinned = (
@@ -465,17 +465,17 @@ def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
 
 
 def _mate(module: Module, modules: Sequence[Module]) -> Module | None:
-    """The module that stands opposite, mirrored at the robot's middle; None: none does."""
+    """Module mirrored across the robot's mid-plane; None if there is none."""
     mirrored = module.position * [1.0, -1.0, 1.0]
     others = (each for each in modules if each is not module)
     return next((each for each in others if np.allclose(each.position, mirrored)), None)
 
 
 def _scribed(device: Device, modules: Sequence[Module]) -> tuple[str, dict[str, str]]:
-    """The line that feet are set by, and where it meets the scale of each, by its name.
+    """Reference line for the feet, and its reading on the scale of each, by module name.
 
-    A base reaches over its plate's edge, but for the arm to the other foot or to the plate's
-    middle; the line is on that. On the trunk, where no foot is opposite, it goes forward.
+    A base overhangs its plate's edge, except at the arm to the other foot or to the plate's middle;
+    the line is on that arm. On the trunk, if no foot is opposite, it points forward.
     """
     plate, met = device.plate, dict[str, str]()
     ring = plate is not None and plate.arms > len(SIDES)
@@ -485,7 +485,7 @@ def _scribed(device: Device, modules: Sequence[Module]) -> tuple[str, dict[str, 
         mates = (_mate(module, modules) for module in modules)
         ends = [mate.position for mate in mates if mate is not None]
     if len(ends) < len(modules):
-        # Each axis's own, from the lateral direction: those of a ring's modules differ.
+        # The angle of each axis from the lateral direction: in a ring they differ.
         for module in modules:
             angle = float(np.arctan2(*np.abs(module.axis[:2])))
             met[module.name] = format_quantity(angle, "deg")
@@ -503,7 +503,7 @@ def _scribed(device: Device, modules: Sequence[Module]) -> tuple[str, dict[str, 
 
 
 def _marks_apart(device: Device, modules: Sequence[Module]) -> str:
-    """How far the 0 marks of opposite feet are apart, to check their angles; empty: none are."""
+    """Distance of the 0 marks of opposite feet, to check their angles; empty without such feet."""
     radius, found = foot_of(device).marks_radius, {}
     for module in modules:
         mate = _mate(module, modules)
@@ -531,7 +531,7 @@ def _marks_apart(device: Device, modules: Sequence[Module]) -> str:
 
 
 def room_above(device: Device, found: Tightened) -> float | None:
-    """Least room above a foot's screw that is under motor or cage [m]; None: none is."""
+    """Least space above foot screws under motor or cage [m]; None if there are none."""
     foot, driven = foot_of(device), found.fastening.screw
     corner = driven.key / sqrt(3.0)
     top = float(foot.base) + driven.head_height + (WASHER_HEIGHT if found.washers else 0.0)
@@ -560,7 +560,7 @@ def _screws_aside(device: Device) -> Iterator[tuple[float, float]]:
 
 
 def _under_motor(assembly: Assembly, found: Tightened) -> str:
-    """How a foot's screw is tightened that is under motor or cage; empty: none is."""
+    """How to tighten a foot screw under motor or cage; empty if there is none."""
     room, driven = room_above(assembly.device, found), found.fastening.screw
     if room is None:
         return ""
@@ -578,7 +578,7 @@ def _under_motor(assembly: Assembly, found: Tightened) -> str:
 
 
 def _pedestal_steps(assembly: Assembly) -> Iterator[str]:
-    """How pedestals come on the trunk, and the feet that lean on them."""
+    """Steps to mount the pedestals on the trunk, and the leaning feet on them."""
     kinds = pedestal_kinds(assembly.device)
     for kind in kinds:
         name, one = kind.name, kind.alike[0]

@@ -1,4 +1,4 @@
-"""Balance, spin test and safety of a module, sentence by sentence."""
+"""Balancing, spin test, resonance sweep and safety of a module, sentence by sentence."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -19,23 +19,23 @@ from ocs_design.parts.printed import CLEARANCE
 from ocs_design.parts.rim import stored_energy
 
 SPIN_STEPS = (0.1, 0.25, 0.5, 0.75, 1.0)
-"""Shares of the top speed at which a wheel is watched for a minute each."""
+"""Shares of the top speed at which a wheel is run for a minute each."""
 
 SPIN_TEST = 1.1
-"""Speed of the spin test over the top speed, once, before the wheel goes on a robot."""
+"""Highest speed of the spin test, relative to the top speed."""
 
 NEAR = 0.15
-"""Distance of a mode from a speed that is reached, over that speed, within which it is told."""
+"""Distance of the largest speed from a mode, relative to the mode, within which it is reported."""
 
 FINE_GRADE = 2.5
-"""Grade of balance of gas turbines and machine tools (ISO 21940-11), for what G 6.3 shakes."""
+"""Balance grade of gas turbines and machine tools (ISO 21940-11), if G 6.3 shakes too much."""
 
 _SOFT = 68.0
 """Heat deflection temperature of PETG at 0.45 MPa [deg C]: Prusament PETG, technical data sheet."""
 
 
 def balance(assembly: Assembly) -> Iterator[str]:
-    """How a wheel is balanced, and what the unbalance that is left shakes."""
+    """How to balance a wheel, and the vibration by its residual unbalance."""
     wheel, speed = assembly.device.flywheel, assembly.top_speed
     if speed is None:
         return
@@ -101,7 +101,7 @@ def balance(assembly: Assembly) -> Iterator[str]:
 
 
 def _at_the_rim(assembly: Assembly) -> Iterator[str]:
-    """How a drill gets at both faces of a rim whose inner one is next to the drum's floor."""
+    """How to drill both faces of a rim whose inner face is next to the drum's floor."""
     device, mount = assembly.device, motor_mount(assembly.device)
     held = next((name for name in assembly.screws if name.startswith("motor")), None)
     if held is None or "drum" not in assembly.numbers:
@@ -138,7 +138,7 @@ def _at_the_rim(assembly: Assembly) -> Iterator[str]:
 
 
 def spin_test(assembly: Assembly) -> Iterator[str]:
-    """How a module is run up behind a wall before it goes on the robot."""
+    """Spin test of a module behind a wall, before it is mounted on the robot."""
     speed, burst = assembly.top_speed, assembly.burst
     if speed is None or burst is None:
         return
@@ -149,7 +149,7 @@ def spin_test(assembly: Assembly) -> Iterator[str]:
         "from behind the wall; a switch there cuts the supply."
     )
     steps = ", ".join(f"{share:.0%} ({rpm(share * speed)})" for share in SPIN_STEPS)
-    # Nothing but its own foot is under it on the bench.
+    # On the bench only its own foot is under it.
     alone = replace(assembly.device, plate=None, pedestals=())
     foot = [mode for mode in resonances_of(alone) if mode.name == "foot"]
     past = "".join(
@@ -186,7 +186,7 @@ def spin_test(assembly: Assembly) -> Iterator[str]:
 
 
 def sweep(assembly: Assembly) -> Iterator[str]:
-    """How modes are looked for on the robot, and what is done about one near a speed of use."""
+    """Sweep for resonances on the robot, and remedies for one near an operating speed."""
     device, top = assembly.device, assembly.top_speed
     modes = resonances_of(device)
     if top is None or not modes:
@@ -230,7 +230,7 @@ def sweep(assembly: Assembly) -> Iterator[str]:
 
 
 def _stiffer(device: Device, modes: Sequence[Resonance]) -> Iterator[str]:
-    """The plate of the next thickness, where a plate's mode is near: it takes longer screws."""
+    """Next plate thickness, with its longer screws, if a mode of the plate is near."""
     plate = device.plate
     if plate is None or plate.mast is not None or "plate" not in {mode.name for mode in modes}:
         return
@@ -249,7 +249,7 @@ def _stiffer(device: Device, modes: Sequence[Resonance]) -> Iterator[str]:
 
 
 def safety(assembly: Assembly) -> Iterator[str]:
-    """What a wheel stores, what holds it when it bursts, and what not to do near it."""
+    """Stored energy of a wheel, its containment if it bursts, and rules near it."""
     speed, burst = assembly.top_speed, assembly.burst
     if speed is None or burst is None:
         return
@@ -309,7 +309,7 @@ def safety(assembly: Assembly) -> Iterator[str]:
 
 
 def _runaway(assembly: Assembly) -> Iterator[str]:
-    """What keeps a wheel from its top speed, and what one has that nothing keeps from it."""
+    """Speed limit by the wheel law, and the energy of a runaway wheel without it."""
     motor, built = assembly.device.motor, assembly.device.guard_wall
     top = assembly.top_speed
     if top is None or motor.bus_voltage is None or not math.isfinite(motor.no_load_speed):
@@ -330,10 +330,10 @@ def _runaway(assembly: Assembly) -> Iterator[str]:
 
 
 def _two(value: float) -> str:
-    """Two digits: most of these figures are estimates."""
+    """Value with two digits: most of these figures are estimates."""
     return significant(value, 2)
 
 
 def _at_least(wall: float) -> str:
-    """A wall that must hold in millimetres, as thick as it is built."""
+    """Required wall thickness in millimetres, rounded up to a thickness that is built."""
     return f"{1e3 * stepped(wall):.1f}"

@@ -1,4 +1,4 @@
-"""Exploded view and section of a module on a sheet, with the numbers of its pieces."""
+"""Exploded view and section of a module on a sheet, with piece numbers."""
 
 from collections.abc import Callable, Mapping, Sequence
 from itertools import cycle
@@ -32,7 +32,7 @@ _CAMERA, _UP = (0.80, -0.38, 0.55), (0.0, -1.0, 0.0)
 _DRAWN = Pen(0.25)
 
 _GAPS, _SCREW_GAP = (1.4, 1.2, 1.05, 0.9, 0.8, 0.7, 0.6, 0.52, 0.45, 0.4), 0.55
-"""Gaps between pieces pulled apart that are tried, over the largest radius; share before screws."""
+"""Gaps to try between exploded pieces, relative to the largest radius; factor before screws."""
 
 _BOUGHT = ("motor", "gear", "gear_2")
 
@@ -41,7 +41,7 @@ BALLOON = 3.2
 
 
 def pulled_apart(pieces: Sequence[Piece], between: float) -> tuple[Piece, ...]:
-    """Pieces moved along the axis until they are so far from each other [m]."""
+    """Pieces moved apart along the axis with this distance between them [m]."""
     moved, end = [], -np.inf
     lift = 0.0
     for piece in pieces:
@@ -51,7 +51,7 @@ def pulled_apart(pieces: Sequence[Piece], between: float) -> tuple[Piece, ...]:
             moved.append(piece)
             continue
         if piece.name == "foot":
-            # Its base is below the motor; before it its screws are to be seen.
+            # Its base is below the motor; its screws must be visible in front of it.
             above = piece.mesh.vertices[piece.mesh.vertices[:, 1] < 0.0]
             low = float(above[:, 2].min())
         gap = between * (_SCREW_GAP if piece.fastening is not None else 1.0)
@@ -60,7 +60,7 @@ def pulled_apart(pieces: Sequence[Piece], between: float) -> tuple[Piece, ...]:
         moved.append(piece.moved(np.array([0.0, 0.0, shift])))
         if piece.name == "foot":
             lift = shift
-    # What goes on or under the foot follows it.
+    # Pieces on or under the foot move with it.
     return tuple(
         piece
         if piece.drop is None
@@ -83,8 +83,7 @@ def exploded_view(
         points = np.concatenate([piece.mesh.vertices for piece in apart]) @ view[:2].T
         low, high = points.min(axis=0), points.max(axis=0)
         tried.append((_fitting(high - low, room), apart, low, high))
-    # Large pieces are of no use where they cover each other: a gap of twice the width is worth 1.4
-    # times the scale.
+    # Trade-off of size against overlap: doubling the gap is worth a factor of 1.4 in scale.
     worth = [
         each[0].paper / each[0].part * gap**0.5 for each, gap in zip(tried, _GAPS, strict=True)
     ]
@@ -101,7 +100,7 @@ def exploded_view(
     items.append(Line(place(ends[0]), place(ends[1]), CENTRE))
     above, below = [], []
     for piece, mesh, chains in zip(apart, meshes, lines, strict=True):
-        # What cannot be seen is pointed at all the same.
+        # Hidden pieces get a leader, too.
         flat = np.concatenate(chains) if chains else mesh.vertices[:, :2]
         name = numbers[piece.name]
         if piece.drop is not None or piece.name == "foot":
@@ -118,9 +117,9 @@ def section_view(
 ) -> tuple[list[Item], Scale]:
     """Section along the axis, upright, in the middle of a box of the sheet [mm], with its scale.
 
-    The axis of the pieces is z and points to the right; where they stand, y, and points up.
+    The axis of the pieces is z and points right; if they are `standing`, it is y and vertical.
     """
-    # Up at the top.
+    # Up is at the top of the sheet.
     cut = [
         (piece, [chain[:, ::-1] * [1.0, -1.0] for chain in section_lines(piece.mesh)])
         for piece in pieces
@@ -140,7 +139,7 @@ def section_view(
     for piece, chains in cut:
         lines = [tuple(map(place, chain)) for chain in chains]
         if piece.fastening is None and piece.name not in _BOUGHT:
-            # Parts that touch lean to different sides; what is bought is shown whole.
+            # Adjacent parts are hatched in opposite directions; bought parts are not hatched.
             items += hatching(*lines, mirrored=next(leaning))
         pen = THIN if piece.fastening is not None else OUTLINE
         items += [Polyline(line, pen) for line in lines]
@@ -161,7 +160,7 @@ def section_view(
 def _placing(
     scale: Scale, middle: FloatArray, box: Box
 ) -> Callable[[FloatArray], tuple[float, float]]:
-    """Takes points of the picture, up positive [m], to the sheet: `middle` to that of the box."""
+    """Map from the picture, up positive [m], to the sheet: `middle` goes to the box's centre."""
     left, top, right, bottom = box
     centre = np.array([(left + right) / 2.0, (top + bottom) / 2.0])
 
@@ -174,7 +173,7 @@ def _placing(
 
 
 def _fitting(size: FloatArray, room: FloatArray) -> Scale:
-    """Largest scale at which a size [m] fits a room of the sheet [mm]."""
+    """Largest scale at which a size [m] fits a space on the sheet [mm]."""
     return largest_scale(*zip(size.tolist(), room.tolist(), strict=True), standard=False)
 
 
@@ -184,7 +183,7 @@ def _balloons(
     level: float,
     room: tuple[float, float],
 ) -> list[Item]:
-    """Numbers and what they point to, in a row (`axis` 0) or a column (1), in the points' order.
+    """Balloons with leaders to points, in a row (`axis` 0) or a column (1), in the points' order.
 
     All are at `level` across it, between the ends of `room` along it [mm].
     """
@@ -193,7 +192,7 @@ def _balloons(
     items: list[Item] = []
     for (number, to), along in zip(ordered, places, strict=True):
         at = (level, along) if axis else (along, level)
-        # A number in a circle, with a line to what it names.
+        # A number in a circle, with a leader to its piece.
         away = np.subtract(to, at)
         start = np.add(at, away * BALLOON / max(float(np.linalg.norm(away)), BALLOON))
         items += [
@@ -206,7 +205,7 @@ def _balloons(
 
 
 def spread(wanted: Sequence[float], least: float, room: tuple[float, float]) -> list[float]:
-    """Rising places near the wanted ones, `least` apart at least, within the room if they fit."""
+    """Ascending positions near the wanted ones, at least `least` apart, in `room` if they fit."""
     places: list[float] = []
     for each in wanted:
         places.append(max(each, places[-1] + least) if places else max(each, room[0] + least / 2.0))
