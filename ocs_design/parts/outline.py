@@ -1,4 +1,4 @@
-"""Closed outlines of straight lines and circular arcs, and polygons of the same area."""
+"""Closed outlines of straight lines and circular arcs, and polygons of equal area."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -10,13 +10,13 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray, frozen
 
 SECTIONS = 256
-"""Chords of a full circle: 1.4 degrees each."""
+"""Chords per full circle: 1.4 degrees each."""
 
 LARGE_RADIUS = 0.04
-"""Least radius of arcs with as many chords as bodies of revolution [m]: corners are 2 um off."""
+"""Least radius of arcs that get the full number of chords [m]: corners are 2 um off."""
 
 LEAST_SECTIONS = 8
-"""Fewest chords of a full circle."""
+"""Fewest chords per full circle."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,8 +26,8 @@ class Outline:
     Attributes:
         points: where its lines and arcs meet [m], shape (n, 2).
         bulges: of the edge from each point to the next, the tangent of a quarter of its angle as in
-            DXF: 0 for a line, 1 for half a circle, negative where it turns clockwise, shape (n,).
-            Arcs flatter than 0.01 lose digits to their far centres.
+            DXF: 0 for a line, 1 for half a circle, negative if it turns clockwise, shape (n,).
+            Bulges below 0.01 lose digits, as the centre of the arc is far away.
     """
 
     points: FloatArray
@@ -56,9 +56,9 @@ class Arc:
 
     Attributes:
         centre: [m], shape (2,).
-        radius: [m]; negative where the arc runs clockwise.
+        radius: [m]; negative if the arc runs clockwise.
         outward: unit vector to the right of its chord, shape (2,).
-        half_angle: [rad]; negative where it runs clockwise.
+        half_angle: [rad]; negative if the arc runs clockwise.
     """
 
     centre: FloatArray
@@ -68,7 +68,7 @@ class Arc:
 
     @classmethod
     def of(cls, start: FloatArray, end: FloatArray, bulge: float) -> "Arc":
-        """The arc that an edge of an outline stands for."""
+        """The arc of an outline's edge."""
         chord = end - start
         length = float(np.hypot(*chord))
         half_angle = 2.0 * atan(bulge)
@@ -85,7 +85,7 @@ class Arc:
 
 
 def circle_radius_factor(sections: int) -> float:
-    """How much larger than the circle a polygon's must be for the circle's own area.
+    """Ratio of a polygon's circumradius to the radius of a circle of equal area.
 
     `sqrt(x / sin x)`, `x = 2 pi / n`. Areas are exact; the polar moment is that of the circle times
     `x (2 + cos x) / (3 sin x)`, about `1 + x^4 / 180`: 2e-9 more with 256 sections.
@@ -95,16 +95,16 @@ def circle_radius_factor(sections: int) -> float:
 
 
 def arc_sections(radius: float, sections: int) -> int:
-    """Sections of a full circle of that radius [m].
+    """Number of sections of a full circle of this radius [m].
 
-    Corners are `radius x^2 / 12` outside their arcs, `x = 2 pi / n`; the number grows with the root
-    of the radius up to `LARGE_RADIUS`, so that small holes are no finer than they need to be.
+    Corners are `radius x^2 / 12` outside their arcs, `x = 2 pi / n`. The number grows with the
+    square root of the radius up to `LARGE_RADIUS`, so that small holes are no finer than necessary.
     """
     return max(LEAST_SECTIONS, ceil(sections * sqrt(min(1.0, abs(radius) / LARGE_RADIUS))))
 
 
 def flat_outline(outline: Outline, sections: int = SECTIONS) -> FloatArray:
-    """A polygon of the outline's own area, its corners [m], shape (n, 2)."""
+    """Corners of a polygon with the outline's area [m], shape (n, 2)."""
     if len(outline.points) == 2 and bool(np.all(outline.bulges == 1.0)):
         start, end = outline.points
         radius = float(np.hypot(*(end - start))) / 2.0
@@ -115,8 +115,8 @@ def flat_outline(outline: Outline, sections: int = SECTIONS) -> FloatArray:
     for start, end, bulge in outline.edges():
         corners.append(start[None])
         if bulge != 0.0:
-            # Both ends stay, and the corners between them move out for the arc's own area. With m
-            # chords of the angle d and the radius rho, those in between at k rho:
+            # Both ends stay, and the corners between them move outwards until the area equals that
+            # of the arc. With m chords of angle d, the radius rho, and corners at k rho:
             # (m - 2) k^2 sin d + 2 k sin d = m d.
             arc = Arc.of(start, end, bulge)
             chords = max(2, ceil(abs(arc.half_angle) * arc_sections(arc.radius, sections) / pi))
@@ -130,10 +130,10 @@ def flat_outline(outline: Outline, sections: int = SECTIONS) -> FloatArray:
 
 @lru_cache(maxsize=64)
 def even_points(inner: float, outer: float, rings: int, around: int) -> FloatArray:
-    """Points that stand for equal shares of a ring about the origin [m], shape (rings * around, 2).
+    """Points for equal shares of a ring's area about the origin [m], shape (rings * around, 2).
 
     Args:
-        inner, outer: its radii [m]. rings, around: how many points there are along both.
+        inner, outer: its radii [m]. rings, around: number of points along the radius and around.
     """
     radii = np.sqrt(inner**2 + (np.arange(rings) + 0.5) / rings * (outer**2 - inner**2))
     angles = (np.arange(around) + 0.5) * 2.0 * pi / around

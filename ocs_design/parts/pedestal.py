@@ -1,13 +1,13 @@
-"""The pedestal: what a foot stands on whose module leans, between it and the trunk.
+"""The pedestal between the trunk and the foot of a leaning module.
 
-A triangular frame, printed lying on its side: a base that is horizontal, a seat square to the
-module, and a brace from the seat's far end down to the base's. Base and seat are equally long, so
-that one rule makes every lean from flat to upright. The base goes on beyond both ends as flanges,
-each with two of the trunk's screws; they are tightened from above before the foot is on the seat.
-The foot's screws go into threads that are cut into the seat.
+A triangular frame, printed on its side: a horizontal base, a seat square to the module, and a brace
+from the far end of the seat down to that of the base. Base and seat are equally long, so that one
+rule covers every lean from flat to upright. The base extends beyond both ends as flanges, each with
+two of the trunk's screws, which are tightened from above before the foot is on the seat. The foot's
+screws go into threads cut into the seat.
 
-Its own frame: x across, y along the base towards the far end of the seat, z up; its origin is
-below the line where seat and base meet, on the underside.
+Its frame: x across, y along the base towards the far end of the seat, z up; its origin is on the
+underside, below the line where seat and base meet.
 """
 
 from collections.abc import Iterable
@@ -36,16 +36,16 @@ from ocs_design.parts.solids import Part, Prism
 from ocs_design.robot.mass import MassProperties, combine
 
 LEAST_SEAT = IN_PLASTIC * TRUNK_SCREW.diameter
-"""Least thickness of the seat [m]: that of a thread that holds in plastic."""
+"""Least thickness of the seat [m]: the thread depth that holds in plastic."""
 
 SEATED = "foot on pedestal, which is tapped"
-"""What the screws in a seat hold."""
+"""Purpose of the screws in a seat."""
 
 ON_ITS_SIDE = Placement(np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]), np.zeros(3))
-"""Of the profile, y and z of the pedestal, pushed along x."""
+"""Placement of a profile in the pedestal's y-z plane, extruded along x."""
 
 _ROUNDS = 50
-"""Steps of 0.1 mm, at most, by which a base grows that must be thicker the higher it stands."""
+"""Most steps of 0.1 mm by which a base is thickened, since thickening it raises wheel and load."""
 
 
 @dataclass(frozen=True)
@@ -53,13 +53,13 @@ class Pedestal:
     """Frame under one leaning foot.
 
     Attributes:
-        base_radius, slot_radius: of the foot on it, and of the circle that its screws are on [m].
+        base_radius, slot_radius: of the foot's base, and of the circle of its screws [m].
         wheel_height: of the wheel's middle above the foot's underside [m].
         lean: angle of the seat over the horizontal, more than 0 and up to pi/2 [rad].
-        middle: of the foot's base along the seat, from its near end [m].
+        middle: position of the foot's middle along the seat, from its near end [m].
         thickness: of seat and brace [m].
-        base: thickness of base and flanges [m]. foot_base: of the base of the foot on it [m].
-        module: name of what stands on it.
+        base: thickness of base and flanges [m]. foot_base: thickness of the base of the foot [m].
+        module: name of the module on it.
         position: of its origin in B [m].
         heading: of its y axis in B, from x to y [rad].
     """
@@ -101,7 +101,7 @@ class Pedestal:
 
     @property
     def off(self) -> float:
-        """How far across and along the seat its screws are from the foot's middle [m]."""
+        """Distance of the seat's screws from the foot's middle, both across and along it [m]."""
         return self.slot_radius * sqrt(0.5)
 
     @property
@@ -133,7 +133,7 @@ class Pedestal:
 
     @property
     def holes(self) -> tuple[tuple[float, float], ...]:
-        """Places of the trunk's screws, x and y [m]."""
+        """Positions of the trunk's screws, x and y [m]."""
         ends = -self.flange_screw, self.length + self.flange_screw
         return tuple((x, y) for x in (-self.off, self.off) for y in ends)
 
@@ -145,7 +145,7 @@ class Pedestal:
         return Placement(np.array(rotation), np.array(self.position))
 
     def in_base(self, places: Iterable[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
-        """Places of its underside in B, x and y [m]."""
+        """Positions on its underside, transformed to B, x and y [m]."""
         turned = (self.placement.point([x, y, 0.0]) for x, y in places)
         return tuple((float(x), float(y)) for x, y, _ in turned)
 
@@ -169,7 +169,7 @@ class Pedestal:
 
     @property
     def window(self) -> Polygon[float]:
-        """What the frame leaves open; nothing where the lean is too small for it."""
+        """Opening of the frame; it has no area if the lean is too small."""
         near = self.thickness / sin(self.lean)
         beyond = self.thickness / cos(self.lean / 2.0)
         size = max(self.length - near - beyond, 0.0)
@@ -178,11 +178,11 @@ class Pedestal:
 
     @property
     def mass(self) -> float:
-        """Mass with the screws in base and seat, less those that hold a foot without it [kg]."""
+        """Mass with the screws in base and seat, minus those of a foot without a pedestal [kg]."""
         return sum(body.mass for body in self._bodies())
 
     def mass_properties(self) -> MassProperties:
-        """Mass properties in B of what `mass` counts, screws as points."""
+        """Mass properties in B of everything in `mass`, with screws as points."""
         place = self.placement
         return combine(self._bodies()).moved(place.rotation, place.position)
 
@@ -199,20 +199,20 @@ class Pedestal:
                 MassProperties(held.mass / held.count, np.array([x, y, head]), none)
                 for x, y in self.holes
             ),
-            # A foot's own are counted with its module.
+            # A foot's own screws are counted with its module.
             MassProperties(seated.mass - own.mass, seat, none),
         )
 
 
 def pedestal_part(pedestal: Pedestal) -> Part[float]:
-    """The pedestal in its own frame, with its holes; the first cut is its window."""
+    """The pedestal in its own frame, with its holes; the first of them is its window."""
     half, off = pedestal.width / 2.0, pedestal.off
     frame, window = (
         Prism(shape, -half, half, ON_ITS_SIDE) for shape in (pedestal.profile, pedestal.window)
     )
     through = TRUNK_SCREW.clearance_hole / 2.0
     base = [Prism(Disc(through, place), 0.0, pedestal.base) for place in pedestal.holes]
-    # Left on the near side, right on the far one: opposite each other, as the foot's slots.
+    # Left on the near side, right on the far side: opposite each other, like the foot's slots.
     seat = [
         Prism(
             Disc(TRUNK_SCREW.tapping_drill / 2.0, (x, x)), -pedestal.thickness, 0.0, pedestal.seat
@@ -223,12 +223,12 @@ def pedestal_part(pedestal: Pedestal) -> Part[float]:
 
 
 def strengthened(pedestal: Pedestal, mass: float, above: float | None = None) -> Pedestal:
-    """The pedestal as thick as `SHOCK` asks of seat and flanges, to the next 0.1 mm.
+    """Pedestal with the thicknesses of seat and flanges that `SHOCK` requires, in 0.1 mm steps.
 
     Args:
-        pedestal: whose thicknesses are not looked at. mass: of the module on it [kg].
-        above: of the wheel's middle above the underside, for which the foot goes along the seat
-            [m]; None: the foot stays where it is.
+        pedestal: with any thicknesses, which are ignored. mass: of the module on it [kg].
+        above: required height of the wheel's middle above the underside, to which the foot is moved
+            along the seat [m]; None: the foot stays where it is.
     """
     found = replace(pedestal, base=BASE_THICKNESS)
     for _ in range(_ROUNDS):
@@ -244,18 +244,17 @@ def strengthened(pedestal: Pedestal, mass: float, above: float | None = None) ->
 def _seat_needed(pedestal: Pedestal, mass: float) -> float:
     """Thickness at which the seat breaks under `SHOCK` [m].
 
-    A beam whose ends are held simply, under a force F at the wheel in any direction of the frame's
-    plane: it bends the seat by `F L / 4`, square to it, and along it by no more than the couple
-    `F H`, wherever the foot is.
-    `sigma = 6 M / (w t^2)`: Roark's Formulas for Stress and Strain, 7th edition, table 8.1, cases
-    1e and 3e, with the section modulus of a rectangle.
+    A simply supported beam under a force F at the wheel in any direction of the frame's plane:
+    normal to the seat it bends it by `F L / 4`, along the seat by at most the couple `F H`,
+    wherever the foot is. `sigma = 6 M / (w t^2)`: Roark's Formulas for Stress and Strain, 7th
+    edition, table 8.1, cases 1e and 3e, with the section modulus of a rectangle.
     """
     arm = hypot(pedestal.length / 4.0, pedestal.wheel_height)
     return sqrt(6.0 * mass * SHOCK * arm / (pedestal.width * STRENGTH_ACROSS))
 
 
 def _arms(pedestal: Pedestal) -> tuple[float, float, float, float]:
-    """Wheel beside and above the middle of the trunk's screws, and half of their distances [m]."""
+    """Wheel beside and above the middle of the trunk's screws, and half their spacings [m]."""
     _, y, above = pedestal.wheel.tolist()
     half = pedestal.length / 2.0
     return abs(y - half), above, half + pedestal.flange_screw, pedestal.off
@@ -264,7 +263,7 @@ def _arms(pedestal: Pedestal) -> tuple[float, float, float, float]:
 def _flange_needed(pedestal: Pedestal, mass: float) -> float:
     """Thickness at which a flange breaks under `SHOCK` [m].
 
-    A cantilever of half the width that one screw presses on: Roark, case 1a of the same table.
+    A cantilever of half the width, loaded by one screw: Roark, case 1a of the same table.
     """
     aside, above, along, across = _arms(pedestal)
     pulled = mass * SHOCK / 4.0 * (1.0 + max((above + aside) / along, above / across))
@@ -272,11 +271,11 @@ def _flange_needed(pedestal: Pedestal, mass: float) -> float:
 
 
 def seat_compliance(pedestal: Pedestal) -> tuple[float, float]:
-    """Way of the wheel over the force on it, square to the seat and along it [m/N].
+    """Displacement of the wheel over the force on it, normal to the seat and along it [m/N].
 
-    A beam whose ends are held simply, with a and b from its ends to the foot's middle: it gives way
-    to a force there by a^2 b^2 / (3 E I L), and turns under a couple by (a^3 + b^3) / (3 E I L^2):
-    Roark, table 8.1, cases 1e and 3e. Base, brace and the foot on it count as stiff.
+    A simply supported beam, with a and b from its ends to the foot's middle: a force there deflects
+    it by a^2 b^2 / (3 E I L), and a couple turns it by (a^3 + b^3) / (3 E I L^2): Roark, table 8.1,
+    cases 1e and 3e. Base, brace and the foot on it count as rigid.
     """
     a, b, whole = pedestal.middle, pedestal.base_radius, pedestal.length
     stiffness = 3.0 * PETG.modulus * pedestal.width * pedestal.thickness**3 / 12.0
@@ -285,11 +284,12 @@ def seat_compliance(pedestal: Pedestal) -> tuple[float, float]:
 
 
 def pedestal_use(pedestal: Pedestal, mass: float) -> float:
-    """Largest share of strength that `SHOCK` takes of what holds a module on its pedestal.
+    """Largest share of strength that `SHOCK` uses in pedestal and screws.
 
-    The trunk's screws (`pattern_use`), the flanges that they press on as cantilevers, the seat, and
-    the threads in it, which pull out as a cylinder of plastic is sheared: a force at the wheel
-    turns the foot about its edge, and two screws hold it as far as they are from there.
+    These are the trunk's screws (`pattern_use`), the flanges as cantilevers loaded by them, the
+    seat, and the threads in it, which pull out by shearing a cylinder of plastic: a force at the
+    wheel turns the foot about its edge, and two screws resist in proportion to their distance from
+    it.
 
     Args:
         mass: of the module [kg].

@@ -1,7 +1,8 @@
-"""What a carrier plate, its mast and its posts bear, and at what they swing.
+"""Strength and natural frequencies of a carrier plate, its mast and its posts.
 
-A shock of 20 g along any one axis counts, as it does for the printed parts. A plate has its screws,
-or is on a mast; `mass` is that of one module [kg], `height` that of its middle above the plate [m].
+The load is a shock of 20 g along any one axis, as for the printed parts. A plate has its own
+screws, or is on a mast; `mass` is that of one module [kg], `height` that of its middle above the
+plate [m].
 """
 
 from math import hypot, inf, pi, sqrt
@@ -20,21 +21,21 @@ from ocs_design.parts.joints import TIGHTENING_FACTOR, pattern_use, screw_use
 from ocs_design.parts.printed import SHOCK
 
 _SECTIONS = 101
-"""Sections between a screw and the middle of a foot whose stress is looked at."""
+"""Number of sections between a screw and the middle of a foot at which stress is evaluated."""
 
 Lengths: TypeAlias = float | FloatArray
 
 
 def bending_stress(mass: float, arm: Lengths, width: Lengths, thickness: Lengths) -> FloatArray:
-    """Stress in a plate that carries a mass at the end of a cantilever, under `SHOCK` [Pa].
+    """Stress in a plate that carries a mass as a cantilever, under `SHOCK` [Pa].
 
     M = m a L and sigma = 6 M / (w t^2): Roark's Formulas for Stress and Strain, 7th edition, table
     8.1, case 1a, with the section modulus of a rectangle.
 
     Args:
-        mass: of what it carries [kg].
+        mass: carried by it [kg].
         arm: from its support to the mass [m].
-        width, thickness: of the section, less its holes [m].
+        width, thickness: of the section, minus its holes [m].
     """
     return np.asarray(6.0 * mass * SHOCK * arm / (width * thickness**2))
 
@@ -46,9 +47,9 @@ def twisting_stress(mass: float, arm: float, width: float, thickness: Lengths) -
     Roark's Formulas for Stress and Strain, 7th edition, table 10.1, case 4.
 
     Args:
-        mass: of what it carries [kg].
-        arm: of the mass above the plate [m].
-        width, thickness: of the section, less its holes; the thickness is the lesser [m].
+        mass: carried by it [kg].
+        arm: height of the mass above the plate [m].
+        width, thickness: of the section, minus its holes; thickness is the smaller one [m].
     """
     q = thickness / width
     series = 1.0 + 0.6095 * q + 0.8865 * q**2 - 1.8023 * q**3 + 0.91 * q**4
@@ -58,19 +59,19 @@ def twisting_stress(mass: float, arm: float, width: float, thickness: Lengths) -
 def plate_stresses(
     plate: CarrierPlate, thicknesses: FloatArray, mass: float, height: float
 ) -> FloatArray:
-    """Largest stress of a plate under `SHOCK` along any one axis, of bending or twisting [Pa].
+    """Largest bending or twisting stress of a plate under `SHOCK` along any one axis [Pa].
 
-    Down, a module bends the plate between the trunk's outermost screws and itself; sideways it
-    bends the neck by its height as an arm; forward it twists the neck. Shear counts sqrt(3)
-    times (von Mises). The ring under a foot is bent by what is down alone: the foot's base
-    spreads the rest.
+    Loaded downwards, a module bends the plate between the trunk's outermost screws and itself;
+    sideways it bends the neck, with its height as the arm; forward it twists the neck. Shear counts
+    sqrt(3) times (von Mises). The ring under a foot is bent by the downward load only: the foot's
+    base spreads the others.
 
     Args:
-        plate: of any thickness. thicknesses: that it may have [m], shape (n,), as what is returned.
+        plate: of any thickness. thicknesses: to evaluate [m], shape (n,), also that of the result.
         mass, height: of a module.
     """
     if len(plate.rows) > 1:
-        # On a mast they are alike.
+        # On a mast all plates are alike.
         distinct = plate.each[:1] if plate.mast else plate.each
         each = [plate_stresses(one, thicknesses, mass, height) for one in distinct]
         found: FloatArray = np.max(each, axis=0)
@@ -85,10 +86,9 @@ def plate_stresses(
 
 
 def arm_stress(plate: CarrierPlate, mass: float, height: float) -> float:
-    """Largest stress of a mast by its arms, wherever its screws are, under `SHOCK` [Pa].
+    """Largest stress of a mast from its arms under `SHOCK`, wherever its screws are [Pa].
 
-    A pair bends its arm, and twists it where it is pushed sideways; all arms bend or twist the
-    upright.
+    A pair bends its arm, and twists it if pushed sideways; all arms bend or twist the upright.
     """
     mast = plate.mast
     if mast is None:
@@ -105,8 +105,8 @@ def arm_stress(plate: CarrierPlate, mass: float, height: float) -> float:
 def mast_stress(plate: CarrierPlate, mass: float, height: float) -> float:
     """Largest stress of the mast under `SHOCK` along any one axis [Pa].
 
-    Besides `arm_stress`, what is above or below the screws bends the upright, forward alone or
-    sideways while the arms twist it.
+    Besides `arm_stress`, masses above or below the screws bend the upright: forward, or sideways
+    while the arms twist it.
     """
     mast = plate.mast
     if mast is None:
@@ -120,11 +120,12 @@ def mast_stress(plate: CarrierPlate, mass: float, height: float) -> float:
 
 
 def mast_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
-    """Largest share of strength that `SHOCK` along any one axis takes of a mast's screws.
+    """Largest share of strength that `SHOCK` along any one axis uses in a mast's screws.
 
-    See `pattern_use`; a push sideways bends sleeves between trunk and block by half of their
-    length as well. On a slope the preload pushes a formed block downhill. It is one piece: what the
-    slopes under its screws leave of each other shears all alike, and friction is not counted.
+    See `pattern_use`. A push sideways also bends the sleeves between trunk and block, with half of
+    their length as the arm. On a slope the preload pushes a formed block downhill. The block is one
+    piece: the resultant of the slopes under its screws shears them all equally, and friction is not
+    counted.
     """
     if plate.mast is None:
         return 0.0
@@ -142,11 +143,12 @@ def mast_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
 
 
 def plate_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
-    """Largest share of strength that `SHOCK` along any one axis takes of a plate's screws.
+    """Largest share of strength that `SHOCK` along any one axis uses in a plate's screws.
 
-    A push at the wheels' height shears all of them alike and pulls at each as far as it is off
-    their middle, M r / sum r^2; see `screw_use`. It bends their sleeves, whose ends cannot turn, by
-    half of the longest one's length, and presses on those of the other side.
+    A push at the wheels' height shears all of them equally and pulls at each in proportion to its
+    distance from their middle, M r / sum r^2; see `screw_use`. It bends their sleeves, whose ends
+    cannot turn, with half the length of the longest as the arm, and compresses those on the other
+    side.
     """
     if plate.mast is not None:
         return mast_screws_use(plate, mass, height)
@@ -167,13 +169,13 @@ def plate_screws_use(plate: CarrierPlate, mass: float, height: float) -> float:
 
 
 def posts_use(plate: CarrierPlate, mass: float, height: float) -> float:
-    """Largest share of strength that `SHOCK` along any one axis takes of one pair's posts.
+    """Largest share of strength that `SHOCK` along any one axis uses in one pair's posts.
 
     The ends of four posts under a plate cannot turn: a push F sideways bends each by F / 4
     times half its length. Its moment about the middle of their length pulls at two and presses
-    on two; see `pattern_use` for their screws. No joint opens: pull and bending are less than
-    what the screw's least preload presses, which is less than the full one by
-    `TIGHTENING_FACTOR`. The full one adds to what crushes a post.
+    on two; see `pattern_use` for their screws. No joint may open: pull and bending must be less
+    than the pressure of the screw's least preload, which is the full one over `TIGHTENING_FACTOR`.
+    The full preload adds to the compression of a post.
     """
     force, gap, (p, q) = 2.0 * mass * SHOCK, max(plate.sleeves), plate.half_pattern
     arm, (area, section, _) = gap / 2.0 + plate.thickness + height, plate.sleeve_section
@@ -189,11 +191,11 @@ def posts_use(plate: CarrierPlate, mass: float, height: float) -> float:
 
 
 def plate_sway(plate: CarrierPlate, mass: float, height: float) -> float:
-    """First mode of a pair sideways on its sleeves, whose ends cannot turn [Hz].
+    """First sideways mode of a pair on its sleeves, whose ends cannot turn [Hz].
 
-    Four of length l bend, by l^3 / (48 E I), and turn the plate about the middle of their
-    length, as those of one side become longer and those of the other shorter: by the arm to
-    there squared times l / (4 E (I + p^2 A)). The pair is a point.
+    Four sleeves of length l bend, by l^3 / (48 E I), and let the plate turn about the middle of
+    their length, as those on one side stretch and those on the other shorten: by the arm to there
+    squared times l / (4 E (I + p^2 A)). The pair is a point mass.
     """
     if len(plate.rows) > 1:
         return min(plate_sway(each, mass, height) for each in plate.each)
@@ -205,10 +207,10 @@ def plate_sway(plate: CarrierPlate, mass: float, height: float) -> float:
 
 
 def plate_frequency(plate: CarrierPlate, mass: float) -> float:
-    """First mode of a module up and down on its plate, the trunk's screws held [Hz].
+    """First vertical mode of a module on its plate, with the trunk's screws fixed [Hz].
 
-    Mohr's integral of the cantilever from the outermost screws to the middle of the foot, whose
-    sections are those of `net_width`; the module is a point, the plate weighs nothing.
+    Mohr's integral of the cantilever from the outermost screws to the middle of the foot, with
+    sections by `net_width`; the module is a point mass, the plate is massless.
     """
     if len(plate.rows) > 1:
         return min(plate_frequency(each, mass) for each in plate.each)
@@ -226,14 +228,14 @@ def plate_frequency(plate: CarrierPlate, mass: float) -> float:
 
 
 def plate_tilt(plate: CarrierPlate) -> tuple[float, float]:
-    """Turn of the middle of a foot under a moment, the trunk's screws held [rad/(N m)].
+    """Rotation of the middle of a foot per moment, with the trunk's screws fixed [rad/(N m)].
 
     First about the horizontal across its arm, which bends the arm: the integral of 1 / (E I), as
     under a moment at the end of a cantilever (Roark's Formulas for Stress and Strain, 7th edition,
-    table 8.1, case 3a). Then about the arm, which twists it: that of 1 / (G K), K = w t^3 (1/3 -
-    0.21 t/w (1 - t^4 / 12 w^4)) of a rectangle (table 10.1, case 4). Both over the sections of
-    `net_width` from the outermost screws, or the arm of a mast, to the middle of the foot; what a
-    mast gives is left out.
+    table 8.1, case 3a). Then about the arm, which twists it: the integral of 1 / (G K), with K =
+    w t^3 (1/3 - 0.21 t/w (1 - t^4 / 12 w^4)) of a rectangle (table 10.1, case 4). Both are over the
+    sections of `net_width` from the outermost screws, or the arm of a mast, to the middle of the
+    foot; the compliance of a mast is left out.
     """
     if len(plate.rows) > 1:
         bent, twisted = map(max, zip(*map(plate_tilt, plate.each), strict=True))
