@@ -1,4 +1,4 @@
-"""Work that is left where motor, wheel, printed parts and trunk do not simply fit together."""
+"""Notes on manual work where motor, wheel, printed parts and trunk do not fit directly."""
 
 from collections.abc import Iterator
 from math import sqrt
@@ -25,7 +25,7 @@ from ocs_design.robot.robot import Format, Robot
 from ocs_design.robot.surface import trunk_surface
 
 ON_TOP = 0.5e-3
-"""Distance from the top of an assumed trunk within which feet count as standing on it [m]."""
+"""Distance from the top of an assumed trunk within which feet count as resting on it [m]."""
 
 _UNDRILLED = "drill floor and plate for it"
 
@@ -50,7 +50,7 @@ def drive_notes(device: Device) -> tuple[str, ...]:
         return ()
     motor, foot = device.motor, foot_of(device)
     if motor.gear != DIRECT.name:
-        # Dimensions that would have to be known to hold motor and gear.
+        # Dimensions needed to design the mounting of motor and gear.
         room = motor.gear_room or GearRoom()
         above = format_quantity(room.offset, "mm")
         beside = f", its axis {above} above the wheel's" if room.offset else ""
@@ -124,7 +124,7 @@ def _mounting_notes(mounting: Mounting, device: Device) -> Iterator[str]:
 
 
 def _shaft_notes(mounting: Mounting, device: Device) -> Iterator[str]:
-    """Notes on how the wheel is driven: by the shaft, or by threads behind plate and floor."""
+    """Notes on the wheel's joint: on the shaft, or on threads behind plate and floor."""
     left, off = shaft_cut(device)
     if off > 0.0:
         yield (
@@ -133,7 +133,7 @@ def _shaft_notes(mounting: Mounting, device: Device) -> Iterator[str]:
             "the motor is built in and with its bearings covered"
         )
     web, mount = device.flywheel.web, motor_mount(device)
-    # In a cage it reaches through plate and floor to the hub.
+    # A rotor in a cage reaches through plate and floor to the hub.
     if web is None or (mount.cage is not None and mounting.rotor is not None):
         return
     middle = -motor_front(mount, device.flywheel.height)
@@ -157,9 +157,9 @@ def _shaft_notes(mounting: Mounting, device: Device) -> Iterator[str]:
 
 
 def _overlap_notes(device: Device, foot: Foot) -> Iterator[str]:
-    """Feet and motors of pairs that reach over the robot's middle, and so into each other."""
+    """Notes on paired feet and motors that collide because they cross the robot's mid-plane."""
     if not device.layout.pairs:
-        # No module stands opposite its mirror image.
+        # No module is opposite its mirror image.
         return
     left = device.modules[0]
     room, inwards = float(left.position[1]), float(left.axis[1])
@@ -224,7 +224,7 @@ def _overlap(parts: str, beyond: float) -> str:
 
 
 def trunk_notes(device: Device, robot: Robot) -> tuple[str, ...]:
-    """Notes on the holes that the trunk needs, and where the frame is that they are told in."""
+    """Notes on the holes in the trunk, and on the position of their reference frame."""
     if device.wheels_alone:
         return ()
     surface = trunk_surface(robot)
@@ -271,7 +271,7 @@ def trunk_notes(device: Device, robot: Robot) -> tuple[str, ...]:
 
 
 def trunk_threads(device: Device) -> str:
-    """Holes that the trunk needs for the plate, or for the feet themselves."""
+    """Note on the holes in the trunk for the plate, or for the feet themselves."""
     plate = device.plate
     if device.pedestals:
         count = 4 * len(device.pedestals) + 2 * len(foot_holes(device))

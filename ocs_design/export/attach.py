@@ -1,6 +1,7 @@
 """Device on a robot's MuJoCo model: wheels with joints and motors, their carriers, and sensors.
 
-It is attached to the robot's own model, not pasted into its text; simulations and files share it.
+It is attached to the robot's compiled spec, not pasted into its XML; simulations and files share
+it.
 """
 
 import mujoco
@@ -19,8 +20,8 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
     """Attach flywheels with their joints and motors, their carriers and the plate to the trunk.
 
     Args:
-        spec: of `build_spec(robot)`; changed in place. Its keyframes keep the robot's own values.
-        robot: that the spec was built from.
+        spec: from `build_spec(robot)`; changed in place. Its keyframes keep the robot's values.
+        robot: robot that the spec was built from.
         device: its wheels turn about the z axis of their own frames.
     """
     made, joints = list(bodies.device_bodies(device)), bodies.joint_names(device)
@@ -35,7 +36,7 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
     for each in made:
         body = inertial(each.own)
         place = base @ each.place
-        # Attaching puts the prefix in front of the names.
+        # Attaching prepends the prefix to the names.
         added = attached.worldbody.add_body(
             name=each.name.removeprefix(bodies.PREFIX),
             pos=place.position,
@@ -69,14 +70,14 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
         if limit is not None:
             actuator.ctrllimited = True
             actuator.ctrlrange = (-limit, limit)
-    # Bodies added in any other way shift the values of keyframes to wrong joints.
+    # Bodies added in any other way would shift the values of keyframes to wrong joints.
     trunk.attach_frame(frame, bodies.PREFIX, "")
 
 
 def add_sensors(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
     """Add sensors of the wheels and of the trunk's attitude to a spec that has the device.
 
-    They stand behind the robot's own, which keep their places in `sensordata`.
+    They come after the robot's own sensors, which keep their places in `sensordata`.
     """
     attitude, rate = bodies.IMU_SENSORS
     kinds = mujoco.mjtSensor.mjSENS_JOINTVEL, mujoco.mjtSensor.mjSENS_JOINTACTFRC

@@ -46,13 +46,13 @@ _ALLOWANCE = 2e-3
 """Allowance of stock on finished diameter and length, to turn clean and to part off [m]."""
 
 SHIM = 1.0e-3
-"""Length below which a sleeve is easier had as washers than cut from tube [m]."""
+"""Length below which a sleeve is easier to make of washers than to cut from tube [m]."""
 
 _MASSLESS = 1e-9
-"""Rounding of masses: what is left of a module when all its parts are taken off [kg]."""
+"""Rounding error of masses: remainder of a module's mass after subtracting all parts [kg]."""
 
 _FORMULA_STARTS = ("=", "+", "-", "@")
-"""Characters at which a spreadsheet takes a text for a formula (OWASP, "CSV Injection")."""
+"""Leading characters that make a spreadsheet read text as a formula (OWASP, "CSV Injection")."""
 
 
 @dataclass(frozen=True)
@@ -60,11 +60,11 @@ class BillRow:
     """One kind of part.
 
     Attributes:
-        quantity: in the whole device.
-        stock: to cut it from, with its sizes [mm].
-        mass: of one [kg]; 0: not known.
-        remark: how it is made, what it is for, what to observe.
-        source: of its figures; empty: they are computed here.
+        quantity: number in the whole device.
+        stock: stock to cut it from, with its sizes [mm].
+        mass: mass of one [kg]; 0: not known.
+        remark: how it is made, its purpose, and cautions.
+        source: source of its figures; empty: they are computed here.
     """
 
     part: str
@@ -84,10 +84,10 @@ def write(subject: Subject, folder: Path) -> Notes:
 
 
 def bill_rows(device: Device, margins: Sequence[Margin] = ()) -> Sequence[BillRow]:
-    """All parts that the device holds; together they weigh what it weighs.
+    """All parts of the device; their masses add up to its mass.
 
-    Controllers, battery and what is used up are listed without a mass: they are not chosen. Margins
-    of its flights, where there are any, say what the battery gives and takes.
+    Controllers, battery and consumables are listed without a mass: they are not chosen. Margins of
+    the flights, if there are any, give the loads on the battery.
     """
     motor, count = device.motor, len(device.modules)
     rows = list(_wheel_rows(device.flywheel, count))
@@ -129,7 +129,7 @@ def bill_rows(device: Device, margins: Sequence[Margin] = ()) -> Sequence[BillRo
                 f"{_mm(2.0 * foot.housing.inner_radius)}; holds a burst rim"
             )
             rows.append(BillRow("guard ring", count, "mild steel (S235)", size, ring.mass(), made))
-        # The screws of wheel and motor only where the catalogue has their threads.
+        # Screws of wheel and motor only if the catalogue has their threads.
         screwed = (each.fastening for each in mount.screwed)
         rows += [_screw_row(each, count) for each in (*screwed, LID_SCREWS)]
         feet = [
@@ -146,7 +146,7 @@ def bill_rows(device: Device, margins: Sequence[Margin] = ()) -> Sequence[BillRo
 
 
 def _support_rows(device: Device) -> Iterator[BillRow]:
-    """What is under the feet: plate, mast and sleeves, or pedestals, each with its screws."""
+    """Supports of the feet: plate, mast and sleeves, or pedestals, each with its screws."""
     plate = device.plate
     if plate is not None:
         size = " x ".join(map(_mm, plate.sizes))
@@ -203,20 +203,20 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
 
 
 def _screw_row(held: Fastening, modules: int) -> BillRow:
-    """Equal screws of that many modules."""
+    """Row of equal screws of that many modules."""
     name, count = f"screw {held.designation}", modules * held.count
     source = f"mass from its dimensions in ISO 4762, steel of {STEEL:g} kg/m^3"
     remark, kind = held.purpose, held.screw
     if held.length > kind.usual_length + 1e-9:
         usual = f"{1e3 * kind.usual_length:.0f} mm, ISO 4762"
         remark += f"; longer than {kind.name} is usually sold ({usual}): may be a special order"
-    # What a joint bears is that of its class: stainless A2-70 yields at 450 MPa, 8.8 at 640.
+    # The capacity of a joint depends on the class: stainless A2-70 yields at 450 MPa, 8.8 at 640.
     steel = f"steel, class {held.strength}"
     return BillRow(name, count, steel, "", kind.mass(held.length), remark, source)
 
 
 def _unweighed_rows(device: Device, margins: Sequence[Margin]) -> Iterator[BillRow]:
-    """Controllers and battery, which are not chosen, and what is used up in the assembly."""
+    """Rows without mass: controllers and battery, which are not chosen, and consumables."""
     controller, left_out = controllers(device.motor), "of your choice; not in the device's mass"
     if controller:
         mass = device.motor.controller_mass
@@ -231,7 +231,7 @@ def _unweighed_rows(device: Device, margins: Sequence[Margin]) -> Iterator[BillR
         BillRow(part, count, "", "", 0.0, f"{remark}; {left_out}")
         for part, count, remark in wiring_parts(device, margins)
     )
-    # Wheels alone are not put together.
+    # Wheels alone are not assembled.
     if device.wheels_alone:
         return
     fixture = ring_fixture(device)
@@ -278,7 +278,7 @@ def _unweighed_rows(device: Device, margins: Sequence[Margin]) -> Iterator[BillR
 def bill_csv(device: Device, margins: Sequence[Margin] = (), refused: str = "") -> str:
     """The rows and their sum as CSV, masses to the milligram; see `bill_rows`.
 
-    What keeps the device from being built, where anything does, is the first row's remark.
+    If the device cannot be built, the reason is the first row.
     """
     rows, text = bill_rows(device, margins), StringIO()
     writer = csv.writer(text, lineterminator="\n")
@@ -294,7 +294,7 @@ def bill_csv(device: Device, margins: Sequence[Margin] = (), refused: str = "") 
         cells += [row.remark, row.source]
         writer.writerow([plain(cell) for cell in cells])
     total = sum(row.quantity * row.mass for row in rows)
-    # Designs of versions before 0.2 count no screws, and not all that holds the motor.
+    # Designs of versions before 0.2 lack the mass of screws and of some of the motor's supports.
     remark = "as designed"
     if abs(total - device.mass) > _MASSLESS:
         remark = f"the design has {_grams(device.mass)} g: size it again"
@@ -303,13 +303,13 @@ def bill_csv(device: Device, margins: Sequence[Margin] = (), refused: str = "") 
 
 
 def plain(text: str) -> str:
-    """Text on one line that no spreadsheet takes for a formula."""
+    """Text on one line that no spreadsheet reads as a formula."""
     line = " ".join(text.split())
     return f"'{line}" if line.startswith(_FORMULA_STARTS) else line
 
 
 def _wheel_rows(wheel: Flywheel, count: int) -> Iterator[BillRow]:
-    """Wheel in one piece where rim and web are of one material, else a rim on its web."""
+    """Rows of the wheel: one piece if rim and web are of one material, else a rim on its web."""
     web, cuts = wheel.web, wheel.cuts
     rim = f"turned to {_mm(2.0 * wheel.outer_radius)} x {_mm(wheel.height)}"
     if cuts.chamfer:
@@ -350,7 +350,7 @@ def _web_text(web: Web) -> str:
 
 def _stock(outer_radius: float, inner_radius: float, length: float) -> str:
     """Tube for a bore of more than half the diameter, else a bar; whole millimetres."""
-    # What is a whole number but for rounding is whole.
+    # Rounded first, so that rounding errors do not add a millimetre.
     outside = math.ceil(round(1e3 * (2.0 * outer_radius + _ALLOWANCE), 6))
     cut = math.ceil(round(1e3 * (length + _ALLOWANCE), 6))
     if inner_radius <= 0.5 * outer_radius:

@@ -1,4 +1,4 @@
-"""Parts of a device as they are manufactured: the wheel's pieces, and what is printed around it."""
+"""Parts of a device as manufactured: the wheel's pieces, metal supports and printed parts."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -20,7 +20,7 @@ from ocs_design.parts.solids import Part
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre, wheel_parts
 
 BLOCK = "block"
-"""Name of the block that has the trunk's form, in files and pictures."""
+"""Name, in files and pictures, of the block shaped to the trunk."""
 
 
 def wheel_geometry(flywheel: Flywheel) -> Wheel:
@@ -63,7 +63,7 @@ def wheel_geometry(flywheel: Flywheel) -> Wheel:
 
 
 def wheel_pieces(flywheel: Flywheel) -> Mapping[str, Part]:
-    """Pieces of the wheel by the names of their files; a wheel of one piece is the flywheel."""
+    """Pieces of the wheel by file name; a one-piece wheel is named flywheel."""
     pieces = wheel_parts(wheel_geometry(flywheel))
     if len(pieces) == 1:
         return {"flywheel": pieces[0]}
@@ -71,25 +71,25 @@ def wheel_pieces(flywheel: Flywheel) -> Mapping[str, Part]:
 
 
 def plate_pieces(device: Device) -> Mapping[str, Part]:
-    """The plate under the feet, its mast and that one's block, by the names of their files."""
+    """The plate under the feet, its mast and the mast's block, by file name."""
     plate = device.plate
     if plate is None:
         return {}
     if plate.mast is None:
         return {"plate": plate_part(plate)}
-    # One of the plates on its arms, which are alike.
+    # The plates on a mast's arms are alike, so one is enough.
     pieces = {"plate": plate_part(plate.each[0]), "mast": mast_part(plate, plate.mast)}
     return pieces if plate.relief is None else {**pieces, BLOCK: block_part(plate, plate.relief)}
 
 
 def ring_fixture(device: Device) -> Part | None:
-    """What centres a ring on its bell while the glue sets; None: no ring is bonded on."""
+    """Fixture that centres a ring on its bell while the glue sets; None without a bonded ring."""
     bell, wheel = motor_mount(device).bell, device.flywheel
     return None if bell is None else fixture_part(bell, wheel.outer_radius, wheel.height)
 
 
 def metal_pieces(device: Device) -> Mapping[str, Part]:
-    """Plate under the feet and guard ring by the names of their files, where there are any."""
+    """Plate under the feet, mast, block and guard ring by file name, if there are any."""
     if not device.guard_wall:
         return plate_pieces(device)
     return {**plate_pieces(device), "guard_ring": guard_ring(foot_of(device).housing)}
@@ -98,8 +98,8 @@ def metal_pieces(device: Device) -> Mapping[str, Part]:
 def foot_holes(device: Device) -> Mapping[str, tuple[tuple[float, float], ...]]:
     """Places of each foot's screws in B, x and y [m], by the name of its module.
 
-    They stand at 45 degrees to the lateral direction, on the wheel axis's side of it. Modules that
-    do not stand upright have none.
+    They are at 45 degrees to the lateral direction, on the wheel axis's side of it. Modules that
+    are not upright have none.
     """
     off, found = foot_of(device).slot_radius / sqrt(2.0), {}
     stands = device.layout.stands(device.incidence)
@@ -117,31 +117,31 @@ def trunk_holes(plate: CarrierPlate) -> list[tuple[float, float]]:
 
 
 def places(holes: Iterable[tuple[float, float]]) -> list[str]:
-    """Places of holes [mm]."""
+    """Coordinates of holes as text [mm]."""
     return [f"({1e3 * x:.1f}, {1e3 * y:.1f})" for x, y in holes]
 
 
 @dataclass(frozen=True, eq=False)
 class PedestalKind:
-    """Pedestals of one shape; `name` is that of their file."""
+    """Pedestals of one shape; `name` is the name of their file."""
 
     name: str
     alike: tuple[Pedestal, ...]
 
     @property
     def part(self) -> Part:
-        """One of them, as it is printed and drilled."""
+        """One pedestal as printed and drilled."""
         return pedestal_part(self.alike[0])
 
     @property
     def screws(self) -> Fastening:
-        """Screws that hold one of them on the trunk."""
+        """Screws that fasten one pedestal to the trunk."""
         purpose = f"{self.name.replace('_', ' ')} on trunk"
         return replace(self.alike[0].base_screws, purpose=purpose)
 
 
 def pedestal_kinds(device: Device) -> tuple[PedestalKind, ...]:
-    """The pedestals, those of one shape together."""
+    """Pedestals grouped by shape."""
     kinds: dict[bytes, tuple[Pedestal, ...]] = {}
     for each in device.pedestals:
         shape = np.round([each.lean, each.middle, each.thickness, each.base], 9).tobytes()
@@ -152,9 +152,9 @@ def pedestal_kinds(device: Device) -> tuple[PedestalKind, ...]:
 
 
 def printed_parts(device: Device) -> tuple[Part, ...]:
-    """Drum, lid and foot around one wheel, and the cage of a motor that is held by its back.
+    """Drum, lid and foot of one wheel, and the cage of a back-mounted motor.
 
-    They have the motor's holes where these are known and fit.
+    They have the motor's holes if these are known and fit.
 
     Raises:
         PartError: they cannot be made.

@@ -1,7 +1,7 @@
 """Drilling template of the trunk at full size: PDF on A4, and its drawing for DXF.
 
-The drawing is in the frame B that the design is in, in millimetres: x forward, y to the left. On
-paper forward is up. What is wider than a sheet goes on several, to be joined edge to edge.
+The drawing is in the design's frame B, in millimetres: x forward, y to the left. On paper forward
+is up. A drawing larger than a sheet is split over several, to be joined edge to edge.
 """
 
 import math
@@ -40,13 +40,13 @@ from ocs_design.parts.printed import TRUNK_SCREW
 from ocs_design.robot.manual import origin_by_hand
 
 SHEET = (15.0, 15.0, WIDTH - 15.0, HEIGHT - 30.0)
-"""Left, top, right and bottom of what one sheet shows [mm]: printers reach it; below are words."""
+"""Left, top, right and bottom of the drawing area [mm]: within reach of printers, words below."""
 
 CHECK = 50.0
 """Length to measure on the print [mm]."""
 
 _VERDICT = 2.5
-"""Height of the words that say that nothing is to be drilled [mm]."""
+"""Height of the warning not to drill [mm]."""
 
 CROSS = 4.0
 """Length of a centre mark beyond its hole [mm]."""
@@ -54,22 +54,22 @@ CROSS = 4.0
 
 @dataclass(frozen=True)
 class Drilling:
-    """What is drilled and what stands there.
+    """Holes to drill in the trunk, and the outlines of the parts around them.
 
     Attributes:
-        robot: its name.
+        robot: name of the robot.
         frame: what the frame of the coordinates is, as words.
-        holes: to be drilled into the trunk [mm].
-        screw: that goes there.
-        reach: of the screws into the trunk, least and largest [m].
+        holes: positions of the holes to drill in the trunk [mm].
+        screw: screw for these holes.
+        reach: smallest and largest reach of the screws into the trunk [m].
         marks: holes with their coordinates, and the frame's axes [mm].
         around: feet and plate [mm].
-        standing: what the thin lines are.
-        upwards: whether it is the trunk's back, coordinates up and to the left; else its top,
-            forward and to the left.
-        refused: that the device cannot be built, and why: no hole is to be drilled.
+        standing: words on what the thin lines are.
+        upwards: whether the holes are in the trunk's back, with coordinates up and to the left;
+            else in its top, forward and to the left.
+        refused: that the device cannot be built, and why; then no hole may be drilled.
         tilt: largest angle of the holes off square to a round trunk, which is drilled through a
-            block that has its form [rad]; 0: it is flat there.
+            block shaped to it [rad]; 0: the trunk is flat there.
     """
 
     robot: str
@@ -86,12 +86,12 @@ class Drilling:
 
     @property
     def items(self) -> tuple[Item, ...]:
-        """The whole drawing [mm]."""
+        """All items of the drawing [mm]."""
         return *self.marks, *self.around
 
     @property
     def words(self) -> tuple[str, ...]:
-        """What to do, line by line."""
+        """Instructions, line by line."""
         back = ", z and y: its back, seen from behind" if self.upwards else ""
         frame = f"coordinates in mm in {self.frame}{back}"
         if self.refused:
@@ -102,7 +102,7 @@ class Drilling:
                 f"{frame}. Thin lines: {self.standing}.",
             )
         ends = dict.fromkeys(f"{MILLIMETRES * each:.1f}" for each in self.reach)
-        # A pitch more than the screws go in.
+        # One pitch more than the screws' reach.
         thread = round_outwards(self.reach[1] + self.screw.pitch, upwards=True, digits=2)
         deep, blind = (
             format_quantity(each, "mm", digits=2) for each in (thread, thread + self.screw.diameter)
@@ -130,7 +130,7 @@ class Drilling:
 
     @property
     def verdict(self) -> list[str]:
-        """Why the device cannot be built, in lines across the sheet; empty: nothing is known."""
+        """Lines across the sheet on why the device cannot be built; empty if it can."""
         return wrapped(self.refused, SHEET[2] - SHEET[0], _VERDICT)
 
 
@@ -145,7 +145,7 @@ def drilling_of(subject: Subject) -> Drilling | None:
     if not feet and not pedestals:
         return None
     mast = None if plate is None else plate.mast
-    # So much thread holds at least, and so deep it has to be where a screw is on a short sleeve.
+    # Least engagement of the threads, and their depth for a screw on a short sleeve.
     if plate is None:
         holes, thread = _millimetres([*feet, *pedestals]), TRUNK_SCREW
         screws = [each.base_screws for each in device.pedestals]
@@ -216,9 +216,9 @@ def _millimetres(places: Iterable[Point] | list[list[float]]) -> tuple[Point, ..
 
 
 def pages(drilling: Drilling) -> Iterator[list[Item]]:
-    """Sheets from the left to the right and from the front to the back.
+    """Sheets from left to right and from front to back.
 
-    Where one has no room for all, of feet and plate only what is near the holes is shown.
+    If one sheet is too small, feet and plate are shown only near the holes.
     """
     left, top, right, bottom = SHEET
     top += LEADING * len(drilling.verdict)
@@ -231,7 +231,7 @@ def pages(drilling: Drilling) -> Iterator[list[Item]]:
             break
     middle = (back + front) / 2.0, (rightmost + leftmost) / 2.0
     if across * along == 1:
-        # In the middle without its words, as far as they have room then.
+        # Centred without its words, as far as there is space for them.
         low, right_end, high, left_end = bounds(
             each for each in shown if not isinstance(each, Text)
         )
@@ -259,7 +259,7 @@ def pages(drilling: Drilling) -> Iterator[list[Item]]:
                     for x, y in [item.start]
                 ),
                 *marks,
-                # What goes on on another sheet, and would run into the words.
+                # Hides what continues on another sheet and would run into the words.
                 Area(rectangle(0.0, bottom, WIDTH, HEIGHT), white=True),
                 *([Area(rectangle(0.0, 0.0, WIDTH, top), white=True)] if drilling.verdict else []),
                 *outline(rectangle(left, top, right, bottom), THIN),
@@ -298,7 +298,7 @@ def bounds(items: Iterable[Item]) -> tuple[float, float, float, float]:
             case Polyline(corners) | Area(corners):
                 points += corners
             case Text():
-                # On paper it runs against y.
+                # On paper text runs against y.
                 x, y = item.place
                 points += (x, y), (x + item.height, y - item.width)
     across, along = zip(*points, strict=True)
@@ -306,7 +306,7 @@ def bounds(items: Iterable[Item]) -> tuple[float, float, float, float]:
 
 
 def _on_paper(item: Item, offset: Point) -> Item:
-    """The item with forward up, the frame's origin there on the sheet; texts stay level."""
+    """The item with forward up and the frame's origin at `offset`; texts stay level."""
 
     def place(point: Point) -> Point:
         """Point of the trunk on the sheet [mm]."""

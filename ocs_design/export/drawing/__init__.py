@@ -1,1 +1,1 @@
-"""Technical drawing of the wheel: a sheet of lines and texts, written as SVG and PDF."""
+"""Technical drawings of wheel and plate: sheets of lines and texts, written as SVG and PDF."""

@@ -1,8 +1,8 @@
 """Drawing of the plate under the feet, and of the mast that carries it: A4 sheets, first angle.
 
-The plate is seen from above, forward up, with a table of its holes; below it is its edge. The mast
-is seen from the left and, beside that, from behind. All places are from the middle of the plate's
-underside.
+The plate is shown from above, forward up, with a table of its holes, and below that from its edge.
+The mast is shown from the left and from behind. All positions are relative to the middle of the
+plate's underside.
 """
 
 from collections.abc import Iterator, Sequence
@@ -52,7 +52,7 @@ _TABLE = 62.0
 """Width of the table of holes [mm]."""
 
 _VIEW: Box = (LEFT + 30.0, TOP + 8.0, RIGHT - _TABLE - 12.0, 122.0)
-"""Place of the plate's outline, with room for its dimensions around it [mm]."""
+"""Box of the plate's outline, with room for its dimensions around it [mm]."""
 
 _MAST_VIEW: Box = (LEFT + 34.0, TOP + 8.0, RIGHT - 60.0, 118.0)
 
@@ -60,19 +60,19 @@ _ROW = 5.0
 """Height of a row of the table of holes [mm]."""
 
 _WINDOW = 5.0
-"""Radius on the sheet beyond which a hole's name stands in it [mm]."""
+"""Radius on the sheet above which a hole's name is placed inside it [mm]."""
 
 _NEAR = 0.25
-"""Distance of names of holes from lines [mm]."""
+"""Clearance of hole names from lines [mm]."""
 
 _BETWEEN = 40.0
 """Distance between two views [mm]."""
 
 
 def plate_sheets(device: Device, robot: str, refused: str = "") -> list[list[Item]]:
-    """Sheets of the plates, one of each that differs, and of their mast; none without a plate.
+    """Sheets of the different plates and of their mast; none without a plate.
 
-    `robot` is the robot's name, `refused` as of `WheelDrawing`.
+    `robot` is the robot's name; `refused` is as in `WheelDrawing`.
     """
     plate = device.plate
     if plate is None:
@@ -115,12 +115,12 @@ def plate_sheets(device: Device, robot: str, refused: str = "") -> list[list[Ite
 
 
 def _rounded(holes: tuple[Point, ...]) -> tuple[Point, ...]:
-    """Places to the micrometre, so that plates that are made alike compare equal."""
+    """Positions rounded to the micrometre, so that equal plates compare equal."""
     return tuple((round(x, 6), round(y, 6)) for x, y in holes)
 
 
 def _title(plate: CarrierPlate, indices: Sequence[int]) -> str:
-    """Which plates a sheet is of, by their place on the robot, and how many."""
+    """Title of a sheet: its plates by their place on the robot, and their number."""
     if len(indices) == len(plate.rows):
         return "Plate under the feet" + (f", {len(indices)} off" if len(indices) > 1 else "")
     front_first = sorted(range(len(plate.rows)), key=lambda index: -plate.rows[index])
@@ -131,7 +131,7 @@ def _title(plate: CarrierPlate, indices: Sequence[int]) -> str:
 
 
 class Hole(NamedTuple):
-    """A hole of the plate: its name on the sheet, its size in words, diameter and place [m]."""
+    """A hole of the plate: name on the sheet, size as text, diameter and position [m]."""
 
     name: str
     size: str
@@ -158,7 +158,7 @@ def _holes(plate: CarrierPlate) -> list[Hole]:
 
 
 def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
-    """The plate from above with its sizes, its edge below it, and the table of holes."""
+    """The plate from above with its dimensions, its edge below, and the table of holes."""
     corners = flat_outline(plate.shape.outline())
     low, high = corners.min(axis=0), corners.max(axis=0)
     left, top, right, bottom = _VIEW
@@ -168,7 +168,7 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
     middle = (left + right) / 2.0 + offset, top + 8.0 + scale(float(high[0]))
 
     def place(x: float, y: float) -> Point:
-        """Point of the plate on the sheet: forward is up, the left on the left."""
+        """Point of the plate on the sheet: forward is up, left is left."""
         return middle[0] - scale(y), middle[1] - scale(x)
 
     ring = [place(float(x), float(y)) for x, y in corners]
@@ -179,7 +179,7 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
         np.array(at) + radius * np.column_stack([np.cos(turn), np.sin(turn)])
         for _, at, radius in holes
     ]
-    # Points along all lines, so near that none passes a word between them [mm].
+    # Points along all lines, dense enough that no line crosses a word unnoticed [mm].
     ends = np.array([*ring, ring[0]])
     steps = np.maximum(1, np.ceil(np.hypot(*np.diff(ends, axis=0).T) / _NEAR)).astype(int)
     sides = zip(ends, ends[1:], steps.tolist(), strict=False)
@@ -199,7 +199,7 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
         Text((edge_left - 4.0, middle[1] - 2.0), "y, left", 1.8, Anchor.END),
         *_tall(plain(tall), edge_right, (upper, lower)),
     ]
-    # Its edge from the front, below it in first-angle projection.
+    # The edge seen from the front, below the plate in first-angle projection.
     above = lower + 14.0
     below = above + scale(thick)
     items += outline(rectangle(edge_left, above, edge_right, below))
@@ -211,10 +211,11 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
 
 
 def _named(name: str, at: Point, radius: float, lines: FloatArray) -> Text:
-    """The name of a hole on that side of it where it stands on no line; of a window within it.
+    """Name of a hole, placed beside it clear of lines, or inside a large hole.
 
     Args:
-        name, at, radius: of the hole [mm]. lines: points of all lines [mm], shape (n, 2).
+        name, at, radius: name, position and radius of the hole [mm].
+        lines: points of all lines [mm], shape (n, 2).
     """
     aside, high = (1.0 if radius > _WINDOW else radius + 0.8), 1.8
     found = Text((at[0] + aside, at[1] - aside), name, high)
@@ -228,7 +229,7 @@ def _named(name: str, at: Point, radius: float, lines: FloatArray) -> Text:
 
 
 def _hole_table(plate: CarrierPlate) -> Iterator[Item]:
-    """Places of the holes from the middle."""
+    """Table of the holes, with positions from the middle."""
     x, y = RIGHT - _TABLE, TOP + 8.0
     columns = (x, x + 11.0, x + 27.0, x + 45.0)
     rows = [("Hole", "Size", "x", "y")]
@@ -268,7 +269,7 @@ def _plate_notes(plate: CarrierPlate) -> Iterator[str]:
 
 
 def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[Scale, list[Item]]:
-    """The mast from the left, forward to the left as first angle has it, and from behind."""
+    """The mast seen from the left, with forward to the left, and seen from behind."""
     half, end = mast.side / 2.0, -plate.neck
     long, high = mast.face + mast.off - end, mast.high - mast.low
     left, top, right, bottom = _MAST_VIEW
@@ -283,7 +284,7 @@ def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[Scale, list[Item]]:
     behind = left + scale(long) + _BETWEEN + scale(half)
 
     def back(y: float, z: float) -> Point:
-        """Point of the view from behind: the left is on the left."""
+        """Point of the view from behind: left is left."""
         return behind - scale(y), upper + scale(mast.high - z)
 
     items = _box(side(mast.face, mast.high), side(mast.back, mast.low))
@@ -293,7 +294,7 @@ def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[Scale, list[Item]]:
         items += _box(back(half, level), back(-half, level - mast.side))
     low, up = plate.block
     if plate.relief is not None:
-        # Its outline is what stands farthest forward.
+        # Its outline is the foremost contour.
         outermost = zip(plate.relief.heights.max(axis=0).tolist(), plate.relief.y, strict=True)
         form = [side(mast.face + thick, float(z)) for thick, z in outermost]
         under, over = side(mast.face, low), side(mast.face, up)
@@ -306,7 +307,7 @@ def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[Scale, list[Item]]:
     for z in sorted({z for _, z in plate.trunk}):
         (near, along), (far, _) = side(mast.face + mast.off, z), side(mast.back, z)
         items.append(Line((near - 3.0, along), (far + 3.0, along), CENTRE))
-    # Heights of ends and holes from the plates' underside, level with the lowest.
+    # Heights of ends and holes above the underside of the lowest plate.
     beside = back(-half, 0.0)[0]
     marks = {mast.high, mast.low, *plate.heights, *(z for _, z in plate.trunk)}
     shown: list[float] = []
@@ -376,7 +377,7 @@ def _box(corner: Point, other: Point) -> list[Item]:
 
 
 def _tall(label: str, edge: float, ends: tuple[float, float]) -> Iterator[Item]:
-    """A height at the right of an outline: upper and lower end [mm]."""
+    """Height dimension to the right of an outline: upper and lower end [mm]."""
     upper, lower = ends
     x = edge + 9.0
     yield from (Line((edge + 0.75, y), (x + 1.5, y)) for y in ends)

@@ -1,7 +1,7 @@
 """Sheet of paper with lines, circles, texts and dimensions [mm].
 
-x is from its left edge, y down from its top. Dimensions and leaders follow ISO 129-1; none covers
-another.
+x is measured from its left edge, y down from its top. Dimensions and leaders follow ISO 129-1 and
+do not overlap.
 """
 
 import math
@@ -23,15 +23,15 @@ FRAME_BOX = (MARGIN_LEFT, MARGIN, WIDTH - MARGIN, HEIGHT - MARGIN)
 """Left, top, right and bottom of the frame [mm]."""
 
 FONT = "Helvetica"
-"""Typeface of all texts; every PDF reader has it."""
+"""Typeface of all texts, available in every PDF reader."""
 
 SPACING = 2.0
-"""Distance of the hatching's lines [mm]."""
+"""Distance between hatching lines [mm]."""
 
 _DIAGONAL = math.sqrt(0.5)
 
 ENCODING = "cp1252"
-"""WinAnsiEncoding of PDF, which has what drawings need, as in `Ø8 H7 ±0.05`."""
+"""WinAnsiEncoding of PDF, which has the characters of drawings, as in `Ø8 H7 ±0.05`."""
 
 CAP_HEIGHT = 0.718
 """Height of Helvetica's capitals per font size."""
@@ -61,7 +61,7 @@ CENTRE = Pen(0.25, (6.0, 1.0, 0.6, 1.0))
 
 
 class Anchor(StrEnum):
-    """End of a text that its place is; the values are SVG's."""
+    """Part of a text that is at its position; the values are SVG's."""
 
     START = "start"
     MIDDLE = "middle"
@@ -99,7 +99,7 @@ class Circle:
 
 @dataclass(frozen=True)
 class Area:
-    """A black polygon without an outline, such as the head of an arrow; a white one covers."""
+    """A black polygon without an outline, such as an arrowhead; a white one hides what is below."""
 
     corners: tuple[Point, ...]
     white: bool = False
@@ -110,11 +110,11 @@ class Text:
     """One line of lettering.
 
     Attributes:
-        place: on the baseline, at the anchor.
-        text: printable in Helvetica, see `printable`.
-        height: of its capitals [mm] (ISO 3098: 1.8, 2.5, 3.5, 5).
-        anchor: which end `place` is.
-        upright: whether it is read from the sheet's right side, turned by a quarter to the left.
+        place: position of the anchor on the baseline.
+        text: text printable in Helvetica, see `printable`.
+        height: height of its capitals [mm] (ISO 3098: 1.8, 2.5, 3.5, 5).
+        anchor: part of the text that is at `place`.
+        upright: whether it is read from the sheet's right side, turned a quarter turn to the left.
     """
 
     place: Point
@@ -149,9 +149,9 @@ Item: TypeAlias = Line | Polyline | Circle | Area | Text
 
 @dataclass(frozen=True)
 class Scale:
-    """Scale `paper:part` of a drawing (ISO 5455), or of a picture, which needs no standard one.
+    """Scale `paper:part` of a drawing (ISO 5455), or of a picture, which needs no standard scale.
 
-    One of them is 1.
+    One of the two numbers is 1.
     """
 
     paper: float
@@ -175,7 +175,7 @@ _STANDARD, _FINE = (1, 2, 5), (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8)
 def largest_scale(*lengths: tuple[float, float], standard: bool = True) -> Scale:
     """Largest scale, of ISO 5455 or of finer steps, at which all lengths fit; else the smallest.
 
-    Each is that of the part [m], and the room for it on paper [mm].
+    Each entry is a length of the part [m] and the space for it on paper [mm].
     """
     steps = _STANDARD if standard else _FINE
     enlarged = [Scale(step * 10**power, 1) for power in (2, 1, 0) for step in reversed(steps)]
@@ -197,7 +197,7 @@ def rectangle(left: float, top: float, right: float, bottom: float) -> tuple[Poi
 
 
 def cross(at: Point, half: float) -> list[Item]:
-    """Centre lines of a hole, so far to each side [mm]; they cross in dashes (ISO 128-2)."""
+    """Centre lines of a hole with this half length [mm], which cross in dashes (ISO 128-2)."""
     x, y = at
     ends = (x + half, y), (x - half, y), (x, y + half), (x, y - half)
     return [Line(at, end, CENTRE) for end in ends]
@@ -208,8 +208,8 @@ def hatching(
 ) -> list[Item]:
     """Thin lines at 45 degrees inside a simple polygon [mm] (ISO 128-3); `others` are holes in it.
 
-    All polygons of a sheet share one grid, so that faces of one part are hatched as one; `mirrored`
-    lines, of the part beside it, lean to the left.
+    All polygons of a sheet share one grid, so that faces of one part are hatched consistently;
+    `mirrored` lines, for an adjacent part, lean to the left.
     """
     side = -_DIAGONAL if mirrored else _DIAGONAL
     rings = [
@@ -220,7 +220,7 @@ def hatching(
     first, last = math.ceil(min(across) / SPACING), math.floor(max(across) / SPACING)
     lines: list[Item] = []
     for v in (SPACING * row for row in range(first, last + 1)):
-        # Parts of a level line inside the polygons, by the even-odd rule.
+        # Segments of a horizontal line inside the polygons, by the even-odd rule.
         crossings = sorted(
             u0 + (u1 - u0) * (v - v0) / (v1 - v0)
             for ring in rings
@@ -239,12 +239,12 @@ def hatching(
 
 
 def printable(text: str) -> str:
-    """Text with a question mark in place of each character that Helvetica does not have."""
+    """Text with a question mark for each character that Helvetica lacks."""
     return re.sub(r"[\x00-\x1f\x7f]", "?", text).encode(ENCODING, "replace").decode(ENCODING)
 
 
 def fitted(text: str, width: float, height: float) -> str:
-    """Text cut to a width [mm], with an ellipsis in place of what does not fit."""
+    """Text truncated to a width [mm], with an ellipsis if it does not fit."""
     text = printable(text)
     if Text((0.0, 0.0), text, height).width <= width:
         return text
@@ -254,7 +254,7 @@ def fitted(text: str, width: float, height: float) -> str:
 
 
 def wrapped(text: str, width: float, height: float) -> list[str]:
-    """Lines of a text, each at most that wide [mm]; a longer word is cut."""
+    """Lines of a text, each at most that wide [mm]; a longer word is truncated."""
     lines: list[str] = []
     for word in text.split():
         longer = f"{lines[-1]} {word}" if lines else word
@@ -266,20 +266,20 @@ def wrapped(text: str, width: float, height: float) -> list[str]:
 
 
 ARROW = 3.0
-"""Length of an arrow's head [mm]; it is a third as wide."""
+"""Length of an arrowhead [mm]; its width is a third of it."""
 
 OVERHANG = 1.5
 """Length of extension lines beyond the dimension line, twice their gap to the outline [mm]."""
 
 RAISE = 0.9
-"""Height of a text above its line [mm]."""
+"""Distance of a text above its line [mm]."""
 
 LEADING = 4.4
-"""Distance of lines of text [mm]."""
+"""Line spacing of text [mm]."""
 
 
 def arrow(tip: Point, toward: Point) -> Area:
-    """Arrow's head that points in the direction `toward`, a vector of any length."""
+    """Arrowhead that points in the direction `toward`, a vector of any length."""
     (x, y), (u, v) = tip, toward
     length = math.hypot(u, v)
     u, v = u / length, v / length
@@ -290,20 +290,20 @@ def arrow(tip: Point, toward: Point) -> Area:
 
 
 def fits_inside(label: str, span: float) -> bool:
-    """Whether a text stands between the arrows of a dimension of that length [mm]."""
+    """Whether a text fits between the arrows of a dimension of that length [mm]."""
     return Text((0.0, 0.0), label).width + 2.0 <= span and span >= 3.0 * ARROW
 
 
 def upright_dimension(
     label: str, *, x: float, middle: float, half: float, outline_x: float
 ) -> list[Item]:
-    """Dimension beside an outline, its text, which `fits_inside`, turned between the arrows.
+    """Vertical dimension beside an outline, with its text turned between the arrows.
 
     Args:
-        label: the text.
-        x: of the dimension line, left of the outline.
-        middle, half: the y of its middle, and half its length.
-        outline_x: where the extension lines leave the outline.
+        label: text, which must pass `fits_inside`.
+        x: x of the dimension line, left of the outline.
+        middle, half: y of its middle, and half its length.
+        outline_x: x where the extension lines leave the outline.
     """
     top, bottom = middle - half, middle + half
     beyond, close = x - OVERHANG, outline_x - OVERHANG / 2.0
@@ -320,9 +320,9 @@ def upright_dimension(
 def level_dimension(
     label: str, *, left: float, right: float, y: float, text_x: float | None = None
 ) -> list[Item]:
-    """Dimension line with its text above its middle, or to the right of it, from `text_x` on.
+    """Horizontal dimension with its text above its middle, or to its right, starting at `text_x`.
 
-    In the latter case the arrows come from outside where there is no room between them.
+    In the latter case the arrows are outside if there is no room between them.
     """
     if text_x is None:
         outside, end = False, right
@@ -347,7 +347,7 @@ def extension(x: float, start: float, end: float) -> Line:
 
 
 def leader(lines: Sequence[str], center: Point, radius: float, shelf: Point) -> list[Item]:
-    """Arrow toward the centre of a circle [mm], from a shelf under the first line of its text."""
+    """Leader toward the centre of a circle [mm], from a shelf under the first line of its text."""
     (x, y), (cx, cy) = shelf, center
     distance = math.hypot(x - cx, y - cy)
     u, v = (cx - x) / distance, (cy - y) / distance

@@ -38,37 +38,37 @@ BLOCK_WIDTH, ROW_HEIGHT, ROWS = 180.0, 9.0, 4
 BLOCK_LEFT, BLOCK_TOP = RIGHT - BLOCK_WIDTH, BOTTOM - ROWS * ROW_HEIGHT
 
 NOTES_LEFT, NOTES_TOP = MARGIN_LEFT + 3.0, 145.0
-"""Place of the notes' first line [mm]."""
+"""Position of the notes' first line [mm]."""
 
 NOTE, SMALL_NOTE = 2.5, 1.8
-"""Heights of the notes' lettering, and where there are too many for that [mm] (ISO 3098)."""
+"""Heights of the notes' lettering, usual and if there are too many notes [mm] (ISO 3098)."""
 
 TIGHTEST = 1.35
-"""Distance of lines over the height of their capitals at which brackets almost touch."""
+"""Line spacing, relative to the height of capitals, at which brackets almost touch."""
 
 NUMBER_WIDTH = 5.0
 """Width of a note's number before its text [mm]."""
 
 _MOST_WORDS = 420
-"""Letters of the note that says why nothing can be built: three lines across the sheet."""
+"""Maximum length of the note on why the device cannot be built: three lines across the sheet."""
 
 TOOL = f"ocs-design {__version__}"
-"""Program and version that drew a sheet."""
+"""Program and version that made a sheet."""
 
 DIGITS = 12
-"""Length of the hash that says which design a sheet belongs to."""
+"""Length of the hash that identifies the design of a sheet."""
 
 
 def device_hash(device: Device) -> str:
-    """Hash of all that is drawn, as `design.json` has it: the same for the same parts.
+    """Hash of everything drawn, from the values of `design.json`: equal for equal parts.
 
-    These are wheel, motor, carrier, guard and feet, what the feet stand on, and the incidence.
+    It covers wheel, motor, carrier, guard, feet and their supports, and the incidence.
     """
     parts = (
         *(device.flywheel, device.motor, device.carrier, device.guard_wall, device.foot_plate),
         *(device.plate, device.pedestals, device.incidence),
     )
-    # Numbers of NumPy are encoded as those that they are read back as.
+    # NumPy numbers are encoded like the plain numbers that are read back.
     return hashlib.sha256(msgspec.json.encode(parts, enc_hook=float)).hexdigest()[:DIGITS]
 
 
@@ -90,12 +90,12 @@ def frame() -> list[Item]:
 
 @dataclass(frozen=True)
 class Entries:
-    """What the title block of any part says.
+    """Entries of the title block of any part.
 
     Attributes:
-        title: of the part. robot: that it is made for. scale: of the views.
-        material: name. mass: of one [kg]. figure: another of its figures, caption and value.
-        texture: of its surfaces. identity: see `WheelDrawing`. sheet: number and count.
+        title: name of the part. robot: robot that it is made for. scale: scale of the views.
+        material: name. mass: mass of one [kg]. figure: a further figure, as caption and value.
+        texture: surface texture. identity: see `WheelDrawing`. sheet: number and count.
     """
 
     title: str
@@ -119,8 +119,8 @@ def whole_sheet(
 ) -> list[Item]:
     """Frame, views, numbered notes, list of parts and title block.
 
-    `refused` says that the device cannot be built, and why, or is empty: it is told at the top of
-    the sheet, and its first note gives as much of the reason as there is room for.
+    `refused` says that the device cannot be built, and why; empty if it can. It is shown at the top
+    of the sheet, and the first note gives as much of the reason as fits.
     """
     items, sentences = [*frame(), *views], [*notes]
     if refused:
@@ -130,7 +130,7 @@ def whole_sheet(
             points = refused[:_MOST_WORDS].rpartition(". ")[0]
             refused = f"{points}. cad/assembly.pdf has all open points."
         sentences.insert(0, refused)
-    # The notes above the title block and the list of parts are as wide as the sheet.
+    # Notes above the title block and the list of parts are as wide as the sheet.
     block = min([BLOCK_TOP, *(part.start[1] for part in parts if isinstance(part, Line))])
     return [*items, *_numbered(sentences, block), *parts, *_title_block(entries)]
 
@@ -138,7 +138,7 @@ def whole_sheet(
 def _title_block(entries: Entries) -> list[Item]:
     """Fields row by row, and the symbol of first-angle projection.
 
-    Checker and date are written by hand.
+    Checker and date are filled in by hand.
     """
     rows = (
         (
@@ -174,7 +174,7 @@ def _title_block(entries: Entries) -> list[Item]:
             items.append(Text((left + 1.5, top + 2.9), fitted(caption, room, 1.8), 1.8))
             items.append(Text((left + 1.5, top + 7.5), fitted(value, room, height), height))
             left += width
-    # A truncated cone in first-angle projection: its side, and right of it its small end.
+    # A truncated cone in first-angle projection: its side, and to the right its small end.
     x, y = BLOCK_LEFT + 167.0, BLOCK_TOP + 4.5
     cone = ((x - 9.0, y - 1.5), (x - 2.0, y - 3.0), (x - 2.0, y + 3.0), (x - 9.0, y + 1.5))
     return [
@@ -188,11 +188,11 @@ def _title_block(entries: Entries) -> list[Item]:
 
 
 def _numbered(sentences: Sequence[str], block: float) -> list[Item]:
-    """Numbered notes at the lower left, wrapped to the room; no line ends at a tilde.
+    """Numbered notes at the lower left, wrapped to the space; no line ends at a tilde.
 
-    Those that end above `block`, the top of what stands beside them [mm], are as wide as the sheet.
-    Where they would run out of the frame, lines are nearer to each other, and smaller before they
-    would touch.
+    Notes that end above `block`, the top of the neighbouring blocks [mm], are as wide as the sheet.
+    If they would leave the frame, the line spacing is reduced, and the lettering before lines would
+    touch.
     """
     height, leading = NOTE, LEADING
     while True:

@@ -1,4 +1,4 @@
-"""Views of a wheel in first-angle projection: the section, and right of it the front."""
+"""Views of a wheel in first-angle projection: the section, and the front view to its right."""
 
 import math
 from collections.abc import Iterator
@@ -47,7 +47,7 @@ TALLEST = 98.0
 """Largest height of a view, between its name and dimensions and the title block [mm]."""
 
 LEFT, BETWEEN, RIGHT = 33.0, 36.0, 51.0
-"""Room for the diameters, for the widths, and for the leaders [mm]."""
+"""Space for the diameters, for the widths, and for the leaders [mm]."""
 
 _ROOM = WIDTH - MARGIN_LEFT - MARGIN - LEFT - BETWEEN - RIGHT
 
@@ -64,7 +64,7 @@ NEAREST = 4.0
 """Smallest distance of a width's dimension line from the axis [mm]."""
 
 ASIDE, PAST_ARROWS = 4.0, 7.0
-"""Distance of a width's text from the outline, and from the width that it names [mm]."""
+"""Distance of a width's text from the outline, and from its dimension line [mm]."""
 
 SHELF, ROW = 9.0, 7.0
 """Distance of the front view's leaders from its outline, and between them [mm]."""
@@ -79,7 +79,7 @@ HOLE_LEADERS = (math.radians(-25.0), math.radians(-40.0), math.radians(-50.0))
 """Direction of the hole that each of these leaders points to [rad]."""
 
 NARROWEST = 1.0
-"""Smallest distance of lines in the front view [mm]: narrower chamfers are not drawn there."""
+"""Smallest line distance in the front view [mm]: narrower chamfers are not drawn there."""
 
 _BEYOND = 3.0
 """Length of centre lines beyond the front view's outline [mm]."""
@@ -100,7 +100,7 @@ class SheetLayout:
 
 
 def lay_out(wheel: Wheel) -> SheetLayout:
-    """Place both views side by side, in the middle of the room that they have."""
+    """Place both views side by side, centred in the available space."""
     diameter, width = 2.0 * wheel.rim.outer_radius, widest(wheel)
     scale = largest_scale((diameter, TALLEST), (diameter + width, _ROOM))
     across, wide = scale(diameter), scale(width)
@@ -125,7 +125,7 @@ def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
         beyond = width + scale.length(2.0)
         start, end = _placed([(-beyond, ring.radius), (beyond, ring.radius)], layout, side)
         items.append(Line(start, end, CENTRE))
-    # Diameters with room for their text, side by side, the smallest next to the outline.
+    # Diameters that have space for their text, side by side, the smallest next to the outline.
     left = x - half - FIRST_COLUMN
     roomy = (each for each in diameters(wheel) if fits_inside(each[0], 2.0 * scale(each[1])))
     for column, (label, radius, width) in enumerate(roomy):
@@ -136,8 +136,8 @@ def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
             half=scale(radius),
             outline_x=x - scale(width) / 2.0,
         )
-    # Width of the rim above the view; those of web and hub on either side of the axis, where the
-    # web is whole: in the wider of its parts inside and outside its holes.
+    # Width of the rim above the view; widths of web and hub on either side of the axis, where the
+    # web is uncut: in the wider of its parts inside and outside its holes.
     label, top = toleranced(rim.height, Grade.IT11), y - edge
     items += _width(label, rim.height, wheel, layout, y=top - ABOVE, start=top)
     hub = wheel.hub
@@ -153,7 +153,7 @@ def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
         items += _width(
             plain(hub.height), hub.height, wheel, layout, y=y + away, start=y + scale(hub.radius)
         )
-    # The size of the rim's edges, below the view, where it is not too small to be written.
+    # The size of the rim's chamfers, below the view, if it is large enough to be written.
     chamfer = plain(rim.made_chamfer)
     if float(chamfer) > 0.0:
         aside = rim.made_chamfer / 2.0
@@ -170,7 +170,7 @@ def _placed(profile: Profile, layout: SheetLayout, side: float) -> list[Point]:
 
 
 def _edges_behind(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
-    """Circles behind the plane, edge on: bores, holes and the rim's inside."""
+    """Edges of circles behind the cutting plane: bores, holes and the rim's inside."""
     rim, hub = wheel.rim, wheel.hub
     r, half = rim.inner_radius + rim.made_chamfer, rim.height / 2.0
     # Distance from the wheel's middle, and ends across the axis [m].
@@ -190,7 +190,7 @@ def _edges_behind(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
 
 
 def _cut_rings(wheel: Wheel) -> Iterator[tuple[HoleRing, float, float]]:
-    """Rings with a hole in the section, half the width that they go through [m], and the side."""
+    """Hole rings cut by the section, half the width at the hole [m], and the side."""
     rings = [] if wheel.rim.balancing is None else [(wheel.rim.balancing, wheel.rim.height / 2.0)]
     if wheel.hub is not None:
         found = (ring for ring in (wheel.hub.bolts, wheel.hub.lightening) if ring is not None)
@@ -210,7 +210,7 @@ def _width(
     y: float,
     start: float | None = None,
 ) -> Iterator[Item]:
-    """One width, with extension lines from `start` where the outline does not reach it."""
+    """One width dimension, with extension lines from `start` if the outline does not reach it."""
     x, half = layout.section[0], layout.scale(width) / 2.0
     if start is not None:
         yield from (extension(x + side * half, start, y) for side in (-1.0, 1.0))
@@ -222,9 +222,9 @@ def _width(
 
 
 def cut_faces(wheel: Wheel, *, above: bool) -> Iterator[tuple[Profile, bool]]:
-    """Faces of one half of the section, each with whether it is hatched the other way.
+    """Faces of one half of the section, each with a flag for mirrored hatching.
 
-    The half points straight up, or, if not `above`, straight down.
+    It is the upper half, or the lower half if not `above`.
     """
     rim, hub = rim_profile(wheel.rim, above=above), wheel.hub
     if hub is None:
@@ -245,7 +245,7 @@ def cut_faces(wheel: Wheel, *, above: bool) -> Iterator[tuple[Profile, bool]]:
         profiles.append(_distinct([*right, *[(-z, radius) for z, radius in reversed(right)]]))
     *inner, outermost = profiles
     if wheel.one_piece:
-        # One polygon of both: the rim goes where the web's outer end was.
+        # One polygon for both: the rim replaces the web's outer end.
         end = max(range(len(outermost)), key=lambda i: (outermost[i][1], outermost[i][0]))
         outermost = [*outermost[: end + 1], *rim[1:], rim[0], *outermost[end + 1 :]]
     else:
@@ -279,12 +279,12 @@ def rim_profile(rim: Rim, *, above: bool) -> Profile:
 
 
 def _distinct(profile: Profile) -> Profile:
-    """Profile without corners that repeat the one before them, as where there is no chamfer."""
+    """Profile without repeated corners, which occur if there is no chamfer."""
     return [b for a, b in zip([profile[-1], *profile], profile, strict=False) if a != b]
 
 
 def front_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
-    """Wheel along its axis: circles, centre lines, the plane of the section, and leaders."""
+    """Wheel seen along its axis: circles, centre lines, the cutting plane, and leaders."""
     (x, y), scale, rim, hub = layout.front, layout.scale, wheel.rim, wheel.hub
     edge, chamfer = scale(rim.outer_radius), rim.made_chamfer
     radii = [rim.outer_radius, rim.inner_radius]
@@ -294,7 +294,7 @@ def front_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
         radii += [hub.radius, hub.bore_radius]
     items: list[Item] = [Circle((x, y), scale(radius)) for radius in radii if radius > 0.0]
     for ring in filter(None, _rings(wheel)):
-        # Each hole has its centre marked across the circle that they are on.
+        # The centre of each hole is marked across the pitch circle.
         radius, mark = scale(ring.radius), scale(ring.hole_radius) + 1.0
         items.append(Circle((x, y), radius, CENTRE))
         for angle in hole_angles(ring):
@@ -320,7 +320,7 @@ def _rings(wheel: Wheel) -> tuple[HoleRing | None, ...]:
 
 
 def hole_angles(ring: HoleRing) -> list[float]:
-    """Angles of the holes counter-clockwise from the right; the first is straight up [rad]."""
+    """Angles of the holes, counter-clockwise from the right [rad]; the first is straight up."""
     return [math.pi / 2.0 + 2.0 * math.pi * i / ring.count for i in range(ring.count)]
 
 
@@ -330,7 +330,7 @@ def _hole(ring: HoleRing, angle: float, layout: SheetLayout) -> Point:
 
 
 def _leaders(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
-    """Leaders to circles that the section has no room for, and to the holes."""
+    """Leaders to circles whose dimensions do not fit in the section, and to the holes."""
     (x, y), edge, hub = layout.front, layout.scale(wheel.rim.outer_radius), wheel.hub
     shelf = x + edge + SHELF
     callouts = []
@@ -343,7 +343,7 @@ def _leaders(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
             callouts.append((label, on_paper))
     direction = BORE_LEADERS[0]
     if hub is not None and hub.bolts is not None:
-        # Farthest from all holes, so that the leader crosses none.
+        # The direction farthest from all holes, so that the leader crosses none.
         bolts = hole_angles(hub.bolts)
         direction = min(BORE_LEADERS, key=lambda each: max(math.cos(each - hole) for hole in bolts))
     first = (edge + SHELF) * math.tan(direction)

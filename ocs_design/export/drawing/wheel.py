@@ -14,11 +14,11 @@ from ocs_design.parts.wheel import HoleRing, Wheel, wheel_parts
 from ocs_design.robot.mass import MassProperties
 
 BROKEN_EDGE = 0.2e-3
-"""Width of edges without indication, at 45 degrees [m]."""
+"""Width of edges without indication, broken at 45 degrees [m]."""
 
 INSIDE_CORNER = 0.4e-3
-"""Radius of a wheel's inside corners, at most [m]: the nose of the usual turning insert (ISO 1832,
-04)."""
+"""Maximum radius of a wheel's inside corners [m]: nose of the usual turning insert (ISO 1832, 04).
+"""
 
 
 @dataclass(frozen=True)
@@ -26,16 +26,16 @@ class WheelDrawing:
     """A wheel with the entries of its title block.
 
     Attributes:
-        wheel: as it is made.
+        wheel: the wheel as made.
         robot: name of the robot that it is made for.
-        identity: of the design, such as the beginning of its hash.
-        speed: highest in service [rad/s]; None: not limited.
-        interference: of a rim that is shrunk on, least and largest over the diameter [m]; None:
-            there is none, or it is not known.
+        identity: identifier of the design, such as the beginning of its hash.
+        speed: highest speed in service [rad/s]; None: not limited.
+        interference: smallest and largest interference of a shrunk-on rim on the diameter [m];
+            None: there is none, or it is not known.
         bonded: whether it is a ring around the bell of its motor.
-        on_shaft: whether the motor's shaft is known, which the hub's bore fits.
-        yield_strength: of the rim's material, with which it was sized [Pa]; None: not known.
-        refused: that the device cannot be built, and why; empty: nothing is known.
+        on_shaft: whether the motor's shaft, which the hub's bore fits, is known.
+        yield_strength: yield strength of the rim's material used in sizing [Pa]; None: not known.
+        refused: that the device cannot be built, and why; empty if nothing known prevents it.
     """
 
     wheel: Wheel
@@ -60,7 +60,7 @@ class WheelDrawing:
 
 
 def shrunk_on(wheel: Wheel) -> bool:
-    """Whether the rim is shrunk on a web of its own; else both are one piece, or there is none."""
+    """Whether the rim is shrunk on a separate web; else both are one piece, or there is no web."""
     return wheel.hub is not None and not wheel.one_piece
 
 
@@ -70,12 +70,12 @@ def widest(wheel: Wheel) -> float:
 
 
 def plus_minus(size: float, grade: Grade) -> float:
-    """Half the tolerance width, rounded down to 0.01 mm and at least that [m]."""
+    """Half the tolerance width [m], rounded down to 0.01 mm, but at least 0.01 mm."""
     return 1e-5 * max(1.0, (1e5 * tolerance_width(size, grade) / 2.0 + 1e-9) // 1.0)
 
 
 def lost_by_breaking(wheel: Wheel) -> tuple[float, float]:
-    """Mass that breaking the rim's sharp edges removes [kg], and its share of the inertia."""
+    """Mass that is removed by breaking the rim's sharp edges [kg], and its share of the inertia."""
     sharp, broken = (
         total(wheel_parts(Wheel(replace(wheel.rim, chamfer=chamfer, balancing=None))))
         for chamfer in (0.0, BROKEN_EDGE)
@@ -85,16 +85,16 @@ def lost_by_breaking(wheel: Wheel) -> tuple[float, float]:
 
 
 def inside_corners(wheel: Wheel) -> tuple[float, float]:
-    """Largest radius of the corners that web makes with rim and hub [m], and their inertia's share.
+    """Largest radius of the web's inside corners at rim and hub [m], and their inertia's share.
 
-    What a radius R leaves in a corner at r from the axis is (1 - pi / 4) R^2 across, with its
-    middle at 0.223 R from both sides (10 - 3 pi) / (12 - 3 pi): its inertia is that of a thin ring.
-    None where rim and hub are no higher than the web: 0 and 0.
+    The fillet that a radius R leaves in a corner at r from the axis has a cross-section of
+    (1 - pi / 4) R^2, with its centroid at 0.223 R from both sides, (10 - 3 pi) / (12 - 3 pi). Its
+    inertia is that of a thin ring. Both are 0 if rim and hub are no taller than the web.
     """
     hub, rim = wheel.hub, wheel.rim
     if hub is None:
         return 0.0, 0.0
-    # Inwards from the rim's bore, outwards from the hub.
+    # Inward from the rim's bore, outward from the hub.
     sides = [(hub.height, hub.radius, 1.0)]
     if wheel.one_piece:
         sides.append((rim.height, rim.inner_radius, -1.0))
@@ -107,30 +107,31 @@ def inside_corners(wheel: Wheel) -> tuple[float, float]:
 
 
 GENERAL = ((6e-3, 0.1e-3), (30e-3, 0.2e-3), (120e-3, 0.3e-3), (400e-3, 0.5e-3), (1.0, 0.8e-3))
-"""Largest size and how far it may be off to both sides, class m of ISO 2768-1 [m]; above 1 m: as to
-1 m."""
+"""Upper limits of size and their permissible deviations, class m of ISO 2768-1 [m]; sizes above 1 m
+have the last one."""
 
 WEB_GRADE = Grade.IT12
-"""Grade of the web's thickness: it gives way under the tool, and has a quarter of the inertia."""
+"""Grade of the web's thickness: the web yields under the tool, and has a quarter of the inertia."""
 
 
 def general(size: float) -> float:
-    """How far a size without tolerance may be off, ISO 2768-m [m]."""
+    """Permissible deviation of a size without tolerance, ISO 2768-m [m]."""
     return next((off for largest, off in GENERAL if size <= largest), GENERAL[-1][1])
 
 
 def inertia_error(wheel: Wheel) -> float:
     """Largest relative error of the wheel's spin inertia within the tolerances of its sizes.
 
-    First order of I = pi rho h (R^4 - r^4) / 2 of rim, web and hub, all in the same direction, with
-    the lightening holes, of which each takes pi rho t a^2 (c^2 + a^2 / 2).
+    To first order in I = pi rho h (R^4 - r^4) / 2 of rim, web and hub, with all deviations in the
+    same direction, and with the lightening holes, each of which removes pi rho t a^2
+    (c^2 + a^2 / 2).
     """
     r, R, h = wheel.rim.inner_radius, wheel.rim.outer_radius, wheel.rim.height
     rho, hub = wheel.rim.density, wheel.hub
     outer, inner = (plus_minus(2.0 * radius, Grade.IT9) / 2.0 for radius in (R, r))
     if shrunk_on(wheel):
         inner = tolerance_width(2.0 * r, Grade.IT7) / 2.0
-    # What the rim's bore takes from the rim, but for what it gives to the web.
+    # A larger bore removes material from the rim and adds some to the web.
     at_bore = rho * h - (0.0 if hub is None else hub.density * hub.web_thickness)
     off = 2.0 * pi * (rho * h * R**3 * outer + abs(at_bore) * r**3 * inner)
     off += pi * rho * (R**4 - r**4) / 2.0 * plus_minus(h, Grade.IT11)
@@ -151,7 +152,7 @@ def inertia_error(wheel: Wheel) -> float:
 
 
 def plain(length: float) -> str:
-    """Label of a length [m] in mm with at most two decimals; the general tolerance holds."""
+    """Label of a length [m] in mm with at most two decimals; the general tolerance applies."""
     return f"{1e3 * length:.2f}".rstrip("0").rstrip(".")
 
 
@@ -166,7 +167,7 @@ def diameter(radius: float) -> str:
 
 
 def fitted_bore(radius: float) -> str:
-    """Label of the hub's bore with the limits of H7, from the size up [mm]."""
+    """Label of the hub's bore with the upper and lower deviation of H7 [mm]."""
     return f"{diameter(radius)} H7 (0/+{1e3 * tolerance_width(2.0 * radius, Grade.IT7):.3f})"
 
 
@@ -176,21 +177,22 @@ def rim_diameter(wheel: Wheel) -> str:
 
 
 def bore_diameter(wheel: Wheel) -> str:
-    """Label of the rim's inner diameter; where it sits on a web, with the fit of both."""
+    """Label of the rim's inner diameter; if the rim is on a separate web, with the fit."""
     if shrunk_on(wheel):
         return f"Ø{2e3 * wheel.rim.inner_radius:.2f} shrink fit"
     return f"Ø{toleranced(2.0 * wheel.rim.inner_radius, Grade.IT9)}"
 
 
 def seat_limits(drawing: WheelDrawing) -> tuple[str, str]:
-    """Limits of the rim's bore and of the web, each after a comma [mm]; empty: they are not known.
+    """Limits of the rim's bore and of the web, each after a comma [mm]; empty if not known.
 
-    The bore goes from the size up, and the web is wider by the interference; both are of one grade.
+    The bore's lower limit is the nominal size, the web is larger by the interference, and both have
+    the same grade.
     """
     if drawing.interference is None:
         return "", ""
     least, most = drawing.interference
-    # As the size is labelled.
+    # Rounded like the label of the size.
     bore, width = round(2.0 * drawing.wheel.rim.inner_radius, 5), (most - least) / 2.0
     limits = (bore, bore + width), (bore + most - width, bore + most)
     (r, R), (w, W) = ((f"{1e3 * low:.3f}", f"{1e3 * high:.3f}") for low, high in limits)
@@ -198,7 +200,7 @@ def seat_limits(drawing: WheelDrawing) -> tuple[str, str]:
 
 
 def diameters(wheel: Wheel) -> Iterator[tuple[str, float, float]]:
-    """Turned diameters but the hub's bore, from the inside out.
+    """Turned diameters except the hub's bore, from the inside out.
 
     Yields the label, the radius [m], and the extent along the axis there [m].
     """

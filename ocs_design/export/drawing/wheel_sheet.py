@@ -60,7 +60,7 @@ RUN_OUT = 1e3 * joints.RUN_OUT
 
 
 def write(subject: "Subject", folder: Path) -> "Notes":
-    """Write `wheel.svg` and `wheel.pdf`, which show the same, `plate.pdf` and `drilling.pdf`."""
+    """Write `wheel.svg`, the same as `wheel.pdf`, and `plate.pdf` and `drilling.pdf` if any."""
     drawing = wheel_drawing(subject.device, subject.name, subject.refused)
     for suffix, content in draw_wheel(drawing).items():
         (folder / f"wheel.{suffix}").write_bytes(content)
@@ -74,7 +74,7 @@ def write(subject: "Subject", folder: Path) -> "Notes":
 
 
 def wheel_drawing(device: Device, robot: str, refused: str = "") -> WheelDrawing:
-    """Content of the sheet of a device's wheel for a robot of that name; all wheels are equal.
+    """Content of the sheet of a device's wheel for the robot `robot`; all wheels are equal.
 
     `refused` says that the device cannot be built, and why.
     """
@@ -114,7 +114,7 @@ def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
 
 
 def parts_list(drawing: WheelDrawing) -> list[Item]:
-    """List of rim and web where they are two parts; empty otherwise."""
+    """Parts list of rim and web if they are two parts; otherwise empty."""
     wheel = drawing.wheel
     if wheel.hub is None or wheel.one_piece:
         return []
@@ -216,7 +216,7 @@ def _percent(part: float) -> str:
 
 
 def draw_wheel(drawing: WheelDrawing) -> dict[str, bytes]:
-    """Files of the drawing by the suffixes `svg` and `pdf`; the same bytes every time."""
+    """Files of the drawing by their suffixes `svg` and `pdf`, reproducible byte for byte."""
     items, title = wheel_sheet(drawing), f"Flywheel of {drawing.robot}"
     picture = svg_text(items, title, (0.0, 0.0, WIDTH, HEIGHT)) + "\n"
     return {"svg": picture.encode(), "pdf": pdf_of_pages([items], title)}

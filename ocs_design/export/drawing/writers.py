@@ -1,4 +1,4 @@
-"""Writers of a sheet: SVG and PDF, which show the same, each with the same bytes every time."""
+"""Writers of a sheet as SVG and PDF, which look the same and are reproducible byte for byte."""
 
 from collections.abc import Iterable, Sequence
 from io import BytesIO
@@ -30,10 +30,10 @@ POINTS_PER_MM = 72.0 / 25.4
 
 
 def pdf_of_pages(pages: Iterable[Iterable[Item]], title: str, *, compressed: bool = False) -> bytes:
-    """PDF of several sheets, each one A4 page; compressed where there is more than a drawing."""
+    """PDF of several sheets, each an A4 page; `compressed` is for more than a drawing."""
     buffer = BytesIO()
     size = (WIDTH * POINTS_PER_MM, HEIGHT * POINTS_PER_MM)
-    # Invariant: without the clock. Uncompressed a drawing is 17 kB, and a person can read it.
+    # Invariant: without a time stamp. An uncompressed drawing is 17 kB and readable as text.
     canvas = Canvas(buffer, pagesize=size, invariant=1, pageCompression=int(compressed))
     canvas.setTitle(printable(title))
     canvas.setCreator("ocs-design")
@@ -87,7 +87,7 @@ def _take(canvas: Canvas, pen: Pen) -> None:
 
 
 def svg_text(items: Iterable[Item], title: str, box: Box) -> str:
-    """SVG of what is in a box of the sheet [mm], at its size."""
+    """SVG of a box of the sheet [mm] at actual size."""
     left, top, right, bottom = box
     wide, tall = _num(right - left), _num(bottom - top)
     elements = []
@@ -109,7 +109,7 @@ def svg_text(items: Iterable[Item], title: str, box: Box) -> str:
             case Text():
                 x, y = item.start
                 turn = f' transform="rotate(-90 {_num(x)} {_num(y)})"' if item.upright else ""
-                # With its width, it is as long in any font as it was measured.
+                # With its width given, it has the measured length in any font.
                 width = f' textLength="{_num(item.width)}" lengthAdjust="spacingAndGlyphs"'
                 elements.append(
                     f'<text x="{_num(x)}" y="{_num(y)}" font-size="{_num(item.size)}" fill="#000" '
@@ -135,5 +135,5 @@ def _stroke(pen: Pen) -> str:
 
 
 def _num(value: float) -> str:
-    """Coordinate to the tenth of a micrometre."""
+    """Coordinate rounded to a tenth of a micrometre."""
     return f"{round(value, 4) + 0.0:.10g}"
