@@ -1,34 +1,36 @@
-"""Closed forms of a flywheel: its rim, what is cut off that, its web and its hub.
+"""Closed forms of a flywheel: its rim with chamfers and holes, its web and its hub.
 
 The rim is a hollow cylinder that spins about its axis (docs/theory.md, The rim). Radii and heights
-are in metres, densities in kg/m^3; scalars, arrays that broadcast, or CasADi's symbols, as all is
-built of operators alone. Masses and inertias are integrals, as in any handbook; stresses are those
-of Budynas and Nisbett, Shigley's Mechanical Engineering Design, "Stresses in Rotating Rings".
+are in metres, densities in kg/m^3; scalars, arrays that broadcast, or CasADi symbols, since all
+formulas use operators only. Masses and inertias are integrals, as in any handbook; stresses are
+those of Budynas and Nisbett, Shigley's Mechanical Engineering Design, "Stresses in Rotating Rings".
 
-A rim's four edges are broken and balancing holes drilled into its faces. Its cross-section with the
-edges broken at 45 degrees stays symmetric to its middle radius s = (R + r) / 2, so that by Pappus
-its volume is 2 pi s times its area, and its third moment about the axis s^3 times its area and 3 s
-times its second moment about that radius. With the wall w = R - r and a chamfer c the edges take,
-over pi rho,
+A rim's four edges are chamfered, and balancing holes are drilled into its faces. Its cross-section
+with 45 degree chamfers stays symmetric about the middle radius s = (R + r) / 2, so that by Pappus
+its volume is 2 pi s times its area, and its third moment about the axis is s^3 times its area plus
+3 s times its second moment about that radius. With the wall w = R - r and a chamfer c the chamfers
+remove, over pi rho,
 
     mass           2 c^2 (R + r)
     spin inertia   c^2 (R + r) (R^2 + r^2 + (w - c)^2).
 
-Holes of radius q and depth p, n in each face on the radius s, take n q^2 p twice, at s^2 + q^2 / 2.
+Holes of radius q and depth p, n in each face on the radius s, remove n q^2 p twice, at
+s^2 + q^2 / 2.
 
 A thin web and a hub join the rim to its motor. All three are turned from one piece of the rim's
 material; or web and hub are of aluminium, and the rim is shrunk on. The web is a disc in the
 wheel's middle plane that fills the rim's bore, the hub a cylinder around the axis with a bore and
-bolt holes, both symmetric to that plane.
+bolt holes, both symmetric about that plane.
 
-Lightening holes take a fixed share of the web between hub, x, and bore, r, whatever its size: n of
-radius q with n q^2 = s (r^2 - x^2), on a circle c with c^2 + q^2 / 2 = g (r^2 + x^2). So they take
+Lightening holes remove a fixed share s of the web between hub, x, and bore, r, whatever its size: n
+of radius q with n q^2 = s (r^2 - x^2), on a circle c with c^2 + q^2 / 2 = g (r^2 + x^2). So they
+remove
 
     mass           pi rho t s (r^2 - x^2)
     spin inertia   pi rho t s g (r^4 - x^4),
 
-and the web is a plain disc of a thickness that counts (1 - s) t as mass and (1 - 2 s g) t as spin
-inertia, less what that leaves out within the hub.
+and the web is a plain disc with the effective thickness (1 - s) t for mass and (1 - 2 s g) t for
+spin inertia; the material that this disc lacks within the hub is counted with the hub.
 """
 
 from collections.abc import Mapping
@@ -47,63 +49,64 @@ from ocs_design.parts.shapes import Disc
 from ocs_design.parts.solids import Carrier, Part, Prism
 
 CHAMFER_SHARE = 0.25
-"""Largest share of a chamfer in wall and height: half of each face stays."""
+"""Largest chamfer over wall and height: half of each face remains."""
 
 LIGAMENT = 1.0e-3
-"""Material between holes, to their edges and between their bottoms, at least [m]."""
+"""Least material between holes, from holes to edges, and between their bottoms [m]."""
 
 WEB_THICKNESS = 1.0e-3
-"""[m]: metal is turned to 0.8 mm without special care. In steel a rim of 45 g on a web of 38 mm
-radius rocks at 820 Hz, more than four times as fast as it spins."""
+"""Thickness of a web in one piece with its rim [m]: metal can be turned to 0.8 mm without special
+care. In steel a rim of 45 g on a web of 38 mm radius rocks at 820 Hz, more than four times its spin
+frequency."""
 
 SHRUNK_WEB_THICKNESS = 1.5e-3
-"""[m] of a web of aluminium that a rim is shrunk on: Solo12's would buckle at 1 mm."""
+"""Thickness of an aluminium web with a shrunk-on rim [m]: Solo12's would buckle at 1 mm."""
 
 WEB_MATERIAL = "aluminium-6061-t6"
-"""Name in the catalogue of materials of a web that a rim is shrunk on."""
+"""Material of a web with a shrunk-on rim, by its name in the catalogue of materials."""
 
 SHOULDER = 0.5e-3
-"""Least height of a rim over the web that it is shrunk on [m]."""
+"""Least height of a rim in excess of the web that it is shrunk on [m]."""
 
 STEP = 0.1e-3
-"""Least length of a rim's bore between its chamfers, over its web's thickness [m]."""
+"""Least length of a rim's bore between its chamfers, in excess of its web's thickness [m]."""
 
 HUB_HEIGHT = 5.0e-3
-"""[m], at the least on a shaft, whose diameter the bond is as long as."""
+"""Least height of a hub on a shaft [m]; its bond is as long as the shaft's diameter."""
 
 BOLTED_HUB_HEIGHT = 3.0e-3
-"""[m] of a hub that screws clamp: the heads of M3 press it with 150 MPa."""
+"""Height of a hub clamped by screws [m]: M3 heads press on it with 150 MPa."""
 
 HEAD_ROOM = 0.5e-3
-"""Least room between the heads of a hub's screws and the lid that they turn under [m]."""
+"""Least clearance between the heads of a hub's screws and the lid above them [m]."""
 
 HUB_WALL = 2.0e-3
 """Least wall around bore and bolts [m]."""
 
 PILOT_BORE = 3.0e-3
-"""Diameter where the motor's shaft is not in the catalogue, at most [m]: to be opened to fit."""
+"""Largest bore diameter if the motor's shaft is not in the catalogue [m]: to be bored to fit."""
 
 
 LIGHTENED: Mapping[int, float] = {0: 0.0, 5: 0.35, 6: 0.4, 7: 0.4, 8: 0.35}
-"""Share of the web between hub and bore that so many holes take. Of these, webs of 26 to 50 mm
-have room for them with a spoke between, and few more would fit."""
+"""Share of the web between hub and bore removed, by number of holes. Webs of 26 to 50 mm have room
+for these with spokes between, and for few more."""
 
 LIGHTENED_STRESS: Mapping[int, float] = {0: 0.0, 5: 6.5, 6: 6.5, 7: 8.0, 8: 8.0}
-"""Largest stress at so many holes over the hoop stress at the rim's bore, at the most
+"""Upper bound on the stress at holes over the hoop stress at the rim's bore, by number of holes
 (`turning_rings.holed_peaks` of webs and rims of all sizes)."""
 
 LIGHTENING_PLACE = 0.42
-"""g of the module's text: about in the middle between a hub and a bore of four times its radius."""
+"""g of the module docstring: about midway between a hub and a bore of four times its radius."""
 
 SPOKE = 3.0e-3
-"""Material between lightening holes, and from them to hub and rim, at least [m]."""
+"""Least material between lightening holes, and from them to hub and rim [m]."""
 
 SMALLEST_LIGHTENING = 3.0e-3
-"""Least radius of a lightening hole [m]: smaller ones are not worth their drilling."""
+"""Least radius of a lightening hole [m]: smaller ones are not worth drilling."""
 
 
 _BORES = 400
-"""Bores at which holes are looked at, from wide to narrow; 2 % apart."""
+"""Number of bores at which holes are tried, from wide to narrow; 1 to 2 % apart."""
 
 
 def cylinder_spin_inertia(
@@ -125,8 +128,8 @@ def cylinder_transverse_inertia(
 def hoop_weights(poisson_ratio: Real) -> tuple[Real, Real]:
     """Weights p = 3 + nu of R^2 and n = 1 - nu of r^2 in the hoop stress at the bore.
 
-    The rule of the hoop stress stands here alone: another one of the same form,
-    `rho w^2 / 4 (p R^2 + n r^2)`, needs no other change.
+    This is the only place that defines the rule for hoop stress: another rule of the same form,
+    `rho w^2 / 4 (p R^2 + n r^2)`, needs no change elsewhere.
     """
     return 3.0 + poisson_ratio, 1.0 - poisson_ratio
 
@@ -139,10 +142,10 @@ def hoop_stress(
     poisson_ratio: float,
     wheel_speed: float,
 ) -> Real:
-    """Largest tangential stress, which is at the bore [Pa].
+    """Largest tangential stress, which occurs at the bore [Pa].
 
-    rho w^2 / 4 ((3 + nu) R^2 + (1 - nu) r^2). With r -> 0 it is that of a disc with a pin hole,
-    twice that of a solid one.
+    rho w^2 / 4 ((3 + nu) R^2 + (1 - nu) r^2). As r -> 0 it tends to that of a disc with a pinhole,
+    twice that of a solid disc.
     """
     outer, inner = hoop_weights(poisson_ratio)
     return density * wheel_speed**2 / 4.0 * (outer * outer_radius**2 + inner * inner_radius**2)
@@ -159,7 +162,7 @@ class RimCuts:
 
     Attributes:
         chamfer: of all four edges, at 45 degrees [m].
-        holes: for balancing, in each face, evenly spaced on the middle radius; 0: none.
+        holes: number of balancing holes in each face, evenly spaced on the middle radius; 0: none.
         hole_radius, hole_depth: of each [m].
     """
 
@@ -170,7 +173,7 @@ class RimCuts:
 
     @property
     def wall_min(self) -> float:
-        """Thinnest wall with half of each face between chamfers and a ligament beside holes [m]."""
+        """Least wall that leaves half of each face between chamfers, and ligaments at holes [m]."""
         plain = self.chamfer / CHAMFER_SHARE
         if self.holes == 0:
             return plain
@@ -178,13 +181,13 @@ class RimCuts:
 
     @property
     def height_min(self) -> float:
-        """Least height with half of the band between chamfers, a ligament between holes [m]."""
+        """Least height that leaves half the band between chamfers, and ligaments at holes [m]."""
         plain = self.chamfer / CHAMFER_SHARE
         return max(plain, 2.0 * self.hole_depth + LIGAMENT) if self.holes else plain
 
     @property
     def inner_radius_min(self) -> float:
-        """Smallest bore that keeps holes a ligament apart, were they at its edge [m]."""
+        """Smallest bore radius at whose edge holes would still be a ligament apart [m]."""
         if self.holes == 0:
             return 0.0
         return (self.hole_radius + LIGAMENT / 2.0) / sin(pi / self.holes)
@@ -204,17 +207,17 @@ class RimCuts:
         return 2.0 * self.chamfer**2 * (outer + inner) + self._drilled
 
     def spread(self, inner: Real, outer: Real) -> Real:
-        """Spin inertia over pi rho / 2, as R^4 - r^4 times the height is [m^5]."""
+        """Spin inertia over pi rho / 2, like (R^4 - r^4) times the height [m^5]."""
         both, face = outer + inner, outer - inner - self.chamfer
         edges = 2.0 * self.chamfer**2 * both * (outer**2 + inner**2 + face**2)
         return edges + self._drilled * (both**2 / 2.0 + self.hole_radius**2)
 
     def area_slope(self) -> float:
-        """Slope of `area` by the inner radius [m^2]."""
+        """Derivative of `area` with respect to the inner radius [m^2]."""
         return 2.0 * self.chamfer**2
 
     def spread_slope(self, inner: Real, outer: Real) -> Real:
-        """Slope of `spread` by the inner radius [m^4]."""
+        """Derivative of `spread` with respect to the inner radius [m^4]."""
         both, face = outer + inner, outer - inner - self.chamfer
         of_edges = outer**2 + inner**2 + face**2 + 2.0 * both * (inner - face)
         return 2.0 * self.chamfer**2 * of_edges + self._drilled * both
@@ -228,10 +231,10 @@ class RimCuts:
         return pi * density / 2.0 * self.spread(inner, outer)
 
     def transverse_inertia(self, inner: Real, outer: Real, height: Real, density: float) -> Real:
-        """Inertia of the cuts about any axis across through the middle [kg m^2].
+        """Inertia of the cuts about any transverse axis through the middle [kg m^2].
 
-        Half of what it is about the axis, and the second moment off the middle plane: of each
-        triangle c^2 / 2 at h / 2 - c / 3 and its own c^4 / 36, of each hole p^2 / 12 likewise.
+        Half of that about the spin axis, plus the second moment about the middle plane: each
+        triangle c^2 / 2 is at h / 2 - c / 3 and adds its own c^4 / 36, each hole its own p^2 / 12.
         """
         c, depth = self.chamfer, self.hole_depth
         triangles = 2.0 * c**2 * (height / 2.0 - c / 3.0) ** 2 + c**4 / 9.0
@@ -249,8 +252,8 @@ class WebHoles:
     """Equal through holes in a web, evenly spaced.
 
     Attributes:
-        count: of them.
-        circle_radius: of the circle that their middles are on [m].
+        count: number of holes.
+        circle_radius: of the circle of their middles [m].
         hole_radius: of each [m].
     """
 
@@ -260,7 +263,7 @@ class WebHoles:
 
     @classmethod
     def of(cls, count: int, hub_radius: float, bore: float) -> "WebHoles":
-        """Holes that take their share of the web between a hub and a rim's bore, radii [m]."""
+        """Holes that remove their share of the web between a hub and a rim's bore, radii [m]."""
         square = LIGHTENED[count] * (bore**2 - hub_radius**2) / count
         circle = LIGHTENING_PLACE * (bore**2 + hub_radius**2) - square / 2.0
         return cls(count, sqrt(circle), sqrt(square))
@@ -281,12 +284,12 @@ class Hub:
     Attributes:
         radius, height: [m].
         bore_radius: [m].
-        bolts: how many; 0: the motor's are not in the catalogue.
+        bolts: number of bolts; 0: the motor's are not in the catalogue.
         bolt_circle_radius, bolt_hole_radius: [m]; 0 without bolts.
         chamfer: of the cylinder's edges and of its bore's, at 45 degrees [m].
         bolt_head: height of the bolts' heads [m].
-        web_thickness: of the web that it stands in [m].
-        lightening: holes in that web (`LIGHTENED`); 0: none.
+        web_thickness: of the web around it [m].
+        lightening: number of holes in that web (`LIGHTENED`); 0: none.
     """
 
     radius: float
@@ -302,27 +305,27 @@ class Hub:
 
     @property
     def lightened(self) -> float:
-        """Share of the web that its holes take."""
+        """Share of the web that its holes remove."""
         return LIGHTENED[self.lightening]
 
     @property
     def lightened_stress(self) -> float:
-        """Largest stress of its web over the hoop stress at the rim's bore; 0: no more."""
+        """Largest stress of its web over the hoop stress at the rim's bore; 0: without holes."""
         return LIGHTENED_STRESS[self.lightening]
 
     @property
     def bore_min(self) -> float:
-        """Least bore of a rim whose web has room for its holes [m]; 0: it has none."""
+        """Least bore radius of a rim whose web has room for its holes [m]; 0: no holes."""
         return _lightened_bore(self.lightening, self.radius) if self.lightening else 0.0
 
     def holes(self, bore: float) -> WebHoles | None:
-        """Lightening holes of the web in a rim of that bore radius [m]; None: none."""
+        """Lightening holes of the web in a rim of this bore radius [m]; None: none."""
         return WebHoles.of(self.lightening, self.radius, bore) if self.lightening else None
 
     def web(self, bore: float, density: float) -> Carrier:
-        """The web in a rim of that bore radius [m], without hub, as a disc up to the axis.
+        """The web in a rim of this bore radius [m], without hub, as a disc up to the axis.
 
-        What it leaves out within the hub, the hub has.
+        The hub accounts for the material that this disc lacks within it.
         """
         disc = (0.0, bore, self.web_thickness, density)
         mass = cylinder_mass(*disc) * (1.0 - self.lightened)
@@ -330,7 +333,7 @@ class Hub:
         return Carrier(mass, axial, axial / 2.0 + mass * self.web_thickness**2 / 12.0)
 
     def mass_with_web(self, bore: float, density: float) -> float:
-        """Mass of hub and web in a rim of that bore radius, less all holes [kg]."""
+        """Mass of hub and web in a rim of this bore radius, minus all holes [kg]."""
         return self.web(bore, density).mass + self.beyond_web(density).mass
 
     @property
@@ -339,7 +342,7 @@ class Hub:
         return max(self.height + 2.0 * (self.bolt_head + HEAD_ROOM - CLEARANCE), 0.0)
 
     def beyond_web(self, density: float) -> Carrier:
-        """The hub beyond its `web`, with what that leaves out within it, as one body."""
+        """The hub in addition to its `web`, with the material which that lacks, as one body."""
         unit = _beyond_web(self)
         inertias = unit.axial_inertia, unit.transverse_inertia
         return Carrier(density * unit.mass, *(density * inertia for inertia in inertias))
@@ -347,9 +350,9 @@ class Hub:
 
 @lru_cache(maxsize=4096)
 def _beyond_web(hub: Hub) -> Carrier:
-    """A hub beyond its web, of unit density.
+    """A hub in addition to its web, of unit density.
 
-    Three and more holes in a ring have the same about every axis across it.
+    A ring of three or more holes has equal moments about every transverse axis.
     """
     half, web = hub.height / 2.0, hub.web_thickness / 2.0
     holes = [Prism(Disc(hub.radius), -web, web), Prism(Disc(hub.bore_radius), -half, half)]
@@ -357,7 +360,7 @@ def _beyond_web(hub: Hub) -> Carrier:
         bolt = Disc(hub.bolt_hole_radius, (0.0, -hub.bolt_circle_radius))
         holes.append(Prism(bolt, -half, half, count=hub.bolts))
     body = Part("hub", 1.0, (Prism(Disc(hub.radius), -half, half),), tuple(holes)).moments()
-    # With its bore it is a hollow cylinder as a rim is, and so are its edges.
+    # With its bore it is a hollow cylinder like a rim, with the same chamfers.
     edges, size = RimCuts(hub.chamfer), (hub.bore_radius, hub.radius)
     disc, left = (0.0, hub.radius, hub.web_thickness, 1.0), hub.web(hub.radius, 1.0)
     return Carrier(
@@ -371,7 +374,7 @@ def _beyond_web(hub: Hub) -> Carrier:
 
 @lru_cache(maxsize=4096)
 def _lightened_bore(count: int, hub_radius: float) -> float:
-    """Bore from which on all of them have their spokes [m], to rounding."""
+    """Least bore radius from which on webs have room for their spokes [m], to rounding."""
 
     def has_room(bore: float) -> bool:
         """Whether spokes and holes are wide enough to be made."""
@@ -379,7 +382,7 @@ def _lightened_bore(count: int, hub_radius: float) -> float:
         spoke = holes.spoke(hub_radius, bore)
         return spoke >= SPOKE and holes.hole_radius >= SMALLEST_LIGHTENING
 
-    # Spokes between grow slowly: in the widest of webs they are a fiftieth of its bore at least.
+    # Spokes grow slowly with the bore: in the widest webs they are at least a fiftieth of it.
     low, high = hub_radius, 100.0 * (hub_radius + SPOKE)
     steps = np.geomspace(high, low, _BORES)
     short = next(row for row, bore in enumerate(steps.tolist()) if not has_room(bore))
@@ -391,11 +394,11 @@ def _lightened_bore(count: int, hub_radius: float) -> float:
 
 
 NO_HUB = Hub(radius=0.0, height=0.0, bore_radius=0.0)
-"""Hub of massless spokes: it weighs nothing."""
+"""Hub of massless spokes."""
 
 
 def hub_height(mounting: Mounting) -> float:
-    """Height of a hub: 3 mm on a rotor, as long as the shaft is thick on a shaft [m]."""
+    """Height of a hub: 3 mm on a rotor; on a shaft its diameter, at least `HUB_HEIGHT` [m]."""
     if mounting.rotor is not None:
         return BOLTED_HUB_HEIGHT
     return max(HUB_HEIGHT, mounting.shaft_diameter or 0.0)
@@ -411,11 +414,11 @@ def hub_of(
 ) -> Hub:
     """Hub of a wheel on this motor, with the bore of its shaft and holes for its screws.
 
-    On a shaft it is twice as wide as that, as hubs of steel are (Roloff/Matek Maschinenelemente,
-    table 12-1: 1.8 to 2). Where the catalogue has neither shaft nor screws it has a pilot bore and
-    is as wide as the bolt circles that motors of that diameter have. Behind a gear, not `direct`,
-    it has neither. Its edges have that chamfer, its web that thickness [m] and so many lightening
-    holes.
+    On a shaft its diameter is twice the shaft's, as usual for hubs of steel (Roloff/Matek
+    Maschinenelemente, table 12-1: 1.8 to 2). If the catalogue has neither shaft nor screws, it has
+    a pilot bore and is as wide as the bolt circles of motors of this diameter; the same behind a
+    gear, not `direct`. `chamfer` is that of its edges, `web_thickness` and `lightening` are those
+    of its web [m].
     """
     mounting = (motor.mounting if direct else None) or Mounting()
     rotor, bore = mounting.rotor, PILOT_BORE / 2.0
@@ -456,13 +459,13 @@ def wheel_body(
     cuts: RimCuts = NO_CUTS,
     web_density: float | None = None,
 ) -> Carrier:
-    """A rim with its web and hub; None: with massless spokes. Without what turns in the motor.
+    """A rim with its web and hub, without the motor's rotor.
 
     Args:
         inner_radius, outer_radius, height, density: of the rim [m, kg/m^3].
-        hub: in the middle of its web.
-        cuts: off the rim.
-        web_density: of web and hub [kg/m^3]; None: of one piece with the rim.
+        hub: in the middle of its web; None: massless spokes.
+        cuts: in the rim.
+        web_density: of web and hub [kg/m^3]; None: in one piece with the rim.
     """
     rim = (inner_radius, outer_radius, height, density)
     mass = cylinder_mass(*rim) - cuts.mass(inner_radius, outer_radius, density)
@@ -480,5 +483,5 @@ def wheel_body(
 
 
 def spread_left(lightened: Real) -> Real:
-    """Share of a disc's spin inertia that holes leave which take that share of its mass."""
+    """Share of a disc's spin inertia that remains after holes remove this share of its mass."""
     return 1.0 - 2.0 * LIGHTENING_PLACE * lightened

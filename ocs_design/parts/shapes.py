@@ -1,8 +1,8 @@
-"""Flat shapes: how each is drawn, and its exact area and moments.
+"""Flat shapes: their outlines, and their exact areas and moments.
 
-Sizes are numbers for a shape that is drawn. One that is only weighed may have arrays, or CasADi's
-symbols: its figures are built of operators alone. Moments are those of a plate of unit density in
-the plane z = 0, about the origin: area [m^2], first [m^3] and second ones [m^4].
+Sizes of a shape to be drawn are numbers. If it is only weighed, they may be arrays or CasADi
+symbols, since its figures use operators only. Moments are those of a plate of unit density in the
+plane z = 0, about the origin: area [m^2], first [m^3] and second moments [m^4].
 """
 
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from ocs_design.parts.moments import MassMoments, Real, product
 from ocs_design.parts.outline import Outline
 
 EAR_COUNT = 4
-"""Ears around a band: between below, above, before and behind, where nothing stands out."""
+"""Number of ears around a band."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +98,7 @@ class Polygon(Generic[Real]):
 
     @property
     def moments(self) -> MassMoments[Real]:
-        """Moments about the origin, of unit density: triangles from it to each edge, added up."""
+        """Moments about the origin, of unit density: sum over triangles from it to each edge."""
         found: list[Any] = [0.0] * 6
         for (a, b), (c, d) in zip(self.corners, self.corners[1:] + self.corners[:1], strict=True):
             twice: Any = a * d - c * b
@@ -121,7 +121,7 @@ class Polygon(Generic[Real]):
 
 @dataclass(frozen=True, eq=False)
 class ArcSlot(Generic[Real]):
-    """What a cutter of diameter `width` leaves on its way around the origin.
+    """Slot cut by a tool of diameter `width` on its path around the origin.
 
     Attributes:
         radius: of the path of the cutter's centre [m].
@@ -136,15 +136,15 @@ class ArcSlot(Generic[Real]):
 
     @property
     def area(self) -> Real:
-        """Width times the path of its middle, and half a disc at both ends [m^2]."""
+        """Width times the path of its middle, plus half a disc at each end [m^2]."""
         return (self.stop - self.start) * self.width * self.radius + pi / 4.0 * self.width**2
 
     @property
     def moments(self) -> MassMoments[Real]:
         """Moments about the origin, of unit density.
 
-        A sector of a ring, and at its ends half discs, whose centroid is 4 q / (3 pi) from their
-        flats: along the middle of the path (u) and across it (v), then turned.
+        A sector of a ring with half discs at its ends, whose centroids are 4 q / (3 pi) from their
+        flat sides: along the middle of the path (u) and across it (v), then turned.
         """
         rho, q, a = self.radius, self.width / 2.0, (self.stop - self.start) / 2.0
         s, c = sin(a), cos(a)
@@ -182,7 +182,7 @@ class _Stemmed(Generic[Real]):
 
     @cached_property
     def _beside(self) -> Real:
-        """Half of the angle that a stem takes of the disc [rad]."""
+        """Half of the angle of the disc that a stem covers [rad]."""
         return arcsine(self.side / self.radius)
 
 
@@ -203,16 +203,16 @@ class Keyhole(_Stemmed[Real]):
 
     @cached_property
     def area(self) -> Real:
-        """Area of a sector, the triangle under the stem, and the stem's rectangle [m^2]."""
+        """Area of a sector, the triangle under the stem and the stem's rectangle [m^2]."""
         sector = self.radius**2 * (pi - self._beside)
         area: Real = sector + self.side * (2.0 * (self.high - self.low) - self._root)
         return area
 
     @cached_property
     def moments(self) -> MassMoments[Real]:
-        """Moments about the origin, of unit density: first about the disc's middle."""
+        """Moments about the origin, of unit density, computed about the disc's middle first."""
         r, s, root, end = self.radius, self.side, self._root, self.high - self.low
-        # What the sector lacks of a disc has its centroid 2 r sin(b) / (3 b) off the middle.
+        # The part missing from the full disc has its centroid 2 r sin(b) / (3 b) off the middle.
         y = s * (end**2 - root**2 / 3.0 - 2.0 / 3.0 * r**2)
         sector, aslant = r**4 / 4.0 * (pi - self._beside), r**2 * s * root / 4.0
         xx = sector + aslant + s**3 * (2.0 / 3.0 * end - root / 2.0)
@@ -229,11 +229,11 @@ class Keyhole(_Stemmed[Real]):
 
 @dataclass(frozen=True, eq=False)
 class Eared(_Stemmed[Real]):
-    """The disc of a band with its ears, which have straight sides and a round end.
+    """The disc of a band with its ears, which have straight sides and round ends.
 
     Attributes:
-        radius: of the band, outside [m].
-        axis: of the ears' ends, around which they are round [m].
+        radius: outer radius of the band [m].
+        axis: distance of the centres of the ears' round ends from the middle [m].
         side: half of an ear's width [m].
         first: angle of the first ear [rad].
     """
@@ -252,7 +252,7 @@ class Eared(_Stemmed[Real]):
 
     @cached_property
     def moments(self) -> MassMoments[Real]:
-        """Moments of unit density; four ears have the same about every axis across."""
+        """Moments of unit density; with four ears they are equal about every axis in the plane."""
         root, end, side = self._root, self.axis, self.side
         sectors = self.radius**4 * (pi - EAR_COUNT * self._beside) / 2.0
         triangle = side * root * (root**2 / 2.0 + side**2 / 6.0)
@@ -277,12 +277,12 @@ class Eared(_Stemmed[Real]):
 
 @dataclass(frozen=True, eq=False)
 class Post:
-    """One of four ears on the x axis, with the piece of the band that it stands on.
+    """One of four ears, on the x axis, with its piece of the band.
 
     Attributes:
         eared: the band with all ears.
-        bore: radius of the band, inside [m].
-        half_angle: of the piece around the axis, more than the ear takes [rad].
+        bore: inner radius of the band [m].
+        half_angle: of the piece around the axis, larger than that of the ear [rad].
     """
 
     eared: Eared[float]
@@ -296,14 +296,14 @@ class Post:
 
     @property
     def moments(self) -> MassMoments[float]:
-        """Share of one of all four, which together have the same about every axis across."""
+        """A quarter of the moments of all four, which are equal about every axis in the plane."""
         whole, disc = self.eared.moments, Disc(self.eared.radius).moments
         band = disc + Disc(self.bore).moments.times(-1.0)
         ears = (whole + disc.times(-1.0)).times(1.0 / EAR_COUNT)
         return ears + band.times(self.half_angle / pi)
 
     def outline(self) -> Outline:
-        """An ear between two arcs of the band, and the band's inside."""
+        """An ear between two outer arcs of the band, and the band's inner arc."""
         corners = np.array([[cos(self.half_angle), y * sin(self.half_angle)] for y in (-1, 1)])
         outside, inside = self.eared.radius * corners, self.bore * corners
         points = np.concatenate([outside[:1], self.eared.ear(), outside[1:], inside[::-1]])
@@ -313,7 +313,7 @@ class Post:
 
 
 def arcsine(sine: Real) -> Real:
-    """Angle of that sine, of numbers, arrays or CasADi's symbols, which have their own [rad]."""
+    """Arcsine of numbers, arrays or CasADi symbols, which have a method of their own [rad]."""
     own: Any = getattr(sine, "arcsin", None)
     angle: Real = np.arcsin(sine) if own is None else own()
     return angle

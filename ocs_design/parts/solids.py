@@ -1,4 +1,4 @@
-"""Solids with exact moments: prisms, bodies of revolution, reliefs; and parts of them."""
+"""Solids with exact moments: prisms, bodies of revolution, reliefs; and parts made of them."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -18,7 +18,7 @@ from ocs_design.robot.mass import MassProperties, combine
 HERE = Placement.identity()
 
 THREE_POINTS = tuple(map(frozen, np.polynomial.legendre.leggauss(3)))
-"""Nodes and weights of Gauss's rule of three points on [-1, 1]."""
+"""Nodes and weights of three-point Gauss quadrature on [-1, 1]."""
 
 
 class Shape(Protocol[Real]):
@@ -33,7 +33,7 @@ class Shape(Protocol[Real]):
         """Moments about the origin, of unit density."""
 
     def outline(self) -> Outline:
-        """The edge of a shape of numbers."""
+        """The edge of a shape whose sizes are numbers."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +64,7 @@ class Revolution:
         Green's theorem turns the integrals over the cross-section into sums over its edges:
         V = pi o r^2 dz, z_c V = pi o r^2 z dz, and the second moments about the origin
         int z^2 dV = pi o r^2 z^2 dz and int x^2 dV = pi/4 o r^4 dz. Along a line they are
-        polynomials of degree 4 at most, which three points of Gauss integrate exactly.
+        polynomials of degree 4 at most, which three-point Gauss quadrature integrates exactly.
         """
         start, end = self.profile, np.roll(self.profile, -1, axis=0)
         nodes, weights = THREE_POINTS
@@ -79,14 +79,14 @@ class Revolution:
 
 @dataclass(frozen=True, eq=False)
 class Prism(Generic[Real]):
-    """A shape pushed along the z axis of its own frame, or a ring of them around that axis.
+    """A shape extruded along the z axis of its own frame, or a ring of them around that axis.
 
     Attributes:
         shape: in the xy plane of that frame.
-        low, high: where it begins and ends along z [m].
+        low, high: its ends along z [m].
         placement: of that frame in the part's.
         count: of equal prisms, evenly spaced around the z axis.
-        first: by which the first of them is turned around it [rad].
+        first: angle of the first of them around that axis [rad].
     """
 
     shape: Shape[Real]
@@ -98,11 +98,11 @@ class Prism(Generic[Real]):
 
     @property
     def outline(self) -> Outline:
-        """Outline of the first prism, of numbers."""
+        """Outline of the first prism; sizes must be numbers."""
         return self.shape.outline().turned(self.first)
 
     def each(self) -> Iterator["Prism[Any]"]:
-        """One prism of numbers after the other."""
+        """Every single prism; sizes must be numbers."""
         for index in range(self.count):
             angle = self.first + 2.0 * pi * index / self.count
             yield replace(self, count=1, first=angle)
@@ -136,15 +136,15 @@ class Prism(Generic[Real]):
 
 @dataclass(frozen=True, eq=False)
 class Relief:
-    """A block over a rectangle whose upper face goes up and down, drilled through.
+    """A block over a rectangle with an uneven upper face, and through holes.
 
     Each cell of the grid is two triangles, on both sides of the diagonal from its first corner.
 
     Attributes:
         left, right, bottom, top: ends of the rectangle along x and y [m].
-        heights: of that face, above 0, at the corners of even cells, along x and y [m], shape (m,
-            n).
-        holes: x, y and radius of each, along z right through [m].
+        heights: of the upper face, positive, at the nodes of a regular grid along x and y [m],
+            shape (m, n).
+        holes: x, y and radius of each, through the block along z [m].
         placement: of its frame in the part's.
     """
 
@@ -165,16 +165,16 @@ class Relief:
 
     @property
     def x(self) -> FloatArray:
-        """Places of the corners along x [m], shape (m,)."""
+        """Positions of the grid's nodes along x [m], shape (m,)."""
         return np.linspace(self.left, self.right, self.heights.shape[0])
 
     @property
     def y(self) -> FloatArray:
-        """Places of the corners along y [m], shape (n,)."""
+        """Positions of the grid's nodes along y [m], shape (n,)."""
         return np.linspace(self.bottom, self.top, self.heights.shape[1])
 
     def height(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """Heights of the face at places of the rectangle [m]."""
+        """Heights of the upper face at points of the rectangle [m]."""
         (m, n), found = self.heights.shape, []
         for of, low, high, count in ((x, self.left, self.right, m), (y, self.bottom, self.top, n)):
             cell = (np.asarray(of) - low) / (high - low) * (count - 1)
@@ -192,14 +192,14 @@ class Relief:
         return self.moments().mass
 
     def moments(self) -> MassMoments[float]:
-        """Moments in the part's frame, of unit density, exact but for what the holes take.
+        """Moments in the part's frame, of unit density, exact except for the holes.
 
         Over each triangle integrals over z leave polynomials of degree 3 at most, which four points
-        integrate exactly (Strang and Fix). Over the holes many points do.
+        integrate exactly (Strang and Fix). Holes are integrated approximately, with many points.
         """
         x, y, area = self._points()
         h = self.height(x, y)
-        # The four points of a triangle are inside it, so that rounding leads to no other.
+        # The four points of a triangle are inside it, so rounding cannot move one to another.
         first, second, third = area * h, area * h**2 / 2.0, area * h**3 / 3.0
         own = MassMoments(
             mass=float(first.sum()),
@@ -217,7 +217,7 @@ class Relief:
         return turned.moved(*self.placement.position.tolist())
 
     def _points(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Places that stand for shares of the face less its holes [m], and their areas [m^2]."""
+        """Quadrature points on the face minus its holes [m], and their weights as areas [m^2]."""
         xs, ys = self.x, self.y
         wide, tall = float(xs[1] - xs[0]), float(ys[1] - ys[0])
         share = np.array([[1.0, 1.0, 1.0], [1.8, 0.6, 0.6], [0.6, 1.8, 0.6], [0.6, 0.6, 1.8]]) / 3.0
@@ -249,7 +249,7 @@ def hollow_cylinder(inner: float, outer: float, low: float, high: float) -> Revo
 
 
 def revolved(corners: Iterable[Sequence[float]]) -> Revolution:
-    """A body of revolution; corners that repeat the one before them are left out."""
+    """A body of revolution; corners equal to the previous one are left out."""
     points = np.array(list(corners))
     distinct = np.any(points != np.roll(points, 1, axis=0), axis=1)
     return Revolution(points[distinct])
@@ -257,13 +257,13 @@ def revolved(corners: Iterable[Sequence[float]]) -> Revolution:
 
 @dataclass(frozen=True)
 class Part(Generic[Real]):
-    """One piece of one material: solids joined, less solids cut out.
+    """One piece of one material: solids joined, minus solids cut out.
 
-    With arrays for sizes it is many parts at once, to be weighed.
+    With arrays for sizes it stands for many parts at once, to be weighed.
 
-    What it weighs is right only if the solids that are joined do not overlap (they touch), and the
-    holes lie within them and do not overlap either. Whoever makes a part sees to that; the tests
-    compare it with its mesh and its B-rep, which do not rest on it.
+    Its mass is right only if the joined solids touch without overlapping, and the holes lie within
+    them without overlapping. Code that makes a part must ensure this; tests compare the part with
+    its mesh and its B-rep, which do not rely on it.
 
     Attributes:
         name: of the part, also in files.
@@ -279,12 +279,12 @@ class Part(Generic[Real]):
 
     @property
     def joined(self) -> tuple[Solid, ...]:
-        """The solids of a drawn part, those of rings one by one."""
+        """The solids of a drawn part, with those of rings one by one."""
         return tuple(one for solid in self.solids for one in solid.each())
 
     @property
     def cut(self) -> tuple[Revolution | Prism, ...]:
-        """What is cut out of a drawn part, one by one."""
+        """The solids cut out of a drawn part, one by one."""
         return tuple(one for solid in self.holes for one in solid.each())
 
     def mass(self) -> Real:
@@ -321,17 +321,17 @@ def total(parts: Iterable[Part[float]]) -> MassProperties:
 
 @dataclass(frozen=True)
 class Carrier:
-    """Mass and inertia of a wheel, or of all that stands still of a module, as one body.
+    """Mass and inertia of a wheel, or of all stationary parts of a module, as one body.
 
-    It is symmetric to the vertical plane through the wheel's axis. With the mass and both inertias
-    alone it is a body of revolution at the wheel's centre.
+    It is symmetric about the vertical plane through the wheel's axis. With only the mass and the
+    first two inertias given it is a body of revolution at the wheel's centre.
 
     Attributes:
         mass: [kg].
-        axial_inertia: about the axis through its centre of mass that is parallel to the wheel's,
-            the rotor held still [kg m^2].
-        transverse_inertia: about the horizontal one across it [kg m^2].
-        vertical_inertia: about the vertical one [kg m^2]; None: as about the other across.
+        axial_inertia: about the axis through its centre of mass parallel to the wheel's, with the
+            rotor locked [kg m^2].
+        transverse_inertia: about the horizontal axis across it [kg m^2].
+        vertical_inertia: about the vertical axis [kg m^2]; None: equal to `transverse_inertia`.
         product_of_inertia: entry yz of its inertia tensor, y along the wheel's axis away from the
             other module, z up [kg m^2].
         along, up: of its centre of mass from the wheel's centre [m]; negative: towards the other
@@ -348,7 +348,7 @@ class Carrier:
 
     @classmethod
     def of(cls, moments: MassMoments[float]) -> "Carrier":
-        """Carrier with these mass and moments about the wheel's centre."""
+        """Carrier with these moments about the wheel's centre."""
         mass = moments.mass
         along, up = (moments.y / mass, moments.z / mass) if mass else (0.0, 0.0)
         xx, yy, zz = moments.xx, moments.yy - mass * along**2, moments.zz - mass * up**2

@@ -1,17 +1,17 @@
-"""Rings of constant thickness that turn together: stresses, displacements, holes in a web.
+"""Joined rings of constant thickness that spin: stresses, displacements, holes in a web.
 
-They are solved exactly (Budynas and Nisbett, Shigley's Mechanical Engineering Design, 10th ed.,
+The solution is exact (Budynas and Nisbett, Shigley's Mechanical Engineering Design, 10th ed.,
 sections 3-14 to 3-16; Timoshenko and Goodier, Theory of Elasticity, 3rd ed., section 32). In plane
-stress, at the speed w, each has
+stress, at the speed w, each ring has
 
     u         = A r + B / r - (1 - nu^2) rho w^2 r^3 / (8 E)
     sigma_r   = E A / (1 - nu) - E B / ((1 + nu) r^2) - (3 + nu) / 8 rho w^2 r^2
     sigma_phi = E A / (1 - nu) + E B / ((1 + nu) r^2) - (1 + 3 nu) / 8 rho w^2 r^2,
 
-no stress on the innermost and the outermost edge, and where two meet equal forces t sigma_r, and
-displacements that differ by the interference. A wheel of one piece is three of them, hub, web and
-rim, without interference; a rim that is shrunk on is the last of them, with one. A web with holes
-is softer where they are, and its stress is that over the share that is left in a section through
+zero radial stress on the innermost and the outermost edge and, where two rings meet, equal forces
+t sigma_r and displacements that differ by the interference. A one-piece wheel is three rings, hub,
+web and rim, without interference; a shrunk-on rim is the last ring, with interference. A web with
+holes is softer there, and its stress is divided by the share of material left in a section through
 their middles (the ligament efficiency of a tube plate, (p - d) / p, ASME VIII-1, UG-53).
 """
 
@@ -25,10 +25,10 @@ import numpy as np
 from ocs_design.common.arrays import FloatArray
 
 _POINTS = 33
-"""Radii of each ring at which its stress is looked at, both edges among them."""
+"""Number of radii of each ring at which stress is evaluated, including both edges."""
 
 _BANDS = 16
-"""Rings that a web's holes are cut into."""
+"""Number of rings that model the holes of a web."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class Ring:
         """Factors of A and B in the displacement and in the radial stress, shape (2, ...)."""
         r, of_b = np.asarray(radius, dtype=np.float64), 1.0 if self.inner > 0.0 else 0.0
         modulus, nu = self.elastic_modulus, self.poisson_ratio
-        # A full disc has no B, whose factor is infinite in its middle.
+        # A full disc has no B, whose factor would be infinite in the middle.
         safe = np.where(r > 0.0, r, 1.0)
         moved = np.stack([r, of_b / safe])
         stressed = np.stack(
@@ -61,7 +61,7 @@ class Ring:
         return moved, stressed
 
     def _spun(self, speed: float, radius: float | FloatArray) -> tuple[FloatArray, ...]:
-        """Displacement, radial and hoop stress by the speed alone."""
+        """Displacement, radial and hoop stress due to speed alone."""
         load, nu, r = self.density * speed**2, self.poisson_ratio, np.asarray(radius)
         return (
             -(1.0 - nu**2) * load * r**3 / (8.0 * self.elastic_modulus),
@@ -72,12 +72,12 @@ class Ring:
 
 @dataclass(frozen=True, eq=False)
 class TurningRings:
-    """Rings that turn together, from the axis outwards.
+    """Joined spinning rings, from the axis outwards.
 
     Attributes:
-        rings: each begins where the one before it ends.
+        rings: each begins where the previous one ends.
         speed: [rad/s].
-        constants: A and B of each, shape (n, 2).
+        constants: A and B of each ring, shape (n, 2).
     """
 
     rings: tuple[Ring, ...]
@@ -88,12 +88,12 @@ class TurningRings:
     def of(
         cls, rings: Sequence[Ring], speed: float, interferences: Sequence[float] | None = None
     ) -> "TurningRings":
-        """Solve them.
+        """Solve for the constants.
 
         Args:
             rings: from the axis outwards.
             speed: [rad/s].
-            interferences: by which each is too narrow for the one inside it, radial [m]; None: 0.
+            interferences: radial interference of each joint, from the axis outwards [m]; None: 0.
         """
         count = len(rings)
         gaps = [0.0] * (count - 1) if interferences is None else list(interferences)
@@ -117,7 +117,7 @@ class TurningRings:
                 *(around.thickness * pulled_out),
             ]
             right[row + 1] = float(inside.thickness * own[1] - around.thickness * other[1])
-        # Displacements are nine orders below stresses.
+        # Displacements are nine orders of magnitude below stresses.
         scale = np.abs(matrix).max(axis=1)
         columns = np.abs(matrix / scale[:, None]).max(axis=0)
         found = np.linalg.solve(matrix / scale[:, None] / columns, right / scale) / columns
@@ -137,11 +137,11 @@ class TurningRings:
         return np.asarray(a * of_a + b * of_b + spun[1]), np.asarray(a * of_a - b * of_b + spun[2])
 
     def pressure(self, joint: int) -> float:
-        """Pressure on the edge of the inner ring of a joint [Pa]; below 0 it would have to hold."""
+        """Pressure on the edge of a joint's inner ring [Pa]; negative: the joint is in tension."""
         return -float(self.stresses(joint, self.rings[joint].outer)[0])
 
     def peak(self, ring: int) -> float:
-        """Largest equivalent stress of one ring by von Mises [Pa]."""
+        """Largest von Mises stress of one ring [Pa]."""
         each = self.rings[ring]
         radial, hoop = self.stresses(ring, np.linspace(each.inner, each.outer, _POINTS))
         return float(np.sqrt(radial**2 - radial * hoop + hoop**2).max())
@@ -153,11 +153,11 @@ class TurningRings:
 
 
 def ligament_efficiencies(web: Ring, count: int, circle: float, hole: float) -> tuple[float, float]:
-    """Shares of a ring that holes leave of a section: from one to the next, and along a radius.
+    """Shares of a section left by holes in a ring: from one to the next, and along a radius.
 
     Args:
-        web: with the holes. count: of them.
-        circle: radius that their middles are on [m]. hole: radius of each [m].
+        web: with the holes. count: of holes.
+        circle: radius of the circle of their middles [m]. hole: radius of each [m].
     """
     pitch, width = 2.0 * circle * sin(pi / count), web.outer - web.inner
     return 1.0 - 2.0 * hole / pitch, 1.0 - 2.0 * hole / width
@@ -168,12 +168,12 @@ def holed_peaks(
 ) -> tuple[float, float, float]:
     """Upper estimates of the largest stress in a hub, a web with holes and a rim [Pa].
 
-    The band of the web that the holes are in counts as rings of the stiffness and density that the
-    share of material at their radii has: the same all around, displacements make any body too
-    stiff. Radial stress on their circle is carried between the holes, the web's mean hoop stress
-    beside them: either is over its ligament efficiency e, and at the edge of a hole 2 + e^3 times
-    that, as in a strip with a hole in its middle (Heywood; Pilkey, Peterson's Stress Concentration
-    Factors, 3rd ed., section 4.3). The rim also stands what it has with no web at all.
+    The band of the web with the holes is modelled as rings whose stiffness and density are scaled
+    by the share of material at their radii: assuming axisymmetric displacements makes any body too
+    stiff. Radial stress on the circle is carried between the holes, the web's mean hoop stress
+    beside them: each is divided by its ligament efficiency e, and multiplied by 2 + e^3 at the edge
+    of a hole, as in a strip with a central hole (Heywood; Pilkey, Peterson's Stress Concentration
+    Factors, 3rd ed., section 4.3). The rim's stress is at least that without any web.
 
     Args:
         rings: hub, web and rim. speed: [rad/s].

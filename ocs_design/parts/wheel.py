@@ -1,4 +1,4 @@
-"""The wheel as it is made: a rim on a thin web with a hub, whether it can be, and its pieces."""
+"""The wheel as made: a rim on a thin web with a hub, whether it can be made, and its parts."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from ocs_design.parts.shapes import Disc
 from ocs_design.parts.solids import Part, Prism, Revolution, revolved
 
 ROUNDING = 1e-9
-"""Rounding of lengths that are as they must be at the least [m]: a thousandth of a micrometre."""
+"""Rounding allowed for lengths at their lower limits [m]: a thousandth of a micrometre."""
 
 
 @dataclass(frozen=True)
@@ -18,7 +18,7 @@ class HoleRing:
     """Equal holes around the axis, the first of them straight up, at -y.
 
     Attributes:
-        radius: of the circle that their centres are on [m].
+        radius: of the circle of their centres [m].
         count: of holes, evenly spaced.
         hole_radius: of each [m].
         depth: of each [m]; inf: through.
@@ -43,12 +43,12 @@ class HoleRing:
 
 @dataclass(frozen=True)
 class Rim:
-    """A hollow cylinder around z, its middle at z = 0.
+    """A hollow cylinder around z, with its middle at z = 0.
 
     Attributes:
         inner_radius, outer_radius, height: [m].
         material: name. density: [kg/m^3].
-        chamfer: of its four edges at 45 degrees, as asked for [m]; see `made_chamfer`.
+        chamfer: of its four edges at 45 degrees, as specified [m]; see `made_chamfer`.
         balancing: blind holes, the same in both faces; None: none.
     """
 
@@ -62,23 +62,23 @@ class Rim:
 
     @property
     def made_chamfer(self) -> float:
-        """Not more than a share of wall and height [m]."""
+        """Chamfer as made, at most a share of wall and height [m]."""
         wall = self.outer_radius - self.inner_radius
         return min(self.chamfer, CHAMFER_SHARE * wall, CHAMFER_SHARE * self.height)
 
 
 @dataclass(frozen=True)
 class WheelCentre:
-    """The wheel within its rim: a thin web with a hub in its middle, both at z = 0.
+    """The wheel within its rim: a thin web with a hub in its middle, both centred at z = 0.
 
     Attributes:
         web_thickness: [m].
         radius, height: of the hub [m].
         bore_radius: of the hole for the shaft [m]; 0: none.
         material: name. density: [kg/m^3].
-        bolts: through holes in the hub; None where the motor's are not known.
+        bolts: through holes in the hub; None if the motor's are not known.
         lightening: through holes in the web; None: none.
-        chamfer: of the hub's edges and of its bore's, at 45 degrees [m].
+        chamfer: of the edges of hub and bore, at 45 degrees [m].
     """
 
     web_thickness: float
@@ -94,7 +94,7 @@ class WheelCentre:
 
 @dataclass(frozen=True)
 class Wheel:
-    """A rim on its centre, or the rim alone where `hub` is None.
+    """A rim on its centre, or only a rim if `hub` is None.
 
     Raises:
         PartError: it cannot be made; see `wheel_faults`.
@@ -119,7 +119,7 @@ class Wheel:
 
 
 def wheel_faults(wheel: Wheel) -> Iterator[str]:
-    """Why it cannot be made, each as a clause."""
+    """Reasons why a wheel cannot be made, each as a clause."""
     rim, hub = wheel.rim, wheel.hub
     if not 0.0 <= rim.inner_radius < rim.outer_radius:
         yield "its rim's inner radius is not less than its outer radius"
@@ -166,11 +166,11 @@ def _ring_faults(ring: HoleRing, inner: float, outer: float, name: str) -> Itera
 
 
 def wheel_parts(wheel: Wheel) -> tuple[Part[float], ...]:
-    """One part for each piece: the wheel, or its rim and its hub."""
+    """One part for each piece: the whole wheel, or its rim and its hub."""
     rim, hub = wheel.rim, wheel.hub
     inner, outer = rim.inner_radius, rim.outer_radius
     half, edge = rim.height / 2.0, rim.made_chamfer
-    # Corners of the upper half, from outside to the bore.
+    # Corners of the upper half, from the outside to the bore.
     upper = [(outer, half - edge), (outer - edge, half), (inner + edge, half), (inner, half - edge)]
     holes: tuple[Prism[float], ...] = ()
     if rim.balancing is not None:
@@ -202,5 +202,5 @@ def wheel_parts(wheel: Wheel) -> tuple[Part[float], ...]:
 
 
 def _mirrored(upper: list[tuple[float, float]]) -> Revolution:
-    """A body of revolution of an upper half and its mirror image below z = 0."""
+    """A body of revolution from its upper half and the mirror image below z = 0."""
     return revolved([*upper, *((radius, -height) for radius, height in reversed(upper))])
