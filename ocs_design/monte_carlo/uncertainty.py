@@ -83,7 +83,7 @@ class Uncertainty:
 
 
 def key_of(name: str) -> str:
-    """The key of `[reality]` that one of `quantities` is drawn from."""
+    """The key of `[reality]` from which one of `quantities` is sampled."""
     return name.partition(".")[0]
 
 

@@ -280,12 +280,12 @@ def _fastening(
     *,
     deepest: bool = False,
 ) -> Fastening:
-    """Screws into a motor's threads, no deeper than these are known to be.
+    """Screws into a motor's threads, within the depth that is known to exist.
 
     Args:
-        circle: of the threads. thickness: of what they go through [m]. purpose: what they hold.
-        depth: of thread over its diameter, where there is as much.
-        deepest: whether ones that are too long are shortened, and no size shorter does.
+        circle: of the threads. thickness: clamped by the screws [m]. purpose: what they hold.
+        depth: wanted engagement over the thread's diameter, as far as the thread is deep enough.
+        deepest: use the full depth: cut screws that are too long instead of taking a shorter size.
     """
     held, least, most = screw(circle.thread), circle.depth, circle.deepest
     reach = min(depth * held.diameter, most)

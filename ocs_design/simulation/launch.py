@@ -64,7 +64,7 @@ class Launch:
         rotation: of the trunk in the world, shape (3, 3).
         height: of the trunk frame's origin [m]; None: the feet are just clear of the ground.
         velocity: of its centre of mass [m/s], shape (3,).
-        turn: what the trunk should do.
+        turn: of the trunk, to be followed.
         push: external push on the trunk.
         rate: of the whole robot, in B [rad/s], shape (3,).
         wheel_speed: of all wheels [rad/s].

@@ -37,7 +37,7 @@ class Profile(ABC):
 
 
 class Step(Profile):
-    """The whole turn at once: the paper's command."""
+    """The whole turn in one step: the paper's command."""
 
     def position(self, s: FloatArray) -> FloatArray:
         """1 throughout."""

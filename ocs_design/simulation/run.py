@@ -73,7 +73,7 @@ class Series:
 
 @dataclass(frozen=True)
 class Metrics:
-    """Figures of one run; None where there is nothing to measure.
+    """Figures of one run; None for a figure that does not exist.
 
     Attributes:
         touchdown_time: last instant in free flight [s], or when a robot on a pivot is to be
