@@ -1,7 +1,7 @@
-"""DXF of the wheel's pieces in the plane, in millimetres, by ezdxf: for lathes, lasers and CAD.
+"""DXF of wheel, plate and drilling template in millimetres, for lathes, lasers and CAD.
 
-Each file has two views side by side: from the front, seen along the axis, and half the section as
-it is turned, the axis along x. Layers tell them apart.
+A wheel's file has two views side by side: the front view along the axis, and half the section as
+it is turned, with the axis along x. They are on different layers.
 """
 
 from io import StringIO
@@ -24,16 +24,16 @@ from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.solids import Part, Prism, Revolution
 
 OUTLINE, HOLES, AXES, SECTION = "OUTLINE", "HOLES", "AXES", "SECTION"
-"""Layers: the largest and the smallest circle from the front; holes; centre lines; half section."""
+"""Layers: largest and smallest circle of the front view; holes; centre lines; half section."""
 
 FEET, TEXT = "FEET", "TEXT"
-"""Layers of the drilling template besides: what stands on the trunk; words and what is measured."""
+"""Further layers of the drilling template: parts on the trunk; words and the check length."""
 
 _COLORS = {OUTLINE: 7, HOLES: 1, AXES: 8, SECTION: 5, FEET: 3, TEXT: 7}
-"""Colours of the layers by their numbers in AutoCAD: black or white, red, grey, blue, green."""
+"""Colours of the layers by AutoCAD number: black or white, red, grey, blue, green."""
 
 GAP = 20.0
-"""Distance between front view and section, and of centre lines beyond both [mm]."""
+"""Distance between front view and section, and length of centre lines beyond both [mm]."""
 
 
 def write(subject: Subject, folder: Path) -> Notes:
@@ -50,13 +50,13 @@ def write(subject: Subject, folder: Path) -> Notes:
 
 
 def dxf_text(piece: Part) -> str:
-    """DXF of a piece of the wheel, the axis of its front view at the origin, or of the plate.
+    """DXF of a piece of the wheel, with the axis of its front view at the origin, or of the plate.
 
-    It is a body of revolution about z, or plates in the xy plane, with holes along z.
+    The piece is a body of revolution about z, or plates in the xy plane, with holes along z.
     """
     document = _new_document()
     space = document.modelspace()
-    # Blind holes in both faces lie behind each other, and are drawn once.
+    # Blind holes in both faces coincide in this view, and are drawn once.
     cuts = (cut.outline for cut in piece.cut if isinstance(cut, Prism))
     for outline in {outline.points.tobytes(): outline for outline in cuts}.values():
         _add_outline(space, MILLIMETRES * outline.points, outline.bulges, HOLES)
@@ -66,7 +66,7 @@ def dxf_text(piece: Part) -> str:
             edges.append(body.outline.points)
             _add_outline(space, MILLIMETRES * edges[-1], body.outline.bulges, OUTLINE)
         elif isinstance(body, Revolution):
-            # Its circles, and half its section beside them, with their centre lines.
+            # Its circles and, beside them, half its section, with centre lines.
             radii, heights = MILLIMETRES * body.profile.T
             inner, outer = float(radii.min()), float(radii.max())
             for radius in (outer, inner) if inner > 0.0 else (outer,):
@@ -115,7 +115,7 @@ def drilling_text(drilling: Drilling) -> str:
 
 def _new_document() -> Drawing:
     """Empty drawing in millimetres, with the layers."""
-    # Without clocks and counters the same piece has the same bytes.
+    # Without time stamps and counters, so that equal pieces give equal bytes.
     ezdxf.options.write_fixed_meta_data_for_testing = True  # type: ignore[attr-defined]  # documented
     document = new("R2010", units=units.MM)
     document.linetypes.add("CENTER", [20.0, 12.5, -2.5, 2.5, -2.5])
@@ -125,8 +125,8 @@ def _new_document() -> Drawing:
 
 
 def _text_of(document: Drawing) -> str:
-    """The drawing as it is written."""
-    # Else ezdxf adds them in the order of a set.
+    """Text of the DXF file."""
+    # Sorted, because ezdxf would add them in the order of a set.
     for name in sorted(document.entitydb.dxf_types_in_use()):
         document.classes.add_class(name)
     stream = StringIO()
@@ -135,18 +135,18 @@ def _text_of(document: Drawing) -> str:
 
 
 def _add_text(space: Modelspace, text: str, place: tuple[float, float], height: float) -> None:
-    """Add a line of lettering that begins there [mm]."""
+    """Add a line of lettering that starts at `place` [mm]."""
     attributes = {"layer": TEXT, "insert": place, "height": height}
     space.add_text(text, dxfattribs=attributes)
 
 
 def _add_axes(space: Modelspace, across: float, along: float) -> None:
-    """Add centre lines through the origin, so far to both sides [mm]."""
+    """Add centre lines through the origin with these half lengths [mm]."""
     for x, y in ((across, 0.0), (0.0, along)):
         space.add_line((-x, -y), (x, y), dxfattribs={"layer": AXES})
 
 
 def _add_outline(space: Modelspace, points: FloatArray, bulges: FloatArray, layer: str) -> None:
-    """Add a closed polyline whose edges are lines and, where they bulge, arcs."""
+    """Add a closed polyline whose edges are lines or, with a bulge, arcs."""
     corners = [(*point, bulge) for point, bulge in zip(points.tolist(), bulges, strict=True)]
     space.add_lwpolyline(corners, format="xyb", close=True, dxfattribs={"layer": layer})

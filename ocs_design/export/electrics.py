@@ -1,4 +1,4 @@
-"""What controllers and battery have to stand."""
+"""Electrical ratings and wiring of controllers, battery and cables."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -10,8 +10,8 @@ from ocs_design.device.device import Device
 from ocs_design.device.records.device import Margin
 
 VOLTAGE_RESERVE = 1.2
-"""Rated voltage of controllers over the bus voltage: a full battery has 5 % more than its nominal
-voltage, and braking wheels lift it by the current through its resistance."""
+"""Rated voltage of controllers relative to the bus voltage: a full battery is 5 % above its nominal
+voltage, and braking wheels raise it by the current through its resistance."""
 
 
 def controllers(motor: Drive) -> str:
@@ -19,7 +19,7 @@ def controllers(motor: Drive) -> str:
     current, voltage = motor_current(motor), motor.bus_voltage
     if current is None or voltage is None:
         return ""
-    # A motor takes more where its k_t falls off.
+    # A saturated motor draws more than its k_t implies.
     more = "more than " if _saturates(motor) else ""
     amplitude, effective = (
         current / six_step_current(1.0, kind)
@@ -33,10 +33,10 @@ def controllers(motor: Drive) -> str:
 
 
 def battery(motor: Drive, margins: Sequence[Margin]) -> str:
-    """What the battery gives and takes back; empty where nothing of it is known."""
+    """Current, power and energy that the battery gives and takes back; empty if unknown."""
     voltage, parts = motor.bus_voltage, []
     for does, way in (("gives", "drawn"), ("takes back", "fed back")):
-        # What is drawn may be recorded as all that there is.
+        # The current drawn may be recorded without a direction.
         whole = ("",) if way == "drawn" else ()
         current, power = (
             demand_of(margins, *(f"bus {what}{end}" for end in (*whole, f", {way}")))
@@ -57,7 +57,7 @@ def battery(motor: Drive, margins: Sequence[Margin]) -> str:
 
 
 def wiring_parts(device: Device, margins: Sequence[Margin]) -> Iterator[tuple[str, int, str]]:
-    """Parts between battery and motors that are bought: name, how many, what they must stand."""
+    """Bought parts between battery and motors: name, number, and required rating."""
     motor, count = device.motor, len(device.modules)
     current, voltage = motor_current(motor), motor.bus_voltage
     if voltage is None:
@@ -103,7 +103,7 @@ def _fuse(current: float) -> int:
 
 
 def wiring(device: Device, margins: Sequence[Margin]) -> Iterator[str]:
-    """What to tell a builder."""
+    """Wiring instructions for the builder."""
     motor, supply, count = device.motor, device.supply, len(device.modules)
     rating, gives = controllers(motor), battery(motor, margins)
     counted = "but controllers are" if motor.controller_mass > 0.0 else "nor are controllers"
@@ -164,7 +164,7 @@ def wiring(device: Device, margins: Sequence[Margin]) -> Iterator[str]:
 
 
 def _settings(motor: Drive) -> Iterator[str]:
-    """What each controller is set to; nothing where the motor's data do not tell."""
+    """Settings of each controller; none if the motor's data are insufficient."""
     current, k_t, resistance = motor_current(motor), motor.torque_constant, motor.resistance
     if current is None or k_t is None or resistance is None:
         return
@@ -186,7 +186,7 @@ def _settings(motor: Drive) -> Iterator[str]:
 
 
 def _bus_current(margins: Sequence[Margin]) -> float | None:
-    """Largest current that all motors draw or feed back together [A]; None: none is recorded."""
+    """Largest total current that the motors draw or feed back [A]; None: none is recorded."""
     asked = (demand_of(margins, f"bus current{way}") for way in ("", ", drawn", ", fed back"))
     return max((each for each in asked if each is not None), default=None)
 
@@ -197,10 +197,10 @@ def demand_of(margins: Sequence[Margin], *names: str) -> float | None:
 
 
 def motor_current(motor: Drive) -> float | None:
-    """Current through two lines at the torque limit [A]; None where its data do not tell."""
+    """Current through two lines at the torque limit [A]; None if its data are insufficient."""
     if motor.torque_limit is None or motor.torque_constant is None or motor.bus_voltage is None:
         return None
-    # The motor's own friction takes its current on top of what turns the wheel.
+    # Friction in the motor takes current in addition to the wheel's torque.
     return motor.torque_limit / motor.torque_per_current + (motor.no_load_current or 0.0)
 
 
@@ -210,7 +210,7 @@ def _saturates(motor: Drive) -> bool:
 
 
 def controller_rating(motor: Drive) -> str:
-    """Current and voltage of a motor's controller; empty where its data do not tell them."""
+    """Current and voltage of a motor's controller; empty if its data are insufficient."""
     current = motor_current(motor)
     if current is None or motor.bus_voltage is None:
         return ""
@@ -218,5 +218,5 @@ def controller_rating(motor: Drive) -> str:
 
 
 def _up(figure: float) -> int:
-    """Next whole number; what is one but for rounding stays."""
+    """Next whole number; a whole number with a rounding error stays."""
     return math.ceil(round(figure, 6))

@@ -27,19 +27,19 @@ Frames: TypeAlias = NDArray[np.uint8]
 T = TypeVar("T")
 
 CHEQUERS = 4.0
-"""Number of pairs of the floor's tiles in the extent of a robot."""
+"""Number of pairs of floor tiles within the extent of a robot."""
 
 
 @dataclass(frozen=True, eq=False)
 class Take:
-    """A compiled model and the poses in which it is drawn, joint positions of shape (n, nq)."""
+    """A compiled model and the poses to render, as joint positions of shape (n, nq)."""
 
     model: mujoco.MjModel
     qpos: FloatArray
 
 
 def add_white_sky(spec: mujoco.MjSpec) -> None:
-    """Add a white background, which shows through what one can look into."""
+    """Add a white background, which is visible through transparent parts."""
     spec.add_texture(
         name="ocs_sky",
         type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
@@ -77,7 +77,7 @@ def show_floor(spec: mujoco.MjSpec, extent: float) -> None:
 
 
 def film_model(robot: Robot, device: Device, *, ocs: bool) -> mujoco.MjModel:
-    """Model of robot and device, shown or not, on a floor; its joints are in `qpos` in any case."""
+    """Model of robot and device on a floor; the device is in `qpos` even if hidden (not `ocs`)."""
     model = robot_model(robot, device)
     add_white_sky(model.spec)
     show_floor(model.spec, model.compiled.stat.extent)
@@ -90,7 +90,7 @@ def film_model(robot: Robot, device: Device, *, ocs: bool) -> mujoco.MjModel:
 
 
 def render_takes(takes: Sequence[Take]) -> list[Frames]:
-    """Frames of each take, shape (n, height, width, 3); the camera goes along with the trunk.
+    """Frames of each take, shape (n, height, width, 3); the camera follows the trunk.
 
     Raises:
         MissingToolError: OpenGL does not work here; the message says why.
@@ -99,10 +99,10 @@ def render_takes(takes: Sequence[Take]) -> list[Frames]:
 
 
 def drawn(takes: Iterable[Take], kind: str, read: Callable[[Path], T], what: str) -> list[T]:
-    """Results of the program that draws, one for each take; errors as of `programs.draw`.
+    """Results of the rendering process, one for each take; raises like `programs.draw`.
 
     Args:
-        kind: `frames` or `views`. read: takes a result from its file. what: is drawn, for people.
+        kind: `frames` or `views`. read: reads a result from its file. what: its name in messages.
     """
     with tempfile.TemporaryDirectory() as folder:
         paths = [
@@ -114,7 +114,7 @@ def drawn(takes: Iterable[Take], kind: str, read: Callable[[Path], T], what: str
 
 
 def written_take(take: Take, stem: Path) -> tuple[Path, Path]:
-    """Write model and joint positions for the other process; gives both paths."""
+    """Write model and joint positions for the rendering process; returns both paths."""
     model, qpos = stem.with_suffix(".mjb"), stem.with_suffix(".npy")
     mujoco.mj_saveModel(take.model, str(model))
     np.save(qpos, take.qpos)

@@ -1,8 +1,8 @@
 """Output folders and files that appear complete or not at all.
 
-Results are completed in hidden folders. A run holds a lock on its own for as long as it lives, and
-the system takes that from it however it ends: so a later run can tell what is left over from what
-another one is writing just now.
+Results are completed in hidden folders. A run holds a lock on its own folder while it lives, and
+the system releases the lock however the run ends. So a later run can distinguish leftovers from
+folders that another run is writing.
 """
 
 import errno
@@ -23,20 +23,20 @@ FRONT_FILE = "front.json"
 REPORT_FILE = "report.html"
 
 NEW, OLD = "new", "old"
-"""Names in such a folder of the new result, and of the old one that it replaces."""
+"""Names of the new result and of the old one that it replaces, in a hidden folder."""
 
 _MARK = "ocs-design"
-"""Part of the folders' names, so that a user's own hidden folders are not taken for them."""
+"""Part of the hidden folders' names, so that a user's own are not mistaken for them."""
 
 _unfinished: dict[Path, Path] = {}
-"""Folders of this process and their targets, from before they are made until they are gone."""
+"""Hidden folders of this process and their targets, from before creation until removal."""
 
 _AT_FDCWD = -100
 _RENAME_EXCHANGE = 2
 """Constants of Linux' `fcntl.h` and `fs.h`, which Python has no names for."""
 
 _CANNOT_EXCHANGE = {errno.EINVAL, errno.ENOSYS, errno.ENOTSUP}
-"""Answers of file systems without it, and of containers that do not let it through."""
+"""Errors of file systems that cannot exchange, and of containers that block the call."""
 
 CURES = {
     errno.ENOSPC: "free some space, or choose another folder with -o",
@@ -54,13 +54,13 @@ CURES = {
 
 
 def check_target(target: Path, *, force: bool) -> None:
-    """Fail before any work is done if `target` could not be written in the end.
+    """Fail early if `target` could not be written after the work.
 
     Leftovers of killed runs beside it are removed.
 
     Raises:
-        OutputError: it exists and `force` is not set, it is no output folder of ours, or its parent
-            cannot be written to.
+        OutputError: it exists and `force` is not set, it is not an ocs-design output folder, or its
+            parent cannot be written to.
     """
     if not _is_there(target):
         return
@@ -82,11 +82,11 @@ def check_target(target: Path, *, force: bool) -> None:
 
 
 def check_file_target(target: Path, *, force: bool) -> None:
-    """Refuse a file that cannot be written, or would be overwritten unasked.
+    """Refuse a file that cannot be written, or that would be overwritten without `force`.
 
     Raises:
-        OutputError: it exists and `force` is not set, or is no file; or its folder does not exist
-            or cannot be written to.
+        OutputError: it exists and `force` is not set, or is not a file; or its folder does not
+            exist or cannot be written to.
     """
     if not _is_there(target):
         return
@@ -100,17 +100,17 @@ def check_file_target(target: Path, *, force: bool) -> None:
 
 
 def _is_there(target: Path) -> bool:
-    """Whether something has that name already; leftovers of killed runs beside it are removed.
+    """Whether the target exists; leftovers of killed runs beside it are removed.
 
     Raises:
-        OutputError: nothing can be made beside it.
+        OutputError: nothing can be created beside it.
     """
     parent = target.absolute().parent
     if not parent.is_dir():
         fault = errno.ENOTDIR if any(map(Path.is_file, target.absolute().parents)) else errno.ENOENT
         raise OutputError(f"{parent}: no such folder", hint=CURES[fault])
     clear_leftovers(target)
-    # Tried, as rights do not tell: root may write to all of /proc, and /proc takes nothing.
+    # Tried, because permissions do not tell: root may write to /proc, which accepts no files.
     try:
         with staging_beside(target):
             pass
@@ -124,11 +124,11 @@ def _is_there(target: Path) -> bool:
 
 @contextmanager
 def staged_folder(target: Path, *, force: bool) -> Iterator[Path]:
-    """A temporary folder beside `target` that takes its place when the block ends well.
+    """Temporary folder beside `target` that replaces it when the block ends without an error.
 
     Raises:
         OutputError: as `check_target`; or writing failed (full disk, no permission). `target` is
-            then as it was.
+            then unchanged.
     """
     check_target(target, force=force)
     try:
@@ -136,13 +136,13 @@ def staged_folder(target: Path, *, force: bool) -> Iterator[Path]:
             new = staging / NEW
             new.mkdir()
             yield new
-            # Another run may have been quicker.
+            # Another run may have written the target meanwhile.
             check_target(target, force=force)
             if not target.exists():
                 new.rename(target)
             # At no moment is the target half of the new folder and half of the old one.
             elif not exchange(new, target):
-                # `clear_leftovers` mends what is cut short.
+                # `clear_leftovers` repairs an interrupted replacement.
                 try:
                     target.rename(staging / OLD)
                     new.rename(target)
@@ -155,7 +155,7 @@ def staged_folder(target: Path, *, force: bool) -> Iterator[Path]:
 
 
 def output_error(error: OSError, place: Path) -> OutputError:
-    """Error for what the operating system said of writing to `place`, with the remedy."""
+    """Error with remedy for an operating system's error on writing to `place`."""
     reason = error.strerror or str(error)
     return OutputError(f"{error.filename or place}: {reason}", hint=CURES.get(error.errno or 0, ""))
 
@@ -170,24 +170,24 @@ def file_hashes(folder: Path) -> Mapping[str, str]:
 
 
 def recorded_hashes(folder: Path) -> Mapping[str, str]:
-    """Hashes that a design records: of all files but those that contain the design itself."""
+    """Hashes that a design records: of all files except those that contain the design itself."""
     found = file_hashes(folder)
     return {name: found[name] for name in found if name not in (DESIGN_FILE, REPORT_FILE)}
 
 
 def exchange(one: Path, other: Path) -> bool:
-    """Let two folders change places in one step; False where system or file system cannot.
+    """Exchange two folders atomically; False if system or file system cannot.
 
     Raises:
-        OSError: it could, but not with these two.
+        OSError: the exchange is supported, but failed for these two.
     """
-    # It takes a while to import, and only replacing needs it.
+    # Slow to import, and only needed for replacing.
     import ctypes  # noqa: PLC0415
 
     try:
         rename = ctypes.CDLL(None, use_errno=True).renameat2
     except (AttributeError, OSError, TypeError):
-        # Not Linux, or a C library that does not have it.
+        # Not Linux, or a C library without it.
         return False
     names = (os.fsencode(one), os.fsencode(other))
     if rename(_AT_FDCWD, names[0], _AT_FDCWD, names[1], _RENAME_EXCHANGE) == 0:
@@ -199,7 +199,7 @@ def exchange(one: Path, other: Path) -> bool:
 
 
 def keep_others(source: Path, target: Path, *, without: Collection[str]) -> None:
-    """Copy files of a design's folder that `target` lacks, but design.json and those `without`."""
+    """Copy files of a design's folder that `target` lacks, except design.json and `without`."""
     for path in sorted(source.rglob("*")):
         place = path.relative_to(source)
         copied = target / place
@@ -211,7 +211,7 @@ def keep_others(source: Path, target: Path, *, without: Collection[str]) -> None
 
 
 def write_whole(target: Path, content: str | bytes, *, force: bool) -> None:
-    """Write all of `content`, a text as UTF-8, or leave everything as it was.
+    """Write all of `content`, text as UTF-8, or leave everything unchanged.
 
     Raises:
         OutputError: see `check_file_target`; or writing failed.
@@ -226,10 +226,10 @@ def write_whole(target: Path, content: str | bytes, *, force: bool) -> None:
 
 @contextmanager
 def whole_file(target: Path) -> Iterator[Path]:
-    """File to write, which takes the place of `target` when the block ends well.
+    """Temporary file that replaces `target` when the block ends without an error.
 
     Raises:
-        OSError: it cannot be written; `target` is then as it was.
+        OSError: it cannot be written; `target` is then unchanged.
     """
     clear_leftovers(target)
     with staging_beside(target) as folder:
@@ -239,10 +239,10 @@ def whole_file(target: Path) -> Iterator[Path]:
 
 @contextmanager
 def staging_beside(target: Path) -> Iterator[Path]:
-    """Hidden folder beside `target`, on the same disk, which is gone after the block.
+    """Hidden folder beside `target`, on the same disk, which is removed after the block.
 
     Raises:
-        OSError: none can be made there.
+        OSError: it cannot be created there.
     """
     folder, handle = _locked_folder(target)
     try:
@@ -257,7 +257,7 @@ def staging_beside(target: Path) -> Iterator[Path]:
 def remove_unfinished() -> None:
     """Remove folders of blocks that were interrupted outside their `finally`.
 
-    To be called when nothing interrupts any longer.
+    To be called when no further interrupt can arrive.
     """
     for folder, target in _unfinished.items():
         with suppress(OSError):
@@ -265,7 +265,7 @@ def remove_unfinished() -> None:
 
 
 def clear_leftovers(target: Path) -> None:
-    """Remove what killed runs left beside `target`; what one of them had put aside comes back."""
+    """Remove leftovers of killed runs beside `target`, and restore a result that one had moved."""
     pattern = re.compile(rf"\.{re.escape(target.name)}\.{_MARK}-[a-z0-9_]{{8}}")
     with suppress(OSError):
         for folder in sorted(target.absolute().parent.iterdir()):
@@ -280,9 +280,9 @@ def clear_leftovers(target: Path) -> None:
 
 
 def _locked_folder(target: Path) -> tuple[Path, int | None]:
-    """Path of a new folder, and the handle that bears its lock; None where there are no locks.
+    """Path of a new folder, and the handle that holds its lock; None if locks are not supported.
 
-    Its name is known before it is made, unlike that of `tempfile`.
+    Its name is known before it is created, unlike with `tempfile`.
     """
     while True:
         folder = target.absolute().parent / f".{target.name}.{_MARK}-{secrets.token_hex(4)}"
@@ -297,7 +297,7 @@ def _locked_folder(target: Path) -> tuple[Path, int | None]:
         try:
             handle = _lock(folder)
         except (BlockingIOError, FileNotFoundError):
-            # A run that is clearing up took it for a leftover before it was locked.
+            # Another run removed it as a leftover before it was locked.
             del _unfinished[folder]
             continue
         except OSError:
@@ -315,11 +315,11 @@ def _undo(folder: Path, target: Path) -> None:
 
 
 def _lock(folder: Path) -> int:
-    """Handle that bears the lock until it is closed or the process ends.
+    """Handle that holds the lock until it is closed or the process ends.
 
     Raises:
-        BlockingIOError: another run has it.
-        OSError: there are no locks on this system or disk.
+        BlockingIOError: another run holds the lock.
+        OSError: this system or disk does not support locks.
     """
     if sys.platform == "win32":
         raise OSError(errno.ENOTSUP, os.strerror(errno.ENOTSUP), str(folder))

@@ -1,7 +1,7 @@
-"""Registry of the formats that a device is written in.
+"""Registry of the export formats of a device.
 
-A further format is a module here with a function `write(subject, folder)` and a row in `FORMATS`;
-the command line, its help and `--formats all` follow. Importing this loads no writer.
+A new format is a module here with a function `write(subject, folder)` and a row in `FORMATS`; the
+command line, its help and `--formats all` follow. Importing this module loads no writer.
 """
 
 from collections.abc import Collection
@@ -30,8 +30,8 @@ class Base:
 
     Attributes:
         trunk: link that carries the device; its frame is the base frame B.
-        mount: how B is fixed to the robot's own link; None if `trunk` is one.
-        com: centre of mass in B of a robot given by hand [m]; None: a file tells where B is.
+        mount: how B is fixed to the robot's own link; None if `trunk` is such a link.
+        com: centre of mass in B of a robot given by hand [m]; None: a file defines B.
     """
 
     trunk: str
@@ -41,15 +41,15 @@ class Base:
 
 @dataclass(frozen=True, eq=False)
 class Documented:
-    """A device, and what is known of it besides.
+    """A device with the records for its documents.
 
     Attributes:
-        name: of the robot.
-        device: on the robot.
-        margins: of its recorded flights; empty: none are known.
-        fitting: what the design leaves to do by hand, one sentence each.
-        refused: that the device cannot be built as it stands, why, and what can be done; empty:
-            nothing is known that keeps it from being built.
+        name: name of the robot.
+        device: device on the robot.
+        margins: margins of its recorded flights; empty if none are known.
+        fitting: manual work that the design leaves, one sentence each.
+        refused: that the device cannot be built as it stands, why, and the cure; empty if nothing
+            known prevents it.
     """
 
     name: str
@@ -59,8 +59,8 @@ class Documented:
     refused: str = ""
 
     def recorded(self, design: "OcsDesign") -> Self:
-        """The device with what its design records besides it."""
-        # Open points of a robot of unknown shape do not refuse it, but nobody may miss them.
+        """The device with the margins, notes and open points that its design records."""
+        # With a robot of unknown geometry, open points do not refuse the device, but must be shown.
         known = design.buildable.yes is not None
         points = () if known else (f"{each.what}; {each.cure}" for each in design.buildable.open)
         return replace(
@@ -74,11 +74,11 @@ class Documented:
 
 @dataclass(frozen=True, eq=False)
 class Subject(Documented):
-    """The device to write, and the robot that carries it; `name` is fit for the names of files.
+    """The device to export, and the robot that carries it; `name` is safe in file names.
 
     Attributes:
-        base: frame that the device is in.
-        robot: that carries it; None where only its parts and its snippets are wanted.
+        base: frame of the device.
+        robot: robot that carries it; None if only its parts and snippets are wanted.
     """
 
     base: Base = field(kw_only=True)
@@ -86,20 +86,20 @@ class Subject(Documented):
 
     @classmethod
     def of(cls, robot: "Robot", device: "Device", name: str) -> "Subject":
-        """Device on a robot that was read."""
+        """Subject of a device on a robot that was read."""
         x, y, z = robot.com.tolist()
         com = None if robot.sha256 else (x, y, z)
         return cls(name, device, base=Base(robot.trunk, robot.mount, com), robot=robot)
 
     @property
     def carrier(self) -> "Robot":
-        """Robot of the formats that need one."""
+        """Robot, for the formats that need one."""
         assert self.robot is not None, "formats that need a robot are refused without one"
         return self.robot
 
 
 def refusal(buildable: "Buildable") -> str:
-    """Sentences that say that a device cannot be built, why, and what can be done; else empty."""
+    """Sentences on why a device cannot be built, and the cure; empty if it can."""
     if buildable.yes is not False:
         return ""
     points = (f"{each.what[:1].upper()}{each.what[1:]}; {each.cure}." for each in buildable.open)
@@ -108,18 +108,18 @@ def refusal(buildable: "Buildable") -> str:
 
 @dataclass(frozen=True)
 class Format:
-    """One kind of file.
+    """One export format.
 
     Attributes:
-        name: that users type.
-        content: of its files, for people.
-        folder: of its files in the output folder.
-        module: that writes it, below `ocs_design.export`.
-        needs_robot: whether the robot's own file has to be there.
+        name: name that users type.
+        content: description of its files for users.
+        folder: subfolder of the output folder.
+        module: module that writes it, below `ocs_design.export`.
+        needs_robot: whether it needs the robot's own file.
         on_request: whether it is written only if it is named.
-        needs_margins: whether it tells what the flights asked for, and so waits for them.
-        library: module of an optional dependency that it needs, which our extra of the format's
-            name installs; empty: none.
+        needs_margins: whether it reports margins of the flights, and so is written after them.
+        library: module of an optional dependency, installed by the extra with the format's name;
+            empty: none.
     """
 
     name: str
@@ -187,19 +187,19 @@ FORMATS = (
     Format("ros2", "ROS 2 description package", "ros2", "ros2", needs_robot=True, on_request=True),
     Format("pictures", "views as PNG", "pictures", "pictures", needs_robot=True, on_request=True),
 )
-"""All formats in the order of writing."""
+"""All formats, in writing order."""
 
 USUAL_FORMATS = tuple(each for each in FORMATS if not each.on_request)
-"""Formats that are written if none is named."""
+"""Formats that are written by default."""
 
 ALL = "all"
 """Name that stands for every format."""
 
 
 def formats_named(names: Collection[str], others: Collection[str] = ()) -> tuple[Format, ...]:
-    """Formats of these names in small letters; the usual ones if there are none.
+    """Formats with these lower-case names; the usual ones if there are none.
 
-    Names of `others`, which are written too but are no formats of a device, are passed over.
+    Names in `others`, which are written too but are not formats of a device, are skipped.
 
     Raises:
         UsageError: there is no format of that name.

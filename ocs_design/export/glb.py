@@ -1,7 +1,7 @@
 """Whole robot with its device as one GLB file, for viewers and web pages.
 
-Binary glTF 2.0 (Khronos, "glTF 2.0 Specification", sections 3 and 4) is written here: equal robots
-give equal bytes, and trimesh, which rounds colours to 8 bits, takes 0.3 s to import.
+Binary glTF 2.0 (Khronos, "glTF 2.0 Specification", sections 3 and 4) is written directly, so that
+equal robots give equal bytes; trimesh rounds colours to 8 bits and takes 0.3 s to import.
 """
 
 import json
@@ -21,12 +21,12 @@ from ocs_design.export.snapshot import geom_mesh, shown_color
 from ocs_design.robot.mujoco_bodies import quaternion
 
 _UPRIGHT = Placement(np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]), np.zeros(3))
-"""Base frame B in the frame of glTF, whose y is up and whose front is z."""
+"""Base frame B in the glTF frame, in which y is up and z is forward."""
 
 _FLOAT, _UINT16, _UINT32 = 5126, 5123, 5125
 _VERTICES, _INDICES = 34962, 34963
 _MOST_UINT16 = 65535
-"""Upper bound of indices: the largest one restarts a primitive."""
+"""Upper bound of 16-bit indices, exclusive: the largest one restarts a primitive."""
 
 
 def write(subject: Subject, folder: Path) -> Notes:
@@ -38,7 +38,7 @@ def write(subject: Subject, folder: Path) -> Notes:
 
 
 def robot_glb(model: mujoco.MjModel, posture: Mapping[str, float]) -> bytes:
-    """The visible shapes of a `robot_model`, a node for each body, its base frame at the origin.
+    """GLB with the visible shapes of a `robot_model`, a node per body, base frame at the origin.
 
     Textures are left out. Joints not in `posture` [rad or m] stay as the model has them.
     """
@@ -50,7 +50,7 @@ def robot_glb(model: mujoco.MjModel, posture: Mapping[str, float]) -> bytes:
 
 
 class _Scene:
-    """Scene of one model; surfaces, meshes and materials that geoms share are in it once."""
+    """Scene of one model; surfaces, meshes and materials shared by geoms are stored once."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         self._model, self._data = model, data
@@ -64,14 +64,14 @@ class _Scene:
         self._nodes: list[Mapping[str, object]] = []
 
     def to_glb(self) -> bytes:
-        """File with all bodies under one node that sets the robot upright."""
+        """GLB file with all bodies under one node that turns the robot upright."""
         site = self._data.site(IMU)
         bodies = self._bodies_on(0, Placement(site.xmat.reshape(3, 3), site.xpos))
         name = self._model.names[: self._model.names.index(b"\0")].decode("utf-8", "replace")
         root = self._add_node(name, _UPRIGHT, bodies)
         materials = []
         for color in self._materials:
-            # glTF mixes light, not the codes of sRGB (IEC 61966-2-1).
+            # glTF colours are linear, not sRGB-encoded (IEC 61966-2-1).
             red, green, blue = (
                 part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
                 for part in color[:3]
@@ -81,7 +81,7 @@ class _Scene:
                 "metallicFactor": 0.0,
                 "roughnessFactor": 0.7,
             }
-            # Seen from both sides: robots' meshes are often turned inside out.
+            # Double-sided, because robot meshes are often inside out.
             material: dict[str, object] = {"pbrMetallicRoughness": look, "doubleSided": True}
             if color[3] < 1.0:
                 material["alphaMode"] = "BLEND"
@@ -115,7 +115,7 @@ class _Scene:
         return found
 
     def _geom(self, geom: int) -> int | None:
-        """Node of a geom; None where it is not shown or has no surface of its own."""
+        """Node of a geom; None if it is hidden or has no surface."""
         model, color = self._model, shown_color(self._model, geom)
         if color is None:
             return None
@@ -126,7 +126,7 @@ class _Scene:
             found = geom_mesh(model, geom)
             if found is None:
                 return None
-            # A surface that meshes may share, by the indices of its vertices and faces.
+            # A surface that meshes may share, keyed by its vertices and faces.
             vertices = np.ascontiguousarray(found.vertices, dtype="<f4")
             small = len(vertices) <= _MOST_UINT16
             corners = np.ascontiguousarray(found.triangles, dtype="<u2" if small else "<u4").ravel()
@@ -150,7 +150,7 @@ class _Scene:
     def _add_node(
         self, name: str, place: Placement, children: Sequence[int] = (), mesh: int | None = None
     ) -> int:
-        """Add a frame in that of its parent, with its children."""
+        """Add a node with its placement in the parent's frame and its children."""
         node: dict[str, object] = {"name": name}
         if place.position.any():
             node["translation"] = place.position.tolist()

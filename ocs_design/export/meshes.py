@@ -1,4 +1,4 @@
-"""Triangle meshes: closed ones of parts, and those of MuJoCo's primitive shapes."""
+"""Triangle meshes: closed meshes of parts, and surfaces of MuJoCo's primitive shapes."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from manifold3d import Manifold
 
 Color: TypeAlias = tuple[float, float, float, float]
-"""Red, green, blue and opacity, 0..1, as screens take them (sRGB)."""
+"""Red, green, blue (sRGB) and opacity, 0..1."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,8 +36,8 @@ class Mesh:
 
     @classmethod
     def of_corners(cls, corners: FloatArray) -> "Mesh":
-        """Mesh of the triangles' corners, shape (m, 3, 3): equal points become one vertex."""
-        # Adding 0 makes one number of both zeros.
+        """Mesh from the triangles' corners, shape (m, 3, 3); equal points become one vertex."""
+        # Adding 0 turns -0 into 0.
         vertices, places = np.unique(corners.reshape(-1, 3) + 0.0, axis=0, return_inverse=True)
         triangles = places.reshape(-1, 3)
         a, b, c = triangles.T
@@ -49,18 +49,18 @@ class Mesh:
         return np.asarray(self.vertices[self.triangles])
 
     def placed(self, place: Placement) -> "Mesh":
-        """The mesh in the frame in which its own has this place."""
+        """The mesh transformed by the placement of its frame."""
         return Mesh(self.vertices @ place.rotation.T + place.position, self.triangles)
 
     def moved(self, offset: FloatArray) -> "Mesh":
-        """The mesh elsewhere."""
+        """The mesh shifted by an offset [m]."""
         return Mesh(self.vertices + offset, self.triangles)
 
 
 def part_mesh(part: Part, sections: int = SECTIONS) -> Mesh:
-    """Part as one closed mesh, with so many chords of a full circle.
+    """Part as one closed mesh, with so many chords per full circle.
 
-    Polygons inscribed in circles would weigh less than they do: see `circle_radius_factor`.
+    Circles are enlarged so that their polygons keep the mass: see `circle_radius_factor`.
     """
     if len(part.joined) == 1 and not part.cut:
         return solid_mesh(part.joined[0], sections)
@@ -72,7 +72,7 @@ def part_mesh(part: Part, sections: int = SECTIONS) -> Mesh:
 
 
 def merged(meshes: Sequence[Mesh]) -> Mesh:
-    """Several surfaces in one."""
+    """Several meshes merged into one."""
     starts = accumulate((len(mesh.vertices) for mesh in meshes), initial=0)
     return Mesh(
         np.concatenate([mesh.vertices for mesh in meshes]),
@@ -84,7 +84,7 @@ def merged(meshes: Sequence[Mesh]) -> Mesh:
 
 def part_manifold(part: Part, sections: int = SECTIONS) -> "Manifold":
     """Part as a manifold for boolean operations."""
-    # Only parts of several solids need it.
+    # Only needed for parts of several solids.
     from manifold3d import Manifold, Mesh64, OpType  # noqa: PLC0415
 
     joined, cut = (
@@ -141,7 +141,7 @@ def _relief_mesh(relief: Relief) -> Mesh:
             np.stack([three[each] for each in order], axis=2).reshape(-1, 3, 3)
             for three in ((a, b, c), (a, c, d))
         ]
-    # Counter-clockwise from above, as rings of both faces.
+    # Counter-clockwise from above, as rings on both faces.
     rim = [
         np.concatenate([face[:-1, 0], face[-1, :-1], face[:0:-1, -1], face[0, :0:-1]])
         for face in (lower, upper)
@@ -151,7 +151,7 @@ def _relief_mesh(relief: Relief) -> Mesh:
 
 
 def _revolved(profile: FloatArray, sections: int) -> FloatArray:
-    """Corners of the triangles of a closed profile, r and z, turned about z; some may be void."""
+    """Triangle corners of a closed profile, r and z, revolved about z; some may be degenerate."""
     radii, heights = profile.T
     ring = ring_points(2.0 * pi * np.arange(sections) / sections)
     plane = radii[:, None, None] * ring
@@ -168,20 +168,20 @@ def _sides(lower: FloatArray, upper: FloatArray) -> FloatArray:
 
 
 PRIMITIVE_SECTIONS, RINGS = 32, 8
-"""Chords of a full circle of MuJoCo's primitive shapes, and of a quarter of a meridian."""
+"""Chords per full circle of MuJoCo's primitive shapes, and per quarter of a meridian."""
 
 
 def primitive_mesh(kind: int, size: FloatArray) -> Mesh | None:
-    """Surface of a primitive shape of MuJoCo about its own centre; None for other kinds.
+    """Surface of a MuJoCo primitive shape about its own centre; None for other kinds.
 
-    Its `size` is MuJoCo's: half extents, radii, or radius and half length along z [m].
+    `size` is MuJoCo's: half extents, radii, or radius and half length along z [m].
     """
-    # MuJoCo takes a third of a second to import, and parts need no primitives.
+    # MuJoCo takes a third of a second to import, and parts do not need it.
     from mujoco import mjtGeom  # noqa: PLC0415
 
     quarter = np.linspace(0.0, 0.5 * pi, RINGS + 1)
     arc = np.column_stack([np.cos(quarter), np.sin(quarter)])
-    # Exactly on the axis, its points are one.
+    # Exactly on the axis, so that its points coincide.
     arc[-1, 0] = 0.0
     mirrored = arc[:0:-1] * [1.0, -1.0]
     r, h = size[0], size[1]

@@ -1,7 +1,7 @@
-"""Whole robot with its device as a MJCF model in full double precision, its scene and its README.
+"""Whole robot with its device as an MJCF model in full double precision, its scene and its README.
 
-MuJoCo by itself prints six digits. The folder is made as MuJoCo Menagerie makes its own: a model
-that can be included, a scene that can be looked at, and a page that says what is in it.
+MuJoCo itself prints six digits. The folder is laid out like those of MuJoCo Menagerie: a model that
+can be included, a scene for viewing, and a page that describes the content.
 """
 
 from collections.abc import Mapping, Sequence
@@ -30,16 +30,17 @@ _MESHES = PurePath(WHEEL_MESH).parent
 _CONTACT = {"contact_bit": str(WHEEL_CONTACT_BIT)}
 
 _SIDE = np.array([0.83, -1.18, 0.39])
-"""Camera of the scene from the robot, over its extent: against `xyaxes` in the template."""
+"""Position of the scene's camera from the robot, relative to its extent: matches `xyaxes` in the
+template."""
 
 _PRINTED = 1e-5
 """Relative error of six printed digits."""
 
 _NAMES = {"polycoef": "data"}
-"""Names of XML's attributes in MuJoCo's objects, where they differ."""
+"""Names of XML attributes in MuJoCo's objects, if they differ."""
 
 _SINGLE_PRECISION = {"rgba"}
-"""Attributes that MuJoCo itself keeps with fewer digits than a double has."""
+"""Attributes that MuJoCo stores in less than double precision."""
 
 _INERTIAL_NAMES = {"pos": "ipos", "quat": "iquat", "diaginertia": "inertia"}
 
@@ -60,9 +61,9 @@ def write(subject: Subject, folder: Path) -> Notes:
 
 
 def export_robot_mjcf(model: RobotModel, path: Path) -> Path:
-    """Write the robot with the flywheels on its trunk, its meshes and textures beside it.
+    """Write the robot with the flywheels on its trunk, with its meshes and textures beside it.
 
-    The model refers to nothing outside its folder, which can be moved. It has no floor.
+    The model refers to nothing outside its folder, so the folder can be moved. It has no floor.
     """
     text = precise_xml(model.spec, model.compiled, assets=str(_MESHES))
     path.write_bytes((fill("robot_comment.xml", _CONTACT) + text).encode("utf-8"))
@@ -74,10 +75,10 @@ def export_robot_mjcf(model: RobotModel, path: Path) -> Path:
 
 
 def scene_xml(model: RobotModel, data: mujoco.MjData, file: str, name: str) -> str:
-    """Scene with a floor that meets whatever of the robot can touch, light and a camera.
+    """Scene with light, a camera, and a floor that every collidable geom of the robot can touch.
 
-    `data` is that of the keyframe, kinematics computed; `file` is the model's MJCF, and `name` the
-    robot's.
+    `data` is at the keyframe, with kinematics computed; `file` is the model's MJCF, and `name` the
+    robot's name.
     """
     compiled = model.compiled
     robot = compiled.geom_bodyid > 0
@@ -94,7 +95,7 @@ def scene_xml(model: RobotModel, data: mujoco.MjData, file: str, name: str) -> s
             "extent": numbers(extent),
             "sky": "" if sky else template_text("sky.xml"),
             "camera": numbers(extent * _SIDE),
-            # Two geoms touch if the contype of one shares a bit with the conaffinity of the other.
+            # Two geoms collide if the contype of one shares a bit with the other's conaffinity.
             "contype": str(np.bitwise_or.reduce(compiled.geom_conaffinity[robot], initial=1)),
             "conaffinity": str(np.bitwise_or.reduce(compiled.geom_contype[robot], initial=1)),
         },
@@ -102,9 +103,9 @@ def scene_xml(model: RobotModel, data: mujoco.MjData, file: str, name: str) -> s
 
 
 def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> str:
-    """Page that says what is in the folder, with the design's figures.
+    """Page that describes the folder's content, with the design's figures.
 
-    `data` is that of the keyframe, kinematics computed.
+    `data` is at the keyframe, with kinematics computed.
     """
     robot, device, model = subject.carrier, subject.device, model_of(subject)
     motor, wheel, torque = device.motor, device.flywheel, largest_torque(device.motor)
@@ -166,16 +167,16 @@ def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> st
 
 
 def precise_xml(spec: mujoco.MjSpec, model: mujoco.MjModel, *, assets: str) -> str:
-    """XML of the model in which each printed number that is a rounded one of the model is exact.
+    """XML of the model in which rounded printed numbers are replaced by the exact ones.
 
-    `spec` is just compiled, to `model`; `assets` is the folder of meshes beside the file.
+    `spec` has just been compiled to `model`; `assets` is the folder of meshes beside the file.
     """
     root = ET.fromstring(spec.to_xml())
     for compiler in root.iter("compiler"):
         compiler.attrib.update(meshdir=assets, texturedir=assets)
     for option in root.iter("option"):
         _sharpen(option, [model.opt])
-    # Elements that hold measures, by section and tag, and what they were printed from.
+    # Elements with numbers, by section and tag, and the objects that they were printed from.
     for section, tags, objects in (
         ("worldbody", ("body",), spec.bodies[1:]),
         ("worldbody", ("frame",), spec.frames),
@@ -191,7 +192,7 @@ def precise_xml(spec: mujoco.MjSpec, model: mujoco.MjModel, *, assets: str) -> s
         if top is None:
             continue
         elements = [e for e in top.iter() if e is not top and (e.tag in tags or not tags)]
-        # Matched by name where there is one, else by place.
+        # Matched by name if there is one, else by position.
         named = {name: each for each in objects if (name := getattr(each, "name", ""))}
         for element, same_place in zip(elements, objects, strict=False):
             source = named.get(element.get("name", ""), same_place)
@@ -212,7 +213,7 @@ def precise_xml(spec: mujoco.MjSpec, model: mujoco.MjModel, *, assets: str) -> s
 def _sharpen(
     element: ET.Element, sources: Sequence[object], names: Mapping[str, str] = _NAMES
 ) -> None:
-    """Replace printed numbers by those of the first source that agrees with them."""
+    """Replace printed numbers by the exact ones of the first source that agrees with them."""
     for attribute, text in element.attrib.items():
         if attribute in _SINGLE_PRECISION:
             continue

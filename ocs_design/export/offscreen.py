@@ -1,6 +1,6 @@
-"""Program that draws MuJoCo models: sheets of views, frames of films, and a trial of OpenGL.
+"""Program that renders MuJoCo models: sheets of views, film frames, and a test of OpenGL.
 
-It runs in a process of its own: where OpenGL does not work, it may end the process.
+It runs in a separate process, because a broken OpenGL may end the process.
 
     MUJOCO_GL=egl python -m ocs_design.export.offscreen views MODEL.mjb QPOS.npy SHEET.png ...
     MUJOCO_GL=egl python -m ocs_design.export.offscreen frames MODEL.mjb QPOS.npy FRAMES.npy ...
@@ -21,28 +21,28 @@ from ocs_design.device.bodies import IMU
 from ocs_design.export.raster import png_bytes
 
 FIELD_OF_VIEW = 30.0
-"""Angle of views in perspective from the top to the bottom [deg]."""
+"""Vertical field of view of perspective views [deg]."""
 
 WIDTH, HEIGHT = 640, 480
 """Size of each view of a sheet [pixels]."""
 
 OVERSAMPLING = 2
-"""Factor by which views are drawn larger, so that edges come out smooth."""
+"""Factor by which views are rendered larger, so that edges are smooth."""
 
 ROOM = 1.08
-"""Size of a view over the size of what it shows."""
+"""Size of a view relative to its content."""
 
 FRAME_WIDTH, FRAME_HEIGHT = 480, 440
-"""Size of a film's frame [pixels]; even, as encoders want it."""
+"""Size of a film's frame [pixels]; even, as encoders require."""
 
 AZIMUTH, ELEVATION = 125.0, -12.0
-"""Direction of the camera, as MuJoCo counts [deg]: from the right of the front, a little down."""
+"""Camera angles in MuJoCo's convention [deg]: from the front right, looking slightly down."""
 
 FRAME_ROOM = 1.05
-"""Size of a frame over the sphere around the robot, in which it turns over."""
+"""Size of a frame relative to the sphere in which the robot turns over."""
 
 SHADE, SHADE_RADIUS, ABOVE_FLOOR = (0.2, 0.2, 0.25, 0.35), 0.4, 0.02
-"""Colour of a disc on the floor below the robot, and its size over the sphere's radius.
+"""Disc on the floor below the robot: colour, radius over the sphere's, and height over its radius.
 
 It shows how high the robot is; true shadows take ten times as long without a graphics card.
 """
@@ -51,14 +51,14 @@ WHITE, EDGE = 255, 40
 """Grey of the background, and of the lines around each geom."""
 
 _SHOWN_GROUPS = 3
-"""Groups of geoms that viewers show, of six."""
+"""Number of geom groups, of six, that viewers show."""
 
 Box: TypeAlias = tuple[FloatArray, FloatArray]
 """Lower and upper corner [m]."""
 
 
 class View(NamedTuple):
-    """Direction of a camera, as MuJoCo counts [deg]: from x towards y, and over the horizon."""
+    """Camera angles in MuJoCo's convention [deg]: azimuth from x to y, and elevation."""
 
     azimuth: float
     elevation: float
@@ -69,14 +69,14 @@ VIEWS = (
     (View(180.0, 0.0), View(90.0, 0.0)),
     (View(180.0, -90.0), View(143.0, -24.0, perspective=True)),
 )
-"""First-angle projection (ISO 5456-2): from the front; right of it from the right of the robot,
-which the viewer has at the left; below it from above."""
+"""First-angle projection (ISO 5456-2): front view; to its right the view from the robot's right,
+which is on the viewer's left; below it the top view."""
 
 
 def sheet_of_views(model: mujoco.MjModel, qpos: FloatArray) -> NDArray[np.uint8]:
-    """All views on one sheet, those with parallel rays to one scale, shape (h, w, 3)."""
+    """All views on one sheet, the orthographic ones to a common scale, shape (h, w, 3)."""
     view = model.vis
-    # Many samples of each pixel would do what is done by drawing larger, and take longer.
+    # Multisampling would do the same as rendering larger, but takes longer.
     view.quality.shadowsize = view.quality.offsamples = 0
     view.global_.offwidth, view.global_.offheight = WIDTH * OVERSAMPLING, HEIGHT * OVERSAMPLING
     # Even light from the camera.
@@ -92,7 +92,7 @@ def sheet_of_views(model: mujoco.MjModel, qpos: FloatArray) -> NDArray[np.uint8]
     for row in VIEWS:
         images = []
         for each in row:
-            # Before white, whatever the model has behind it, with a line around each geom.
+            # On white, whatever the model's background, with a line around each geom.
             renderer.update_scene(data, _camera(model, each, box))
             image = renderer.render()
             renderer.enable_segmentation_rendering()
@@ -101,7 +101,7 @@ def sheet_of_views(model: mujoco.MjModel, qpos: FloatArray) -> NDArray[np.uint8]
             image[geoms < 0] = WHITE
             image[:, 1:][geoms[:, 1:] != geoms[:, :-1]] = EDGE
             image[1:][geoms[1:] != geoms[:-1]] = EDGE
-            # Each pixel is the mean of those that it was drawn with.
+            # Each pixel is the mean of its oversampled pixels.
             k = OVERSAMPLING
             total = image.reshape(HEIGHT, k, WIDTH, k, 3).sum(axis=(1, 3), dtype=np.uint16)
             images.append(np.asarray(total // k**2, dtype=np.uint8))
@@ -111,7 +111,7 @@ def sheet_of_views(model: mujoco.MjModel, qpos: FloatArray) -> NDArray[np.uint8]
 
 
 def shown_box(model: mujoco.MjModel, data: mujoco.MjData) -> Box:
-    """Box around all that is shown."""
+    """Box around everything shown."""
     shown = model.geom_group < _SHOWN_GROUPS
     rotations = data.geom_xmat[shown].reshape(-1, 3, 3)
     boxes = model.geom_aabb[shown]
@@ -121,7 +121,7 @@ def shown_box(model: mujoco.MjModel, data: mujoco.MjData) -> Box:
 
 
 def _camera(model: mujoco.MjModel, view: View, box: Box) -> mujoco.MjvCamera:
-    """Camera that sees the whole box; the model's own setting is the height that it sees."""
+    """Camera that sees the whole box; sets the height of orthographic views in the model."""
     low, high = box
     size = high - low
     camera = mujoco.MjvCamera()
@@ -129,13 +129,13 @@ def _camera(model: mujoco.MjModel, view: View, box: Box) -> mujoco.MjvCamera:
     camera.azimuth, camera.elevation = view.azimuth, view.elevation
     camera.orthographic = not view.perspective
     if not view.perspective:
-        # Parallel rays only have to begin in front of everything.
+        # An orthographic camera only has to be in front of everything.
         camera.distance = 2.0 * np.linalg.norm(size)
-        # Height of a view in which each of the three fits [m].
+        # Height of a view in which each of the three views fits [m].
         x, y, z = size
         model.vis.global_.fovy = float(ROOM * max(z, x, max(x, y) * HEIGHT / WIDTH))
         return camera
-    # From where all corners of the box are within the view.
+    # Distance from which all corners of the box are in view.
     azimuth, elevation = np.radians([view.azimuth, view.elevation])
     right = np.array([np.sin(azimuth), -np.cos(azimuth), 0.0])
     level = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
@@ -151,7 +151,7 @@ def _camera(model: mujoco.MjModel, view: View, box: Box) -> mujoco.MjvCamera:
 
 
 def frames(model: mujoco.MjModel, qpos: FloatArray) -> NDArray[np.uint8]:
-    """Frame of each row of `qpos`, the camera going along, shape (n, height, width, 3)."""
+    """Frame for each row of `qpos` with a camera that follows, shape (n, height, width, 3)."""
     view = model.vis
     view.quality.shadowsize = view.quality.offsamples = 0
     view.global_.offwidth, view.global_.offheight = FRAME_WIDTH, FRAME_HEIGHT
@@ -200,7 +200,7 @@ TRIAL = '<mujoco><worldbody><geom type="box" size="1 1 1" rgba="1 0 0 1"/></worl
 
 
 def try_opengl() -> None:
-    """Draw one box, and end with an error if it is not to be seen."""
+    """Render one box, and exit with an error if it is not visible."""
     model = mujoco.MjModel.from_xml_string(TRIAL)
     sheet = sheet_of_views(model, model.qpos0)
     if min(sheet[sheet.shape[0] // 4, sheet.shape[1] // 4]) == WHITE:
@@ -208,7 +208,7 @@ def try_opengl() -> None:
 
 
 def main(arguments: list[str]) -> None:
-    """Draw one sheet or film for every three paths: model, joint positions, result."""
+    """Render one sheet or film for every three paths: model, joint positions, result."""
     what, *paths = arguments
     if what == "trial":
         try_opengl()
@@ -217,7 +217,7 @@ def main(arguments: list[str]) -> None:
         if what == "views":
             Path(target).write_bytes(png_bytes(sheet_of_views(model, qpos[0])))
         else:
-            # By its name, the file would be called .npy.
+            # As a stream, because given a path NumPy would append .npy.
             with Path(target).open("wb") as stream:
                 np.save(stream, frames(model, qpos))
 

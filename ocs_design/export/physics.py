@@ -1,17 +1,16 @@
-"""Physics that a robot is flown with, in simulations and in the exported file alike.
+"""Physics of the robot, the same in simulations and in the exported file.
 
-Options of the solver, drives of the legs, and the pose in which the robot stands. A model that was
-tuned for speed stops its solver after one iteration; one for learning clamps every command to one;
-and a class of defaults of the file holds for whatever is added to it.
+Solver options, leg drives, and the standing pose. They replace the file's own settings: a model
+tuned for speed may stop its solver after one iteration, one for learning may clamp every command to
+one, and the file's default classes apply to whatever is added to it.
 
 Legs carry robot and device, so their stiffness comes from the weight of both and their damping
 from the robot's Froude time: `kp = m g L / 2`, `kd = kp sqrt(L / g) / 2` with the length L of the
-leg. Its joints then give way by about a fifth of a radian where it stands. Stiffer or less damped
-legs throw most quadrupeds over after a level landing, softer ones let the heavy ones sink.
+leg. Its joints then yield by about a fifth of a radian in standing. Stiffer or less damped legs
+topple most quadrupeds after a level landing, and softer ones let heavy robots sink.
 
-All other joints, arms, fingers, neck and waist, are held where they are. They would have to be held
-by drives that nobody knows, some of them turn links that their file gives next to no inertia, and
-none of them matters to whether a robot lands level.
+All other joints (arms, fingers, neck and waist) are held in place. Their drives are unknown, some
+move links with almost no inertia in the file, and none of them affects whether a robot lands level.
 """
 
 from collections.abc import Iterable, Sequence
@@ -30,7 +29,7 @@ STEP = 1e-3
 """Time step of the physics [s] (paper, table 1); a joint drive of 1 kHz can follow it."""
 
 _OF_CONTACT = {"cone", "impratio"}
-"""Options that say what friction is like."""
+"""Options of the friction model."""
 
 _OF_ACTUATOR = (
     *("gear", "gainprm", "biasprm", "dynprm", "dyntype", "actdim", "actearly", "delay", "nsample"),
@@ -40,26 +39,26 @@ _OF_ACTUATOR = (
 
 
 def flight_options(spec: mujoco.MjSpec) -> None:
-    """Integrator, step and solver of the flights; of the file's own only those of contact stay.
+    """Set integrator, step and solver of the flights; of the file's options only contact ones stay.
 
     Runge-Kutta, because Euler and implicitfast drift with fast wheels (docs/theory.md, Numerics of
-    fast wheels); the dense Jacobian, because MuJoCo 4.0's sparse Newton solver has a fault.
+    fast wheels); the dense Jacobian, because MuJoCo 4.0's sparse Newton solver has a bug.
     """
     plain = mujoco.MjSpec().option
     _copy(plain, spec.option, (name for name in dir(plain) if name not in _OF_CONTACT))
     spec.option.timestep = STEP
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_RK4
     spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
-    # At the default 1e-8 the solver stops early on a warm start, and what is left of the residual
-    # pushes the floating base: 5e-5 of the momentum per second on a robot with joints at limits.
+    # At the default 1e-8 the solver stops early on a warm start, and the residual force pushes the
+    # floating base: 5e-5 of the momentum per second on a robot with joints at limits.
     spec.option.tolerance = 1e-12
 
 
 def meet_no_link(spec: mujoco.MjSpec) -> None:
-    """Let the robot's geoms meet a floor or anything else with `contype` 1, but not each other.
+    """Let the robot's geoms collide with a floor or anything with `contype` 1, but not each other.
 
-    Neighbouring links overlap in most robot files. Contact begins where shapes meet, not a margin
-    before.
+    Neighbouring links overlap in most robot files. Contact starts at zero distance, without a
+    margin.
     """
     for geom in spec.geoms:
         geom.margin = geom.gap = 0.0
@@ -77,7 +76,7 @@ def _copy(source: object, target: object, names: Iterable[str]) -> None:
 
 
 STEADY_LEGS = 3
-"""Number of legs with which a robot stands by itself."""
+"""Minimum number of legs with which a robot stands without balancing."""
 
 HELD_ARMATURE = 1e6
 """Armature of a held joint [kg m^2 or kg]: 1 N m over a second moves it by 1e-6 rad/s."""
@@ -89,13 +88,13 @@ STABLE_SHARE = 0.5
 
 
 def leg_joints(robot: Robot) -> list[str]:
-    """Names of the joints that are driven."""
+    """Names of the driven joints, those of the legs."""
     in_legs = {joint for leg in robot.legs for joint in leg.joints}
     return [name for name in robot.tree.joints if name in in_legs]
 
 
 def add_drives(spec: mujoco.MjSpec, robot: Robot) -> None:
-    """One drive for each leg joint, limited to its effort; gains follow after compiling."""
+    """Add a drive for each leg joint, limited to its effort; gains are set after compiling."""
     for name in leg_joints(robot):
         limit = robot.tree.joints[name].effort
         drive = spec.add_actuator(
@@ -105,18 +104,18 @@ def add_drives(spec: mujoco.MjSpec, robot: Robot) -> None:
             gaintype=mujoco.mjtGain.mjGAIN_FIXED,
             biastype=mujoco.mjtBias.mjBIAS_AFFINE,
         )
-        # Nothing of the file's defaults; type, transmission and names stay.
+        # Discard the file's defaults; type, transmission and names stay.
         _copy(mujoco.MjSpec().add_actuator(), drive, _OF_ACTUATOR)
-        # Files write 0 where the author left it open.
+        # In files 0 means that the author left it open.
         if 0.0 < limit < np.inf:
             drive.forcelimited = 1
             drive.forcerange = [-limit, limit]
 
 
 def hold_other_joints(spec: mujoco.MjSpec, robot: Robot) -> None:
-    """Hold every joint that is in no leg, by inertia; nothing else need then be computed for it.
+    """Hold every joint outside the legs by a large armature, which needs no further computation.
 
-    Ball joints, which the robot's tree has as rigid, are among them.
+    This includes ball joints, which are rigid in the robot's tree.
     """
     driven = leg_joints(robot)
     for joint in spec.joints:
@@ -126,19 +125,19 @@ def hold_other_joints(spec: mujoco.MjSpec, robot: Robot) -> None:
 
 
 def set_gains(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> None:
-    """Give the drives of a compiled model their gains, for the posture that `data` is in.
+    """Set the gains of the drives of a compiled model, for the posture of `data`.
 
-    They are lowered where the explicit step could not follow them: Runge-Kutta of order four is
-    stable for `|lambda| dt < 2.78` on the real axis and 2.82 on the imaginary one (Hairer and
-    Wanner, Solving ODEs II, section IV.2). The friction that a file states counts as well: on a
-    link that it gives next to no inertia none would be slow enough.
+    They are reduced if the explicit step would be unstable: fourth-order Runge-Kutta is stable for
+    `|lambda| dt < 2.78` on the real axis and 2.82 on the imaginary one (Hairer and Wanner, Solving
+    ODEs II, section IV.2). The file's joint friction counts as well: on a link with almost no
+    inertia it alone could be unstable.
     """
     names = leg_joints(robot)
     if not names:
         return
     length_of = {joint: leg.length for leg in robot.legs for joint in leg.joints}
     lengths = np.array([length_of[name] for name in names])
-    # What holds a pivot in place bears its own weight.
+    # The bodies that hold a pivot are gravity-compensated: the legs do not carry them.
     borne = float(model.body_mass @ (1.0 - model.body_gravcomp))
     stiffness = LEG_STIFFNESS * borne * STANDARD_GRAVITY * lengths
     damping = LEG_DAMPING * stiffness * np.sqrt(lengths / STANDARD_GRAVITY)
@@ -147,7 +146,7 @@ def set_gains(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> None:
     mujoco.mj_solveM(model, data, inverse, np.eye(model.nv))
     mobility, step = inverse[np.ix_(dofs, dofs)], model.opt.timestep
 
-    # First each joint alone, which feels the inertia `1 / (M^-1)_jj`, then all together.
+    # First each joint alone, with the effective inertia `1 / (M^-1)_jj`, then all together.
     felt = 1.0 / np.diag(mobility)
     friction = np.minimum(model.dof_damping[dofs], STABLE_SHARE * felt / step)
     damping = np.minimum(damping + friction, STABLE_SHARE * felt / step) - friction
@@ -162,7 +161,7 @@ def set_gains(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> None:
 
 
 def standing_torques(model: mujoco.MjModel, data: mujoco.MjData, robot: Robot) -> FloatArray:
-    """Torques of the leg joints while the robot stands level as it is in `data` [N m].
+    """Torques of the leg joints of the robot standing level in the pose of `data` [N m].
 
     Gravity's generalised forces `g(q) = tau + sum_i J_i^T f_i`: the rows of the floating base give
     the smallest vertical forces f_i on the feet, those of the joints the torques.
@@ -192,12 +191,12 @@ def _dofs(model: mujoco.MjModel, names: Sequence[str]) -> list[int]:
 
 
 def lowest_point(model: mujoco.MjModel, data: mujoco.MjData) -> float:
-    """Height of the lowest point of everything that can touch the floor [m]; inf if nothing can."""
+    """Height of the lowest point that can touch the floor [m]; inf if there is none."""
     solid = (model.geom_contype | model.geom_conaffinity) != 0
     touching = np.flatnonzero(solid & (model.geom_bodyid > 0))
     heights = []
     for geom in touching.tolist():
-        # Support of the geom downwards; `up` is the world's vertical in the geom's frame.
+        # Support point of the geom downwards; `up` is the world's vertical in the geom's frame.
         up: FloatArray = data.geom_xmat[geom].reshape(3, 3)[2]
         size = model.geom_size[geom]
         across = np.sqrt(max(0.0, 1.0 - up[2] ** 2))
@@ -223,9 +222,9 @@ def lowest_point(model: mujoco.MjModel, data: mujoco.MjData) -> float:
 
 
 def stand(robot: Robot, model: mujoco.MjModel, data: mujoco.MjData) -> float:
-    """Put the level trunk at the origin in the nominal posture; its height over its feet [m].
+    """Put the level trunk at the origin in the nominal posture; returns its standing height [m].
 
-    Zero for a robot that has nothing to stand on: its file gives it no shape.
+    The height is 0 for a robot without geometry.
     """
     for name, value in robot.posture.items():
         data.qpos[model.joint(name).qposadr[0]] = value
@@ -238,7 +237,7 @@ def stand(robot: Robot, model: mujoco.MjModel, data: mujoco.MjData) -> float:
 def set_trunk(
     robot: Robot, model: mujoco.MjModel, data: mujoco.MjData, rotation: FloatArray, height: float
 ) -> None:
-    """Move the floating base so that the trunk's frame stands over the origin as told."""
+    """Move the floating base so that the trunk has this rotation and height above the origin."""
     index = robot.tree.body_of_link[robot.trunk]
     in_body = robot.tree.bodies[index].links[robot.trunk]
     in_root = robot.tree.placements(robot.posture)[index] @ in_body

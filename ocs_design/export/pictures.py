@@ -18,11 +18,12 @@ from ocs_design.export.visuals import SHELL, piece_color
 from ocs_design.robot.robot import Robot
 
 _MODULE_ON_ROBOT = (np.sqrt(0.5), -np.sqrt(0.5), 0.0, 0.0)
-"""Attitude of a module's frame at no incidence, as a quaternion: its z axis to the left, y down."""
+"""Attitude of a module's frame at zero incidence, as a quaternion: its z axis to the left, y down.
+"""
 
 
 def write(subject: Subject, folder: Path) -> Notes:
-    """Write `wheel.png`, `module.png` and `robot.png`; a note where OpenGL does not work."""
+    """Write `wheel.png`, `module.png` and `robot.png`; return a note if OpenGL does not work."""
     try:
         pictures = draw_pictures(subject.device, subject.carrier, model_of(subject))
     except MissingToolError as error:
@@ -33,13 +34,13 @@ def write(subject: Subject, folder: Path) -> Notes:
 
 
 def draw_pictures(device: Device, robot: Robot, model: RobotModel) -> dict[str, bytes]:
-    """PNG by name: `wheel`, `module` where there is more than the wheel, and the posed `robot`.
+    """PNG by name: `wheel`, `module` if it is more than the wheel, and the posed `robot`.
 
     Raises:
         MissingToolError: OpenGL does not work here.
     """
     shown = [
-        # One sees through the housing.
+        # The housing is transparent.
         (
             part_mesh(part).placed(place),
             SHELL if name in {"drum", "lid"} else piece_color(device, name),
@@ -68,7 +69,7 @@ def render_views(takes: Mapping[str, Take]) -> dict[str, bytes]:
 
 
 def parts_take(shown: Sequence[tuple[Mesh, Color]]) -> Take:
-    """Parts in their colours and the module's frame, as they stand at no incidence."""
+    """Take of coloured parts in the module's frame, in the attitude of zero incidence."""
     spec = mujoco.MjSpec()
     add_white_sky(spec)
     body = spec.worldbody.add_body(quat=_MODULE_ON_ROBOT)

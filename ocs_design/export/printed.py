@@ -1,4 +1,4 @@
-"""What is printed, housing, foot and cage of one module and pedestals: STL each, all as 3MF."""
+"""Printed parts, housing, foot and cage of one module and pedestals: STL files and one 3MF."""
 
 from pathlib import Path
 
@@ -10,9 +10,9 @@ from ocs_design.export.threemf import threemf_bytes
 
 
 def write(subject: Subject, folder: Path) -> Notes:
-    """Write `housing_<part>.stl`, `pedestal*.stl` for feet that lean, and `housing.3mf`.
+    """Write `housing_<part>.stl`, `pedestal*.stl` for leaning feet, and `housing.3mf`.
 
-    Wheels alone get a housing and no cage; a ring that is bonded on has `ring_fixture.stl` too.
+    Wheels alone get a housing but no cage; a bonded ring also gets `ring_fixture.stl`.
     """
     device = subject.device
     meshes = {part.name: part_mesh(part) for part in printed_parts(device)}

@@ -1,7 +1,6 @@
-"""Programs that make pictures and films: OpenGL without a screen, and ffmpeg.
+"""External programs for pictures and films: OpenGL without a screen, and ffmpeg.
 
-OpenGL runs in a process of its own, which it may end where it does not work. Nothing here needs
-MuJoCo.
+OpenGL runs in a separate process, which it may end if it does not work. Nothing here needs MuJoCo.
 """
 
 import os
@@ -14,10 +13,10 @@ from importlib.util import find_spec
 from ocs_design.common.errors import MissingToolError, extra_command
 
 PROGRAM = "ocs_design.export.offscreen"
-"""Module that draws in a process of its own."""
+"""Module that renders in a separate process."""
 
 TIME_LIMIT = 120.0
-"""Time limit of one process that draws [s]; a graphics driver may hang."""
+"""Time limit of a rendering process [s]; a graphics driver may hang."""
 
 OPENGL_HINT = (
     "install OpenGL without a screen, on Debian: apt install libegl1 libgl1-mesa-dri libosmesa6"
@@ -29,7 +28,7 @@ FFMPEG_HINT = f"{extra_command('video')}, or on Debian: apt install ffmpeg"
 def backends() -> tuple[str, ...]:
     """Values of MUJOCO_GL to try: the user's choice, or those that need no screen."""
     chosen = os.environ.get("MUJOCO_GL")
-    # The command line disables it for its own process, which draws nothing.
+    # The command line disables OpenGL for its own process, which renders nothing.
     if chosen == "disabled":
         chosen = None
     if chosen is not None or not sys.platform.startswith("linux"):
@@ -38,7 +37,7 @@ def backends() -> tuple[str, ...]:
 
 
 def failure_of(arguments: Sequence[str], backend: str) -> str | None:
-    """Run the program that draws in another process; gives the reason of a failure, or None."""
+    """Run the rendering program in another process; returns the reason of a failure, or None."""
     environment = dict(os.environ)
     if backend:
         environment["MUJOCO_GL"] = environment["PYOPENGL_PLATFORM"] = backend
@@ -60,7 +59,7 @@ def failure_of(arguments: Sequence[str], backend: str) -> str | None:
 
 
 def draw(arguments: Sequence[str], what: str) -> None:
-    """Run the program that draws `what`, with the first backend of OpenGL that works.
+    """Run the rendering program for `what` with the first OpenGL backend that works.
 
     Raises:
         MissingToolError: OpenGL does not work here; the message says why.
@@ -75,11 +74,11 @@ def draw(arguments: Sequence[str], what: str) -> None:
 
 
 def ffmpeg_program() -> str | None:
-    """Path of the system's ffmpeg, else of that of imageio-ffmpeg; None if there is neither."""
+    """Path of the system's ffmpeg, else of imageio-ffmpeg's; None if there is neither."""
     found = shutil.which("ffmpeg")
     if found is not None or find_spec("imageio_ffmpeg") is None:
         return found
-    # An extra.
+    # An optional dependency.
     import imageio_ffmpeg  # noqa: PLC0415
 
     try:

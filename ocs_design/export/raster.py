@@ -1,4 +1,4 @@
-"""Views, the pixels that triangles cover in them, for pictures and hidden lines; images as PNG."""
+"""Views and rasterization of triangles for pictures and hidden lines; images as PNG."""
 
 import struct
 import zlib
@@ -11,7 +11,7 @@ from ocs_design.common.arrays import FloatArray
 
 _PNG = b"\x89PNG\r\n\x1a\n"
 _SUB = b"\1"
-"""Filter of PNG: rows are differences to the pixel on the left, zeros on even faces."""
+"""PNG filter Sub: rows are differences to the pixel on the left, zero in areas of one colour."""
 
 
 def view_of(camera: Sequence[float], up: Sequence[float]) -> FloatArray:
@@ -30,8 +30,8 @@ def covered_pixels(
     As in Foley, van Dam, Feiner, Hughes, "Computer Graphics", section 3.6.
 
     Args:
-        corners: of triangles, x and y in pixels and a depth, shape (n, 3, 3).
-        offset: of a pixel's own point from its lower corner, along both axes [pixels].
+        corners: corners of triangles, x and y in pixels and a depth, shape (n, 3, 3).
+        offset: offset of a pixel's sample point from its lower corner, along both axes [pixels].
     """
     flat = corners[:, :, :2]
     low, high = (
@@ -41,7 +41,7 @@ def covered_pixels(
     counts = np.maximum(high - low + 1, 0)
     triangle, row = np.repeat(np.arange(len(corners)), counts), ranges(low, counts)
     begin, end = flat[triangle], np.roll(flat[triangle], -1, axis=1)
-    # A side that is level is crossed nowhere, its neighbours are.
+    # No row crosses a horizontal side; the adjacent sides are crossed instead.
     with np.errstate(divide="ignore", invalid="ignore"):
         part = ((row + offset)[:, None] - begin[:, :, 1]) / (end[:, :, 1] - begin[:, :, 1])
         crossing = begin[:, :, 0] + part * (end[:, :, 0] - begin[:, :, 0])
@@ -52,7 +52,7 @@ def covered_pixels(
     triangle, row, first, last = triangle[met], row[met], first[met], last[met]
     left = np.ceil(first - offset).astype(np.int64)
     counts = np.maximum(np.floor(last - offset).astype(np.int64) - left + 1, 0)
-    # Depth in the plane of each triangle, and its changes along and across the rows.
+    # Depth in the plane of each triangle, and its gradients along and across the rows.
     b, c = (corners[:, index] - corners[:, 0] for index in (1, 2))
     area = b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]
     scale = np.divide(1.0, area, out=np.zeros_like(area), where=area != 0.0)
@@ -67,7 +67,7 @@ def covered_pixels(
 
 
 def ranges(first: NDArray[np.int64], counts: NDArray[np.int64]) -> NDArray[np.int64]:
-    """`first[i], first[i] + 1, ...` of `counts[i]` numbers each, one behind the other."""
+    """Concatenated ranges `first[i], first[i] + 1, ...` of `counts[i]` numbers each."""
     total = np.cumsum(counts)
     within = np.arange(total[-1] if len(total) else 0) - np.repeat(total - counts, counts)
     return np.asarray(np.repeat(first, counts) + within)

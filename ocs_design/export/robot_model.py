@@ -1,4 +1,4 @@
-"""Robot with its device in MuJoCo, as it is written and drawn."""
+"""MuJoCo model of the robot with its device, as exported and rendered."""
 
 from dataclasses import dataclass
 from pathlib import PurePath
@@ -30,24 +30,24 @@ from ocs_design.robot.mujoco_model import build_spec
 from ocs_design.robot.robot import Format, Robot
 
 HOME = f"{PREFIX}home"
-"""Keyframe: the robot stands in its nominal posture, its actuators bear its weight."""
+"""Keyframe in which the robot stands in its nominal posture and its actuators carry its weight."""
 
 FREE_JOINT = "floating_base_joint"
-"""Name of the free joint where the robot's file gives it none."""
+"""Name of the free joint if the robot's file gives none."""
 
 HOLD = f"{PREFIX}hold_"
-"""Prefix of the equalities that hold the joints that are in no leg."""
+"""Prefix of the equalities that hold the joints outside the legs."""
 
 
 @dataclass(frozen=True, eq=False)
 class RobotModel:
-    """Whole robot, free in space, its device on its trunk.
+    """Whole robot, free in space, with its device on its trunk.
 
     Attributes:
-        spec: with the bytes of its meshes and textures.
-        compiled: from `spec`.
+        spec: spec with the bytes of its meshes and textures.
+        compiled: model compiled from `spec`.
         warnings: differences of the model from the robot's file, one sentence each.
-        driven: whether its legs have the flights' drives; else it has actuators of its own.
+        driven: whether its legs have the flights' drives; else it has its own actuators.
     """
 
     spec: mujoco.MjSpec
@@ -60,7 +60,7 @@ _MODELS: WeakKeyDictionary[Subject, RobotModel] = WeakKeyDictionary()
 
 
 def model_of(subject: Subject) -> RobotModel:
-    """Model of the subject's robot and device; several formats write it, so it is built once."""
+    """Model of the subject's robot and device, cached because several formats use it."""
     if subject not in _MODELS:
         _MODELS[subject] = robot_model(subject.carrier, subject.device)
     return _MODELS[subject]
@@ -72,7 +72,7 @@ def robot_model(robot: Robot, device: Device) -> RobotModel:
     spec = built.spec
     flight_options(spec)
     if robot.format is not Format.MJCF:
-        # As in the flights. MJX besides lacks contact of cylinders with boxes and with meshes.
+        # As in the flights. MJX also lacks contacts of cylinders with boxes and meshes.
         meet_no_link(spec)
         for pair in list(spec.excludes):
             spec.delete(pair)
@@ -80,11 +80,11 @@ def robot_model(robot: Robot, device: Device) -> RobotModel:
     for joint in spec.joints:
         if joint.type == mujoco.mjtJoint.mjJNT_FREE and not joint.name:
             joint.name = unused_name(FREE_JOINT, "", names)
-    # A robot that brings its own actuators keeps them, and gets no others.
+    # A robot with its own actuators keeps them and gets no others.
     driven = not spec.actuators
     if driven:
         add_drives(spec, robot)
-        # Every joint that is in no leg is held in its posture, as in the flights.
+        # Every joint outside the legs is held in its posture, as in the flights.
         in_legs = leg_joints(robot)
         for name, held in robot.tree.joints.items():
             if name not in in_legs and held.mimic is None:
@@ -97,13 +97,13 @@ def robot_model(robot: Robot, device: Device) -> RobotModel:
                 )
     attach_device(spec, robot, device)
     add_sensors(spec, robot, device)
-    # Wheels and carriers get what they look like, without mass and contact.
+    # Wheels and carriers get visual geoms without mass and contact.
     for path, content in device_meshes(device).items():
         spec.assets[path.name] = content
         spec.add_mesh(name=path.stem, file=path.name)
     quiet = {"group": VISUAL_GROUP, "contype": 0, "conaffinity": 0, "mass": 0.0}
     for name in flywheel_names(device):
-        # The cylinder that stands for the rim in contacts is hidden.
+        # The cylinder that represents the rim in contacts is hidden.
         solid = spec.geom(name)
         solid.group = HIDDEN_GROUP
         mesh, kind = PurePath(WHEEL_MESH).stem, mujoco.mjtGeom.mjGEOM_MESH
@@ -128,7 +128,7 @@ def robot_model(robot: Robot, device: Device) -> RobotModel:
 
 
 def _add_home(spec: mujoco.MjSpec, robot: Robot, *, driven: bool) -> None:
-    """Keyframe of the standing robot; its drives, if they are ours, get the flights' gains."""
+    """Add the keyframe of the standing robot; if `driven`, set the flights' gains."""
     require_free("keyframe", (key.name for key in spec.keys), (HOME,))
     model = compiled(spec)
     data = mujoco.MjData(model)
@@ -145,7 +145,7 @@ def _add_home(spec: mujoco.MjSpec, robot: Robot, *, driven: bool) -> None:
     data.qpos[model.jnt_qposadr[free] + 2] += height
     home = data.qpos.copy(), _holding_controls(model, data, torques)
     for index, key in enumerate(spec.keys if driven else ()):
-        # The file's own keyframes know nothing of our drives, which would pull all joints to zero.
+        # In the file's own keyframes our drives have no commands and would pull all joints to zero.
         data.qpos[:] = model.key_qpos[index]
         key.ctrl = _holding_controls(model, data, {})
     spec.add_key(name=HOME, qpos=home[0], ctrl=home[1])
@@ -154,7 +154,7 @@ def _add_home(spec: mujoco.MjSpec, robot: Robot, *, driven: bool) -> None:
 def _holding_controls(
     model: mujoco.MjModel, data: mujoco.MjData, torques: dict[str, float]
 ) -> FloatArray:
-    """Commands with which actuators on joints give these torques at rest, others none.
+    """Commands with which actuators on joints give these torques at rest; 0 for the others.
 
     A servo's force is `gain u + b_0 + b_1 l` with the length `l = gear q`, an MjModel's
     `actuator_gainprm` and `actuator_biasprm`.

@@ -45,7 +45,7 @@ def write(subject: Subject, folder: Path) -> Notes:
     ET.indent(urdf)
     declared = '<?xml version="1.0" encoding="utf-8"?>\n'
     described = declared + ET.tostring(urdf, encoding="unicode") + "\n"
-    # A robot may be in ros2_control already, and a joint in two systems is an error there.
+    # A robot may already use ros2_control, where a joint in two systems is an error.
     taken = {
         joint.get("name") for system in urdf.iter("ros2_control") for joint in system.iter("joint")
     }
@@ -68,7 +68,7 @@ def write(subject: Subject, folder: Path) -> Notes:
         if name not in taken:
             limits = {"min": joint.lower, "max": joint.upper}
             bounds = {end: float(limit) for end, limit in limits.items() if np.isfinite(limit)}
-            # One that follows another takes no commands.
+            # A mimic joint takes no commands.
             command = "position" if joint.mimic is None else ""
             controls.append(control_joint(quoted(name), command, bounds, robot.posture[name]))
     controls += control_wheels(device, joint_names(device))
@@ -99,30 +99,30 @@ def write(subject: Subject, folder: Path) -> Notes:
 
 
 def package_name(robot: str) -> str:
-    """Name of a robot's package: lower case, digits and single underscores, a letter first."""
+    """Package name of a robot: lower case, digits and single underscores, first a letter."""
     plain = re.sub(r"[^a-z0-9]+", "_", robot.lower()).strip("_")
     return f"{'' if plain[:1].isalpha() else 'robot_'}{plain}_ocs_description".replace("__", "_")
 
 
 def _take_meshes(urdf: ET.Element, robot: Robot, folder: Path, package: str) -> list[str]:
-    """Copy all meshes that a URDF names, and name the copies in it; gives those not found."""
+    """Copy all meshes of a URDF and let it refer to the copies; returns those not found."""
     found = [shape.mesh for body in robot.tree.bodies for shape in body.shapes if shape.mesh]
     places = {path.name: path.name for path in folder.iterdir()}
     copies: dict[Path, str] = {}
     lost: dict[str, None] = {}
 
     def alike(path: Path) -> int:
-        """Number of parts, counted from the file's name, that agree with the mesh's address."""
+        """Number of path components, counted from the end, that match the mesh's address."""
         pairs = zip(reversed(path.parts), reversed(name.parts), strict=False)
         return next((k for k, (a, b) in enumerate(pairs) if a != b), len(name.parts))
 
     for mesh in urdf.iter("mesh"):
         address = mesh.get("filename", "")
         name = PurePosixPath(unquote(address.strip()).rpartition("://")[2])
-        # The device's own lie there already.
+        # The device's own meshes are there already.
         place = places.get(name.name) if address == f"meshes/{name.name}" else None
         if place is None:
-            # The file that ends as the address does, in the most of its folders.
+            # The file whose path matches the most components at the end of the address.
             path = max(found, key=alike, default=None)
             if path is None or not alike(path):
                 lost[address] = None
@@ -137,7 +137,7 @@ def _take_meshes(urdf: ET.Element, robot: Robot, folder: Path, package: str) -> 
 
 
 def _controllers(robot: Robot, wheels: Iterable[str]) -> dict[str, str]:
-    """Parts of `controllers.yaml`."""
+    """Values for the template `controllers.yaml`."""
     moved = [name for name, joint in robot.tree.joints.items() if joint.mimic is None]
     manager, joints = "", ""
     if moved:
@@ -151,5 +151,5 @@ def _controllers(robot: Robot, wheels: Iterable[str]) -> dict[str, str]:
 
 
 def _listed(names: Iterable[str]) -> str:
-    """Items of a list in YAML, in double quotes: some names would be numbers."""
+    """YAML list items in double quotes, because some names would be read as numbers."""
     return "".join(f"      - {json.dumps(name)}\n" for name in names)

@@ -1,6 +1,6 @@
-"""Picture of a robot without OpenGL, the same on every machine: for folders, print and mail.
+"""Picture of a robot without OpenGL, the same on every machine, for folders, print and mail.
 
-Triangles are cut into rows of pixels, and at each pixel the nearest one wins (a z-buffer, as in
+Triangles are rasterized row by row, and the nearest one at each pixel wins (a z-buffer, as in
 Foley, van Dam, Feiner, Hughes, "Computer Graphics", section 15.4).
 """
 
@@ -21,7 +21,7 @@ WIDTH, HEIGHT = 800, 500
 
 _OVERSAMPLING = 2
 _AZIMUTH, _ELEVATION = np.radians(-37.0), np.radians(22.0)
-"""Direction of the camera, seen from the robot: in front of it, on its right, above [rad]."""
+"""Direction of the camera, seen from the robot [rad]: in front, to its right, above."""
 
 _TOWARDS = (
     np.cos(_ELEVATION) * np.cos(_AZIMUTH),
@@ -33,23 +33,23 @@ _TOWARDS = (
 _ROOM = 1.06
 _AMBIENT, _BACKGROUND = 0.42, 255
 _GLASS = 0.9
-"""Opacity below which triangles are left out: housings, so that their wheels are seen."""
+"""Opacity below which triangles are left out, so that wheels are visible in their housings."""
 
 _BITS = 24
-"""Bits of the number of a triangle."""
+"""Bits of a triangle's number."""
 
 _CHUNK = 1 << 9
-"""Triangles that are drawn at once: their pixels stay in the processor's cache."""
+"""Triangles drawn per pass, so that their pixels stay in the processor's cache."""
 
 _DEPTHS = float(2**38)
-"""Steps of nearness that are told apart."""
+"""Number of depth levels."""
 
 _PLAIN: Color = (0.5, 0.5, 0.5, 1.0)
-"""Colour of MuJoCo's defaults; a geom that has it has the colour of its material."""
+"""MuJoCo's default colour; a geom with it takes the colour of its material."""
 
 
 def snapshot(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.uint8]:
-    """Picture of a `robot_model`, whose kinematics are computed; see `picture`."""
+    """Picture of a `robot_model` with computed kinematics; see `picture`."""
     shapes = []
     for geom in range(model.ngeom):
         color, mesh = shown_color(model, geom), geom_mesh(model, geom)
@@ -60,7 +60,7 @@ def snapshot(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.uint8]:
 
 
 def shown_color(model: mujoco.MjModel, geom: int) -> Color | None:
-    """Colour of a geom; None where viewers do not show it."""
+    """Colour of a geom; None if viewers do not show it."""
     color, material = _rgba(model.geom_rgba[geom]), model.geom_matid[geom]
     if material >= 0 and color == _PLAIN:
         color = _rgba(model.mat_rgba[material])
@@ -73,7 +73,7 @@ def _rgba(values: FloatArray) -> Color:
 
 
 def geom_mesh(model: mujoco.MjModel, geom: int) -> Mesh | None:
-    """Surface of a geom in its own frame; None where it has none of its own."""
+    """Surface of a geom in its own frame; None if it has none."""
     if int(model.geom_type[geom]) not in {mujoco.mjtGeom.mjGEOM_MESH, mujoco.mjtGeom.mjGEOM_SDF}:
         return primitive_mesh(int(model.geom_type[geom]), model.geom_size[geom])
     mesh = model.geom_dataid[geom]
@@ -85,9 +85,9 @@ def geom_mesh(model: mujoco.MjModel, geom: int) -> Mesh | None:
 
 
 def picture(shapes: Sequence[tuple[FloatArray, Color]]) -> NDArray[np.uint8]:
-    """Red, green and blue, shape (HEIGHT, WIDTH, 3), on white; parallel rays.
+    """Orthographic picture on white: red, green and blue, shape (HEIGHT, WIDTH, 3).
 
-    Shapes are corners of triangles, x forward and z up [m], shape (n, 3, 3), with their colour.
+    Shapes are triangle corners, x forward and z up [m], shape (n, 3, 3), with their colour.
     """
     opaque = [(corners, color[:3]) for corners, color in shapes if color[3] >= _GLASS]
     corners = np.concatenate([np.empty((0, 3, 3)), *(each for each, _ in opaque)])
@@ -97,10 +97,10 @@ def picture(shapes: Sequence[tuple[FloatArray, Color]]) -> NDArray[np.uint8]:
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normal, axis=1)
     seen = length > 0.0
-    # Light from over the viewer's left shoulder.
+    # Light comes over the viewer's left shoulder.
     light = towards + 0.55 * up - 0.45 * right
     shade = np.abs(normal[seen] @ light) / np.linalg.norm(light) / length[seen]
-    # Pixels from the upper left, shape (n, 3, 2), and how near each corner is, shape (n, 3).
+    # Pixels from the upper left, shape (n, 3, 2), and nearness of each corner, shape (n, 3).
     plane = np.stack([corners[seen] @ right, -(corners[seen] @ up)], axis=-1)
     width, height = _OVERSAMPLING * WIDTH, _OVERSAMPLING * HEIGHT
     if len(plane):
@@ -110,16 +110,16 @@ def picture(shapes: Sequence[tuple[FloatArray, Color]]) -> NDArray[np.uint8]:
     shown = _nearest(np.concatenate([plane, (corners[seen] @ towards)[..., None]], axis=-1))
     lit = colors[seen] * (_AMBIENT + (1.0 - _AMBIENT) * shade)[:, None]
     drawn = np.concatenate([lit, np.ones((1, 3))]).astype(np.float32)
-    # Each pixel is the mean of those that it was drawn with.
+    # Each pixel is the mean of its oversampled pixels.
     k = _OVERSAMPLING
     total = sum(drawn[shown[row::k, column::k]] for row, column in product(range(k), repeat=2))
     return np.asarray(np.round(_BACKGROUND / k**2 * np.minimum(total, k**2)), dtype=np.uint8)
 
 
 def _nearest(corners: FloatArray) -> NDArray[np.int64]:
-    """Number of the triangle that each pixel shows; -1: none. Shape (height, width).
+    """Number of the triangle visible at each pixel, -1 for none, shape (height, width).
 
-    Corners are in pixels, with how near they are, shape (n, 3, 3).
+    Corners are x and y in pixels and the nearness, shape (n, 3, 3).
     """
     width, height = _OVERSAMPLING * WIDTH, _OVERSAMPLING * HEIGHT
     shown = np.full(width * height, -1, dtype=np.int64)
@@ -128,7 +128,7 @@ def _nearest(corners: FloatArray) -> NDArray[np.int64]:
     step = _DEPTHS / max(float(spread), 1e-12)
     for begin in range(0, len(corners), _CHUNK):
         triangle, row, column, near = covered_pixels(corners[begin : begin + _CHUNK], 0.5)
-        # The upper part of a number is how near, the lower which triangle: the largest one wins.
+        # The upper bits are the nearness, the lower ones the triangle: the largest number wins.
         near = step * (near - least)
         number = np.clip(near, 0.0, _DEPTHS, out=near).astype(np.int64) << _BITS
         np.maximum.at(shown, row * width + column, number | (begin + triangle))
