@@ -31,7 +31,7 @@ from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.tree import ShapeKind
 
 _MACRO_PLACE = {"parent": "${parent}", "position": "${position}", "rpy": "${rpy}"}
-"""Place of wheel and carrier in terms of the xacro macro's arguments."""
+"""Placement of wheel and carrier in terms of the xacro macro's arguments."""
 
 
 def write(subject: Subject, folder: Path) -> Notes:
@@ -42,7 +42,7 @@ def write(subject: Subject, folder: Path) -> Notes:
 
 
 def snippets(device: Device, base: Base) -> Mapping[str, str]:
-    """All snippets by the names of their files."""
+    """All snippets by file name."""
     return {
         "ocs.urdf": snippet_urdf(device, base),
         "ocs.urdf.xacro": snippet_xacro(device, base),
@@ -63,7 +63,7 @@ def snippet_xacro(device: Device, base: Base) -> str:
     joints = [f"${{prefix}}{joint}" for joint in bodies.joint_names(device)]
     control = ros2_control_urdf(device, joints, name="${prefix}ocs", plugin="${hardware_plugin}")
     rotation = np.eye(3) if base.mount is None else base.mount.placement.rotation
-    # What is under the feet stands on the macro's own base.
+    # The supports of the feet are on the macro's own base.
     under = [
         fill(
             "carrier.urdf",
@@ -100,9 +100,9 @@ def snippet_xacro(device: Device, base: Base) -> str:
 
 
 def _macro_wheels(device: Device) -> dict[str, str]:
-    """Arguments of the macro, what they are, and the wheels that it makes of them.
+    """Arguments of the macro, their descriptions, and its wheels.
 
-    A pair's incidence is an argument, as its modules may be turned by hand.
+    A pair's incidence is an argument, because its modules may be turned by hand.
     """
     what, params, wheels = {}, [], []
     turns = {"left": "${-pi/2} 0 ${-incidence}", "right": "${-pi/2} 0 ${incidence}"}
@@ -131,16 +131,16 @@ def _macro_wheels(device: Device) -> dict[str, str]:
 
 
 def _macro_carrier(device: Device) -> str:
-    """Carrier, with what differs between the modules left to the macro's argument."""
+    """Carrier, with the differences between modules selected by the macro's argument."""
     found = [bodies.carrier_inertial(device, module) for module in device.modules]
     each = [inertial_values(body) for body in found if body is not None]
     if not each:
         return ""
-    # Xacro takes what looks like a number for one.
+    # Xacro reads names that look like numbers as numbers.
     sides = [name if name.isdigit() else f"'{name}'" for name in device.layout.names]
 
     def told(values: Sequence[str]) -> str:
-        """The value, or what gives that of each side."""
+        """The common value, or an expression for that of each side."""
         if len({*values}) == 1:
             return values[0]
         chain = (
@@ -170,10 +170,10 @@ def snippet_ros2_control(device: Device) -> str:
 
 
 def snippet_mjcf(device: Device, base: Base) -> str:
-    """Model to attach to a MJCF robot."""
+    """Model to attach to an MJCF robot."""
     limit = bodies.largest_torque(device.motor)
     limits = "" if limit is None else f' ctrllimited="true" ctrlrange="{numbers((-limit, limit))}"'
-    # Attaching puts the prefix in front of the names.
+    # Attaching prepends the prefix to the names.
     imu, attitude, rate = (
         name.removeprefix(bodies.PREFIX) for name in (bodies.IMU, *bodies.IMU_SENSORS)
     )
@@ -237,7 +237,7 @@ def snippet_sdf(device: Device, base: Base) -> str:
     place = {"parent": quoted(link), "frame": quoted(link if base.mount is None else BASE_FRAME)}
     frame = ""
     if base.mount is not None:
-        # The frame with x forward and z up, where the robot's own link has none.
+        # The frame with x forward and z up if the robot's own link has a different one.
         at = base.mount.placement
         pose = numbers([*at.position, *rpy_from_rotation(at.rotation)])
         parent = quoted(base.mount.link)

@@ -1,8 +1,8 @@
 """STEP (ISO 10303-21, application protocol 214): exact parts in millimetres, by Open CASCADE.
 
-Its tolerances are made for millimetres.
+Millimetres, because Open CASCADE's tolerances are made for them.
 
-Importing this takes seconds, and fails where Open CASCADE is not installed.
+Importing this module takes seconds, and fails if Open CASCADE is not installed.
 """
 
 import re
@@ -66,24 +66,23 @@ from ocs_design.parts.shapes import Disc
 from ocs_design.parts.solids import Part, Prism, Relief, Revolution, Solid
 
 DECIMALS = 10
-"""Decimals of coordinates [mm]: else 30.4 mm would be written with sixteen digits."""
+"""Decimals of coordinates [mm], without which 30.4 mm would be written with sixteen digits."""
 
 _SETTINGS = {"write.step.schema": "AP214IS", "write.step.unit": "MM"}
 
 _CURVES_ON_SURFACES = "write.surfacecurve.mode"
-"""Off: readers make them from the curves in space, and the file is half as large."""
+"""Switched off: readers compute them from the curves in space, and the file is half as large."""
 
 _TIMESTAMP = "2000-01-01T00:00:00"
-"""Time in every file, so that the same part has the same bytes."""
+"""Time stamp in every file, so that equal parts give equal bytes."""
 
 
 def write(subject: Subject, folder: Path) -> Notes:
     """Write `flywheel.step`, or one file for each of its pieces, and one for each other part.
 
-    `plate.step` or `pedestal*.step` is what feet stand on, where that is designed;
-    `ring_fixture.step` is what a ring is bonded in; `module.step`
-    has all of one module in its place, motor and gear as cylinders, and `device.step` all modules
-    and what is under them.
+    `plate.step` or `pedestal*.step` are the supports of the feet, if these are designed;
+    `ring_fixture.step` is the bonding fixture of a ring; `module.step` has one whole module in
+    place, with motor and gear as cylinders, and `device.step` all modules and their supports.
     """
     device = subject.device
     printed = {f"housing_{part.name}": part for part in printed_parts(device)}
@@ -107,7 +106,7 @@ def module_bytes(device: Device) -> bytes:
 
 
 def device_bytes(device: Device) -> bytes:
-    """STEP of all modules, each of the same pieces, and what is under them, in the base frame B."""
+    """STEP of all modules, which share their pieces, and their supports, in the base frame B."""
     assembly = _Assembly()
     module, whole = assembly.add_module(device), assembly.add_group("device")
     for each in device.modules:
@@ -116,7 +115,7 @@ def device_bytes(device: Device) -> bytes:
     if device.plate is not None:
         plate = device.plate
         on_trunk = Placement(np.eye(3), np.array(plate.position))
-        # All plates are its first body, and here a piece each.
+        # The first body has all plates; here each is a separate piece.
         _, *others = plate_bodies(plate)
         bodies = [
             (plate_part(each), Placement(np.eye(3), np.array(each.position))) for each in plate.each
@@ -133,7 +132,7 @@ def device_bytes(device: Device) -> bytes:
 
 
 class _Assembly:
-    """Parts with names and colours, which groups have in their places (XCAF)."""
+    """Assembly of named and coloured parts, placed in groups (XCAF)."""
 
     def __init__(self) -> None:
         self._document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
@@ -142,20 +141,20 @@ class _Assembly:
         self._colors: list[Color] = []
 
     def add_part(self, name: str, part: Part, color: Color) -> TDF_Label:
-        """Add a part, which no group has yet."""
+        """Add a part that is not yet in a group."""
         label = self._shapes.AddShape(part_brep(part), False)
         _name(label, name)
         self._colors.append(color)
         return label
 
     def add_group(self, name: str) -> TDF_Label:
-        """Add a group, which is empty."""
+        """Add an empty group."""
         label = self._shapes.NewShape()
         _name(label, name)
         return label
 
     def add_module(self, device: Device) -> TDF_Label:
-        """Add all pieces of a module, in a group."""
+        """Add all pieces of a module as a group."""
         group = self.add_group("module")
         for name, (part, place) in placed_parts(device).items():
             label = self.add_part(name, part, piece_color(device, name))
@@ -163,12 +162,12 @@ class _Assembly:
         return group
 
     def put(self, what: TDF_Label, group: TDF_Label, place: Placement, name: str) -> None:
-        """Put a part or a group into a group, under a name of its own there."""
+        """Place a part or a group in a group, with a name for this instance."""
         where = TopLoc_Location(_transformation(place))
         _name(self._shapes.AddComponent(group, what, where), name)
 
     def written(self, name: str) -> bytes:
-        """File of everything."""
+        """STEP file of the whole assembly."""
         self._shapes.UpdateAssemblies()
         _prepare()
         writer = STEPCAFControl_Writer()
@@ -178,9 +177,9 @@ class _Assembly:
 
 
 def _colored(content: bytes, colors: Sequence[Color]) -> bytes:
-    """File whose solids have these colours, in their order.
+    """File with colours added to its solids, in their order.
 
-    Open CASCADE's own writer puts them in the order of addresses in memory.
+    Open CASCADE's own writer would order them by memory address.
     """
     text = content.decode("ascii")
     solids = re.findall(r"#(\d+) = (?:MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS)", text)
@@ -212,7 +211,7 @@ def _name(label: TDF_Label, name: str) -> None:
 
 
 def step_bytes(part: Part) -> bytes:
-    """STEP of the part as one solid that bears its name; the same bytes every time."""
+    """STEP of the part as one solid with its name, reproducible byte for byte."""
     _prepare()
     writer = STEPControl_Writer()
     writer.Transfer(part_brep(part), STEPControl_StepModelType.STEPControl_AsIs)
@@ -225,10 +224,10 @@ def step_bytes(part: Part) -> bytes:
 
 
 def _prepare() -> None:
-    """Set how files are written, and that nothing is printed."""
-    # Open CASCADE reports to standard output, where a command's JSON goes.
+    """Set the options of the writer, and silence its messages."""
+    # Open CASCADE prints to standard output, which is for a command's JSON.
     Message.DefaultMessenger_s().RemovePrinters(Message_PrinterOStream.get_type_descriptor_s())
-    # Before that there are no settings.
+    # The settings exist only after this call.
     STEPControl_Controller.Init_s()
     for setting, value in _SETTINGS.items():
         Interface_Static.SetCVal_s(setting, value)
@@ -236,7 +235,7 @@ def _prepare() -> None:
 
 
 def _bytes(writer: STEPControl_Writer, name: str) -> bytes:
-    """File of what was transferred, with names and numbers in place of counters and clocks."""
+    """File of the transferred shapes, with fixed names and numbers for counters and time stamps."""
     model, title = writer.Model(), TCollection_HAsciiString(name)
     header = APIHeaderSection_MakeHeader(model)
     header.SetName(title)
@@ -255,7 +254,7 @@ def _bytes(writer: STEPControl_Writer, name: str) -> bytes:
 def part_brep(part: Part) -> TopoDS_Shape:
     """Boundary representation of the part [mm], without edges inside its faces.
 
-    Plates that stand apart, which are one part, are a compound.
+    Separate plates that form one part are a compound.
     """
     joined = reduce(
         lambda left, right: BRepAlgoAPI_Fuse(left, right).Shape(), map(_shape, part.joined)
@@ -263,7 +262,7 @@ def part_brep(part: Part) -> TopoDS_Shape:
     whole = reduce(lambda left, hole: BRepAlgoAPI_Cut(left, _shape(hole)).Shape(), part.cut, joined)
     cleaner = ShapeUpgrade_UnifySameDomain(whole, True, True, False)
     cleaner.Build()
-    # Boolean operations hand back a compound of one piece as well.
+    # Boolean operations return a compound even for one piece.
     found = TopExp_Explorer(cleaner.Shape(), TopAbs_ShapeEnum.TopAbs_SOLID)
     solid = found.Current()
     found.Next()
@@ -273,7 +272,7 @@ def part_brep(part: Part) -> TopoDS_Shape:
 def _shape(solid: Solid) -> TopoDS_Shape:
     match solid:
         case Revolution():
-            # The profile in the half plane y = 0, x > 0 is turned about z.
+            # The profile in the half plane y = 0, x > 0 is revolved about z.
             corners = [_point(np.array([r, 0.0]), z) for r, z in solid.profile]
             sides = zip(corners, [*corners[1:], corners[0]], strict=True)
             face = _face([BRepBuilderAPI_MakeEdge(start, end).Edge() for start, end in sides])
@@ -304,7 +303,7 @@ def _shape(solid: Solid) -> TopoDS_Shape:
 def _relief(relief: Relief) -> TopoDS_Shape:
     """A relief in its own frame, whose face is one smooth surface through the corners of its cells.
 
-    That bulges between them by hundredths of a millimetre where the form bends.
+    Between corners it deviates by hundredths of a millimetre where the shape is curved.
     """
     heights = np.round(MILLIMETRES * relief.heights, DECIMALS)
     splines, poles = [], heights
@@ -313,7 +312,7 @@ def _relief(relief: Relief) -> TopoDS_Shape:
         spline = make_interp_spline(at, poles, k=min(3, len(at) - 1), axis=axis)
         splines.append(spline)
         poles = np.moveaxis(spline.c, 0, axis) if axis else spline.c
-    # Where poles stand over the plane: along a line they are the means of their own knots.
+    # Positions of the poles over the plane: along a line, the means of their knots.
     across = [
         np.array([spline.t[i + 1 : i + 1 + spline.k].mean() for i in range(count)])
         for spline, count in zip(splines, poles.shape, strict=True)

@@ -1,6 +1,6 @@
-"""Binary STL, which has neither units nor colours: whole wheels for robot files, and its pieces.
+"""Binary STL, which has neither units nor colours: meshes of robot files, and parts to make.
 
-Written here: importing trimesh takes 0.3 s, longer than writing all of a device's usual files.
+Written directly, because importing trimesh takes 0.3 s, longer than writing a device's usual files.
 """
 
 from collections.abc import Mapping
@@ -17,7 +17,7 @@ from ocs_design.export.meshes import Mesh, merged, part_mesh
 from ocs_design.export.visuals import WHEEL_MESH, still_meshes
 
 METRES = 1.0
-"""Units per metre of the meshes of robot files."""
+"""Units per metre in the meshes of robot files."""
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
@@ -32,12 +32,12 @@ def write(subject: Subject, folder: Path) -> Notes:
 
 @lru_cache(maxsize=1)
 def wheel_meshes(flywheel: Flywheel) -> Mapping[str, Mesh]:
-    """Pieces of the wheel by the names of their files; several formats ask for them."""
+    """Meshes of the wheel's pieces by file name, cached because several formats use them."""
     return {name: part_mesh(piece) for name, piece in wheel_pieces(flywheel).items()}
 
 
 def device_meshes(device: Device) -> Mapping[Path, bytes]:
-    """STL of wheel and of what stands still in metres, by their places beside the robot file."""
+    """STL files of wheel and fixed parts in metres, by their paths beside the robot file."""
     wheel = merged(list(wheel_meshes(device.flywheel).values()))
     still = {
         path: stl_bytes(mesh, path.stem, units_per_metre=METRES)
@@ -47,13 +47,13 @@ def device_meshes(device: Device) -> Mapping[Path, bytes]:
 
 
 def stl_bytes(mesh: Mesh, name: str, *, units_per_metre: float = MILLIMETRES) -> bytes:
-    """STL of a closed mesh, its name in the header cut to 69 bytes; the same bytes every time."""
+    """STL of a closed mesh, reproducible; its name in the header is truncated to 69 bytes."""
     corners = units_per_metre * mesh.corners
     edges = corners[:, 1:] - corners[:, :1]
     normals = np.cross(edges[:, 0], edges[:, 1])
     facets = np.zeros(len(corners), _FACET)
     facets["normal"] = normals / np.linalg.norm(normals, axis=1, keepdims=True)
     facets["corners"] = corners
-    # A header that began with "solid" would be taken for text.
+    # A header that starts with "solid" would be read as ASCII STL.
     header = f"ocs-design {name}".encode("ascii", "replace")[:80].ljust(80)
     return header + len(facets).to_bytes(4, "little") + facets.tobytes()

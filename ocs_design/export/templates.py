@@ -1,4 +1,4 @@
-"""Templates of exported text files, to be filled with numbers and names."""
+"""Templates of exported text files, filled with numbers and names."""
 
 import re
 from pathlib import Path
@@ -12,7 +12,7 @@ from ocs_design.common.files import packaged_folder
 
 
 class _AtTemplate(Template):
-    """Template whose places are `@name`: dollars and braces belong to xacro."""
+    """Template with placeholders `@name`, because dollars and braces belong to xacro."""
 
     delimiter = "@"
 
@@ -20,7 +20,7 @@ class _AtTemplate(Template):
 def fill(template: str, values: dict[str, str]) -> str:
     """Text of `templates/<template>` with each `@name` replaced.
 
-    Values are ready to stand in XML; see `quoted` and `numbers`.
+    Values must be valid in XML; see `quoted` and `numbers`.
     """
     return _AtTemplate(template_text(template)).substitute(values)
 
@@ -31,7 +31,7 @@ def template_text(template: str) -> str:
 
 
 def template_file(name: str) -> Path:
-    """File `templates/<name>`: in the package when installed, else beside it in the sources."""
+    """Path of `templates/<name>`: in the installed package, else beside it in the sources."""
     return packaged_folder("templates") / name
 
 
@@ -41,11 +41,11 @@ def quoted(text: str) -> str:
 
 
 def in_comment(text: str) -> str:
-    """Text for an XML comment, in which two hyphens may not stand together."""
+    """Text for an XML comment, which must not contain two consecutive hyphens."""
     return re.sub("-(?=-)", "- ", text).removesuffix("-")
 
 
 def numbers(values: ArrayLike) -> str:
-    """Numbers with spaces between them, each in the fewest digits that read back the same."""
-    # Zero has no sign: people wonder at -0.0.
+    """Numbers separated by spaces, each with the fewest digits that reproduce it."""
+    # Zero has no sign, because readers would wonder at -0.0.
     return " ".join(repr(float(value) + 0.0) for value in np.ravel(values))

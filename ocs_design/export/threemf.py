@@ -1,7 +1,7 @@
-"""Meshes in 3MF, from which slicers know the unit and the parts' names, unlike from STL.
+"""Meshes in 3MF, which tells slicers the unit and the parts' names, unlike STL.
 
 3MF Consortium, 3D Manufacturing Format, Core Specification 1.3: a zip archive with the model in
-XML, in millimetres. Written here, for the files of trimesh and lib3mf differ from run to run.
+XML, in millimetres. Written directly, because files by trimesh and lib3mf differ from run to run.
 """
 
 from collections.abc import Mapping
@@ -20,7 +20,7 @@ from ocs_design.export.stl import wheel_meshes
 from ocs_design.export.templates import fill, template_text
 
 GAP = 0.01
-"""Distance of parts on the printer's bed [m]."""
+"""Distance between parts on the printer's bed [m]."""
 
 
 def write(subject: Subject, folder: Path) -> Notes:
@@ -33,7 +33,7 @@ def write(subject: Subject, folder: Path) -> Notes:
 
 
 def threemf_bytes(meshes: Mapping[str, Mesh]) -> bytes:
-    """3MF with each mesh as an object of that name, in a row on the bed; the same bytes always."""
+    """3MF with each mesh as a named object, in a row on the bed, reproducible byte for byte."""
     objects, items, left = [], [], 0.0
     for number, (name, mesh) in enumerate(meshes.items(), start=1):
         vertices = "\n".join(
@@ -67,7 +67,7 @@ def threemf_bytes(meshes: Mapping[str, Mesh]) -> bytes:
 
 
 def _add(archive: ZipFile, name: str, text: str) -> None:
-    # Without the clock and the machine that the archive is made on.
+    # Without traces of time and machine.
     entry = ZipInfo(name, date_time=(1980, 1, 1, 0, 0, 0))
     entry.create_system = 3
     entry.compress_type = ZIP_DEFLATED

@@ -1,7 +1,7 @@
-"""URDF: the device as elements, a user's robot with them, and any robot written anew.
+"""URDF: the device as elements, a user's URDF with the device, and robots of other formats.
 
-A user's URDF stays as it is byte for byte. Robots that came in another form are written from the
-kinematic tree that was read.
+A user's URDF is preserved byte for byte. Robots from other formats are written from the kinematic
+tree that was read.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -27,10 +27,10 @@ from ocs_design.robot.tree import Body, Joint, JointKind, Shape, ShapeKind, Tree
 from ocs_design.robot.xml import parse_xml
 
 UNLIMITED = 1e6
-"""Limit of torque or speed where URDF asks for one and there is none [SI]."""
+"""Torque or speed limit [SI] if URDF requires one and there is none."""
 
 MOCK_PLUGIN = "mock_components/GenericSystem"
-"""Hardware of ros2_control's own that moves nothing."""
+"""Mock hardware of ros2_control, which moves nothing."""
 
 
 def write(subject: Subject, folder: Path) -> Notes:
@@ -52,8 +52,8 @@ def write_meshes(device: Device, folder: Path) -> None:
 def robot_urdf(robot: Robot, device: Device) -> bytes:
     """Text of the robot with the flywheels on its trunk.
 
-    A URDF robot stays as it is byte for byte, its references to meshes too: those relative to the
-    file hold only where the file stood. Other robots are written from what was read.
+    A user's URDF is preserved byte for byte, with its references to meshes: those relative to the
+    file are valid only in its folder. Other robots are written from what was read.
     """
     content = robot.content if robot.format is Format.URDF else tree_urdf(robot.tree).encode()
     root = parse_xml(content)
@@ -66,14 +66,14 @@ def robot_urdf(robot: Robot, device: Device) -> bytes:
         f"  <!-- Orientation control system on {in_comment(robot.trunk)}, by ocs-design. -->\n"
     )
     elements = device_urdf(device, robot.trunk, mesh=WHEEL_MESH)
-    # What is written from the tree has the base frame already.
+    # A URDF written from the tree already has the base frame.
     if robot.mount is not None and robot.format is Format.URDF:
         elements = mount_urdf(robot.mount) + elements
     return insert_before_end(content, heading + elements)
 
 
 def urdf_notes(robot: Robot) -> Notes:
-    """Advice for whoever opens the written URDF."""
+    """Notes for users of the written URDF."""
     if robot.format is not Format.URDF:
         return ()
     meshes = {mesh.get("filename", "") for mesh in parse_xml(robot.content).iter("mesh")}
@@ -87,17 +87,17 @@ def urdf_notes(robot: Robot) -> Notes:
 
 
 def insert_before_end(content: bytes, addition: str) -> bytes:
-    """Content of an XML file with `addition` in front of the end tag of its root element.
+    """Content of an XML file with `addition` inserted before the end tag of its root element.
 
     Args:
-        content: a well-formed XML file in any encoding that expat knows, or in Latin-1 undeclared.
-        addition: elements, one a line, each line ended by a line feed; becomes CRLF where the file
-            has it, and is written in the file's encoding.
+        content: a well-formed XML file in any encoding that expat knows, or in undeclared Latin-1.
+        addition: elements, one per line, with line feeds; these become CRLF if the file has CRLF,
+            and the text is written in the file's encoding.
     """
     try:
         place = _offset_of_root_end(content, None)
     except expat.ExpatError:
-        # Undeclared Latin-1 or Windows-1252: one byte a character, as the reader has taken it.
+        # Undeclared Latin-1 or Windows-1252: one byte per character, as the reader assumed.
         place = _offset_of_root_end(content, "iso-8859-1")
     unit = "ascii"
     if content.startswith((b"\xff\xfe", b"<\0")):
@@ -111,7 +111,7 @@ def insert_before_end(content: bytes, addition: str) -> bytes:
 
 
 def _offset_of_root_end(content: bytes, encoding: str | None) -> int:
-    """Offset of the root's end tag; expat is not fooled by comments and CDATA, and counts bytes."""
+    """Byte offset of the root's end tag, from expat, which skips comments and CDATA."""
     parser = expat.ParserCreate(encoding)
     ends: list[int] = []
     parser.EndElementHandler = lambda _: ends.append(parser.CurrentByteIndex)
@@ -122,7 +122,7 @@ def _offset_of_root_end(content: bytes, encoding: str | None) -> int:
 
 
 def _encoded(text: str, unit: str) -> bytes:
-    """Text in an encoding; characters that it lacks become references, which XML takes anywhere."""
+    """Text in an encoding; characters that it lacks become XML character references."""
     return text.encode(unit, errors="xmlcharrefreplace")
 
 
@@ -132,7 +132,7 @@ def trunk_link(base: Base) -> str:
 
 
 def mount_urdf(mount: Mount) -> str:
-    """Base frame as a link fixed to the robot's own, where it has none with x forward, z up."""
+    """Base frame as a link fixed to the robot's own link, if no link has x forward and z up."""
     return fill(
         "base_frame.urdf",
         {
@@ -147,8 +147,8 @@ def mount_urdf(mount: Mount) -> str:
 def device_urdf(device: Device, parent: str, *, mesh: str | None = None) -> str:
     """Flywheels and their carriers on `parent` as URDF elements, indented by two spaces.
 
-    `mesh` is the wheel's in metres, with those of `still_meshes` beside it; without one all looks
-    like cylinders and boxes.
+    `mesh` is the path of the wheel's mesh in metres, with those of `still_meshes` beside it;
+    without one the visuals are cylinders and boxes.
     """
     looks = plain_visuals if mesh is None else still_visuals
     wheel, elements = device.flywheel, []
@@ -220,7 +220,7 @@ def cylinder_urdf(radius: float, length: float) -> str:
 
 
 def limit_urdf(device: Device) -> str:
-    """Limits of the motor; URDF has none of speed without one of torque, and no armature."""
+    """Limits of the motor; URDF allows no speed limit without a torque limit, and no armature."""
     motor, torque = device.motor, largest_torque(device.motor)
     velocity = numbers(min(motor.top_speed, UNLIMITED))
     limit = (
@@ -240,8 +240,8 @@ def ros2_control_urdf(
 ) -> str:
     """Motors for ros2_control, indented by two spaces: torque in; angle, speed and torque out.
 
-    See control.ros.org, "ros2_control hardware interface types". All texts are ready to stand in
-    XML: `joints` of the wheels, `name` of the system, and `plugin`, its hardware.
+    See control.ros.org, "ros2_control hardware interface types". All texts must be valid in XML:
+    `joints` of the wheels, `name` of the system, and `plugin`, its hardware.
     """
     elements = "".join(control_wheels(device, joints))
     return fill("ros2_control.urdf", {"name": name, "plugin": plugin, "joints": elements})
@@ -258,13 +258,13 @@ def control_wheels(device: Device, joints: Iterable[str]) -> Iterator[str]:
 def control_joint(
     joint: str, command: str, bounds: Mapping[str, float], position: float | None = None
 ) -> str:
-    """Element of ros2_control of one joint, whose name is ready to stand in XML.
+    """Element of ros2_control for one joint.
 
     Args:
-        joint: its name.
+        joint: its name, valid in XML.
         command: its command interface; empty: none.
-        bounds: of the command, `min` and `max`.
-        position: at the start [rad or m]; None: not stated.
+        bounds: bounds of the command, `min` and `max`.
+        position: initial position [rad or m]; None: not specified.
     """
     start = {} if position is None else {"initial_value": position}
     interface = f"      {_interface('command', command, bounds)}\n" if command else ""
@@ -284,11 +284,11 @@ def _interface(kind: str, name: str, parameters: Mapping[str, float]) -> str:
 def tree_urdf(tree: Tree) -> str:
     """Kinematic tree as a URDF: masses, joints and primitive shapes in full double precision.
 
-    Links that are rigidly joined come out as one that weighs what they weigh together, the others
-    as frames without mass, so that every name of the file is still there. Meshes are left out.
+    Of rigidly joined links, one has the mass of all, and the others are frames without mass, so
+    that every name of the file is kept. Meshes are left out.
     """
     root = ET.Element("robot", name=tree.name)
-    # The link that moves with a body's joint is its own unless its frame is elsewhere.
+    # A body is named after its own link unless the link's frame differs from the body's.
     names = [
         body.name
         if np.array_equal(own.rotation, np.eye(3)) and not own.position.any()
@@ -323,7 +323,7 @@ def tree_urdf(tree: Tree) -> str:
 
 
 def _geometries(shape: Shape) -> Iterator[tuple[ET.Element, Placement]]:
-    """Shapes of URDF that make up a shape, each with its place; it has no capsule."""
+    """URDF shapes that make up a shape, each with its placement; URDF has no capsule."""
     place = Placement(shape.rotation, shape.position)
     match shape.kind:
         case ShapeKind.BOX:

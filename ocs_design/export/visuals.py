@@ -1,6 +1,6 @@
-"""Visual shapes of a module's carrier, all that stands still: housing, foot, motor, cage, gear.
+"""Visual shapes of a module's fixed parts: housing, foot, motor, cage and gear.
 
-They have neither mass nor contact, and stand in the frame of the module's wheel.
+They have neither mass nor contact, and are placed in the frame of the module's wheel.
 """
 
 from collections.abc import Collection, Iterator, Mapping
@@ -50,7 +50,7 @@ _COLORS |= {"foot": PRINT, "pedestal": PRINT, "plate": ALUMINIUM}
 _PRINTED = ("drum", "lid", "foot", "cage")
 
 _SECTIONS = 64
-"""Chords of a full circle: a quarter of those that are printed."""
+"""Chords per full circle: a quarter of those of printed parts."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,8 +59,8 @@ class Visual:
 
     Attributes:
         name: housing, foot, cage, motor, gear, plate or pedestal.
-        kind, size: see `ShapeKind`: box, cylinder or mesh.
-        place: of the shape's frame in that of the module's wheel.
+        kind, size: box, cylinder or mesh; see `ShapeKind`.
+        place: placement of the shape's frame in that of the module's wheel.
     """
 
     name: str
@@ -75,12 +75,12 @@ class Visual:
 
     @property
     def mesh(self) -> Path | None:
-        """Which of `still_meshes` it is; None for the other kinds."""
+        """Path of its mesh in `still_meshes`; None for the other kinds."""
         return _MESHES[self.name] if self.kind is ShapeKind.MESH else None
 
 
 def still_meshes(device: Device) -> Mapping[Path, Mesh]:
-    """Meshes of carrier, plate and pedestals that visuals name; none of a weightless carrier."""
+    """Meshes of carrier, plate and pedestals used by visuals; none for a massless carrier."""
     found: dict[str, Mesh] = {}
     if not device.wheels_alone:
         found |= _carrier_meshes(foot_of(device), motor_mount(device).cage)
@@ -95,9 +95,9 @@ def still_meshes(device: Device) -> Mapping[Path, Mesh]:
 
 @lru_cache(maxsize=1)
 def _carrier_meshes(foot: Foot, cage: Cage | None) -> Mapping[str, Mesh]:
-    """Meshes by what they show; every robot file asks for them."""
+    """Meshes by part, cached because every robot file uses them."""
     drum, lid = housing_parts(foot.housing)
-    # As one, for faces that they share would be seen through the shell.
+    # Merged, because shared faces would be visible through the shell.
     housing = Part("housing", drum.density, drum.joined + lid.joined, drum.cut + lid.cut)
     parts = (housing, foot_part(foot), *(() if cage is None else (cage_part(cage),)))
     meshes = {part.name: part_mesh(part, _SECTIONS) for part in parts}
@@ -108,9 +108,9 @@ def _carrier_meshes(foot: Foot, cage: Cage | None) -> Mapping[str, Mesh]:
 
 
 def still_visuals(device: Device, module: Module | None) -> tuple[Visual, ...]:
-    """Shapes of what stands still of a module, or, None, of what is under all feet.
+    """Shapes of a module's fixed parts, or, with None, of the supports of all feet.
 
-    Housing, foot, cage, plate and pedestals are meshes; motor and gear are cylinders where their
+    Housing, foot, cage, plate and pedestals are meshes; motor and gear are cylinders if their
     sizes are known.
     """
     if module is None:
@@ -126,7 +126,7 @@ def still_visuals(device: Device, module: Module | None) -> tuple[Visual, ...]:
 
 
 def plain_visuals(device: Device, module: Module | None) -> tuple[Visual, ...]:
-    """Boxes and cylinders for what stands still, for files without meshes; see `still_visuals`."""
+    """Boxes and cylinders for the fixed parts, for files without meshes; see `still_visuals`."""
     if module is None:
         plates = () if device.plate is None else _plain_plate(device.plate)
         boxes = (box for each in device.pedestals for box in _plain_pedestal(each))
@@ -154,7 +154,7 @@ def _plain_plate(plate: CarrierPlate) -> Iterator[Visual]:
     half, arm = plate.thickness / 2.0, plate.across / 2.0
     for row, level in zip(plate.rows, plate.heights, strict=True):
         for x, y in directions(plate.arms).tolist():
-            # The y axis that way, and z as it is.
+            # Rotates the y axis in that direction and keeps z.
             turn = np.array([[y, x, 0.0], [-x, y, 0.0], [0.0, 0.0, 1.0]])
             outward = _shifted(row, 0.0, level + half) @ Placement(turn, np.zeros(3))
             yield _box("plate", (plate.neck, arm, half), outward @ _shifted(0, arm, 0))
@@ -178,7 +178,7 @@ def _plain_plate(plate: CarrierPlate) -> Iterator[Visual]:
 
 
 def _plain_pedestal(pedestal: Pedestal) -> Iterator[Visual]:
-    """Boxes for base, seat and brace, whose slopes stand for the lean's."""
+    """Boxes for base, seat and brace, whose slopes represent the lean."""
     place, half, end = pedestal.placement, pedestal.width / 2.0, pedestal.length / 2.0
     thick, lean = pedestal.thickness / 2.0, pedestal.lean
     base = _shifted(0.0, end, pedestal.base / 2.0)
@@ -196,7 +196,7 @@ def _plain_pedestal(pedestal: Pedestal) -> Iterator[Visual]:
 
 
 def piece_color(device: Device, name: str) -> Color:
-    """Colour of one of `placed_parts`: of steel are those that are neither printed nor bought."""
+    """Colour of one of `placed_parts`: steel for those neither printed nor bought."""
     web = device.flywheel.web
     if name == "hub" and web is not None and web.material.startswith("aluminium"):
         return ALUMINIUM
@@ -209,7 +209,7 @@ def cage_placement(foot: Foot, cage: Cage) -> Placement:
 
 
 def _drive(device: Device, turn: Placement, names: Collection[str]) -> Iterator[Visual]:
-    """Motor, gear and cage as cylinders, those of these names."""
+    """Motor, gear and cage as cylinders, if they are in `names`."""
     for solid in drive_solids(device):
         if solid.name in names:
             middle = turn @ _shifted(0.0, -solid.up, (solid.low + solid.high) / 2.0)

@@ -1,7 +1,7 @@
-"""MuJoCo's viewer on robots that move as recorded, one window after the other.
+"""Replay of recorded flights in MuJoCo's viewer, one window after another.
 
-The windows are opened by a process of its own: without a display GLFW ends it, and with one it may
-crash as it ends. So this module is a program, too:
+The windows are opened in a separate process: without a display GLFW ends the process, and with one
+it may crash on exit. So this module is also a program:
 
     python -m ocs_design.export.watching SECONDS_PER_POSE MODEL.mjb QPOS.npy ...
 """
@@ -22,7 +22,7 @@ from ocs_design.common.errors import MissingToolError
 from ocs_design.export.film import Take, written_take
 
 PAUSE = 1.0
-"""Time between the end of a run and its next beginning [s]."""
+"""Pause before a run is repeated [s]."""
 
 DISPLAY_HINT = (
     "run it where there is a screen, or film the flights with `ocs-design size ROBOT --video`; a "
@@ -31,7 +31,7 @@ DISPLAY_HINT = (
 
 
 def watch_takes(takes: Sequence[Take], seconds: float) -> None:
-    """Show each take in a window, a pose every so many seconds, the next one when it is closed.
+    """Show each take in a window, a pose every so many seconds; closing it opens the next.
 
     Raises:
         MissingToolError: there is no display, or no window can be opened on it.
@@ -53,10 +53,10 @@ def watch_takes(takes: Sequence[Take], seconds: float) -> None:
 
 
 def check_display() -> None:
-    """Refuse early, before all the work, where no window can be opened.
+    """Fail early, before any work, if no window can be opened.
 
     Raises:
-        MissingToolError: X11 and Wayland are not there.
+        MissingToolError: there is neither X11 nor Wayland.
     """
     displays = map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY"))
     if sys.platform == "linux" and not any(displays):
@@ -64,11 +64,11 @@ def check_display() -> None:
 
 
 def watch(model: mujoco.MjModel, qpos: FloatArray, seconds: float, parent: int) -> None:
-    """Play poses, shape (n, nq), one every so many seconds, again until the window is closed.
+    """Play poses, shape (n, nq), one every so many seconds, repeatedly until the window is closed.
 
-    It closes, too, when the process that asked for it ends, which no user would do by hand.
+    The window also closes when the parent process ends, so that no window is orphaned.
     """
-    # It loads a window system.
+    # Imported here, because it loads a window system.
     import mujoco.viewer  # noqa: PLC0415
 
     data = mujoco.MjData(model)
@@ -98,5 +98,5 @@ def main(arguments: list[str]) -> None:
 if __name__ == "__main__":
     main(sys.argv[1:])
     sys.stdout.flush()
-    # The viewer's own thread may still hold the display: nothing is left to tidy up.
+    # The viewer's own thread may still hold the display, and nothing is left to clean up.
     os._exit(0)
