@@ -58,7 +58,7 @@ class Drilling:
 
     Attributes:
         robot: name of the robot.
-        frame: what the frame of the coordinates is, as words.
+        frame: words on the frame of the coordinates.
         holes: positions of the holes to drill in the trunk [mm].
         screw: screw for these holes.
         reach: smallest and largest reach of the screws into the trunk [m].

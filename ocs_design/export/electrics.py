@@ -15,7 +15,7 @@ voltage, and braking wheels raise it by the current through its resistance."""
 
 
 def controllers(motor: Drive) -> str:
-    """Rating of each controller; empty where it is not known."""
+    """Rating of each controller; empty if it is not known."""
     current, voltage = motor_current(motor), motor.bus_voltage
     if current is None or voltage is None:
         return ""

@@ -1,6 +1,6 @@
 """Frames of a robot that moves over a floor, with its device or without.
 
-Poses of MuJoCo models are drawn by `offscreen`, in a process of its own.
+Poses of MuJoCo models are rendered by `offscreen` in a separate process.
 """
 
 import tempfile

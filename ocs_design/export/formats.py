@@ -193,7 +193,7 @@ USUAL_FORMATS = tuple(each for each in FORMATS if not each.on_request)
 """Formats that are written by default."""
 
 ALL = "all"
-"""Name that stands for every format."""
+"""Name for all formats."""
 
 
 def formats_named(names: Collection[str], others: Collection[str] = ()) -> tuple[Format, ...]:

@@ -176,7 +176,7 @@ def frames(model: mujoco.MjModel, qpos: FloatArray) -> NDArray[np.uint8]:
             over = data.site(IMU).xpos
             camera.lookat = over
             renderer.update_scene(data, camera)
-            # A disc on the floor below the robot stands for its shadow.
+            # A disc on the floor below the robot represents its shadow.
             mujoco.mjv_initGeom(
                 renderer.scene.geoms[renderer.scene.ngeom],
                 mujoco.mjtGeom.mjGEOM_CYLINDER,

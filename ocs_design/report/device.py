@@ -148,7 +148,7 @@ def _wheel_facts(ocs: OcsRecord) -> Iterator[tuple[str, str]]:
     if alone is not None:
         chosen += f"; {degrees(alone)} for the robot alone"
     if ocs.axes == PAIR:
-        # alpha* is what a criterion gives; the lightest and a stated angle are not.
+        # alpha* is the optimum of a criterion; the lightest and a specified angle are not.
         named = ocs.incidence_criterion in CRITERIA and ocs.incidence_criterion != LIGHTEST
         name = "incidence alpha*" if named else "incidence alpha"
         yield name, f"{degrees(ocs.incidence, 2)} ({chosen})"

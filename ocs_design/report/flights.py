@@ -31,7 +31,7 @@ SAME_ANGLE = 1e-9
 """Difference below which incidences count as equal [rad]."""
 
 JUMP_OFF = 0.05
-"""A jump is reported if its height is off by more than this share of the height asked for."""
+"""Relative error of a jump's height above which it is reported."""
 
 SPENT = 0.95
 """Share of its top speed above which a wheel can absorb almost no more momentum."""
@@ -272,12 +272,12 @@ def landing_remarks(design: OcsDesign) -> Iterator[str]:
 
 
 def jump_remark(design: OcsDesign) -> str:
-    """Sentence on jumps that are flown higher or lower than asked; empty: there is none."""
+    """Sentence on jumps that are higher or lower than specified; empty if there are none."""
     asked = {each.name: each.maneuver() for each in design.requirement.maneuvers}
     told = []
     for run in design.validation:
         maneuver, rise = asked.get(run.scenario), run.metrics.get("rise")
-        # A push upwards or downwards in flight changes the height, too.
+        # A vertical push in flight also changes the height.
         pushed = isinstance(maneuver, Disturbance) and maneuver.velocity_change[2] != 0.0
         if not run.ocs or maneuver is None or not maneuver.lift_off or not rise or pushed:
             continue

@@ -87,7 +87,7 @@ def drive_table(drives: tuple[RankedRecord, ...]) -> Table:
 
 
 def drive_name(entry: RankedRecord) -> str:
-    """Name of the motor, and of the gear where there is one."""
+    """Name of the motor, and of the gear if there is one."""
     return entry.motor if entry.gear == DIRECT.name else f"{entry.motor}, {entry.gear}"
 
 

@@ -36,7 +36,7 @@ class Headline:
 
     @property
     def whole(self) -> str:
-        """The line, with what matters most at its end."""
+        """The line, with the most important finding at its end."""
         return SEPARATOR.join(filter(None, [self.text, self.matter]))
 
     @property
@@ -99,7 +99,7 @@ def _buildable(design: OcsDesign) -> Toned:
 
 
 def _flights(runs: Sequence[ValidationRecord]) -> Iterator[Toned]:
-    """How many of the flights are level, and how many robots stand after them."""
+    """Number of level flights, and of robots that stand after them."""
     if not runs:
         yield Toned("no flight was simulated", Tone.OPEN)
         return

@@ -25,7 +25,7 @@ this share only at small incidences.
 """
 
 _SHOWN_LINKS = 2
-"""Links whose joints are spelt out where they can hit a module."""
+"""Number of links for which the joint values of a collision with a module are listed."""
 
 _NOT_DESIGNED = "not designed"
 """Phrase that marks notes about a part that the builder must design."""

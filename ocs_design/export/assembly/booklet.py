@@ -104,7 +104,7 @@ class PieceRow(NamedTuple):
 
 
 class ScrewRow(NamedTuple):
-    """Equal screws: number in the pictures, what they are, and how they are tightened."""
+    """Set of equal screws: number in the pictures, designation, and tightening torque."""
 
     number: int
     quantity: int

@@ -59,7 +59,7 @@ LEAST_ROOM = 6.0e-3
 """Space above a head needed to insert and turn a key with a cut leg [m]: an assumption."""
 
 HAND_STRIP = CLEARANCE - 0.5e-3
-"""Thickness of what passes between rim and housing all around [m]."""
+"""Thickness of the strip that must pass between rim and housing all around [m]."""
 
 LEAST_DEGREE = 1.0
 """Change of a length difference per degree below which a ruler is no better than the scale [mm]: an

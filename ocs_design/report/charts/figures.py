@@ -24,7 +24,7 @@ def scenario_charts(story: Story) -> Mapping[str, tuple[Chart, ...]]:
 
 
 def all_charts(story: Story) -> Iterator[Chart]:
-    """Every chart that has a file of its own."""
+    """All charts that are written as files."""
     yield from bound_charts(story)
     yield from incidence_charts(story)
     yield from drive_charts(story.design.ocs.motor, story.flights)
