@@ -94,11 +94,11 @@ def wiring_parts(device: Device, margins: Sequence[Margin]) -> Iterator[tuple[st
 
 
 FUSES = (10, 15, 20, 25, 30, 40, 50, 60, 70, 80, 100, 125, 150, 175, 200, 250, 300, 400, 500)
-"""Usual ratings of fuses of vehicles [A]: ISO 8820-3 and -5."""
+"""Standard ratings of automotive fuses [A]: ISO 8820-3 and -5."""
 
 
 def _fuse(current: float) -> int:
-    """The next usual rating of a fuse [A]; beyond the largest of them the current itself."""
+    """Next standard fuse rating [A], or the current itself if it exceeds the largest."""
     return next((each for each in FUSES if each >= current), _up(current))
 
 

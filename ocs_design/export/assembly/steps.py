@@ -224,7 +224,7 @@ def _drive_steps(assembly: Assembly) -> Iterator[str]:
 
 
 def _height_strip(assembly: Assembly) -> float | None:
-    """Thickness of strips that set the height of a wheel on its shaft [m]; None: none is bonded."""
+    """Thickness of strips that set a wheel's height on its shaft [m]; None if it is not bonded."""
     device = assembly.device
     screwed = any(name.startswith("wheel") for name in assembly.screws)
     if screwed or not any(each.note.startswith("bonded") for each in joints_of(device)):
