@@ -122,10 +122,9 @@ class MotorLimits(Table):
             share = np.where(ends > 0.0, 1.0 / efficiency, efficiency)
             square = heat + (share * gain * torque**2).sum(axis=-1)
             linear = (share * shaft).sum(axis=-1)
-            # Largest factor f with `square f^2 + linear f` within the limit; inf: any.
+            # Largest factor f up to 1 with `square f^2 + linear f` within the limit.
             depth = linear + np.sqrt(linear**2 + 4.0 * square * limit)
-            most = np.where(depth > 0.0, 2.0 * limit / np.where(depth > 0.0, depth, 1.0), np.inf)
-            factor = np.minimum(factor, most)
+            factor = np.minimum(factor, 2.0 * limit / np.maximum(depth, 2.0 * limit))
         share = np.where(shaft > 0.0, 1.0 / efficiency, efficiency)
         given = (share * shaft).sum(axis=-1)
         # Beyond the larger root, the windings burn enough of the braking power.

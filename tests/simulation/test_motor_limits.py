@@ -107,6 +107,13 @@ def test_no_instant_of_the_control_step_draws_or_feeds_back_more(torque, speed, 
         assert np.abs(now).max() <= power * (1.0 + 1e-9)
 
 
+def test_a_torque_next_to_nothing_is_not_cut():
+    """Its power is so small that what the supply could give, over it, is beyond a float."""
+    torque, one = np.full((1, 2), 1e-307), np.ones((1, 1))
+    free = replace(MotorLimits(np.inf, 0.0, np.inf), power_max=1e4 * one)
+    assert np.array_equal(free.within_supply(torque, np.ones((1, 2)), one), torque)
+
+
 @given(TORQUES, SPEEDS, GAINS, DRIVES, POWERS)
 def test_torques_keep_their_direction_and_are_cut_no_more_than_needed(
     torque, speed, gain, drive, power
