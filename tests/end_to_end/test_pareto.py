@@ -14,7 +14,7 @@ from ocs_design.workflows.pareto import read_task
 pytestmark = pytest.mark.slow
 
 ONE_MOTOR = (
-    *("--motor", "Antigravity MN5008 KV400", "--gear", "direct"),
+    *("--motor", "Antigravity MN6007 II KV320", "--gear", "direct"),
     *("--material", "stainless-304"),
 )
 """Little to choose from makes it quick; a motor that is not at its limit."""
@@ -97,7 +97,7 @@ def test_a_criterion_for_the_incidence_holds_in_every_point():
 def test_options_hold_in_every_point(written):
     result, _ = written
     devices = [point["device"] for point in result.document["points"]]
-    assert {device["motor"] for device in devices} == {"Antigravity MN5008 KV400"}
+    assert {device["motor"] for device in devices} == {"Antigravity MN6007 II KV320"}
     assert {device["gear"] for device in devices} == {"direct"}
 
 
@@ -112,7 +112,7 @@ def test_values_out_of_reach_are_told_and_exit_with_4():
 @pytest.mark.parametrize(
     ("options", "code", "words"),
     [
-        (("--against", "speed"), 2, "none of time, angle, radius, height, voltage"),
+        (("--against", "speed"), 2, "is not one of time, angle, radius, height, voltage"),
         (("--maneuver", "somersault"), 2, "no such maneuver"),
         (("--against", "radius", "--maneuver", "drop"), 2, "is not a figure of a maneuver"),
         (("--from", "2s", "--to", "1s"), 2, "not below"),

@@ -146,7 +146,7 @@ def test_a_sample_that_is_none_is_told(flight, sample):
 
 def test_without_gymnasium_the_cure_is_told(monkeypatch):
     monkeypatch.setitem(sys.modules, "gymnasium.envs.registration", None)
-    with pytest.raises(MissingToolError, match="gymnasium is not installed") as caught:
+    with pytest.raises(MissingToolError, match="needs gymnasium, which is not installed") as caught:
         importlib.reload(ocs_design.gym)
     assert "[gym]" in caught.value.hint
 

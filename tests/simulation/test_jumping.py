@@ -78,7 +78,7 @@ def test_a_flight_whose_momentum_is_off_is_flown_again_in_half_the_step(
     for before, after, fine, off in zip(coarse, refined, runs, is_off, strict=True):
         if off:
             assert before.passed is None
-            assert "in steps of 0.5 ms: at 1 ms its angular momentum was off by" in after.note
+            assert "with steps of 0.5 ms: at 1 ms its angular momentum was off by" in after.note
             assert after.metrics == fine.metrics
             assert after.series.com == pytest.approx(fine.series.com, abs=0.0)
         else:

@@ -172,7 +172,7 @@ def test_a_stated_spin_inertia_is_kept():
     found = co_design(replace(problem, requirement=stated), selected)
     assert not found.adopted
     assert found.device is selected
-    assert "stated" in found.note
+    assert "is specified" in found.note
 
 
 def test_where_the_room_leaves_one_wheel_only_the_selection_stands():
