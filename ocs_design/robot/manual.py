@@ -146,7 +146,7 @@ def assumed_trunk(robot: Robot) -> Shape | None:
 
 
 def origin_by_hand(com: Sequence[float]) -> str:
-    """Where the origin of B is on a robot given by hand, as words; `com`: see `robot_by_hand`."""
+    """Place of the origin of B on a robot given by hand, in words; `com`: see `robot_by_hand`."""
     if not any(com):
         return "the robot's centre of mass"
     at = ", ".join(f"{1e3 * value:.1f}" for value in com)
