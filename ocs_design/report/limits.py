@@ -19,6 +19,8 @@ from ocs_design.report.table import Cell, Rows, Table, Tone, Toned, columns
 from ocs_design.sizing.lightest_module import (
     BELL,
     BOND,
+    CUT_HEIGHT,
+    CUT_WALL,
     HOLED_STRESS,
     HOUSING,
     HUB,
@@ -35,7 +37,7 @@ _SHARE = 0.005
 _NOTHING = 5e-6
 """Mass below the resolution of the report [kg]."""
 
-_MEANING = {
+MEANING = {
     HOUSING: "A larger rim would be lighter, but its housing would gain more than the rim saves.",
     MOUNT: "The screws of the motor's mount need a housing of this width.",
     BELL: "The motor's bell and the glue gap set the ring's bore, and the bell limits its height.",
@@ -44,6 +46,8 @@ _MEANING = {
     LIGHTENING_HOLES: "The web must have room for its lightening holes.",
     HOLED_STRESS: "The web must withstand the stress at its lightening holes.",
     WEB: "The rim must be taller than the web.",
+    CUT_HEIGHT: "The rim must be tall enough for its chamfers and balancing holes.",
+    CUT_WALL: "The rim's wall must be thick enough for its chamfers and balancing holes.",
 }
 """Explanation of limits that the user cannot set."""
 
@@ -254,7 +258,7 @@ def holding_up(design: OcsDesign) -> list[str]:
 
 def active_limits(design: OcsDesign) -> tuple[str, str]:
     """Names of the limits that set the mass, and their explanations."""
-    meanings = (_MEANING[name] for name in design.sizing.binding if name in _MEANING)
+    meanings = (MEANING[name] for name in design.sizing.binding if name in MEANING)
     return ", ".join(holding_up(design)) or "none: the rim is within all limits", " ".join(meanings)
 
 

@@ -11,6 +11,7 @@ from ocs_design.common.wording import quantity
 from ocs_design.device.records.device import Margin
 from ocs_design.device.records.selection import Alternative
 from ocs_design.report.limits import (
+    MEANING,
     alternatives_note,
     alternatives_table,
     assumed,
@@ -24,12 +25,20 @@ from ocs_design.report.limits import (
 )
 from ocs_design.report.table import plain
 from ocs_design.report.text.layout import items, show
+from ocs_design.sizing import lightest_module
 
 MARGINS = (
     Margin("motor torque", 0.4, 1.0, "N m", scenario="drop"),
     Margin("rms current", 10.84, 3.469, "A", note="a pause of 8.8 s cools it", scenario="drop"),
     Margin("stored energy", 8.14, None, "J", note="both wheels", scenario="back-flip"),
 )
+
+
+def test_every_limit_that_no_key_sets_is_explained():
+    """Those that a module's figures can be bound by, as the sizing names them."""
+    constants = vars(lightest_module).items()
+    names = {value for name, value in constants if name.isupper() and isinstance(value, str)}
+    assert names == set(MEANING)
 
 
 def test_each_margin_is_a_row_and_each_note_a_line():
