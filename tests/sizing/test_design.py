@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from designed import MOTOR, designed, on_solo12, solo12
+from fronts import infeasible
 from products import equal_rate
 from wheels import braked_inertia
 
@@ -193,14 +194,7 @@ def test_layouts_that_would_survive_and_have_no_device_say_why(monkeypatch):
     """It was told that there is none, and not by how much they miss it."""
 
     def none(task, **_):
-        reason = f"{task.specification.ocs.layout} lacks 20 %."
-        raise Infeasible(
-            reason,
-            binding=("r_max",),
-            required_spin_inertia=2.0,
-            largest_spin_inertia=1.0,
-            relaxations={},
-        )
+        raise infeasible(f"{task.specification.ocs.layout} lacks 20 %.")
 
     monkeypatch.setattr("ocs_design.sizing.design.design_device", none)
     task = solo12()
