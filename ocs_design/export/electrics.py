@@ -88,7 +88,7 @@ def wiring_parts(device: Device, margins: Sequence[Margin]) -> Iterator[tuple[st
     yield (
         "IMU",
         1,
-        "attitude and rate of the trunk, which the wheel law asks for in every period; none where "
+        "attitude and rate of the trunk, which the wheel law needs in every period; not needed if "
         "the robot has one",
     )
 

@@ -110,7 +110,7 @@ def tools(assembly: Assembly) -> Iterator[str]:
     yield from ("steel rule", "dial gauge", "hand drill on a stand", "scales to 0.01 g")
     if assembly.top_speed is not None:
         yield from ("tachometer", "accelerometer that shows its amplitude, and wax, to balance")
-        yield "steel box or wall for the spin test, as said there"
+        yield "steel box or wall for the spin test (see there)"
         if resonances_of(device):
             yield "damping tape for the sweep, if it shakes"
 

@@ -362,7 +362,7 @@ def test_what_steps_and_tests_ask_for_is_under_the_tools(name, strips):
         assert tool in told
         assert tool in steps
     rows = {row.part: row.remark for row in bill_rows(assembly.device)}
-    assert "none where the robot has one" in rows["IMU"]
+    assert "not needed if the robot has one" in rows["IMU"]
     assert {"connectors, a set", "cable ties, a set"} <= set(rows)
 
 
