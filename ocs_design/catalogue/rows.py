@@ -4,7 +4,6 @@ import csv
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import MISSING, dataclass, fields
-from difflib import get_close_matches
 from enum import StrEnum
 from functools import cache
 from importlib.resources import as_file
@@ -25,6 +24,7 @@ from typing import (
 
 from ocs_design.common.errors import SpecificationError
 from ocs_design.common.files import TextKind
+from ocs_design.common.wording import closest
 
 # A thousand motors take a quarter of a MiB.
 _FILE = TextKind("catalogue", 1 << 20, 5000, "Check the path.", "maker = 'maxon'")
@@ -283,13 +283,12 @@ def _closest(known: Iterable[str], name: str) -> Sequence[str]:
         holding = [each for each in known if all(word in _letters(each) for word in some)]
         if some and holding:
             return holding[:MOST_SUGGESTED]
-    folded = {candidate.casefold(): candidate for candidate in known}
-    part = name.casefold()
-    whole = get_close_matches(part, folded, n=MOST_SUGGESTED)
-    begun = {match[: len(part)] for match in folded}
-    models = get_close_matches(part, begun, n=MOST_SUGGESTED, cutoff=_SAME_MODEL)
-    begin = [match for model in models for match in folded if match.startswith(model)]
-    return [folded[match] for match in (whole or begin)[:MOST_SUGGESTED]]
+    if whole := closest(name, known, most=MOST_SUGGESTED):
+        return whole
+    models = {each[: len(name)].casefold() for each in known}
+    meant = closest(name, models, most=MOST_SUGGESTED, cutoff=_SAME_MODEL)
+    begun = [each for model in meant for each in known if each.casefold().startswith(model)]
+    return begun[:MOST_SUGGESTED]
 
 
 class Named(Protocol):
@@ -360,7 +359,7 @@ def _read_cells(
     for column, raw in row.cells.items():
         if column not in columns:
             close = [each for each in columns if each.startswith(f"{column}_")][:1]
-            close = close or get_close_matches(column, columns, n=1)
+            close = close or closest(column, columns)
             hint = f"Did you mean {close[0]}?" if close else f"Known: {', '.join(columns)}."
             faults.append(f"{where}, {column}: unknown column. {hint}")
             continue

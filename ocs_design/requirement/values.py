@@ -7,7 +7,6 @@ import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from difflib import get_close_matches
 from enum import Enum
 from math import pi
 from reprlib import repr as shortened
@@ -22,6 +21,7 @@ from ocs_design.common.units import (
     si_unit,
     written_unit,
 )
+from ocs_design.common.wording import closest
 
 T = TypeVar("T")
 T_co = TypeVar("T_co", covariant=True)
@@ -444,9 +444,8 @@ _BARE_JOINT = angle(Sign.ANY, math.inf, ONE_TURN)
 
 def did_you_mean(word: object, known: tuple[str, ...]) -> str:
     """Question that suggests the closest of `known`; empty if none is close."""
-    folded = {each.casefold(): each for each in known}
-    close = get_close_matches(word.casefold(), folded, n=1) if isinstance(word, str) else ()
-    return f"Did you mean {folded[close[0]]!r}?" if close else ""
+    close = closest(word, known) if isinstance(word, str) else ()
+    return f"Did you mean {close[0]!r}?" if close else ""
 
 
 FASTEST_BARE = 4000.0

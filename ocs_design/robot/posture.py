@@ -2,12 +2,11 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 
 import numpy as np
 
 from ocs_design.common.errors import RobotError
-from ocs_design.common.wording import some_of
+from ocs_design.common.wording import closest, some_of
 from ocs_design.robot.chain import neutral_posture
 from ocs_design.robot.leg_geometry import leg_geometries, sole_depths
 from ocs_design.robot.mass import MassProperties
@@ -100,11 +99,9 @@ def resolve_posture(
 
 def unknown_name(kind: str, name: str, known: Iterable[str]) -> RobotError:
     """Error for a name that the robot does not have, listing its names, the closest first."""
-    folded: dict[str, list[str]] = {}
-    for each in sorted(known):
-        folded.setdefault(each.casefold(), []).append(each)
-    close = get_close_matches(name.casefold(), folded, n=len(folded) or 1, cutoff=0.5)
-    ordered = [each for key in dict.fromkeys([*close, *folded]) for each in folded[key]]
+    ordered = sorted(known)
+    close = closest(name, ordered, most=max(len(ordered), 1), cutoff=0.5)
+    ordered = list(dict.fromkeys([*close, *ordered]))
     available = f"available: {some_of(ordered, most=12) if ordered else 'none'}"
     likely = f"did you mean '{ordered[0]}'? " if close else ""
     return RobotError(f"the robot has no {kind} '{name}'", hint=likely + available)

@@ -7,12 +7,12 @@ import os
 import sys
 import zlib
 from dataclasses import dataclass
-from difflib import get_close_matches
 from pathlib import Path
 from typing import BinaryIO
 
 from ocs_design.common.errors import RobotError
 from ocs_design.common.files import AnyPath
+from ocs_design.common.wording import closest
 
 STANDARD_INPUT = "-"
 MAX_BYTES = 64 * 2**20
@@ -96,7 +96,7 @@ def _read_file(path: Path, name: str) -> bytes:
         except OSError:
             hint = f"the folder {path.parent} does not exist either"
         else:
-            close = get_close_matches(path.stem, name_of_stem, n=1)
+            close = closest(path.stem, name_of_stem)
             if close:
                 hint = f"did you mean {path.with_name(name_of_stem[close[0]])}?"
         raise RobotError(f"{path} does not exist", hint=hint) from error
