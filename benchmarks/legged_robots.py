@@ -3,7 +3,7 @@
     python benchmarks/legged_robots.py [PART_OF_A_NAME ...]
 
 Prints a Markdown table: what came out, what it took, and why the first scenario fails that does.
-Goals: below 10 s and 1 GiB for each. `legged_samples.py` flies the devices as they might be built.
+Goals: below 10 s and 1 GiB for each. `legged_samples.py` flies samples of them.
 """
 
 import argparse

@@ -287,9 +287,7 @@ def pareto(
 def validate(
     context: typer.Context,
     design: DesignFile,
-    samples: Annotated[
-        int | None, opt.option("--samples", "N", "Fly N robots as they might be built.")
-    ] = None,
+    samples: Annotated[int | None, opt.option("--samples", "N", "Fly N sampled robots.")] = None,
     seed: opt.Seed = None,
     until_width: Annotated[
         str | None,

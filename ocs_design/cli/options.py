@@ -126,7 +126,7 @@ Certify: TypeAlias = Annotated[
     bool,
     typer.Option(
         "--certify",
-        help="Fly robots as they might be built until it is certain whether enough of them pass.",
+        help="Fly sampled robots until it is certain whether enough of them pass.",
     ),
 ]
 Seed: TypeAlias = Annotated[int | None, option("--seed", "N", "Seed of all random numbers.")]
@@ -168,7 +168,7 @@ TASK_OPTIONS: Mapping[str, object] = {
     **ROBOT_OPTIONS,
     "rate_change": _text("RATE", "Change of the trunk's rate that the device must manage."),
     "reliability": _text(
-        "SHARE", "Share of robots that must pass as built; 0.99 by default, 0.5: nominal."
+        "SHARE", "Share of sampled robots that must pass; 0.99 by default, 0.5: nominal."
     ),
     "survives": Survives,
     "detection": Detection,

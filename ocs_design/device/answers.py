@@ -499,7 +499,7 @@ class Validated:
             told += f", {len(self.survival.lost)} of {len(self.survival.flights)} lost by a drive"
         if self.monte_carlo is not None:
             found = self.monte_carlo.success
-            told += f"; {found.passed:,} of {found.flown:,} robots as they might be built"
+            told += f"; {found.passed:,} of {found.flown:,} sampled robots"
             if self.monte_carlo.certificate is not None:
                 told += f", {self.monte_carlo.certificate.verdict}"
         return f"<Validated {self.robot}: {told}>"

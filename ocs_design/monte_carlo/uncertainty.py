@@ -1,4 +1,4 @@
-"""Sampled quantities, and the simulated world of a robot built with them."""
+"""Sampled quantities, and the simulated world of a robot that has them."""
 
 import copy
 from collections.abc import Mapping
@@ -171,7 +171,7 @@ def built(
     period: float,
     scratch: mujoco.MjData | None = None,
 ) -> World:
-    """World of one flight of a robot as built.
+    """World of one flight of a sampled robot.
 
     Args:
         world: as designed, with its wheels active.

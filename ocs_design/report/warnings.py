@@ -51,7 +51,7 @@ def all_warnings(design: OcsDesign) -> Iterator[str]:
     for each in () if kept is None else kept.maneuvers:
         if kept is not None and each.lost > 1.0 - kept.reliability:
             yield (
-                f"{each.maneuver}: {each.lost:.0%} of robots as built drift off level about an "
+                f"{each.maneuver}: {each.lost:.0%} of sampled robots drift off level about an "
                 "axis that the wheels cannot control at its incidence: specify a larger one or none"
             )
     if kept is not None and kept.reliability > 1.0 - 1.0 / DRAWN:

@@ -208,7 +208,7 @@ class Resolved:
         material: of a rim.
         torque_max: of a wheel [N m]; None: not limited.
         choice: of motors, gears and materials; None: no motor is wanted, and `material` applies.
-        reliability: share of robots that must pass as built; None: no motor is wanted, and no
+        reliability: share of sampled robots that must pass; None: no motor is wanted, and no
             reliability is specified.
         assumptions: defaults that apply, one sentence each.
     """

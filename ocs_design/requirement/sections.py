@@ -259,7 +259,7 @@ class RequirementSection:
     )
     reliability: float | None = keyed(
         chance,
-        "share of robots that must pass as built (`[reality]`)",
+        "share of robots sampled from `[reality]` that must pass",
         why="0.5: sized for a robot exactly as in its file; more keeps a reserve for [reality].",
         assumed=RELIABILITY,
     )
@@ -340,8 +340,8 @@ class ValidationSection:
     )
     certify: bool | None = keyed(
         true_or_false,
-        "whether to fly robots as they might be built until the reliability is certified or not",
-        why="true: tests the reliability on robots as they might be built; takes minutes.",
+        "whether to fly sampled robots until the reliability is certified or not",
+        why="true: tests the reliability on sampled robots; takes minutes.",
         assumed=False,
     )
     control_period: float | None = keyed(

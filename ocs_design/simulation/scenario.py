@@ -81,7 +81,7 @@ class Flown:
 
 @dataclass(frozen=True, eq=False)
 class Flights:
-    """Robot, device and maneuvers to be flown, as designed and as they might be built.
+    """Robot, device and maneuvers to be flown, as designed and as sampled.
 
     Attributes:
         robot: at its nominal posture, which its joints hold. device: on the robot.

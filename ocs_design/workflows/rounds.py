@@ -351,7 +351,7 @@ def prove(placed: Placed, stated: ValidationSection, steps: Steps) -> Proof:
 
 
 def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tuple[Placed, Proof]:
-    """Fly robots as they might be built; a device that falls short is resized with more reserve.
+    """Fly sampled robots; a device that falls short is resized with more reserve.
 
     Args:
         placed: the device. proof: its flights as designed.

@@ -71,7 +71,7 @@ class Outcome:
 
     @property
     def exit_code(self) -> int:
-        """0, or 1 if it cannot be built, or does not pass as designed or as it might be built."""
+        """0, or 1 if it cannot be built, or falls short as designed or as sampled."""
         found = self.design
         failed = falls_short(found.validation, found.survival, found.reliability)
         return int(failed or found.buildable.yes is False)

@@ -1,4 +1,4 @@
-"""`ocs-design validate` on one page: read, fly as designed, fly as it might be built."""
+"""`ocs-design validate` on one page: read, fly as designed, fly samples."""
 
 from collections.abc import Mapping, Sequence
 from contextlib import closing, nullcontext
@@ -116,7 +116,7 @@ class _Request:
 
     @property
     def alone(self) -> bool:
-        """Whether one robot is flown as it might be built."""
+        """Whether a single sampled robot is flown."""
         return self.sample is not None or self.replay is not None
 
     @property
@@ -127,7 +127,7 @@ class _Request:
 
 @dataclass(frozen=True, eq=False)
 class Validation:
-    """Flights of a design, as designed and as it might be built.
+    """Flights of a design, as designed and as sampled.
 
     Attributes:
         found: the record. folder: written to, if any. files: in it.
@@ -172,7 +172,7 @@ def validate_design(
     view: bool = False,
     progress: Steps | Tell | None = None,
 ) -> Validation:
-    """Fly a design with and without the device, and many times as it might be built.
+    """Fly a design with and without the device, and many times as sampled.
 
     Args:
         design: its folder, its `design.json`, or the `Outcome` that made it.
@@ -325,7 +325,7 @@ def _fly_samples(
     steps: Steps,
     engine: Engine | None,
 ) -> tuple[MonteCarloRecord, tuple[str, ...]]:
-    """Fly samples of the design as it might be built; returns the record and the files."""
+    """Fly samples of the design; returns the record and the files."""
     test = None
     if request.stated.validation.certify:
         test = SequentialTest(flights.design.requirement.reliability or RELIABILITY)

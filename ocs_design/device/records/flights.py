@@ -1,4 +1,4 @@
-"""Records of flights: as designed, with a drive stopped, and as the device might be built."""
+"""Records of flights: as designed, with a drive stopped, and of samples."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -130,7 +130,7 @@ class Conclusion(StrEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class ReliabilityRecord:
-    """Result of flights of robots as they might be built, for the required reliability.
+    """Result of flights of sampled robots, for the required reliability.
 
     Attributes:
         asked: required fraction of robots that do all of their maneuvers.

@@ -147,7 +147,7 @@ class AxisInertia:
 class RequirementRecord:
     """Requirement on the device, and all assumptions behind it.
 
-    `reliability` is the fraction of robots that must pass as built; None: not required. `detection`
+    `reliability` is the share of sampled robots that must pass; None: not required. `detection`
     is the time until a stopped drive is detected [s], where the device must land level after any
     one stops; None: not required.
     """
