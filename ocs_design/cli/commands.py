@@ -356,8 +356,8 @@ def validate(
     sampled from [reality] of the specification. The same seed gives the same samples on any
     machine. With --certify it flies only as many as it takes to decide on the specified
     reliability. With --survives one a drive fails in flight. Exit code 1: a scenario fails as
-    designed, a landing with a failed drive is not within tolerance, or the certificate falls
-    short.
+    designed, a landing with a failed drive is not within tolerance, or the reliability is
+    not certified.
     """
     with output.steps.step("load the simulator"):
         from ocs_design.common.units import Dimension, parse_quantity

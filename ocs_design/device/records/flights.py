@@ -163,9 +163,12 @@ def falls_short(
     survival: SurvivalRecord | None,
     certificate: ReliabilityRecord | None,
 ) -> bool:
-    """Whether a flight with the device fails, or survival or reliability is not met."""
+    """Whether a flight with the device fails, or survival or reliability was asked for in vain.
+
+    An undecided certificate is not the one that was asked for.
+    """
     return (
         any(run.ocs and run.passed is not True for run in runs)
         or (survival is not None and bool(survival.lost))
-        or (certificate is not None and certificate.verdict == Conclusion.SHORT)
+        or (certificate is not None and certificate.verdict != Conclusion.CERTIFIED)
     )
