@@ -78,6 +78,11 @@ class Launch:
     rate: FloatArray = field(default_factory=lambda: np.zeros(3))
     wheel_speed: float = 0.0
 
+    @property
+    def undisturbed(self) -> "Launch":
+        """The same start, level and without anything to do."""
+        return Launch(np.eye(3), self.height, self.velocity, NO_TURN, NO_PUSH)
+
 
 def launch(maneuver: Maneuver, standing_height: float, profile: Profile) -> Launch:
     """The start of a maneuver other than one about a pivot.
@@ -133,17 +138,18 @@ def launch(maneuver: Maneuver, standing_height: float, profile: Profile) -> Laun
             raise TypeError(f"no launch is known for a {type(maneuver).__name__}")
 
 
-def on_pivot(maneuver: Pivoted, gyrostat: Gyrostat) -> Launch:
+def on_pivot(maneuver: Pivoted, gyrostat: Gyrostat, *, planned: bool) -> Launch:
     """The start of a maneuver about a pivot, which is at floor height.
 
     Args:
         maneuver: the maneuver. gyrostat: robot and device, about the pivot.
+        planned: whether wheels follow a plan: else there is nothing to spin up and brake.
     """
     asked = pivot_boundary(maneuver, gyrostat)
     rotation = quaternions.matrix(asked.attitude)
     height = -float((rotation @ np.array(maneuver.pivot))[2])
-    speed = maneuver.wheel_speed
-    return Launch(rotation, height, np.zeros(3), NO_TURN, NO_PUSH, asked.rate, speed)
+    rate, speed = asked.rate if planned else maneuver.struck, maneuver.wheel_speed
+    return Launch(rotation, height, np.zeros(3), NO_TURN, NO_PUSH, rate, speed)
 
 
 def flight_time(maneuver: Maneuver, start: Launch, standing_height: float) -> float:

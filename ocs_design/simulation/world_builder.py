@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 import mujoco
 import numpy as np
 
+from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
 from ocs_design.common.units import STANDARD_GRAVITY
 from ocs_design.device.bodies import flywheel_names, joint_names
@@ -27,9 +28,9 @@ from ocs_design.requirement.vocabulary import CONTROL_PERIOD
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.desaturation import Desaturation
 from ocs_design.simulation.engine import Engine
-from ocs_design.simulation.launch import NO_PUSH, Launch, flight_time, launch, on_pivot, place
+from ocs_design.simulation.launch import flight_time, launch, on_pivot, place
 from ocs_design.simulation.motor_limits import MotorLimits
-from ocs_design.simulation.reference import NO_TURN, Profile, Quintic, fit_turn
+from ocs_design.simulation.reference import Profile, Quintic, fit_turn
 from ocs_design.simulation.scene import (
     JUMP_STEP,
     Sensor,
@@ -111,7 +112,8 @@ class WorldBuilder:
             jump: plan of the legs' push-off, if any.
             level: fly it level and undisturbed, to see whether the legs can bear the landing.
         """
-        if wheels is not Wheels.ACTIVE or isinstance(maneuver, Unforeseen):
+        active = wheels is Wheels.ACTIVE
+        if not active or isinstance(maneuver, Unforeseen):
             trajectory = None
         device, legs = self._device.as_flown(maneuver), jump.legs
         pivoted = maneuver if isinstance(maneuver, Pivoted) else None
@@ -121,60 +123,39 @@ class WorldBuilder:
         data = mujoco.MjData(model)
         standing = stand(self._robot, model, data)
         set_gains(model, data, self._robot)
-        drives = [model.actuator(name).id for name in leg_joints(self._robot)]
-        # Every leg drive at the nominal posture, the motors at zero.
-        ctrl, support = np.zeros((2, model.nu))
-        ctrl[drives] = [self._robot.posture[name] for name in leg_joints(self._robot)]
-        support[drives] = (
-            standing_torques(model, data, self._robot) / model.actuator_gainprm[drives, 0]
-        )
+        ctrl, support = self._leg_commands(model, data)
         if legs is not None:
             # Only now, since the drives must be the same in every flight.
             model.opt.timestep = JUMP_STEP
-        body = Gyrostat(
-            whole_mass(model, data).inertia,
-            device.axes,
-            device.flywheel.spin_inertia,
-            device.motor.armature,
-        )
-        if pivoted is not None:
-            pivoted = pivoted.on(whole_mass(model, data))
-            body = replace(body, inertia=pivoted.inertia, pull=pivoted.pull, edge=pivoted.axis)
-            start = on_pivot(pivoted, body)
-            if trajectory is None:
-                # Without a plan, or without wheels, there is nothing to spin up and brake.
-                start = replace(start, rate=pivoted.struck)
-        else:
+        whole, wheel = whole_mass(model, data), device.flywheel
+        body = Gyrostat(whole.inertia, device.axes, wheel.spin_inertia, device.motor.armature)
+        if pivoted is None:
             start = launch(maneuver, standing, self._options.drop_profile)
-            if level:
-                start = Launch(np.eye(3), start.height, start.velocity, NO_TURN, NO_PUSH)
+            start = start.undisturbed if level else start
+        else:
+            pivoted = pivoted.on(whole)
+            body = replace(body, inertia=pivoted.inertia, pull=pivoted.pull, edge=pivoted.axis)
+            start = on_pivot(pivoted, body, planned=trajectory is not None)
+
         flight = flight_time(maneuver, start, standing)
         # Time simulated after touchdown: one second for Solo12 on Earth.
         settling = Scale.of(self._robot).time(maneuver.gravity or STANDARD_GRAVITY)
-        stands, trot = waiting(
-            maneuver, self._robot, float(model.body_mass.sum()) * maneuver.gravity, settling
-        )
-
+        weight = float(model.body_mass.sum()) * maneuver.gravity
+        stands, trot = waiting(maneuver, self._robot, weight, settling)
         lift_off = 0.0 if legs is None else legs.lift_off
         duration = (stands or 0.0) + lift_off + (flight + settling)
         if pivoted is not None:
             standing, duration = -np.inf, (1.0 + HELD_ON) * pivoted.duration
 
-        active, turn = wheels is Wheels.ACTIVE, start.turn
-        if active and trajectory is None:
-            turn = fit_turn(turn, body, self._limits)
-        changed = turn.note if trajectory is None else trajectory.note
-        law, desaturation = WheelLaw.off(len(device.modules)), None
+        turn, law, desaturation = start.turn, WheelLaw.off(len(device.modules)), None
         if active:
-            # One or two legs on the ground cannot hold an attitude.
-            balances = 0 < len(self._robot.legs) < STEADY_LEGS
-            law = WheelLaw.of(
-                body, self._gains, self._limits, self._options.allocation, balances=balances
-            )
-        if active and self._options.desaturate:
-            desaturation = Desaturation.of(
-                self._robot, max(standing, 0.0), body.spin_inertia, maneuver.gravity
-            )
+            law = self._wheel_law(body)
+            turn = fit_turn(turn, body, self._limits) if trajectory is None else turn
+            if self._options.desaturate:
+                desaturation = Desaturation.of(
+                    self._robot, max(standing, 0.0), body.spin_inertia, maneuver.gravity
+                )
+        changed = turn.note if trajectory is None else trajectory.note
 
         takes_off = bool(start.velocity.any())
         if legs is not None:
@@ -209,6 +190,31 @@ class WorldBuilder:
             settles=None if pivoted is None else pivoted.duration,
             note="; ".join(filter(None, (jump.note, changed))),
             desaturation=desaturation,
+        )
+
+    def _leg_commands(
+        self, model: mujoco.MjModel, data: mujoco.MjData
+    ) -> tuple[FloatArray, FloatArray]:
+        """Commands that hold the nominal posture, and what is added to them to bear the weight.
+
+        Of all actuators, shape (nu,) each; the motors of the wheels are at zero.
+
+        Args:
+            data: of the robot as it stands, level.
+        """
+        joints = leg_joints(self._robot)
+        drives = [model.actuator(name).id for name in joints]
+        ctrl, support = np.zeros((2, model.nu))
+        ctrl[drives] = [self._robot.posture[name] for name in joints]
+        torques = standing_torques(model, data, self._robot)
+        support[drives] = torques / model.actuator_gainprm[drives, 0]
+        return ctrl, support
+
+    def _wheel_law(self, body: Gyrostat) -> WheelLaw:
+        """Law of driven wheels, which also hold the attitude that one or two legs cannot."""
+        balances = 0 < len(self._robot.legs) < STEADY_LEGS
+        return WheelLaw.of(
+            body, self._gains, self._limits, self._options.allocation, balances=balances
         )
 
 
