@@ -241,6 +241,24 @@ def falls(runs: Sequence[ValidationRecord]) -> str:
     )
 
 
+def leaning(runs: Iterable[ValidationRecord]) -> Mapping[str, float]:
+    """Final tilt [rad] of each robot that stays on its feet but not level, by scenario."""
+    stood = (run for run in runs if run.passed and run.can_stand)
+    ends = {run.scenario: float(off_level(*_angles(run.metrics, "final_{}"))) for run in stood}
+    return {name: end for name, end in ends.items() if end > LANDING_TOLERANCE}
+
+
+def leans(runs: Iterable[ValidationRecord]) -> str:
+    """Sentence on the robots that end leaning; empty if there are none."""
+    ends = [f"{name} {degrees(end)}" for name, end in leaning(runs).items()]
+    if not ends:
+        return ""
+    return (
+        f"the robot stays on its feet and ends leaning: {', '.join(ends)} (more than "
+        f"{degrees(float(UPRIGHT_TILT), 0)} would be a fall)"
+    )
+
+
 def landing_remarks(design: OcsDesign) -> Iterator[str]:
     """Remarks on landings that the device does not improve, and on wheels left at high speed."""
     carrying = [run for run in design.validation if run.ocs]
@@ -253,14 +271,7 @@ def landing_remarks(design: OcsDesign) -> Iterator[str]:
             swings.append(f"{run.scenario} {degrees(swing)}, {degrees(alone)} without")
     if swings:
         yield f"on the ground the trunk swings further with the device: {'; '.join(swings)}"
-    stood = (run for run in carrying if run.passed and run.can_stand)
-    ends = {run.scenario: float(off_level(*_angles(run.metrics, "final_{}"))) for run in stood}
-    leaning = [f"{name} {degrees(end)}" for name, end in ends.items() if end > LANDING_TOLERANCE]
-    if leaning:
-        yield (
-            f"the robot stays on its feet and ends leaning: {', '.join(leaning)} (more than "
-            f"{degrees(float(UPRIGHT_TILT), 0)} would be a fall)"
-        )
+    yield from filter(None, [leans(carrying)])
     top = design.ocs.motor.top_speed
     speeds = {run.scenario: run.metrics.get("final_wheel_speed") or 0.0 for run in carrying}
     spent = [name for name, speed in speeds.items() if speed >= SPENT * top]

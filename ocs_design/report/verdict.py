@@ -7,7 +7,7 @@ from ocs_design.device.answers import Validated
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.records.flights import Conclusion, ValidationRecord
 from ocs_design.report.device import has_motor
-from ocs_design.report.flights import falls, survival_sentence, turned_by_hand
+from ocs_design.report.flights import falls, leaning, leans, survival_sentence, turned_by_hand
 from ocs_design.report.monte_carlo import certificate_line
 from ocs_design.report.table import Tone, Toned
 
@@ -80,6 +80,7 @@ def headline(found: OcsDesign | Validated) -> Headline:
     matters = (
         shortage,
         falls(runs),
+        leans(runs),
         survival_sentence(survival) if survival is not None and survival.lost else "",
         by_hand,
         "" if certified is None else certificate_line(certified),
@@ -99,7 +100,7 @@ def _buildable(design: OcsDesign) -> Toned:
 
 
 def _flights(runs: Sequence[ValidationRecord]) -> Iterator[Toned]:
-    """Number of level flights, and of robots that stand after them."""
+    """Number of level flights, and of those after which the robot stands, or leans."""
     if not runs:
         yield Toned("no flight was simulated", Tone.OPEN)
         return
@@ -111,8 +112,12 @@ def _flights(runs: Sequence[ValidationRecord]) -> Iterator[Toned]:
     if standing:
         # The device is not at fault if the legs cannot take even a level landing.
         fault = any(run.stands is False and run.passed is False for run in standing)
-        up = [run.stands for run in standing].count(True)
-        yield _share("stands", up, len(standing), Tone.FAIL if fault else Tone.OPEN)
+        up, tilted = [run.stands for run in standing].count(True), len(leaning(runs))
+        part = _share("stands", up, len(standing), Tone.FAIL if fault else Tone.OPEN)
+        if tilted:
+            tone = Tone.OPEN if part.tone is Tone.PASS else part.tone
+            part = Toned(f"{part.text}, {tilted} leaning", tone)
+        yield part
     if unjudged:
         yield Toned(f"{unjudged} of {len(runs)} not judged", Tone.FAIL)
     elif any(run.passed is False and run.level and run.stands is not False for run in runs):

@@ -3,6 +3,7 @@
 import re
 from dataclasses import replace
 from io import StringIO
+from math import radians
 from pathlib import Path
 
 import pytest
@@ -86,6 +87,13 @@ def test_a_biped_that_lands_level_and_falls_is_told():
     assert line.text == "buildable  ·  level 2 of 2  ·  stands 0 of 2"
     assert line.tone is Tone.OPEN
     assert line.matter.startswith("drop, flip: the robot lands level and then falls")
+
+
+def test_a_robot_that_ends_leaning_is_not_said_to_stand_like_the_others():
+    line = verdict(run("flip"), replace(run(), metrics={"final_pitch": radians(18.3)}))
+    assert line.text == "buildable  ·  level 2 of 2  ·  stands 2 of 2, 1 leaning"
+    assert line.tone is Tone.OPEN
+    assert "ends leaning: drop 18.3 deg" in line.matter
 
 
 def test_a_flight_that_fails_is_minded_though_the_verdict_names_one_of_its_letters():
