@@ -197,6 +197,10 @@ def _pivoted(
         yield lasting(up, climb.tilt.duration, CLIMBING)
 
 
+_WITHOUT_DEVICE = "about the centre of mass without a device"
+"""Part of the note on every kick that is requested in words."""
+
+
 def _kicked(kick: Kick, jump: Disturbance, robot: Robot) -> tuple[Disturbance, str]:
     """A kick during this jump, and how it was interpreted.
 
@@ -218,7 +222,7 @@ def _kicked(kick: Kick, jump: Disturbance, robot: Robot) -> tuple[Disturbance, s
     heading = f" (the wheels cannot cancel the yaw part, which turns it at {rate})"
     return kicked, (
         f"{kick.impulse:.3g} N s at {named}({where}) mm along ({direction}){default}: "
-        f"angular impulse ({roll}, {pitch}, {yaw}) N m s about the centre of mass without a device"
+        f"angular impulse ({roll}, {pitch}, {yaw}) N m s {_WITHOUT_DEVICE}"
         f"{heading if spin > _TURNS else ''}, which gains {moved:.3g} m/s; "
         f"{jump.onset:.3g} s after lift-off, for {jump.duration:.3g} s"
     )
@@ -234,7 +238,8 @@ def told_with_device(assumption: str, maneuvers: Iterable[Maneuver]) -> str:
     for kick in maneuvers:
         if not isinstance(kick, Disturbance) or not any(kick.impulse):
             continue
-        if assumption.startswith(f"{kick.name}: "):
+        # A maneuver of the file may have the name of another assumption, such as "Wheel".
+        if assumption.startswith(f"{kick.name}: ") and _WITHOUT_DEVICE in assumption:
             turned = ", ".join(f"{each * kick.duration:.3g}" for each in kick.torque)
             moved = np.linalg.norm(kick.velocity_change)
             told = f"with the device on, ({turned}) N m s and {moved:.3g} m/s"

@@ -277,6 +277,18 @@ def test_the_worked_kick(make_robot):
     assert "angular impulse (-0.06, 0, 0.03) N m s" in worded.notes[0]
 
 
+def test_only_a_kick_in_words_is_told_with_the_device_on(real):
+    """Not an assumption that has the name of a maneuver of the file."""
+    (kick,) = maneuvers(real, kick=["0.3 N s at 0.1,0,0.2"])
+    named = Specification(maneuvers=(replace(kick, name="Wheel"),))
+    in_words = Specification(requirement=asked(kick=["1 N s at 0,0,0.1"]))
+    for specification, told in ((named, 0), (in_words, 1)):
+        found = resolve(specification, real, SIZE)
+        carried = found.carrying(found.requirement).assumptions
+        assert sum("with the device on" in each for each in carried) == told
+        assert any(each.startswith("Wheel: one piece") for each in carried)
+
+
 def test_a_kick_without_a_direction_comes_from_its_side(solo12):
     for point, along in (("0,0.1,0", -1.0), ("0,-0.1,0", 1.0), ("0.1,0,0.1", 1.0)):
         worded = worded_maneuvers(asked(kick=[f"1 N s at {point}"]), solo12)
