@@ -30,7 +30,7 @@ from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import AUTO, DISC, LIGHTEST, RING, STEEL
 from ocs_design.sizing.design import design_device
 from ocs_design.sizing.limits import BUS_VOLTAGE, LIMITS, TIME, Progress, unseen
-from ocs_design.sizing.on_robot import with_plate
+from ocs_design.sizing.on_robot import OnRobot
 from ocs_design.sizing.selection.problem import (
     Candidate,
     SelectionProblem,
@@ -320,7 +320,7 @@ def owed_to(task: Task, choice: Choice | None) -> Owed | None:
         lighter = lightest_below(without, best)
         if lighter is None:
             continue
-        mass = (lighter if choice.hangs else with_plate(lighter, problem, task.robot)).mass
+        mass = (lighter if choice.hangs else OnRobot(task.robot).with_plate(lighter, problem)).mass
         if mass < best:
             best, owed = mass, Owed(maneuver=maneuver.name, mass_without=mass)
     return owed
@@ -457,7 +457,7 @@ class _Search:
         found = lightest_below(problem, self.target)
         if found is None:
             return None
-        found = with_plate(found, problem, self.task.robot)
+        found = OnRobot(self.task.robot).with_plate(found, problem)
         return found if found.mass <= self.target else None
 
 

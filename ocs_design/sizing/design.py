@@ -22,11 +22,11 @@ from ocs_design.robot.surface import trunk_surface
 from ocs_design.sizing.assembly import assemble, assemble_selected
 from ocs_design.sizing.bound.device_problem import DeviceProblem
 from ocs_design.sizing.bound.device_sizing import size_device
-from ocs_design.sizing.footing.feet import in_vain
-from ocs_design.sizing.footing.standing import footing_under, standing_on
+from ocs_design.sizing.footing.feet import FailedSearches
+from ocs_design.sizing.footing.standing import standing_on
 from ocs_design.sizing.free_place import specified_place
 from ocs_design.sizing.limits import DEVICE_MASS, Progress
-from ocs_design.sizing.on_robot import in_rings, on_its_footing, with_plate
+from ocs_design.sizing.on_robot import OnRobot
 from ocs_design.sizing.place import braked
 from ocs_design.sizing.reserve import Reality, Reserve, account
 from ocs_design.sizing.selection.device import with_demands
@@ -68,14 +68,14 @@ def design_device(
         Infeasible: there is none.
         UsageError: nothing is required, or a limit is not a positive number.
     """
-    # The device must not depend on earlier searches.
-    in_vain.cache_clear()
+    # The device must not depend on the searches for other devices.
+    failed = FailedSearches()
     tried: list[tuple[float, float, Designed]] = []
     before: tuple[FloatArray, FloatArray] | None = None
     com = task.robot.com
     for _ in range(1 + KICK_ROUNDS):
         try:
-            designed = _designed(task, ranked=ranked, reserve=reserve, near=near)
+            designed = _designed(task, failed, ranked=ranked, reserve=reserve, near=near)
         except Infeasible:
             if all(short > 0.0 for short, _, _ in tried):
                 asked = task.resolved.requirement
@@ -108,7 +108,12 @@ def design_device(
 
 
 def _designed(
-    task: Task, *, ranked: bool, reserve: Reserve | None, near: Candidate | None
+    task: Task,
+    failed: FailedSearches,
+    *,
+    ranked: bool,
+    reserve: Reserve | None,
+    near: Candidate | None,
 ) -> Designed:
     """The device for the task as resolved; see `design_device`."""
     specification, robot, resolved = task.specification, task.robot, task.resolved
@@ -138,18 +143,19 @@ def _designed(
         assert resolved.reliability is not None, "there are motors to choose from"
         require_survival(problem)
         reserve = reserve or Reserve(resolved.reliability)
-        designed = _by_selection(task, problem, reserve, ranked=ranked, near=near)
-        at, choice, fixed = designed.device, designed.choice, problem.place.stated
+        search = OnRobot(robot, specified_criterion(specification), near, failed)
+        designed = _by_selection(task, problem, search, reserve, ranked=ranked)
+        at, choice = designed.device, designed.choice
+        formed = replace(problem, formed=True)
         # The last resort, after all mounts on flat surfaces.
         if (
             at.layout.pairs
             and choice is not None
             and choice.hangs
-            and footing_under(at, robot, stated=fixed, formed=True) is not None
+            and search.footing(at, formed) is not None
         ):
-            problem = replace(problem, formed=True)
             with suppress(Infeasible):
-                again = _by_selection(task, problem, reserve, ranked=ranked, near=near)
+                again = _by_selection(task, formed, search, reserve, ranked=ranked)
                 designed = designed if again.device.plate is None else again
     device, most = designed.device, specification.ocs.mass_max
     # This device is already the lightest: no search is needed.
@@ -218,33 +224,26 @@ def mass_without_survival(task: Task) -> float | None:
 def _by_selection(
     task: Task,
     problem: SelectionProblem,
+    search: OnRobot,
     reserve: Reserve,
     *,
     ranked: bool,
-    near: Candidate | None,
 ) -> Designed:
     """Modules, each with a motor of the catalogue, co-designed where that is specified."""
-    specification, robot = task.specification, task.robot
-    criterion = specified_criterion(specification)
+    specification, robot, criterion = task.specification, task.robot, search.criterion
     reality = Reality.of(
         specification.reality,
         robot,
         problem.requirement.standing_height,
         ballistic=specification.validation.ballistic is True,
     )
-    asked = problem.requirement
-    problem, selection, reserve, nominal = on_its_footing(
-        problem, criterion, robot, (reality, reserve), ranked=ranked, near=near
-    )
+    asked, ringed = problem.requirement, None
+    found = search.mounted(problem, reality, reserve, ranked=ranked)
+    problem, selection, reserve = found.problem, found.selection, found.reserve
     if specification.ocs.guard == CONTAINING:
-        problem, selection = in_rings(problem, selection.best, criterion, robot)
+        problem, selection = search.in_rings(problem, selection.best)
         best = selection.best
         ringed = device_at(replace(problem, requirement=asked), best, best.incidence) or best
-
-        def nominal() -> Candidate:
-            """The nominal device, with guard rings."""
-            return ringed
-
     if criterion is not None:
         problem = replace(problem, incidence=selection.best.incidence)
     # The lightest on its plate need not be the one that led the search.
@@ -259,7 +258,7 @@ def _by_selection(
         tried = co_design(problem, best)
         if tried.adopted:
             # The co-design counted the selected device's plate.
-            own = with_plate(tried.device, problem, robot)
+            own = search.with_plate(tried.device, problem)
             tried = replace(tried, device=own, found_mass=own.mass)
             if own.mass >= best.mass:
                 note = "the selection stands: a heavier plate outweighs what the wheels would save"
@@ -271,20 +270,22 @@ def _by_selection(
 
     def resized(other: Reserve) -> float | None:
         """Mass of the selected parts and the plate, sized with another reserve [kg]."""
-        asked = other.kept(problem.requirement, free=False)
-        found = device_at(replace(problem, requirement=asked), selection.best, chosen.incidence)
-        return None if found is None else found.modules_mass + chosen.plate_mass
+        keeping = replace(problem, requirement=other.kept(problem.requirement, free=False))
+        device = device_at(keeping, selection.best, chosen.incidence)
+        return None if device is None else device.modules_mass + chosen.plate_mass
 
     def least() -> float:
         """Mass of the device without a reserve [kg]."""
-        spends = any(each.demand > 1.0 for each in reserve.maneuvers.values())
-        return (with_plate(nominal(), problem, robot) if spends else chosen).mass
+        if not any(each.demand > 1.0 for each in reserve.maneuvers.values()):
+            return chosen.mass
+        nominal = ringed or search.without_reserve(found)
+        return search.with_plate(nominal, problem).mass
 
     # A co-design makes the selected device smaller, and its plate with it.
     device = assemble_selected(chosen)
-    found = footing_under(device, robot, stated=problem.place.stated, formed=problem.formed)
-    hangs = found is None and trunk_surface(robot) is not None
-    device = device if found is None else standing_on(device, found)
+    footing = search.footing(device, problem)
+    hangs = footing is None and trunk_surface(robot) is not None
+    device = device if footing is None else standing_on(device, footing)
     carried, bodies = device.plated(robot.mass_properties), (chosen.wheel, chosen.carrier)
     centers = np.stack([module.position for module in device.modules])
     total = braked(carried, bodies, centers, device.incidence, device.layout)

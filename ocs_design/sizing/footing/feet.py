@@ -1,8 +1,8 @@
 """Feet of a device before their support is known, and the footing that is found for them."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import ceil, copysign, log, sqrt
 from typing import Any, TypeVar
 
@@ -177,41 +177,45 @@ def leans(module: Module) -> bool:
     return float(module.frame[2, 2]) < 1.0 - OUT_OF_REACH
 
 
-@lru_cache(maxsize=64)
-def in_vain(robot: Robot, layout: Layout, *search: str | bool) -> list[Feet]:
-    """Feet for which a search, by name and options, has failed since `in_vain.cache_clear()`."""
-    del robot, layout, search
-    return []
-
-
-def looked_for(
-    search: Callable[..., Found | None],
-    robot: Robot,
-    feet: Feet,
-    layout: Layout,
-    *options: bool,
-    to: Callable[[float], int] = ceil,
-) -> Found | None:
-    """Cached result of a search for modules of nearly this size, at any position.
-
-    Sizes and mass are rounded up by at most 2 % (`to`), or down (`floor`), so that nearly equal
-    modules share one search.
+@dataclass(frozen=True, eq=False)
+class FailedSearches:
+    """Searches for footings on one robot that have failed.
 
     A search takes longest where it fails: modules that are larger and heavier in every respect than
     ones for which it failed are assumed to fail too, without a search.
+
+    Attributes:
+        feet: for which it failed, by layout, name of the search and its options.
     """
-    figures: dict[str, Any] = {
-        name: _ALIKE ** to(log(getattr(feet, name), _ALIKE)) for name in _FIGURES
-    }
-    asked = replace(feet, x=0.0, bases=(), **figures)
-    tried = in_vain(robot, layout, search.__name__, *options)
-    if any(
-        asked.slopes == other.slopes
-        and all(getattr(other, name) <= getattr(asked, name) for name in _FIGURES)
-        for other in tried
-    ):
-        return None
-    found = search(robot, asked, layout, *options)
-    if found is None:
-        tried.append(asked)
-    return found
+
+    feet: dict[tuple[object, ...], list[Feet]] = field(default_factory=dict)
+
+    def found(
+        self,
+        search: Callable[..., Found | None],
+        robot: Robot,
+        feet: Feet,
+        layout: Layout,
+        *options: bool,
+        to: Callable[[float], int] = ceil,
+    ) -> Found | None:
+        """Result of a search for modules of nearly this size, at any position.
+
+        Sizes and mass are rounded up by at most 2 % (`to`), or down (`floor`), so that nearly equal
+        modules share one search.
+        """
+        figures: dict[str, Any] = {
+            name: _ALIKE ** to(log(getattr(feet, name), _ALIKE)) for name in _FIGURES
+        }
+        asked = replace(feet, x=0.0, bases=(), **figures)
+        failed = self.feet.setdefault((layout, search.__name__, *options), [])
+        if any(
+            asked.slopes == other.slopes
+            and all(getattr(other, name) <= getattr(asked, name) for name in _FIGURES)
+            for other in failed
+        ):
+            return None
+        found = search(robot, asked, layout, *options)
+        if found is None:
+            failed.append(asked)
+        return found

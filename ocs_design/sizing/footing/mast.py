@@ -31,7 +31,7 @@ from ocs_design.parts.printed import SHOCK
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import Surface, trunk_back
 from ocs_design.sizing.footing.contact import FLATNESS, PROUD, disc_points
-from ocs_design.sizing.footing.feet import SENSES, Feet, Footing, looked_for
+from ocs_design.sizing.footing.feet import SENSES, FailedSearches, Feet, Footing
 from ocs_design.sizing.footing.formed import (
     DEPTH_MAX,
     LEAST,
@@ -88,7 +88,7 @@ class _Spot:
 
 
 def footing_behind(
-    robot: Robot, feet: Feet, layout: Layout, *, formed: bool = False
+    robot: Robot, feet: Feet, layout: Layout, failed: FailedSearches, *, formed: bool = False
 ) -> Footing | None:
     """The place behind the trunk nearest to the robot's centre where a mast carries pairs.
 
@@ -98,9 +98,9 @@ def footing_behind(
     back = trunk_back(robot)
     if back is None:
         return None
-    spot = looked_for(_mast_spot, robot, feet, layout, False)
+    spot = failed.found(_mast_spot, robot, feet, layout, False)
     if spot is None and formed:
-        spot = looked_for(_mast_spot, robot, feet, layout, True)
+        spot = failed.found(_mast_spot, robot, feet, layout, True)
     if spot is None:
         return None
     feet = _stacked(feet, layout)

@@ -24,11 +24,11 @@ from ocs_design.sizing.footing.contact import (
     under_pedestal,
 )
 from ocs_design.sizing.footing.feet import (
+    FailedSearches,
     Feet,
     Footing,
     device_size,
     leans,
-    looked_for,
     ring_of,
 )
 from ocs_design.sizing.footing.plate import PLATE_SCREW, POST_SCREW, STRONG_SCREW, held_at
@@ -48,14 +48,16 @@ _ENDLESS = 1e3
 """Grid step of a surface of one point [m]."""
 
 
-def footing_on_top(surface: Surface, feet: Feet, search: Search) -> Footing | None:
+def footing_on_top(
+    surface: Surface, feet: Feet, search: Search, failed: FailedSearches
+) -> Footing | None:
     """The nearest place that holds the feet, as close together as possible; pairs also apart."""
     robot, layout = search.collision.robot, search.layout
-    if looked_for(_as_usual, robot, feet, layout, to=floor):
+    if failed.found(_as_usual, robot, feet, layout, to=floor):
         found = _nearest_footing(surface, feet, search, 0.0, PLATE_SCREW)
         if found is not None:
             return found
-    way = looked_for(_way, robot, feet, layout)
+    way = failed.found(_way, robot, feet, layout)
     return None if way is None else _nearest_footing(surface, feet, search, *way)
 
 

@@ -16,6 +16,7 @@ from ocs_design.robot.robot import Robot
 from ocs_design.robot.surface import trunk_surface
 from ocs_design.sizing.footing.feet import (
     SENSES,
+    FailedSearches,
     Feet,
     Footing,
     device_size,
@@ -68,7 +69,8 @@ def footing_of(
         start = round(float(robot.com[0]), 6) + 0.0
         slopes = slopes_of(layout.axes(ISOTROPIC if layout.angle is None else layout.angle))
         feet = Feet(start, ring_of(layout, largest.reach), slopes, *base, mass)
-        found = footing_on_top(surface, feet, Search(collision_model(robot), sizes, layout))
+        search = Search(collision_model(robot), sizes, layout)
+        found = footing_on_top(surface, feet, search, FailedSearches())
         if found is not None:
             return found
     return Footing(place_free(robot, envelope, layout).place, None)
@@ -101,9 +103,20 @@ def standing_on(device: Device, found: Footing) -> Device:
 
 
 def footing_under(
-    device: Device, robot: Robot, *, stated: bool, formed: bool = False
+    device: Device,
+    robot: Robot,
+    *,
+    stated: bool,
+    formed: bool = False,
+    failed: FailedSearches | None = None,
 ) -> Footing | None:
-    """Footing of a chosen device; see `stand_on_trunk`. None: no known support."""
+    """Footing of a chosen device; see `stand_on_trunk`. None: no known support.
+
+    Args:
+        device, robot, stated, formed: see there.
+        failed: searches on this robot that have failed; None: none yet.
+    """
+    failed = failed or FailedSearches()
     surface = trunk_surface(robot)
     if device.carrier.mass == 0.0:
         return None
@@ -119,5 +132,5 @@ def footing_under(
         _, plate = held_at(surface, feet, float(places[0][2]) - foot_of(device).wheel_height)
         return Footing(place_at(tuple(places[0].tolist())), plate)
     feet = replace(feet, bases=ring_of(layout, feet.reach))
-    found = footing_on_top(surface, feet, Search.of(robot, feet.size, layout))
-    return found or footing_behind(robot, feet, layout, formed=formed)
+    found = footing_on_top(surface, feet, Search.of(robot, feet.size, layout), failed)
+    return found or footing_behind(robot, feet, layout, failed, formed=formed)
