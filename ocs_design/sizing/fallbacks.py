@@ -27,48 +27,60 @@ motors of 1.7 kg may do what two of 7 kg do."""
 
 
 @dataclass(frozen=True)
-class Heavier:
-    """A device that was replaced by a lighter one.
+class Attempt:
+    """A specification that was tried, and whose device, if any, was not taken.
 
     Attributes:
-        mass: its mass [kg].
+        specification: that was tried.
+        why: message of its refusal, or the mass of its device.
+        error: the refusal; None: a lighter device was taken.
     """
 
-    mass: float
+    specification: Specification
+    why: str
+    error: Refused | NeverHeld | None = None
 
-    @property
-    def message(self) -> str:
-        """Its mass, as text."""
-        return f"{format_quantity(self.mass, 'kg', digits=4)}."
+    @classmethod
+    def refused(cls, specification: Specification, error: Refused | NeverHeld) -> "Attempt":
+        """An attempt that gave no device."""
+        return cls(specification, error.message, error)
+
+    @classmethod
+    def outweighed(cls, specification: Specification, device: Device) -> "Attempt":
+        """An attempt whose device is heavier than another."""
+        return cls(specification, f"{format_quantity(device.mass, 'kg', digits=4)}.")
 
 
-Tried = tuple[Specification, Refused | NeverHeld | Heavier]
-"""A specification, and why it was refused, or the mass of its device that was not taken."""
+def attempts(specification: Specification) -> Iterator[Specification]:
+    """The specification itself, then the fallbacks to try in turn where it is refused.
 
-
-def attempts(specification: Specification, tried: Sequence[Tried]) -> Iterator[Specification]:
-    """The specification itself, then the fallbacks to try in turn where it was refused.
-
-    Where neither layout nor incidence is specified, the lightest incidence and more pairs. Where no
-    reliability is, a lower one for each attempt that failed only because of its reserve.
-
-    Args:
-        specification: as given.
-        tried: refusals so far; grows between one attempt and the next.
+    Where neither layout nor incidence is specified, the lightest incidence and more pairs.
     """
     yield specification
     stated = specification.ocs
-    if stated.layout is None and stated.axes is None:
-        free = stated.alpha is None and stated.alpha_criterion is None
-        for layout in (None, *MORE_PAIRS):
-            for criterion in (stated.alpha_criterion, LIGHTEST)[: 1 + free]:
-                ocs = replace(stated, layout=layout, alpha_criterion=criterion)
-                asked = replace(specification, ocs=ocs)
-                if ocs != stated and not any(contradictions(asked)):
-                    yield asked
+    if stated.layout is not None or stated.axes is not None:
+        return
+    free = stated.alpha is None and stated.alpha_criterion is None
+    for layout in (None, *MORE_PAIRS):
+        for criterion in (stated.alpha_criterion, LIGHTEST)[: 1 + free]:
+            ocs = replace(stated, layout=layout, alpha_criterion=criterion)
+            asked = replace(specification, ocs=ocs)
+            if ocs != stated and not any(contradictions(asked)):
+                yield asked
+
+
+def less_sure(specification: Specification, tried: Sequence[Attempt]) -> Iterator[Specification]:
+    """Attempts that failed only because of their reserve, with a lower reliability.
+
+    None where a reliability is specified.
+    """
     if specification.requirement.reliability is not None:
         return
-    short = [asked for asked, error in tried if isinstance(error, Refused) and error.for_reserve]
+    short = [
+        each.specification
+        for each in tried
+        if isinstance(each.error, Refused) and each.error.for_reserve
+    ]
     for level in LESS_SURE:
         for asked in short:
             yield replace(asked, requirement=replace(asked.requirement, reliability=level))
@@ -93,32 +105,30 @@ def attempt_text(specification: Specification, asked: Specification) -> str:
 
 
 def substitutions(
-    specification: Specification, asked: Specification, tried: Sequence[Tried]
+    specification: Specification, asked: Specification, tried: Sequence[Attempt]
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Substitutes for unspecified values, and why: as assumptions, and as warnings."""
     told: list[str] = []
     few: list[str] = []
     stated, more, less = specification.ocs.layout, asked.ocs.layout, asked.requirement.reliability
     if more is not None and more != stated:
-        two = (error.message for each, error in tried if each.ocs.layout == stated)
-        with_two = f"With two: {next(two)}"
-        told.append(f"Layout: {more}, {WHEELS[more]} wheels. {with_two}")
+        why = next(each.why for each in tried if each.specification.ocs.layout == stated)
+        told.append(f"Layout: {more}, {WHEELS[more]} wheels. With two: {why}")
         if specification.motor.name not in {None, AUTO}:
-            few.append(f"{WHEELS[more]} wheels are used. {with_two}")
+            few.append(f"{WHEELS[more]} wheels are used. With two: {why}")
     criterion = specification.ocs.alpha_criterion
     if asked.ocs.alpha_criterion != criterion:
         at_alpha = replace(asked.ocs, alpha_criterion=criterion)
-        refused = (error.message for each, error in tried if each.ocs == at_alpha)
-        why = next(refused, tried[-1][1].message)
-        told.append(f"Incidence: the lightest. At alpha*: {why}")
+        refused = (each.why for each in tried if each.specification.ocs == at_alpha)
+        told.append(f"Incidence: the lightest. At alpha*: {next(refused, tried[-1].why)}")
     if less is not None and less != specification.requirement.reliability:
-        why = next(error.message for each, error in tried if each.ocs == asked.ocs)
+        why = next(each.why for each in tried if each.specification.ocs == asked.ocs)
         told.append(f"Reliability: {less:.0%} of robots. For {RELIABILITY:.0%}: {why}")
         few.append(f"sized for {less:.0%} of robots: no device is feasible for {RELIABILITY:.0%}")
     return tuple(told), tuple(few)
 
 
-def closest(tried: Sequence[Tried], robot_mass: float) -> Refused:
+def closest(tried: Sequence[Attempt], robot_mass: float) -> Refused:
     """The refusal on which advice is based.
 
     Where a wheel lacks room, it is that of the specification itself; where the motors are too weak,
@@ -129,9 +139,9 @@ def closest(tried: Sequence[Tried], robot_mass: float) -> Refused:
     Raises:
         NeverHeld: the first refusal, where every attempt failed for want of a mount.
     """
-    refused = [error for _, error in tried if isinstance(error, Refused)]
+    refused = [each.error for each in tried if isinstance(each.error, Refused)]
     if not refused:
-        raise next(error for _, error in tried if isinstance(error, NeverHeld))
+        raise next(each.error for each in tried if each.error is not None)
     if refused[0].nearest.reason in NO_ROOM:
         return refused[0]
     held = [each for each in refused if each.problem.robot.mass > robot_mass]
@@ -140,15 +150,15 @@ def closest(tried: Sequence[Tried], robot_mass: float) -> Refused:
 
 
 def advised(
-    refusal: Refused, specification: Specification, tried: Sequence[Tried], progress: Progress
+    refusal: Refused, specification: Specification, tried: Sequence[Attempt], progress: Progress
 ) -> Infeasible:
     """The error with the single changes that would help, where every attempt was refused."""
-    incidences = [error.problem.incidence for _, error in tried if isinstance(error, Refused)]
+    refused = [each.error for each in tried if isinstance(each.error, Refused)]
     found = advice_on(
         refusal,
         progress,
         default=specification.asks_nothing,
-        lightest=all(incidence is not None for incidence in incidences),
+        lightest=all(error.problem.incidence is not None for error in refused),
     )
     found.assumptions, found.warnings = refusal.assumptions, refusal.warnings
     return found

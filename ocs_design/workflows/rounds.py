@@ -4,7 +4,7 @@ A device is sized for one attempt after another until one succeeds, resized for 
 make, and resized with a larger reserve for sampled robots that fail.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -38,12 +38,12 @@ from ocs_design.simulation.world_builder import Options, control_of
 from ocs_design.sizing.advice import unasked
 from ocs_design.sizing.design import design_device, survivors
 from ocs_design.sizing.fallbacks import (
-    Heavier,
-    Tried,
+    Attempt,
     advised,
     attempt_text,
     attempts,
     closest,
+    less_sure,
     more_wheels_may_do,
     substitutions,
 )
@@ -195,9 +195,35 @@ def size_or_advise(
         Infeasible: no attempt gives a device; with the smallest changes that would.
         SpecificationError: `strict`, and there is a warning about the final device.
     """
-    tried: list[Tried] = []
+    best, tried = _lightest_of(attempts(specification), specification, robot, steps)
+    if best is None:
+        best, again = _lightest_of(less_sure(specification, tried), specification, robot, steps)
+        tried += again
+    if best is not None:
+        if strict:
+            try:
+                warnings_of(best, strict=True)
+            except SpecificationError:
+                best.cancel()
+                raise
+        return best.telling(substitutions(specification, best.specification, tried))
+    refusal = closest(tried, robot.mass)
+    with steps.step("search for the smallest changes that make it feasible") as step:
+        found = advised(refusal, specification, tried, step.update)
+    raise found
+
+
+def _lightest_of(
+    attempts: Iterable[Specification], specification: Specification, robot: Robot, steps: Steps
+) -> tuple[Placed | None, list[Attempt]]:
+    """The device of the first attempt that gives one, or of more wheels that are lighter.
+
+    Returns:
+        The device, None if there is none, and the attempts whose device was not taken.
+    """
+    tried: list[Attempt] = []
     best: Placed | None = None
-    for asked in attempts(specification, tried):
+    for asked in attempts:
         if best is not None:
             of_best = best.specification
             if asked.ocs.layout == of_best.ocs.layout or asked.requirement != of_best.requirement:
@@ -207,7 +233,7 @@ def size_or_advise(
                 # A device that is replaced by a lighter one need not be free of warnings.
                 placed = size_on_robot(asked, robot, strict=False)
             except (Refused, NeverHeld) as error:
-                tried.append((asked, error))
+                tried.append(Attempt.refused(asked, error))
                 step.note = "nothing meets the specification"
                 continue
             except CannotSurvive as error:
@@ -221,22 +247,11 @@ def size_or_advise(
             best = placed
         else:
             best, heavier = sorted((best, placed), key=lambda each: each.designed.device.mass)
-            tried.append((heavier.specification, Heavier(heavier.designed.device.mass)))
+            tried.append(Attempt.outweighed(heavier.specification, heavier.designed.device))
             heavier.cancel()
         if best is not placed or not more_wheels_may_do(best.designed.device, robot.mass):
             break
-    if best is not None:
-        if strict:
-            try:
-                warnings_of(best, strict=True)
-            except SpecificationError:
-                best.cancel()
-                raise
-        return best.telling(substitutions(specification, best.specification, tried))
-    refusal = closest(tried, robot.mass)
-    with steps.step("search for the smallest changes that make it feasible") as step:
-        found = advised(refusal, specification, tried, step.update)
-    raise found
+    return best, tried
 
 
 TURN_ROUNDS = 3

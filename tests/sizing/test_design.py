@@ -1,6 +1,7 @@
 """Which way a device is designed, and by which criterion its incidence goes."""
 
 import re
+from dataclasses import replace
 from itertools import cycle
 from types import SimpleNamespace
 
@@ -175,7 +176,11 @@ def test_a_device_that_is_held_another_way_each_time_is_refused(monkeypatch, kil
     ]
     masts = [SimpleNamespace(mass_properties=lambda each=each: each) for each in masses]
     held = cycle([Footing(place, mast) for mast in masts])
-    monkeypatch.setattr(on_robot, "footing_under", lambda *_, **__: next(held))
+
+    def held_otherwise(search, problem, _device):
+        return replace(problem, robot=next(held).carried(search.robot.mass_properties))
+
+    monkeypatch.setattr(on_robot.OnRobot, "_own_footing", held_otherwise)
     refused = None
     try:
         design_device(task)
