@@ -1,7 +1,8 @@
 """Metric screws, and the holes that they need."""
 
 from dataclasses import dataclass
-from math import asin, ceil, inf, pi, sqrt
+from enum import Enum
+from math import asin, ceil, inf, isfinite, pi, sqrt
 
 from ocs_design.common.errors import PartError
 
@@ -158,6 +159,48 @@ CLASSES = {
 }
 
 
+class BoltedJoint(Enum):
+    """Joint of a module that is made by equal screws; the value is its wording."""
+
+    WHEEL = "wheel on rotor"
+    MOTOR = "motor on housing and foot"
+    MOTOR_IN_CAGE = "motor in its cage"
+    CAGE = "housing and foot on cage"
+    LID = "lid on drum"
+    FOOT_ON_TRUNK = "foot on trunk"
+    FOOT_ON_PLATE = "foot on plate"
+    FOOT_ON_PEDESTAL = "foot on pedestal"
+    PLATE = "plate on trunk"
+    MAST = "mast on trunk"
+    PEDESTAL = "pedestal on trunk"
+
+    @property
+    def of_foot(self) -> bool:
+        """Whether the screws hold a foot, through its slots."""
+        feet = (BoltedJoint.FOOT_ON_TRUNK, BoltedJoint.FOOT_ON_PLATE, BoltedJoint.FOOT_ON_PEDESTAL)
+        return self in feet
+
+    @property
+    def of_support(self) -> bool:
+        """Whether the screws hold what stands between trunk and foot."""
+        return self in (BoltedJoint.PLATE, BoltedJoint.MAST, BoltedJoint.PEDESTAL)
+
+    @property
+    def in_motor(self) -> bool:
+        """Whether the threads are the motor's."""
+        return self in (BoltedJoint.WHEEL, BoltedJoint.MOTOR, BoltedJoint.MOTOR_IN_CAGE)
+
+    @property
+    def in_print(self) -> bool:
+        """Whether the threads are tapped in a printed part."""
+        return self in (BoltedJoint.CAGE, BoltedJoint.LID, BoltedJoint.FOOT_ON_PEDESTAL)
+
+    @property
+    def in_trunk(self) -> bool:
+        """Whether the threads are the trunk's."""
+        return self.of_support or self is BoltedJoint.FOOT_ON_TRUNK
+
+
 @dataclass(frozen=True)
 class Fastening:
     """Equal screws of one module.
@@ -165,21 +208,25 @@ class Fastening:
     Attributes:
         screw: type of screw. count: number of screws.
         thickness: of the parts that they go through [m].
-        purpose: what they hold, with any caution.
+        joint: that they make.
         depth: least thread engagement in diameters.
         strength: their property class.
         least: least engagement in the part they are screwed into, where its maker gives one [m].
         most: largest engagement there [m]: longer ones are shortened; inf: any.
+        held: name of the piece that they hold, if its joint is made in several shapes.
+        several_lengths: whether the joint also has screws of other lengths.
     """
 
     screw: Screw
     count: int
     thickness: float
-    purpose: str
+    joint: BoltedJoint
     depth: float = 1.0
     strength: str = USUAL_CLASS
     least: float = 0.0
     most: float = inf
+    held: str = ""
+    several_lengths: bool = False
 
     @property
     def designation(self) -> str:
@@ -199,6 +246,41 @@ class Fastening:
         return min(self.length - self.thickness, self.most)
 
     @property
+    def shortened(self) -> float | None:
+        """Length to which each is cut [m]; None: it fits as it is bought."""
+        fits = self.thickness + self.most
+        return fits if self.length > fits else None
+
+    @property
+    def name(self) -> str:
+        """Wording of the joint."""
+        if self.held:
+            return f"{self.held.replace('_', ' ')} on trunk"
+        return self.joint.value
+
+    @property
+    def purpose(self) -> str:
+        """Wording of the joint, with any caution."""
+        said, cut = self.name, self.shortened
+        if self.several_lengths:
+            said += f", {1e3 * self.length:.0f} mm long"
+        if self.joint.in_print:
+            said += ", which is tapped"
+        elif self.joint.in_trunk:
+            said += "; longer if the trunk's thread starts deeper"
+        elif self.joint.in_motor:
+            said += "; check the depth of the motor's thread"
+            if self.least > 0.0:
+                said += f", its maker specifies {1e3 * self.least:.4g} to {1e3 * self.most:.4g} mm"
+            elif isfinite(self.most):
+                said += f", a CAD model has {1e3 * (self.most + OFF_BOTTOM):.4g} mm"
+            if cut is not None:
+                said += f": shorten them to {1e3 * cut:.3g} mm"
+        elif cut is not None:
+            said += f"; cut to {1e3 * cut:.1f} mm, or they reach the trunk"
+        return said
+
+    @property
     def mass(self) -> float:
         """Mass of all screws [kg]."""
         return self.count * self.screw.mass(self.length)
@@ -208,6 +290,9 @@ class Fastening:
         """Centre of mass of each screw, from under its head towards its tip [m]."""
         return self.screw.centre(self.length)
 
+
+OFF_BOTTOM = 0.5e-3
+"""Room that is left between a screw's tip and the bottom of its hole in a motor [m]."""
 
 IN_PLASTIC = 2.0
 """Least thread engagement in a printed part, in diameters."""

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from math import inf, pi, sin
 
-from ocs_design.actuation.fasteners import CLASSES, USUAL_CLASS, screw
+from ocs_design.actuation.fasteners import CLASSES, OFF_BOTTOM, USUAL_CLASS, screw
 
 
 class TorqueConstantConvention(StrEnum):
@@ -97,10 +97,6 @@ class ShaftForm(StrEnum):
     """Shaft with a flat, for a set screw beside the clamp."""
     THREAD = "thread"
     """Threaded shaft, for a nut that presses the wheel against a shoulder."""
-
-
-OFF_BOTTOM = 0.5e-3
-"""Room that is left between a screw's tip and the bottom of its hole in a motor [m]."""
 
 
 @dataclass(frozen=True)

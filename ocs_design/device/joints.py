@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import floor
 
-from ocs_design.actuation.fasteners import Fastening, longest_within, screw
+from ocs_design.actuation.fasteners import BoltedJoint, Fastening, longest_within, screw
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.materials import Material, materials
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
@@ -103,8 +103,7 @@ def foot_screws(device: Device, module: Module) -> Fastening:
     if thread >= held.screw.least_thread:
         return replace(held, depth=thread / held.screw.diameter)
     cut = 1e-4 * floor(1e4 * (through - longer) + 1e-6)
-    purpose = f"{held.purpose}; cut to {1e3 * cut:.1f} mm, or they reach the trunk"
-    return replace(held, purpose=purpose, most=cut - held.thickness)
+    return replace(held, most=cut - held.thickness)
 
 
 def counted_foot_screws(device: Device, module: Module) -> Fastening:
@@ -115,7 +114,7 @@ def counted_foot_screws(device: Device, module: Module) -> Fastening:
     if any(each.module == module.name for each in device.pedestals):
         return device.pedestals[0].seat_screws
     held = trunk_screws(device.foot_plate)
-    return held if device.plate is None else replace(held, purpose="foot on plate")
+    return held if device.plate is None else replace(held, joint=BoltedJoint.FOOT_ON_PLATE)
 
 
 def unheld_moment(device: Device, margins: Sequence[Margin]) -> float:

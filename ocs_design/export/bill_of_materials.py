@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from io import StringIO
 from pathlib import Path
 
-from ocs_design.actuation.fasteners import IN_PLASTIC, STEEL, Fastening
+from ocs_design.actuation.fasteners import STEEL, Fastening
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.device import Device, Flywheel, Web
 from ocs_design.device.joints import (
@@ -270,7 +270,7 @@ def _unweighed_rows(device: Device, margins: Sequence[Margin]) -> Iterator[BillR
         where = "through a foot's base into what it stands on; not in the mass"
         yield BillRow("pin of 3 mm", len(device.modules), "steel", "", 0.0, where)
     screwed = (each.fastening for each in motor_mount(device).screwed)
-    if any(each.depth < IN_PLASTIC for each in screwed):
+    if any(not each.joint.in_print for each in screwed):
         where = "medium strength, removable; screws in metal only: it attacks prints"
         yield BillRow("threadlocker", 1, "", "", 0.0, where)
 

@@ -136,8 +136,7 @@ class PedestalKind:
     @property
     def screws(self) -> Fastening:
         """Screws that fasten one pedestal to the trunk."""
-        purpose = f"{self.name.replace('_', ' ')} on trunk"
-        return replace(self.alike[0].base_screws, purpose=purpose)
+        return replace(self.alike[0].base_screws, held=self.name)
 
 
 def pedestal_kinds(device: Device) -> tuple[PedestalKind, ...]:

@@ -21,7 +21,7 @@ from typing import TypeAlias, TypeVar
 
 import numpy as np
 
-from ocs_design.actuation.fasteners import Fastening, Screw, screw
+from ocs_design.actuation.fasteners import BoltedJoint, Fastening, Screw, screw
 from ocs_design.catalogue.materials import material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import BACKWARDS, FORWARDS, Placement
@@ -346,10 +346,9 @@ class CarrierPlate:
                 self.screw,
                 self.screw_lengths.count(length),
                 self.clamped + sleeve,
-                f"{'plate' if self.mast is None else 'mast'} on trunk"
-                f"{f', {1e3 * length:.0f} mm long' if len(longest) > 1 else ''}; "
-                "longer if the trunk's thread starts deeper",
+                BoltedJoint.PLATE if self.mast is None else BoltedJoint.MAST,
                 self.thread_depth,
+                several_lengths=len(longest) > 1,
             )
             for length, sleeve in longest.items()
         )

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from math import pi
 from typing import Generic
 
-from ocs_design.actuation.fasteners import IN_PLASTIC, STEEL, Fastening, Screw
+from ocs_design.actuation.fasteners import IN_PLASTIC, STEEL, BoltedJoint, Fastening, Screw
 from ocs_design.common.errors import PartError
 from ocs_design.parts.moments import MassMoments, Real, cylinder_mass
 from ocs_design.parts.printed import (
@@ -34,7 +34,7 @@ from ocs_design.parts.solids import Part, Prism, Shape
 FIRST_EAR = pi / 4.0
 """Angle of the first ear from the x axis [rad]: none protrudes below, above, in front or behind."""
 
-LID_SCREWS = Fastening(LID_SCREW, EAR_COUNT, PANEL, "lid on drum, which is tapped", IN_PLASTIC)
+LID_SCREWS = Fastening(LID_SCREW, EAR_COUNT, PANEL, BoltedJoint.LID, IN_PLASTIC)
 
 
 def housing_outer_radius(outer_radius: Real) -> Real:

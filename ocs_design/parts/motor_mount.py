@@ -10,7 +10,14 @@ from dataclasses import dataclass, field, replace
 from math import inf, sin
 from typing import Generic
 
-from ocs_design.actuation.fasteners import CLASSES, IN_PLASTIC, Fastening, longest_within, screw
+from ocs_design.actuation.fasteners import (
+    CLASSES,
+    IN_PLASTIC,
+    BoltedJoint,
+    Fastening,
+    longest_within,
+    screw,
+)
 from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
 from ocs_design.common.arrays import Table
 from ocs_design.parts.bell import Bell, HeldMotor, bell_of
@@ -39,8 +46,6 @@ cage."""
 
 _LEAST_EDGE = 0.1
 """Least angle of a post's wall beside its ear [rad]."""
-
-_DEPTH = "check the depth of the motor's thread"
 
 
 @dataclass(frozen=True)
@@ -182,7 +187,7 @@ def mount_of(
     if bell is not None and mounting is not None and mounting.stator is not None:
         # On the housing's floor, with screws from behind the foot's plate.
         thick, backed = PANEL + foot_plate, mounting.stator
-        fastening = _fastening(backed, thick, f"motor on housing and foot; {_DEPTH}", 1.0)
+        fastening = _fastening(backed, thick, BoltedJoint.MOTOR, 1.0)
         screwed = (Screwed(fastening, backed, -foot_plate, 1.0),)
         holes, gap = screwed_by_face(mounting, backed), -(thick + (motor.length or 0.0))
         return MotorMount(holes, None, screwed, gap=gap, foot_plate=foot_plate, bell=bell)
@@ -196,12 +201,11 @@ def mount_of(
         # These screws count as stationary. Their spin inertia, which would add 0.3 % to that of the
         # lightest wheel on such a motor, is left out, which is conservative.
         depth = CLASSES[rotor.screws].depth
-        purpose = f"wheel on rotor; {_DEPTH}"
         # Their thread counts in the joint, all of it.
-        fastening = _fastening(rotor, BOLTED_HUB_HEIGHT, purpose, depth, deepest=True)
+        fastening = _fastening(rotor, BOLTED_HUB_HEIGHT, BoltedJoint.WHEEL, depth, deepest=True)
         wheel = (Screwed(fastening, rotor, BOLTED_HUB_HEIGHT / 2.0, -1.0, by_wheel=True),)
     if stator is not None and mounting.stator_face is Face.OUTPUT:
-        held = _through_walls(stator, foot_plate, f"motor on housing and foot; {_DEPTH}", 1.0)
+        held = _through_walls(stator, foot_plate, BoltedJoint.MOTOR, 1.0)
         holes, through = screwed_by_face(mounting, stator), inf
         if rotor is None and mounting.shaft_length is not None:
             beside = foot_plate + half_height(0.0) + hub_height(mounting) / 2.0
@@ -225,9 +229,8 @@ def mount_of(
         return MotorMount(MountHoles(pilot), None, wheel, foot_plate=foot_plate)
     passage = cage.passage
     assert passage.screws is not None
-    purpose = "housing and foot on cage, which is tapped"
-    on_plate = _through_walls(passage.screws, foot_plate, purpose, IN_PLASTIC)
-    fastening = _fastening(stator, cage.floor, f"motor in its cage; {_DEPTH}", 1.0)
+    on_plate = _through_walls(passage.screws, foot_plate, BoltedJoint.CAGE, IN_PLASTIC)
+    fastening = _fastening(stator, cage.floor, BoltedJoint.MOTOR_IN_CAGE, 1.0)
     held = Screwed(fastening, stator, -cage.back, 1.0, by_wheel=True)
     return MotorMount(passage, cage, (*wheel, held, on_plate), foot_plate=foot_plate)
 
@@ -266,16 +269,18 @@ def screwed_by_face(mounting: Mounting, stator: BoltCircle) -> MountHoles:
     return MountHoles(max(stator.inside - WALL, (stator.inside + shaft) / 2.0), stator)
 
 
-def _through_walls(circle: BoltCircle, foot_plate: float, purpose: str, depth: float) -> Screwed:
+def _through_walls(
+    circle: BoltCircle, foot_plate: float, joint: BoltedJoint, depth: float
+) -> Screwed:
     """Screws through floor and plate, with heads inside the housing."""
     thickness = PANEL + foot_plate
-    return Screwed(_fastening(circle, thickness, purpose, depth), circle, PANEL, -1.0)
+    return Screwed(_fastening(circle, thickness, joint, depth), circle, PANEL, -1.0)
 
 
 def _fastening(
     circle: BoltCircle,
     thickness: float,
-    purpose: str,
+    joint: BoltedJoint,
     depth: float,
     *,
     deepest: bool = False,
@@ -283,7 +288,7 @@ def _fastening(
     """Screws into a motor's threads, within the depth that is known to exist.
 
     Args:
-        circle: of the threads. thickness: clamped by the screws [m]. purpose: what they hold.
+        circle: of the threads. thickness: clamped by the screws [m]. joint: that they make.
         depth: wanted engagement over the thread's diameter, as far as the thread is deep enough.
         deepest: use the full depth: cut screws that are too long instead of taking a shorter size.
     """
@@ -293,7 +298,7 @@ def _fastening(
         held,
         circle.bolts,
         thickness,
-        purpose,
+        joint,
         reach / held.diameter,
         circle.screws,
         least or 0.0,
@@ -302,14 +307,8 @@ def _fastening(
     if least is None and not deepest and found.length > thickness + most:
         thread = longest_within(thickness + most) - thickness
         if thread >= held.least_thread:
-            found = replace(found, depth=thread / held.diameter)
-    if least is not None:
-        purpose += f", its maker specifies {1e3 * least:.4g} to {1e3 * most:.4g} mm"
-    elif circle.drawn is not None:
-        purpose += f", a CAD model has {1e3 * circle.drawn:.4g} mm"
-    if found.length > thickness + most:
-        purpose += f": shorten them to {1e3 * (thickness + most):.3g} mm"
-    return replace(found, purpose=purpose)
+            return replace(found, depth=thread / held.diameter)
+    return found
 
 
 @dataclass(frozen=True)

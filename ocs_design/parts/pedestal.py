@@ -16,7 +16,7 @@ from math import ceil, cos, hypot, pi, sin, sqrt
 
 import numpy as np
 
-from ocs_design.actuation.fasteners import IN_PLASTIC, Fastening
+from ocs_design.actuation.fasteners import IN_PLASTIC, BoltedJoint, Fastening
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import Placement
 from ocs_design.parts.joints import SHEAR_SHARE, pattern_use
@@ -37,9 +37,6 @@ from ocs_design.robot.mass import MassProperties, combine
 
 LEAST_SEAT = IN_PLASTIC * TRUNK_SCREW.diameter
 """Least thickness of the seat [m]: the thread depth that holds in plastic."""
-
-SEATED = "foot on pedestal, which is tapped"
-"""Purpose of the screws in a seat."""
 
 ON_ITS_SIDE = Placement(np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]), np.zeros(3))
 """Placement of a profile in the pedestal's y-z plane, extruded along x."""
@@ -97,7 +94,8 @@ class Pedestal:
     @property
     def seat_screws(self) -> Fastening:
         """Screws of the foot on it."""
-        return Fastening(TRUNK_SCREW, TRUNK_SCREW_COUNT, self.foot_base, SEATED, IN_PLASTIC)
+        joint = BoltedJoint.FOOT_ON_PEDESTAL
+        return Fastening(TRUNK_SCREW, TRUNK_SCREW_COUNT, self.foot_base, joint, IN_PLASTIC)
 
     @property
     def off(self) -> float:
@@ -152,7 +150,7 @@ class Pedestal:
     @property
     def base_screws(self) -> Fastening:
         """Screws of its flanges."""
-        return Fastening(TRUNK_SCREW, 4, self.base, "pedestal on trunk")
+        return Fastening(TRUNK_SCREW, 4, self.base, BoltedJoint.PEDESTAL)
 
     @property
     def _directions(self) -> tuple[FloatArray, FloatArray]:

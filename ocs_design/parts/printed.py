@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ocs_design.actuation.fasteners import STEEL, Fastening, Screw, screw
+from ocs_design.actuation.fasteners import STEEL, BoltedJoint, Fastening, Screw, screw
 from ocs_design.actuation.motor import BoltCircle
 from ocs_design.common.frames import Placement
 from ocs_design.parts.moments import MassMoments, Real, point
@@ -112,8 +112,7 @@ def base_thickness(plate: Real | float) -> Real:
 def trunk_screws(plate: float) -> Fastening:
     """Screws of a foot with a plate of this thickness [m], one through each slot."""
     through = float(base_thickness(plate))
-    purpose = "foot on trunk; longer if the trunk's thread starts deeper"
-    return Fastening(TRUNK_SCREW, TRUNK_SCREW_COUNT, through, purpose)
+    return Fastening(TRUNK_SCREW, TRUNK_SCREW_COUNT, through, BoltedJoint.FOOT_ON_TRUNK)
 
 
 def ear_radius(held: Screw) -> float:

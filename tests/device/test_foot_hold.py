@@ -149,8 +149,8 @@ def test_a_screw_under_the_cage_has_a_key_that_goes_there():
     assert found
     room = float(found[1])
     assert float(found[2]) < room < 18.0
-    pieces = {each.name.split(",")[0].split(";")[0]: each for each in module_pieces(device)}
-    heads = pieces["foot on trunk"].mesh.vertices
+    pieces = {each.key: each for each in module_pieces(device)}
+    heads = pieces[foot_screws(device, device.modules[0])].mesh.vertices
     # Up is -y; the inner screw is on the motor's side, at -z.
     inner = heads[heads[:, 2] < 0.0]
     x, _, z = (inner.min(axis=0) + inner.max(axis=0)) / 2.0

@@ -9,6 +9,7 @@ from ocs_design.actuation.fasteners import (
     CLASSES,
     IN_PLASTIC,
     USUAL_CLASS,
+    BoltedJoint,
     screw,
 )
 from ocs_design.catalogue.motors import known_motors
@@ -54,7 +55,7 @@ def test_every_screw_is_standard_and_holds():
             held = length - 1e3 * each.thickness
             assert length in STANDARD
             assert held >= least - 1e-9
-            asked = IN_PLASTIC if "tapped" in each.purpose else 1.0
+            asked = IN_PLASTIC if each.joint.in_print else 1.0
             deepest = each.most / each.screw.diameter
             turns = 3.0 * each.screw.pitch / each.screw.diameter
             assert each.depth >= min(asked, deepest, turns if isfinite(deepest) else asked) - 1e-12
@@ -86,7 +87,7 @@ def test_no_screw_reaches_beyond_the_only_depth_that_is_known():
             whole = replace(motor.mounting.rotor, drawn=None, depth_max=None)
             free = hub_joint(replace(motor.mounting, rotor=whole), 0.0)
             assert hub_joint(motor.mounting, 0.0) == pytest.approx(share * free)
-            found = tightened(held, on_metal=True).torque
+            found = tightened(held).torque
             assert found == pytest.approx(share * tightening_torque(held.screw, held.strength))
     assert drawn > 20
 
@@ -107,7 +108,7 @@ def test_no_screw_ends_in_what_is_behind_its_thread():
         mount = mount_of(motor, None)
         for each in mount.screwed:
             held = each.fastening
-            if "tapped" in held.purpose:
+            if held.joint.in_print:
                 room = PANEL + PLATE_THICKNESS + mount.cage.length - FLOOR
                 assert held.length <= room + 1e-12
             else:
@@ -136,17 +137,20 @@ def test_torques_are_those_of_vdi_2230(name):
 def test_no_torque_is_beyond_what_screw_thread_and_print_stand():
     for motor in HELD:
         for each in (*fastenings(motor), LID_SCREWS, trunk_screws(PLATE_THICKNESS)):
-            soft, hard = (tightened(each, on_metal=metal) for metal in (False, True))
+            own = BoltedJoint.MOTOR if each.joint is BoltedJoint.WHEEL else each.joint
+            soft, hard = (
+                tightened(replace(each, joint=joint)) for joint in (own, BoltedJoint.WHEEL)
+            )
             stronger = CLASSES[each.strength].yields / CLASSES[USUAL_CLASS].yields
             most = each.screw.torque(stronger * each.screw.preload)
             assert 0.0 < soft.torque <= hard.torque <= most
-            if each.depth >= IN_PLASTIC:
+            if each.joint.in_print:
                 assert "PETG" in soft.rule
 
 
 def test_a_print_s_thread_is_tightened_by_hand():
     """M2 in 4.8 mm of PETG: pi 2 4.8 / 2 x 47 / sqrt(3) = 409 N strip it; a third, 136.4 N."""
-    found = tightened(LID_SCREWS, on_metal=False)
+    found = tightened(LID_SCREWS)
     each = LID_SCREWS.screw
     assert found.torque == pytest.approx(each.torque(136.4), rel=2e-3)
     assert found.engagement == pytest.approx(4.8e-3)

@@ -402,7 +402,7 @@ def test_posts_by_hand():
     shares = 1.6 * stress / pressed, stress / 127.5e6, (stress + pressed) / 255e6
     assert posts_use(plate, 3.0, 0.13) == pytest.approx(max(shares), rel=5e-3)
     (held,) = plate.fastenings
-    whole = tightened(held, on_metal=False, head_on_print=False)
+    whole = tightened(held)
     assert whole.torque == pytest.approx(held.screw.torque(held.screw.preload))
     assert held.length == plate.screw_lengths[0]
     two = replace(plate, rows=(0.1, -0.1), trunk=plate.trunk * 2, sleeves=plate.sleeves * 2)

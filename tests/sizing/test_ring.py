@@ -243,7 +243,7 @@ def test_in_their_fixture_ring_and_bell_stand_as_they_do_in_the_module():
     """Both stand on it, in none of its walls, as far from each other as in the housing, and the
     shaft does not lift it off the table."""
     device = made()[1].device
-    pieces = {piece.name: piece.mesh.vertices for piece in bonding_pieces(device)}
+    pieces = {piece.key: piece.mesh.vertices for piece in bonding_pieces(device)}
     assert list(pieces) == ["ring_fixture", "motor", "flywheel"]
     fixture, motor, ring = (vertices * [1.0, -1.0, 1.0] for vertices in pieces.values())
     # Of y up: the bell on the floor, the ring on the step; nothing of the fixture in the ring.

@@ -9,12 +9,12 @@ from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
-from ocs_design.actuation.fasteners import IN_PLASTIC
-from ocs_design.actuation.motor import DIRECT, OFF_BOTTOM
+from ocs_design.actuation.fasteners import OFF_BOTTOM, BoltedJoint, Fastening
+from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.motors import drawn_threads
 from ocs_design.common.units import significant
 from ocs_design.device.device import Device
-from ocs_design.export.assembly.content import Assembly, assembly_of, short
+from ocs_design.export.assembly.content import Assembly, assembly_of
 from ocs_design.export.assembly.placed import Piece
 from ocs_design.export.assembly.steps import module_steps, robot_steps, tools
 from ocs_design.export.assembly.trials import balance, safety, spin_test, sweep
@@ -351,29 +351,30 @@ def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]
 def piece_rows(assembly: Assembly) -> Iterator[PieceRow]:
     """Pieces and screws in the order of their numbers."""
     bill = bill_rows(assembly.device)
-    drawn = {piece.name: piece for piece in (*assembly.pieces, *assembly.bonding)}
-    for piece in drawn.values():
-        number, count = assembly.numbers[piece.name], _count(assembly, piece)
-        if piece.fastening is not None:
-            what = piece.fastening.designation
-            if assembly.screws[piece.name].washers:
+    drawn = {piece.key: piece for piece in (*assembly.pieces, *assembly.bonding)}
+    for key, piece in drawn.items():
+        number, count = assembly.numbers[key], _count(assembly, piece)
+        if isinstance(key, Fastening):
+            what = key.designation
+            if assembly.screws[key].washers:
                 what += f", washers {WASHER}"
-            yield PieceRow(number, count, f"screw, {short(piece.name)}", f"bought: {what}", "")
+            yield PieceRow(number, count, f"screw, {key.name}", f"bought: {what}", "")
         else:
-            label = _LABELS.get(piece.name, piece.name.replace("_", " "))
-            made, file = _made(assembly.device, piece.name, bill)
+            label = _LABELS.get(key, key.replace("_", " "))
+            made, file = _made(assembly.device, key, bill)
             yield PieceRow(number, count, label, made, file)
 
 
 def screw_rows(assembly: Assembly) -> Iterator[ScrewRow]:
     """Screws with their torques."""
     for piece in assembly.pieces:
-        if piece.fastening is None:
+        held = piece.fastening
+        if held is None:
             continue
-        name, found, held = piece.name, assembly.screws[piece.name], piece.fastening
+        found = assembly.screws[held]
         depth = f"{1e3 * found.engagement:.1f} mm ({found.engagement / held.screw.diameter:.1f} d)"
         yield ScrewRow(
-            assembly.numbers[name],
+            assembly.numbers[held],
             _count(assembly, piece),
             held.designation,
             f"{held.purpose}{found.with_washers}",
@@ -391,27 +392,24 @@ def _count(assembly: Assembly, piece: Piece) -> int:
 
 def _motor_threads(assembly: Assembly) -> Iterator[str]:
     """Known depth of the motor's threads, and the reach of the screws into them."""
-    found = {
-        name: each
-        for name, each in assembly.screws.items()
-        if each.fastening.depth < IN_PLASTIC and "motor" in each.fastening.purpose
-    }
+    found = [each for held, each in assembly.screws.items() if held.joint.in_motor]
     if not found:
         return
     reach = " and ".join(
-        f"{1e3 * each.engagement:.1f} mm ({short(name)})" for name, each in found.items()
+        f"{1e3 * each.engagement:.1f} mm ({each.fastening.name})" for each in found
     )
     motor, drawn = assembly.device.motor, ""
     model = drawn_threads(motor.name, motor.source)
-    stated = all(each.fastening.least > 0.0 for each in found.values())
+    stated = all(each.fastening.least > 0.0 for each in found)
     if model is not None and not stated:
-        at = [model.rotor if name.startswith("wheel") else model.stator for name in found]
+        joints = (each.fastening.joint for each in found)
+        at = [model.rotor if joint is BoltedJoint.WHEEL else model.stator for joint in joints]
         drawn = (
             f" For {model.model}, whose threads the catalogue assumes for this motor, a CAD model "
             f"shows {' and '.join(f'{1e3 * depth:.1f} mm' for depth in at)}: its modeller's "
             "figures, not the maker's."
         )
-        reached = (each.engagement for each in found.values())
+        reached = (each.engagement for each in found)
         fits = all(
             deep <= depth - OFF_BOTTOM + 1e-9 for deep, depth in zip(reached, at, strict=True)
         )

@@ -8,11 +8,10 @@ from dataclasses import dataclass, fields
 from functools import cached_property, lru_cache
 from math import pi, sqrt
 
-from ocs_design.actuation.fasteners import CLASSES, IN_PLASTIC, Fastening
+from ocs_design.actuation.fasteners import CLASSES, BoltedJoint, Fastening
 from ocs_design.common.units import significant
 from ocs_design.device.joints import burst_of, foot_hold
-from ocs_design.device.solids import motor_mount
-from ocs_design.export.assembly.placed import Piece, bonding_pieces, holds_wheel, module_pieces
+from ocs_design.export.assembly.placed import Piece, bonding_pieces, module_pieces
 from ocs_design.export.device_parts import places, trunk_holes
 from ocs_design.export.formats import Documented, Subject
 from ocs_design.parts.foot import FootHold
@@ -61,14 +60,9 @@ class Tightened:
 
 
 def tightened(
-    fastening: Fastening,
-    *,
-    on_metal: bool,
-    head_on_print: bool = True,
-    on_slot: FootHold | None = None,
-    deepest: float = math.inf,
+    fastening: Fastening, *, on_slot: FootHold | None = None, deepest: float = math.inf
 ) -> Tightened:
-    """Screws with their tightening torque; for the wheel's metal joints, that of the joint model.
+    """Screws with their tightening torque; for the wheel's metal joint, that of the joint model.
 
     For other screws, of class 8.8, the preload is the smallest of: 90 % of the screw's yield
     strength (VDI 2230); half of the force that shears off a thread in aluminium, or a third of it
@@ -77,11 +71,12 @@ def tightened(
     includes any washers. A print's shear strength is its tensile strength over sqrt(3). No thread
     is deeper than `deepest` [m].
     """
-    screw = fastening.screw
+    screw, joint = fastening.screw, fastening.joint
+    head_on_print = joint not in (BoltedJoint.PLATE, BoltedJoint.MAST)
     engagement = min(fastening.engagement, deepest)
     washers = on_slot is not None and on_slot.washers
     sheared = pi * screw.diameter * engagement / 2.0
-    if on_metal:
+    if joint is BoltedJoint.WHEEL:
         strength = fastening.strength
         held = min(1.0, engagement / (CLASSES[strength].depth * screw.diameter))
         share = held * joint_preload(screw, strength) / (sheared * ALUMINIUM_SHEAR)
@@ -95,7 +90,7 @@ def tightened(
             pressed = on_slot.preload
             where = f"{'washer' if washers else 'head'} beside a slot in PETG"
         limits.append((pressed, f"{where} at half its yield strength"))
-    if fastening.depth >= IN_PLASTIC:
+    if joint.in_print:
         stripped = STRIP_SHARE * sheared * PETG.strength / sqrt(3.0)
         limits.append((stripped, "thread in PETG at a third of the load that strips it"))
     else:
@@ -120,30 +115,28 @@ class Assembly(Documented):
         return bonding_pieces(self.device)
 
     @cached_property
-    def numbers(self) -> dict[str, int]:
-        """Numbers of the pieces by their names, the fixture's last."""
-        names = dict.fromkeys(piece.name for piece in (*self.pieces, *self.bonding))
-        return {name: number for number, name in enumerate(names, start=1)}
+    def numbers(self) -> dict[str | Fastening, int]:
+        """Numbers of the pieces by their keys, the fixture's last."""
+        keys = dict.fromkeys(piece.key for piece in (*self.pieces, *self.bonding))
+        return {key: number for number, key in enumerate(keys, start=1)}
 
     @cached_property
-    def screws(self) -> dict[str, Tightened]:
-        """Screws by their purpose."""
-        on_wheel = {
-            each.fastening.purpose for each in motor_mount(self.device).screwed if holds_wheel(each)
-        }
-        return {
-            piece.name: tightened(
-                piece.fastening,
-                on_metal=piece.name in on_wheel,
-                head_on_print=not piece.shared,
-                on_slot=foot_hold(self.device) if piece.name.startswith("foot on") else None,
-                deepest=self.device.plate.thickness
-                if self.device.plate is not None and piece.name.startswith("foot on plate")
-                else math.inf,
-            )
-            for piece in self.pieces
-            if piece.fastening is not None
-        }
+    def screws(self) -> dict[Fastening, Tightened]:
+        """Screws with their torques, in the order of the pieces."""
+        plate, found = self.device.plate, {}
+        for held in (piece.fastening for piece in self.pieces):
+            if held is not None:
+                tapped = plate is not None and held.joint is BoltedJoint.FOOT_ON_PLATE
+                found[held] = tightened(
+                    held,
+                    on_slot=foot_hold(self.device) if held.joint.of_foot else None,
+                    deepest=plate.thickness if plate is not None and tapped else math.inf,
+                )
+        return found
+
+    def screws_of(self, *joints: BoltedJoint) -> list[Tightened]:
+        """Screws of these joints, in the order of the pieces."""
+        return [each for held, each in self.screws.items() if held.joint in joints]
 
     @cached_property
     def top_speed(self) -> float | None:
@@ -156,42 +149,26 @@ class Assembly(Documented):
         """Containment of a wheel that bursts at top speed; None if the speed is not known."""
         return None if self.top_speed is None else burst_of(self.device)
 
-    def number(self, name: str) -> str:
+    def number(self, key: str | Fastening) -> str:
         """Reference to a piece's number in the pictures; empty if it has none."""
-        number = self.numbers.get(name)
+        number = self.numbers.get(key)
         return "" if number is None else f" ({number})"
 
-    @property
-    def late(self) -> tuple[str, ...]:
-        """Screws that are tightened after balancing: those of lid and trunk."""
-        return tuple(
-            name
-            for name in self.screws
-            if name.startswith(("lid", "foot on", "plate on", "mast on", "pedestal"))
-        )
-
-    def screwed(self, name: str) -> str:
+    def screwed(self, held: Fastening) -> str:
         """Step that tightens a set of equal screws."""
-        found = self.screws[name]
-        held = found.fastening
-        joint = "Lid on drum" if name.startswith("lid") else short(name).capitalize()
-        lock = "no threadlocker"
-        if held.depth < IN_PLASTIC:
+        found, lock = self.screws[held], "no threadlocker"
+        if not held.joint.in_print:
             lock = "medium-strength threadlocker"
             if found.on_print:
                 lock += ", a drop on the tips only, because it attacks the print"
         plate, where = self.device.plate, ""
-        fastenings = () if plate is None else plate.fastenings
         # Places of these screws on the trunk [mm] if their lengths differ.
-        if (
-            plate is not None
-            and len(fastenings) > 1
-            and name in {each.purpose for each in fastenings}
-        ):
+        if plate is not None and held.several_lengths:
             own = zip(places(trunk_holes(plate)), plate.screw_lengths, strict=True)
             where = f"; those at {', '.join(at for at, length in own if length == held.length)}"
         return (
-            f"{joint}: {held.count} x {held.designation}{self.number(name)}{found.with_washers}, "
+            f"{held.name.capitalize()}: {held.count} x {held.designation}{self.number(held)}"
+            f"{found.with_washers}, "
             f"{significant(found.torque, 2)} N m, crosswise in two rounds; {lock}{where}."
         )
 
@@ -201,8 +178,3 @@ def assembly_of(subject: Subject) -> Assembly:
     """Assembly of the subject's device, for the booklet and for the report."""
     own = {each.name: getattr(subject, each.name) for each in fields(Assembly)}
     return Assembly(**own)
-
-
-def short(purpose: str) -> str:
-    """Purpose of screws without its notes."""
-    return purpose.split(";", maxsplit=1)[0].split(", ", maxsplit=1)[0]

@@ -10,7 +10,7 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from ocs_design.actuation.fasteners import Fastening
+from ocs_design.actuation.fasteners import BoltedJoint, Fastening
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import Placement
 from ocs_design.device.bodies import carrier_placement, wheel_placement
@@ -28,7 +28,7 @@ from ocs_design.export.meshes import Mesh, merged, part_mesh, solid_mesh
 from ocs_design.export.visuals import cage_placement
 from ocs_design.parts.carrier_plate import plate_bodies
 from ocs_design.parts.housing import FIRST_EAR, LID_SCREWS, guard_ring
-from ocs_design.parts.motor_mount import DriveSolid, Screwed
+from ocs_design.parts.motor_mount import DriveSolid
 from ocs_design.parts.printed import LID_SCREW, ear_axis
 from ocs_design.parts.solids import HERE, Part, Revolution, hollow_cylinder, revolved
 
@@ -44,25 +44,28 @@ class Piece:
     """A piece of the module, or equal screws of it.
 
     Attributes:
-        name: "drum", "lid", "foot", "cage", "motor", "gear", names of the wheel's pieces, or the
-            purpose of screws.
+        key: "drum", "lid", "foot", "cage", "motor", "gear", names of the wheel's pieces; or the
+            data of screws.
         mesh: mesh in place in the wheel's frame [m].
-        fastening: data of screws; None for other pieces.
         drop: downward shift in the exploded view [m]; None: it is moved along the axis instead.
         aside: additional shift along the axis [m]: pedestals of several shapes share one place.
         shared: whether the device has it once, for all modules.
-        count: number of equal pieces in the mesh; for screws see `fastening`.
+        count: number of equal pieces in the mesh, if they are not screws.
         modules: number of modules that have it; None: all.
     """
 
-    name: str
+    key: str | Fastening
     mesh: Mesh
-    fastening: Fastening | None = None
     drop: float | None = None
     aside: float = 0.0
     shared: bool = False
     count: int = 1
     modules: int | None = None
+
+    @property
+    def fastening(self) -> Fastening | None:
+        """Data of screws; None for other pieces."""
+        return self.key if isinstance(self.key, Fastening) else None
 
     def moved(self, offset: FloatArray) -> "Piece":
         """The piece shifted by an offset [m]."""
@@ -151,8 +154,9 @@ def module_pieces(device: Device) -> tuple[Piece, ...]:
         )
         for each in mount.screwed
     ]
-    on_wheel = [piece for each, piece in screws if each.towards < 0.0 and holds_wheel(each)]
-    inside = [piece for each, piece in screws if each.towards < 0.0 and not holds_wheel(each)]
+    ahead = [(each.fastening.joint, piece) for each, piece in screws if each.towards < 0.0]
+    on_wheel = [piece for joint, piece in ahead if joint is BoltedJoint.WHEEL]
+    inside = [piece for joint, piece in ahead if joint is not BoltedJoint.WHEEL]
     behind = [piece for each, piece in screws if each.towards > 0.0]
     back, guard = ([parts.pop(name)] if name in parts else [] for name in ("cage", "guard"))
     # A motor with a ring on its bell sits in the drum.
@@ -199,11 +203,6 @@ def bonding_pieces(device: Device) -> tuple[Piece, ...]:
     return tuple(pieces)
 
 
-def holds_wheel(screwed: Screwed) -> bool:
-    """Whether screws hold the wheel, and not the motor or its support."""
-    return screwed.fastening.purpose.startswith("wheel")
-
-
 def _ring(
     fastening: Fastening, radius: float, first: float, along: float, towards: float = -1.0
 ) -> Piece:
@@ -218,7 +217,7 @@ def _ring(
         angle = first + 2.0 * pi * index / fastening.count
         place = np.array([radius * cos(angle), radius * sin(angle), along])
         meshes.append(one.placed(Placement(flip, place)))
-    return Piece(fastening.purpose, merged(meshes), fastening)
+    return Piece(fastening, merged(meshes))
 
 
 def _foot_screws(device: Device) -> Iterator[Piece]:
@@ -241,7 +240,7 @@ def _foot_screws(device: Device) -> Iterator[Piece]:
         heads = [_screw(held).moved(np.array([x, y, under + held.thickness])) for x, y in places]
         screws = merged(heads).placed(place)
         apart = -_APART * foot.housing.radius
-        yield Piece(held.purpose, screws, held, drop=apart, modules=feet.count(held))
+        yield Piece(held, screws, drop=apart, modules=feet.count(held))
 
 
 def _pieces_below(device: Device) -> Iterator[Piece]:
@@ -256,7 +255,7 @@ def _pieces_below(device: Device) -> Iterator[Piece]:
         for held in plate.fastenings:
             own = zip(plate.screw_places, plate.screw_lengths, strict=True)
             heads = [_screw(held).placed(at @ head) for at, length in own if length == held.length]
-            yield Piece(held.purpose, merged(heads).placed(place), held, drop=apart, shared=True)
+            yield Piece(held, merged(heads).placed(place), drop=apart, shared=True)
         bodies: dict[str, list[Mesh]] = {}
         for part, at in plate_bodies(plate):
             bodies.setdefault(part.name, []).append(part_mesh(part, SECTIONS).placed(place @ at))
@@ -276,7 +275,7 @@ def _pieces_below(device: Device) -> Iterator[Piece]:
         aside = min(0.0, beside - apart - float(along.max()))
         beside = aside + float(along.min())
         drawn = partial(Piece, aside=aside, modules=len(kind.alike))
-        yield drawn(held.purpose, screws, held, drop=apart)
+        yield drawn(held, screws, drop=apart)
         yield drawn(kind.name, mesh, drop=2.0 * apart)
 
 

@@ -5,7 +5,7 @@ from math import sqrt
 
 import numpy as np
 
-from ocs_design.actuation.fasteners import screw
+from ocs_design.actuation.fasteners import BoltedJoint, screw
 from ocs_design.catalogue.materials import materials
 from ocs_design.common.units import format_quantity, significant
 from ocs_design.device.bodies import joint_name
@@ -35,10 +35,9 @@ from ocs_design.export.drawing.wheel import shrunk_on
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.carrier_plate import TOUCH, CarrierPlate, steepest
 from ocs_design.parts.foot import LONG_MARKS
-from ocs_design.parts.housing import FINGER, lid_sag
+from ocs_design.parts.housing import FINGER, LID_SCREWS, lid_sag
 from ocs_design.parts.joints import EPOXY
 from ocs_design.parts.module import part_name
-from ocs_design.parts.pedestal import SEATED
 from ocs_design.parts.printed import (
     CLEARANCE,
     GUARD_GAP,
@@ -96,11 +95,11 @@ def tools(assembly: Assembly) -> Iterator[str]:
         small = f"drills of {2e3 * hole:.2g} mm, with spares,"
         yield f"{small if hole >= LEAST_DRILL / 2.0 else 'small grinder'} to balance"
     cut = ["the motor's shaft"] if shaft_cut(device)[1] > 0.0 else []
-    for name, found in assembly.screws.items():
-        room = room_above(device, found) if name.startswith("foot on") else None
+    for held, found in assembly.screws.items():
+        room = room_above(device, found) if held.joint.of_foot else None
         if room is not None and LEAST_ROOM <= room <= KEY_LEG:
-            cut.append(f"the short leg of a hex key of {1e3 * found.fastening.screw.key:g} mm")
-        if "cut to" in name or "shorten" in name:
+            cut.append(f"the short leg of a hex key of {1e3 * held.screw.key:g} mm")
+        if held.shortened is not None:
             cut.append("screws")
     if cut:
         yield f"cutting disc for {' and '.join(dict.fromkeys(cut))}"
@@ -174,7 +173,7 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
             f"{loose if balance_of(device).shifted else ''}"
         )
         yield "Balance the wheel on its motor (below): lid off, behind the spin test's wall."
-        yield assembly.screwed(next(name for name in assembly.screws if name.startswith("lid")))
+        yield assembly.screwed(LID_SCREWS)
         yield "Run the spin test (below), lid on."
         mass = device.module_mass - device.motor.controller_mass
         yield (
@@ -186,9 +185,8 @@ def module_steps(assembly: Assembly) -> Iterator[str]:
 def _drive_steps(assembly: Assembly) -> Iterator[str]:
     """Steps to assemble motor, housing, foot and wheel."""
     device = assembly.device
-    if "motor" in assembly.numbers and not any(
-        name.startswith("motor") for name in assembly.screws
-    ):
+    of_motor = BoltedJoint.MOTOR, BoltedJoint.MOTOR_IN_CAGE
+    if "motor" in assembly.numbers and not assembly.screws_of(*of_motor):
         # The motor's threads are not known, nor, behind a gear, its hole.
         if device.motor.gear_room is not None:
             yield (
@@ -205,14 +203,12 @@ def _drive_steps(assembly: Assembly) -> Iterator[str]:
     joint = None
     if "drum" in assembly.numbers and not device.on_bell:
         joint = next((each for each in joints_of(device) if each.name == SHAFT_JOINT), None)
-    for name in assembly.screws:
-        if name not in assembly.late:
-            told = ""
-            if name.startswith("motor in its cage"):
-                told = " Its wires come out between two posts, tied to one."
-            elif name.startswith("wheel") and joint is not None and joint.capacity is not None:
-                told = f" They carry the wheel by {joint.note}."
-            yield f"{assembly.screwed(name)}{told}"
+    told = {BoltedJoint.MOTOR_IN_CAGE: " Its wires come out between two posts, tied to one."}
+    if joint is not None and joint.capacity is not None:
+        told[BoltedJoint.WHEEL] = f" They carry the wheel by {joint.note}."
+    for each in assembly.screws_of(*of_motor, BoltedJoint.CAGE, BoltedJoint.WHEEL):
+        held = each.fastening
+        yield f"{assembly.screwed(held)}{told.get(held.joint, '')}"
     if joint is not None and joint.capacity is None:
         yield f"Mount the wheel on its drive by a joint of your own: {joint.note}."
     elif joint is not None and (strip := _height_strip(assembly)) is not None:
@@ -226,8 +222,8 @@ def _drive_steps(assembly: Assembly) -> Iterator[str]:
 def _height_strip(assembly: Assembly) -> float | None:
     """Thickness of strips that set a wheel's height on its shaft [m]; None if it is not bonded."""
     device = assembly.device
-    screwed = any(name.startswith("wheel") for name in assembly.screws)
-    if screwed or not any(each.note.startswith("bonded") for each in joints_of(device)):
+    bonded = any(each.note.startswith("bonded") for each in joints_of(device))
+    if assembly.screws_of(BoltedJoint.WHEEL) or not bonded:
         return None
     return CLEARANCE + (foot_of(device).housing.rim_height - device.flywheel.height) / 2.0
 
@@ -414,19 +410,13 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
         yield f"Under its holes stand sleeves{assembly.number('sleeves')}: " + (
             ", ".join(sleeves) + ". File them to the trunk where it slopes under them."
         )
-    yield from (
-        assembly.screwed(each) for each in assembly.late if each.startswith(("plate on", "mast on"))
-    )
+    yield from map(assembly.screwed, plate.fastenings)
 
 
 def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
     """Step that turns the feet of these modules to the incidence by their scales."""
     foot = foot_of(assembly.device)
-    screws, found = next(
-        each
-        for each in assembly.screws.items()
-        if each[0].startswith("foot on") and each[0] != SEATED
-    )
+    found, *_ = assembly.screws_of(BoltedJoint.FOOT_ON_TRUNK, BoltedJoint.FOOT_ON_PLATE)
     modules = [each for each in assembly.device.modules if each.name in standing]
     line, met = _scribed(assembly.device, modules)
     values = tuple(dict.fromkeys(met.values()))
@@ -458,7 +448,7 @@ def _turning_step(assembly: Assembly, standing: Sequence[str]) -> str:
         f"apart, long ones {long:g}, and a degree is {degree:.2g} mm at their ends. {line}, and "
         f"turn the foot until that line meets the scale at {scale}, its lid looking {looks}: by "
         f"eye to a degree.{_marks_apart(assembly.device, modules)} Tighten {held.count} x "
-        f"{held.designation}{assembly.number(screws)}{found.with_washers}, with "
+        f"{held.designation}{assembly.number(held)}{found.with_washers}, with "
         f"{significant(found.torque, 2)} N m each, into {into}."
         f"{_under_motor(assembly, found)}{pinned}"
     )
@@ -591,14 +581,14 @@ def _pedestal_steps(assembly: Assembly) -> Iterator[str]:
             "its side at 100 % infill, as its strength assumes; tap the 2 holes of its seat "
             f"{one.base_screws.screw.name}. Its seat's far end points, from forward to the "
             f"left, to {turned}. Fit it to the trunk before the foot is on it. "
-            + assembly.screwed(kind.screws.purpose)
+            + assembly.screwed(kind.screws)
         )
     if assembly.device.pedestals:
-        name = SEATED
+        (seated,) = assembly.screws_of(BoltedJoint.FOOT_ON_PEDESTAL)
         middles = " and ".join(f"{1e3 * kind.alike[0].middle:.1f} mm" for kind in kinds)
         yield (
             f"Scribe a line across each seat, {middles} up from its low end, put the foot's "
             "middle on it with the wheel's axis along the seat, and turn the foot until the "
-            f"line meets the scale at 0 deg. {assembly.screwed(name)}"
-            f"{_under_motor(assembly, assembly.screws[name])}"
+            f"line meets the scale at 0 deg. {assembly.screwed(seated.fastening)}"
+            f"{_under_motor(assembly, seated)}"
         )

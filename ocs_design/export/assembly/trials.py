@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from ocs_design.actuation.fasteners import BoltedJoint
 from ocs_design.common.units import STANDARD_GRAVITY, rpm, significant
 from ocs_design.device.device import Device
 from ocs_design.device.joints import balance_of, burst_of, yield_margin
@@ -103,10 +104,11 @@ def balance(assembly: Assembly) -> Iterator[str]:
 def _at_the_rim(assembly: Assembly) -> Iterator[str]:
     """How to drill both faces of a rim whose inner face is next to the drum's floor."""
     device, mount = assembly.device, motor_mount(assembly.device)
-    held = next((name for name in assembly.screws if name.startswith("motor")), None)
-    if held is None or "drum" not in assembly.numbers:
+    found = assembly.screws_of(BoltedJoint.MOTOR, BoltedJoint.MOTOR_IN_CAGE)
+    if not found or "drum" not in assembly.numbers:
         return
-    screws = f"{assembly.screws[held].fastening.count} screws{assembly.number(held)}"
+    held = found[0].fastening
+    screws = f"{held.count} screws{assembly.number(held)}"
     chips = "Chips stick to the motor's magnets: tape over all openings, and drill with it on top."
     back = "Put both back as they were marked, and check the run-out again."
     across, window = device.motor.diameter or 0.0, 2.0 * mount.holes.pilot_radius
@@ -122,11 +124,12 @@ def _at_the_rim(assembly: Assembly) -> Iterator[str]:
             f"together on the lid's side, because its {1e3 * across:.1f} mm pass through the "
             f"window of {1e3 * window:.1f} mm. {chips} {back}"
         )
-    elif on_rotor := next((name for name in assembly.screws if name.startswith("wheel")), None):
+    elif on_rotor := assembly.screws_of(BoltedJoint.WHEEL):
+        held = on_rotor[0].fastening
         yield (
             f"The inner face is {1e3 * CLEARANCE:g} mm off the drum's floor: mark how the wheel "
-            f"stands on the motor, undo its {assembly.screws[on_rotor].fastening.count} screws"
-            f"{assembly.number(on_rotor)}, and drill it off its motor. {back}"
+            f"stands on the motor, undo its {held.count} screws{assembly.number(held)}, and drill "
+            f"it off its motor. {back}"
         )
     else:
         yield (

@@ -5,6 +5,7 @@ from itertools import cycle
 
 import numpy as np
 
+from ocs_design.actuation.fasteners import Fastening
 from ocs_design.common.arrays import FloatArray
 from ocs_design.export.assembly.line_art import section_lines, visible_lines
 from ocs_design.export.assembly.placed import Piece
@@ -50,7 +51,7 @@ def pulled_apart(pieces: Sequence[Piece], between: float) -> tuple[Piece, ...]:
         if piece.drop is not None:
             moved.append(piece)
             continue
-        if piece.name == "foot":
+        if piece.key == "foot":
             # Its base is below the motor; its screws must be visible in front of it.
             above = piece.mesh.vertices[piece.mesh.vertices[:, 1] < 0.0]
             low = float(above[:, 2].min())
@@ -58,7 +59,7 @@ def pulled_apart(pieces: Sequence[Piece], between: float) -> tuple[Piece, ...]:
         shift = 0.0 if np.isneginf(end) else end + gap - low
         end = high + shift
         moved.append(piece.moved(np.array([0.0, 0.0, shift])))
-        if piece.name == "foot":
+        if piece.key == "foot":
             lift = shift
     # Pieces on or under the foot move with it.
     return tuple(
@@ -70,7 +71,7 @@ def pulled_apart(pieces: Sequence[Piece], between: float) -> tuple[Piece, ...]:
 
 
 def exploded_view(
-    pieces: Sequence[Piece], numbers: Mapping[str, int], box: Box
+    pieces: Sequence[Piece], numbers: Mapping[str | Fastening, int], box: Box
 ) -> tuple[list[Item], Scale]:
     """Exploded view in the middle of a box of the sheet [mm], with its scale."""
     view = view_of(_CAMERA, _UP)
@@ -102,8 +103,8 @@ def exploded_view(
     for piece, mesh, chains in zip(apart, meshes, lines, strict=True):
         # Hidden pieces get a leader, too.
         flat = np.concatenate(chains) if chains else mesh.vertices[:, :2]
-        name = numbers[piece.name]
-        if piece.drop is not None or piece.name == "foot":
+        name = numbers[piece.key]
+        if piece.drop is not None or piece.key == "foot":
             below.append((name, place(flat[flat[:, 1].argmin()])))
         else:
             above.append((name, place(flat[flat[:, 1].argmax()])))
@@ -113,7 +114,11 @@ def exploded_view(
 
 
 def section_view(
-    pieces: Sequence[Piece], numbers: Mapping[str, int], box: Box, *, standing: bool = False
+    pieces: Sequence[Piece],
+    numbers: Mapping[str | Fastening, int],
+    box: Box,
+    *,
+    standing: bool = False,
 ) -> tuple[list[Item], Scale]:
     """Section along the axis, upright, in the middle of a box of the sheet [mm], with its scale.
 
@@ -138,7 +143,7 @@ def section_view(
     leaning = cycle((False, True))
     for piece, chains in cut:
         lines = [tuple(map(place, chain)) for chain in chains]
-        if piece.fastening is None and piece.name not in _BOUGHT:
+        if piece.fastening is None and piece.key not in _BOUGHT:
             # Adjacent parts are hatched in opposite directions; bought parts are not hatched.
             items += hatching(*lines, mirrored=next(leaning))
         pen = THIN if piece.fastening is not None else OUTLINE
@@ -148,7 +153,7 @@ def section_view(
         ends = corners[:, 0] if behind else -corners[:, 0]
         # The highest of the outermost corners.
         outer = corners[np.lexsort((-corners[:, 1], np.rint(1e6 * ends)))[0]]
-        beside[behind].append((numbers[piece.name], place(outer)))
+        beside[behind].append((numbers[piece.key], place(outer)))
     along = np.array([0.0, 1.0] if standing else [1.0, 0.0])
     items.append(Line(place(along * (low - 0.004)), place(along * (high + 0.004)), CENTRE))
     for behind, marks in beside.items():

@@ -27,6 +27,7 @@ from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.assembly.views import BALLOON, pulled_apart, spread
 from ocs_design.export.assembly_notes import trunk_threads
 from ocs_design.export.bill_of_materials import bill_rows
+from ocs_design.export.device_parts import pedestal_kinds
 from ocs_design.export.drawing.sheet import FRAME_BOX, THIN, Circle, Line, Polyline, Text
 from ocs_design.export.electrics import wiring, wiring_parts
 from ocs_design.parts.pedestal import Pedestal
@@ -82,7 +83,7 @@ def test_the_way_that_a_positive_torque_turns_is_told_as_seen_from_the_lid(name)
     A lid is on the far side of its module from the motor, in its own mesh."""
     device = DEVICES[name]
     (text,) = (text for text in all_texts(Assembly("dog", device)) if "positive torque" in text)
-    pieces = {piece.name: piece for piece in Assembly("dog", device).pieces}
+    pieces = {piece.key: piece for piece in Assembly("dog", device).pieces}
     lid, motor = (pieces[each].mesh.vertices.mean(axis=0) for each in ("lid", "motor"))
     for module in device.modules:
         placed = wheel_placement(module) @ carrier_placement(module)
@@ -177,7 +178,7 @@ def test_the_plate_is_under_the_foot_with_its_screws_and_sleeves():
 
     def low_and_high(pieces, name):
         """Height of the underside and of the top."""
-        meshes = [each.mesh for each in pieces if re.split("[,;]", each.name)[0] == name]
+        meshes = [each.mesh for each in pieces if name in (each.key, getattr(each.key, "name", ""))]
         down = np.concatenate([mesh.vertices[:, 1] for mesh in meshes])
         return -down.max(), -down.min()
 
@@ -194,7 +195,7 @@ def test_pulled_apart_no_piece_touches_its_neighbour():
     pieces = Assembly("solo12", DEVICES["caged"]).pieces
     apart = [piece for piece in pulled_apart(pieces, 0.02) if piece.drop is None]
     for one, other in pairwise(apart):
-        if "foot" not in (one.name, other.name):
+        if "foot" not in (one.key, other.key):
             assert one.mesh.vertices[:, 2].max() < other.mesh.vertices[:, 2].min()
 
 
@@ -255,7 +256,7 @@ def test_a_guard_ring_is_built_and_told_with_its_limits():
     rows = {row.name: row for row in piece_rows(assembly)}
     assert rows["guard ring"].file == "guard_ring.stl"
     # Its epoxy has room between ring and drum, and is on the bill.
-    pieces = {piece.name: piece.mesh for piece in assembly.pieces}
+    pieces = {piece.key: piece.mesh for piece in assembly.pieces}
     drum = foot_of(device).housing.inner_radius
     assert drum - pieces["guard"].vertices[:, 0].max() == pytest.approx(0.1e-3, abs=5e-5)
     assert "0.1 mm all around, down to its floor" in texts(assembly, "Steps")
@@ -405,7 +406,7 @@ def test_a_drill_gets_at_the_rim_as_the_motor_is_held(name, says):
 def test_the_screws_reach_into_the_motor_is_told_beside_what_its_model_draws():
     """Screws less what they go through; models are of the motor, or of the one that it follows."""
     device = DEVICES["caged"]
-    screws = {name.split("; ")[0]: each for name, each in Assembly("dog", device).screws.items()}
+    screws = {held.name: each for held, each in Assembly("dog", device).screws.items()}
     names = [name for name in screws if name.startswith(("wheel", "motor"))]
     reach = [screws[name].fastening.length - screws[name].fastening.thickness for name in names]
     reached = " and ".join(
@@ -664,16 +665,18 @@ def test_pedestals_of_two_shapes_stand_beside_each_other():
         Pedestal(foot.base_radius, foot.slot_radius, foot.wheel_height, lean, 0.04, module=module)
         for lean, module in ((0.3, "left"), (0.9, "right"))
     )
-    assembly = Assembly("solo12", replace(caged, plate=None, pedestals=(low, high)))
-    apart = {piece.name: piece.mesh.vertices for piece in pulled_apart(assembly.pieces, 0.01)}
-    along = [
-        np.concatenate([apart[f"pedestal_{side}"], apart[f"pedestal {side} on trunk"]])[:, 2]
+    device = replace(caged, plate=None, pedestals=(low, high))
+    assembly, kinds = Assembly("solo12", device), pedestal_kinds(device)
+    apart = {piece.key: piece.mesh.vertices for piece in pulled_apart(assembly.pieces, 0.01)}
+    along = [np.concatenate([apart[kind.name], apart[kind.screws]])[:, 2] for kind in kinds]
+    assert along[1].max() < along[0].min()
+    assert [kind.screws.purpose for kind in kinds] == [
+        f"pedestal {side} on trunk; longer if the trunk's thread starts deeper"
         for side in ("left", "right")
     ]
-    assert along[1].max() < along[0].min()
     assert {"pedestal left", "pedestal right"} <= {row.name for row in piece_rows(assembly)}
     # In their places they have one seat.
-    placed = {piece.name: piece for piece in assembly.pieces}
+    placed = {piece.key: piece for piece in assembly.pieces}
     assert placed["pedestal_left"].aside == 0.0 > placed["pedestal_right"].aside
 
 
@@ -708,7 +711,7 @@ def test_the_wheel_is_bonded_as_high_as_it_was_designed():
     """What is between its rim and the drum's floor, by their meshes."""
     device = DEVICES["by its face"]
     assembly = Assembly("solo12", device)
-    meshes = {piece.name: piece.mesh.vertices for piece in assembly.pieces}
+    meshes = {piece.key: piece.mesh.vertices for piece in assembly.pieces}
     rim, drum = meshes["flywheel"], meshes["drum"]
     below = drum[np.hypot(*drum[:, :2].T) < device.flywheel.inner_radius, 2].max()
     low = rim[np.hypot(*rim[:, :2].T) > device.flywheel.inner_radius, 2].min()

@@ -106,7 +106,7 @@ def test_a_shaft_is_cut_where_it_would_run_into_the_lid(length):
     device = DEVICES["by its face"]
     mounting = replace(device.motor.mounting, shaft_length=length)
     device = replace(device, motor=replace(device.motor, mounting=mounting))
-    pieces = {piece.name: piece for piece in module_pieces(device)}
+    pieces = {piece.key: piece for piece in module_pieces(device)}
     tip = pieces["motor"].mesh.vertices[:, 2].max()
     lid = pieces["lid"].mesh.vertices[:, 2].min()
     hub = device.flywheel.web.hub.height / 2.0
@@ -125,13 +125,12 @@ def test_a_shaft_is_cut_where_it_would_run_into_the_lid(length):
 
 def test_the_screws_heads_stand_on_what_they_hold():
     """Those of the lid: their tips are in the drum, their heads above the lid."""
-    pieces = {piece.name: piece for piece in module_pieces(DEVICES["caged"])}
+    pieces = {piece.key: piece for piece in module_pieces(DEVICES["caged"])}
     lid = pieces["lid"].mesh.vertices[:, 2]
-    screws = next(each for name, each in pieces.items() if name.startswith("lid on"))
-    along = screws.mesh.vertices[:, 2]
+    along = pieces[LID_SCREWS].mesh.vertices[:, 2]
     assert along.max() == pytest.approx(lid.max() + 0.002)
     assert along.min() == pytest.approx(lid.max() - 0.006)
-    assert np.hypot(*screws.mesh.vertices[:, :2].T).min() > 0.04
+    assert np.hypot(*pieces[LID_SCREWS].mesh.vertices[:, :2].T).min() > 0.04
 
 
 VIEW = view_of((1.0, 0.7, 0.5), (0.0, 0.0, 1.0))
