@@ -31,19 +31,15 @@ AT_THE_BACK = Mounting(
 AT_THE_OUTPUT = Mounting(0.005, stator=BoltCircle(0.025, 4, "M3"), stator_face=Face.OUTPUT)
 
 
-def test_a_motor_is_a_solid_cylinder():
-    body = Carrier.of(drive_moments(MOTOR))
+@pytest.mark.parametrize(("diameter", "length"), [(0.04, 0.03), (0.04, None), (None, None)])
+def test_a_motor_is_a_solid_cylinder_of_what_is_known_of_its_size(diameter, length):
+    """Without its length a disc, and without its diameter a point."""
+    body = Carrier.of(drive_moments(replace(MOTOR, diameter=diameter, length=length)))
+    square = (diameter or 0.0) ** 2 / 4.0
     assert body.mass == pytest.approx(0.12)
-    assert body.axial_inertia == pytest.approx(0.12 * 0.02**2 / 2.0)
-    across = 0.12 * (0.02**2 / 4.0 + 0.03**2 / 12.0)
+    assert body.axial_inertia == pytest.approx(0.12 * square / 2.0)
+    across = 0.12 * (square / 4.0 + (length or 0.0) ** 2 / 12.0)
     assert (body.transverse_inertia, body.vertical_inertia) == pytest.approx((across, across))
-
-
-def test_a_disc_without_its_length_and_a_point_without_its_diameter():
-    disc = Carrier.of(drive_moments(replace(MOTOR, length=None)))
-    assert disc.axial_inertia == pytest.approx(2.0 * disc.transverse_inertia)
-    dot = Carrier.of(drive_moments(replace(MOTOR, length=None, diameter=None)))
-    assert (dot.axial_inertia, dot.transverse_inertia) == (0.0, 0.0)
 
 
 @pytest.mark.parametrize("thick", some(2, [0.0084, 0.005]))

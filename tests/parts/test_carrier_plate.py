@@ -269,7 +269,7 @@ def test_a_mast_weighs_what_its_mesh_does(pairs, spacer):
     np.testing.assert_allclose(first.rotation[:, 2], [-1.0, 0.0, 0.0])
 
 
-@pytest.mark.parametrize("spacer", [0.0, 0.02, 0.04])
+@pytest.mark.parametrize("spacer", [0.0, 0.02])
 def test_a_masts_stl_is_one_closed_body_drilled_through(spacer):
     """Its genus: the upright, open at both ends, and four screws through two walls each."""
     rng = np.random.default_rng(0)

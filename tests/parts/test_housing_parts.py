@@ -55,9 +55,11 @@ def test_wheel_turns_with_its_clearance(still):
     assert all(overlap_volume(part, still) == 0.0 for part in wheel)
 
 
-def test_drum_and_lid_touch_and_do_not_overlap():
-    drum, lid = housing_parts(HOUSING)
-    assert overlap_volume(drum, lid) < 1e-15
+@pytest.mark.parametrize(
+    "pieces", [housing_parts(HOUSING), wheel_parts(TWO_PIECES)], ids=["housing", "wheel"]
+)
+def test_two_pieces_touch_and_do_not_overlap(pieces):
+    assert overlap_volume(*pieces) < 1e-15
 
 
 def test_holes_that_do_not_fit_the_floor():

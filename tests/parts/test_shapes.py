@@ -144,9 +144,3 @@ def test_arcs_both_ways_agree_with_a_dense_polygon(bulges, offset):
     assert dense[0] == pytest.approx(exact[0], rel=1e-12)
     np.testing.assert_allclose(dense[1], exact[1], atol=1e-5 * exact[0])
     np.testing.assert_allclose(dense[2], exact[2], atol=1e-5 * exact[0] * 10.0)
-
-
-def test_small_arcs_have_fewer_sections():
-    assert len(flat_outline(Disc(0.04).outline(), 256)) == 256
-    assert len(flat_outline(Disc(0.0025).outline(), 256)) == 64
-    assert len(flat_outline(Disc(1e-7).outline(), 256)) == 8

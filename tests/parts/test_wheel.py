@@ -4,23 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from made_parts import HUB, ONE_PIECE, RIM, TWO_PIECES
-from part_gaps import overlap_volume
-from wheels import PAPER_WHEEL
+from made_parts import HUB, ONE_PIECE, RIM
 
 from ocs_design.common.errors import PartError
 from ocs_design.parts.solids import total
 from ocs_design.parts.wheel import HoleRing, Rim, Wheel, wheel_parts
-
-SHARP = Rim(0.022, 0.03, 0.01, "steel", 7860.0, chamfer=0.0)
-
-
-def test_rim_without_chamfers_is_the_paper_s():
-    (rim,) = wheel_parts(Wheel(SHARP))
-    body = rim.mass_properties()
-    assert body.mass == pytest.approx(PAPER_WHEEL.mass, rel=1e-14)
-    assert body.inertia[2, 2] == pytest.approx(PAPER_WHEEL.spin_inertia, rel=1e-14)
-    assert body.inertia[0, 0] == pytest.approx(PAPER_WHEEL.transverse_inertia, rel=1e-14)
 
 
 def test_one_material_is_one_piece_of_the_same_mass():
@@ -63,8 +51,3 @@ def test_what_cannot_be_made_says_why(wheel, clause):
     with pytest.raises(PartError, match=clause) as caught:
         Wheel(*wheel)
     assert caught.value.hint
-
-
-def test_rim_and_hub_touch_and_do_not_overlap():
-    rim, hub = wheel_parts(TWO_PIECES)
-    assert overlap_volume(rim, hub) < 1e-15

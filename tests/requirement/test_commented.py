@@ -149,10 +149,6 @@ def test_the_units_of_each_key_are_told(empty):
         assert f"# {key.summary} [{key.value.takes}]" in of_section(empty, path.split(".")[0])
 
 
-def test_the_title_stands_at_the_top(empty):
-    assert empty.startswith("# Anything\n#\n# Every key")
-
-
 def test_rounded_for_people(default):
     assert rounded_text(default, "flywheel.r_max") == "50 mm"
     assert rounded_text(default, "supply.voltage") == "24 V"
@@ -161,15 +157,6 @@ def test_rounded_for_people(default):
     assert rounded_text(third, "requirement.rate_change") == "19.1 deg/s"
     fast = replace(default, requirement=RequirementSection(wheel_speed_max=40.0 * np.pi))
     assert rounded_text(fast, "requirement.wheel_speed_max") == "1200 rpm"
-
-
-def test_a_trunk_turns_in_degrees_and_a_wheel_in_revolutions(empty):
-    rates = re.findall(r"^# rate = (.*?) +#", empty, flags=re.MULTILINE)
-    speeds = re.findall(r"^# wheel_speed = (.*?) +#", empty, flags=re.MULTILINE)
-    assert len(rates) == 3
-    assert all(rate.count("deg/s") == 3 for rate in rates)
-    assert len(speeds) > 2
-    assert all(speed.endswith('rpm"') for speed in speeds)
 
 
 STATED = {
@@ -213,10 +200,6 @@ def test_the_full_specification_states_every_key_but_the_ones_that_exclude_other
     assert {type(maneuver) for maneuver in FULL.maneuvers} == {
         kind.maneuver for kind in MANEUVER_KINDS.values()
     }
-
-
-def test_nothing_is_written_of_nothing():
-    assert specification_to_toml(Specification()) == "\n"
 
 
 def test_a_comment_stands_at_the_top():

@@ -14,7 +14,6 @@ from wheels import EC45
 
 from ocs_design.common.errors import OcsError
 from ocs_design.common.units import Dimension
-from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.uncertainty import (
     CUT,
     Constant,
@@ -25,7 +24,6 @@ from ocs_design.requirement.uncertainty import (
     entries,
     spreads,
 )
-from ocs_design.requirement.writing import specification_to_toml
 
 ANGLE = Spread(Dimension.ANGLE, "deg")
 finite = st.floats(-1e6, 1e6)
@@ -70,16 +68,6 @@ def test_ends_may_have_units():
 def test_what_makes_no_sense_is_refused(text, word):
     with pytest.raises(OcsError, match=word):
         Spread(Dimension.RATIO, "%", -0.9, 0.9).read(text, "reality.mass_error")
-
-
-def test_a_specification_keeps_its_distributions():
-    text = (
-        '[reality]\nmass_error = "normal(0, 2%)"\nattitude_noise = "0.1deg"\n'
-        'viscous_friction = "uniform(0, 3 uN m s/rad)"'
-    )
-    given = parse_specification(text, "spec")
-    assert parse_specification(specification_to_toml(given), "again") == given
-    assert given.reality.mass_error == Normal(0.0, 0.02)
 
 
 def test_every_default_has_a_source():

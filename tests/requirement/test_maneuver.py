@@ -69,12 +69,6 @@ def test_a_turn_strays_by_its_chord(angle):
     assert replace(FLIP, angle=angle).stray == pytest.approx(np.linalg.norm(moved), abs=1e-14)
 
 
-def test_summaries_carry_units():
-    assert FLIP.summary == ("turns -360 deg of pitch in 2 s, in a jump of 1 m at 1.62 m/s2")
-    assert DROP.summary == "falls from 1 m at roll -10 deg and pitch 30 deg"
-    assert "(-0.2, 0.8, 9) N m on the trunk for 0.05 s, 0.1 s after" in PUSH.summary
-
-
 def test_least_torque_reaches_the_momentum_in_half_the_time():
     reached = FLIP.least_torque(INERTIA, 0.3) * FLIP.duration / 2.0
     np.testing.assert_allclose(reached, FLIP.momentum(INERTIA, 0.3))

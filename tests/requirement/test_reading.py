@@ -11,8 +11,9 @@ from ocs_design.common.errors import OcsError, QuantityError, SpecificationError
 from ocs_design.common.units import Dimension
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.requirement.reading import parse_specification, read_specification
-from ocs_design.requirement.specification import Specification, specification_from_options
+from ocs_design.requirement.specification import specification_from_options
 from ocs_design.requirement.values import Quantities
+from ocs_design.requirement.writing import specification_to_toml
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -25,11 +26,7 @@ FLIP = "[[maneuver]]\nkind='flip'\nname='f'\njump_height=1\nangle='1rev'\ndurati
 TURN = "[[maneuver]]\nkind='turn'\nname='t'\nyaw='90deg'\nduration=0.9\n"
 
 
-def test_an_empty_file_states_nothing():
-    assert parse_specification("", "x") == Specification()
-
-
-def test_every_kind_of_value():
+def test_every_kind_of_value_in_a_file_and_as_an_option():
     specification = parse_specification(
         """
         [robot]
@@ -40,8 +37,12 @@ def test_every_kind_of_value():
         rate_change = 2
         wheel_speed_max = "7200rpm"
         maneuvers = "none"
+        jump_height = ["0.4 m", 0.5]
+        kick = "3 N s at 0.1,0,0.2"
+        tilt = ["20deg", "10deg roll"]
+        flip = "back"
+        gravity = "mars"
         [ocs]
-        alpha = "40deg"
         position = ["-5cm", "100mm", 0]
         [flywheel]
         r_max = "30mm"
@@ -52,17 +53,33 @@ def test_every_kind_of_value():
         """,
         "x",
     )
-    assert specification.robot.joints == {
-        "hip": pytest.approx(np.radians(10.0)),
-        "slide": 0.005,
-        "knee": -1.6,
+    options = {
+        "robot.joints": ["hip=10deg", "slide=5mm", "knee=-1.6"],
+        "robot.mass": "2.5kg",
+        "robot.inertia": "0.03, 0.05, 0.07",
+        "requirement.rate_change": "2",
+        "requirement.wheel_speed_max": "7200 rpm",
+        "requirement.maneuvers": "none",
+        "requirement.jump_height": ["0.4m", "0.5m"],
+        "requirement.kick": ["3 N s at 0.1,0,0.2"],
+        "requirement.tilt": ["20deg", "10deg roll"],
+        "requirement.flip": ["-360deg"],
+        "requirement.gravity": "Mars",
+        "ocs.position": "-0.05,0.1,0",
+        "flywheel.r_max": "0.03",
+        "flywheel.h_max": None,
+        "flywheel.stress_safety": "1.5",
+        "validation.enabled": False,
+        "validation.seed": "7",
     }
-    assert specification.robot.mass == 2.5
-    assert specification.robot.inertia == (0.03, 0.05, 0.07)
+    assert specification_from_options(options) == specification
+    assert parse_specification(specification_to_toml(specification), "again") == specification
+    robot, room = specification.robot, specification.flywheel
+    assert robot.joints == {"hip": pytest.approx(np.radians(10.0)), "slide": 0.005, "knee": -1.6}
+    assert (robot.mass, robot.inertia) == (2.5, (0.03, 0.05, 0.07))
     assert specification.ocs.position == (-0.05, 0.1, 0.0)
-    assert specification.flywheel.r_max == 0.03
-    assert specification.validation.enabled is False
-    assert specification.validation.seed == 7
+    assert (room.r_max, room.h_max, room.stress_safety) == (0.03, None, 1.5)
+    assert (specification.validation.enabled, specification.validation.seed) == (False, 7)
     assert not specification.takes_default_maneuvers
 
 
@@ -229,25 +246,6 @@ def test_no_text_does_worse_than_an_error_of_ours(text):
         parse_specification(text, "x")
     except OcsError as error:
         assert isinstance(error, SpecificationError)
-
-
-def test_options_read_as_the_files_keys_do():
-    options = {
-        "robot.inertia": "0.03, 0.05, 0.07",
-        "robot.mass": "2.5kg",
-        "robot.joints": ["hip=10deg", "slide=5mm"],
-        "flywheel.r_max": "30mm",
-        "flywheel.h_max": None,
-        "validation.enabled": False,
-        "validation.seed": "3",
-    }
-    specification = specification_from_options(options)
-    assert specification.robot.inertia == (0.03, 0.05, 0.07)
-    assert specification.robot.joints == {"hip": pytest.approx(np.radians(10.0)), "slide": 0.005}
-    assert specification.flywheel.r_max == 0.03
-    assert specification.flywheel.h_max is None
-    assert specification.validation.enabled is False
-    assert specification.validation.seed == 3
 
 
 def test_options_that_are_wrong_are_named_as_typed():

@@ -88,17 +88,3 @@ def test_the_mass_by_hand_changes_alone():
     base = Specification(robot=RobotSection(mass=2.0, inertia=(1.0, 1.0, 1.0)))
     merged = merge(base, Specification(robot=RobotSection(mass=3.0))).robot
     assert (merged.mass, merged.inertia) == (3.0, (1.0, 1.0, 1.0))
-
-
-def test_every_kind_of_maneuver_and_each_of_its_fields_is_explained():
-    assert all(kind.note for kind in MANEUVER_KINDS.values())
-    notes = {
-        (kind, name): note
-        for kind, known in MANEUVER_KINDS.items()
-        for name, note in known.notes.items()
-    }
-    # Without a note the last that an annotation says is how its field is read.
-    assert all(isinstance(note, str) for note in notes.values())
-    assert "torque" in notes["shove", "duration"]
-    assert "turn" in notes["flip", "duration"]
-    assert "torque" not in notes["flip", "duration"]

@@ -34,9 +34,7 @@ from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.sections import RequirementSection
 from ocs_design.requirement.specification import Specification, merge, specification_from_options
 from ocs_design.requirement.sweep import SWEEPS, Task
-from ocs_design.requirement.values import Several
 from ocs_design.requirement.worded_maneuvers import worded_maneuvers
-from ocs_design.requirement.writing import specification_to_toml
 from ocs_design.robot.reader import read_robot
 
 SIZE = 0.45
@@ -150,36 +148,6 @@ def test_words_stand_for_gravity_and_whole_turns():
     with pytest.raises(OcsError, match="400 m") as told:
         asked(jump_height=["400"])
     assert "Did you mean 400mm?" in str(told.value)
-
-
-def test_what_may_be_several_says_so_last():
-    assert TURN_TEXT.takes == "as in 'yaw 90deg in 2.9s'"
-    assert Several(TURN_TEXT).takes == "as in 'yaw 90deg in 2.9s'; or a list of these"
-
-
-def test_options_and_keys_say_the_same():
-    text = """
-        [requirement]
-        jump_height = ["0.4 m", 0.5]
-        kick = "3 N s at 0.1,0,0.2"
-        fall = 1.0
-        tilt = ["20deg", "10deg roll"]
-        flip = "back"
-        gravity = "mars"
-        """
-    from_file = parse_specification(text, "x")
-    from_options = specification_from_options(
-        {
-            "requirement.jump_height": ["0.4m", "0.5m"],
-            "requirement.kick": ["3 N s at 0.1,0,0.2"],
-            "requirement.fall": ["1m"],
-            "requirement.tilt": ["20deg", "10deg roll"],
-            "requirement.flip": ["-360deg"],
-            "requirement.gravity": "Mars",
-        }
-    )
-    assert from_file.requirement == from_options.requirement
-    assert parse_specification(specification_to_toml(from_file), "y") == from_file
 
 
 @pytest.mark.parametrize(

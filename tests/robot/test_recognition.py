@@ -87,46 +87,213 @@ def hung(parent="trunk", **hips):
     ]
 
 
-PAIR = {"a": (0.0, 0.1, 0.0), "b": (0.0, -0.1, 0.0)}
+def pair(parts, height=0.1, aside=0.2, parent="trunk", words=("thigh", "shank", "foot")):
+    """A limb on the left and one on the right."""
+    sides = ("l", aside), ("r", -aside)
+    return [
+        part
+        for name, y in sides
+        for part in leg(name, (0.0, y, height), *parts, parent=parent, words=words)
+    ]
 
 
-def test_three_legs_in_file_order():
-    legs = hung(c=(0.2, 0.0, 0.0), a=(-0.1, 0.1, 0.0), b=(-0.1, -0.1, 0.0))
-    assert feet(found([TRUNK, *legs])) == ["c_foot", "a_foot", "b_foot"]
+PAIR = hung(a=(0.0, 0.1, 0.0), b=(0.0, -0.1, 0.0))
+TORSO = link("torso", inertial(3.0)), hinge("waist", "trunk", "torso", "0 0 0.1")
+ARM = ("upper_arm", "forearm", "hand")
+OUTWARDS = ZEROS["level, knees outwards"]
 
 
-def test_a_short_limb_beside_the_legs_is_none():
-    short = leg("c", (0.1, 0.0, 0.0), (0.0, 0.0, -0.2), (0.0, 0.0, -0.02))
-    assert feet(found([TRUNK, *hung(**PAIR), *short])) == ["a_foot", "b_foot"]
-
-
-def test_limbs_high_above_the_centre_of_mass_are_asked_about():
-    assert not found([TRUNK, *hung(a=(0.0, 0.1, 1.0), b=(0.0, -0.1, 1.0))]).sure
-
-
-def test_a_second_pair_on_a_torso_is_arms():
-    torso = link("torso", inertial(3.0)), hinge("waist", "trunk", "torso", "0 0 0.1")
-    arms = hung("torso", l=(0.0, 0.2, 0.3), r=(0.0, -0.2, 0.3))
-    assert feet(found([TRUNK, *torso, *arms, *hung(**PAIR)])) == ["a_foot", "b_foot"]
-
-
-def test_slides_alone_are_no_legs():
-    elements = [TRUNK]
+def slides():
+    """Two limbs of two slides each."""
     for name, y in (("a", 0.1), ("b", -0.1)):
         at = ("trunk", f"{name}_upper", f"{name}_lower")
-        elements += [link(at[1], inertial(0.1)), link(at[2], inertial(0.1, xyz="0 0 -0.3"))]
+        yield from (link(at[1], inertial(0.1)), link(at[2], inertial(0.1, xyz="0 0 -0.3")))
         for above, below, xyz in ((at[0], at[1], f"0 {y} 0"), (at[1], at[2], "0 0 -0.3")):
             place = f'<origin xyz="{xyz}"/><axis xyz="0 0 1"/>'
-            elements += [joint(below, above, below, place, LIMIT, kind="prismatic")]
-    assert feet(found(elements)) == []
+            yield joint(below, above, below, place, LIMIT, kind="prismatic")
 
 
-@pytest.mark.parametrize("zero", ZEROS)
-def test_legs_are_found_whatever_they_are_like_at_zero(zero):
-    recognition = found(quadruped(*ZEROS[zero]))
+def hexapod(zero, **scales):
+    """Pairs of legs from front to rear, so many times as long as at `zero`."""
+    elements = [TRUNK]
+    for (name, scale), x in zip(scales.items(), (0.2, 0.0, -0.2), strict=True):
+        parts = [tuple(scale * np.array(part)) for part in ZEROS[zero]]
+        for side, y in (("l", 0.1), ("r", -0.1)):
+            elements += leg(name + side, (x, y, 0.0), *parts)
+    return elements
+
+
+def with_wheels(joints, **hips):
+    """Legs of one or two hinges with a wheel of 60 mm at the end of each."""
+    disc = '<collision><origin rpy="1.5708 0 0"/><geometry><cylinder radius="0.06" length="0.03"/>'
+    parts = [TRUNK]
+    for name, hip in hips.items():
+        parent, at = "trunk", " ".join(map(str, hip))
+        for number in range(joints):
+            part = f"{name}_leg{number}"
+            parts += [link(part, inertial(0.2, "3e-4 3e-4 3e-4", "0 0 -0.1"))]
+            parts += [hinge(f"{name}_{number}", parent, part, at)]
+            parent, at = part, "0 0 -0.2"
+        wheel, turn = f"{name}_wheel", f'<origin xyz="{at}"/><axis xyz="0 1 0"/>'
+        parts += [link(wheel, inertial(0.2, "1e-4 2e-4 1e-4"), f"{disc}</geometry></collision>")]
+        parts += [joint(f"{name}_roll", parent, wheel, turn, kind="continuous")]
+    return parts
+
+
+def hips_that_follow():
+    """The right hip is a mimic of the left one."""
+    elements = [TRUNK]
+    for side, y in (("left", 0.1), ("right", -0.1)):
+        hip = hinge(f"{side}_yaw", "trunk", f"{side}_hip", f"0 {y} 0", "0 0.7 0.7")
+        if side == "right":
+            hip = hip.replace("</joint>", '<mimic joint="left_yaw"/></joint>')
+        elements += [link(f"{side}_hip", inertial(0.1)), hip]
+        elements += hung(f"{side}_hip", **{side: (0.0, 0.0, 0.0)})
+    return elements
+
+
+def closed_pair(gap):
+    """Two limbs of two bars with hips 0.2 m apart, whose ends are `gap` apart: 0 is a five-bar."""
+    elements = [TRUNK]
+    for name, x in (("a", 0.1), ("b", -0.1)):
+        side = np.sign(x)
+        shank = (side * (0.5 * gap - 0.2), 0.0, -0.2)
+        elements += leg(name, (x, 0.0, 0.0), (side * 0.1, 0.0, -0.1), shank, words=("p", "q", "e"))
+    return elements
+
+
+def five_bars():
+    """Four legs of two limbs each, which turn about one hip axis 30 mm apart."""
+    elements = [TRUNK]
+    for name, (x, y) in CORNERS.items():
+        for side, thigh in (("i", (0.1, 0.0, -0.1)), ("o", (-0.1, 0.0, -0.1))):
+            shank = (-thigh[0], 0.0, -0.15)
+            hip = (x, y + (0.03 if side == "o" else 0.0) * np.sign(y), 0.0)
+            elements += leg(name + side, hip, thigh, shank)
+    return elements
+
+
+SIX_FEET = [f"{end}{side}_foot" for end in "fmh" for side in "lr"]
+FOUR_WHEELS = with_wheels(2, **{name: (*at, 0.0) for name, at in CORNERS.items()})
+CLEAR = {
+    **{zero: (quadruped(*parts), ALL_FEET) for zero, parts in ZEROS.items()},
+    "a second pair on a torso is arms": (
+        [TRUNK, *TORSO, *pair(ZEROS["hanging"], 0.3, parent="torso"), *PAIR],
+        ["a_foot", "b_foot"],
+    ),
+    "slides alone are no legs": ([TRUNK, *slides()], []),
+    "six, the middle ones longer": (hexapod("hanging", f=1.0, m=1.15, h=1.0), SIX_FEET),
+    "six that are level": (hexapod("level, knees outwards", f=1.0, m=1.15, h=1.0), SIX_FEET),
+    "wheels on legs": (FOUR_WHEELS, [f"{name}_wheel" for name in CORNERS]),
+    "arms that are named so": ([TRUNK, *pair(OUTWARDS, words=("arm", "forearm", "hand"))], []),
+    "fins that hang like legs": (
+        [TRUNK, *pair(ZEROS["hanging"], 0.0, 0.1, words=("fin", "fintip", "fin_end"))],
+        [],
+    ),
+    "a hip that follows the other one": (hips_that_follow(), ["left_foot", "right_foot"]),
+    "limbs that do not meet at their ends": (closed_pair(0.1), ["a_e", "b_e"]),
+}
+
+
+@pytest.mark.parametrize(("elements", "expected"), CLEAR.values(), ids=CLEAR)
+def test_what_is_clear_is_not_asked_about(elements, expected):
+    recognition = found(elements)
     assert recognition.sure
     assert recognition.reading.confidence >= SURE
-    assert (recognition.reading.trunk, feet(recognition)) == ("trunk", ALL_FEET)
+    assert (recognition.reading.trunk, feet(recognition)) == ("trunk", expected)
+
+
+ASKED = {
+    "three legs, in the order of the file": (
+        hung(c=(0.2, 0.0, 0.0), a=(-0.1, 0.1, 0.0), b=(-0.1, -0.1, 0.0)),
+        ["c_foot", "a_foot", "b_foot"],
+        "",
+    ),
+    "a short limb beside legs": (
+        [*PAIR, *leg("c", (0.1, 0.0, 0.0), (0.0, 0.0, -0.2), (0.0, 0.0, -0.02))],
+        ["a_foot", "b_foot"],
+        "",
+    ),
+    "limbs high above the centre of mass": (
+        pair(ZEROS["hanging"], 1.0, 0.1),
+        ["l_foot", "r_foot"],
+        "",
+    ),
+    "a nameless limb on a fixed base": (
+        leg("it", (0.0, 0.0, 0.0), *ZEROS["hanging"], words=("b", "c", "d")),
+        ["it_d"],
+        "may just as well be an arm",
+    ),
+    "a prosthesis and a leg": (
+        [
+            *hung(l=(0.0, 0.1, 0.0)),
+            *leg("r", (0.0, -0.1, 0.0), (0.0, 0.0, -0.2), (0.0, 0.05, -0.2)),
+            link("r_toe", inertial(0.1)),
+            hinge("r_d", "r_foot", "r_toe", "0 0 -0.1"),
+        ],
+        ["l_foot", "r_toe"],
+        "",
+    ),
+    "an insect's front legs, which reach less deep": (
+        hexapod("hanging", f=0.7, m=1.0, h=1.0)[1:],
+        SIX_FEET,
+        "fl_foot, fr_foot",
+    ),
+    "one leg beside arms": (
+        [*hung(right=(0.0, -0.1, 0.0)), *pair(OUTWARDS, words=ARM)],
+        ["right_foot"],
+        "it is not the robot's only limb",
+    ),
+    "wheels on trailing arms": (
+        with_wheels(1, hl=(0.0, 0.1, 0.0), hr=(0.0, -0.1, 0.0))[1:],
+        ["hl_wheel", "hr_wheel"],
+        "",
+    ),
+    "legs that share a hip, of which one each is offered": (
+        five_bars()[1:],
+        [f"{name}i_foot" for name in CORNERS],
+        "share a hip",
+    ),
+    "limbs that meet at their ends": (closed_pair(0.0)[1:], ["a_e", "b_e"], "meet at their ends"),
+}
+
+
+@pytest.mark.parametrize(("limbs", "likely", "words"), ASKED.values(), ids=ASKED)
+def test_what_may_be_two_things_is_asked_about(limbs, likely, words):
+    recognition = found([TRUNK, *limbs])
+    assert not recognition.sure
+    assert [each.name for each in recognition.likely[0].legs] == likely
+    assert words in question_about(recognition).message
+
+
+@pytest.mark.parametrize(
+    ("elements", "legs", "words"),
+    [
+        (five_bars(), [f"{name}i_foot" for name in CORNERS], "the other is locked"),
+        (closed_pair(0.0), ["a_e", "b_e"], "meet at their ends"),
+    ],
+)
+def test_how_closed_chains_are_treated_once_the_legs_are_stated_is_said(
+    tmp_path, elements, legs, words
+):
+    assert any(words in each for each in read_file(tmp_path, elements, legs=legs).warnings)
+
+
+def test_wheels_are_feet_of_their_radius():
+    radii = [each.foot_radius for each in found(FOUR_WHEELS).reading.legs]
+    assert radii == pytest.approx([0.06] * 4, abs=1e-6)
+
+
+def test_an_arm_has_no_trunk():
+    names = ["base", "one", "two", "three", "four"]
+    elements = [link(names[0], inertial(1.0))]
+    for below, name in pairwise(names):
+        elements += [link(name, inertial(1.5, xyz="0 0 0.1")), hinge(name, below, name, "0 0 0.2")]
+    recognition = found(elements)
+    assert not recognition.sure
+    assert recognition.reading.legs == ()
+    assert "as an arm is" in question_about(recognition).message
+    assert recognise(read(elements), trunk="base", legs=[]).sure
 
 
 def test_a_robot_with_level_legs_stands_on_them(tmp_path):
@@ -144,23 +311,6 @@ def test_meaningless_names_change_nothing(words):
     recognition = found(quadruped(*ZEROS["folded upwards"], words=words))
     assert recognition.sure
     assert feet(recognition) == [f"{name}_{words[2]}" for name in CORNERS]
-
-
-def hexapod(zero, **scales):
-    """Pairs of legs from front to rear, so many times as long as at `zero`."""
-    elements = [TRUNK]
-    for (name, scale), x in zip(scales.items(), (0.2, 0.0, -0.2), strict=True):
-        parts = [tuple(scale * np.array(part)) for part in ZEROS[zero]]
-        for side, y in (("l", 0.1), ("r", -0.1)):
-            elements += leg(name + side, (x, y, 0.0), *parts)
-    return elements
-
-
-@pytest.mark.parametrize("zero", ["hanging", "level, knees outwards"])
-def test_hexapods_whose_middle_legs_are_longer(zero):
-    recognition = found(hexapod(zero, f=1.0, m=1.15, h=1.0))
-    assert recognition.sure
-    assert feet(recognition) == [f"{end}{side}_foot" for end in "fmh" for side in "lr"]
 
 
 def dog():
@@ -235,107 +385,11 @@ def test_the_trunk_of_a_hopper_is_not_its_heavy_foot(tmp_path):
     assert hopper.recognition.sure
 
 
-def test_a_nameless_limb_on_a_fixed_base_may_be_an_arm():
-    elements = [TRUNK, *leg("it", (0.0, 0.0, 0.0), *ZEROS["hanging"], words=("b", "c", "d"))]
-    recognition = found(elements)
-    assert not recognition.sure
-    assert "may just as well be an arm" in question_about(recognition).message
-
-
-def test_an_arm_has_no_trunk():
-    names = ["base", "one", "two", "three", "four"]
-    elements = [link(names[0], inertial(1.0))]
-    for below, name in pairwise(names):
-        elements += [link(name, inertial(1.5, xyz="0 0 0.1")), hinge(name, below, name, "0 0 0.2")]
-    recognition = found(elements)
-    assert not recognition.sure
-    assert recognition.reading.legs == ()
-    assert "as an arm is" in question_about(recognition).message
-    assert recognise(read(elements), trunk="base", legs=[]).sure
-
-
-def wheel_leg(name, hip, joints):
-    """A leg of one or two hinges with a wheel of 60 mm at its end."""
-    disc = '<collision><origin rpy="1.5708 0 0"/><geometry><cylinder radius="0.06" length="0.03"/>'
-    parts, parent, at = [], "trunk", " ".join(map(str, hip))
-    for number in range(joints):
-        part = f"{name}_leg{number}"
-        parts += [link(part, inertial(0.2, "3e-4 3e-4 3e-4", "0 0 -0.1"))]
-        parts += [hinge(f"{name}_{number}", parent, part, at)]
-        parent, at = part, "0 0 -0.2"
-    turn = f'<origin xyz="{at}"/><axis xyz="0 1 0"/>'
-    return [
-        *parts,
-        link(f"{name}_wheel", inertial(0.2, "1e-4 2e-4 1e-4"), f"{disc}</geometry></collision>"),
-        joint(f"{name}_roll", parent, f"{name}_wheel", turn, kind="continuous"),
-    ]
-
-
-@pytest.mark.parametrize(("joints", "names"), [(1, ("hl", "hr")), (2, tuple(CORNERS))])
-def test_wheels_on_legs(joints, names):
-    at = {name: (0.0 if len(names) == 2 else x, y, 0.0) for name, (x, y) in CORNERS.items()}
-    elements = [TRUNK, *(part for name in names for part in wheel_leg(name, at[name], joints))]
-    recognition = found(elements)
-    # A single hinge and a wheel may be a trailing arm: then it is asked.
-    likely = recognition.reading if recognition.sure else recognition.likely[0]
-    assert recognition.sure == (joints == 2)
-    assert [each.name for each in likely.legs] == [f"{name}_wheel" for name in names]
-    assert [each.foot_radius for each in likely.legs] == [pytest.approx(0.06, abs=1e-6)] * len(
-        names
-    )
-
-
-def five_bars():
-    """Four legs of two limbs each, which turn about one hip axis 30 mm apart."""
-    elements = [TRUNK]
-    for name, (x, y) in CORNERS.items():
-        for side, thigh in (("i", (0.1, 0.0, -0.1)), ("o", (-0.1, 0.0, -0.1))):
-            shank = (-thigh[0], 0.0, -0.15)
-            hip = (x, y + (0.03 if side == "o" else 0.0) * np.sign(y), 0.0)
-            elements += leg(name + side, hip, thigh, shank)
-    return elements
-
-
-def test_legs_that_share_a_hip_are_asked_about_and_one_of_each_pair_is_offered():
-    recognition = found(five_bars())
-    assert not recognition.sure
-    assert "share a hip" in question_about(recognition).message
-    assert len(recognition.likely[0].legs) == 4
-    assert len({each.name[:2] for each in recognition.likely[0].legs}) == 4
-
-
-def test_how_five_bars_are_treated_is_said(tmp_path):
-    stated = read_file(tmp_path, five_bars(), legs=[f"{name}i_foot" for name in CORNERS])
-    assert stated.trunk == "trunk"
-    assert any("the other is locked" in warning for warning in stated.warnings)
-
-
 def test_closed_chains_of_a_model_are_said_to_be_cut_open(tmp_path):
     loop = '</worldbody><equality><connect body1="foot" body2="torso" anchor="0 0 0"/></equality>'
     path = tmp_path / "loop.xml"
     path.write_text(HOPPER.replace("</worldbody>", loop))
     assert any("cut open" in warning for warning in read_robot(path).warnings)
-
-
-def test_three_fingers_in_a_row_are_not_legs():
-    elements = [link("base", inertial(0.5))]
-    for name, y in (("a", -0.05), ("b", 0.0), ("c", 0.05)):
-        parts = ((0.0, 0.0, -0.05), (0.0, 0.0, -0.05))
-        elements += leg(name, (0.1, y, 0.0), *parts, parent="base", words=("p", "m", "d"))
-    recognition = found(elements)
-    assert not recognition.sure
-    likely = recognition.likely[0]
-    assert "the limbs are not mirror images" in {s.against for s in likely.signs if not s.holds}
-
-
-def test_arms_that_are_named_so_are_no_legs():
-    limbs = [
-        leg(name, (0.0, y, 0.1), *ZEROS["level, knees outwards"], words=("arm", "forearm", "hand"))
-        for name, y in (("l", 0.2), ("r", -0.2))
-    ]
-    recognition = found([TRUNK, *(element for limb in limbs for element in limb)])
-    assert recognition.sure
-    assert recognition.reading.legs == ()
 
 
 @pytest.mark.parametrize(
@@ -368,32 +422,6 @@ def test_no_legs_can_be_stated(tmp_path):
     assert (bare.legs, bare.posture_name, bare.standing_height) == ((), "zero", None)
 
 
-def test_a_prosthesis_and_a_leg_are_asked_about():
-    sound = hung(l=(0.0, 0.1, 0.0))
-    plain = leg("r", (0.0, -0.1, 0.0), (0.0, 0.0, -0.2), (0.0, 0.05, -0.2))
-    ankle = link("r_toe", inertial(0.1)), hinge("r_d", "r_foot", "r_toe", "0 0 -0.1")
-    recognition = found([TRUNK, *sound, *plain, *ankle])
-    assert not recognition.sure
-    assert [each.name for each in recognition.likely[0].legs] == ["l_foot", "r_toe"]
-
-
-def test_an_insects_front_legs_that_reach_less_deep_are_not_left_out_without_asking():
-    recognition = found(hexapod("hanging", f=0.7, m=1.0, h=1.0))
-    assert not recognition.sure
-    assert {len(each.legs) for each in recognition.likely} >= {4, 6}
-    assert "fl_foot, fr_foot" in question_about(recognition).message
-
-
-def test_fins_that_hang_like_legs_are_no_legs():
-    limbs = [
-        leg(side, (0.0, y, 0.0), *ZEROS["hanging"], words=("fin", "fintip", "fin_end"))
-        for side, y in (("l", 0.1), ("r", -0.1))
-    ]
-    recognition = found([TRUNK, *(part for limb in limbs for part in limb)])
-    assert recognition.sure
-    assert recognition.reading.legs == ()
-
-
 @pytest.mark.parametrize(
     ("joints", "sure"),
     [("", False), ('<joint axis="0 0 1"/>', False), ("<freejoint/>", True)],
@@ -422,52 +450,6 @@ def test_a_heaviest_link_that_is_not_the_root_is_asked_about():
         "--trunk tip --legs none",
         "--trunk wrist --legs none",
     ]
-
-
-def test_a_hip_that_follows_the_other_legs_hip_is_a_joint_of_its_leg():
-    elements = [TRUNK]
-    for side, y in (("left", 0.1), ("right", -0.1)):
-        hip = hinge(f"{side}_yaw", "trunk", f"{side}_hip", f"0 {y} 0", "0 0.7 0.7")
-        if side == "right":
-            hip = hip.replace("</joint>", '<mimic joint="left_yaw"/></joint>')
-        elements += [link(f"{side}_hip", inertial(0.1)), hip]
-        elements += hung(f"{side}_hip", **{side: (0.0, 0.0, 0.0)})
-    recognition = found(elements)
-    assert recognition.sure
-    assert feet(recognition) == ["left_foot", "right_foot"]
-    signs = {sign.what: sign.holds for sign in recognition.reading.signs}
-    assert signs["the limbs are mirror images"]
-
-
-def test_one_leg_beside_arms_is_asked_about():
-    elements = [TRUNK, *hung(r=(0.0, -0.1, 0.0))]
-    for side, y in (("l", 0.2), ("r", -0.2)):
-        words = ("upper_arm", "forearm", "hand")
-        elements += leg(f"{side}a", (0.0, y, 0.1), *ZEROS["level, knees outwards"], words=words)
-    recognition = found(elements)
-    assert not recognition.sure
-    assert [each.name for each in recognition.likely[0].legs] == ["r_foot"]
-    assert "it is not the robot's only limb" in question_about(recognition).message
-
-
-def closed_pair(gap):
-    """Two limbs of two bars with hips 0.2 m apart, whose ends are `gap` apart: 0 is a five-bar."""
-    elements = [TRUNK]
-    for name, x in (("a", 0.1), ("b", -0.1)):
-        side = np.sign(x)
-        shank = (side * (0.5 * gap - 0.2), 0.0, -0.2)
-        elements += leg(name, (x, 0.0, 0.0), (side * 0.1, 0.0, -0.1), shank, words=("p", "q", "e"))
-    return elements
-
-
-def test_limbs_that_meet_at_their_ends_are_no_legs_without_asking(tmp_path):
-    apart, closed = found(closed_pair(0.1)), found(closed_pair(0.0))
-    assert apart.sure
-    assert len(apart.reading.legs) == 2
-    assert not closed.sure
-    assert "meet at their ends" in question_about(closed).message
-    stated = read_file(tmp_path, closed_pair(0.0), legs=["a_e", "b_e"])
-    assert any("meet at their ends" in warning for warning in stated.warnings)
 
 
 def test_limbs_that_a_model_ties_together_at_their_ends_are_asked_about(tmp_path):
