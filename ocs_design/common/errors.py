@@ -8,6 +8,7 @@ keeps its traceback. For missing packages the hint is an install command, compos
 import shlex
 import sys
 from collections.abc import Mapping, Sequence
+from enum import StrEnum
 from importlib.util import find_spec
 from pathlib import Path
 from types import MappingProxyType
@@ -94,11 +95,51 @@ class PartError(OcsError):
     kind = "part"
 
 
+class Constraint(StrEnum):
+    """What may stand in the way of a design.
+
+    Attributes:
+        R_MAX, R_MIN, H_MAX, H_MIN, WALL_MIN, WHEEL_MASS_MAX, WHEEL_SPEED_MAX, MASS_MAX: the limit
+            that this key of the specification sets.
+        HOOP_STRESS: strength of the rim's material over `stress_safety`.
+        ENVELOPE: all limits of a wheel's dimensions together.
+        BUS_VOLTAGE, BUS_POWER: of the supply. TIME: for the maneuvers.
+        TORQUE: of the motor, whatever the wheel. SPEED: of the motor, likewise.
+        FIGURES: data of the motor that its source lacks.
+        INCIDENCE: leaves an axis of the robot out of the wheels' reach.
+        OWN_WEIGHT: what the device adds to the robot's inertia, or to another device's mass.
+        MOUNT: what holds the device on the trunk. GUARD: rings that contain a burst wheel.
+        SURVIVES: that any one drive may fail.
+    """
+
+    R_MAX = "r_max"
+    R_MIN = "r_min"
+    H_MAX = "h_max"
+    H_MIN = "h_min"
+    WALL_MIN = "wall_min"
+    WHEEL_MASS_MAX = "wheel_mass_max"
+    HOOP_STRESS = "hoop_stress"
+    ENVELOPE = "envelope"
+    WHEEL_SPEED_MAX = "wheel_speed_max"
+    BUS_VOLTAGE = "bus_voltage"
+    BUS_POWER = "bus_power"
+    TIME = "time"
+    MASS_MAX = "mass_max"
+    TORQUE = "torque"
+    SPEED = "speed"
+    FIGURES = "missing figures"
+    INCIDENCE = "incidence"
+    OWN_WEIGHT = "own weight"
+    MOUNT = "mount"
+    GUARD = "guard"
+    SURVIVES = "survives"
+
+
 class Infeasible(OcsError):
     """No design meets the specification.
 
     Attributes:
-        binding: names of the constraints that together forbid a design.
+        binding: constraints that together forbid a design.
         largest_spin_inertia: the largest spin inertia that the limits allow [kg m^2].
         required_spin_inertia: the required one [kg m^2]; None: no wheel is large enough, or the
             obstacle is not the wheel.
@@ -115,10 +156,10 @@ class Infeasible(OcsError):
         self,
         message: str,
         *,
-        binding: Sequence[str],
+        binding: Sequence[Constraint],
         required_spin_inertia: float | None = None,
         largest_spin_inertia: float = 0.0,
-        relaxations: Mapping[str, float] = MappingProxyType({}),
+        relaxations: Mapping[Constraint, float] = MappingProxyType({}),
         hint: str = "",
     ) -> None:
         super().__init__(message, hint=hint)

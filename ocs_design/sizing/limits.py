@@ -11,6 +11,7 @@ from functools import partial
 from math import isfinite, log10, pi, sqrt
 from typing import Any, TypeAlias, TypeVar
 
+from ocs_design.common.errors import Constraint
 from ocs_design.common.units import round_outwards
 from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.requirement import Requirement
@@ -23,13 +24,13 @@ class Limit:
     """One limit of the specification.
 
     Attributes:
-        name: of the constraint. label: of the figure that sets it, in the specification.
+        name: the constraint. label: of the figure that sets it, in the specification.
         field: attribute of the `Envelope` or the `Requirement` that holds it.
         loosens_upwards: whether a larger value allows more.
         unit: of its figure in messages. per_si: ratio of that figure to the SI one.
     """
 
-    name: str
+    name: Constraint
     label: str
     field: str
     loosens_upwards: bool
@@ -63,25 +64,27 @@ class Limit:
         return f"{self.label} {figure:.6g} {self.unit}".rstrip()
 
 
-STRESS = Limit("hoop_stress", "stress_safety", "stress_safety", False, "", 1.0)
+STRESS = Limit(Constraint.HOOP_STRESS, "stress_safety", "stress_safety", False, "", 1.0)
 
 RIM_LIMITS = (
-    Limit("r_max", "r_max", "outer_radius_max", True, "mm", 1e3),
-    Limit("r_min", "r_min", "inner_radius_min", False, "mm", 1e3),
-    Limit("h_max", "h_max", "height_max", True, "mm", 1e3),
-    Limit("h_min", "h_min", "height_min", False, "mm", 1e3),
-    Limit("wall_min", "wall_min", "wall_min", False, "mm", 1e3),
-    Limit("wheel_mass_max", "wheel_mass_max", "mass_max", True, "g", 1e3),
+    Limit(Constraint.R_MAX, "r_max", "outer_radius_max", True, "mm", 1e3),
+    Limit(Constraint.R_MIN, "r_min", "inner_radius_min", False, "mm", 1e3),
+    Limit(Constraint.H_MAX, "h_max", "height_max", True, "mm", 1e3),
+    Limit(Constraint.H_MIN, "h_min", "height_min", False, "mm", 1e3),
+    Limit(Constraint.WALL_MIN, "wall_min", "wall_min", False, "mm", 1e3),
+    Limit(Constraint.WHEEL_MASS_MAX, "wheel_mass_max", "mass_max", True, "g", 1e3),
     STRESS,
 )
 """Limits of the envelope, in the order in which they are reported."""
 
-WHEEL_SPEED = Limit("wheel_speed_max", "wheel_speed_max", "wheel_speed_max", True, "rpm", 30.0 / pi)
-BUS_VOLTAGE = Limit("bus_voltage", "bus_voltage", "bus_voltage", True, "V", 1.0)
-BUS_POWER = Limit("bus_power", "supply.power_max", "power", True, "W", 1.0)
-TIME = Limit("time", "time for every maneuver", "", True, "times what is given", 1.0)
+WHEEL_SPEED = Limit(
+    Constraint.WHEEL_SPEED_MAX, "wheel_speed_max", "wheel_speed_max", True, "rpm", 30.0 / pi
+)
+BUS_VOLTAGE = Limit(Constraint.BUS_VOLTAGE, "bus_voltage", "bus_voltage", True, "V", 1.0)
+BUS_POWER = Limit(Constraint.BUS_POWER, "supply.power_max", "power", True, "W", 1.0)
+TIME = Limit(Constraint.TIME, "time for every maneuver", "", True, "times what is given", 1.0)
 
-DEVICE_MASS = Limit("mass_max", "mass_max", "mass_max", True, "g", 1e3)
+DEVICE_MASS = Limit(Constraint.MASS_MAX, "mass_max", "mass_max", True, "g", 1e3)
 
 LIMITS: Mapping[str, Limit] = {
     limit.name: limit

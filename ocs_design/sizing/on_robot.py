@@ -6,7 +6,7 @@ both are found in turn until they converge.
 
 from dataclasses import dataclass, field, replace
 
-from ocs_design.common.errors import Infeasible
+from ocs_design.common.errors import Constraint, Infeasible
 from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device
 from ocs_design.device.joints import burst_of
@@ -58,7 +58,7 @@ class NeverHeld(Infeasible):
         super().__init__(
             f"A device of {device} needs a mount of {held} on the trunk, but turning that mount "
             "too takes a larger device, which no mount can hold.",
-            binding=["ocs.place"],
+            binding=[Constraint.MOUNT],
             largest_spin_inertia=best.spin_inertia,
             hint="Another incidence, more time or a higher voltage makes the device smaller.",
         )
@@ -311,7 +311,7 @@ def _unheld(wall: float, error: Infeasible) -> Infeasible:
     """The error where every device is too heavy with rings that contain its wheels."""
     return Infeasible(
         f"With guard rings of {1e3 * wall:.1f} mm steel no motor meets all requirements: {error}",
-        binding=["ocs.guard", *error.binding],
+        binding=[Constraint.GUARD, *error.binding],
         required_spin_inertia=error.required_spin_inertia,
         largest_spin_inertia=error.largest_spin_inertia,
         relaxations=error.relaxations,

@@ -11,7 +11,7 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_load import held, without_each
 from ocs_design.catalogue.materials import material
 from ocs_design.common.arrays import FloatArray, vector
-from ocs_design.common.errors import Infeasible, SpecificationError, UsageError
+from ocs_design.common.errors import Constraint, Infeasible, SpecificationError, UsageError
 from ocs_design.common.units import format_quantity
 from ocs_design.common.wording import some_of
 from ocs_design.device.layout import PAIR, Criterion, Layout, LayoutName
@@ -287,7 +287,7 @@ def require_survival(problem: SelectionProblem) -> None:
             f"{layout.text[0].upper()}{layout.text[1:]} cannot tolerate the failure of a drive: "
             f"without wheel {wheel!r} {rest} cannot absorb the momentum about roll and pitch that "
             f"{some_of(names)} require{'s' if len(names) == 1 else ''}.",
-            binding=["survives"],
+            binding=[Constraint.SURVIVES],
         )
 
 

@@ -192,7 +192,7 @@ def test_a_device_that_is_held_another_way_each_time_is_refused(monkeypatch, kil
             r"A device of ([\d.]+) kg needs a mount of 0.07 kg on the trunk,", refused.message
         )
         assert float(mass[1]) == pytest.approx(device, rel=0.2)
-        assert refused.binding == ("ocs.place",)
+        assert refused.binding == ("mount",)
 
 
 def test_layouts_that_would_survive_and_have_no_device_say_why(monkeypatch):

@@ -195,7 +195,7 @@ def test_a_rim_that_would_burst():
     )
     error = reasons(replace(problem, materials=feeble))
     assert "stands" in error.message
-    assert error.binding == ("stress",)
+    assert error.binding == ("hoop_stress",)
 
 
 def test_the_motor_that_comes_closest_is_not_one_that_no_rim_fits_around():

@@ -6,7 +6,7 @@ from commands import SOLO12, run
 from designed import on_solo12
 
 from ocs_design.actuation.wheel_load import reach, reach_without_one
-from ocs_design.common.errors import Infeasible, UsageError
+from ocs_design.common.errors import Constraint, Infeasible, UsageError
 from ocs_design.device.layout import ISOTROPIC, PAIR, Layout, LayoutName
 from ocs_design.device.records.design import read_design
 from ocs_design.requirement.checks import contradictions
@@ -187,7 +187,7 @@ def test_the_robot_is_read_once_and_no_device_at_all_is_told_by_the_exit_code(mo
     reads, read = [], layouts.read_specified_robot
 
     def none(*_, **__):
-        raise Infeasible("no motor is strong enough", binding=("motor",))
+        raise Infeasible("no motor is strong enough", binding=(Constraint.TORQUE,))
 
     def counted(*asked, **options):
         reads.append(asked)

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from ocs_design.common.errors import Infeasible
+from ocs_design.common.errors import Constraint, Infeasible
 from ocs_design.common.units import round_outwards
 from ocs_design.sizing.bound.device_problem import (
     DeviceFixedPoint,
@@ -64,7 +64,7 @@ def infeasible_device(
         return Infeasible(
             f"{capitalised(blind.source)} requires {axes} momentum, which wheels at an incidence "
             f"of {degrees(blind.incidence):.4g} deg cannot provide.",
-            binding=["incidence"],
+            binding=[Constraint.INCIDENCE],
             required_spin_inertia=max(finite, default=0.0),
             largest_spin_inertia=largest_spin_inertia(problem.rim_problem(1.0)),
             hint="Choose an incidence between 0 and 90 deg, another criterion, "

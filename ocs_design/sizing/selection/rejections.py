@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -17,7 +18,7 @@ from ocs_design.actuation.wheel_load import (
     wheel_slew_time,
 )
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.errors import Infeasible
+from ocs_design.common.errors import Constraint, Infeasible
 from ocs_design.common.units import format_quantity
 from ocs_design.parts.housing import PlainDrum
 from ocs_design.parts.rim import cylinder_spin_inertia
@@ -44,6 +45,21 @@ _NEVER = 1e9
 _NOTHING = 1e-15
 """A spin inertia smaller than any wheel's [kg m^2]."""
 
+CONSTRAINTS = MappingProxyType(
+    {
+        Reason.FIGURES: Constraint.FIGURES,
+        Reason.HEAVIER: Constraint.OWN_WEIGHT,
+        Reason.TORQUE: Constraint.TORQUE,
+        Reason.SPEED: Constraint.SPEED,
+        Reason.ENVELOPE: Constraint.ENVELOPE,
+        Reason.MASS: Constraint.WHEEL_MASS_MAX,
+        Reason.STRESS: Constraint.HOOP_STRESS,
+        Reason.INCIDENCE: Constraint.INCIDENCE,
+        Reason.OWN_WEIGHT: Constraint.OWN_WEIGHT,
+    }
+)
+"""What stands in the way of a motor that was rejected for a reason."""
+
 NO_ROOM = frozenset({Reason.ENVELOPE, Reason.STRESS, Reason.MASS})
 """Reasons that concern the wheel rather than the motor."""
 
@@ -69,7 +85,7 @@ class Refused(Infeasible):
         )
         super().__init__(
             f"{who}: {nearest.detail}.",
-            binding=[str(nearest.reason)],
+            binding=[CONSTRAINTS[nearest.reason]],
             required_spin_inertia=nearest.needed,
             largest_spin_inertia=(
                 largest_wheel(problem, problem.envelope) if largest is None else largest

@@ -9,7 +9,8 @@ from rims import STEEL, UNLIMITED, room
 from selections import ALUMINIUM, random_problem
 
 from ocs_design.sizing.bound.rim_problem import BORE_SHARE
-from ocs_design.sizing.selection.rejections import largest_wheel
+from ocs_design.sizing.selection.problem import Reason
+from ocs_design.sizing.selection.rejections import CONSTRAINTS, largest_wheel
 
 RADIUS, HEIGHT = 0.05, 0.015
 STEPS = 20_000
@@ -54,3 +55,7 @@ def test_largest_wheel_is_the_largest_of_all(mass, bore, wall, web):
 def test_where_bore_and_wall_leave_no_room_there_is_none():
     limits = room(RADIUS, HEIGHT, inner_radius_min=0.6 * RADIUS, wall_min=0.5 * RADIUS)
     assert largest_wheel(random_problem(9), limits) == 0.0
+
+
+def test_every_reason_is_a_constraint_of_a_refusal():
+    assert set(CONSTRAINTS) == set(Reason)
