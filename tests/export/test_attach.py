@@ -3,12 +3,11 @@
 import mujoco
 import numpy as np
 import pytest
-from exported import check_wheels_in_mujoco, robot_at
-from robots import ROBOTS, SOLO12
+from exported import check_wheels_in_mujoco
+from robots import ROBOTS
 from wheels import driven_device, motor, paper_device
 
 from ocs_design.common.errors import RobotError
-from ocs_design.device.bodies import WHEEL_CONTACT_BIT
 from ocs_design.export.attach import attach_device
 from ocs_design.export.robot_model import robot_model
 from ocs_design.robot.manual import robot_by_hand
@@ -88,15 +87,6 @@ def test_motors_give_newton_metres_up_to_their_limit(drive, limit):
     data.ctrl[:] = [0.5, -0.25]
     mujoco.mj_forward(model, data)
     np.testing.assert_allclose(data.qfrc_actuator[-2:], [0.5, -0.25])
-
-
-def test_wheels_meet_a_floor_that_has_their_bit_but_no_link():
-    model = with_device(robot_at(SOLO12), paper_device())
-    wheel = model.geom("ocs_left_flywheel")
-    assert wheel.conaffinity[0] == WHEEL_CONTACT_BIT
-    assert wheel.contype[0] == 0
-    links = [i for i in range(model.ngeom) if "flywheel" not in model.geom(i).name]
-    assert not np.any(model.geom_contype[links] & WHEEL_CONTACT_BIT)
 
 
 SENSOR = '<sensor><jointvel name="{}" joint="first"/></sensor>'

@@ -129,14 +129,11 @@ def test_motor_controllers_are_listed_without_a_mass():
         gear_efficiency=0.8,
     )  # fmt: skip
     device = driven_device(drive=drive)
-    *parts, total = rows_of(bill_csv(device))
-    (row,) = (part for part in parts if part["part"] == "motor controller")
+    (row,) = (part for part in rows_of(bill_csv(device)) if part["part"] == "motor controller")
     assert (row["quantity"], row["mass [g]"]) == ("2", "")
     # As sines 12.5 A / (sqrt(3) / 2) of amplitude, and 12.5 A / sqrt(3/2) rms; 1.2 x 24 V.
     assert "at least 13 A through two lines" in row["remark"]
     assert "15 A of amplitude or 11 A rms of a phase; rated for 29 V" in row["remark"]
-    weighed = sum(float(part["mass [g]"] or 0.0) for part in parts)
-    assert float(total["mass [g]"]) == pytest.approx(weighed, abs=3e-3)
 
 
 def margin(name, demand, unit="A"):

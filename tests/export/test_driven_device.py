@@ -45,7 +45,7 @@ def device(request):
 
 
 ROBOTS_AND_DEVICES = {name: (SOLO12, device) for name, device in DEVICES.items()} | {
-    name: (path, driven_device()) for name, path in zip(LEGGED[1:6], LEGGED_PATHS[1:6], strict=True)
+    name: (path, driven_device()) for name, path in zip(LEGGED[1:7], LEGGED_PATHS[1:7], strict=True)
 }
 
 
@@ -137,10 +137,3 @@ def test_the_slower_of_voltage_and_mechanics_is_the_joints_limit(top, velocity):
     index = model.idx_vs[model.getJointId("ocs_left")]
     assert model.upperVelocityLimit[index] == velocity
     assert model.upperEffortLimit[index] == 1.0
-
-
-def test_without_mass_there_is_no_motor_body(tmp_path):
-    device = driven_device(carrier=replace(EC45_BODY, mass=0.0))
-    assert "_motor" not in robot_urdf(BLOCK, device).decode()
-    model = mujoco_model(BLOCK, device, tmp_path)
-    assert not [i for i in range(model.nbody) if model.body(i).name.endswith("_motor")]

@@ -60,18 +60,6 @@ def compiled(robot, device):
     return robot_model(robot, device).compiled
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("path", LEGGED_PATHS[6:], ids=LEGGED[6:])
-def test_mujoco_reads_the_robot_and_its_wheels(path, tmp_path):
-    robot, device = robot_at(path), paper_device()
-    model = mujoco_model(robot, device, tmp_path)
-    total = robot.mass + 2.0 * device.flywheel.mass
-    # Romeo's fingers have no mass; MuJoCo needs some.
-    tolerance = 1e-8 if "romeo" in path.name else 1e-12
-    assert model.body_subtreemass[1] == pytest.approx(total, rel=tolerance)
-    check_wheels_in_mujoco(model, device, robot.trunk)
-
-
 @pytest.mark.parametrize("form", ["URDF", "MJCF"])
 def test_every_number_of_a_robot_is_written_exactly(form, tmp_path):
     (tmp_path / "in.xml").write_text(MJCF)

@@ -7,7 +7,6 @@ from xml.etree import ElementTree as ET
 
 import mujoco
 import numpy as np
-import pinocchio as pin
 import pytest
 import xacro
 from exported import (
@@ -179,42 +178,22 @@ def test_keyframes_of_an_attaching_robot_are_as_the_snippet_says(tmp_path):
 HUMAN = next(ROBOTS.rglob("human.urdf"))
 
 
-def check_turned_wheels(model, device, mount):
-    data = model.createData()
-    pin.forwardKinematics(model, data, pin.neutral(model))
-    pin.updateFramePlacements(model, data)
-    trunk = data.oMf[model.getFrameId(mount.link)]
-    for module in device.modules:
-        wheel = trunk.inverse() * data.oMi[model.getJointId(f"ocs_{module.name}")]
-        rotation, position = mount.placement.rotation, mount.placement.position
-        np.testing.assert_allclose(wheel.rotation[:, 2], rotation @ module.axis, atol=1e-9)
-        np.testing.assert_allclose(
-            wheel.translation, rotation @ module.position + position, atol=1e-9
-        )
-
-
-@pytest.mark.parametrize("form", ["robot", "pasted", "macro"])
+@pytest.mark.parametrize("form", ["urdf", "mjcf", "pasted", "macro"])
 def test_wheels_of_a_robot_with_y_up_stand_in_its_base_frame(tmp_path, form):
     robot, device = robot_at(HUMAN), paper_device()
+    link, place = robot.mount.link, robot.mount.placement
+    turned = [
+        replace(each, axis=place.rotation @ each.axis, position=place.point(each.position))
+        for each in device.modules
+    ]
+    seen = replace(device, modules=tuple(turned))
+    if form == "mjcf":
+        check_wheels_in_mujoco(mujoco_model(robot, device, tmp_path), seen, link)
+        return
     for name, text in snippets(device, robot).items():
         (tmp_path / name).write_text(text)
-    text = robot_urdf(robot, device).decode() if form == "robot" else FORMS[form](robot, tmp_path)
-    check_turned_wheels(pinocchio_model(text), device, robot.mount)
-
-
-def test_mjcf_of_a_robot_with_y_up_has_its_wheels_in_its_base_frame(tmp_path):
-    robot, device = robot_at(HUMAN), paper_device()
-    model = mujoco_model(robot, device, tmp_path)
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    trunk = data.body(robot.mount.link)
-    rotation = trunk.xmat.reshape(3, 3) @ robot.mount.placement.rotation
-    for module in device.modules:
-        joint = data.joint(f"ocs_{module.name}")
-        np.testing.assert_allclose(joint.xaxis, rotation @ module.axis, atol=1e-9)
-        np.testing.assert_allclose(
-            joint.xanchor - trunk.xpos, rotation @ module.position, atol=1e-9
-        )
+    text = robot_urdf(robot, device).decode() if form == "urdf" else FORMS[form](robot, tmp_path)
+    check_wheels_in_pinocchio(pinocchio_model(text), seen, link)
 
 
 @given(st.text("-a b", max_size=12))

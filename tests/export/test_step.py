@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from built import CAGED_DEVICE, DEVICES
+from built import CAGED_DEVICE, DEVICES, ON_A_MAST
 from made_parts import PARTS, TUBE
 
 from ocs_design.common.arrays import FloatArray
@@ -33,7 +33,7 @@ from ocs_design.export.assembly.placed import placed_parts
 from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.export.step import device_bytes, module_bytes, step_bytes
 from ocs_design.export.visuals import ALUMINIUM, MOTOR, PRINT
-from ocs_design.parts.carrier_plate import Mast, plate_bodies, plate_part
+from ocs_design.parts.carrier_plate import plate_bodies, plate_part
 from ocs_design.parts.solids import Part, Relief
 
 TOLERANCE = 1e-9
@@ -180,13 +180,6 @@ def test_a_module_has_all_its_pieces_in_their_places(tmp_path):
 
 
 ON_A_PLATE = DEVICES["on a plate"].plate
-ON_A_MAST = replace(
-    ON_A_PLATE,
-    feet=2 * ON_A_PLATE.feet,
-    rows=(0.0, 0.0),
-    levels=(0.0, 0.28),
-    mast=Mast(side=0.05, wall=0.003, face=0.17, below=0.05, high=0.3, overhang=0.2),
-)
 TWO_PLATES = replace(
     ON_A_PLATE,
     feet=tuple((x + row, y) for row in (0.2, -0.2) for x, y in ON_A_PLATE.feet),
@@ -197,7 +190,7 @@ TWO_PLATES = replace(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("plate", [TWO_PLATES, ON_A_MAST])
+@pytest.mark.parametrize("plate", [TWO_PLATES, replace(ON_A_MAST, sleeves=ON_A_PLATE.sleeves)])
 def test_the_device_has_every_module_in_its_place_and_its_plates(tmp_path, plate):
     device = replace(DEVICES["on a plate"], plate=plate)
     (tmp_path / "device.step").write_bytes(device_bytes(device))

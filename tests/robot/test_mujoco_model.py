@@ -312,10 +312,6 @@ def test_an_mjcf_robot_brings_its_includes(tmp_path):
         build_spec(robot)
 
 
-def test_the_solver_is_dense():
-    assert build_spec(robot_by_hand(1.0, (1.0, 1.0, 1.0))).spec.option.jacobian == 0
-
-
 PLAYER = """<mujoco model="player"><worldbody>
   <light name="lamp" mode="targetbody" target="ball" pos="0 0 3"/>
   <body name="dog" pos="0 0 0.5"><freejoint/><geom size="0.1" mass="3"/>

@@ -12,7 +12,6 @@ from ocs_design.device.solids import motor_mount
 from ocs_design.export.assembly.line_art import section_lines, visible_lines
 from ocs_design.export.assembly.placed import module_pieces, placed_parts
 from ocs_design.export.assembly_notes import drive_notes
-from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.export.device_parts import foot_holes
 from ocs_design.export.meshes import Mesh, solid_mesh
 from ocs_design.export.raster import view_of
@@ -37,15 +36,6 @@ def test_pieces_and_screws_weigh_what_stands_still(name):
     screws = sum(each.fastening.mass for each in motor_mount(device).screwed)
     screws += LID_SCREWS.mass + trunk_screws(device.foot_plate).mass
     assert pieces + screws == pytest.approx(device.carrier.mass, rel=1e-9)
-
-
-@pytest.mark.parametrize("name", [*BUILT, "on a plate"])
-def test_as_many_screws_as_in_the_bill(name):
-    device = DEVICES[name]
-    drawn = [piece for piece in module_pieces(device) if piece.fastening]
-    rows = [row for row in bill_rows(device) if row.part.startswith("screw")]
-    counted = sum(each.fastening.count * (1 if each.shared else 2) for each in drawn)
-    assert counted == sum(row.quantity for row in rows)
 
 
 def test_wheels_that_lean_on_nothing_have_the_screws_of_their_feet():

@@ -27,8 +27,6 @@ from scipy.integrate import quad
 from wheels import paper_device
 
 from ocs_design.actuation.supply import Supply
-from ocs_design.device.device import Web
-from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.sheet import FRAME_BOX, OUTLINE, Circle, Line, Text
 from ocs_design.export.drawing.title_block import device_hash
 from ocs_design.export.drawing.views import AXIS_Y, lay_out, section_view
@@ -36,7 +34,6 @@ from ocs_design.export.drawing.wheel import inertia_error, inside_corners
 from ocs_design.export.drawing.wheel_sheet import draw_wheel, wheel_drawing, wheel_sheet
 from ocs_design.export.drawing.writers import pdf_of_pages
 from ocs_design.parts.pedestal import Pedestal
-from ocs_design.parts.rim import WEB_MATERIAL, WEB_THICKNESS, Hub
 from ocs_design.parts.solids import total
 from ocs_design.parts.wheel import Wheel, wheel_parts
 
@@ -224,12 +221,6 @@ def test_rim_and_web_of_a_shrink_fit_have_limits_of_their_own():
     assert {"Rim", "Web with hub"} <= set(words(FLAT))
 
 
-def test_the_rim_alone_says_so():
-    alone = replace(FLAT, wheel=Wheel(RIM))
-    assert any(text.startswith("Rim only") for text in words(alone))
-    assert "Ø78.40 ±0.03" in words(alone)
-
-
 def test_names_are_escaped_in_both_formats():
     drawn = draw_wheel(replace(FLAT, robot='<a> & (b) \\ "é" 机'))
     root = ET.fromstring(drawn["svg"])
@@ -307,13 +298,6 @@ def test_lines_and_circles_of_the_pdf_are_those_of_the_sheet():
 
 
 DEVICE = paper_device()
-BOLTED = Hub(0.010, 0.005, 0.0015, bolts=4, bolt_circle_radius=0.006, bolt_hole_radius=0.0011)
-
-
-def on_a_web(device):
-    wheel = device.flywheel
-    web = Web(WEB_MATERIAL, 2710.0, WEB_THICKNESS, 0.01, BOLTED)
-    return replace(device, flywheel=replace(wheel, web=web))
 
 
 def test_mass_and_inertia_are_the_designed_ones():
@@ -323,15 +307,6 @@ def test_mass_and_inertia_are_the_designed_ones():
     rotor = DEVICE.motor.rotor_inertia
     assert found.inertia[2, 2] == pytest.approx(wheel.spin_inertia - rotor, rel=1e-9)
     assert found.inertia[0, 0] == pytest.approx(wheel.transverse_inertia, rel=1e-9)
-
-
-def test_a_web_is_made_with_the_hub_that_was_sized():
-    made = wheel_geometry(on_a_web(DEVICE).flywheel)
-    assert (made.hub.bolts.count, made.hub.bolts.radius) == (4, 0.006)
-    assert made.hub.material == WEB_MATERIAL
-    no_bolts = replace(BOLTED, bolts=0)
-    web = replace(on_a_web(DEVICE).flywheel.web, hub=no_bolts)
-    assert wheel_geometry(replace(DEVICE.flywheel, web=web)).hub.bolts is None
 
 
 def test_the_hash_follows_everything_that_is_drawn():
