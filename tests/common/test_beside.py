@@ -14,7 +14,7 @@ from numpy.testing import assert_array_equal
 from ocs_design.common import beside, errors
 from ocs_design.common.arrays import FloatArray, Table
 from ocs_design.common.beside import Beside
-from ocs_design.common.errors import extra_command, install_command
+from ocs_design.common.errors import extra_command
 from ocs_design.common.files import read_plain_file, safe_name
 
 
@@ -45,21 +45,20 @@ def test_what_it_raises_is_raised_here():
         other.call(math.sqrt, -1.0)()
 
 
-@pytest.mark.parametrize("module", [None, "no.such.module"])
-def test_without_a_process_this_one_answers(module):
+@pytest.mark.parametrize(
+    ("module", "processors", "python"),
+    [
+        (None, 2, sys.executable),
+        ("no.such.module", 2, sys.executable),
+        ("os", 1, sys.executable),
+        ("os", 2, "/no/such/python"),
+    ],
+    ids=["no module", "none of that name", "one processor", "no process can be started"],
+)
+def test_without_another_process_this_one_answers(monkeypatch, module, processors, python):
+    monkeypatch.setattr(beside, "processors", lambda: processors)
+    monkeypatch.setattr(beside.sys, "executable", python)
     with Beside(module) as other:
-        assert other.call(os.getpid)() == os.getpid()
-
-
-def test_with_one_processor_this_one_answers(monkeypatch):
-    monkeypatch.setattr(beside, "processors", lambda: 1)
-    with Beside("os") as other:
-        assert other.call(os.getpid)() == os.getpid()
-
-
-def test_where_no_process_can_be_started_this_one_answers(monkeypatch):
-    monkeypatch.setattr(beside.sys, "executable", "/no/such/python")
-    with Beside("os") as other:
         assert other.call(os.getpid)() == os.getpid()
 
 
@@ -179,7 +178,3 @@ def test_the_command_is_that_of_the_environment(receipt, has_pip, command, tmp_p
     monkeypatch.setattr(errors, "find_spec", lambda name: has_pip or None)
     wanted = command.format(name=tmp_path.name, python=sys.executable)
     assert extra_command("dxf", "step") == wanted
-
-
-def test_options_stand_before_the_packages():
-    assert install_command("a<2", "b", options="-U").endswith("install -U 'a<2' 'b'")

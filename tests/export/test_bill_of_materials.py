@@ -180,17 +180,6 @@ def test_a_motor_on_more_volts_than_it_is_rated_for_is_told_where_it_is_bought(r
     assert ("rated for 16.8 V: ask its maker before you buy" in bought.remark) is told
 
 
-def test_what_cannot_be_built_is_the_first_row():
-    refused = "NOT buildable as it stands. The feet hang in the air; give a place."
-    first, second, *_ = rows_of(bill_csv(whole_device(), refused=refused))
-    assert first["part"] == "NOT buildable as it stands"
-    assert first["remark"].startswith(
-        "The feet hang in the air; give a place. Buy and make nothing"
-    )
-    assert (first["quantity"], first["mass [g]"]) == ("", "")
-    assert second["part"].startswith("flywheel")
-
-
 def test_parts_of_the_wiring_are_bought_and_not_counted():
     """Fuse, switch and bus carry what the flights drew or fed back, whichever is more."""
     drive = replace(DEVICES["caged"].motor, bus_voltage=24.0)

@@ -121,30 +121,22 @@ def test_a_driver_that_kills_or_hangs_the_process_is_only_told(monkeypatch):
         render_views({"box": box_scene()})
 
 
-@pytest.fixture
-def no_system(tmp_path, monkeypatch):
-    monkeypatch.setenv("PATH", str(tmp_path))
-    return tmp_path
-
-
-def test_the_systems_own_comes_first(no_system):
-    program = no_system / "ffmpeg"
-    program.write_text("#!/bin/sh\n")
-    program.chmod(0o755)
-    assert ffmpeg_program() == str(program)
-
-
-def test_else_that_of_the_extra_which_runs(no_system):
-    said = subprocess.run([ffmpeg_program(), "-version"], capture_output=True, check=True).stdout
-    assert said.startswith(b"ffmpeg version")
-
-
-@pytest.mark.parametrize("why", ["not installed", "no binary"])
-def test_else_none(no_system, monkeypatch, why):
+@pytest.mark.parametrize("there", ["the system's own", "the extra's", "no binary", "nothing"])
+def test_the_systems_own_ffmpeg_comes_first_else_that_of_the_extra(there, tmp_path, monkeypatch):
     def refuse():
         raise RuntimeError("No ffmpeg exe could be found")
 
-    if why == "not installed":
-        monkeypatch.setattr(programs, "find_spec", lambda name: None)
-    monkeypatch.setattr(imageio_ffmpeg, "get_ffmpeg_exe", refuse)
-    assert ffmpeg_program() is None
+    program = tmp_path / "ffmpeg"
+    monkeypatch.setenv("PATH", str(tmp_path))
+    if there == "the system's own":
+        program.write_text("#!/bin/sh\n")
+        program.chmod(0o755)
+        assert ffmpeg_program() == str(program)
+    elif there == "the extra's":
+        done = subprocess.run([ffmpeg_program(), "-version"], capture_output=True, check=True)
+        assert done.stdout.startswith(b"ffmpeg version")
+    else:
+        monkeypatch.setattr(imageio_ffmpeg, "get_ffmpeg_exe", refuse)
+        if there == "nothing":
+            monkeypatch.setattr(programs, "find_spec", lambda name: None)
+        assert ffmpeg_program() is None

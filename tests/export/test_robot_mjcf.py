@@ -3,7 +3,6 @@
 import re
 import shutil
 import xml.etree.ElementTree as ET
-from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -217,15 +216,6 @@ def test_the_readme_has_the_designs_figures_and_a_picture(tmp_path):
     assert "NOT" not in page
     for file in re.findall(r"`([a-z_]+\.xml|meshes/)`|\]\((.*)\)", page):
         assert (tmp_path / "".join(file)).exists(), file
-
-
-def test_the_readme_says_first_what_cannot_be_built(tmp_path):
-    refused = "NOT buildable as it stands. The feet hang in the air; give a place."
-    subject = replace(Subject.of(robot_at(SOLO12), paper_device(), "solo"), refused=refused)
-    write(subject, tmp_path)
-    title, first, *_ = filter(None, (tmp_path / "README.md").read_text().splitlines())
-    assert title.startswith("# solo with")
-    assert first == f"**{refused}**"
 
 
 def test_wheels_look_like_rims_and_touch_like_cylinders(tmp_path):

@@ -61,6 +61,7 @@ def test_motors_are_fixed_to_the_trunk():
         mass, _ = inertial(link_of(model, f"ocs_{side}_motor"))
         assert mass == EC45_BODY.mass
     assert [joint.get("type") for joint in model.iter("joint")].count("fixed") == 2
+    assert model_of(paper_device(), TrunkOnly()).find("joint/axis/limit") is None
     limit = model.find("joint/axis/limit")
     assert (float(limit.findtext("effort")), float(limit.findtext("velocity"))) == (1.0, 650.4)
 
@@ -71,10 +72,6 @@ def test_no_two_of_a_model_have_one_name(device):
     names = Counter(each.get("name") for each in model_of(device, TrunkOnly()))
     names.pop(None, None)
     assert max(names.values()) == 1
-
-
-def test_nothing_is_said_of_limits_that_do_not_exist():
-    assert model_of(paper_device(), TrunkOnly()).find("joint/axis/limit") is None
 
 
 def test_armature_is_a_remark():

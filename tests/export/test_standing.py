@@ -30,7 +30,7 @@ ALPHA, LENGTH = np.radians(25.0), 0.021
 DRIVE = replace(EC45, diameter=0.043, length=LENGTH, mounting=FLAT)
 DEVICE = driven_device(ALPHA, DRIVE)
 FOOT = foot_of(DEVICE)
-LEFT, _ = DEVICE.modules
+LEFT = DEVICE.modules[0]
 MIRROR = np.array([1.0, -1.0, 1.0])
 
 

@@ -18,11 +18,25 @@ def solo12(name=None, joints=None, tree=None):
     )
 
 
-def test_a_robot_with_legs_stands():
-    posture = solo12()
-    assert posture.name == "stand"
-    assert posture.values == stand_of(SOLO12).posture
-    assert posture.standing_height == pytest.approx(0.8 * 0.32 + 0.0164, abs=1e-4)
+STANDING = 0.8 * 0.32 + 0.0164
+"""Thighs and shanks of 160 mm, and the balls of the feet, 8 mm beside the shank [m]."""
+
+
+@pytest.mark.parametrize(
+    ("asked", "joints", "name", "values", "height"),
+    [
+        (None, {}, "stand", lambda: stand_of(SOLO12).posture, STANDING),
+        ("zero", {}, "zero", dict, 0.32 + 0.0164),
+        ("zero", {"FL_KFE": -0.5}, "zero + joints", lambda: {"FL_KFE": -0.5}, None),
+        ("standing", {}, "standing", lambda: tree_of(SOLO12).named_postures["standing"], None),
+    ],
+)
+def test_a_posture_is_by_name_and_joint_by_joint(asked, joints, name, values, height):
+    posture, zero = solo12(asked, joints), dict.fromkeys(tree_of(SOLO12).joints, 0.0)
+    assert posture.name == name
+    assert posture.values == zero | values()
+    if height is not None:
+        assert posture.standing_height == pytest.approx(height, abs=1e-4)
 
 
 def test_a_robot_without_legs_is_at_zero():
@@ -30,26 +44,6 @@ def test_a_robot_without_legs_is_at_zero():
     assert posture.name == "zero"
     assert set(posture.values.values()) == {0.0}
     assert posture.standing_height is None
-
-
-def test_zero_means_zero_and_straight_legs():
-    posture = solo12("zero")
-    assert set(posture.values.values()) == {0.0}
-    # Thigh and shank of 160 mm and the ball of the foot, whose frame is 8 mm beside the shank.
-    assert posture.standing_height == pytest.approx(0.32 + 0.0164, abs=1e-4)
-
-
-def test_a_posture_of_the_file():
-    posture = solo12("standing")
-    assert posture.name == "standing"
-    assert posture.values == tree_of(SOLO12).named_postures["standing"]
-
-
-def test_joints_replace_what_the_posture_says():
-    posture = solo12("zero", {"FL_KFE": -0.5})
-    assert posture.name == "zero + joints"
-    assert posture.values["FL_KFE"] == -0.5
-    assert posture.values["FR_KFE"] == 0.0
 
 
 def test_joints_of_a_partial_posture_rest_within_their_limits():

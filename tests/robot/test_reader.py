@@ -116,16 +116,14 @@ def state(name: str, joint: str, value: str, group: str = "all") -> str:
     return f'<group_state name="{name}" group="{group}">{inside}</group_state>'
 
 
-def test_states_of_one_name_are_joined_over_their_groups():
+def test_states_of_one_name_are_joined_over_their_groups_and_joints_of_several_values_left_out():
     content = srdf(
-        state("home", "a", "1", "left"), state("home", "b", "2", "right"), state("up", "a", "3")
+        state("home", "a", "1", "left"),
+        state("home", "b", "2", "right"),
+        state("up", "a", "3"),
+        state("home", "root_joint", "0 0 0.2 0 0 0 1"),
     )
     assert read_group_states(content) == {"home": {"a": 1.0, "b": 2.0}, "up": {"a": 3.0}}
-
-
-def test_joints_with_several_values_are_left_out():
-    content = srdf(state("home", "root_joint", "0 0 0.2 0 0 0 1"))
-    assert read_group_states(content) == {}
 
 
 def test_what_is_no_srdf_is_refused():

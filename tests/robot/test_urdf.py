@@ -16,6 +16,9 @@ def read(content: bytes) -> Tree:
     return read_urdf(content, find_mesh=lambda _: None)
 
 
+INF = np.inf
+
+
 def joint_with(*inside: str, kind: str = "revolute"):
     content = robot(
         link("trunk", inertial()),
@@ -35,27 +38,6 @@ def test_a_joint_is_read_with_all_its_numbers():
     assert (hip.lower, hip.upper, hip.effort, hip.velocity) == (-1, 2, 3, 4)
     assert (hip.damping, hip.friction) == (0.5, 0.25)
     assert tree.warnings == ()
-
-
-def test_limits_the_wrong_way_round_are_ignored_with_a_warning():
-    hip, tree = joint_with('<limit lower="1" upper="-1"/>')
-    assert (hip.lower, hip.upper) == (-np.inf, np.inf)
-    (warning,) = tree.warnings
-    assert "hip" in warning
-
-
-@pytest.mark.parametrize("limit", ["", '<limit lower="-1" upper="1" effort="0" velocity="0"/>'])
-def test_zero_effort_and_velocity_are_not_stated(limit):
-    hip, _ = joint_with(limit)
-    assert (hip.effort, hip.velocity) == (np.inf, np.inf)
-
-
-def test_an_infinite_limit_is_none():
-    hip, tree = joint_with('<limit lower="-inf" upper="1" effort="inf" velocity="Infinity"/>')
-    assert (hip.lower, hip.upper) == (-np.inf, 1.0)
-    assert (hip.effort, hip.velocity) == (np.inf, np.inf)
-    (warning,) = tree.warnings
-    assert warning == "joints with an infinite <limit>, which ROS refuses: hip"
 
 
 def chain_of_mimics(*mimics: str) -> Tree:
@@ -104,6 +86,13 @@ def test_a_massless_world_fixed_to_the_base_is_part_of_the_base_as_in_pinocchio(
     np.testing.assert_allclose(tree.bodies[0].mass_properties.com, model.inertias[1].lever)
 
 
+def test_a_floating_joint_within_the_robot_is_held_with_a_warning():
+    free = joint("free", "trunk", "load", kind="floating")
+    tree = read(robot(link("trunk", inertial()), link("load", inertial()), free))
+    assert len(tree.bodies) == 1
+    assert any("free" in warning for warning in tree.warnings)
+
+
 @pytest.mark.parametrize("kind", ["floating", "planar"])
 def test_what_floats_under_a_massless_root_is_the_base(kind):
     tree = read(robot(*WORLD, joint("free", "world", "trunk", kind=kind), HIP))
@@ -139,24 +128,30 @@ def test_a_turn_stated_twice_or_not_at_all_is_refused(turn):
         read(content.replace(b"<robot", b'<robot version="1.1"'))
 
 
-@pytest.mark.parametrize(("kind", "told"), [("revolute", True), ("continuous", False)])
-def test_a_missing_limit_is_told(kind, told):
-    links = link("trunk", inertial()), link("leg", inertial())
-    tree = read(robot(*links, joint("hip", "trunk", "leg", kind=kind)))
-    assert tree.joints["hip"].upper == np.inf
-    assert any("hip" in warning for warning in tree.warnings) == told
-
-
-def test_a_floating_joint_within_the_robot_is_held_with_a_warning():
-    tree = read(
-        robot(
-            link("trunk", inertial()),
-            link("load", inertial()),
-            joint("free", "trunk", "load", kind="floating"),
-        )
-    )
-    assert len(tree.bodies) == 1
-    assert any("free" in warning for warning in tree.warnings)
+@pytest.mark.parametrize(
+    ("limit", "kind", "read", "told"),
+    [
+        ('<limit lower="1" upper="-1"/>', "revolute", (-INF, INF, INF, INF), "hip"),
+        (
+            '<limit lower="-1" upper="1" effort="0" velocity="0"/>',
+            "revolute",
+            (-1, 1, INF, INF),
+            "",
+        ),
+        (
+            '<limit lower="-inf" upper="1" effort="inf" velocity="Infinity"/>',
+            "revolute",
+            (-INF, 1, INF, INF),
+            "joints with an infinite <limit>, which ROS refuses: hip",
+        ),
+        ("", "revolute", (-INF, INF, INF, INF), "hip"),
+        ("", "continuous", (-INF, INF, INF, INF), ""),
+    ],
+)
+def test_limits_that_are_none_are_not_read_and_what_is_odd_of_them_is_told(limit, kind, read, told):
+    hip, tree = joint_with(limit, kind=kind)
+    assert (hip.lower, hip.upper, hip.effort, hip.velocity) == read
+    assert [told in each for each in tree.warnings] == [True] * bool(told)
 
 
 GEOMETRIES = {
@@ -244,27 +239,21 @@ LATIN = TWO_LINKS.replace(b'"leg"', '"J\xf6rg"'.encode("latin-1"))
 
 
 @pytest.mark.parametrize(
-    "declaration", [b"", b'<?xml version="1.0"?>', b'<?xml version="1.0" encoding="UTF-8"?>']
-)
-def test_undeclared_latin_1_is_read_with_a_warning(declaration):
-    tree = read(declaration + LATIN)
-    assert "J\xf6rg" in tree.body_of_link
-    assert any("Windows-1252" in warning for warning in tree.warnings)
-
-
-@pytest.mark.parametrize(
-    "content",
+    ("content", "told"),
     [
-        b'<?xml version="1.0" encoding="ISO-8859-1"?>' + LATIN,
-        LATIN.decode("latin-1").encode("utf-8-sig"),
-        LATIN.decode("latin-1").encode("utf-16"),
+        (LATIN, True),
+        (b'<?xml version="1.0"?>' + LATIN, True),
+        (b'<?xml version="1.0" encoding="UTF-8"?>' + LATIN, True),
+        (b'<?xml version="1.0" encoding="ISO-8859-1"?>' + LATIN, False),
+        (LATIN.decode("latin-1").encode("utf-8-sig"), False),
+        (LATIN.decode("latin-1").encode("utf-16"), False),
     ],
-    ids=["declared Latin-1", "byte order mark", "UTF-16"],
+    ids=["bare", "undeclared", "wrong", "declared Latin-1", "byte order mark", "UTF-16"],
 )
-def test_declared_encodings_are_read_silently(content):
+def test_latin_1_is_read_with_a_warning_where_it_is_not_declared(content, told):
     tree = read(content)
     assert "J\xf6rg" in tree.body_of_link
-    assert tree.warnings == ()
+    assert ["Windows-1252" in warning for warning in tree.warnings] == [True] * told
 
 
 def test_a_default_namespace_does_not_matter():

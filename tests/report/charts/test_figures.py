@@ -100,11 +100,6 @@ def test_wheels_that_never_turned_have_a_plane_too():
     assert "<svg" in inline_svg(chart)
 
 
-def test_the_plane_says_which_wheel_is_dashed():
-    (chart,) = drive_charts(design().ocs.motor, [flight()])
-    assert chart.title == "Torque and speed of a wheel: solid left wheel, dashed right wheel"
-
-
 def test_postures_are_rows_from_the_top():
     lines = [
         PostureLine(posture=name, inertia_diagonal=(1.0, 2.0, 3.0), incidence=angle)

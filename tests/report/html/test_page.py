@@ -10,7 +10,6 @@ import pytest
 from pages import Page
 from stories import design, story
 
-from ocs_design.common.files import to_json
 from ocs_design.device.answers import CONFIDENCE, MonteCarloRecord
 from ocs_design.monte_carlo.outcomes import share
 from ocs_design.report.html.page import report_page
@@ -24,10 +23,6 @@ def page():
     text = report_page(story())
     assert text == report_page(story()), "equal stories make equal pages"
     return Page(text)
-
-
-def test_it_holds_the_design_byte_for_byte(page):
-    assert json.loads(page.inside["design"]) == json.loads(to_json(story().design))
 
 
 def test_no_name_gets_out_of_its_place(page):
