@@ -5,7 +5,8 @@ directions of power flow, so that braking is not overestimated:
 
     tau_s = N eta V k_t / R        w_0 = V / (k_t N)        tau_L = N eta (peak torque - k_t I_0)
 
-(`V = R i + k_t w`, docs/theory.md, What a motor can do). I_0 is the motor's no-load current due to
+(`V = R i + k_t w`, docs/theory.md, What a motor can do). From tau_s at rest to w_0 without load runs
+the voltage line, the torque over speed at full voltage. I_0 is the motor's no-load current due to
 friction, where its source gives it.
 """
 
@@ -42,7 +43,7 @@ FIGURES_HINT = (
 
 @dataclass(frozen=True, eq=False)
 class DriveLine(Table):
-    """Torque-speed line and limits at the wheel: scalars, or arrays that broadcast.
+    """Voltage line and limits at the wheel: scalars, or arrays that broadcast.
 
     Attributes:
         stall_torque: tau_s, torque of the line at rest [N m]; inf: no line, full torque up to w_0.
@@ -188,7 +189,7 @@ def power_less_friction(
 
 @dataclass(frozen=True)
 class Drive:
-    """Motor at a voltage with a gear: its torque-speed line, limits and inertia, all at the wheel.
+    """Motor at a voltage with a gear: its voltage line, limits and inertia, all at the wheel.
 
     It is written to `design.json` unchanged. None means not limited or unknown; for the assumed
     motor that is everything except its speed and, where specified, its torque.
@@ -196,9 +197,9 @@ class Drive:
     Attributes:
         name: in the catalogue, or "assumed".
         mass: of the motor alone, without its gear [kg].
-        stall_torque: torque of the torque-speed line at rest [N m]; None: full torque up to the top
+        stall_torque: torque of the voltage line at rest [N m]; None: full torque up to the top
             speed.
-        no_load_speed: of the torque-speed line [rad/s].
+        no_load_speed: of the voltage line [rad/s].
         torque_limit: at the current limit of motor and drive, or of the gear [N m].
         rotor_inertia: what the rotor adds to the spin inertia of the wheel [kg m^2]: its own times
             the gear ratio, negative where the gear reverses.
@@ -271,7 +272,7 @@ class Drive:
         Fields that `Motor` has too are copied by name, unless gear or supply change them.
 
         Args:
-            line: usable torque-speed line at the wheel; None: the full line of motor and gear.
+            line: usable voltage line at the wheel; None: the full line of motor and gear.
 
         Raises:
             OcsError: the motor lacks a required figure.

@@ -10,7 +10,7 @@ The current limits the acceleration up to x_c = 1 - l, and the braking from x_b 
 
 Times are in units of T_0 = I_red w_0 / a_0, wheel angles in units of w_0 T_0, so that dx/dt = a(x)
 up and -b(x) down. Up to the peak x the wheel takes the time r + l z: first r = min(x, x_c) at the
-current limit, then l z on the voltage-limited line, x = x_c + l (1 - e^-z). Then it may coast, at
+current limit, then l z on the voltage line, x = x_c + l (1 - e^-z). Then it may coast, at
 its cap, and brakes to the final speed f. The unknown is z: close to w_0 it resolves speeds that x
 cannot.
 
@@ -133,7 +133,7 @@ class UnitDrive(Table):
 
     @cached_property
     def spare(self) -> FloatArray:
-        """1 - x at the point where the voltage-limited line takes over."""
+        """1 - x at the point where the voltage line takes over."""
         return np.minimum(self.power, self.knee)
 
     @cached_property
@@ -201,7 +201,7 @@ class Rise(NamedTuple):
     Attributes:
         ramp: r, time at the current limit [T_0].
         gain: gain of speed at the power limit [w_0].
-        line: z, time on the voltage-limited line [l T_0].
+        line: z, time on the voltage line [l T_0].
     """
 
     ramp: FloatArray

@@ -154,7 +154,7 @@ def _of_choice(design: OcsDesign) -> Iterator[_Figure]:
 
 
 def _of_drive(device: Device) -> Iterator[_Figure]:
-    """Figures of the torque-speed line (`actuation.drive`)."""
+    """Figures of the voltage line (`actuation.drive`)."""
     motor = device.motor
     voltage, k_t, resistance = motor.bus_voltage, motor.torque_constant, motor.resistance
     if voltage is None or k_t is None:

@@ -27,7 +27,7 @@ class MotorLimits(Table):
     shape (n, 1), or (n, 1, m) with m motors each (`stacked_columns`).
 
     Attributes:
-        no_load_speed: end of the torque-speed line, less friction [rad/s]; inf: not limited.
+        no_load_speed: end of the voltage line, less friction [rad/s]; inf: not limited.
         line_slope: speed lost per torque on the voltage line, w_0 / tau_s [rad/s/(N m)]; 0 without
             a stall torque: full torque up to w_0.
         torque_limit: at the current limit [N m]; inf: not limited.

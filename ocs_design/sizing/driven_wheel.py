@@ -20,7 +20,7 @@ class DrivenWheel:
         inner_radius, outer_radius, height: of the rim [m].
         material: of the rim.
         motor, gear: motor and gear that drive it.
-        line: torque-speed line of the drive at the wheel, without reserve, up to a specified top
+        line: voltage line of the drive at the wheel, without reserve, up to a specified top
             speed.
         supply: of all motors.
         hub: in the middle of the wheel's web; None: massless spokes.
@@ -70,7 +70,7 @@ class DrivenWheel:
 
     @property
     def resistance(self) -> float:
-        """Line-to-line resistance [ohm]; a drive with a torque-speed line has one."""
+        """Line-to-line resistance [ohm]; a drive with a voltage line has one."""
         assert self.motor.resistance is not None, "the line has it"
         return self.motor.resistance
 

@@ -156,7 +156,7 @@ def consumption(motion: SampledMotion, wheel: DrivenWheel) -> Consumption:
 def winding_current(
     motion: SampledMotion, wheel: DrivenWheel, *, friction: bool = True
 ) -> FloatArray:
-    """i = tau / (N eta k_t) [A], as in the drive's torque-speed line, plus I_0; shape (n, m).
+    """i = tau / (N eta k_t) [A], as in the drive's voltage line, plus I_0; shape (n, m).
 
     Losses of gear and bearings are counted against the motor even in braking, where they really
     help: currents and heat are conservative.

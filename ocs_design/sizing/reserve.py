@@ -305,7 +305,7 @@ class Reality:
             for key, values in self.drawn(problem, device).items()
             for mean in [values.mean(axis=0)]
         }
-        # Torque-speed lines of all wheels as built: the law commands what the nominal motor can do,
+        # Voltage lines of all wheels as built: the law commands what the nominal motor can do,
         # and the real one gives k_t / k_t0 times that within its own line. The torque limit already
         # includes mean friction.
         constant = 1.0 + drawn["torque_constant_error"]

@@ -245,5 +245,5 @@ def column(inertia: TiltInertia) -> TiltInertia:
 
 
 def columns(line: DriveLine) -> DriveLine:
-    """Torque-speed lines of n drives with a second array axis for incidences."""
+    """Voltage lines of n drives with a second array axis for incidences."""
     return DriveLine(*(np.asarray(value)[:, None] for value in vars(line).values()))

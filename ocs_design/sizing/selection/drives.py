@@ -50,7 +50,7 @@ class Drives(Table):
     Attributes:
         motor, gear, web: indices in the problem's motors, gears and lightenings.
         seat: mounting of the motor.
-        whole: torque-speed line and limits at the wheel, without reserve.
+        whole: voltage line and limits at the wheel, without reserve.
         rotor_share: rotor's share of the spin inertia [kg m^2].
         armature: inertia that the motor accelerates beyond the spin inertia [kg m^2].
         hub_volume: mass of the wheel's hub, over its density [m^3].
@@ -126,7 +126,7 @@ class Drives(Table):
 
     @property
     def line(self) -> DriveLine:
-        """Torque-speed lines and limits that a design may use."""
+        """Voltage lines and limits that a design may use."""
         return self.whole.reserved()
 
     @property

@@ -313,7 +313,7 @@ def _gyrostat(problem: SelectionProblem, device: Candidate, incidence: float) ->
 
 
 def _usable(problem: SelectionProblem, device: Candidate) -> DriveLine:
-    """Torque-speed line that the drives may use, reduced by the reserve's factor.
+    """Voltage line that the drives may use, reduced by the reserve's factor.
 
     The largest reserve of all maneuvers applies to each.
     """

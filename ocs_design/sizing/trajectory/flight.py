@@ -53,7 +53,7 @@ class Flight:
 def fly(flown: Turn, line: DriveLine, motion: Motion) -> Flight:
     """Integrate the torques of a motion from the start of the turn, for this robot and device.
 
-    `line`: usable torque-speed line of the drives.
+    `line`: usable voltage line of the drives.
     """
     asked, gyrostat, turn = flown.asked, flown.gyrostat, flown.outline
     wheels = gyrostat.axes.shape[1]

@@ -178,7 +178,7 @@ def reference(
 
     Args:
         gyrostat: robot and device, at the incidence of the maneuver.
-        line: torque-speed line of the drives, without reserve.
+        line: voltage line of the drives, without reserve.
         maneuver: of robot and device (`Maneuver.on`); an unforeseen one gets no reference, but a
             robot on a pivot gets the gains that balance it.
         standing_height: of the trunk above the ground [m].
@@ -420,7 +420,7 @@ def gyrostat_of(
 
 
 def drive_line_of(device: "Device") -> DriveLine:
-    """Torque-speed line of each drive at its wheel, net of friction and without reserve."""
+    """Voltage line of each drive at its wheel, net of friction and without reserve."""
     motor, supply, wheels = device.motor, device.supply, len(device.modules)
     power = inf
     if supply is not None:

@@ -122,7 +122,7 @@ def solve(
 
     Args:
         turns: of one robot and device.
-        line: usable torque-speed line of the drives.
+        line: usable voltage line of the drives.
         passes: number of intervals of each pass: even in the first, then short where the torques
             change.
         dimensions: free dimensions; None: the gyrostats as they are.
