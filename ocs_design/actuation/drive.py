@@ -5,8 +5,8 @@ directions of power flow, so that braking is not overestimated:
 
     tau_s = N eta V k_t / R        w_0 = V / (k_t N)        tau_L = N eta (peak torque - k_t I_0)
 
-(`V = R i + k_t w`, docs/theory.md, What a motor can do). From tau_s at rest to w_0 without load runs
-the voltage line, the torque over speed at full voltage. I_0 is the motor's no-load current due to
+(`V = R i + k_t w`, docs/theory.md, What a motor can do). The voltage line, torque over speed at
+full voltage, falls from tau_s at rest to zero at w_0. I_0 is the motor's no-load current due to
 friction, where its source gives it.
 """
 
@@ -76,9 +76,8 @@ class DriveLine(Table):
     def begun(self, speed: float | FloatArray) -> "DriveLine":
         """The line for the change of a wheel's speed from an initial one [rad/s].
 
-        It is that of the same winding at a voltage reduced by the back EMF at the initial speed.
-        Braking torque comes out too low for an initial speed in the direction of the change, and
-        too high for one against it.
+        It is that of the same winding at a voltage reduced by the back EMF at the initial speed,
+        exactly for a wheel that only speeds up.
         """
         left = np.maximum(1.0 - speed / np.asarray(self.no_load_speed), _NO_SPEED)
         return replace(

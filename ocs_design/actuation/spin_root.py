@@ -1,6 +1,6 @@
 """Root finding for the smallest spin inertia h with which the busiest wheel is in time.
 
-Within the time T a wheel of spin inertia h turns by at most Phi(h), ending at its final speed W_f =
+Within the time T a wheel of spin inertia h turns by at most Phi(h), ending faster by W_f =
 momentum / h, and sweeps M(h) = h Phi. It must sweep phi(P) + phi(L) T (`wheel_load`), the excess
 plus the sweep of the final speed itself. From `dA/dt = x` (`unit_drive`) the slope is exact,
 
@@ -19,13 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ocs_design.actuation.unit_drive import (
-    UnitDrive,
-    farthest_slew,
-    positive,
-    rise_for,
-    risen_speed,
-)
+from ocs_design.actuation.unit_drive import UnitDrive, attained, farthest_slew, positive
 from ocs_design.common.arrays import FloatArray, Table
 
 _STEPS = 80
@@ -78,16 +72,15 @@ def capability(demand: SweepDemand, spin_inertia: FloatArray) -> Capability:
     reduced = h + demand.armature - demand.coupling * h**2
     unit = reduced * drive.no_load_speed / drive.torque
     time = demand.duration / unit
-    final = np.minimum(
-        demand.momentum / (h * drive.no_load_speed),
-        risen_speed(drive, rise_for(drive, time)),
-    )
+    gain = demand.momentum / (h * drive.no_load_speed)
+    final = attained(drive, time, drive.begin + gain)
     slew = farthest_slew(drive, time, final)
+    angle = slew.angle - drive.begin * time
     by_inertia = h * (slew.angle - slew.peak * time) * (1.0 - 2.0 * demand.coupling * h) / reduced
-    by_final_speed = final * (slew.peak - final) / drive.braking(final)
-    slope = slew.angle + by_inertia - by_final_speed
+    by_final_speed = (final - drive.begin) * (slew.peak - final) / drive.forwards(-final)
+    slope = angle + by_inertia - by_final_speed
     scale = drive.no_load_speed * unit
-    return Capability(scale * h * slew.angle, scale * slope)
+    return Capability(scale * h * angle, scale * slope)
 
 
 def newton_step(demand: SweepDemand, spin_inertia: FloatArray, can: Capability) -> FloatArray:
@@ -136,7 +129,8 @@ def _roots(demand: SweepDemand) -> FloatArray:
     drive, high = demand.drive, 1.0 / (2.0 * demand.coupling)
 
     # Below this h the speed alone is too low, or there is nothing to accelerate.
-    by_speed = demand.sweep / (drive.highest * drive.no_load_speed * positive(demand.duration))
+    gain = (drive.highest - drive.begin) * drive.no_load_speed
+    by_speed = demand.sweep / (gain * positive(demand.duration))
     relief = np.maximum(-demand.armature, 0.0)
     root = np.sqrt(np.maximum(1.0 - 4.0 * demand.coupling * relief, 0.0))
     nothing_left = 2.0 * relief / (1.0 + root) * (1.0 + 1e-9)

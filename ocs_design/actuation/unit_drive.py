@@ -25,6 +25,11 @@ and in both cases the angle is l c (e^3u / 3 + e^-u). Accelerating, this applies
 p / l - l to where the line takes over at 1 - p; braking, from p / k + k upwards, with k the current
 limit. At rest the power is all heat, so a current above c is never used.
 
+A slew that begins or ends at another speed is part of one from rest. To stop a wheel that turns
+backwards is to brake one that turns forwards, mirrored: with U(x) the time from rest to x and U(-x)
+that of braking from x, negative, a slew from x_0 to f < 0 in the time t has the peak of one from
+rest to rest in t + U(x_0) - U(-f). If that is negative, so is the peak.
+
 With A the largest angle within the time t, dA/dt = x: a little more time is spent at the peak. So A
 is convex in t, and Newton's method finds the time for an angle from any start.
 """
@@ -34,7 +39,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.special import wrightomega
 
 from ocs_design.actuation.drive import DriveLine
@@ -66,6 +71,9 @@ def log_remainder(y: FloatArray) -> FloatArray:
     return np.where(y < _SMALL, ratio * (small - 2.0 * series), y - np.log1p(y))
 
 
+_SLOWER = 1.0 - 1e-9
+"""Fraction of the highest speed at which a wheel begins at most."""
+
 # Represents an unlimited torque: its square is finite, and its times are zero to all digits.
 _UNLIMITED = 1e100
 
@@ -83,6 +91,7 @@ class UnitDrive(Table):
         clamp: x_b, above which the current limits the braking; at most 1, like every peak.
         cap: highest speed [w_0]; at most 1 without a line, inf: not limited below 1.
         power: p [tau_s w_0]; inf: not limited, as without a line.
+        begin: x_0, speed at the start, positive in the direction of the slew [w_0].
     """
 
     no_load_speed: FloatArray
@@ -92,10 +101,11 @@ class UnitDrive(Table):
     clamp: FloatArray
     cap: FloatArray
     power: FloatArray
+    begin: FloatArray
 
     @classmethod
-    def of(cls, line: DriveLine) -> "UnitDrive":
-        """The shape of `line`."""
+    def of(cls, line: DriveLine, begins: ArrayLike = 0.0) -> "UnitDrive":
+        """The shape of `line`, of a wheel that `begins` at a speed [rad/s]."""
         stall = np.asarray(line.stall_torque, dtype=np.float64)
         limit = np.asarray(line.torque_limit, dtype=np.float64)
         speed = np.asarray(line.no_load_speed, dtype=np.float64)
@@ -109,6 +119,7 @@ class UnitDrive(Table):
             ratio = np.where(endless, 0.0, limit / stall)
             brake = np.where(endless, 1.0, np.minimum(1.0, stall / limit))
         cap = np.asarray(line.speed_max / speed)
+        most = _SLOWER * np.minimum(cap, 1.0)
         return cls(
             no_load_speed=speed,
             torque=np.minimum(np.minimum(stall, limit), _UNLIMITED),
@@ -117,6 +128,7 @@ class UnitDrive(Table):
             clamp=np.clip(ratio - 1.0, 0.0, 1.0),
             cap=np.where(endless, np.minimum(cap, 1.0), np.where(cap < 1.0, cap, np.inf)),
             power=power,
+            begin=np.clip(np.asarray(begins) / speed, -most, most),
         )
 
     @property
@@ -170,6 +182,11 @@ class UnitDrive(Table):
         felt = (self.power < self.knee) & (speed > self.end_of_limit)
         return np.where(felt, np.minimum(by_power, on_line), on_line)
 
+    def forwards(self, speed: FloatArray) -> FloatArray:
+        """Largest torque in the direction of the slew at a speed of either sign [a_0]."""
+        slowed = self.braking(np.maximum(-speed, 0.0))
+        return np.where(speed < 0.0, slowed, self.accelerating(np.maximum(speed, 0.0)))
+
     def braking(self, speed: FloatArray) -> FloatArray:
         """Braking torque b(x), positive [a_0]."""
         c, knee = self.current, positive(self.knee)
@@ -222,15 +239,15 @@ class Sweep(NamedTuple):
 
 
 class UnitSlew(NamedTuple):
-    """A slew from rest to its final speed.
+    """A slew to its final speed.
 
     Attributes:
-        rise: up to the peak. peak: x [w_0].
+        up: time to the peak [T_0]. peak: x [w_0].
         coast: time at the cap [T_0].
         angle: total angle of the wheel [w_0 T_0].
     """
 
-    rise: Rise
+    up: FloatArray
     peak: FloatArray
     coast: FloatArray
     angle: FloatArray
@@ -311,11 +328,45 @@ def rise_to(drive: UnitDrive, speed: FloatArray) -> Rise:
         return Rise(ramp, gain, -np.log1p(-np.minimum(span, 1.0)))
 
 
+def since_rest(drive: UnitDrive, speed: FloatArray) -> Sweep:
+    """Time and angle since rest of a wheel that accelerates through `speed` [w_0].
+
+    The time is negative below rest.
+    """
+    up = rise_sweep(drive, rise_to(drive, np.maximum(speed, 0.0)))
+    down = brake_sweep(drive, np.maximum(-speed, 0.0), np.zeros_like(speed))
+    back = speed < 0.0
+    return Sweep(np.where(back, -down.time, up.time), np.where(back, down.angle, up.angle))
+
+
+def attained(drive: UnitDrive, time: FloatArray, final: FloatArray) -> FloatArray:
+    """`final` speed, or one reached in `time` if that is not, the highest from rest up [w_0]."""
+    if not drive.begin.any():
+        return np.minimum(final, risen_speed(drive, rise_for(drive, time)))
+    left = time + since_rest(drive, drive.begin).time
+    risen = risen_speed(drive, rise_for(drive, np.maximum(left, 0.0)))
+    below = np.minimum(final, _SLOWER * drive.highest)
+    reached = (final <= below) & (since_rest(drive, below).time <= left)
+    return np.where(reached, final, np.where(left > 0.0, np.minimum(final, risen), drive.begin))
+
+
 def farthest_slew(drive: UnitDrive, time: FloatArray, final: FloatArray) -> UnitSlew:
     """Slew that turns the wheel farthest in `time` [T_0], ending at `final` [w_0].
 
-    The time must suffice to reach the final speed.
+    The time must suffice to reach the final speed. See the module's docstring.
     """
+    if not drive.begin.any():
+        return _slew_from_rest(drive, time, final)
+    lead, tail = since_rest(drive, drive.begin), since_rest(drive, np.maximum(-final, 0.0))
+    whole = time + lead.time - tail.time
+    slew = _slew_from_rest(drive, np.abs(whole), np.maximum(final, 0.0))
+    peak = np.copysign(slew.peak, whole)
+    up = np.where(whole < 0.0, since_rest(drive, np.minimum(peak, 0.0)).time, slew.up) - lead.time
+    return UnitSlew(up, peak, slew.coast, slew.angle - lead.angle - tail.angle)
+
+
+def _slew_from_rest(drive: UnitDrive, time: FloatArray, final: FloatArray) -> UnitSlew:
+    """Farthest slew of a wheel that begins at rest; arguments as for `farthest_slew`."""
     capped = rise_to(drive, drive.cap)
     ramp = np.minimum((time + final) / 2.0, drive.end_of_limit)
     line = np.where(time + final > 2.0 * drive.end_of_limit, _line_phase(drive, time, final), 0.0)
@@ -331,7 +382,7 @@ def farthest_slew(drive: UnitDrive, time: FloatArray, final: FloatArray) -> Unit
     up, down = rise_sweep(drive, rise), brake_sweep(drive, peak, final)
     at_cap = np.all([own >= most for own, most in zip(rise, capped, strict=True)], axis=0)
     coast = np.where(at_cap, np.maximum(time - up.time - down.time, 0.0), 0.0)
-    return UnitSlew(rise, peak, coast, up.angle + coast * peak + down.angle)
+    return UnitSlew(up.time, peak, coast, up.angle + coast * peak + down.angle)
 
 
 def _powered_rise(
@@ -379,10 +430,11 @@ def quickest_time(drive: UnitDrive, excess: FloatArray, final: FloatArray) -> Fl
     the time that torque alone would take from the final speed if the wheel always braked as hard as
     at no-load speed, and overshoots once.
     """
-    start = rise_sweep(drive, rise_to(drive, final))
-    deficit = np.maximum(final * start.time - start.angle, 0.0)
+    to, lead = since_rest(drive, final), since_rest(drive, drive.begin)
+    least = to.time - lead.time
+    deficit = np.maximum(final * least - (to.angle - lead.angle), 0.0)
     weight = 1.0 + np.maximum(drive.brake, 0.5)
-    time = start.time + np.sqrt(2.0 * weight * (excess + deficit))
+    time = least + np.sqrt(2.0 * weight * (excess + deficit))
     for _ in range(_TIME_STEPS):
         slew = farthest_slew(drive, time, final)
         margin = slew.peak - final

@@ -56,7 +56,7 @@ class SlewReason(IntEnum):
     AXIS = 1
     """The wheels cannot control a required axis."""
     TORQUE = 2
-    """Even constant stall torque is too slow with any wheel."""
+    """Even the torque at the start, kept constant, is too slow with any wheel."""
     SPEED = 3
     """The torque suffices; the drive's speed determines how large its wheel must be."""
 
@@ -190,6 +190,7 @@ class WheelTask:
             heading is free.
         begins: speed of all wheels at the start, in their direction for swept and momentum [rad/s],
             shape (...).
+        one_way: whether the wheels do not really return to that speed, shape (...).
     """
 
     swept: ArrayLike
@@ -200,6 +201,7 @@ class WheelTask:
     one_stops: bool = False
     upright: FloatArray | None = None
     begins: ArrayLike = 0.0
+    one_way: ArrayLike = False
 
     def load(self) -> "WheelLoad":
         """Load on the busiest wheel; see the module's docstring.
@@ -214,6 +216,7 @@ class WheelTask:
                 held=np.max([load.held for load in loads], axis=0),
                 coupling=np.min([load.coupling for load in loads], axis=0),
                 begins=np.max([load.begins for load in loads], axis=0),
+                one_way=self.one_way,
             )
         swept, momentum, _ = np.broadcast_arrays(self.swept, self.momentum, self.axes[..., 0])
         (turned, kept), senses = held(self.axes, np.stack([swept, momentum]))
@@ -247,7 +250,7 @@ class WheelTask:
             # left.
             begins = np.where(sense == 0.0, -np.inf, sense * self.begins).max(axis=0)
             begins = np.where(np.isfinite(begins), begins, 0.0)
-        return WheelLoad(turned, kept, coupling, begins)
+        return WheelLoad(turned, kept, coupling, begins, self.one_way)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -292,7 +295,8 @@ class WheelBound(WheelTask):
         lengths = np.abs(self.axes) / np.sqrt(diagonal)[..., None]
         longest, whole, rho = lengths.max(axis=-1), lengths.sum(axis=-1), np.minimum(share, _LOOSE)
         gives = (longest * (whole + rho * whole[..., ::-1]) / (1.0 - rho**2)).sum(axis=-1)
-        return replace(load, coupling=gives, begins=-np.abs(self.begins))
+        begins = -np.abs(self.begins)
+        return replace(load, coupling=gives, begins=begins, one_way=self.one_way)
 
 
 @dataclass(frozen=True, eq=False)
@@ -304,19 +308,31 @@ class WheelLoad:
         held: phi(L) [N m s]; inf: an axis is out of reach.
         coupling: kappa [1 / (kg m^2)].
         begins: its speed at the start, positive in the direction of its change [rad/s].
+        one_way: whether it does not really return to that speed.
     """
 
     excess: FloatArray
     held: FloatArray
     coupling: FloatArray
     begins: FloatArray
+    one_way: ArrayLike
+
+    def started(self, line: DriveLine) -> tuple[DriveLine, FloatArray]:
+        """Line of the wheel's drive, and the speed [rad/s] on it at which the wheel starts.
+
+        That of a wheel which does not return is the line for the change of speed: what it really
+        does on the way back is not in the load, and the line is as good there as for a wheel that
+        starts at rest (docs/theory.md, About a pivot).
+        """
+        changed = np.where(self.one_way, self.begins, 0.0)
+        return line.begun(changed), self.begins - changed
 
     def angle(self, spin_inertia: ArrayLike) -> FloatArray:
         """Angle by which a wheel of that spin inertia turns beyond its final speed [rad]."""
         return np.asarray(self.excess / np.asarray(spin_inertia))
 
     def final_speed(self, spin_inertia: ArrayLike) -> FloatArray:
-        """Final speed W_f [rad/s]."""
+        """W_f, final speed in addition to that at the start [rad/s]."""
         return np.asarray(self.held / np.asarray(spin_inertia))
 
     def reduced_inertia(self, spin_inertia: ArrayLike, armature: ArrayLike = 0.0) -> FloatArray:
@@ -341,8 +357,9 @@ def wheel_slew_time(
     there = (asked_of > 0.0) & np.isfinite(asked_of)
     half = 1.0 / (2.0 * load.coupling)
     h = np.where(there, np.minimum(asked_of, half), half)
-    line, reduced = line.begun(load.begins), load.reduced_inertia(h, armature)
-    time = slew_time(load.angle(h), reduced, line, load.final_speed(h))
+    own, begins = load.started(line)
+    reduced = load.reduced_inertia(h, armature)
+    time = slew_time(load.angle(h), reduced, own, load.final_speed(h), begins)
     return np.where(there | (load.excess + load.held == 0.0), time, np.inf)
 
 
@@ -380,19 +397,20 @@ def spin_demand(
         coupling=load.coupling,
         armature=np.asarray(armature, dtype=np.float64),
         least=np.asarray(least, dtype=np.float64),
-        drive=UnitDrive.of(line.begun(load.begins)),
+        drive=UnitDrive.of(*load.started(line)),
     )
 
 
 def slew_reason(task: WheelTask, line: DriveLine) -> NDArray[np.int_]:
     """Reason why no wheel, or none that fits, does a turn, as `SlewReason` values, shape (...).
 
-    The time falls as the wheel grows, towards that of constant stall torque, there and back. A
+    The time falls as the wheel grows, towards that of the torque at the start, there and back. A
     wheel so large that it holds much of the given inertia itself (I_red below h) may still be
     faster; this is ignored, and the reason is lack of torque.
     """
     load = task.load()
-    torque = UnitDrive.of(line.begun(load.begins)).torque
+    drive = UnitDrive.of(*load.started(line))
+    torque = drive.torque * drive.forwards(drive.begin)
     duration = np.maximum(np.asarray(task.duration, dtype=np.float64), 0.0)
     final = load.held
     with np.errstate(invalid="ignore"):

@@ -44,12 +44,15 @@ class Slew:
             Relative signs matter; the overall sign does not.
         duration: in which it must be done [s].
         begins: initial speed of all wheels, in the direction of swept and momentum [rad/s].
+        one_way: whether the wheels do not really return to that speed, as gravity acts in place of
+            the turn's way back.
     """
 
     swept: FloatArray
     momentum: FloatArray
     duration: float
     begins: float = 0.0
+    one_way: bool = False
 
 
 class End(StrEnum):

@@ -270,7 +270,7 @@ class Pivoted(Maneuver):
         axis, found = self._swing()
         shape = np.shape(inertia.diagonal)
         swept = np.broadcast_to(axis * found.torque * found.switch**2, shape)
-        return Slew(swept, np.zeros(shape), 2.0 * found.switch, self.wheel_speed)
+        return Slew(swept, np.zeros(shape), 2.0 * found.switch, self.wheel_speed, one_way=True)
 
     @property
     def _place(self) -> str:

@@ -524,6 +524,9 @@ class _Flown:
             # Larger wheels would not cancel the roll; that takes other wheels or another incidence.
             momentum = momentum - self.inertia * self.rates * [1.0, 0.0]
         held, load = self._each(momentum), self._task((0.0, 0.0)).load()
+        load = replace(
+            load, begins=np.asarray(load.begins.item()), one_way=bool(np.all(load.one_way))
+        )
         asked = self._each(self.swept + momentum * self.duration)
         demand = SweepDemand(
             sweep=np.abs(asked),
@@ -532,7 +535,7 @@ class _Flown:
             coupling=np.asarray(load.coupling.item()),
             armature=np.asarray(self.device.drive.armature),
             least=np.zeros(1),
-            drive=UnitDrive.of(line.reserved(self.share).begun(load.begins.item())),
+            drive=UnitDrive.of(*load.started(line.reserved(self.share))),
         )
         can = capability(demand, np.asarray(self.device.spin_inertia)).sweep
         return asked, np.copysign(can, asked)

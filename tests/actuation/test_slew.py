@@ -5,6 +5,7 @@ The course, on weak supplies too, is compared with the motor's equation and with
 
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from itertools import pairwise, product
 
 import numpy as np
@@ -269,7 +270,7 @@ CASES = [
 ]
 
 
-def integrated(line, profile, motor):
+def integrated(line, profile, motor, begins=0.0):
     """Speed at the peak and at the end, and the angle, of a drive that only knows when to brake.
 
     `I dW/dt = tau`, of a motor's torque at a speed, pushing (1) or braking (-1); nothing at the
@@ -286,7 +287,7 @@ def integrated(line, profile, motor):
     reached.terminal = True
     options = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-12}
     brake, end = float(profile.brake_from), float(profile.end)
-    up = solve_ivp(slope, (0.0, brake), [0.0, 0.0], args=(1.0,), events=reached, **options)
+    up = solve_ivp(slope, (0.0, brake), [begins, 0.0], args=(1.0,), events=reached, **options)
     peak, angle = up.y[:, -1]
     held = [peak, angle + (brake - up.t[-1]) * peak]
     down = solve_ivp(slope, (brake, end), held, args=(-1.0,), **options)
@@ -392,6 +393,37 @@ def test_the_motor_equation_gives_the_same_course_on_a_weak_supply(share, lam, s
     assert profile.peak_speed == pytest.approx(peak, rel=1e-6)
     assert last == pytest.approx(final, abs=1e-6 * FAST)
     assert angle - final * float(profile.end) == pytest.approx(phi, rel=1e-6)
+
+
+def by_the_motor_equation(line, speed, sense):
+    """Torque by V = R i + k_t w that also keeps to current and power [N m], pushing or braking.
+
+    Currents whose heat alone takes all the power are left out.
+    """
+    along, heat = sense * speed, line.no_load_speed / line.stall_torque
+    cold = np.sqrt(line.power_max / heat)
+    torque = min(line.torque_limit, cold, line.stall_torque - along / heat)
+    if power(line, along, torque) > line.power_max:
+        torque = (np.sqrt(along**2 + 4.0 * heat * line.power_max) - along) / (2.0 * heat)
+    elif along < -2.0 * np.sqrt(heat * line.power_max):
+        most = (-along - np.sqrt(along**2 - 4.0 * heat * line.power_max)) / (2.0 * heat)
+        torque = min(torque, most)
+    return sense * torque
+
+
+@pytest.mark.parametrize("slew", [(0.5, 0.0), (150.0, 0.0), (20.0, 100.0)])
+@pytest.mark.parametrize(("share", "lam"), [(INF, 0.3), (INF, 1.5), (0.1, 0.3), (0.02, 0.2)])
+@pytest.mark.parametrize("begins", [-600.0, -200.0, 300.0])
+def test_a_wheel_that_turns_at_the_start_obeys_the_motor_equation(begins, share, lam, slew):
+    """Against the slew, back EMF helps to stop it; the way back to that speed has less voltage."""
+    phi, gain = slew
+    line = DriveLine(STRONG, FAST, lam * STRONG, 900.0, share * WHOLE)
+    profile = slew_profile(phi, INERTIA, line, gain, begins)
+    motor = partial(by_the_motor_equation, line)
+    peak, last, angle = integrated(line, profile, motor, begins)
+    assert profile.peak_speed == pytest.approx(peak, abs=1e-6 * FAST)
+    assert last == pytest.approx(begins + gain, abs=1e-6 * FAST)
+    assert angle - (begins + gain) * float(profile.end) == pytest.approx(phi, rel=1e-6, abs=1e-5)
 
 
 def on_weak_supplies(count):

@@ -286,6 +286,7 @@ def bound_task(
         # Over an interval, each axis is least at one of the ends.
         reached=(ends.max(axis=-1) > OUT_OF_REACH).all(axis=1),
         begins=slew.begins,
+        one_way=slew.one_way,
     )
 
 

@@ -159,6 +159,7 @@ def wheel_task(
         one_stops=requirement.detection is not None,
         upright=np.asarray(upright) if headed else None,
         begins=np.array([slew.begins for slew in slews])[:, None, None],
+        one_way=np.array([slew.one_way for slew in slews])[:, None, None],
     )
 
 

@@ -69,6 +69,7 @@ def test_the_closed_form_is_near_the_smallest_wheel(time, rpm):
         inertia,
         np.eye(2)[:, :1],
         begins=slew.begins,
+        one_way=slew.one_way,
     )
     closed = smallest_spin_inertia(task, LINE.reserved(PLANNED))
     assert high / closed == pytest.approx(1.0, abs=0.1)
