@@ -210,10 +210,7 @@ GEOM_TYPES = {
 
 def body_names(tree: Tree) -> tuple[str, ...]:
     """Names of the bodies in MuJoCo: their own, except `world`, which MuJoCo reserves."""
-    taken = {body.name for body in tree.bodies}
-    substitute = "world_link"
-    while substitute in taken:
-        substitute += "_"
+    substitute = unused_name("world_link", "", {body.name for body in tree.bodies})
     return tuple(substitute if body.name == "world" else body.name for body in tree.bodies)
 
 
