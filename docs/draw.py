@@ -14,7 +14,8 @@ from ocs_design import design_ocs
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.export.drawing.wheel import WheelDrawing
 from ocs_design.export.drawing.wheel_sheet import draw_wheel
-from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre
+from ocs_design.parts.rim import Hub, RimCuts
+from ocs_design.parts.wheel import Rim, Web, Wheel
 from ocs_design.requirement.sections import RobotSection, ValidationSection
 from ocs_design.requirement.specification import Specification
 
@@ -25,15 +26,20 @@ WIDTH, HEIGHT, OVERSAMPLING = 900, 560, 2
 
 WHEEL = WheelDrawing(
     wheel=Wheel(
-        Rim(0.0392, 0.0413, 0.00305, "stainless-304", 8000.0, chamfer=0.3e-3),
-        WheelCentre(
-            web_thickness=0.0015,
-            radius=0.0115,
-            height=0.005,
-            bore_radius=0.003,
+        Rim(0.0392, 0.0413, 0.00305, "stainless-304", 8000.0, RimCuts(chamfer=0.3e-3)),
+        Web(
             material="aluminium-6061-t6",
             density=2710.0,
-            bolts=HoleRing(radius=0.008, count=4, hole_radius=0.0017),
+            thickness=0.0015,
+            mass=0.0227,
+            hub=Hub(
+                radius=0.0115,
+                height=0.005,
+                bore_radius=0.003,
+                bolts=4,
+                bolt_circle_radius=0.008,
+                bolt_hole_radius=0.0017,
+            ),
         ),
     ),
     robot="solo12",

@@ -10,14 +10,21 @@ from hypothesis import strategies as st
 from ocs_design.common.errors import PartError
 from ocs_design.export.drawing.sheet import FRAME_BOX, Circle, Line, Text
 from ocs_design.export.drawing.wheel import WheelDrawing
-from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre
+from ocs_design.parts.rim import HoleRing, Hub, RimCuts
+from ocs_design.parts.wheel import Rim, Web, Wheel
 
 MADE_FOR = {"robot": "solo12", "identity": "9f3c0a1b2d4e"}
 
-HUB = WheelCentre(0.0015, 0.012, 0.008, 0.004, "EN AW-6082", 2700.0, HoleRing(0.008, 4, 0.0017))
+
+def web(material, density, thickness, hub, holes=None):
+    """A web whose mass nobody asks for."""
+    return Web(material, density, thickness, math.nan, hub, holes)
+
+
+WEB = web("EN AW-6082", 2700.0, 0.0015, Hub(0.012, 0.008, 0.004, 4, 0.008, 0.0017))
 
 FLAT = WheelDrawing(
-    wheel=Wheel(Rim(0.0392, 0.0413, 0.00305, "stainless-304", 8000.0, chamfer=0.3e-3), HUB),
+    wheel=Wheel(Rim(0.0392, 0.0413, 0.00305, "stainless-304", 8000.0, RimCuts(0.3e-3)), WEB),
     speed=750.0,
     **MADE_FOR,
 )
@@ -25,16 +32,13 @@ FLAT = WheelDrawing(
 
 HOLED = WheelDrawing(
     wheel=Wheel(
-        Rim(0.03, 0.04, 0.01, "EN AW-6082", 2700.0, 0.0012, HoleRing(0.035, 12, 0.0015, 0.003)),
-        WheelCentre(
-            web_thickness=0.0015,
-            radius=0.010,
-            height=0.012,
-            bore_radius=0.003,
-            material="EN AW-6082",
-            density=2700.0,
-            bolts=HoleRing(0.0065, 3, 0.0016),
-            lightening=HoleRing(0.020, 6, 0.006),
+        Rim(0.03, 0.04, 0.01, "EN AW-6082", 2700.0, RimCuts(0.0012, 12, 0.0015, 0.003)),
+        web(
+            "EN AW-6082",
+            2700.0,
+            0.0015,
+            Hub(0.010, 0.012, 0.003, 3, 0.0065, 0.0016),
+            HoleRing(6, 0.020, 0.006),
         ),
     ),
     speed=None,
@@ -52,8 +56,8 @@ REFUSED = (
 CROWDED = replace(
     FLAT,
     wheel=Wheel(
-        Rim(0.5, 1.0, 1.0, "steel", 1000.0, chamfer=0.0),
-        WheelCentre(0.5, 0.25, 1.0, 0.0, "EN AW-6082", 2700.0),
+        Rim(0.5, 1.0, 1.0, "steel", 1000.0),
+        web("EN AW-6082", 2700.0, 0.5, Hub(0.25, 1.0, 0.0)),
     ),
     refused=REFUSED,
 )
@@ -61,30 +65,31 @@ CROWDED = replace(
 
 
 @st.composite
-def rings(draw, inner, outer, depth=math.inf):
+def rings(draw, inner, outer, *, midway=False):
     """With a millimetre to the edges and between the holes; None without the room."""
     room = outer - inner - 0.0021
     if room < 0.0002 or draw(st.booleans()):
         return None
     hole = draw(st.floats(0.1, 0.45)) * room
     radius = draw(st.floats(inner + 0.001 + hole, outer - 0.001 - hole))
+    if midway:
+        radius = (inner + outer) / 2.0
     most = math.pi / math.asin(min(1.0, (hole + 0.0006) / radius))
-    return HoleRing(radius, draw(st.integers(1, min(12, max(1, int(most))))), hole, depth)
+    return HoleRing(draw(st.integers(1, min(12, max(1, int(most))))), radius, hole)
 
 
 @st.composite
-def hubs(draw, rim):
+def webs(draw, rim):
     radius = rim.inner_radius * draw(st.floats(0.15, 0.8))
     bore = radius * draw(st.floats(0.1, 0.8) | st.just(0.0))
-    return WheelCentre(
-        web_thickness=rim.height * draw(st.floats(0.05, 0.5)),
-        radius=radius,
-        height=rim.height * draw(st.floats(0.5, 4.0)),
-        bore_radius=bore,
-        material=draw(st.sampled_from(["EN AW-6082", "steel", "x" * 90])),
-        density=2700.0,
-        bolts=draw(rings(bore, radius)),
-        lightening=draw(rings(radius, rim.inner_radius)),
+    bolts = draw(rings(bore, radius))
+    sizes = () if bolts is None else (bolts.count, bolts.circle_radius, bolts.hole_radius)
+    return web(
+        draw(st.sampled_from(["EN AW-6082", "steel", "x" * 90])),
+        2700.0,
+        rim.height * draw(st.floats(0.05, 0.5)),
+        Hub(radius, rim.height * draw(st.floats(0.5, 4.0)), bore, *sizes),
+        draw(rings(radius, rim.inner_radius)),
     )
 
 
@@ -94,14 +99,15 @@ def rims(draw):
     outer = 10.0 ** draw(st.floats(-3.0, 0.7))
     inner = outer * draw(st.floats(0.07, 0.97) | st.just(0.0))
     height = outer * 10.0 ** draw(st.floats(-1.5, 0.5))
+    holes = draw(rings(inner, outer, midway=True))
+    sizes = () if holes is None else (holes.count, holes.hole_radius, 0.2 * height)
     return Rim(
         inner,
         outer,
         height,
         draw(st.sampled_from(["steel", "tungsten-alloy-class-4", "w" * 80])),
         draw(st.floats(1000.0, 20000.0)),
-        draw(st.sampled_from([0.0, 0.0003, 0.01])),
-        draw(rings(inner, outer, depth=0.2 * height)),
+        RimCuts(draw(st.sampled_from([0.0, 0.0003, 0.01])), *sizes),
     )
 
 
@@ -111,7 +117,7 @@ def drawings(draw):
     rim = draw(rims())
     carried = rim.inner_radius > 0.2 * rim.outer_radius and draw(st.booleans())
     try:
-        wheel = Wheel(rim, draw(hubs(rim)) if carried else None)
+        wheel = Wheel(rim, draw(webs(rim)) if carried else None)
     except PartError:
         assume(False)
     return WheelDrawing(

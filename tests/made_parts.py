@@ -9,30 +9,28 @@ from ocs_design.parts.cage import Cage, cage_part
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import Housing, housing_parts
 from ocs_design.parts.printed import MountHoles
+from ocs_design.parts.rim import HoleRing, Hub, RimCuts
 from ocs_design.parts.shapes import ArcSlot, Disc, Rectangle
 from ocs_design.parts.solids import Part, Prism, hollow_cylinder
-from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre, wheel_parts
+from ocs_design.parts.wheel import Rim, Web, Wheel, wheel_parts
 
 STEEL, ALUMINIUM = 7860.0, 2700.0
 
-RIM = Rim(0.022, 0.03, 0.01, "steel", STEEL, 0.3e-3, HoleRing(0.026, 12, 0.001, 0.002))
+RIM = Rim(0.022, 0.03, 0.01, "steel", STEEL, RimCuts(0.3e-3, 12, 0.001, 0.002))
 
-HUB = WheelCentre(
-    web_thickness=1.5e-3,
-    radius=0.010,
-    height=0.006,
-    bore_radius=0.002,
+WEB = Web(
     material="aluminium",
     density=ALUMINIUM,
-    bolts=HoleRing(0.006, 4, 0.00145),
-    lightening=HoleRing(0.016, 6, 0.003),
-    chamfer=2e-4,
+    thickness=1.5e-3,
+    mass=8.9e-3,
+    hub=Hub(0.010, 0.006, 0.002, 4, 0.006, 0.00145, chamfer=2e-4),
+    holes=HoleRing(6, 0.016, 0.003),
 )
 
-TWO_PIECES = Wheel(RIM, HUB)
-ONE_PIECE = Wheel(Rim(0.022, 0.03, 0.01, "aluminium", ALUMINIUM, chamfer=0.3e-3), HUB)
-RIM_ALONE = Wheel(Rim(0.022, 0.03, 0.01, "steel", STEEL, chamfer=0.3e-3))
-DISC = Wheel(Rim(0.0, 0.03, 0.01, "steel", STEEL, chamfer=0.0))
+TWO_PIECES = Wheel(RIM, WEB)
+ONE_PIECE = Wheel(Rim(0.022, 0.03, 0.01, "aluminium", ALUMINIUM, RimCuts(0.3e-3)), WEB)
+RIM_ALONE = Wheel(Rim(0.022, 0.03, 0.01, "steel", STEEL, RimCuts(0.3e-3)))
+DISC = Wheel(Rim(0.0, 0.03, 0.01, "steel", STEEL))
 
 ACROSS = Placement(np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]), np.zeros(3))
 """Its z axis along -y of the part."""

@@ -21,7 +21,7 @@ from ocs_design.device.device import Device
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.solids import foot_of
 from ocs_design.parts.module import standing
-from ocs_design.parts.rim import WebHoles, hoop_stress, hub_of, stored_energy, wheel_body
+from ocs_design.parts.rim import HoleRing, hoop_stress, hub_of, stored_energy, wheel_body
 from ocs_design.parts.solids import Carrier
 from ocs_design.robot.mass import MassProperties, combine
 
@@ -226,7 +226,7 @@ def _of_wheel(device: Device) -> Iterator[_Figure]:
         yield _Figure("ocs.flywheel.stress_margin", wheel.stress_margin, margin, "", made)
 
 
-def _sizes(holes: WebHoles | None) -> tuple[float, ...]:
+def _sizes(holes: HoleRing | None) -> tuple[float, ...]:
     """Number and radii of holes [m]; empty without any."""
     return () if holes is None else (holes.count, holes.circle_radius, holes.hole_radius)
 

@@ -12,33 +12,14 @@ from ocs_design.device.layout import PAIR, Layout, sense, standing_frames
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import PLATE_THICKNESS
-from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts, WebHoles
+from ocs_design.parts.rim import NO_CUTS, RimCuts
 from ocs_design.parts.solids import Carrier
+from ocs_design.parts.wheel import Rim, Web, Wheel
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.mass import MassProperties, combine
 
 NO_CARRIER = Carrier(mass=0.0, axial_inertia=0.0, transverse_inertia=0.0)
 """Carrier of the assumed motor, which is massless."""
-
-
-@dataclass(frozen=True)
-class Web:
-    """Connection of a rim to its motor, in one piece: a disc in the rim's middle plane and a hub.
-
-    Attributes:
-        material: name in the catalogue. density: [kg/m^3].
-        thickness: of the disc, which fills the rim's bore [m].
-        mass: including the hub, less the holes [kg].
-        hub: at its centre.
-        holes: lightening holes; None: none.
-    """
-
-    material: str
-    density: float
-    thickness: float
-    mass: float
-    hub: Hub
-    holes: WebHoles | None = None
 
 
 @dataclass(frozen=True)
@@ -73,6 +54,16 @@ class Flywheel:
     stored_energy: float
     web: Web | None = None
     cuts: RimCuts = NO_CUTS
+
+    @property
+    def shape(self) -> Wheel:
+        """The wheel as made.
+
+        Raises:
+            PartError: it cannot be made.
+        """
+        size = self.inner_radius, self.outer_radius, self.height
+        return Wheel(Rim(*size, self.material, self.density, self.cuts), self.web)
 
     @property
     def rim_mass(self) -> float:

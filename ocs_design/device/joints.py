@@ -8,7 +8,7 @@ from ocs_design.actuation.fasteners import BoltedJoint, Fastening, longest_withi
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.materials import Material, materials
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
-from ocs_design.device.device import Device, Flywheel, Module, Web
+from ocs_design.device.device import Device, Flywheel, Module
 from ocs_design.device.records.device import Margin
 from ocs_design.device.solids import foot_of, housing_of, motor_mount
 from ocs_design.parts.bell import GLUE_GAP
@@ -46,6 +46,7 @@ from ocs_design.parts.plate_strength import plate_screws_use
 from ocs_design.parts.printed import SHOCK, WASHER_HEIGHT, trunk_screws
 from ocs_design.parts.rim import LIGAMENT
 from ocs_design.parts.turning_rings import Ring, TurningRings, holed_peaks
+from ocs_design.parts.wheel import Web
 
 RIM_JOINT, SHAFT_JOINT = "rim joint", "shaft joint"
 WHEEL_STRESS = "largest stress of the wheel"

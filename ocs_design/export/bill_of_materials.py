@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ocs_design.actuation.fasteners import STEEL, Fastening
 from ocs_design.actuation.motor import DIRECT
-from ocs_design.device.device import Device, Flywheel, Web
+from ocs_design.device.device import Device, Flywheel
 from ocs_design.device.joints import (
     counted_foot_screws,
     foot_hold,
@@ -36,6 +36,7 @@ from ocs_design.parts.printed import (
     WASHER,
     WASHER_MASS,
 )
+from ocs_design.parts.wheel import Web
 
 COLUMNS = (
     *("part", "quantity", "material", "stock [mm]", "mass each [g]", "mass [g]"),

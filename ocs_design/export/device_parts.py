@@ -17,54 +17,15 @@ from ocs_design.parts.foot import foot_part
 from ocs_design.parts.housing import guard_ring, housing_parts
 from ocs_design.parts.pedestal import Pedestal, pedestal_part
 from ocs_design.parts.solids import Part
-from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre, wheel_parts
+from ocs_design.parts.wheel import wheel_parts
 
 BLOCK = "block"
 """Name, in files and pictures, of the block shaped to the trunk."""
 
 
-def wheel_geometry(flywheel: Flywheel) -> Wheel:
-    """Rim, and web with hub where there is one, with the mass and inertia that were sized.
-
-    Raises:
-        PartError: it cannot be made.
-    """
-    cuts, web = flywheel.cuts, flywheel.web
-    middle = (flywheel.inner_radius + flywheel.outer_radius) / 2.0
-    balancing = HoleRing(middle, cuts.holes, cuts.hole_radius, cuts.hole_depth)
-    rim = Rim(
-        flywheel.inner_radius,
-        flywheel.outer_radius,
-        flywheel.height,
-        flywheel.material,
-        flywheel.density,
-        chamfer=cuts.chamfer,
-        balancing=balancing if cuts.holes else None,
-    )
-    if web is None:
-        return Wheel(rim)
-    bolts = HoleRing(web.hub.bolt_circle_radius, web.hub.bolts, web.hub.bolt_hole_radius)
-    holes = web.holes
-    lightening = None
-    if holes is not None:
-        lightening = HoleRing(holes.circle_radius, holes.count, holes.hole_radius)
-    hub = WheelCentre(
-        web_thickness=web.thickness,
-        radius=web.hub.radius,
-        height=web.hub.height,
-        bore_radius=web.hub.bore_radius,
-        material=web.material,
-        density=web.density,
-        bolts=bolts if web.hub.bolts else None,
-        lightening=lightening,
-        chamfer=web.hub.chamfer,
-    )
-    return Wheel(rim, hub)
-
-
 def wheel_pieces(flywheel: Flywheel) -> Mapping[str, Part]:
     """Pieces of the wheel by file name; a one-piece wheel is named flywheel."""
-    pieces = wheel_parts(wheel_geometry(flywheel))
+    pieces = wheel_parts(flywheel.shape)
     if len(pieces) == 1:
         return {"flywheel": pieces[0]}
     return {f"flywheel_{piece.name}": piece for piece in pieces}

@@ -157,6 +157,55 @@ def stored_energy(spin_inertia: Real, wheel_speed: float) -> Real:
 
 
 @dataclass(frozen=True)
+class HoleRing:
+    """Equal holes around the wheel's axis, evenly spaced, the first of them straight up, at -y.
+
+    Attributes:
+        count: number of holes.
+        circle_radius: of the circle of their middles [m].
+        hole_radius: of each [m].
+    """
+
+    count: int
+    circle_radius: float
+    hole_radius: float
+
+    @classmethod
+    def lightening(cls, count: int, hub_radius: float, bore: float) -> "HoleRing":
+        """Holes that remove their share of the web between a hub and a rim's bore, radii [m]."""
+        square = LIGHTENED[count] * (bore**2 - hub_radius**2) / count
+        circle = LIGHTENING_PLACE * (bore**2 + hub_radius**2) - square / 2.0
+        return cls(count, sqrt(circle), sqrt(square))
+
+    @property
+    def low(self) -> float:
+        """Radius of the holes' edges nearest to the axis [m]."""
+        return self.circle_radius - self.hole_radius
+
+    @property
+    def high(self) -> float:
+        """Radius of the holes' edges farthest from the axis [m]."""
+        return self.circle_radius + self.hole_radius
+
+    @property
+    def spacing(self) -> float:
+        """Material between neighbours [m]; inf: there is one hole."""
+        if self.count == 1:
+            return inf
+        return 2.0 * (self.circle_radius * sin(pi / self.count) - self.hole_radius)
+
+    def spoke(self, inner: float, outer: float) -> float:
+        """Least material between two of them, or to the edges at these radii [m]."""
+        return min(self.low - inner, outer - self.high, self.spacing)
+
+    def prism(self, low: float, high: float) -> Prism[float]:
+        """The holes between two heights [m]."""
+        return Prism(
+            Disc(self.hole_radius, (0.0, -self.circle_radius)), low, high, count=self.count
+        )
+
+
+@dataclass(frozen=True)
 class RimCuts:
     """Chamfers and blind holes, the same on both faces.
 
@@ -191,6 +240,12 @@ class RimCuts:
         if self.holes == 0:
             return 0.0
         return (self.hole_radius + LIGAMENT / 2.0) / sin(pi / self.holes)
+
+    def ring(self, inner: float, outer: float) -> HoleRing | None:
+        """The balancing holes of a rim with these radii [m]; None: none."""
+        if self.holes == 0:
+            return None
+        return HoleRing(self.holes, (inner + outer) / 2.0, self.hole_radius)
 
     @property
     def any(self) -> bool:
@@ -248,36 +303,6 @@ NO_CUTS = RimCuts()
 
 
 @dataclass(frozen=True)
-class WebHoles:
-    """Equal through holes in a web, evenly spaced.
-
-    Attributes:
-        count: number of holes.
-        circle_radius: of the circle of their middles [m].
-        hole_radius: of each [m].
-    """
-
-    count: int
-    circle_radius: float
-    hole_radius: float
-
-    @classmethod
-    def of(cls, count: int, hub_radius: float, bore: float) -> "WebHoles":
-        """Holes that remove their share of the web between a hub and a rim's bore, radii [m]."""
-        square = LIGHTENED[count] * (bore**2 - hub_radius**2) / count
-        circle = LIGHTENING_PLACE * (bore**2 + hub_radius**2) - square / 2.0
-        return cls(count, sqrt(circle), sqrt(square))
-
-    def spoke(self, hub_radius: float, bore: float) -> float:
-        """Least material between two of them, or to hub or rim [m]."""
-        return min(
-            self.circle_radius - self.hole_radius - hub_radius,
-            bore - self.circle_radius - self.hole_radius,
-            2.0 * (self.circle_radius * sin(pi / self.count) - self.hole_radius),
-        )
-
-
-@dataclass(frozen=True)
 class Hub:
     """A cylinder in the web's middle with a bore and a ring of through holes.
 
@@ -318,9 +343,16 @@ class Hub:
         """Least bore radius of a rim whose web has room for its holes [m]; 0: no holes."""
         return _lightened_bore(self.lightening, self.radius) if self.lightening else 0.0
 
-    def holes(self, bore: float) -> WebHoles | None:
+    @property
+    def bolt_ring(self) -> HoleRing | None:
+        """Its bolt holes; None: none."""
+        if self.bolts == 0:
+            return None
+        return HoleRing(self.bolts, self.bolt_circle_radius, self.bolt_hole_radius)
+
+    def holes(self, bore: float) -> HoleRing | None:
         """Lightening holes of the web in a rim of this bore radius [m]; None: none."""
-        return WebHoles.of(self.lightening, self.radius, bore) if self.lightening else None
+        return HoleRing.lightening(self.lightening, self.radius, bore) if self.lightening else None
 
     def web(self, bore: float, density: float) -> Carrier:
         """The web in a rim of this bore radius [m], without hub, as a disc up to the axis.
@@ -356,9 +388,8 @@ def _beyond_web(hub: Hub) -> Carrier:
     """
     half, web = hub.height / 2.0, hub.web_thickness / 2.0
     holes = [Prism(Disc(hub.radius), -web, web), Prism(Disc(hub.bore_radius), -half, half)]
-    if hub.bolts:
-        bolt = Disc(hub.bolt_hole_radius, (0.0, -hub.bolt_circle_radius))
-        holes.append(Prism(bolt, -half, half, count=hub.bolts))
+    if hub.bolt_ring is not None:
+        holes.append(hub.bolt_ring.prism(-half, half))
     body = Part("hub", 1.0, (Prism(Disc(hub.radius), -half, half),), tuple(holes)).moments()
     # With its bore it is a hollow cylinder like a rim, with the same chamfers.
     edges, size = RimCuts(hub.chamfer), (hub.bore_radius, hub.radius)
@@ -378,7 +409,7 @@ def _lightened_bore(count: int, hub_radius: float) -> float:
 
     def has_room(bore: float) -> bool:
         """Whether spokes and holes are wide enough to be made."""
-        holes = WebHoles.of(count, hub_radius, bore)
+        holes = HoleRing.lightening(count, hub_radius, bore)
         spoke = holes.spoke(hub_radius, bore)
         return spoke >= SPOKE and holes.hole_radius >= SMALLEST_LIGHTENING
 

@@ -2,43 +2,14 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import inf, pi, sin
+from math import inf
 
 from ocs_design.common.errors import PartError
-from ocs_design.parts.rim import CHAMFER_SHARE, LIGAMENT
-from ocs_design.parts.shapes import Disc
+from ocs_design.parts.rim import CHAMFER_SHARE, LIGAMENT, NO_CUTS, HoleRing, Hub, RimCuts
 from ocs_design.parts.solids import Part, Prism, Revolution, revolved
 
 ROUNDING = 1e-9
 """Rounding allowed for lengths at their lower limits [m]: a thousandth of a micrometre."""
-
-
-@dataclass(frozen=True)
-class HoleRing:
-    """Equal holes around the axis, the first of them straight up, at -y.
-
-    Attributes:
-        radius: of the circle of their centres [m].
-        count: of holes, evenly spaced.
-        hole_radius: of each [m].
-        depth: of each [m]; inf: through.
-    """
-
-    radius: float
-    count: int
-    hole_radius: float
-    depth: float = inf
-
-    def prisms(self, low: float, high: float) -> Prism[float]:
-        """The holes between two heights [m]."""
-        return Prism(Disc(self.hole_radius, (0.0, -self.radius)), low, high, count=self.count)
-
-    @property
-    def spacing(self) -> float:
-        """Material between neighbours [m]."""
-        if self.count == 1:
-            return inf
-        return 2.0 * (self.radius * sin(pi / self.count) - self.hole_radius)
 
 
 @dataclass(frozen=True)
@@ -48,8 +19,7 @@ class Rim:
     Attributes:
         inner_radius, outer_radius, height: [m].
         material: name. density: [kg/m^3].
-        chamfer: of its four edges at 45 degrees, as specified [m]; see `made_chamfer`.
-        balancing: blind holes, the same in both faces; None: none.
+        cuts: chamfers and balancing holes, as specified; see `chamfer`.
     """
 
     inner_radius: float
@@ -57,51 +27,54 @@ class Rim:
     height: float
     material: str
     density: float
-    chamfer: float
-    balancing: HoleRing | None = None
+    cuts: RimCuts = NO_CUTS
 
     @property
-    def made_chamfer(self) -> float:
+    def chamfer(self) -> float:
         """Chamfer as made, at most a share of wall and height [m]."""
         wall = self.outer_radius - self.inner_radius
-        return min(self.chamfer, CHAMFER_SHARE * wall, CHAMFER_SHARE * self.height)
+        return min(self.cuts.chamfer, CHAMFER_SHARE * wall, CHAMFER_SHARE * self.height)
+
+    @property
+    def balancing(self) -> HoleRing | None:
+        """Balancing holes, the same in both faces; None: none."""
+        return self.cuts.ring(self.inner_radius, self.outer_radius)
 
 
 @dataclass(frozen=True)
-class WheelCentre:
-    """The wheel within its rim: a thin web with a hub in its middle, both centred at z = 0.
+class Web:
+    """Connection of a rim to its motor, in one piece: a disc in the rim's middle plane and a hub.
 
     Attributes:
-        web_thickness: [m].
-        radius, height: of the hub [m].
-        bore_radius: of the hole for the shaft [m]; 0: none.
-        material: name. density: [kg/m^3].
-        bolts: through holes in the hub; None if the motor's are not known.
-        lightening: through holes in the web; None: none.
-        chamfer: of the edges of hub and bore, at 45 degrees [m].
+        material: name in the catalogue. density: [kg/m^3].
+        thickness: of the disc, which fills the rim's bore [m].
+        mass: including the hub, less the holes [kg].
+        hub: at its centre.
+        holes: lightening holes; None: none.
     """
 
-    web_thickness: float
-    radius: float
-    height: float
-    bore_radius: float
     material: str
     density: float
-    bolts: HoleRing | None = None
-    lightening: HoleRing | None = None
-    chamfer: float = 0.0
+    thickness: float
+    mass: float
+    hub: Hub
+    holes: HoleRing | None = None
+
+    def height(self, radius: float) -> float:
+        """Extent of hub or disc along the axis at a radius [m]."""
+        return self.hub.height if radius < self.hub.radius else self.thickness
 
 
 @dataclass(frozen=True)
 class Wheel:
-    """A rim on its centre, or only a rim if `hub` is None.
+    """A rim on its web, or only a rim if `web` is None.
 
     Raises:
         PartError: it cannot be made; see `wheel_faults`.
     """
 
     rim: Rim
-    hub: WheelCentre | None = None
+    web: Web | None = None
 
     def __post_init__(self) -> None:
         faults = list(wheel_faults(self))
@@ -113,27 +86,32 @@ class Wheel:
             )
 
     @property
-    def one_piece(self) -> bool:
-        """True if it is turned from one material."""
-        return self.hub is None or self.hub.material == self.rim.material
+    def shrunk_on(self) -> bool:
+        """Whether the rim is shrunk on a web of another material."""
+        return self.web is not None and self.web.material != self.rim.material
+
+    @property
+    def width(self) -> float:
+        """Largest extent along the axis [m]."""
+        return max(self.rim.height, 0.0 if self.web is None else self.web.hub.height)
 
 
 def wheel_faults(wheel: Wheel) -> Iterator[str]:
     """Reasons why a wheel cannot be made, each as a clause."""
-    rim, hub = wheel.rim, wheel.hub
+    rim, web = wheel.rim, wheel.web
     if not 0.0 <= rim.inner_radius < rim.outer_radius:
         yield "its rim's inner radius is not less than its outer radius"
     if rim.height <= 0.0 or rim.chamfer < 0.0:
         yield "its rim has no height, or a negative chamfer"
-    edge = rim.made_chamfer
+    edge = rim.chamfer
     if rim.balancing is not None:
-        yield from _ring_faults(
-            rim.balancing, rim.inner_radius + edge, rim.outer_radius - edge, "balancing"
-        )
-        if 2.0 * rim.balancing.depth + LIGAMENT > rim.height + ROUNDING:
+        edges, depth = (rim.inner_radius + edge, rim.outer_radius - edge), rim.cuts.hole_depth
+        yield from _ring_faults(rim.balancing, *edges, "balancing", depth)
+        if 2.0 * depth + LIGAMENT > rim.height + ROUNDING:
             yield "its balancing holes meet in the middle"
-    if hub is None:
+    if web is None:
         return
+    hub = web.hub
     if not 0.0 <= hub.bore_radius < hub.radius:
         yield "its bore is not narrower than its hub"
     if not hub.radius + LIGAMENT <= rim.inner_radius + ROUNDING:
@@ -141,25 +119,27 @@ def wheel_faults(wheel: Wheel) -> Iterator[str]:
             f"its hub of {1e3 * hub.radius:.4g} mm radius leaves no web in the rim's "
             f"{1e3 * rim.inner_radius:.4g} mm"
         )
-    if not 0.0 < hub.web_thickness <= rim.height - 2.0 * rim.made_chamfer:
-        yield f"its web of {1e3 * hub.web_thickness:.3g} mm is thicker than the rim is high"
-    if hub.height < hub.web_thickness + 2.0 * hub.chamfer:
+    if not 0.0 < web.thickness <= rim.height - 2.0 * rim.chamfer:
+        yield f"its web of {1e3 * web.thickness:.3g} mm is thicker than the rim is high"
+    if hub.height < web.thickness + 2.0 * hub.chamfer:
         yield "its hub is lower than the web is thick"
     if not 0.0 <= 2.0 * hub.chamfer < hub.radius - hub.bore_radius:
         yield "its hub's chamfers leave no face between them"
-    if hub.bolts is not None:
-        yield from _ring_faults(hub.bolts, hub.bore_radius, hub.radius, "bolt")
-    if hub.lightening is not None:
-        yield from _ring_faults(hub.lightening, hub.radius, rim.inner_radius, "lightening")
+    if hub.bolt_ring is not None:
+        yield from _ring_faults(hub.bolt_ring, hub.bore_radius, hub.radius, "bolt")
+    if web.holes is not None:
+        yield from _ring_faults(web.holes, hub.radius, rim.inner_radius, "lightening")
 
 
-def _ring_faults(ring: HoleRing, inner: float, outer: float, name: str) -> Iterator[str]:
-    """Faults of holes between two edges."""
-    if ring.count < 1 or ring.hole_radius <= 0.0 or ring.depth <= 0.0:
+def _ring_faults(
+    ring: HoleRing, inner: float, outer: float, name: str, depth: float = inf
+) -> Iterator[str]:
+    """Faults of holes of this depth between two edges [m]."""
+    if ring.count < 1 or ring.hole_radius <= 0.0 or depth <= 0.0:
         yield f"its {name} holes have no count, size or depth"
-    elif ring.radius - ring.hole_radius < inner + LIGAMENT - ROUNDING:
+    elif ring.low < inner + LIGAMENT - ROUNDING:
         yield f"its {name} holes are too close to the inner edge"
-    elif ring.radius + ring.hole_radius > outer - LIGAMENT + ROUNDING:
+    elif ring.high > outer - LIGAMENT + ROUNDING:
         yield f"its {name} holes are too close to the outer edge"
     elif ring.spacing < LIGAMENT - ROUNDING:
         yield f"its {name} holes are too close to each other"
@@ -167,37 +147,38 @@ def _ring_faults(ring: HoleRing, inner: float, outer: float, name: str) -> Itera
 
 def wheel_parts(wheel: Wheel) -> tuple[Part[float], ...]:
     """One part for each piece: the whole wheel, or its rim and its hub."""
-    rim, hub = wheel.rim, wheel.hub
+    rim, web = wheel.rim, wheel.web
     inner, outer = rim.inner_radius, rim.outer_radius
-    half, edge = rim.height / 2.0, rim.made_chamfer
+    half, edge = rim.height / 2.0, rim.chamfer
     # Corners of the upper half, from the outside to the bore.
     upper = [(outer, half - edge), (outer - edge, half), (inner + edge, half), (inner, half - edge)]
     holes: tuple[Prism[float], ...] = ()
     if rim.balancing is not None:
-        bottom = half - rim.balancing.depth
-        holes = (rim.balancing.prisms(bottom, half), rim.balancing.prisms(-half, -bottom))
-    if hub is None:
+        bottom = half - rim.cuts.hole_depth
+        holes = (rim.balancing.prism(bottom, half), rim.balancing.prism(-half, -bottom))
+    if web is None:
         return (Part("rim", rim.density, (_mirrored(upper),), holes),)
 
-    web, top, edge = hub.web_thickness / 2.0, hub.height / 2.0, hub.chamfer
+    hub, level = web.hub, web.thickness / 2.0
+    top, edge = hub.height / 2.0, hub.chamfer
     disc = [
-        (rim.inner_radius, web),
-        (hub.radius, web),
+        (rim.inner_radius, level),
+        (hub.radius, level),
         (hub.radius, top - edge),
         (hub.radius - edge, top),
         (hub.bore_radius + edge, top),
         (hub.bore_radius, top - edge),
     ]
     drilled: tuple[Prism[float], ...] = ()
-    if hub.bolts is not None:
-        drilled += (hub.bolts.prisms(-top, top),)
-    if hub.lightening is not None:
-        drilled += (hub.lightening.prisms(-web, web),)
-    if wheel.one_piece:
+    if hub.bolt_ring is not None:
+        drilled += (hub.bolt_ring.prism(-top, top),)
+    if web.holes is not None:
+        drilled += (web.holes.prism(-level, level),)
+    if not wheel.shrunk_on:
         return (Part("wheel", rim.density, (_mirrored([*upper, *disc]),), holes + drilled),)
     return (
         Part("rim", rim.density, (_mirrored(upper),), holes),
-        Part("hub", hub.density, (_mirrored(disc),), drilled),
+        Part("hub", web.density, (_mirrored(disc),), drilled),
     )
 
 

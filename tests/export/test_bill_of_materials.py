@@ -12,7 +12,7 @@ from ocs_design.device.device import Web
 from ocs_design.device.records.device import Margin
 from ocs_design.export.bill_of_materials import COLUMNS, bill_csv, bill_rows, plain
 from ocs_design.parts.module import Printed
-from ocs_design.parts.rim import Hub, WebHoles
+from ocs_design.parts.rim import HoleRing, Hub
 from ocs_design.parts.solids import Carrier
 
 GEAR_MASS = 0.02
@@ -63,7 +63,7 @@ def test_a_wheel_of_one_material_is_one_part_with_all_its_holes():
     assert (row.mass, row.stock) == (wheel.mass, "round bar 62 x 12")
     assert "4 holes 3.20 on a circle of 16.00" in row.remark
     assert "lightening" not in row.remark
-    drilled = replace(wheel, web=replace(WEB, holes=WebHoles(6, 0.0233, 0.0095)))
+    drilled = replace(wheel, web=replace(WEB, holes=HoleRing(6, 0.0233, 0.0095)))
     (row,) = bill_rows(replace(paper_device(), flywheel=drilled))
     assert "web 1.50 with 6 lightening holes 19.00 on a circle of 46.60" in row.remark
 

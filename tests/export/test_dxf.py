@@ -10,12 +10,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from made_parts import HUB, ONE_PIECE, RIM_ALONE, TWO_PIECES
+from made_parts import ONE_PIECE, RIM_ALONE, TWO_PIECES, WEB
 
 from ocs_design.common.units import MILLIMETRES
 from ocs_design.export.meshes import part_mesh
 from ocs_design.export.stl import stl_bytes
-from ocs_design.parts.wheel import HoleRing, Wheel, wheel_parts
+from ocs_design.parts.rim import RimCuts
+from ocs_design.parts.wheel import Wheel, wheel_parts
 
 pytest.importorskip("ezdxf", reason="ezdxf is the extra [dxf]")
 from ezdxf import recover, units
@@ -85,18 +86,17 @@ def test_holes_are_where_the_wheel_has_them(tmp_path):
     np.testing.assert_array_equal(drawn[:, :, 2], 1.0)
     radii = np.linalg.norm(np.diff(drawn[:, :, :2], axis=1)[:, 0], axis=1) / 2.0
     centres = drawn[:, :, :2].mean(axis=1)
-    for ring in (HUB.bolts, HUB.lightening):
+    for ring in (WEB.hub.bolt_ring, WEB.holes):
         own = centres[np.isclose(radii, 1e3 * ring.hole_radius)]
         assert len(own) == ring.count
-        np.testing.assert_allclose(np.linalg.norm(own, axis=1), 1e3 * ring.radius)
+        np.testing.assert_allclose(np.linalg.norm(own, axis=1), 1e3 * ring.circle_radius)
         angles = np.sort(np.mod(np.degrees(np.arctan2(own[:, 1], own[:, 0])), 360.0))
         np.testing.assert_allclose(np.diff(angles), 360.0 / ring.count)
-    assert len(drawn) == HUB.bolts.count + HUB.lightening.count
+    assert len(drawn) == WEB.hub.bolts + WEB.holes.count
 
 
 def test_blind_holes_of_both_faces_are_drawn_once(tmp_path):
-    ring = HoleRing((RIM_ALONE.rim.inner_radius + RIM_ALONE.rim.outer_radius) / 2.0, 5, 5e-4, 1e-3)
-    (piece,) = wheel_parts(Wheel(replace(RIM_ALONE.rim, balancing=ring)))
+    (piece,) = wheel_parts(Wheel(replace(RIM_ALONE.rim, cuts=RimCuts(0.0, 5, 5e-4, 1e-3))))
     assert len(piece.cut) == 10
     assert len(on_layer(read(piece, tmp_path), "HOLES", "LWPOLYLINE")) == 5
 

@@ -15,9 +15,10 @@ from ocs_design.parts.cage import cage_part
 from ocs_design.parts.foot import Foot, foot_part
 from ocs_design.parts.housing import Housing, housing_parts
 from ocs_design.parts.printed import CLEARANCE, PANEL, WALL, MountHoles
+from ocs_design.parts.rim import Hub, RimCuts
 from ocs_design.parts.shapes import EAR_COUNT
 from ocs_design.parts.solids import Part
-from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre, wheel_parts
+from ocs_design.parts.wheel import Rim, Web, Wheel, wheel_parts
 from ocs_design.robot.mass import physical_defect
 
 SECTIONS = 48
@@ -43,18 +44,16 @@ def wheels(draw: st.DrawFn) -> Wheel:
         outer * draw(st.floats(0.05, 1.0)),
         draw(st.sampled_from(["aluminium", "steel"])),
         draw(st.sampled_from([ALUMINIUM, STEEL])),
-        chamfer=0.3e-3,
+        RimCuts(0.3e-3),
     )
     bore = draw(st.floats(0.0005, 0.004))
-    bolts = draw(
-        st.none() | st.builds(HoleRing, st.just(bore + 0.004), st.just(4), st.just(0.0012))
-    )
+    bolts = draw(st.sampled_from([(), (4, bore + 0.004, 0.0012)]))
     try:
-        thickness = min(1.5e-3, rim.height - 2.0 * rim.made_chamfer)
-        radius = max(bore, 0.0 if bolts is None else bolts.radius + bolts.hole_radius) + 2e-3
+        thickness = min(1.5e-3, rim.height - 2.0 * rim.chamfer)
+        radius = (bolts[1] + bolts[2] if bolts else bore) + 2e-3
         height = max(thickness, min(6e-3, rim.height))
-        hub = WheelCentre(thickness, radius, height, bore, "aluminium", ALUMINIUM, bolts)
-        return Wheel(rim, hub)
+        hub = Hub(radius, height, bore, *bolts)
+        return Wheel(rim, Web("aluminium", ALUMINIUM, thickness, np.nan, hub))
     except PartError:
         assume(False)
         raise
@@ -71,7 +70,7 @@ def housings(draw: st.DrawFn) -> Housing:
 @few
 @given(wheels())
 def test_wheel(wheel):
-    bolts = 0 if wheel.hub.bolts is None else wheel.hub.bolts.count
+    bolts = wheel.web.hub.bolts
     parts = wheel_parts(wheel)
     assert len(parts) == (1 if wheel.rim.material == "aluminium" else 2)
     for part in parts:

@@ -19,15 +19,15 @@ from ocs_design.parts.rim import (
     SPOKE,
     STEP,
     WEB_THICKNESS,
+    HoleRing,
     Hub,
     RimCuts,
-    WebHoles,
     hoop_stress,
     wheel_body,
 )
 from ocs_design.parts.solids import total
 from ocs_design.parts.turning_rings import Ring, holed_peaks
-from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre, wheel_parts
+from ocs_design.parts.wheel import Rim, Web, Wheel, wheel_parts
 from ocs_design.requirement.vocabulary import LIGHTENINGS
 from ocs_design.sizing.bound.rim_problem import RimProblem, limits_with_web, stretch_beside_holes
 
@@ -43,18 +43,10 @@ WEBS = pytest.mark.parametrize("web", [None, ALUMINIUM], ids=["one piece", "alum
 
 def made(inner, outer, height, hub, web, cuts=NO_CUTS):
     """The same wheel as solids, rim of steel."""
-    bolts = HoleRing(hub.bolt_circle_radius, hub.bolts, hub.bolt_hole_radius) if hub.bolts else None
-    ring = None
-    if cuts.holes:
-        ring = HoleRing((inner + outer) / 2.0, cuts.holes, cuts.hole_radius, cuts.hole_depth)
-    rim = Rim(inner, outer, height, "steel", STEEL.density, cuts.chamfer, ring)
-    sizes = (WEB_THICKNESS, hub.radius, hub.height, hub.bore_radius)
+    rim = Rim(inner, outer, height, "steel", STEEL.density, cuts)
     of = ("steel", STEEL.density) if web is None else ("aluminium", web)
-    holes, lightening = hub.holes(inner), None
-    if holes is not None:
-        lightening = HoleRing(holes.circle_radius, holes.count, holes.hole_radius)
-    made_hub = WheelCentre(*sizes, *of, bolts, lightening, chamfer=hub.chamfer)
-    return total(wheel_parts(Wheel(rim, made_hub)))
+    own = Web(*of, WEB_THICKNESS, np.nan, hub, hub.holes(inner))
+    return total(wheel_parts(Wheel(rim, own)))
 
 
 def check_like_its_solids(sizes, hub, web, cuts=NO_CUTS):
@@ -112,7 +104,7 @@ def test_from_its_least_bore_on_a_web_has_room_for_holes_and_spokes(count, radiu
     least = hub.bore_min
 
     def has_room(bore, less):
-        holes = WebHoles.of(count, radius, bore)
+        holes = HoleRing.lightening(count, radius, bore)
         spoke = holes.spoke(radius, bore)
         return spoke >= SPOKE * less and holes.hole_radius >= SMALLEST_LIGHTENING * less
 

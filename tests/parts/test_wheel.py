@@ -4,16 +4,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from made_parts import HUB, ONE_PIECE, RIM
+from made_parts import ONE_PIECE, RIM, WEB
 
 from ocs_design.common.errors import PartError
+from ocs_design.parts.rim import HoleRing, RimCuts
 from ocs_design.parts.solids import total
-from ocs_design.parts.wheel import HoleRing, Rim, Wheel, wheel_parts
+from ocs_design.parts.wheel import Rim, Wheel, wheel_parts
 
 
 def test_one_material_is_one_piece_of_the_same_mass():
-    rim, hub = replace(ONE_PIECE.rim), ONE_PIECE.hub
-    pieces = wheel_parts(Wheel(replace(rim, material="other aluminium"), hub))
+    rim = replace(ONE_PIECE.rim, material="other aluminium")
+    pieces = wheel_parts(Wheel(rim, ONE_PIECE.web))
     whole = wheel_parts(ONE_PIECE)
     assert [part.name for part in whole] == ["wheel"]
     assert [part.name for part in pieces] == ["rim", "hub"]
@@ -22,29 +23,36 @@ def test_one_material_is_one_piece_of_the_same_mass():
 
 
 def test_chamfer_leaves_half_of_each_face():
-    assert Rim(0.02, 0.021, 0.01, "steel", 7860.0, chamfer=1.0).made_chamfer == pytest.approx(
-        0.25e-3
-    )
-    assert Rim(0.02, 0.03, 0.0006, "steel", 7860.0, chamfer=0.3e-3).made_chamfer == pytest.approx(
-        0.15e-3
-    )
+    thin = Rim(0.02, 0.021, 0.01, "steel", 7860.0, RimCuts(1.0))
+    flat = Rim(0.02, 0.03, 0.0006, "steel", 7860.0, RimCuts(0.3e-3))
+    assert (thin.chamfer, flat.chamfer) == pytest.approx((0.25e-3, 0.15e-3))
+
+
+def rim(**cuts):
+    return replace(RIM, cuts=replace(RIM.cuts, **cuts))
+
+
+def web(**sizes):
+    return replace(WEB, hub=replace(WEB.hub, **sizes))
 
 
 @pytest.mark.parametrize(
     ("wheel", "clause"),
     [
         ((replace(RIM, inner_radius=0.03), None), "inner radius"),
-        ((replace(RIM, height=0.0, balancing=None), None), "no height"),
-        ((replace(RIM, balancing=HoleRing(0.029, 12, 0.001, 0.002)), None), "outer edge"),
-        ((replace(RIM, balancing=HoleRing(0.026, 12, 0.001, 0.005)), None), "meet in the middle"),
-        ((RIM, replace(HUB, bore_radius=0.011)), "not narrower"),
-        ((RIM, replace(HUB, radius=0.0215)), "leaves no web"),
-        ((RIM, replace(HUB, web_thickness=0.0098, height=0.02)), "thicker than the rim"),
-        ((RIM, replace(HUB, height=0.001)), "lower than the web"),
-        ((RIM, replace(HUB, bolts=HoleRing(0.004, 4, 0.00145))), "inner edge"),
-        ((RIM, replace(HUB, bolts=HoleRing(0.006, 12, 0.00145))), "too close to each other"),
-        ((RIM, replace(HUB, bolts=HoleRing(0.006, 0, 0.00145))), "no count"),
-        ((RIM, replace(HUB, lightening=HoleRing(0.016, 6, 0.0055))), "inner edge"),
+        ((replace(RIM, height=0.0, cuts=RimCuts()), None), "no height"),
+        ((rim(hole_radius=0.0028), None), "inner edge"),
+        ((rim(hole_depth=0.005), None), "meet in the middle"),
+        ((rim(hole_depth=0.0), None), "no count, size or depth"),
+        ((RIM, web(bore_radius=0.011)), "not narrower"),
+        ((RIM, web(radius=0.0215)), "leaves no web"),
+        ((RIM, replace(web(height=0.02), thickness=0.0098)), "thicker than the rim"),
+        ((RIM, web(height=0.001)), "lower than the web"),
+        ((RIM, web(bolt_circle_radius=0.004)), "inner edge"),
+        ((RIM, web(bolt_circle_radius=0.008)), "outer edge"),
+        ((RIM, web(bolts=12)), "too close to each other"),
+        ((RIM, replace(WEB, holes=HoleRing(0, 0.016, 0.003))), "no count"),
+        ((RIM, replace(WEB, holes=HoleRing(6, 0.016, 0.0055))), "inner edge"),
     ],
 )
 def test_what_cannot_be_made_says_why(wheel, clause):

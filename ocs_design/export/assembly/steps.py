@@ -29,9 +29,7 @@ from ocs_design.export.device_parts import (
     pedestal_kinds,
     places,
     trunk_holes,
-    wheel_geometry,
 )
-from ocs_design.export.drawing.wheel import shrunk_on
 from ocs_design.parts.bell import GLUE_GAP
 from ocs_design.parts.carrier_plate import TOUCH, CarrierPlate, steepest
 from ocs_design.parts.foot import LONG_MARKS
@@ -86,7 +84,7 @@ def tools(assembly: Assembly) -> Iterator[str]:
         bore = 2.0 * web.hub.bore_radius
         of = f"reamer of {1e3 * bore:g} mm" if bore <= LARGEST_REAMER else "bore gauge for"
         yield f"{of} H7 for the hub"
-    if shrunk_on(wheel_geometry(device.flywheel)):
+    if device.flywheel.shape.shrunk_on:
         yield "oven to shrink the rim on its web"
     hole, cuts = balance_of(device).correction.hole_radius, device.flywheel.cuts
     if assembly.top_speed is not None and cuts.holes:
@@ -274,7 +272,7 @@ def _wheel_steps(assembly: Assembly) -> Iterator[str]:
         f"Weigh it: {1e3 * device.flywheel.mass:.1f} g."
     )
     wheel, web = device.flywheel, device.flywheel.web
-    if web is not None and shrunk_on(wheel_geometry(wheel)):
+    if web is not None and wheel.shape.shrunk_on:
         hot, fit, material = "", rim_fit(device), materials().get(wheel.material)
         if fit is not None and material is not None and material.thermal_expansion is not None:
             grown = 2.0 * fit.most + DROP

@@ -35,10 +35,10 @@ from ocs_design.export.drawing.wheel import (
     holes,
     plain,
     toleranced,
-    widest,
 )
 from ocs_design.parts.joints import Grade
-from ocs_design.parts.wheel import HoleRing, Rim, Wheel, WheelCentre
+from ocs_design.parts.rim import HoleRing
+from ocs_design.parts.wheel import Rim, Wheel
 
 AXIS_Y = 82.0
 """y of the wheel's axis in both views [mm]."""
@@ -101,7 +101,7 @@ class SheetLayout:
 
 def lay_out(wheel: Wheel) -> SheetLayout:
     """Place both views side by side, centred in the available space."""
-    diameter, width = 2.0 * wheel.rim.outer_radius, widest(wheel)
+    diameter, width = 2.0 * wheel.rim.outer_radius, wheel.width
     scale = largest_scale((diameter, TALLEST), (diameter + width, _ROOM))
     across, wide = scale(diameter), scale(width)
     start = MARGIN_LEFT + LEFT + max(0.0, _ROOM - across - wide) / 2.0
@@ -113,7 +113,7 @@ def lay_out(wheel: Wheel) -> SheetLayout:
 def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
     """Wheel cut along its axis: cut faces, edges behind them, axes, diameters and widths."""
     (x, y), scale, rim = layout.section, layout.scale, wheel.rim
-    half, edge = scale(widest(wheel)) / 2.0, scale(rim.outer_radius)
+    half, edge = scale(wheel.width) / 2.0, scale(rim.outer_radius)
     items: list[Item] = []
     for side in (_ABOVE, _BELOW):
         for profile, mirrored in cut_faces(wheel, above=side == _ABOVE):
@@ -123,7 +123,8 @@ def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
     items.append(Line((x - half - 4.0, y), (x + half + 4.0, y), CENTRE))
     for ring, width, side in _cut_rings(wheel):
         beyond = width + scale.length(2.0)
-        start, end = _placed([(-beyond, ring.radius), (beyond, ring.radius)], layout, side)
+        along = [(each, ring.circle_radius) for each in (-beyond, beyond)]
+        start, end = _placed(along, layout, side)
         items.append(Line(start, end, CENTRE))
     # Diameters that have space for their text, side by side, the smallest next to the outline.
     left = x - half - FIRST_COLUMN
@@ -140,23 +141,24 @@ def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
     # web is uncut: in the wider of its parts inside and outside its holes.
     label, top = toleranced(rim.height, Grade.IT11), y - edge
     items += _width(label, rim.height, wheel, layout, y=top - ABOVE, start=top)
-    hub = wheel.hub
-    if hub is not None:
-        inside, outside, cut = hub.radius, rim.inner_radius, hub.lightening
-        if cut is not None and 2.0 * cut.radius > inside + outside:
-            outside = cut.radius - cut.hole_radius
+    web = wheel.web
+    if web is not None:
+        hub, cut = web.hub, web.holes
+        inside, outside = hub.radius, rim.inner_radius
+        if cut is not None and 2.0 * cut.circle_radius > inside + outside:
+            outside = cut.low
         elif cut is not None:
-            inside = cut.radius + cut.hole_radius
+            inside = cut.high
         away = max(NEAREST, scale(inside + outside) / 2.0)
-        thick = toleranced(hub.web_thickness, WEB_GRADE)
-        items += _width(thick, hub.web_thickness, wheel, layout, y=y - away)
+        thick = toleranced(web.thickness, WEB_GRADE)
+        items += _width(thick, web.thickness, wheel, layout, y=y - away)
         items += _width(
             plain(hub.height), hub.height, wheel, layout, y=y + away, start=y + scale(hub.radius)
         )
     # The size of the rim's chamfers, below the view, if it is large enough to be written.
-    chamfer = plain(rim.made_chamfer)
+    chamfer = plain(rim.chamfer)
     if float(chamfer) > 0.0:
-        aside = rim.made_chamfer / 2.0
+        aside = rim.chamfer / 2.0
         middle = (rim.height / 2.0 - aside, rim.outer_radius - aside)
         (corner,) = _placed([middle], layout, _BELOW)
         shelf = (corner[0] + CHAMFER_ASIDE, y + edge + BELOW)
@@ -171,17 +173,18 @@ def _placed(profile: Profile, layout: SheetLayout, side: float) -> list[Point]:
 
 def _edges_behind(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
     """Edges of circles behind the cutting plane: bores, holes and the rim's inside."""
-    rim, hub = wheel.rim, wheel.hub
-    r, half = rim.inner_radius + rim.made_chamfer, rim.height / 2.0
+    rim, web = wheel.rim, wheel.web
+    r, half = rim.inner_radius + rim.chamfer, rim.height / 2.0
     # Distance from the wheel's middle, and ends across the axis [m].
     spans = [(half, -r, r)]
-    if hub is not None:
+    if web is not None:
+        hub = web.hub
         if hub.height > rim.height:
             spans = [(half, -r, -hub.radius), (half, hub.radius, r)]
         mouth = hub.bore_radius + hub.chamfer
         spans.append((hub.height / 2.0, -mouth, mouth))
     for ring, width, side in _cut_rings(wheel):
-        center = side * ring.radius
+        center = side * ring.circle_radius
         spans.append((width, center - ring.hole_radius, center + ring.hole_radius))
     for distance, low, high in spans:
         for z in (-distance, distance):
@@ -192,9 +195,9 @@ def _edges_behind(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
 def _cut_rings(wheel: Wheel) -> Iterator[tuple[HoleRing, float, float]]:
     """Hole rings cut by the section, half the width at the hole [m], and the side."""
     rings = [] if wheel.rim.balancing is None else [(wheel.rim.balancing, wheel.rim.height / 2.0)]
-    if wheel.hub is not None:
-        found = (ring for ring in (wheel.hub.bolts, wheel.hub.lightening) if ring is not None)
-        rings += [(ring, half_width(wheel.hub, ring.radius)) for ring in found]
+    if wheel.web is not None:
+        found = (ring for ring in (wheel.web.hub.bolt_ring, wheel.web.holes) if ring is not None)
+        rings += [(ring, wheel.web.height(ring.circle_radius) / 2.0) for ring in found]
     for ring, width in rings:
         for side in (_ABOVE, _BELOW):
             if is_cut(ring, above=side == _ABOVE):
@@ -214,9 +217,7 @@ def _width(
     x, half = layout.section[0], layout.scale(width) / 2.0
     if start is not None:
         yield from (extension(x + side * half, start, y) for side in (-1.0, 1.0))
-    aside = (
-        layout.scale(widest(wheel)) / 2.0 + ASIDE if start is None or width < widest(wheel) else 0.0
-    )
+    aside = layout.scale(wheel.width) / 2.0 + ASIDE if start is None or width < wheel.width else 0.0
     text_x = x + max(half + PAST_ARROWS, aside)
     yield from level_dimension(label, left=x - half, right=x + half, y=y, text_x=text_x)
 
@@ -226,25 +227,26 @@ def cut_faces(wheel: Wheel, *, above: bool) -> Iterator[tuple[Profile, bool]]:
 
     It is the upper half, or the lower half if not `above`.
     """
-    rim, hub = rim_profile(wheel.rim, above=above), wheel.hub
-    if hub is None:
+    rim, web = rim_profile(wheel.rim, above=above), wheel.web
+    if web is None:
         yield rim, False
         return
     # Web and hub up to the rim's bore, in pieces where holes are cut.
-    rings = [ring for ring in (hub.bolts, hub.lightening) if ring is not None]
+    hub = web.hub
+    rings = [ring for ring in (hub.bolt_ring, web.holes) if ring is not None]
     cuts = [ring for ring in rings if is_cut(ring, above=above)]
-    starts = [hub.bore_radius, *(ring.radius + ring.hole_radius for ring in cuts)]
-    ends = [*(ring.radius - ring.hole_radius for ring in cuts), wheel.rim.inner_radius]
+    starts = [hub.bore_radius, *(ring.high for ring in cuts)]
+    ends = [*(ring.low for ring in cuts), wheel.rim.inner_radius]
     profiles, edge = [], hub.chamfer
     for inside, outside in zip(starts, ends, strict=True):
-        low, high = half_width(hub, inside), half_width(hub, outside)
+        low, high = web.height(inside) / 2.0, web.height(outside) / 2.0
         at_bore = [(low - edge, inside), (low, inside + edge)]
         start = at_bore if inside == hub.bore_radius else [(low, inside)]
         step = [(low, hub.radius - edge), (low - edge, hub.radius), (high, hub.radius)]
         right = [*start, *(step if inside < hub.radius < outside else []), (high, outside)]
         profiles.append(_distinct([*right, *[(-z, radius) for z, radius in reversed(right)]]))
     *inner, outermost = profiles
-    if wheel.one_piece:
+    if not wheel.shrunk_on:
         # One polygon for both: the rim replaces the web's outer end.
         end = max(range(len(outermost)), key=lambda i: (outermost[i][1], outermost[i][0]))
         outermost = [*outermost[: end + 1], *rim[1:], rim[0], *outermost[end + 1 :]]
@@ -259,20 +261,14 @@ def is_cut(ring: HoleRing, *, above: bool) -> bool:
     return above or ring.count % 2 == 0
 
 
-def half_width(hub: WheelCentre, radius: float) -> float:
-    """Half the thickness of web or hub at a radius [m]."""
-    return (hub.height if radius < hub.radius else hub.web_thickness) / 2.0
-
-
 def rim_profile(rim: Rim, *, above: bool) -> Profile:
     """Outline of the rim from the left end of its bore, around its blind holes."""
-    r, R, half, c = rim.inner_radius, rim.outer_radius, rim.height / 2.0, rim.made_chamfer
+    r, R, half, c = rim.inner_radius, rim.outer_radius, rim.height / 2.0, rim.chamfer
     notch: Profile = []
     ring = rim.balancing
     if ring is not None and is_cut(ring, above=above):
-        bottom = half - ring.depth
-        inside, outside = ring.radius - ring.hole_radius, ring.radius + ring.hole_radius
-        notch = [(half, inside), (bottom, inside), (bottom, outside), (half, outside)]
+        bottom = half - rim.cuts.hole_depth
+        notch = [(half, ring.low), (bottom, ring.low), (bottom, ring.high), (half, ring.high)]
     right = [(half - c, r), (half, r + c), *notch, (half, R - c), (half - c, R)]
     left = [(-z, radius) for z, radius in reversed(right)]
     return _distinct([left[-1], *right, *left[:-1]])
@@ -285,17 +281,17 @@ def _distinct(profile: Profile) -> Profile:
 
 def front_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
     """Wheel seen along its axis: circles, centre lines, the cutting plane, and leaders."""
-    (x, y), scale, rim, hub = layout.front, layout.scale, wheel.rim, wheel.hub
-    edge, chamfer = scale(rim.outer_radius), rim.made_chamfer
+    (x, y), scale, rim, web = layout.front, layout.scale, wheel.rim, wheel.web
+    edge, chamfer = scale(rim.outer_radius), rim.chamfer
     radii = [rim.outer_radius, rim.inner_radius]
     if scale(chamfer) >= NARROWEST:
         radii += [rim.outer_radius - chamfer, rim.inner_radius + chamfer]
-    if hub is not None:
-        radii += [hub.radius, hub.bore_radius]
+    if web is not None:
+        radii += [web.hub.radius, web.hub.bore_radius]
     items: list[Item] = [Circle((x, y), scale(radius)) for radius in radii if radius > 0.0]
     for ring in filter(None, _rings(wheel)):
         # The centre of each hole is marked across the pitch circle.
-        radius, mark = scale(ring.radius), scale(ring.hole_radius) + 1.0
+        radius, mark = scale(ring.circle_radius), scale(ring.hole_radius) + 1.0
         items.append(Circle((x, y), radius, CENTRE))
         for angle in hole_angles(ring):
             u, v = math.cos(angle), -math.sin(angle)
@@ -314,9 +310,9 @@ def front_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
 
 def _rings(wheel: Wheel) -> tuple[HoleRing | None, ...]:
     """Rings of bolt, lightening and balancing holes."""
-    hub = wheel.hub
-    in_hub = (None, None) if hub is None else (hub.bolts, hub.lightening)
-    return (*in_hub, wheel.rim.balancing)
+    web = wheel.web
+    in_web = (None, None) if web is None else (web.hub.bolt_ring, web.holes)
+    return (*in_web, wheel.rim.balancing)
 
 
 def hole_angles(ring: HoleRing) -> list[float]:
@@ -325,13 +321,14 @@ def hole_angles(ring: HoleRing) -> list[float]:
 
 
 def _hole(ring: HoleRing, angle: float, layout: SheetLayout) -> Point:
-    (x, y), radius = layout.front, layout.scale(ring.radius)
+    (x, y), radius = layout.front, layout.scale(ring.circle_radius)
     return x + radius * math.cos(angle), y - radius * math.sin(angle)
 
 
 def _leaders(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
     """Leaders to circles whose dimensions do not fit in the section, and to the holes."""
-    (x, y), edge, hub = layout.front, layout.scale(wheel.rim.outer_radius), wheel.hub
+    (x, y), edge = layout.front, layout.scale(wheel.rim.outer_radius)
+    hub = None if wheel.web is None else wheel.web.hub
     shelf = x + edge + SHELF
     callouts = []
     if hub is not None and hub.bore_radius > 0.0:
@@ -342,17 +339,18 @@ def _leaders(wheel: Wheel, layout: SheetLayout) -> Iterator[Item]:
         if not fits_inside(label, 2.0 * on_paper):
             callouts.append((label, on_paper))
     direction = BORE_LEADERS[0]
-    if hub is not None and hub.bolts is not None:
+    if hub is not None and hub.bolt_ring is not None:
         # The direction farthest from all holes, so that the leader crosses none.
-        bolts = hole_angles(hub.bolts)
+        bolts = hole_angles(hub.bolt_ring)
         direction = min(BORE_LEADERS, key=lambda each: max(math.cos(each - hole) for hole in bolts))
     first = (edge + SHELF) * math.tan(direction)
     for row, (label, radius) in enumerate(callouts):
         yield from leader([label], layout.front, radius, (shelf, y - first - ROW * row))
-    for ring, below, aim in zip(_rings(wheel), HOLE_ROWS, HOLE_LEADERS, strict=True):
+    depths = math.inf, math.inf, wheel.rim.cuts.hole_depth
+    for ring, depth, below, aim in zip(_rings(wheel), depths, HOLE_ROWS, HOLE_LEADERS, strict=True):
         if ring is not None:
             angles = hole_angles(ring)
             nearness = [math.cos(each - aim) for each in angles]
             angle = angles[nearness.index(max(nearness))]
             center, radius = _hole(ring, angle, layout), layout.scale(ring.hole_radius)
-            yield from leader(holes(ring), center, radius, (shelf, y + below))
+            yield from leader(holes(ring, depth), center, radius, (shelf, y + below))

@@ -9,8 +9,9 @@ from functools import cached_property
 from math import isinf, pi
 
 from ocs_design.parts.joints import Grade, tolerance_width
+from ocs_design.parts.rim import NO_CUTS, HoleRing, RimCuts
 from ocs_design.parts.solids import total
-from ocs_design.parts.wheel import HoleRing, Wheel, wheel_parts
+from ocs_design.parts.wheel import Wheel, wheel_parts
 from ocs_design.robot.mass import MassProperties
 
 BROKEN_EDGE = 0.2e-3
@@ -59,16 +60,6 @@ class WheelDrawing:
         return total(wheel_parts(self.wheel))
 
 
-def shrunk_on(wheel: Wheel) -> bool:
-    """Whether the rim is shrunk on a separate web; else both are one piece, or there is no web."""
-    return wheel.hub is not None and not wheel.one_piece
-
-
-def widest(wheel: Wheel) -> float:
-    """Largest extent along the axis [m]."""
-    return max(wheel.rim.height, 0.0 if wheel.hub is None else wheel.hub.height)
-
-
 def plus_minus(size: float, grade: Grade) -> float:
     """Half the tolerance width [m], rounded down to 0.01 mm, but at least 0.01 mm."""
     return 1e-5 * max(1.0, (1e5 * tolerance_width(size, grade) / 2.0 + 1e-9) // 1.0)
@@ -77,8 +68,8 @@ def plus_minus(size: float, grade: Grade) -> float:
 def lost_by_breaking(wheel: Wheel) -> tuple[float, float]:
     """Mass that is removed by breaking the rim's sharp edges [kg], and its share of the inertia."""
     sharp, broken = (
-        total(wheel_parts(Wheel(replace(wheel.rim, chamfer=chamfer, balancing=None))))
-        for chamfer in (0.0, BROKEN_EDGE)
+        total(wheel_parts(Wheel(replace(wheel.rim, cuts=cuts))))
+        for cuts in (NO_CUTS, RimCuts(BROKEN_EDGE))
     )
     whole = total(wheel_parts(wheel)).inertia[2, 2]
     return sharp.mass - broken.mass, float((sharp.inertia - broken.inertia)[2, 2] / whole)
@@ -91,18 +82,18 @@ def inside_corners(wheel: Wheel) -> tuple[float, float]:
     (1 - pi / 4) R^2, with its centroid at 0.223 R from both sides, (10 - 3 pi) / (12 - 3 pi). Its
     inertia is that of a thin ring. Both are 0 if rim and hub are no taller than the web.
     """
-    hub, rim = wheel.hub, wheel.rim
-    if hub is None:
+    web, rim = wheel.web, wheel.rim
+    if web is None:
         return 0.0, 0.0
     # Inward from the rim's bore, outward from the hub.
-    sides = [(hub.height, hub.radius, 1.0)]
-    if wheel.one_piece:
+    sides = [(web.hub.height, web.hub.radius, 1.0)]
+    if not wheel.shrunk_on:
         sides.append((rim.height, rim.inner_radius, -1.0))
-    steps = [(high - hub.web_thickness) / 2.0 for high, _, _ in sides]
+    steps = [(high - web.thickness) / 2.0 for high, _, _ in sides]
     radius = min([INSIDE_CORNER, *(step for step in steps if step > 0.0)])
     area, middle = (1.0 - pi / 4.0) * radius**2, (10.0 - 3.0 * pi) / (12.0 - 3.0 * pi) * radius
     rings = [at + way * middle for (_, at, way), step in zip(sides, steps, strict=True) if step > 0]
-    added = sum(2.0 * hub.density * area * 2.0 * pi * at**3 for at in rings)
+    added = sum(2.0 * web.density * area * 2.0 * pi * at**3 for at in rings)
     return (radius if rings else 0.0), added / float(total(wheel_parts(wheel)).inertia[2, 2])
 
 
@@ -127,27 +118,27 @@ def inertia_error(wheel: Wheel) -> float:
     (c^2 + a^2 / 2).
     """
     r, R, h = wheel.rim.inner_radius, wheel.rim.outer_radius, wheel.rim.height
-    rho, hub = wheel.rim.density, wheel.hub
+    rho, web = wheel.rim.density, wheel.web
     outer, inner = (plus_minus(2.0 * radius, Grade.IT9) / 2.0 for radius in (R, r))
-    if shrunk_on(wheel):
+    if wheel.shrunk_on:
         inner = tolerance_width(2.0 * r, Grade.IT7) / 2.0
     # A larger bore removes material from the rim and adds some to the web.
-    at_bore = rho * h - (0.0 if hub is None else hub.density * hub.web_thickness)
+    at_bore = rho * h - (0.0 if web is None else web.density * web.thickness)
     off = 2.0 * pi * (rho * h * R**3 * outer + abs(at_bore) * r**3 * inner)
     off += pi * rho * (R**4 - r**4) / 2.0 * plus_minus(h, Grade.IT11)
-    if hub is not None:
-        ring, thick, radius = hub.lightening, hub.web_thickness, hub.radius
-        web = pi * (r**4 - radius**4) / 2.0
+    if web is not None:
+        hub, ring, thick = web.hub, web.holes, web.thickness
+        disc = pi * (r**4 - hub.radius**4) / 2.0
         if ring is not None:
-            a, c = ring.hole_radius, ring.radius
-            web -= ring.count * pi * a**2 * (c**2 + a**2 / 2.0)
+            a, c = ring.hole_radius, ring.circle_radius
+            disc -= ring.count * pi * a**2 * (c**2 + a**2 / 2.0)
             wider = general(2.0 * a) / 2.0
-            off += hub.density * thick * ring.count * 2.0 * pi * a * (c**2 + a**2) * wider
-        off += hub.density * web * plus_minus(thick, WEB_GRADE)
-        wider = general(2.0 * radius) / 2.0
-        off += hub.density * (hub.height - thick) * 2.0 * pi * radius**3 * wider
-        whole = pi * (radius**4 - hub.bore_radius**4) / 2.0
-        off += hub.density * whole * general(hub.height)
+            off += web.density * thick * ring.count * 2.0 * pi * a * (c**2 + a**2) * wider
+        off += web.density * disc * plus_minus(thick, WEB_GRADE)
+        wider = general(2.0 * hub.radius) / 2.0
+        off += web.density * (hub.height - thick) * 2.0 * pi * hub.radius**3 * wider
+        whole = pi * (hub.radius**4 - hub.bore_radius**4) / 2.0
+        off += web.density * whole * general(hub.height)
     return off / float(total(wheel_parts(wheel)).inertia[2, 2])
 
 
@@ -178,7 +169,7 @@ def rim_diameter(wheel: Wheel) -> str:
 
 def bore_diameter(wheel: Wheel) -> str:
     """Label of the rim's inner diameter; if the rim is on a separate web, with the fit."""
-    if shrunk_on(wheel):
+    if wheel.shrunk_on:
         return f"Ø{2e3 * wheel.rim.inner_radius:.2f} shrink fit"
     return f"Ø{toleranced(2.0 * wheel.rim.inner_radius, Grade.IT9)}"
 
@@ -204,19 +195,20 @@ def diameters(wheel: Wheel) -> Iterator[tuple[str, float, float]]:
 
     Yields the label, the radius [m], and the extent along the axis there [m].
     """
-    if wheel.hub is not None:
-        yield diameter(wheel.hub.radius), wheel.hub.radius, wheel.hub.height
+    if wheel.web is not None:
+        hub = wheel.web.hub
+        yield diameter(hub.radius), hub.radius, hub.height
     if wheel.rim.inner_radius > 0.0:
         yield bore_diameter(wheel), wheel.rim.inner_radius, wheel.rim.height
     yield rim_diameter(wheel), wheel.rim.outer_radius, wheel.rim.height
 
 
-def holes(ring: HoleRing) -> tuple[str, ...]:
-    """Label of a ring of holes, line by line."""
+def holes(ring: HoleRing, depth: float) -> tuple[str, ...]:
+    """Label of a ring of holes of this depth [m], line by line; inf: through."""
     number = "" if ring.count == 1 else f"{ring.count} × "
-    size, place = f"{number}{diameter(ring.hole_radius)}", f"on {diameter(ring.radius)} ±0.1"
+    size, place = f"{number}{diameter(ring.hole_radius)}", f"on {diameter(ring.circle_radius)} ±0.1"
     if ring.count > 1:
         place = f"evenly {place}"
-    if isinf(ring.depth):
+    if isinf(depth):
         return f"{size} through", place
-    return size, place, f"{plain(ring.depth)} deep, both faces"
+    return size, place, f"{plain(depth)} deep, both faces"

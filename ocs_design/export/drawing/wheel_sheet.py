@@ -10,7 +10,6 @@ from ocs_design.common.units import significant
 from ocs_design.device import joints
 from ocs_design.device.device import Device
 from ocs_design.device.joints import rim_fit
-from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.plate_sheet import plate_sheets
 from ocs_design.export.drawing.sheet import (
     HEIGHT,
@@ -39,7 +38,6 @@ from ocs_design.export.drawing.wheel import (
     lost_by_breaking,
     plain,
     seat_limits,
-    shrunk_on,
 )
 from ocs_design.export.drawing.writers import pdf_of_pages, svg_text
 from ocs_design.export.drilling import drilling_of, pages
@@ -81,7 +79,7 @@ def wheel_drawing(device: Device, robot: str, refused: str = "") -> WheelDrawing
     material = materials().get(device.flywheel.material)
     speed, fit, mounting = device.motor.top_speed, rim_fit(device), device.motor.mounting
     return WheelDrawing(
-        wheel=wheel_geometry(device.flywheel),
+        wheel=device.flywheel.shape,
         robot=robot,
         identity=device_hash(device),
         speed=speed if math.isfinite(speed) else None,
@@ -96,13 +94,13 @@ def wheel_drawing(device: Device, robot: str, refused: str = "") -> WheelDrawing
 def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
     """Section and front view in first-angle projection, notes, list of parts and title block."""
     layout, wheel = lay_out(drawing.wheel), drawing.wheel
-    fine = "all fits" if shrunk_on(wheel) else "bore"
+    fine = "all fits" if wheel.shrunk_on else "bore"
     inertia = f"{significant(1e6 * drawing.mass_properties.inertia[2, 2], 4)} kg mm²"
     entries = Entries(
         "OCS flywheel",
         drawing.robot,
         layout.scale,
-        "see list of parts" if shrunk_on(wheel) else wheel.rim.material,
+        "see list of parts" if wheel.shrunk_on else wheel.rim.material,
         sum(drawing.masses),
         ("Spin inertia about the axis", inertia),
         f"Ra 3.2, {fine} Ra {1e6 * SEAT_ROUGHNESS:g} (ISO 21920)",
@@ -116,12 +114,12 @@ def wheel_sheet(drawing: WheelDrawing) -> list[Item]:
 def parts_list(drawing: WheelDrawing) -> list[Item]:
     """Parts list of rim and web if they are two parts; otherwise empty."""
     wheel = drawing.wheel
-    if wheel.hub is None or wheel.one_piece:
+    if wheel.web is None or not wheel.shrunk_on:
         return []
     rim_mass, hub_mass = drawing.masses
-    bore, web = seat_limits(drawing)
+    bore, seat = seat_limits(drawing)
     rows = (
-        ("2", f"Web with hub{web}", wheel.hub.material, f"{significant(1e3 * hub_mass, 4)} g"),
+        ("2", f"Web with hub{seat}", wheel.web.material, f"{significant(1e3 * hub_mass, 4)} g"),
         ("1", f"Rim{bore}", wheel.rim.material, f"{significant(1e3 * rim_mass, 4)} g"),
         ("Item", "Name", "Material", "Mass"),
     )
@@ -153,11 +151,9 @@ def notes(drawing: WheelDrawing) -> Iterator[str]:
         f"Spin inertia within ±{_percent(inertia_error(wheel))} over all tolerances together; the "
         "motor's rotor not included."
     )
-    chamfer, broken = (
-        wheel.rim.made_chamfer,
-        f"edges without indication broken {1e3 * BROKEN_EDGE:g}",
-    )
-    if chamfer > 0.0 and wheel.hub is not None and wheel.hub.chamfer > 0.0:
+    chamfer, web = wheel.rim.chamfer, wheel.web
+    broken = f"edges without indication broken {1e3 * BROKEN_EDGE:g}"
+    if chamfer > 0.0 and web is not None and web.hub.chamfer > 0.0:
         yield (
             f"Edges of rim, hub and bore {plain(chamfer)}~×~45°, counted in mass and inertia; all "
             "others deburred."
@@ -183,14 +179,13 @@ def notes(drawing: WheelDrawing) -> Iterator[str]:
         )
         yield run_out
         return
-    hub = wheel.hub
     yield _rim_note(drawing)
-    if hub is not None:
+    if web is not None:
         radius, share = inside_corners(wheel)
         if radius > 0.0:
             yield f"Inside corners at most R~{plain(radius)} (+{_percent(share)} of inertia)."
         yield run_out
-        if hub.bolts is None and drawing.on_shaft:
+        if web.hub.bolts == 0 and drawing.on_shaft:
             yield "No bolt circle: bonded on the motor's shaft."
         elif not drawing.on_shaft:
             yield "Bore: a pilot hole and the datum; open it to a boss of the rotor, H7."
@@ -198,9 +193,9 @@ def notes(drawing: WheelDrawing) -> Iterator[str]:
 
 def _rim_note(drawing: WheelDrawing) -> str:
     """How the rim is carried."""
-    if drawing.wheel.hub is None:
+    if drawing.wheel.web is None:
         return "Rim only: mass and inertia without the spokes and hub that it needs."
-    if drawing.wheel.one_piece:
+    if not drawing.wheel.shrunk_on:
         return "Rim, web and hub turned from one bar, web and hub in the rim's middle."
     if drawing.interference is None:
         return "Rim shrunk on the web, which is not computed."

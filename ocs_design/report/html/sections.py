@@ -12,7 +12,6 @@ from ocs_design.common.wording import counted, grams
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.export.assembly.booklet import chapters, pictures, piece_rows, screw_rows
 from ocs_design.export.assembly.content import Assembly
-from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.export.drawing.wheel import (
     WEB_GRADE,
     bore_diameter,
@@ -81,17 +80,18 @@ def robot_section(story: Story, view: Markup) -> Markup:
 
 def sizes_section(design: OcsDesign) -> Markup:
     """Sizes of the wheel with their tolerances, and the margins."""
-    wheel, margins = wheel_geometry(design.ocs.flywheel), design.margins
+    wheel, margins = design.ocs.flywheel.shape, design.margins
     rows = [("outer diameter, 2 R", rim_diameter(wheel))]
     if wheel.rim.inner_radius > 0.0:
         rows.append(("bore of the rim, 2 r", bore_diameter(wheel)))
     rows.append(("height of the rim, h", toleranced(wheel.rim.height, Grade.IT11)))
-    if wheel.hub is not None:
-        rows.append(("hub, diameter", f"Ø{plain(2.0 * wheel.hub.radius)}"))
-        rows.append(("hub, height", plain(wheel.hub.height)))
-        if wheel.hub.bore_radius > 0.0:
-            rows.append(("hub, bore", fitted_bore(wheel.hub.bore_radius)))
-        rows.append(("web, thickness", toleranced(wheel.hub.web_thickness, WEB_GRADE)))
+    if wheel.web is not None:
+        hub = wheel.web.hub
+        rows.append(("hub, diameter", f"Ø{plain(2.0 * hub.radius)}"))
+        rows.append(("hub, height", plain(hub.height)))
+        if hub.bore_radius > 0.0:
+            rows.append(("hub, bore", fitted_bore(hub.bore_radius)))
+        rows.append(("web, thickness", toleranced(wheel.web.thickness, WEB_GRADE)))
     inertia_note = (
         "Within all tolerances together, ISO 2768-m where none is told, the wheel's spin inertia "
         f"stays within ±{inertia_error(wheel):.1%} (to first order, without the rotor's)."

@@ -16,6 +16,7 @@ from ocs_design.export.drawing.sheet import SPACING, Scale, Text, hatching, larg
 from ocs_design.export.drawing.wheel import BROKEN_EDGE, lost_by_breaking, plus_minus
 from ocs_design.export.drawing.wheel_sheet import wheel_sheet
 from ocs_design.parts.joints import Grade, tolerance_width
+from ocs_design.parts.rim import NO_CUTS
 
 
 def test_a_capital_is_as_high_as_told_and_as_wide_as_the_font_has_it():
@@ -119,14 +120,14 @@ def test_the_share_is_of_the_whole_wheel():
     rim, c = RIM_ALONE.rim, BROKEN_EDGE
     sharp = np.pi * rim.density * rim.height / 2.0 * (rim.outer_radius**4 - rim.inner_radius**4)
     lost = 2.0 * np.pi * c**2 * rim.density * (rim.outer_radius**3 + rim.inner_radius**3)
-    _, share = lost_by_breaking(replace(RIM_ALONE, rim=replace(rim, chamfer=0.0)))
+    _, share = lost_by_breaking(replace(RIM_ALONE, rim=replace(rim, cuts=NO_CUTS)))
     assert share == pytest.approx(lost / sharp, rel=0.01)
     _, less = lost_by_breaking(TWO_PIECES)
     assert 0.0 < less < share
 
 
 def test_the_sheet_says_so():
-    sharp = replace(FLAT, wheel=replace(FLAT.wheel, rim=replace(FLAT.wheel.rim, chamfer=0.0)))
+    sharp = replace(FLAT, wheel=replace(FLAT.wheel, rim=replace(FLAT.wheel.rim, cuts=NO_CUTS)))
     words = " ".join(item.text for item in wheel_sheet(sharp) if hasattr(item, "text"))
     mass, share = lost_by_breaking(sharp.wheel)
     assert f"broken 0.2: those of the rim are {1e3 * mass:.2g} g and {100 * share:.2g} %" in words

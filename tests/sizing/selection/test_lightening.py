@@ -7,7 +7,6 @@ import pytest
 from drawn_selections import draw
 
 from ocs_design.common.errors import Infeasible
-from ocs_design.export.device_parts import wheel_geometry
 from ocs_design.parts.solids import total
 from ocs_design.parts.wheel import wheel_parts
 from ocs_design.sizing.assembly import assemble_selected
@@ -30,7 +29,7 @@ def test_the_selected_wheel_is_the_made_one(seed):
     wheel = assemble_selected(best).flywheel
     assert best.hub is not None
     assert (wheel.web.holes is not None) == (best.hub.lightening == 6)
-    made = total(wheel_parts(wheel_geometry(wheel)))
+    made = total(wheel_parts(wheel.shape))
     assert made.mass == pytest.approx(best.wheel_mass, rel=1e-9)
     assert made.mass == pytest.approx(wheel.mass, rel=1e-9)
     spin = made.inertia[2, 2] + best.drive.rotor_inertia
