@@ -25,7 +25,8 @@ from naive_module import (
 from naive_wheel import hub_body, spokes
 from standing_parts import driving_parts
 
-from ocs_design.parts.rim import LIGAMENT, SHOULDER, STEP, hub_of
+from ocs_design.actuation.fasteners import LIGAMENT
+from ocs_design.parts.rim import SHOULDER, STEP, hub_of
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 
 USABLE = 0.95

@@ -294,6 +294,9 @@ class Fastening:
 OFF_BOTTOM = 0.5e-3
 """Room that is left between a screw's tip and the bottom of its hole in a motor [m]."""
 
+LIGAMENT = 1.0e-3
+"""Least material between holes, from holes to edges, and between their bottoms [m]."""
+
 IN_PLASTIC = 2.0
 """Least thread engagement in a printed part, in diameters."""
 

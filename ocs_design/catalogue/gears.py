@@ -24,7 +24,7 @@ from ocs_design.common.files import to_json
 FLANGE = 1e-3
 """Thickness of one of a pulley's two flanges [m]."""
 
-CLEARANCE = 5e-3
+PULLEY_GAP = 5e-3
 """Least distance between the pitch circles of the two pulleys [m]."""
 
 TEETH_IN_MESH = 6
@@ -134,7 +134,7 @@ class BeltStage:
         return self.pulley_density * math.pi * radius**2 * (self.width + 2.0 * FLANGE)
 
     def _least_distance(self) -> float:
-        return self.motor_radius + self.wheel_radius + CLEARANCE
+        return self.motor_radius + self.wheel_radius + PULLEY_GAP
 
     def _slope(self) -> float:
         """Angle of the free spans to the line between the axes [rad]."""

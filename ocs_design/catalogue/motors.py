@@ -12,7 +12,7 @@ from types import MappingProxyType
 import msgspec
 
 from ocs_design.actuation.drive import missing_figures
-from ocs_design.actuation.fasteners import CLASSES, SCREW_NAMES, USUAL_CLASS
+from ocs_design.actuation.fasteners import CLASSES, LIGAMENT, SCREW_NAMES, USUAL_CLASS
 from ocs_design.actuation.motor import (
     DIRECT,
     BoltCircle,
@@ -342,9 +342,6 @@ def _close(stated: float, expected: float, tolerance: float) -> bool:
 LEAST_BOLTS = {"rotor": 3, "stator": 2}
 """Fewest bolts: with two, a wheel's inertia is not the same about all transverse axes."""
 
-LIGAMENT = 1.0e-3
-"""Least material between the screws' holes and the shaft, and between each other [m]."""
-
 
 def _bolt_circle_faults(sheet: MotorSheet, side: str, circle: BoltCircle | None) -> Iterator[str]:
     """Faults of the threads on one side, `rotor` or `stator`, one line each."""
@@ -372,7 +369,7 @@ def _bolt_circle_faults(sheet: MotorSheet, side: str, circle: BoltCircle | None)
         yield f"{where}: {circle.bolts} holes for {circle.thread} leave less than 1 mm between them"
 
 
-LARGEST = 1.0
+LARGEST_MOTOR = 1.0
 """Size that no motor reaches [m]; the widest of the catalogue has 0.23."""
 
 DENSITIES = (1.3e3, 7.0e3)
@@ -482,7 +479,7 @@ def _doubts(sheet: MotorSheet) -> Iterator[str]:
 def _faults(sheet: MotorSheet) -> Iterator[str]:
     """Faults of a row, one line each; only contradictions can be excused by a remark."""
     sizes = {name: size for name, size in vars(sheet).items() if name.endswith("_m") and size}
-    large = {name: size for name, size in sizes.items() if size >= LARGEST}
+    large = {name: size for name, size in sizes.items() if size >= LARGEST_MOTOR}
     for name, size in large.items():
         yield f"{name} is {size:g} m, and no motor is that large: did you mean {size / 1e3:g} m?"
     if not large:

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import floor
 
-from ocs_design.actuation.fasteners import BoltedJoint, Fastening, longest_within, screw
+from ocs_design.actuation.fasteners import LIGAMENT, BoltedJoint, Fastening, longest_within, screw
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.materials import Material, materials
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
@@ -44,7 +44,6 @@ from ocs_design.parts.joints import (
 from ocs_design.parts.motor_mount import bond_length, motor_front
 from ocs_design.parts.plate_strength import plate_screws_use
 from ocs_design.parts.printed import SHOCK, WASHER_HEIGHT, trunk_screws
-from ocs_design.parts.rim import LIGAMENT
 from ocs_design.parts.turning_rings import Ring, TurningRings, holed_peaks
 from ocs_design.parts.wheel import Web
 

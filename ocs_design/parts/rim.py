@@ -41,7 +41,7 @@ from math import inf, pi, sin, sqrt
 import numpy as np
 
 from ocs_design.actuation.drive import Drive
-from ocs_design.actuation.fasteners import screw
+from ocs_design.actuation.fasteners import LIGAMENT, screw
 from ocs_design.actuation.motor import Motor, Mounting
 from ocs_design.parts.moments import Real, cylinder_mass
 from ocs_design.parts.printed import CLEARANCE
@@ -50,9 +50,6 @@ from ocs_design.parts.solids import Carrier, Part, Prism
 
 CHAMFER_SHARE = 0.25
 """Largest chamfer over wall and height: half of each face remains."""
-
-LIGAMENT = 1.0e-3
-"""Least material between holes, from holes to edges, and between their bottoms [m]."""
 
 WEB_THICKNESS = 1.0e-3
 """Thickness of a web in one piece with its rim [m]: metal can be turned to 0.8 mm without special

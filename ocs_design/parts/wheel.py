@@ -4,8 +4,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import inf
 
+from ocs_design.actuation.fasteners import LIGAMENT
 from ocs_design.common.errors import PartError
-from ocs_design.parts.rim import CHAMFER_SHARE, LIGAMENT, NO_CUTS, HoleRing, Hub, RimCuts
+from ocs_design.parts.rim import CHAMFER_SHARE, NO_CUTS, HoleRing, Hub, RimCuts
 from ocs_design.parts.solids import Part, Prism, Revolution, revolved
 
 ROUNDING = 1e-9

@@ -32,7 +32,7 @@ from ocs_design.requirement.values import (
     MASS,
     TIME,
     TRUNK_RATE,
-    WHEEL_SPEED,
+    WHEEL_RATE,
     Choice,
     Quantities,
     Quantity,
@@ -162,7 +162,7 @@ class RequirementSection:
         example='"2 rad/s"',
     )
     wheel_speed_max: float | None = keyed(
-        WHEEL_SPEED,
+        WHEEL_RATE,
         "highest speed of a wheel",
         why="The limit of bearings and balance, if below the motor's.",
         default="the motor's own; 7200 rpm without a motor",

@@ -469,7 +469,7 @@ TIME = Quantity(Dimension.TIME)
 HEIGHT = Quantity(Dimension.LENGTH, most_bare=20.0, likely="mm")
 """Height of a jump or a fall: nothing with legs lands from higher than a house."""
 
-WHEEL_SPEED = Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_BARE, likely="rpm")
+WHEEL_RATE = Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_BARE, likely="rpm")
 TRUNK_RATE = Quantity(Dimension.ANGULAR_SPEED, most_bare=FASTEST_TURN, likely="deg/s")
 TUMBLE = replace(TRUNK_RATE, sign=Sign.ANY)
 WHEEL_TORQUE = Quantity(Dimension.TORQUE, most_bare=MOST_BARE_TORQUE, likely="mNm")

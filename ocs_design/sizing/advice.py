@@ -52,14 +52,14 @@ from ocs_design.sizing.selection.problem import (
 )
 from ocs_design.sizing.selection.rejections import Refused, largest_wheel
 
-PRECISION = 0.03
+ADVICE_PRECISION = 0.03
 """Relative precision of the changes: with a change smaller by more than this, none of the drives
 that `Field.possible` tries is feasible."""
 
-MOST_CHANGE = 10.0
+MOST_ADVISED = 10.0
 """Largest factor by which a limit is changed; beyond it, the project is a different one."""
 
-_MOST_CHANGES = {"wheel_mass_max": MOST_CHANGE**3, "r_max": 7.0, "time": 3.0}
+_MOST_ADVISED = {"wheel_mass_max": MOST_ADVISED**3, "r_max": 7.0, "time": 3.0}
 """Limits with another largest factor. Mass scales with the cube of length. Three times the duration
 of a jump is nine times its height; beyond that, a humanoid would be advised to fall from 145 m.
 Inertia scales with the fourth power of the radius, so the radius is changed less: larger wheels may
@@ -245,10 +245,10 @@ def _caught(field: Field) -> Iterator[str]:
         less = requirement.changed(lambda m: m.times(part) if isinstance(m, Balance) else m)
         return field.with_requirement(less).possible
 
-    least = 1.0 / MOST_CHANGE
+    least = 1.0 / MOST_ADVISED
     if not asked or not does(least):
         return
-    part, _ = narrowed(lambda each: not does(each), least, 1.0, PRECISION)
+    part, _ = narrowed(lambda each: not does(each), least, 1.0, ADVICE_PRECISION)
     told = some_of([f"{each.times(part).upset} for {each.name}" for each in asked])
     yield f"A device exists with {told}."
 
@@ -266,8 +266,8 @@ def single_changes(field: Field, progress: Progress = unseen) -> dict[Limit, flo
     return smallest_changes(
         limits_of(field.problem),
         lambda limit, value: changed(limit, value).possible,
-        precision=PRECISION,
-        most=lambda limit: _MOST_CHANGES.get(limit.name, MOST_CHANGE),
+        precision=ADVICE_PRECISION,
+        most=lambda limit: _MOST_ADVISED.get(limit.name, MOST_ADVISED),
         conceivable=lambda limit, value: changed(limit, value).conceivable,
         progress=progress,
     )
@@ -411,7 +411,7 @@ def needed_motor(problem: SelectionProblem, model: Motor) -> NeededMotor | None:
             enough = partial(does, own, speed)
             high = next((peak for peak in (torque * _STRONGER).tolist() if enough(peak)), None)
             if high is not None:
-                _, peak = narrowed(enough, high / _STRONGER[0], high, PRECISION)
+                _, peak = narrowed(enough, high / _STRONGER[0], high, ADVICE_PRECISION)
                 mass = model.mass * peak / (denser * model.peak_torque)
                 heavier = model.name if denser > 1.0 else ""
                 found.append(NeededMotor(peak, speed, mass, problem.bus_voltage, heavier))

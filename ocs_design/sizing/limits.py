@@ -77,18 +77,18 @@ RIM_LIMITS = (
 )
 """Limits of the envelope, in the order in which they are reported."""
 
-WHEEL_SPEED = Limit(
+TOP_SPEED = Limit(
     Constraint.WHEEL_SPEED_MAX, "wheel_speed_max", "wheel_speed_max", True, "rpm", 30.0 / pi
 )
 BUS_VOLTAGE = Limit(Constraint.BUS_VOLTAGE, "bus_voltage", "bus_voltage", True, "V", 1.0)
-BUS_POWER = Limit(Constraint.BUS_POWER, "supply.power_max", "power", True, "W", 1.0)
+SUPPLY_POWER = Limit(Constraint.BUS_POWER, "supply.power_max", "power", True, "W", 1.0)
 TIME = Limit(Constraint.TIME, "time for every maneuver", "", True, "times what is given", 1.0)
 
 DEVICE_MASS = Limit(Constraint.MASS_MAX, "mass_max", "mass_max", True, "g", 1e3)
 
 LIMITS: Mapping[str, Limit] = {
     limit.name: limit
-    for limit in (*RIM_LIMITS, WHEEL_SPEED, BUS_VOLTAGE, BUS_POWER, TIME, DEVICE_MASS)
+    for limit in (*RIM_LIMITS, TOP_SPEED, BUS_VOLTAGE, SUPPLY_POWER, TIME, DEVICE_MASS)
 }
 """All limits by name."""
 

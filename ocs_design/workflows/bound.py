@@ -6,7 +6,7 @@ from ocs_design.common.errors import UsageError
 from ocs_design.common.units import Dimension
 from ocs_design.device.answers import BoundAnswer
 from ocs_design.requirement.bound import AXES, authority, bound_curve, spin_bound
-from ocs_design.requirement.values import INCIDENCE, TRUNK_RATE, WHEEL_SPEED, Quantity
+from ocs_design.requirement.values import INCIDENCE, TRUNK_RATE, WHEEL_RATE, Quantity
 
 CURVE_POINTS = (0.25, 0.5, 1.0, 2.0, 4.0)
 """Rate changes and wheel speeds of the curve, over the given ones."""
@@ -24,7 +24,7 @@ def bound_by_hand(
         raise UsageError(f"--axis {axis}: must be pitch or roll")
     moment = Quantity(Dimension.INERTIA).read(inertia, "--inertia")
     rate = TRUNK_RATE.read(rate_change, "--rate-change")
-    speed = WHEEL_SPEED.read(wheel_speed_max, "--wheel-speed-max")
+    speed = WHEEL_RATE.read(wheel_speed_max, "--wheel-speed-max")
     incidence = INCIDENCE.read(alpha, "--alpha")
     found = spin_bound(moment, rate, speed, float(authority(incidence)[AXES.index(axis)]))
     if not np.isfinite(found.spin_inertia):

@@ -11,8 +11,8 @@ from scipy.spatial import ConvexHull
 
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.catalogue.gears import (
-    CLEARANCE,
     FLANGE,
+    PULLEY_GAP,
     BeltStage,
     GearKind,
     GearSheet,
@@ -100,7 +100,7 @@ def hull_length(stage):
     """Of a thread about both pitch circles, from points on them."""
     angles = np.linspace(0.0, 2.0 * np.pi, 20_000)
     circle = np.column_stack([np.cos(angles), np.sin(angles)])
-    distance = stage.motor_radius + stage.wheel_radius + CLEARANCE
+    distance = stage.motor_radius + stage.wheel_radius + PULLEY_GAP
     points = np.vstack([stage.motor_radius * circle, stage.wheel_radius * circle + [distance, 0.0]])
     # In two dimensions `area` is the perimeter.
     return ConvexHull(points).area

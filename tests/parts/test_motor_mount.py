@@ -9,7 +9,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from wheels import PAPER_WHEEL
 
-from ocs_design.actuation.fasteners import SCREWS
+from ocs_design.actuation.fasteners import LIGAMENT, SCREWS
 from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
 from ocs_design.catalogue.motors import motor
 from ocs_design.device.device import Flywheel, Web
@@ -17,7 +17,6 @@ from ocs_design.parts.moments import cylinder_mass
 from ocs_design.parts.motor_mount import bond_length, is_held, motor_front, mount_of
 from ocs_design.parts.rim import (
     HUB_WALL,
-    LIGAMENT,
     PILOT_BORE,
     WEB_THICKNESS,
     Hub,

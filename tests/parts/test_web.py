@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rims import STEEL, room
 
+from ocs_design.actuation.fasteners import LIGAMENT
 from ocs_design.parts.rim import (
-    LIGAMENT,
     LIGHTENED,
     LIGHTENED_STRESS,
     NO_CUTS,

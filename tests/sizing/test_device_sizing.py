@@ -15,7 +15,7 @@ from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.device_problem import DeviceProblem, find_fixed_point
 from ocs_design.sizing.bound.device_sizing import size_device
 from ocs_design.sizing.bound.infeasible import DEVICE_PRECISION, with_limit
-from ocs_design.sizing.limits import RIM_LIMITS, WHEEL_SPEED
+from ocs_design.sizing.limits import RIM_LIMITS, TOP_SPEED
 
 SOLO12 = MassProperties(
     2.5,
@@ -170,7 +170,7 @@ def test_infeasible_by_its_robot():
     assert "wheel_speed_max" in error.relaxations
     assert "r_max" in error.relaxations
     problem = problem_of(requirement, envelope)
-    by_name = {limit.name: limit for limit in (*RIM_LIMITS, WHEEL_SPEED)}
+    by_name = {limit.name: limit for limit in (*RIM_LIMITS, TOP_SPEED)}
     for name, value in error.relaxations.items():
         mended = with_limit(problem, by_name[name], value)
         size_device(mended)

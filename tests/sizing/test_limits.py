@@ -9,12 +9,12 @@ from ocs_design.requirement.device_sections import Envelope
 from ocs_design.sizing.limits import (
     PRECISION,
     RIM_LIMITS,
-    WHEEL_SPEED,
+    TOP_SPEED,
     smallest_change,
     smallest_changes,
 )
 
-BY_NAME = {limit.name: limit for limit in (*RIM_LIMITS, WHEEL_SPEED)}
+BY_NAME = {limit.name: limit for limit in (*RIM_LIMITS, TOP_SPEED)}
 
 
 @given(st.floats(1e-3, 1e3), st.floats(1.0001, 900.0))
@@ -70,7 +70,7 @@ def test_texts():
     assert BY_NAME["r_min"].loose_text(0.0069399) == "r_min 6.93 mm"
     assert BY_NAME["wheel_mass_max"].loose_text(0.1027556) == "wheel_mass_max 103 g"
     assert BY_NAME["hoop_stress"].text(2.0) == "stress_safety 2"
-    assert WHEEL_SPEED.text(753.9822368615503) == "wheel_speed_max 7200 rpm"
+    assert TOP_SPEED.text(753.9822368615503) == "wheel_speed_max 7200 rpm"
 
 
 def test_every_limit_of_the_envelope_is_named():

@@ -24,7 +24,7 @@ from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.robot.reader import read_robot
-from ocs_design.sizing.advice import PRECISION, advice_on
+from ocs_design.sizing.advice import ADVICE_PRECISION, advice_on
 from ocs_design.sizing.limits import BUS_VOLTAGE, TIME
 from ocs_design.sizing.selection.problem import Reason, with_limit
 from ocs_design.sizing.selection.select import select
@@ -236,7 +236,7 @@ def test_infeasible_says_what_would_do():
     limits = {limit.name: limit for limit in (BUS_VOLTAGE, TIME)}
     value = error.relaxations["time"]
     assert has_device(with_limit(narrow, limits["time"], value))
-    assert not has_device(with_limit(narrow, limits["time"], value * (1.0 - PRECISION)))
+    assert not has_device(with_limit(narrow, limits["time"], value * (1.0 - ADVICE_PRECISION)))
 
 
 def test_nothing_to_do_and_nothing_to_choose_from():

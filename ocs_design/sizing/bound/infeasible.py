@@ -20,7 +20,7 @@ from ocs_design.sizing.limits import (
     PRECISION,
     RIM_LIMITS,
     STRESS,
-    WHEEL_SPEED,
+    TOP_SPEED,
     Limit,
     advice,
     narrowed,
@@ -74,7 +74,7 @@ def infeasible_device(
     limits, asked_by = limits_set(rim), ""
     if problem.requirement.spin_inertia is None:
         # The wheel speed is a limit only where it affects the spin inertia.
-        limits = (*limits, WHEEL_SPEED)
+        limits = (*limits, TOP_SPEED)
         if largest_spin_inertia(rim) > 0.0:
             most = max(demands, key=lambda demand: demand.spin_inertia)
             asked_by = f"{most.source} requires too much: "
@@ -100,7 +100,7 @@ def _changes(
 
     values = {
         limit: limit.value(problem.requirement)
-        if isinstance(problem, DeviceProblem) and limit is WHEEL_SPEED
+        if isinstance(problem, DeviceProblem) and limit is TOP_SPEED
         else limit.value(problem.envelope)
         for limit in limits
     }
@@ -141,7 +141,7 @@ def _infeasible(
 
 def with_limit(problem: Problem, limit: Limit, value: float) -> Problem:
     """The problem with one limit changed [SI]."""
-    if isinstance(problem, RimProblem) or limit is not WHEEL_SPEED:
+    if isinstance(problem, RimProblem) or limit is not TOP_SPEED:
         return replace(problem, envelope=limit.replaced(problem.envelope, value))
     return replace(problem, requirement=limit.replaced(problem.requirement, value))
 

@@ -36,11 +36,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ocs_design.actuation.fasteners import LIGAMENT
 from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray, Table
 from ocs_design.common.errors import UsageError
 from ocs_design.parts.rim import (
-    LIGAMENT,
     NO_CUTS,
     SHOULDER,
     SHRUNK_WEB_THICKNESS,

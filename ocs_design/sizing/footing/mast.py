@@ -40,7 +40,7 @@ from ocs_design.sizing.footing.formed import (
     thicknesses,
 )
 from ocs_design.sizing.footing.plate import (
-    HEAD_ROOM,
+    HEAD_TO_FOOT,
     PATTERN_STEP,
     SPREAD,
     WIDER,
@@ -137,7 +137,7 @@ def pads_needed(robot: Robot, feet: Feet, layout: Layout) -> Pads | None:
         own = replace(plate, thread=held.name)
         assert own.mast is not None, "a plate on arms"
         aside = own.mast.bore / 2.0 - own.sleeve_radius
-        if aside < held.head_diameter / 2.0 + HEAD_ROOM:
+        if aside < held.head_diameter / 2.0 + HEAD_TO_FOOT:
             continue
         arms = own.mast.face, np.zeros(len(half))
         bearing = half[pattern_use(held, force, arms, (half, np.full(len(half), aside))) <= 1.0]
@@ -359,7 +359,7 @@ def _patterns(
     """
     mast, held, height = plate.mast, plate.screw, spot.height
     assert mast is not None, "a plate on arms"
-    least = held.head_diameter / 2.0 + HEAD_ROOM
+    least = held.head_diameter / 2.0 + HEAD_TO_FOOT
     most = mast.bore / 2.0 - plate.sleeve_radius
     pairs = _pairs(back, plate.sleeve_radius, least, most, is_formed=spot.formed)
     if pairs is None:

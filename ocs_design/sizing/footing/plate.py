@@ -41,7 +41,7 @@ from ocs_design.sizing.footing.contact import (
 )
 from ocs_design.sizing.footing.feet import SAME, SENSES, Feet
 
-HEAD_ROOM = 0.5e-3
+HEAD_TO_FOOT = 0.5e-3
 """Clearance between a screw's head and a foot's base [m]."""
 
 PLATE_SCREW, STRONG_SCREW, POST_SCREW = screw("M3"), screw("M5"), screw("M8")
@@ -238,7 +238,7 @@ def _widest(
 
 def room_to_foot(feet: Feet, held_by: Screw) -> float:
     """Least distance of a plate's screws from the centre of a foot [m]."""
-    return feet.radius + held_by.head_diameter / 2.0 + HEAD_ROOM
+    return feet.radius + held_by.head_diameter / 2.0 + HEAD_TO_FOOT
 
 
 WIDER = (0.0, 5e-3, 10e-3, 15e-3, 20e-3)

@@ -37,7 +37,7 @@ from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.rim_problem import RimLimits, check_limits
 from ocs_design.sizing.driven_wheel import DrivenWheel
-from ocs_design.sizing.limits import BUS_POWER, BUS_VOLTAGE, RIM_LIMITS, TIME, WHEEL_SPEED, Limit
+from ocs_design.sizing.limits import BUS_VOLTAGE, RIM_LIMITS, SUPPLY_POWER, TIME, TOP_SPEED, Limit
 from ocs_design.sizing.place import Place, braked, module_size
 
 
@@ -146,8 +146,8 @@ class SelectionProblem:
 
 def limits_of(problem: SelectionProblem) -> dict[Limit, float]:
     """Values of all limits that may be active [SI]."""
-    speed = {} if problem.wheel_speed_max is None else {WHEEL_SPEED: problem.wheel_speed_max}
-    power = {BUS_POWER: problem.supply.power} if isfinite(problem.supply.power) else {}
+    speed = {} if problem.wheel_speed_max is None else {TOP_SPEED: problem.wheel_speed_max}
+    power = {SUPPLY_POWER: problem.supply.power} if isfinite(problem.supply.power) else {}
     return {
         **{limit: limit.value(problem.envelope) for limit in RIM_LIMITS},
         **speed,
@@ -161,12 +161,12 @@ def with_limit(problem: SelectionProblem, limit: Limit, value: float) -> Selecti
     """The problem with one of its limits changed [SI]."""
     if limit is BUS_VOLTAGE:
         return replace(problem, supply=replace(problem.supply, voltage=value))
-    if limit is BUS_POWER:
+    if limit is SUPPLY_POWER:
         # The current limit is raised with it, where it is the tighter of the two.
         supply = problem.supply
         current = max(supply.current_max, value / supply.voltage)
         return replace(problem, supply=Supply(supply.voltage, current, value))
-    if limit is WHEEL_SPEED:
+    if limit is TOP_SPEED:
         return replace(problem, wheel_speed_max=value)
     if limit is TIME:
         names = {maneuver.name for maneuver in problem.requirement.maneuvers}

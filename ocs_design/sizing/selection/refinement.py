@@ -21,7 +21,7 @@ from ocs_design.parts.moments import cylinder_mass
 from ocs_design.parts.rim import cylinder_spin_inertia
 from ocs_design.sizing.bound.rim_problem import BORE_SHARE
 from ocs_design.sizing.lightest_module import ModuleShape
-from ocs_design.sizing.limits import STRESS, TIME, WHEEL_SPEED
+from ocs_design.sizing.limits import STRESS, TIME, TOP_SPEED
 from ocs_design.sizing.selection.candidates import Candidates, drives_of, web_inertia
 from ocs_design.sizing.selection.composite_inertia import CompositeInertia
 from ocs_design.sizing.selection.demand import margins_of
@@ -288,7 +288,7 @@ def coordinates(outer: float, height: float, inner: float, angle: float) -> Floa
     return np.append(np.log([outer, height, outer - inner]), angle)
 
 
-_UNITS = {STRESS: 0.1, TIME: 0.01, WHEEL_SPEED: 100.0}
+_UNITS = {STRESS: 0.1, TIME: 0.01, TOP_SPEED: 100.0}
 """Realistic changes in the limit's own unit; all other limits change by one."""
 
 _LEAST_LEFT = 0.5

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from rims import STEEL
 
+from ocs_design.actuation.fasteners import LIGAMENT
 from ocs_design.parts.module import Printed
-from ocs_design.parts.rim import LIGAMENT
 from ocs_design.requirement.device_sections import Envelope
 from ocs_design.sizing.bound.rim_problem import RimProblem, limits_with_web
 from ocs_design.sizing.lightest_module import (

@@ -7,7 +7,7 @@ import pytest
 from selections import has_device, random_problem, with_radius
 
 from ocs_design.sizing import advice
-from ocs_design.sizing.advice import PRECISION, Field, single_changes
+from ocs_design.sizing.advice import ADVICE_PRECISION, Field, single_changes
 from ocs_design.sizing.limits import BUS_VOLTAGE, RIM_LIMITS, TIME
 from ocs_design.sizing.selection.problem import limits_of, with_limit
 from ocs_design.sizing.selection.refinement import refine
@@ -74,7 +74,7 @@ def test_each_change_mends_and_hardly_less_does(seed):
     small = next(room for room in rooms if not has_device(room))
     changes = single_changes(Field.of(small))
     for limit, value in changes.items():
-        back = (1.0 + 1.01 * PRECISION) ** (-1 if limit.loosens_upwards else 1)
+        back = (1.0 + 1.01 * ADVICE_PRECISION) ** (-1 if limit.loosens_upwards else 1)
         assert has_device(with_limit(small, limit, value))
         assert not has_device(with_limit(small, limit, value * back))
     assert seed != 9 or "r_max" in {limit.name for limit in changes}
