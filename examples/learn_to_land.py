@@ -22,7 +22,7 @@ from pathlib import Path
 import gymnasium
 import numpy as np
 
-from ocs_design.report.charts.chart import Axis, Chart, Ink, Line, Rule
+from ocs_design.report.charts.chart import Axis, Chart, Curve, Ink, Rule
 from ocs_design.report.charts.svg import svg_file
 
 MANEUVER = "drop"
@@ -112,7 +112,7 @@ def main() -> None:
         x=Axis.around("generation", "", x, room=0.02),
         y=Axis.around("nearer to level", "deg", np.append(y, whole), room=0.1),
         marks=(
-            Line(x, y, Ink.BLUE, f"best {BEST} of {POLICIES}"),
+            Curve(x, y, Ink.BLUE, f"best {BEST} of {POLICIES}"),
             Rule(whole, upright=False, label="all of it", ink=Ink.FAINT),
         ),
         height=300.0,

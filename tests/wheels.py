@@ -10,7 +10,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device, Flywheel, Module
 from ocs_design.device.layout import Layout, module_axes
 from ocs_design.parts.solids import Carrier
-from ocs_design.requirement.froude import Scale, default_maneuvers
+from ocs_design.requirement.froude import FroudeScale, default_maneuvers
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.robot import Robot
@@ -138,7 +138,7 @@ def _body_of_revolution(axial: float, transverse: float, axis: FloatArray) -> Fl
 
 def scaled_device(robot: Robot) -> Device:
     """The paper's wheel for another robot: lengths by its Froude scale, inertia by its own."""
-    scale, device = Scale.of(robot), paper_device()
+    scale, device = FroudeScale.of(robot), paper_device()
     inertia = PAPER_WHEEL.spin_inertia * scale.pitch_inertia
     wheel = replace(
         PAPER_WHEEL,

@@ -398,7 +398,7 @@ class Cause:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Spread:
+class Histogram:
     """Distribution of a figure of the flights, SI.
 
     Attributes:
@@ -428,9 +428,9 @@ class ScenarioSummary:
     scenario: str
     success: Share
     faults: Mapping[str, int]
-    attitude_error: Spread | None
-    peak_wheel_speed: Spread | None
-    peak_wheel_torque: Spread | None
+    attitude_error: Histogram | None
+    peak_wheel_speed: Histogram | None
+    peak_wheel_torque: Histogram | None
     causes: tuple[Cause, ...]
     worst: tuple[int, ...]
     advice: str = ""

@@ -41,7 +41,7 @@ REACH = (0.40, 0.95)
 """Smallest and largest leg length over the stretched length: the knee always stays bent."""
 
 
-class Limit(IntEnum):
+class SoftLimit(IntEnum):
     """Limits that a plan may exceed, at a price."""
 
     TORQUE = 0
@@ -87,7 +87,7 @@ class Constraints:
         values: dimensionless quantities, shape (k, 1).
         fold: matrix of coefficients from values to rows, shape (m, k).
         lower, upper: bounds of every row.
-        limit: the `Limit` whose excess relaxes the rows; -1: none.
+        limit: the `SoftLimit` whose excess relaxes the rows; -1: none.
         first, stop: the rows hold at nodes from `first` on, before `stop`.
     """
 
@@ -187,10 +187,10 @@ class Node:
                 Constraints(balance, ca.DM.eye(POSE), 0.0, 0.0),
                 # At the start all coordinates are given.
                 Constraints(slips, ca.DM.eye(slips.numel()), 0.0, 0.0, first=1),
-                Constraints(torque, efforts, -np.inf, 1.0, Limit.TORQUE),
-                Constraints(speed, velocities, -np.inf, 1.0, Limit.SPEED),
+                Constraints(torque, efforts, -np.inf, 1.0, SoftLimit.TORQUE),
+                Constraints(speed, velocities, -np.inf, 1.0, SoftLimit.SPEED),
                 # At the end the feet lift off.
-                Constraints(force, pyramids, -np.inf, 0.0, Limit.FRICTION, stop=NODES - 1),
+                Constraints(force, pyramids, -np.inf, 0.0, SoftLimit.FRICTION, stop=NODES - 1),
                 Constraints(reach, ca.DM.eye(layout.legs), REACH[0] ** 2, REACH[1] ** 2),
             ),
             end=end,

@@ -66,8 +66,8 @@ class JumpPlanning:
         asked = [(each, jump_of(each)) for each in maneuvers]
         self._jumps = [(each, jump) for each, jump in asked if jump is not None]
         self._obstacle = obstacle_to_jumping(robot) if self._jumps else ""
-        self._bare: dict[Jump, Future[Planned]] = {}
-        self._carrying: dict[str, Future[Planned]] = {}
+        self._bare: dict[Jump, Future[PlannedJump]] = {}
+        self._carrying: dict[str, Future[PlannedJump]] = {}
         different = {jump for _, jump in self._jumps}
         self._threads = ThreadPoolExecutor(min(max(len(different), 1), cpu_count() or 1))
         if self._jumps and not self._obstacle:
@@ -109,8 +109,8 @@ class JumpPlanning:
         self._threads.shutdown(wait=False, cancel_futures=True)
 
     def _plan(
-        self, jump: Jump, trunk: MassProperties, similar: "Future[Planned] | None" = None
-    ) -> "Planned":
+        self, jump: Jump, trunk: MassProperties, similar: "Future[PlannedJump] | None" = None
+    ) -> "PlannedJump":
         # Threads take their work in order, so the awaited plan has already begun.
         known = None if similar is None else similar.result().push_off
         return self._planner.result().plan(jump, trunk, similar=known)
@@ -121,7 +121,7 @@ def _both(note: str) -> JumpPlans:
     return JumpPlans(JumpPlan(None, note), JumpPlan(None, note))
 
 
-class Planned(NamedTuple):
+class PlannedJump(NamedTuple):
     """A jump's plan, and its push-off, from which to start the search for a similar one."""
 
     plan: JumpPlan
@@ -137,7 +137,9 @@ class JumpPlanner:
         self._push_offs = PushOffs(body, base)
         self._free = FreeRobot(base)
 
-    def plan(self, jump: Jump, trunk: MassProperties, similar: PushOff | None = None) -> Planned:
+    def plan(
+        self, jump: Jump, trunk: MassProperties, similar: PushOff | None = None
+    ) -> PlannedJump:
         """Plan a jump from which the robot lands level without any help.
 
         Args:
@@ -150,7 +152,7 @@ class JumpPlanner:
         for corrected in (False, True):
             push_off = self._push_offs.find(jump, trunk, spin=spin, similar=similar)
             if push_off.forbidden:
-                return Planned(JumpPlan(None, push_off.forbidden), push_off)
+                return PlannedJump(JumpPlan(None, push_off.forbidden), push_off)
             y, v = push_off.y[-1], push_off.v[-1]
             legs = LegReturn(y[POSE:], v[POSE:], self._body.posture, _BRAKE * time, swing)
             flight = self._free.fly(y, v, legs, load, jump.flight_time)
@@ -172,4 +174,4 @@ class JumpPlanner:
             torque=np.vstack([torque, flight.torque]),
             lift_off=lift_off,
         )
-        return Planned(JumpPlan(trajectory, ""), push_off)
+        return PlannedJump(JumpPlan(trajectory, ""), push_off)

@@ -12,13 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.jumping.node import NODES, STEPS, WEIGHTS, Limit, Node
+from ocs_design.jumping.node import NODES, STEPS, WEIGHTS, Node, SoftLimit
 from ocs_design.sizing.trajectory.program import IPOPT_OPTIONS
 
 _TOLERANCE = 1e-6
 _ITERATIONS_MAX = 120
 
-_EXCESS = len(Limit)
+_EXCESS = len(SoftLimit)
 _PENALTY = 1000.0
 """Penalty for exceeding a limit, far above any gain from it: limits are exceeded only if the jump
 is otherwise impossible."""
@@ -40,13 +40,13 @@ _WARM: dict[str, Any] = {
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class PushOffSolution:
     """Solution found by IPOPT.
 
     Attributes:
         nodes: unknowns, shape (size, nodes).
         torque: of the joints [N m or N], shape (n, nodes).
-        excess: share by which each `Limit` had to be exceeded, shape (3,).
+        excess: share by which each `SoftLimit` had to be exceeded, shape (3,).
         x, on_bounds, on_rows: the whole solution and its multipliers, to start a similar search.
         solved: whether it is a local optimum.
     """
@@ -110,12 +110,12 @@ class Program:
 
     def solve(
         self,
-        start: FloatArray | Found,
+        start: FloatArray | PushOffSolution,
         lower: FloatArray,
         upper: FloatArray,
         end: FloatArray,
         load: FloatArray,
-    ) -> Found:
+    ) -> PushOffSolution:
         """The push-off of least cost; several threads may solve at once.
 
         Args:
@@ -125,7 +125,7 @@ class Program:
             load: gravity and trunk, see `floating_base.Load.values`.
         """
         rows, options = self._rows, self._options
-        if isinstance(start, Found):
+        if isinstance(start, PushOffSolution):
             options = options | _WARM
             begin = {"x0": start.x, "lam_x0": start.on_bounds, "lam_g0": start.on_rows}
         else:
@@ -142,7 +142,7 @@ class Program:
         )
         x = np.asarray(found["x"]).ravel()
         nodes = x[:-_EXCESS].reshape(lower.shape, order="F")
-        return Found(
+        return PushOffSolution(
             nodes=nodes,
             torque=np.asarray(self._torque(nodes, load)),
             excess=x[-_EXCESS:],
@@ -160,7 +160,7 @@ class _Rows:
     Attributes:
         defects: matrix of the spline conditions between nodes.
         selection: matrix that selects, from the rows of all nodes, those that hold there.
-        overdrawn: matrix by which each `Limit`'s excess relaxes the selected rows.
+        overdrawn: matrix by which each `SoftLimit`'s excess relaxes the selected rows.
         lower, upper: of all rows.
     """
 

@@ -13,13 +13,13 @@ from ocs_design.jumping.node import (
     NODES,
     REACH,
     SHARES,
-    Limit,
     Node,
     NodeLayout,
+    SoftLimit,
     limit_or_inf,
     spline_slopes,
 )
-from ocs_design.jumping.program import Found, Program
+from ocs_design.jumping.program import Program, PushOffSolution
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.stance import lifted
 from ocs_design.robot.tree import JointKind
@@ -60,7 +60,7 @@ class PushOff:
     torque: FloatArray
     force: FloatArray
     forbidden: str
-    answer: Found
+    answer: PushOffSolution
 
     def joints_at(self, times: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Positions and velocities of the joints on the cubic splines, shape (len(times), n)."""
@@ -194,14 +194,14 @@ def _bounds_of_unknowns(
     return lower, upper
 
 
-def _exceeded_limits(body: LeggedBody, layout: NodeLayout, found: Found) -> str:
+def _exceeded_limits(body: LeggedBody, layout: NodeLayout, found: PushOffSolution) -> str:
     """Limits that the push-off exceeds, and by how much, as text; empty if none."""
     duration, sentences = found.nodes[layout.duration, -1], []
     speed = found.nodes[layout.v][-layout.joints :] / duration
     # Units for hinges and for slides.
     for limit, quantity, name, units, values in (
-        (Limit.TORQUE, "torque", "effort", ("N m", "N"), found.torque),
-        (Limit.SPEED, "speed", "velocity", ("rad/s", "m/s"), speed),
+        (SoftLimit.TORQUE, "torque", "effort", ("N m", "N"), found.torque),
+        (SoftLimit.SPEED, "speed", "velocity", ("rad/s", "m/s"), speed),
     ):
         if found.excess[limit] <= _OVERDRAWN:
             continue
@@ -215,7 +215,7 @@ def _exceeded_limits(body: LeggedBody, layout: NodeLayout, found: Found) -> str:
             f"the {quantity} of joint '{joint.name}' would be {abs(values[row, instant]):.3g} "
             f"{unit} at {time:.3g} s, more than its {limits[row]:.3g} {unit}"
         )
-    if found.excess[Limit.FRICTION] > _OVERDRAWN:
+    if found.excess[SoftLimit.FRICTION] > _OVERDRAWN:
         sentences.append(f"the feet would need a coefficient of friction above {FRICTION}")
     if not sentences and not found.solved:
         return "no push-off was found within the legs' reach"

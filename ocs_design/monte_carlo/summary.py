@@ -14,9 +14,9 @@ from ocs_design.device.answers import (
     CONFIDENCE,
     QUANTILES,
     Cause,
+    Histogram,
     MonteCarloRecord,
     ScenarioSummary,
-    Spread,
 )
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import FAULTS, Outcomes, share, shares
@@ -242,12 +242,12 @@ def summarised(campaign: Campaign, outcomes: Outcomes, asked: int) -> MonteCarlo
     )
 
 
-def _spread(values: FloatArray) -> Spread | None:
+def _spread(values: FloatArray) -> Histogram | None:
     """Spread of a figure over the flights; None if no flight has it."""
     finite = values[np.isfinite(values)]
     if not finite.size:
         return None
     counts, _ = np.histogram(finite, bins=BINS)
-    return Spread(
+    return Histogram(
         quantiles=tuple(np.quantile(finite, QUANTILES).tolist()), counts=tuple(counts.tolist())
     )

@@ -19,7 +19,7 @@ from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.records.device import Clearance, OcsRecord
 from ocs_design.device.records.requirement import RobotRecord
 from ocs_design.parts.bell import GLUE_GAP
-from ocs_design.report.table import Rows, Table, columns
+from ocs_design.report.table import CellTable, Rows, columns
 from ocs_design.requirement.uncertainty import Entry, spreads, uncertainty_of_texts
 from ocs_design.requirement.vocabulary import CRITERIA, LIGHTEST
 
@@ -228,10 +228,10 @@ def layout_text(ocs: OcsRecord) -> str:
     return f"{ocs.layout} at {degrees(ocs.incidence)}" if ocs.incidence else ocs.layout
 
 
-def criterion_table(ocs: OcsRecord) -> Table:
+def criterion_table(ocs: OcsRecord) -> CellTable:
     """Best incidence under each criterion, with the device and for the robot alone."""
     alone = ocs.incidence_by_criterion_robot_alone
-    return Table(
+    return CellTable(
         columns("<incidence by criterion", "with the device [deg]", "robot alone [deg]"),
         tuple(
             (

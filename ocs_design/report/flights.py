@@ -17,7 +17,7 @@ from ocs_design.device.records.flights import (
     was_on_pivot,
 )
 from ocs_design.device.records.requirement import DemandRecord
-from ocs_design.report.table import Cell, Table, Tone, Toned, columns
+from ocs_design.report.table import Cell, CellTable, Tone, Toned, columns
 from ocs_design.requirement.maneuver import Disturbance, Flip, Maneuver
 from ocs_design.requirement.turns import TurnTo
 from ocs_design.robot.stance import LANDING_TOLERANCE
@@ -56,7 +56,7 @@ def off_level(roll: ArrayLike, pitch: ArrayLike) -> FloatArray:
     return np.asarray(np.arccos(np.clip(np.cos(roll) * np.cos(pitch), -1.0, 1.0)))
 
 
-def flight_table(runs: Sequence[ValidationRecord], *, of_one: bool = False) -> Table:
+def flight_table(runs: Sequence[ValidationRecord], *, of_one: bool = False) -> CellTable:
     """Verdict, attitude at touchdown and at the end, and peak wheel figures of each run.
 
     With `of_one`, all rows are of one scenario and are named "with" and "without".
@@ -89,7 +89,7 @@ def flight_table(runs: Sequence[ValidationRecord], *, of_one: bool = False) -> T
         )
     judged = {"when due" if was_on_pivot(run) else "touchdown" for run in runs}
     when = " or ".join(sorted(judged, reverse=True)) or "touchdown"
-    return Table(columns(first, "<verdict", f"{when}\npitch [deg]", *_COLUMNS), tuple(rows))
+    return CellTable(columns(first, "<verdict", f"{when}\npitch [deg]", *_COLUMNS), tuple(rows))
 
 
 def flights_title(runs: Iterable[ValidationRecord]) -> str:
@@ -128,7 +128,7 @@ def short_verdict(run: ValidationRecord, maneuver: Maneuver | None) -> Toned:
     return Toned(f"{word.text:<5} {degrees_number(angle):>5}{what}", word.tone)
 
 
-def verdict_table(design: OcsDesign) -> Table:
+def verdict_table(design: OcsDesign) -> CellTable:
     """Verdicts on each maneuver with the device and without, with their decisive angles."""
     asked = {each.name: each.maneuver() for each in design.requirement.maneuvers}
     bare = {run.scenario: run for run in design.validation if not run.ocs}
@@ -143,7 +143,7 @@ def verdict_table(design: OcsDesign) -> Table:
         for run in design.validation
         if run.ocs
     )
-    return Table(columns("<flight", "<with the device", "<without it"), tuple(rows))
+    return CellTable(columns("<flight", "<with the device", "<without it"), tuple(rows))
 
 
 def run_sentence(run: ValidationRecord, *, with_note: bool = True) -> str:
@@ -215,7 +215,7 @@ def survival_words(design: OcsDesign) -> Iterator[str]:
             yield f"{grams(more)} heavier than a device that need not ({grams(found.mass_without)})"
 
 
-def survival_table(survival: SurvivalRecord) -> Table:
+def survival_table(survival: SurvivalRecord) -> CellTable:
     """Final error angle by the drive that fails and the share of the flight before the failure."""
     rows: dict[tuple[str, str], list[Cell]] = {}
     for each in survival.flights:
@@ -224,7 +224,7 @@ def survival_table(survival: SurvivalRecord) -> Table:
         rows.setdefault((each.scenario, each.module), []).append(Toned(told, tone))
     count = max(map(len, rows.values()))
     shares = (f"{part / count:.0%}" for part in range(count))
-    return Table(
+    return CellTable(
         columns("<scenario", "<drive", *shares),
         tuple((*names, *cells) for names, cells in rows.items()),
     )

@@ -15,7 +15,7 @@ from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.records.device import Margin
 from ocs_design.device.records.selection import SAVES_NOTHING, ReserveRecord
 from ocs_design.report.selection import best_drives, drive_name
-from ocs_design.report.table import Cell, Rows, Table, Tone, Toned, columns
+from ocs_design.report.table import Cell, CellTable, Rows, Tone, Toned, columns
 from ocs_design.sizing.lightest_module import (
     BELL,
     BOND,
@@ -94,7 +94,7 @@ DRIVEN = (
 """Note on demands of a chosen drive."""
 
 
-def demand_table(design: OcsDesign) -> Table:
+def demand_table(design: OcsDesign) -> CellTable:
     """Momentum, spin inertia and torque that each maneuver needs."""
     rows: list[tuple[Cell, ...]] = [
         (
@@ -114,12 +114,12 @@ def demand_table(design: OcsDesign) -> Table:
         "<required by", "alpha [deg]", "roll [mN m s]", "pitch [mN m s]", "spin inertia [kg mm2]",
         "least torque [N m]",
     )  # fmt: skip
-    return Table(heads, tuple(rows))
+    return CellTable(heads, tuple(rows))
 
 
-def margin_table(margins: tuple[Margin, ...]) -> Table:
+def margin_table(margins: tuple[Margin, ...]) -> CellTable:
     """Demand, capacity and factor of each margin, and the maneuver that sets it."""
-    return Table(
+    return CellTable(
         columns("<quantity", "demand", "capacity", "factor", "<set by"),
         tuple(
             (
@@ -202,9 +202,9 @@ def lighter(design: OcsDesign) -> Rows:
     )
 
 
-def alternatives_table(design: OcsDesign) -> Table:
+def alternatives_table(design: OcsDesign) -> CellTable:
     """Result of each single change of the specification, except those that save nothing."""
-    return Table(
+    return CellTable(
         columns("<change", "mass", "<motor", "<note"),
         tuple(
             (
@@ -225,11 +225,11 @@ def alternatives_note(design: OcsDesign) -> str:
     return f"These save nothing: {'; '.join(vain)}." if vain else ""
 
 
-def lighter_table(design: OcsDesign) -> Table:
+def lighter_table(design: OcsDesign) -> CellTable:
     """Changes that would each make the device lighter by the requested mass."""
     changes = () if design.lighter is None else design.lighter.changes
     rows = tuple((each.change, grams(each.mass_total or 0.0), each.motor) for each in changes)
-    return Table(columns("<any one of these suffices", "mass", "<motor"), rows)
+    return CellTable(columns("<any one of these suffices", "mass", "<motor"), rows)
 
 
 def owed_to(design: OcsDesign) -> str:
@@ -244,10 +244,10 @@ def owed_to(design: OcsDesign) -> str:
     return f"{owed.maneuver} (without it {grams(owed.mass_without)})"
 
 
-def open_points(design: OcsDesign) -> Table:
+def open_points(design: OcsDesign) -> CellTable:
     """Points that keep the device from being built, each with its cure."""
     points = design.buildable.open
-    return Table(columns("<what", "<cure"), tuple((each.what, each.cure) for each in points))
+    return CellTable(columns("<what", "<cure"), tuple((each.what, each.cure) for each in points))
 
 
 def holding_up(design: OcsDesign) -> list[str]:
@@ -262,7 +262,7 @@ def active_limits(design: OcsDesign) -> tuple[str, str]:
     return ", ".join(holding_up(design)) or "none: the rim is within all limits", " ".join(meanings)
 
 
-def saving_table(design: OcsDesign) -> Table:
+def saving_table(design: OcsDesign) -> CellTable:
     """Mass saved by moving each limit, for a device with its drive, else for one rim."""
     selection = design.selection
     if selection is None or not selection.prices:
@@ -277,7 +277,7 @@ def saving_table(design: OcsDesign) -> Table:
                 active[name] = (f"{margin.name} ({name})", used, allowed)
         for name in design.sizing.binding:
             active.setdefault(name, (name, "all of it", ""))
-        return Table(
+        return CellTable(
             columns("<limit", "used", "allowed", "<changes the rim's mass by"),
             tuple((*texts, rim_price(design, name)) for name, texts in active.items()),
         )
@@ -293,7 +293,7 @@ def saving_table(design: OcsDesign) -> Table:
         rows.append(
             (limit.label, change, f"{1e3 * saved:.2f} g" if saved > _NOTHING else "nothing")
         )
-    return Table(columns("<limit", "change", "mass saved"), tuple(rows))
+    return CellTable(columns("<limit", "change", "mass saved"), tuple(rows))
 
 
 def saving_notes(design: OcsDesign) -> str:
@@ -315,9 +315,9 @@ def saving_notes(design: OcsDesign) -> str:
     return note
 
 
-def reserve_table(kept: ReserveRecord) -> Table:
+def reserve_table(kept: ReserveRecord) -> CellTable:
     """Share of each uncertain quantity in the reserve, and the mass that knowing it would save."""
-    return Table(
+    return CellTable(
         columns("<key of [reality]", "share of the reserve", "saved if known exactly"),
         tuple(
             (cost.key, f"{100.0 * cost.share:.0f} %", grams(max(cost.mass, 0.0)))

@@ -7,7 +7,7 @@ import numpy as np
 from ocs_design.common.units import ceiled, floored
 from ocs_design.device.answers import MonteCarloRecord, Share
 from ocs_design.device.records.flights import Conclusion, ReliabilityRecord
-from ocs_design.report.table import Table, columns
+from ocs_design.report.table import CellTable, columns
 
 BARS = " ▁▂▃▄▅▆▇█"
 """Bars of 0 to 8 eighths of a character's height."""
@@ -30,7 +30,7 @@ def campaign_title(record: MonteCarloRecord) -> str:
     return f"{count} sampled robots, seed {record.seed}{enough}"
 
 
-def success_table(record: MonteCarloRecord) -> Table:
+def success_table(record: MonteCarloRecord) -> CellTable:
     """Number of flights that pass, the pass rate with its interval, and the kinds of failure."""
     rows = [
         (
@@ -42,7 +42,7 @@ def success_table(record: MonteCarloRecord) -> Table:
     ]
     if len(rows) > 1:
         rows.append(("all maneuvers", *_share(record.success), "-"))
-    return Table(
+    return CellTable(
         columns(
             "<scenario", "passed", "pass rate", f"{record.confidence:.0%} interval", "<failures"
         ),
@@ -96,7 +96,7 @@ def _share(share: Share) -> tuple[str, str, str]:
     )
 
 
-def spread_table(record: MonteCarloRecord) -> Table:
+def spread_table(record: MonteCarloRecord) -> CellTable:
     """Quantiles and histogram of attitude, wheel speed and torque in flight."""
     rows = []
     for each in record.scenarios:
@@ -111,7 +111,7 @@ def spread_table(record: MonteCarloRecord) -> Table:
                 rows.append((name, quantity, *values, bars))
                 name = ""
     heads = columns("<scenario", "<in flight", "5 %", "median", "95 %", "max", "min to max")
-    return Table(heads, tuple(rows))
+    return CellTable(heads, tuple(rows))
 
 
 def campaign_remarks(record: MonteCarloRecord) -> Iterator[str]:

@@ -8,7 +8,7 @@ from ocs_design.common.units import rpm_number
 from ocs_design.common.wording import counted, degrees_number, grams, inertia_number, listed
 from ocs_design.device.records.requirement import ManeuverRecord
 from ocs_design.device.records.selection import RankedRecord, SelectionRecord
-from ocs_design.report.table import Rows, Table, columns
+from ocs_design.report.table import CellTable, Rows, columns
 
 SHOWN = 5
 """Drives that the terminal shows; with -v it shows the whole ranking."""
@@ -22,13 +22,13 @@ def choice_title(selection: SelectionRecord) -> str:
     )
 
 
-def task_table(selection: SelectionRecord) -> Table:
+def task_table(selection: SelectionRecord) -> CellTable:
     """Demands of each maneuver on the chosen drive."""
     heads = columns(
         "<required by", "alpha [deg]", "spin inertia [kg mm2]", "needed [s]", "given [s]",
         "peak [rpm]",
     )  # fmt: skip
-    return Table(
+    return CellTable(
         heads,
         tuple(
             (
@@ -68,9 +68,9 @@ def task_note(selection: SelectionRecord, maneuvers: Iterable[ManeuverRecord]) -
     return f"{needed} The largest spin inertia is for {listed(tied)}."
 
 
-def drive_table(drives: tuple[RankedRecord, ...]) -> Table:
+def drive_table(drives: tuple[RankedRecord, ...]) -> CellTable:
     """Lightest drives, each with the mass of the whole device, its rim and incidence."""
-    return Table(
+    return CellTable(
         columns("<lightest drives", "device [g]", "<rim", "R [mm]", "h [mm]", "alpha [deg]"),
         tuple(
             (

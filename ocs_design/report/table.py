@@ -63,15 +63,15 @@ def columns(*headings: str) -> tuple[Column, ...]:
 
 
 @dataclass(frozen=True)
-class Table:
+class CellTable:
     """Columns and rows of cells, as many in each row as there are columns."""
 
     columns: tuple[Column, ...]
     rows: tuple[tuple[Cell, ...], ...]
 
-    def first(self, columns: int) -> "Table":
+    def first(self, columns: int) -> "CellTable":
         """Table of the first columns alone."""
-        return Table(self.columns[:columns], tuple(row[:columns] for row in self.rows))
+        return CellTable(self.columns[:columns], tuple(row[:columns] for row in self.rows))
 
 
 _UNITS = "mm|um|m|kg|g|[mu]?N|s|ms|deg|rad|rpm|V|A|W|kW|J|MPa|ohm|Hz"

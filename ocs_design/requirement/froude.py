@@ -40,7 +40,7 @@ SOLO12_ROLL_INERTIA, SOLO12_PITCH_INERTIA = 0.0320385239, 0.0550873600
 
 
 @dataclass(frozen=True)
-class Scale:
+class FroudeScale:
     """Size of a robot relative to Solo12; all ratios are 1 for Solo12 itself.
 
     Attributes:
@@ -53,7 +53,7 @@ class Scale:
     pitch_inertia: float
 
     @classmethod
-    def of(cls, robot: Robot) -> "Scale":
+    def of(cls, robot: Robot) -> "FroudeScale":
         """The scale of `robot`."""
         if robot.standing_height is None:
             length = _ratio(robot.mass_properties.gyration_radius, SOLO12_GYRATION_RADIUS)
@@ -93,7 +93,7 @@ def standing_height(robot: Robot) -> float:
     """Height of the trunk above the ground [m]; scaled from Solo12's for a robot without legs."""
     if robot.standing_height is not None:
         return robot.standing_height
-    return SOLO12_HEIGHT * Scale.of(robot).length
+    return SOLO12_HEIGHT * FroudeScale.of(robot).length
 
 
 def default_maneuvers(
@@ -108,7 +108,7 @@ def default_maneuvers(
         robot: to scale to.
         gravity: of the first two [m/s^2]; the back-flip is on the Moon.
     """
-    scale = Scale.of(robot)
+    scale = FroudeScale.of(robot)
     drop = Drop(name="drop", gravity=gravity, height=1.0 * scale.length, pitch=radians(30.0))
     back_flip = Flip(
         name="back-flip",
@@ -139,7 +139,7 @@ def example_maneuvers(robot: Robot, gravity: float = STANDARD_GRAVITY) -> tuple[
     Args:
         robot: to scale to. gravity: of all but the turn [m/s^2].
     """
-    scale = Scale.of(robot)
+    scale = FroudeScale.of(robot)
     like, time = _disturbance(scale, gravity), scale.time(gravity)
     quarter, jump = jump_for(3.0 * scale.time(STANDARD_GRAVITY), None, 0.0, 0.9, LUNAR_GRAVITY)
     stop, hop = jump_for(0.5 * time, None, 0.0, 0.9, gravity)
@@ -179,7 +179,7 @@ def example_maneuvers(robot: Robot, gravity: float = STANDARD_GRAVITY) -> tuple[
 
 def default_envelope(robot: Robot) -> Envelope:
     """Default limits of a rim: Solo12's 100 mm by 10 mm, scaled with the demand, not rounded."""
-    length = Scale.of(robot).rim
+    length = FroudeScale.of(robot).rim
     return Envelope(
         outer_radius_max=0.050 * length,
         inner_radius_min=0.005 * length,
@@ -191,7 +191,7 @@ def default_envelope(robot: Robot) -> Envelope:
     )
 
 
-def _disturbance(scale: Scale, gravity: float) -> Disturbance:
+def _disturbance(scale: FroudeScale, gravity: float) -> Disturbance:
     """A torque whose change of the rates is that of the paper's on Solo12, over the ratio of times.
 
     The paper gives no lift-off speed; 2.4 m/s up is assumed

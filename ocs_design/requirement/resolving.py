@@ -36,7 +36,7 @@ from ocs_design.requirement.device_sections import (
 from ocs_design.requirement.froude import (
     RIM_MASS_SHARE,
     WHEEL_SPEED_MAX,
-    Scale,
+    FroudeScale,
     default_envelope,
     default_maneuvers,
     standing_height,
@@ -246,7 +246,7 @@ def _assumptions(
     specification: Specification, robot: Robot, resolved: Resolved, worded: Worded
 ) -> Iterator[str]:
     """One sentence on each default in `resolved`."""
-    flywheel, motor, scale = specification.flywheel, specification.motor, Scale.of(robot)
+    flywheel, motor, scale = specification.flywheel, specification.motor, FroudeScale.of(robot)
     requirement, envelope, choice = resolved.requirement, resolved.envelope, resolved.choice
     landing = (each.gravity for each in requirement.maneuvers if not isinstance(each, Pivoted))
     if robot.standing_height is None and any(landing):

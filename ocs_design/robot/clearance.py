@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from ocs_design.robot.collision import (
     FARTHEST,
+    CollisionBody,
     CollisionModel,
+    GeomPoses,
     Nearest,
-    Part,
-    Poses,
     Posture,
 )
 from ocs_design.robot.leg_geometry import leg_geometries
@@ -99,10 +99,10 @@ class _Standing:
     """
 
     joints: tuple[str, ...]
-    foot: Part
-    above: tuple[Part, ...]
+    foot: CollisionBody
+    above: tuple[CollisionBody, ...]
 
-    def holds(self, collision: CollisionModel, poses: Poses) -> NDArray[np.bool_]:
+    def holds(self, collision: CollisionModel, poses: GeomPoses) -> NDArray[np.bool_]:
         """Whether in each posture no part of leg or trunk is lower than the foot, shape (n,).
 
         This must also hold for a robot tilted by `LANDING_TOLERANCE`.
@@ -132,7 +132,7 @@ def standing_legs(collision: CollisionModel) -> tuple[_Standing, ...]:
 
 
 @lru_cache(maxsize=2)
-def landing_poses(collision: CollisionModel, *, on_feet: bool = False) -> Poses:
+def landing_poses(collision: CollisionModel, *, on_feet: bool = False) -> GeomPoses:
     """The nominal posture, and postures sampled from `landing_ranges`.
 
     Args:
@@ -238,7 +238,7 @@ def reaches(collision: CollisionModel, solids: Sequence[Probe]) -> tuple[Reach, 
     A movement of one joint, the shortest, if there is one; otherwise of several joints together. A
     limb without an entry hit nothing in any posture tried.
     """
-    limbs: dict[str, list[Part]] = {}
+    limbs: dict[str, list[CollisionBody]] = {}
     for part in collision.parts:
         if part.limb:
             limbs.setdefault(part.limb, []).append(part)
@@ -255,10 +255,10 @@ class _Limb:
     """Parts of one limb, and the solids that they could hit."""
 
     collision: CollisionModel
-    parts: Sequence[Part]
+    parts: Sequence[CollisionBody]
     solids: Sequence[Probe]
 
-    def reach(self, ranges: Ranges, poses: Poses) -> Reach | None:
+    def reach(self, ranges: Ranges, poses: GeomPoses) -> Reach | None:
         """Shortest movement to a contact; None if no posture tried has one."""
         joints = dict.fromkeys(name for part in self.parts for name in part.joints)
         alone = [
@@ -292,7 +292,7 @@ class _Limb:
                 return Reach(hit.part.name, {name: posture[name] for name in moved})
         return None
 
-    def _hit(self, poses: Poses) -> Nearest | None:
+    def _hit(self, poses: GeomPoses) -> Nearest | None:
         found = [
             self.collision.nearest(solid, poses, self.parts, within=0.0) for solid in self.solids
         ]

@@ -70,7 +70,7 @@ def solid_model(robot: Robot, warnings: Warnings) -> mujoco.MjModel:
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class CollisionBody:
     """Moving body with a shape.
 
     Attributes:
@@ -86,7 +86,7 @@ class Part:
     geoms: NDArray[np.int64]
 
 
-def parts_of(robot: Robot, model: mujoco.MjModel) -> tuple[Part, ...]:
+def parts_of(robot: Robot, model: mujoco.MjModel) -> tuple[CollisionBody, ...]:
     """Every body with a shape, in tree order.
 
     Args:
@@ -112,7 +112,7 @@ def parts_of(robot: Robot, model: mujoco.MjModel) -> tuple[Part, ...]:
                 joints[joint.name if joint.mimic is None else joint.mimic[0]] = None
         limb = tree.bodies[path[0]].name if path else ""
         solid = [geom for geom in geoms if touching[geom]]
-        parts.append(Part(tree.bodies[body].name, limb, tuple(joints), np.array(solid)))
+        parts.append(CollisionBody(tree.bodies[body].name, limb, tuple(joints), np.array(solid)))
     return tuple(parts)
 
 
@@ -145,7 +145,7 @@ Posture = Mapping[str, float]
 
 
 @dataclass(frozen=True, eq=False)
-class Poses:
+class GeomPoses:
     """Poses of all geoms in several postures, in B.
 
     Attributes:
@@ -162,15 +162,15 @@ class Poses:
         """Least and largest coordinates of each geom's centre [m], each of shape (ngeom, 3)."""
         return self.positions.min(axis=0), self.positions.max(axis=0)
 
-    def take(self, which: NDArray[np.bool_]) -> "Poses":
+    def take(self, which: NDArray[np.bool_]) -> "GeomPoses":
         """The postures selected by a mask."""
         postures = [self.postures[row] for row in np.flatnonzero(which).tolist()]
-        return Poses(postures, self.positions[which], self.axes[which])
+        return GeomPoses(postures, self.positions[which], self.axes[which])
 
-    def __getitem__(self, index: int) -> "Poses":
+    def __getitem__(self, index: int) -> "GeomPoses":
         """The posture at this index alone."""
         one = slice(index, index + 1)
-        return Poses(self.postures[one], self.positions[one], self.axes[one])
+        return GeomPoses(self.postures[one], self.positions[one], self.axes[one])
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,12 +178,12 @@ class Nearest:
     """Part that comes nearest to a solid, and its distance.
 
     Attributes:
-        part: see `Part`.
+        part: see `CollisionBody`.
         distance: between the surfaces, negative where they overlap [m].
         posture: in which it does.
     """
 
-    part: Part
+    part: CollisionBody
     distance: float
     posture: Posture
 
@@ -193,7 +193,7 @@ class CollisionModel:
 
     Attributes:
         robot: see `Robot`.
-        parts: see `Part`; empty for a robot without shapes. limbs: all parts but the trunk.
+        parts: bodies with shapes; empty for a robot without. limbs: all of them but the trunk.
         nominal: the nominal posture alone.
     """
 
@@ -205,7 +205,7 @@ class CollisionModel:
         self.parts = parts_of(robot, self._model)
         self.limbs = tuple(part for part in self.parts if part.limb)
         self._part_of = {int(geom): part for part in self.parts for geom in part.geoms}
-        self._geoms_of: dict[tuple[Part, ...], NDArray[np.int64]] = {}
+        self._geoms_of: dict[tuple[CollisionBody, ...], NDArray[np.int64]] = {}
         self._fromto = np.zeros(6)
         # Probes, whose radii change, are not geoms of parts.
         self._radii = np.array(self._model.geom_rbound)
@@ -223,10 +223,10 @@ class CollisionModel:
     def poses(
         self,
         postures: Sequence[Posture],
-        parts: Sequence[Part] | None = None,
+        parts: Sequence[CollisionBody] | None = None,
         *,
         start: Posture = MappingProxyType({}),
-    ) -> Poses:
+    ) -> GeomPoses:
         """Poses of all geoms in these postures; joints that mimic others follow them.
 
         Args:
@@ -251,9 +251,9 @@ class CollisionModel:
         positions[:, geoms] = (into @ (positions[:, geoms] - origin)[..., None])[..., 0]
         axes[:, geoms] = (into @ turned).reshape(count, len(geoms), 9)
         whole = [{**start, **posture} for posture in postures] if start else postures
-        return Poses(whole, positions, axes)
+        return GeomPoses(whole, positions, axes)
 
-    def lowest(self, poses: Poses, part: Part) -> FloatArray:
+    def lowest(self, poses: GeomPoses, part: CollisionBody) -> FloatArray:
         """Lowest corner of the boxes around a part's shapes in each posture, in B, shape (n, 3)."""
         box = self._model.geom_aabb[part.geoms]
         signs = np.array(list(product((-1.0, 1.0), repeat=3)))
@@ -273,8 +273,8 @@ class CollisionModel:
     def nearest(
         self,
         probe: Probe,
-        poses: Poses,
-        parts: Sequence[Part],
+        poses: GeomPoses,
+        parts: Sequence[CollisionBody],
         *,
         within: float = FARTHEST,
         enough: float = -np.inf,
@@ -312,7 +312,11 @@ class CollisionModel:
         return Nearest(self._part_of[best[1]], least, poses.postures[best[0]])
 
     def near(
-        self, probes: Sequence[Probe], pose: Poses, parts: Sequence[Part], within: float
+        self,
+        probes: Sequence[Probe],
+        pose: GeomPoses,
+        parts: Sequence[CollisionBody],
+        within: float,
     ) -> list[Probe]:
         """Solids that may be within this distance of parts in a single posture, for `nearest`."""
         geoms = self._geoms(tuple(parts))
@@ -323,7 +327,7 @@ class CollisionModel:
         return [probe for probe, is_near in zip(probes, near.tolist(), strict=True) if is_near]
 
     def _candidates(
-        self, probe: Probe, poses: Poses, geoms: NDArray[np.int64], within: float
+        self, probe: Probe, poses: GeomPoses, geoms: NDArray[np.int64], within: float
     ) -> tuple[NDArray[np.int64], NDArray[np.int64], FloatArray]:
         """Indices of postures and geoms that may be near a solid; lower bounds of their distances.
 
@@ -345,7 +349,7 @@ class CollisionModel:
         near = bounds < within
         return rows[near], geoms[near], bounds[near]
 
-    def _geoms(self, parts: tuple[Part, ...]) -> NDArray[np.int64]:
+    def _geoms(self, parts: tuple[CollisionBody, ...]) -> NDArray[np.int64]:
         """Indices of the geoms of parts, the same array for the same parts."""
         if parts not in self._geoms_of:
             geoms = [geom for part in parts for geom in part.geoms]

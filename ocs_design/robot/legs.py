@@ -20,7 +20,7 @@ _BALL_SHARE = 0.25
 
 
 @dataclass(frozen=True, eq=False)
-class Foot:
+class LimbEnd:
     """The end of a limb.
 
     Attributes:
@@ -34,7 +34,7 @@ class Foot:
     radius: float
 
 
-def find_foot(chain: Chain, up: FloatArray) -> Foot:
+def find_foot(chain: Chain, up: FloatArray) -> LimbEnd:
     """The point of a limb that touches the ground when it reaches down.
 
     * A last body that is round about its endless joint is a wheel: the point is its centre.
@@ -51,7 +51,7 @@ def find_foot(chain: Chain, up: FloatArray) -> Foot:
     if body.joint is not None and is_wheel(body):
         axis, com = body.joint.axis, body.mass_properties.com
         reaches = [extent_of(solid_shapes(body), side) or 0.0 for side in _across(axis)]
-        return Foot(body.name, axis * (axis @ com), max(reaches))
+        return LimbEnd(body.name, axis * (axis @ com), max(reaches))
     if len(chain.driven) >= ANKLED_JOINTS:
         zero = chain.pose(np.zeros(len(chain.driven)))
         return _lowest_surface(body, -zero.end.rotation.T @ up)
@@ -62,7 +62,7 @@ def find_foot(chain: Chain, up: FloatArray) -> Foot:
     if balls and lowest is not None:
         ball = max(balls, key=lambda shape: float(down @ shape.position) + shape.size[0])
         if down @ ball.position + ball.size[0] > 0.95 * lowest:
-            return Foot(ball.link, ball.position, ball.size[0])
+            return LimbEnd(ball.link, ball.position, ball.size[0])
     link = max(body.links, key=lambda name: float(down @ body.links[name].position))
     origin = body.links[link].position
     length = float(np.linalg.norm(origin))
@@ -70,7 +70,7 @@ def find_foot(chain: Chain, up: FloatArray) -> Foot:
         return _lowest_surface(body, down)
     # Along the shank, not straight down: a mesh counts as a box, which is exact along its sides.
     beyond = (extent_of(solid_shapes(body), origin / length) or length) - length
-    return Foot(link, origin, min(max(beyond, 0.0), _BALL_SHARE * length))
+    return LimbEnd(link, origin, min(max(beyond, 0.0), _BALL_SHARE * length))
 
 
 def farthest_frame(body: Body) -> FloatArray:
@@ -104,13 +104,13 @@ def _across(axis: FloatArray) -> Sequence[FloatArray]:
     return [*sides, *(-side for side in sides)]
 
 
-def _lowest_surface(body: Body, down: FloatArray) -> Foot:
+def _lowest_surface(body: Body, down: FloatArray) -> LimbEnd:
     """Middle of the surfaces within a centimetre of the body's lowest point."""
     shapes = solid_shapes(body)
     lowest = extent_of(shapes, down)
     if lowest is None:
         link = max(body.links, key=lambda name: float(down @ body.links[name].position))
-        return Foot(link, body.links[link].position, 0.0)
+        return LimbEnd(link, body.links[link].position, 0.0)
     # For huge shapes, subtracting a centimetre does not change the number.
     reaches = ((shape, extent(shape, down)) for shape in shapes)
     touching = [shape for shape, reach in reaches if reach is not None and reach >= lowest - 0.01]
@@ -121,7 +121,7 @@ def _lowest_surface(body: Body, down: FloatArray) -> Foot:
             middle = middle + 0.5 * (ahead - behind) * side
     # A sole of several links, such as a sensor in each corner, is named after its body.
     links = {shape.link for shape in touching}
-    return Foot(links.pop() if len(links) == 1 else body.name, middle, 0.0)
+    return LimbEnd(links.pop() if len(links) == 1 else body.name, middle, 0.0)
 
 
 PARALLEL = 0.97

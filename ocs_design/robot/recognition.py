@@ -22,10 +22,10 @@ from ocs_design.robot.robot import (
     NO_LEGS,
     SPINE,
     Doubt,
+    Evidence,
     Leg,
     Reading,
     Recognition,
-    Sign,
 )
 from ocs_design.robot.tree import Tree
 
@@ -42,7 +42,7 @@ _SHOWN = 0.5
 _MOST_ANSWERS = 3
 """Most answers that are shown."""
 
-_STATED = (Sign("stated", "", holds=True),)
+_STATED = (Evidence("stated", "", holds=True),)
 
 _FIXED = "the robot is fixed to the world in its file"
 
@@ -259,18 +259,18 @@ class _Readings(Anatomy):
         index = self.tree.body_of_link[name]
         share = self.masses[index].mass / max(self.robot.mass, 1e-300)
         signs = (
-            Sign("no limbs look like legs", "some limbs look like legs", not likely),
-            Sign(
+            Evidence("no limbs look like legs", "some limbs look like legs", not likely),
+            Evidence(
                 "the trunk is the root of the file",
                 f"'{name}' is not the root of the file",
                 index == 0,
             ),
-            Sign(
+            Evidence(
                 "the trunk has a third of the mass",
                 f"'{name}' has only {share:.0%} of the mass",
                 share > 1 / 3,
             ),
-            Sign("the trunk has a sixth of the mass", "that is not much", share > 1 / 6),
+            Evidence("the trunk has a sixth of the mass", "that is not much", share > 1 / 6),
         )
         if trunk is not None:
             return Reading(name, (), signs[:1])
@@ -370,7 +370,7 @@ class _Readings(Anatomy):
 
     def _signs(
         self, chosen: Sequence[Limb], sets: Sequence[Sequence[Limb]], up: FloatArray
-    ) -> tuple[tuple[Sign, ...], tuple[Doubt, ...]]:
+    ) -> tuple[tuple[Evidence, ...], tuple[Doubt, ...]]:
         inside = self.inside(chosen)
         outside = [i for i in range(len(self.tree.bodies)) if i not in inside]
         heavy = [i for i in outside if self.masses[i].mass > 0.0]
@@ -381,42 +381,42 @@ class _Readings(Anatomy):
         deep = min(limb.depth for limb in chosen) > -lowest + 0.1 * reach_of(chosen)
         several = len(chosen) > 1
         signs = (
-            Sign(
+            Evidence(
                 "the limbs are mirror images",
                 "the limbs are not mirror images",
                 self.mirrored(chosen, up),
                 2.0,
             )
             if several
-            else Sign(
+            else Evidence(
                 "it is the robot's only limb",
                 "it is not the robot's only limb",
                 len(self.children.get(0, ())) == 1,
                 2.0,
             ),
-            Sign(
+            Evidence(
                 "stretched, they reach below everything else",
                 "something else is lower than their ends when stretched",
                 deep,
                 2.0,
             ),
-            Sign(
+            Evidence(
                 "they reach equally deep",
                 "they do not reach equally deep",
                 reach_alike(chosen, EVEN) if several else None,
             ),
-            Sign(
+            Evidence(
                 "their ends stand level in a posture of the file",
                 "in no posture of the file do their ends stand level below the hips",
                 self.together(chosen, up),
             ),
-            Sign(
+            Evidence(
                 "the centre of mass is between them",
                 "the centre of mass is not between them",
                 self.balanced(chosen, up),
             ),
-            Sign(NAMES, "they have names of arms", self.names(chosen), 1.5),
-            Sign("the robot is free in its file", _FIXED, self.floats()),
+            Evidence(NAMES, "they have names of arms", self.names(chosen), 1.5),
+            Evidence("the robot is free in its file", _FIXED, self.floats()),
         )
         doubts: list[Doubt] = []
         if len({limb.base for limb in chosen}) > 1:

@@ -77,7 +77,7 @@ JOINED = (
 
 
 @dataclass(frozen=True)
-class Sign:
+class Evidence:
     """A sign that a person would look at.
 
     Attributes:
@@ -118,7 +118,7 @@ class Reading:
 
     trunk: str
     legs: tuple[Leg, ...]
-    signs: tuple[Sign, ...]
+    signs: tuple[Evidence, ...]
     doubts: tuple[Doubt, ...] = ()
 
     @cached_property

@@ -14,7 +14,7 @@ from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray
 from ocs_design.simulation.desaturation import WheelBrake
 from ocs_design.simulation.engine import Engine, Physics
-from ocs_design.simulation.imperfections import Drives, Sensing
+from ocs_design.simulation.imperfections import ImperfectDrives, Sensing
 from ocs_design.simulation.scene import ANCHOR, whole_mass
 from ocs_design.simulation.schedule import (
     FlightClock,
@@ -186,7 +186,7 @@ class Batch:
         self._sensing = Sensing(own, self._lengths.tolist(), self._period) if own else None
         self._drives = None
         if own:
-            self._drives = Drives(
+            self._drives = ImperfectDrives(
                 own,
                 response=self._law.wheel_response,
                 instants=int(self._lengths[0]),

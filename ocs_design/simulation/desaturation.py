@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray, Table, stacked_columns
 from ocs_design.common.units import STANDARD_GRAVITY
-from ocs_design.requirement.froude import Scale
+from ocs_design.requirement.froude import FroudeScale
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.target import Target
 
@@ -42,7 +42,7 @@ class Desaturation(Table):
         cls, robot: Robot, standing: float, spin_inertia: float, gravity: float
     ) -> "Desaturation":
         """Settings with times scaled to the robot, and a torque too small to lift its feet."""
-        time = Scale.of(robot).time(STANDARD_GRAVITY)
+        time = FroudeScale.of(robot).time(STANDARD_GRAVITY)
         return cls(
             SETTLING * time,
             spin_inertia / (BRAKING * time),

@@ -165,7 +165,7 @@ def _with(table: Traceable, arrays: Mapping[str, Any], prefix: str = "") -> Trac
 
 
 @dataclass(frozen=True, eq=False)
-class Flown:
+class ManeuverConstants:
     """What differs between maneuvers.
 
     Attributes:
@@ -177,7 +177,7 @@ class Flown:
     brake: Desaturation | None
 
     @classmethod
-    def of(cls, world: World) -> "Flown":
+    def of(cls, world: World) -> "ManeuverConstants":
         """Law and brake of a world."""
         own = world.desaturation
         return cls(world.law, None if own is None else stacked_columns([own]))
@@ -214,7 +214,7 @@ def law_function(
     The function takes attitude, rate, wheel speeds, time on the ground, numbers of a target and
     constants of a maneuver, and returns the motor torques of a robot that has already lifted off.
     """
-    flown = [Flown.of(world) for world in worlds]
+    flown = [ManeuverConstants.of(world) for world in worlds]
     constants, columns = _Columns.of(flown, fixed=True), _Columns.of(targets)
     constant_row, own = constants.traced(flown[0])
     target_row, target = columns.traced(targets[0])

@@ -114,7 +114,7 @@ class Sensing:
         return believed / length
 
 
-class Drives:
+class ImperfectDrives:
     """Drives that turn commands into torques, for the m motors of each of n worlds."""
 
     def __init__(

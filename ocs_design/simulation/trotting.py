@@ -12,7 +12,7 @@ from ocs_design.common.arrays import FloatArray, interpolated
 from ocs_design.common.errors import SpecificationError
 from ocs_design.jumping.jump import LegTrajectory
 from ocs_design.jumping.legged_body import obstacle_to_jumping
-from ocs_design.requirement.froude import Scale
+from ocs_design.requirement.froude import FroudeScale
 from ocs_design.requirement.maneuver import Maneuver, Shove
 from ocs_design.robot.leg_geometry import LegGeometry, leg_geometries
 from ocs_design.robot.robot import Robot
@@ -87,7 +87,7 @@ def trot(
         SpecificationError: the robot lacks two diagonal pairs of point feet.
     """
     geometries = leg_geometries(robot.tree, robot.trunk, robot.legs)
-    height = STEP_HEIGHT * Scale.of(robot).length
+    height = STEP_HEIGHT * FroudeScale.of(robot).length
     time = np.arange(0.0, duration + _SAMPLE, _SAMPLE)
     growth = np.clip(time / start, 0.0, 1.0)
     # Completed share of each foot's swing; 0 in stance.

@@ -28,7 +28,7 @@ from ocs_design.sizing.trajectory.motion import Trajectory
 
 
 @dataclass(frozen=True, eq=False)
-class Link:
+class TrunkHinge:
     """One hinge between the floating base and the trunk.
 
     Attributes:
@@ -55,7 +55,7 @@ class TrunkChain:
 
     position: int
     velocity: int
-    links: tuple[Link, ...]
+    links: tuple[TrunkHinge, ...]
     end: FloatArray
     origin: FloatArray
 
@@ -76,7 +76,7 @@ class TrunkChain:
                 joint = model.joint(body.joint.name)
                 position, velocity = int(joint.qposadr[0]), int(joint.dofadr[0])
                 turn = quaternion(fixed)
-                links.append(Link(turn, body.joint.axis, position, velocity))
+                links.append(TrunkHinge(turn, body.joint.axis, position, velocity))
                 fixed = np.eye(3)
         end = tree.bodies[tree.body_of_link[robot.trunk]].links[robot.trunk]
         free = int(np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE)[0])

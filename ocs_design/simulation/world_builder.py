@@ -20,7 +20,7 @@ from ocs_design.export.physics import (
     standing_torques,
 )
 from ocs_design.jumping.jump import IN_FLIGHT, JumpPlan
-from ocs_design.requirement.froude import Scale
+from ocs_design.requirement.froude import FroudeScale
 from ocs_design.requirement.maneuver import Maneuver, Unforeseen
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.requirement.sections import ValidationSection
@@ -139,7 +139,7 @@ class WorldBuilder:
 
         flight = flight_time(maneuver, start, standing)
         # Time simulated after touchdown: one second for Solo12 on Earth.
-        settling = Scale.of(self._robot).time(maneuver.gravity or STANDARD_GRAVITY)
+        settling = FroudeScale.of(self._robot).time(maneuver.gravity or STANDARD_GRAVITY)
         weight = float(model.body_mass.sum()) * maneuver.gravity
         stands, trot = waiting(maneuver, self._robot, weight, settling)
         lift_off = 0.0 if legs is None else legs.lift_off
@@ -220,7 +220,7 @@ class WorldBuilder:
 
 def wheel_gains(robot: Robot) -> Gains:
     """The gains of Solo12 with times Froude-scaled to the robot: `K_p ~ 1/T^2`, `K_d ~ 1/T`."""
-    time = Scale.of(robot).time(STANDARD_GRAVITY)
+    time = FroudeScale.of(robot).time(STANDARD_GRAVITY)
     return Gains(PAPER_GAINS.stiffness / time**2, PAPER_GAINS.damping / time)
 
 

@@ -11,7 +11,7 @@ from wheels import driven_device, layout_device, paper_device
 
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.uncertainty import Constant, UncertaintySection
-from ocs_design.simulation.imperfections import Drives
+from ocs_design.simulation.imperfections import ImperfectDrives
 from ocs_design.simulation.motor_limits import USED, MotorLimits
 from ocs_design.simulation.scene import Wheels, compile_scene, robot_scene
 from ocs_design.simulation.simulate import simulate
@@ -151,7 +151,9 @@ def test_friction_takes_its_part_of_the_torque_once(solo12):
 
     def given(speed):
         asked = np.copysign(9.0, speed)
-        drives = Drives([robot.imperfections], response=response, instants=1, hold=5, step=1e-3)
+        drives = ImperfectDrives(
+            [robot.imperfections], response=response, instants=1, hold=5, step=1e-3
+        )
         _, real = drives.driven(0, robot.law.possible(asked, speed, 5e-3), speed)
         return real[0, 0], law.possible(asked, speed, 5e-3)[0]
 

@@ -14,7 +14,7 @@ from ocs_design.requirement.froude import (
     SOLO12_HEIGHT,
     SOLO12_PITCH_INERTIA,
     SOLO12_ROLL_INERTIA,
-    Scale,
+    FroudeScale,
     default_envelope,
     default_maneuvers,
     example_maneuvers,
@@ -53,7 +53,7 @@ def test_the_room_of_a_larger_robot_has_the_same_proportions(make_robot, solo12)
 def test_a_larger_robot_moves_alike(length, mass):
     """Equal Froude numbers, equal angles turned per own time, whatever the size and mass."""
     inertia = length**2 * mass
-    small, large = Scale(1.0, 1.0, 1.0), Scale(length, inertia, inertia)
+    small, large = FroudeScale(1.0, 1.0, 1.0), FroudeScale(length, inertia, inertia)
     tests = zip(maneuvers_of(small), maneuvers_of(large), strict=True)
     for one, other in tests:
         height, room = SOLO12_HEIGHT, SOLO12_HEIGHT * length
@@ -67,7 +67,7 @@ def test_a_larger_robot_moves_alike(length, mass):
 
 @given(length=RATIOS, gravity=st.floats(1.0, 25.0))
 def test_the_jump_keeps_its_froude_number(length, gravity):
-    scale = Scale(length, 1.0, 1.0)
+    scale = FroudeScale(length, 1.0, 1.0)
     push = maneuvers_of(scale, gravity)[0]
     forward, upward = push.takeoff_velocity
     height = SOLO12_HEIGHT
@@ -80,7 +80,7 @@ def test_the_jump_keeps_its_froude_number(length, gravity):
 def test_examples_take_as_much_of_a_robots_own_time_as_on_solo12(length, gravity):
     """sqrt(L / g): a shove of 0.1 s and 0.5 s to come to rest, a turn on the Moon, a stop."""
     own, on_earth = np.sqrt(length * np.array([9.81 / gravity, 1.0]))
-    with patch.object(Scale, "of", return_value=Scale(length, 1.0, 1.0)):
+    with patch.object(FroudeScale, "of", return_value=FroudeScale(length, 1.0, 1.0)):
         shove, turn, stop, *on_pivot = example_maneuvers(ANY, gravity)
     assert (shove.duration, shove.settling) == pytest.approx((0.1 * own, 0.5 * own))
     assert (turn.duration, stop.duration) == pytest.approx((3.0 * on_earth, 0.5 * own))
@@ -94,13 +94,13 @@ def test_examples_take_as_much_of_a_robots_own_time_as_on_solo12(length, gravity
 def test_without_legs_the_radius_of_gyration_scales(make_robot):
     robot = make_robot(2.5, (0.03, 0.05, 0.064), None)
     ratio = np.sqrt(0.144 / 7.5) / SOLO12_GYRATION_RADIUS
-    assert Scale.of(robot).length == pytest.approx(ratio)
+    assert FroudeScale.of(robot).length == pytest.approx(ratio)
     assert standing_height(robot) == pytest.approx(ratio * SOLO12_HEIGHT)
 
 
-def maneuvers_of(scale: Scale, gravity: float = 9.81):
+def maneuvers_of(scale: FroudeScale, gravity: float = 9.81):
     """The default maneuvers of a robot of this scale."""
-    with patch.object(Scale, "of", return_value=scale):
+    with patch.object(FroudeScale, "of", return_value=scale):
         return default_maneuvers(None, gravity)
 
 
@@ -111,4 +111,4 @@ def test_the_reference_is_solo12_as_the_tool_reads_it():
     assert robot.inertia[0, 0] == pytest.approx(SOLO12_ROLL_INERTIA, rel=1e-8)
     assert robot.inertia[1, 1] == pytest.approx(SOLO12_PITCH_INERTIA, rel=1e-8)
     assert robot.mass_properties.gyration_radius == pytest.approx(SOLO12_GYRATION_RADIUS, rel=1e-8)
-    assert Scale.of(robot) == Scale(1.0, 1.0, 1.0)
+    assert FroudeScale.of(robot) == FroudeScale(1.0, 1.0, 1.0)

@@ -12,7 +12,7 @@ from ocs_design.simulation.imperfections import (
     AIR_DENSITY,
     AIR_VISCOSITY,
     AirDrag,
-    Drives,
+    ImperfectDrives,
     Imperfections,
     Sensing,
     air_drag,
@@ -42,7 +42,7 @@ STEP, HOLD, INERTIA = 1e-3, 5, 7e-5
 
 
 def drives(*own, instants=2000):
-    return Drives(
+    return ImperfectDrives(
         own, response=np.full(len(own), 1.0 / INERTIA), instants=instants, hold=HOLD, step=STEP
     )
 

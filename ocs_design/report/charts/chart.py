@@ -140,7 +140,7 @@ class _Drawn:
 
 
 @dataclass(frozen=True, eq=False)
-class Line(_Drawn):
+class Curve(_Drawn):
     """A curve, or several broken by NaN."""
 
     dashed: bool = False
@@ -148,7 +148,7 @@ class Line(_Drawn):
 
 
 @dataclass(frozen=True, eq=False)
-class Area(_Drawn):
+class FilledArea(_Drawn):
     """A closed outline, filled faintly."""
 
 
@@ -174,7 +174,7 @@ class Rule:
     name: str = ""
 
 
-Mark: TypeAlias = Line | Area | Points | Rule
+Mark: TypeAlias = Curve | FilledArea | Points | Rule
 
 
 @dataclass(frozen=True)

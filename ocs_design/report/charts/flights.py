@@ -11,7 +11,7 @@ from ocs_design.common.units import to_unit
 from ocs_design.common.wording import in_unit
 from ocs_design.device.answers import MonteCarloRecord
 from ocs_design.parts.module import part_name
-from ocs_design.report.charts.chart import SERIES, Area, Axis, Chart, Ink, Line, Mark, Rule
+from ocs_design.report.charts.chart import SERIES, Axis, Chart, Curve, FilledArea, Ink, Mark, Rule
 from ocs_design.report.story import RecordedFlight
 from ocs_design.robot.stance import LANDING_TOLERANCE
 
@@ -42,7 +42,7 @@ def time_charts(scenario: str, flights: Sequence[RecordedFlight]) -> Iterator[Ch
         title: str,
         description: str,
         axis: tuple[str, str],
-        curves: Sequence[Line | Area],
+        curves: Sequence[Curve | FilledArea],
         *,
         of: Sequence[RecordedFlight] = flights,
         rules: Sequence[Rule] = (),
@@ -97,7 +97,7 @@ def time_charts(scenario: str, flights: Sequence[RecordedFlight]) -> Iterator[Ch
         if lowest is not None and highest is not None:
             there_and_back = np.concatenate([flight.time, flight.time[::-1]])
             outline = np.concatenate([highest, lowest[::-1]])
-            possible = [Area(there_and_back, outline, Ink.FAINT, "range of the motor")]
+            possible = [FilledArea(there_and_back, outline, Ink.FAINT, "range of the motor")]
         yield chart(
             "wheel_torque",
             "torque of the motors",
@@ -111,10 +111,10 @@ def time_charts(scenario: str, flights: Sequence[RecordedFlight]) -> Iterator[Ch
 
 def _about_axes(
     flights: Sequence[RecordedFlight], column: str, unit: str, *, thin: bool
-) -> list[Line]:
+) -> list[Curve]:
     """Curves of pitch and roll of each flight, dashed where it has no device."""
     return [
-        Line(
+        Curve(
             flight.time,
             in_unit(flight.columns[column.format(axis=axis, letter=letter)], unit),
             ink,
@@ -129,10 +129,10 @@ def _about_axes(
 
 def _of_wheels(
     flight: RecordedFlight, series: Callable[[str], FloatArray], unit: str, part: str, *, thin: bool
-) -> list[Line]:
+) -> list[Curve]:
     """Curve of each wheel or motor, every other one dashed."""
     return [
-        Line(
+        Curve(
             flight.time,
             in_unit(series(wheel), unit),
             ink,
@@ -172,7 +172,7 @@ def drive_charts(motor: Drive, flights: Sequence[RecordedFlight]) -> Iterator[Ch
         return
     # The path of each wheel up to the instant of the verdict; the rest is not part of the maneuver.
     paths = [
-        Line(
+        Curve(
             in_unit(flight.wheel_speed(wheel)[flight.driven], "rpm"),
             flight.wheel_torque(wheel)[flight.driven],
             ink,
@@ -199,9 +199,9 @@ def drive_charts(motor: Drive, flights: Sequence[RecordedFlight]) -> Iterator[Ch
         x = np.concatenate([speed_rpm, speed_rpm[::-1], speed_rpm[:1]])
         y = np.concatenate([high, low[::-1], high[:1]])
         if share == 1.0:
-            marks.append(Area(x, y, Ink.FAINT, "range of the drive"))
+            marks.append(FilledArea(x, y, Ink.FAINT, "range of the drive"))
         else:
-            marks.append(Line(x, y, Ink.FAINT, f"{share:.0%} of it", dashed=True, thin=True))
+            marks.append(Curve(x, y, Ink.FAINT, f"{share:.0%} of it", dashed=True, thin=True))
     if fastest <= 1.05 * widest:
         marks.append(Rule(-fastest, upright=True, ink=Ink.PLAIN))
         marks.append(Rule(fastest, upright=True, label="top speed", ink=Ink.PLAIN))
@@ -252,6 +252,6 @@ def distribution_charts(record: MonteCarloRecord, pivots: Collection[str] = ()) 
                 description=f"Histogram over all samples: {label}, with its median.",
                 x=Axis.around(label, unit, ends),
                 y=Axis("flights", "", 0.0, 1.1 * max(counts)),
-                marks=(Area(x, y, Ink.BLUE), Line(x, y, Ink.BLUE), *rules),
+                marks=(FilledArea(x, y, Ink.BLUE), Curve(x, y, Ink.BLUE), *rules),
                 height=_HISTOGRAM,
             )

@@ -14,7 +14,7 @@ from ocs_design.common.wording import in_unit
 from ocs_design.device.answers import Front, FrontPoint
 from ocs_design.device.records.selection import SelectionRecord
 from ocs_design.export.folder import FRONT_FILE, staged_folder
-from ocs_design.report.charts.chart import SERIES, Axis, Chart, Ink, Line, Mark, Points, Rule
+from ocs_design.report.charts.chart import SERIES, Axis, Chart, Curve, Ink, Mark, Points, Rule
 from ocs_design.report.charts.svg import write_charts
 
 _HEIGHT = 300.0
@@ -42,7 +42,7 @@ def front_chart(front: Front) -> Chart:
     values = _values(front, front.points)
     masses = np.array([1e3 * p.device.mass if p.device else np.nan for p in front.points])
     y = Axis.around("mass of the device", "g", masses, room=0.1)
-    marks: list[Mark] = [Line(values, masses, Ink.FAINT)]
+    marks: list[Mark] = [Curve(values, masses, Ink.FAINT)]
     drives: dict[str, list[FrontPoint]] = {}
     for point in front.feasible:
         if point.device is not None:
@@ -89,7 +89,7 @@ def reserve_charts(selection: SelectionRecord | None) -> Iterator[Chart]:
         y=Axis.around("mass of the device", "g", masses, room=0.15),
         marks=(
             Rule(1.0 / (1.0 - kept.reliability), upright=True, label="as specified", ink=Ink.FAINT),
-            Line(robots, masses, Ink.BLUE),
+            Curve(robots, masses, Ink.BLUE),
             Points(robots, masses, Ink.BLUE, labels=labels),
         ),
     )

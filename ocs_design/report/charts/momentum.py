@@ -12,7 +12,17 @@ from ocs_design.device.answers import PostureLine
 from ocs_design.device.layout import PAIR
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.parts.module import part_name
-from ocs_design.report.charts.chart import SERIES, Area, Axis, Chart, Ink, Line, Mark, Points, Rule
+from ocs_design.report.charts.chart import (
+    SERIES,
+    Axis,
+    Chart,
+    Curve,
+    FilledArea,
+    Ink,
+    Mark,
+    Points,
+    Rule,
+)
 from ocs_design.report.story import Story
 from ocs_design.requirement.bound import AXES, bound_curve
 
@@ -87,22 +97,22 @@ def ellipsoid_chart(design: OcsDesign) -> Chart:
     reach = 1.15 * float(max(np.linalg.eigvalsh(total)[-1], np.linalg.eigvalsh(alone)[-1]))
     arc = np.linspace(0.0, design.ocs.incidence, 40)
     marks: list[Mark] = [
-        Area(*_seen(_ellipse(total)), Ink.BLUE, "robot with device"),
-        Line(*_seen(_ellipse(total)), Ink.BLUE),
-        Line(*_seen(_ellipse(alone)), Ink.FAINT, "robot alone", dashed=True),
+        FilledArea(*_seen(_ellipse(total)), Ink.BLUE, "robot with device"),
+        Curve(*_seen(_ellipse(total)), Ink.BLUE),
+        Curve(*_seen(_ellipse(alone)), Ink.FAINT, "robot alone", dashed=True),
     ]
     inks = 2 * (Ink.VERMILION, Ink.PURPLE, Ink.GREEN, Ink.ORANGE)
     for index, (module, ink) in enumerate(zip(design.ocs.modules, inks, strict=False)):
         end = reach * np.array(module.axis[:2])
         line = _seen(np.stack([-end, end], axis=1))
         marks.append(
-            Line(*line, ink, f"axis of {part_name('wheel', module.name)}", dashed=index % 2 == 1)
+            Curve(*line, ink, f"axis of {part_name('wheel', module.name)}", dashed=index % 2 == 1)
         )
     seen = f"of the layout {str(design.ocs.layout)!r}"
     if design.ocs.axes == PAIR:
         # Arc from the lateral direction to the axis at alpha*.
         marks.append(
-            Line(*_seen(0.5 * reach * np.stack([np.sin(arc), np.cos(arc)])), Ink.PLAIN, thin=True)
+            Curve(*_seen(0.5 * reach * np.stack([np.sin(arc), np.cos(arc)])), Ink.PLAIN, thin=True)
         )
         seen = f"at α* = {degrees(design.ocs.incidence)}"
     return Chart(
@@ -145,12 +155,12 @@ def momentum_chart(story: Story) -> Chart:
     for incidence, dashed in zip(incidences, (False, True, True, True), strict=False):
         x, y = _zonotope(each_wheel * ocs.axes.axes(incidence)[:2])
         name = f"reach at {degrees(incidence)}" if incidence or ocs.axes == PAIR else "reach"
-        marks += [Area(x, y, Ink.FAINT), Line(x, y, Ink.FAINT, name, dashed=dashed)]
+        marks += [FilledArea(x, y, Ink.FAINT), Curve(x, y, Ink.FAINT, name, dashed=dashed)]
     for each, ink in zip(found, SERIES * 2, strict=False):
         roll, pitch = each.path.T
         most = int(np.argmax(np.hypot(roll, pitch)))
         # The path, and a ring at its largest momentum.
-        marks.append(Line(roll, pitch, ink, each.source))
+        marks.append(Curve(roll, pitch, ink, each.source))
         marks.append(Points(roll[most : most + 1], pitch[most : most + 1], ink, hollow=True))
     largest = len(ocs.modules) * each_wheel
     reach = 1.15 * max([largest, *(each.largest(axis) for each in found for axis in (0, 1))])
@@ -200,7 +210,7 @@ def bound_charts(story: Story) -> Iterator[Chart]:
         curves = np.where(np.isfinite(bound), bound, np.nan)
         lines = [
             # The curve of the design's own speed is solid.
-            Line(rates, curve, ink, rpm(speed), dashed=part != 1.0)
+            Curve(rates, curve, ink, rpm(speed), dashed=part != 1.0)
             for part, speed, curve, ink in zip(_SPEEDS, speeds, curves, SERIES, strict=False)
         ]
         # Closer to zero the curves fall without limit.

@@ -13,11 +13,11 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import MissingToolError, extra_command
 from ocs_design.export.templates import template_file
 from ocs_design.report.charts.chart import (
-    Area,
     Axis,
     Chart,
+    Curve,
+    FilledArea,
     Ink,
-    Line,
     Mark,
     Points,
     Rule,
@@ -186,7 +186,7 @@ class _Drawing:
     def _shape_of(self, mark: Mark) -> str:
         look = _look(mark)
         match mark:
-            case Line():
+            case Curve():
                 broken = np.isnan(mark.x) | np.isnan(mark.y)
                 pieces = np.split(np.arange(len(mark.x)), np.flatnonzero(broken))
                 wholes = [piece[~broken[piece]] for piece in pieces]
@@ -204,7 +204,7 @@ class _Drawing:
                     self._curves.append(np.stack(traced, axis=-1))
                 paths = "".join(map(_path, curves))
                 return f'<path class="{look}" d="{paths}"/>' if paths else ""
-            case Area():
+            case FilledArea():
                 path = _path(self._at(mark.x, mark.y), closed=True)
                 return f'<path class="{look}" d="{path}"/>'
             case Points():
@@ -293,7 +293,7 @@ def _sample(mark: Mark, x: float, y: float) -> str:
     look = _look(mark)
     if isinstance(mark, Points):
         return _disc(look, x + _SAMPLE / 2.0, y)
-    if isinstance(mark, Area):
+    if isinstance(mark, FilledArea):
         box = f'x="{x:.1f}" y="{y - 5.0:.1f}" width="{_SAMPLE:g}" height="10"'
         return f'<rect class="{look}" {box}/>'
     return f'<path class="{look}" d="M{x:.1f} {y:.1f}h{_SAMPLE:g}"/>'
@@ -302,9 +302,9 @@ def _sample(mark: Mark, x: float, y: float) -> str:
 def _look(mark: Mark) -> str:
     """Classes of a mark in the style sheet."""
     match mark:
-        case Line():
+        case Curve():
             return f"line {mark.ink}{' dashed' * mark.dashed}{' thin' * mark.thin}"
-        case Area():
+        case FilledArea():
             return f"area fill-{mark.ink}"
         case Points():
             return f"ring {mark.ink}" if mark.hollow else f"disc fill-{mark.ink}"

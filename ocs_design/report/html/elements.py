@@ -6,7 +6,7 @@ from html import escape
 
 from ocs_design.report.charts.chart import Chart
 from ocs_design.report.charts.svg import inline_svg
-from ocs_design.report.table import Table, Toned, plain, tied
+from ocs_design.report.table import CellTable, Toned, plain, tied
 
 _ESCAPED = {
     "<": "\\u003c",
@@ -62,7 +62,7 @@ def items(texts: Iterable[str], *, look: str = "") -> Markup:
     return element("ul", *found, class_=look) if found else Markup("")
 
 
-def table(caption: str, content: Table) -> Markup:
+def table(caption: str, content: CellTable) -> Markup:
     """Table with its caption; units are in brackets."""
     heads, looks = [], []
     for index, column in enumerate(content.columns):

@@ -17,7 +17,7 @@ from ocs_design.report.device import device_title, first_facts, share_of_robot
 from ocs_design.report.flights import flights_title, verdict_table
 from ocs_design.report.html.elements import Markup, element, items, table, void
 from ocs_design.report.monte_carlo import campaign_title, certificate_line, success_table
-from ocs_design.report.table import Table, columns
+from ocs_design.report.table import CellTable, columns
 from ocs_design.report.verdict import Headline, headline
 
 _WIDTH = "420"
@@ -45,7 +45,7 @@ def as_html(found: OcsDesign | Front | Validated, folder: Path | None = None) ->
             element(
                 "div",
                 shown,
-                table("Device", Table(columns("<", "<"), first_facts(found))),
+                table("Device", CellTable(columns("<", "<"), first_facts(found))),
                 style="display: flex; gap: 1em; align-items: center",
             ),
             table(f"Flights: {flights_title(found.validation)}", runs) if runs.rows else Markup(""),
@@ -65,7 +65,7 @@ def as_html(found: OcsDesign | Front | Validated, folder: Path | None = None) ->
         return element(
             "div",
             _image("svg+xml", svg_file(chart), chart.title),
-            table("Lightest devices", Table(columns(found.label, "mass", "<drive"), rows)),
+            table("Lightest devices", CellTable(columns(found.label, "mass", "<drive"), rows)),
         )
     parts, flown = [_head(found.robot, headline(found))], found.monte_carlo
     if flown is not None:

@@ -41,7 +41,7 @@ from ocs_design.report.html.elements import (
     table,
 )
 from ocs_design.report.story import Story
-from ocs_design.report.table import Table, columns
+from ocs_design.report.table import CellTable, columns
 
 PAPER = (
     "F. Roscia, A. Cumerlotti, A. Del Prete, C. Semini, M. Focchi, “Orientation Control System: "
@@ -99,7 +99,7 @@ def sizes_section(design: OcsDesign) -> Markup:
     return section(
         "sizes",
         "Sizes, tolerances and margins",
-        table("Wheel, as on its drawing", Table(columns("<size", "mm"), tuple(rows))),
+        table("Wheel, as on its drawing", CellTable(columns("<size", "mm"), tuple(rows))),
         note(inertia_note),
         table("Margins", limits.margin_table(margins)),
         note(limits.MARGIN_NOTE),
@@ -270,10 +270,10 @@ def assembly_section(story: Story) -> Markup:
         exploded,
         table(
             "Pieces of the whole device, by their numbers",
-            Table(columns("No.", "quantity", "<piece", "<made", "<file in cad/"), pieces),
+            CellTable(columns("No.", "quantity", "<piece", "<made", "<file in cad/"), pieces),
         ),
         *cut,
-        table("Screws", Table(columns(*_SCREWS), screws)) if screws else "",
+        table("Screws", CellTable(columns(*_SCREWS), screws)) if screws else "",
         *(
             joined(
                 (
@@ -296,7 +296,7 @@ def record_section(story: Story) -> Markup:
     design = story.design
     assumed = items(design.requirement.assumptions)
     read = items(design.robot.warnings, look="warnings")
-    hashes = Table(columns("<file", "<SHA-256"), tuple(design.files.items()))
+    hashes = CellTable(columns("<file", "<SHA-256"), tuple(design.files.items()))
     lines = (element("span", name) for name in ("Designed by", "Reviewed by", "Date"))
     motor, wheel = design.ocs.motor, design.ocs.flywheel
     sources = [("method", PAPER), ("motor", f"{motor.full_name}: {motor.source}")]

@@ -12,7 +12,7 @@ from ocs_design.common.wording import degrees, inertia, listed
 from ocs_design.device.answers import BoundAnswer, Exported, Initialized, LayoutsAnswer
 from ocs_design.device.findings import Examination, Finding, State
 from ocs_design.report.limits import BOUND_NOTE
-from ocs_design.report.table import Table, Tone, Toned, columns
+from ocs_design.report.table import CellTable, Tone, Toned, columns
 from ocs_design.report.text.layout import facts, files_written, heading, items, note, show
 
 
@@ -37,7 +37,7 @@ def print_bound(console: Console, answer: BoundAnswer) -> None:
         (rpm(speed), *(f"{100.0 * share:.3g}" if np.isfinite(share) else "-" for share in row))
         for speed, row in zip(answer.wheel_speeds, answer.curve, strict=True)
     )
-    show(console, Table(rates, rows))
+    show(console, CellTable(rates, rows))
 
 
 def print_layouts(console: Console, answer: LayoutsAnswer) -> None:
@@ -56,7 +56,7 @@ def print_layouts(console: Console, answer: LayoutsAnswer) -> None:
         for each in answer.layouts
     )
     names = ("<", "mass [g]", "<motor", "<survives one lost in", *axes, *lost)
-    show(console, Table(columns(*names), rows))
+    show(console, CellTable(columns(*names), rows))
     for each in answer.layouts:
         for text in (*each.open, *([each.without] if each.without else [])):
             note(console, f"{each.layout}: {text}")
@@ -115,7 +115,7 @@ def _print_findings(console: Console, title: str, findings: Iterable[Finding]) -
         for each in findings
     )
     console.print()
-    show(console, Table(heads, rows))
+    show(console, CellTable(heads, rows))
 
 
 def _print_cures(console: Console, title: str, findings: Iterable[Finding]) -> None:

@@ -17,7 +17,7 @@ from ocs_design.catalogue.materials import Material, materials, materials_to_jso
 from ocs_design.catalogue.motors import known_motors, motor_doubts, motors_to_json
 from ocs_design.common.errors import UsageError
 from ocs_design.common.units import format_quantity, to_unit
-from ocs_design.report.table import Table, columns
+from ocs_design.report.table import CellTable, columns
 from ocs_design.report.text.layout import heading, items, note, show
 
 BASIS_MARK = {"peak current": "+", "stall torque": "*"}
@@ -127,7 +127,7 @@ def print_motors(console: Console, found: Sequence[Motor]) -> None:
         )
         for motor in sorted(found, key=lambda motor: (motor.mass or math.inf, motor.name))
     )
-    show(console, Table(heads, rows))
+    show(console, CellTable(heads, rows))
     note(console, "+ k_t times the peak current   * stall torque, because no rating is given")
     heading(console, "Complete, by short-term torque")
     classes = []
@@ -137,7 +137,7 @@ def print_motors(console: Console, found: Sequence[Motor]) -> None:
         if of_class:
             limits = f"{least:g} to {most:g}" if most < math.inf else f"{least:g} and more"
             classes.append((limits, str(complete), str(len(of_class))))
-    show(console, Table(columns("<peak [N m]", "complete", "motors"), tuple(classes)))
+    show(console, CellTable(columns("<peak [N m]", "complete", "motors"), tuple(classes)))
     note(console, "size chooses among complete motors; with --motors-any among all")
     # Data that the others lack for building: one line for each set of gaps.
     by_gaps: dict[tuple[str, ...], list[str]] = {}
@@ -201,13 +201,13 @@ def print_materials(console: Console, found: Sequence[Material]) -> None:
 
 def _figures(
     found: Sequence[Gear | Material], figures: Sequence[tuple[str, str, str, str]]
-) -> Table:
+) -> CellTable:
     """Table of names and figures; each figure is given as heading, attribute, unit and format."""
     rows = (
         (row.name, *(_figure(getattr(row, name), unit, form) for _, name, unit, form in figures))
         for row in found
     )
-    return Table(columns("<name", *(head for head, *_ in figures)), tuple(rows))
+    return CellTable(columns("<name", *(head for head, *_ in figures)), tuple(rows))
 
 
 def _figure(value: float | None, unit: str, form: str) -> str:

@@ -154,8 +154,8 @@ class Steps:
         return cls() if getattr(shell, "kernel", None) is None else _NotebookSteps()
 
     @contextmanager
-    def step(self, label: str) -> Iterator["Step"]:
-        """One step; `Step.update` moves its bar."""
+    def step(self, label: str) -> Iterator["RunningStep"]:
+        """One step; `RunningStep.update` moves its bar."""
         start = time.perf_counter()
         with self._running(label) as current:
             yield current
@@ -171,10 +171,10 @@ class Steps:
             self._keep(Text(f"          {len(warnings) - MOST_DOUBTS} more{self._all_doubts}"))
 
     @contextmanager
-    def _running(self, label: str) -> Iterator["Step"]:
+    def _running(self, label: str) -> Iterator["RunningStep"]:
         """Show a step while it runs."""
         if self._quiet or not self._console.is_terminal:
-            yield Step()
+            yield RunningStep()
             return
         wide = self._console.width >= _WIDE
         with Progress(
@@ -186,7 +186,9 @@ class Steps:
             console=self._console,
             transient=True,
         ) as progress:
-            yield Step(partial(progress.update, progress.add_task(label, total=None), total=1.0))
+            yield RunningStep(
+                partial(progress.update, progress.add_task(label, total=None), total=1.0)
+            )
 
     def _keep(self, line: Text) -> None:
         """Print a line that stays."""
@@ -201,7 +203,7 @@ MOST_DOUBTS = 3
 """Number of warnings shown before the search; `inspect` shows all."""
 
 
-class Step:
+class RunningStep:
     """Handle of a running step. `note` is appended to its line when it is done."""
 
     def __init__(self, moved: Callable[..., None] | None = None) -> None:
@@ -226,10 +228,10 @@ class _ToldSteps(Steps):
         self._tell = tell
 
     @contextmanager
-    def _running(self, label: str) -> Iterator[Step]:
+    def _running(self, label: str) -> Iterator[RunningStep]:
         """Report a step at its start, as it advances, and at its end."""
         self._tell(label, 0.0)
-        yield Step(lambda completed: self._tell(label, completed))
+        yield RunningStep(lambda completed: self._tell(label, completed))
         self._tell(label, 1.0)
 
 
@@ -246,7 +248,7 @@ class _NotebookSteps(Steps):
         self._handle = display({"text/plain": ""}, raw=True, display_id=True)
 
     @contextmanager
-    def _running(self, label: str) -> Iterator[Step]:
+    def _running(self, label: str) -> Iterator[RunningStep]:
         """A bar that moves twice a second at most."""
         start = time.perf_counter()
 
@@ -257,7 +259,7 @@ class _NotebookSteps(Steps):
                 self._show(f"{now - start:6.2f} s  {label}  {'█' * round(24 * completed):<24}")
 
         self._show(f"           {label} ...")
-        yield Step(moved)
+        yield RunningStep(moved)
 
     def _keep(self, line: Text) -> None:
         self._lines.append(line.plain)

@@ -14,7 +14,7 @@ from ocs_design.common.units import format_quantity, to_unit
 from ocs_design.common.wording import grams, tenths
 from ocs_design.device.answers import Front
 from ocs_design.report.charts.chart import Axis
-from ocs_design.report.table import Cell, Table, Tone, Toned, columns
+from ocs_design.report.table import Cell, CellTable, Tone, Toned, columns
 from ocs_design.report.text.console import breaks_lines
 from ocs_design.report.text.layout import INDENT, facts, heading, items, note, show
 
@@ -67,7 +67,7 @@ def _same(front: Front) -> Mapping[str, str]:
     return {name: values.pop() for name, values in found.items() if len(values) == 1}
 
 
-def _table(front: Front) -> Table:
+def _table(front: Front) -> CellTable:
     """Mass, rim, incidence and drive at each value, or a note that there is no device."""
     names = [name for name in ("motor", "gear", "material") if name not in _same(front)]
     heads = columns(
@@ -92,7 +92,7 @@ def _table(front: Front) -> Table:
                 f"{np.degrees(device.incidence):.1f}",
             )
         )
-    return Table(heads, tuple(rows))
+    return CellTable(heads, tuple(rows))
 
 
 def _print_plot(console: Console, front: Front) -> None:

@@ -14,7 +14,7 @@ from rich.text import Text
 
 from ocs_design.device.records.design import DESIGN_FILE
 from ocs_design.export.folder import REPORT_FILE
-from ocs_design.report.table import Table, Tone, Toned, plain, tied
+from ocs_design.report.table import CellTable, Tone, Toned, plain, tied
 from ocs_design.report.text.console import breaks_lines
 
 INDENT = (0, 0, 0, 2)
@@ -79,7 +79,7 @@ def facts(console: Console, rows: Iterable[tuple[str, str]]) -> None:
     console.print(grid)
 
 
-def show(console: Console, table: Table, *, fewest: int = 0) -> None:
+def show(console: Console, table: CellTable, *, fewest: int = 0) -> None:
     """Print a table, indented like everything under a heading; with less padding if it is too wide.
 
     If the terminal is too narrow, words are wrapped, and if that is not enough, the last columns
@@ -103,7 +103,7 @@ def show(console: Console, table: Table, *, fewest: int = 0) -> None:
         note(console, f"The terminal is too narrow for {'; '.join(gone)}.")
 
 
-def _drawn(table: Table, console: Console) -> rich_table.Table:
+def _drawn(table: CellTable, console: Console) -> rich_table.Table:
     """Table of rich: names above units, words aligned left, numbers right."""
     rule = box.SIMPLE_HEAD if breaks_lines(console) else _PLAIN
     drawn = rich_table.Table(box=rule, pad_edge=False, show_edge=False, padding=(0, 1))
@@ -122,7 +122,7 @@ def _drawn(table: Table, console: Console) -> rich_table.Table:
     return drawn
 
 
-def _narrower(table: Table, excess: int) -> Table:
+def _narrower(table: CellTable, excess: int) -> CellTable:
     """Table that is narrower by so many characters: the widest texts are wrapped between words."""
     wordy = {
         index: max(

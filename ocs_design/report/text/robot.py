@@ -8,7 +8,7 @@ from ocs_design.common.wording import degrees_number
 from ocs_design.device.answers import Inspection
 from ocs_design.device.records.requirement import RobotRecord
 from ocs_design.report.device import heading_drift, robot_facts
-from ocs_design.report.table import Table, columns
+from ocs_design.report.table import CellTable, columns
 from ocs_design.report.text.layout import facts, heading, note, show, warn
 
 PAPER_ANGLE = (
@@ -59,12 +59,12 @@ def print_inspection(console: Console, inspection: Inspection, *, verbose: bool 
             )
             for each in found.likely
         )
-        show(console, Table(columns("<options", "confidence"), rows))
+        show(console, CellTable(columns("<options", "confidence"), rows))
     heading(console, "Incidence angle alpha* of the robot alone, by criterion")
     criteria = inspection.incidence_by_criterion.items()
     show(
         console,
-        Table(
+        CellTable(
             columns("<criterion", "deg"),
             tuple((name, degrees_number(angle, 3)) for name, angle in criteria),
         ),
@@ -73,7 +73,7 @@ def print_inspection(console: Console, inspection: Inspection, *, verbose: bool 
     heading(console, "Incidence angle (equal-rate) over postures")
     show(
         console,
-        Table(
+        CellTable(
             columns("<posture", "Ixx [kg m2]", "Iyy [kg m2]", "Izz [kg m2]", "alpha* [deg]"),
             tuple(
                 (
@@ -95,7 +95,7 @@ def print_joints(console: Console, robot: RobotRecord) -> None:
     """Print the value of every joint in the nominal posture."""
     heading(console, f"Joints at {robot.posture_name}")
     rows = ((name, f"{value:.4f}", degrees_number(value)) for name, value in robot.posture.items())
-    show(console, Table(columns("<joint", "rad or m", "deg"), tuple(rows)))
+    show(console, CellTable(columns("<joint", "rad or m", "deg"), tuple(rows)))
 
 
 def print_robot(console: Console, robot: RobotRecord, more: Iterable[tuple[str, str]] = ()) -> None:

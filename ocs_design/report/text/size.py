@@ -23,7 +23,7 @@ from ocs_design.report.device import (
     share_of_robot,
 )
 from ocs_design.report.monte_carlo import BARS
-from ocs_design.report.table import Table, columns
+from ocs_design.report.table import CellTable, columns
 from ocs_design.report.text.console import breaks_lines
 from ocs_design.report.text.layout import facts, files_written, heading, items, note, show
 from ocs_design.report.text.robot import print_joints, print_robot
@@ -218,7 +218,7 @@ def _print_flights(console: Console, design: OcsDesign, runs: Sequence[Run]) -> 
             plots, top = tilt_plots([run.series for run in pair], width)
             rows.append((*row, *plots, degrees_number(top, 0)))
         heads = columns("<tilt with", "<without", "full")
-        shown = Table((*shown.columns, *heads), tuple(rows))
+        shown = CellTable((*shown.columns, *heads), tuple(rows))
     show(console, shown)
     if plotted:
         times = listed([f"{run.series.time[-1]:.1f}" for run in runs[::2]])

@@ -9,13 +9,13 @@ from stories import TOUCHDOWN, design, flight, story
 
 from ocs_design.device.answers import (
     QUANTILES,
+    Histogram,
     MonteCarloRecord,
     PostureLine,
     ScenarioSummary,
-    Spread,
 )
 from ocs_design.monte_carlo.outcomes import share
-from ocs_design.report.charts.chart import Area, Ink, Line, Points, Rule
+from ocs_design.report.charts.chart import Curve, FilledArea, Ink, Points, Rule
 from ocs_design.report.charts.figures import all_charts
 from ocs_design.report.charts.flights import distribution_charts, drive_charts
 from ocs_design.report.charts.front import reserve_charts
@@ -47,7 +47,7 @@ def test_a_point_lies_on_the_bound_of_the_speed_that_its_wheels_reached():
     demand = replace(told.design.requirement, wheel_speed_max=fastest)
     told = replace(told, design=replace(told.design, requirement=demand))
     chart = next(bound_charts(told))
-    (own,) = [mark for mark in chart.marks if isinstance(mark, Line) and not mark.dashed]
+    (own,) = [mark for mark in chart.marks if isinstance(mark, Curve) and not mark.dashed]
     (point,) = [mark for mark in chart.marks if isinstance(mark, Points)]
     total, alone = (m[1][1] for m in (told.design.ocs.total_inertia, told.design.robot.inertia))
     # Of a momentum L the bound for the robot alone asks I_r d / (gamma - d) with d = L / I_tot.
@@ -67,7 +67,7 @@ def test_mass_against_reliability_is_drawn_by_the_robots_of_which_one_may_fail()
     assert np.all(np.diff(points.y) >= 0.0)
     flat = replace(told.design.selection.kept, curve=((0.5, 0.5), (0.999, 0.5)))
     (chart,) = reserve_charts(replace(told.design.selection, kept=flat))
-    (line,) = [mark for mark in chart.marks if isinstance(mark, Line)]
+    (line,) = [mark for mark in chart.marks if isinstance(mark, Curve)]
     assert line.y.tolist() == [500.0, 500.0]
     assert "No extra mass up to 99.9 %" in reserve_note(flat, 0.5)
     assert not list(reserve_charts(story(motor="none").design.selection))
@@ -87,7 +87,7 @@ def test_the_plane_holds_what_the_drive_can_give():
 
 def test_paths_in_the_plane_end_at_touchdown_and_are_of_wheels_that_flew():
     (chart,) = drive_charts(design().ocs.motor, [flight(), flight(ocs=False)])
-    paths = [mark for mark in chart.marks if isinstance(mark, Line) and mark.ink is not Ink.FAINT]
+    paths = [mark for mark in chart.marks if isinstance(mark, Curve) and mark.ink is not Ink.FAINT]
     time = flight().time
     assert [len(path.x) for path in paths] == [np.count_nonzero(time < TOUCHDOWN)] * 2
     assert not list(drive_charts(design().ocs.motor, [flight(ocs=False)]))
@@ -126,7 +126,7 @@ VALUES = np.radians(np.random.default_rng(1).gamma(2.0, 0.5, 500))
 
 def spread(values):
     counts, _ = np.histogram(values, bins=12)
-    return Spread(quantiles=tuple(np.quantile(values, QUANTILES)), counts=tuple(counts.tolist()))
+    return Histogram(quantiles=tuple(np.quantile(values, QUANTILES)), counts=tuple(counts.tolist()))
 
 
 def record(values):
@@ -142,7 +142,7 @@ def record(values):
 
 def test_the_area_of_a_histogram_is_that_of_its_flights():
     (chart,) = distribution_charts(record(VALUES))
-    (area,) = [mark for mark in chart.marks if isinstance(mark, Area)]
+    (area,) = [mark for mark in chart.marks if isinstance(mark, FilledArea)]
     degrees = np.degrees(VALUES)
     assert np.isclose(np.trapezoid(area.y, area.x), 500 * np.ptp(degrees) / 12)
     rules = {mark.label: mark.value for mark in chart.marks if isinstance(mark, Rule)}

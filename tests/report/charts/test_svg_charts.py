@@ -15,11 +15,11 @@ from stories import story
 from ocs_design.common.errors import MissingToolError
 from ocs_design.report.charts.chart import (
     MOST_POINTS,
-    Area,
     Axis,
     Chart,
+    Curve,
+    FilledArea,
     Ink,
-    Line,
     Points,
     Rule,
     thinned,
@@ -77,8 +77,8 @@ def test_units_are_as_long_on_both_axes_where_that_is_asked_for():
 def test_every_text_is_escaped_and_read_out():
     x = np.array([1.0, 2.0])
     marks = (
-        Line(x, x, Ink.BLUE, HOSTILE),
-        Area(x, x, Ink.SKY, "area"),
+        Curve(x, x, Ink.BLUE, HOSTILE),
+        FilledArea(x, x, Ink.SKY, "area"),
         Points(x, x, Ink.GREEN, labels=(HOSTILE, "b")),
         Rule(3.0, upright=True, label=HOSTILE),
         Rule(3.0, upright=False),
@@ -101,7 +101,7 @@ def test_a_file_has_its_own_colours_and_a_page_has_none():
 def test_a_line_is_broken_where_its_values_are():
     x = np.arange(6.0)
     y = np.array([1.0, 2.0, np.nan, 3.0, 4.0, 5.0])
-    assert path_of("line blue", inline_svg(chart(Line(x, y, Ink.BLUE)))).count("M") == 2
+    assert path_of("line blue", inline_svg(chart(Curve(x, y, Ink.BLUE)))).count("M") == 2
 
 
 def test_thinning_keeps_ends_and_peaks():
@@ -132,7 +132,7 @@ def test_words_that_would_lie_on_each_other_or_on_a_disc_give_way():
 def test_no_curve_strikes_the_words_of_its_points_through(rise):
     """Not a straight one either, of which only the ends are drawn."""
     x, y = np.array([0.5, 6.0]), np.array([5.0, 5.0 + rise])
-    svg = inline_svg(chart(Line(x, y, Ink.BLUE), Points(x, y, Ink.BLUE, labels=("50 %", "99 %"))))
+    svg = inline_svg(chart(Curve(x, y, Ink.BLUE), Points(x, y, Ink.BLUE, labels=("50 %", "99 %"))))
     slope = np.polyfit(*places(svg).T, 1)
     first, _ = words = notes(svg)
     assert [each.text for each in words] == ["50 %", "99 %"]
@@ -144,8 +144,8 @@ def test_no_curve_strikes_the_words_of_its_points_through(rise):
 
 def test_the_word_at_a_rule_stands_where_no_curve_is():
     x = np.linspace(0.0, 10.0, 200)
-    low = Line(x, np.where(x > 8.0, 4.0, 0.3), Ink.BLUE)
-    high = Line(x, np.full(200, 9.8), Ink.GREEN)
+    low = Curve(x, np.where(x > 8.0, 4.0, 0.3), Ink.BLUE)
+    high = Curve(x, np.full(200, 9.8), Ink.GREEN)
     root = ET.fromstring(inline_svg(chart(low, high, Rule(2.0, upright=True, label="touchdown"))))
     (word,) = (float(each.get("y")) for each in root.iter(f"{SVG}text") if each.text == "touchdown")
     top, bottom = map(float, root.get("data-y").split())
@@ -155,7 +155,7 @@ def test_the_word_at_a_rule_stands_where_no_curve_is():
 
 def test_where_curves_are_all_over_its_right_the_word_at_a_rule_stands_on_its_left():
     up = np.linspace(0.0, 10.0, 41)
-    curves = [Line(np.array([5.0, 9.0]), np.array([y, y]), Ink.BLUE) for y in up]
+    curves = [Curve(np.array([5.0, 9.0]), np.array([y, y]), Ink.BLUE) for y in up]
     svg = inline_svg(chart(*curves, Rule(5.0, upright=True, label="touchdown")))
     (word,) = notes(svg)
     assert word.get("text-anchor") == "end"
@@ -164,7 +164,7 @@ def test_where_curves_are_all_over_its_right_the_word_at_a_rule_stands_on_its_le
 def test_where_curves_are_everywhere_the_word_at_a_rule_stays_off_the_axis():
     """Its figures are below; a curve through the word is the lesser evil."""
     up = np.linspace(0.0, 10.0, 41)
-    curves = [Line(np.array([1.0, 6.0]), np.array([y, y]), Ink.BLUE) for y in up]
+    curves = [Curve(np.array([1.0, 6.0]), np.array([y, y]), Ink.BLUE) for y in up]
     svg = inline_svg(chart(*curves, Rule(2.0, upright=True, label="touchdown")))
     (word,) = notes(svg)
     axis = min(float(each.get("y")) for each in ticks_below(svg))
@@ -180,7 +180,9 @@ def test_a_rule_with_a_name_is_in_the_legend_once():
 def test_a_level_stretch_is_drawn_by_its_ends():
     x = np.linspace(0.0, 10.0, 300)
     shape = np.concatenate([x, x[::-1]]), np.concatenate([np.full(300, 8.0), np.full(300, 2.0)])
-    assert path_of("area fill-faint", inline_svg(chart(Area(*shape, Ink.FAINT)))).count("L") == 3
+    assert (
+        path_of("area fill-faint", inline_svg(chart(FilledArea(*shape, Ink.FAINT)))).count("L") == 3
+    )
 
 
 ENDS = st.tuples(st.floats(-1e6, 1e6), st.floats(1e-6, 1e7))

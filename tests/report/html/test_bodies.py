@@ -21,7 +21,7 @@ from ocs_design.report.bodies import ShownBody, Surface, read_bodies
 from ocs_design.report.charts.chart import SERIES
 from ocs_design.report.html.decimation import clustered, decimated
 from ocs_design.report.html.elements import Markup, data, element, items, table
-from ocs_design.report.table import Table, Tone, Toned, columns
+from ocs_design.report.table import CellTable, Tone, Toned, columns
 from ocs_design.robot.reader import read_robot
 
 UPRIGHT = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])
@@ -123,7 +123,7 @@ def test_no_triangle_is_without_area_or_there_twice(box):
     assert len(np.unique(np.sort(found.faces, axis=1), axis=0)) == len(found.faces)
 
 
-TABLE = Table(columns("<name", "time [s]"), (("torque", Toned("1.2", Tone.OPEN)),))
+TABLE = CellTable(columns("<name", "time [s]"), (("torque", Toned("1.2", Tone.OPEN)),))
 TEXT = st.text(st.characters(exclude_categories=["Cs", "Cc"]))
 
 
