@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 import trimesh
-from made_parts import PARTS, TUBE
+from made_parts import PARTS
 
 from ocs_design.export.meshes import Mesh, part_mesh
-from ocs_design.parts.solids import Part, hollow_cylinder
+from ocs_design.parts.solids import Part
 
 SECTIONS = (32, 64, 128, 256)
 ORDER_OF_ARCS, ORDER_OF_CIRCLES = 2.5, 3.8
@@ -45,21 +45,6 @@ def test_mesh_is_one_closed_body_that_converges_to_the_closed_form(part, record_
     assert order > (ORDER_OF_ARCS if part.name in WITH_ARCS else ORDER_OF_CIRCLES)
     assert inertia[0] < 1e-3
     assert inertia[-1] < FINEST
-
-
-def test_error_of_a_circle_s_polar_moment():
-    step = 2.0 * np.pi / 32
-    exact = TUBE.mass_properties().inertia[2, 2]
-    found = weighed(TUBE, 32).moment_inertia[2, 2] * 1e-6
-    assert (found / exact - 1.0) * 180.0 / step**4 == pytest.approx(1.0, rel=0.01)
-
-
-def test_solids_that_touch_become_one_body():
-    ring = hollow_cylinder(0.01, 0.02, 0.0, 0.01)
-    plate = hollow_cylinder(0.01, 0.015, 0.01, 0.012)
-    found = weighed(Part("stepped", 1000.0, (ring, plate)), 64)
-    assert found.body_count == 1
-    assert found.is_watertight
 
 
 def test_equal_points_become_one_vertex():

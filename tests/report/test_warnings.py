@@ -132,12 +132,6 @@ def test_a_push_asks_for_what_it_is():
     assert not list(coupling_notes(lopsided(0.5, 0.1, "disturbance")))
 
 
-def test_a_warning_under_that_heading_does_not_say_so_again():
-    found = design(MOTOR)
-    odd = replace(found, robot=replace(found.robot, warnings=("odd link",)))
-    assert "odd link" in all_warnings(odd)
-
-
 def test_with_v_and_in_the_report_everything_to_mind_is_told():
     found = changed(asked=1.7, saturation_torque=0.7, sha256="12ab", fitting=("glue the rim",))
     console = Console(file=StringIO(), width=4000)

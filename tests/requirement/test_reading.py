@@ -91,61 +91,49 @@ def test_maneuvers_fill_their_own_defaults_and_the_files_gravity():
     assert parse_specification(DROP, "x").maneuvers[0].gravity == 9.81
 
 
-def test_all_faults_are_told_at_once_each_with_its_key():
-    with pytest.raises(SpecificationError) as caught:
-        parse_specification(
-            """
-            fly = 1
-            [flywheel]
-            rmax = "30mm"
-            r_min = "30furlong"
-            h_max = "24V"
-            wall_min = "-2mm"
-            wheel_mass_max = true
-            material = 304
-            [ocs]
-            alpha = 40
-            alpha_criterion = "simultanous"
-            position = [0, 1]
-            [validation]
-            enabled = "yes"
-            seed = -1
-            [robot]
-            joints = 3
-            [[maneuver]]
-            kind = "drop"
-            name = "fall"
-            heigth = 1
-            pitch = "30deg"
-            [[maneuver]]
-            kind = "leap"
-            [[maneuver]]
-            name = "nothing"
-            """,
-            "my.toml",
+FAULTS = {
+    "": {"fly = 1": ("fly: ", "unknown key")},
+    "[flywheel]": {
+        'rmax = "30mm"': ("flywheel.rmax: ", "Did you mean 'r_max'?"),
+        'r_min = "30furlong"': ("flywheel.r_min: ", "unknown unit 'furlong'"),
+        'h_max = "24V"': ("flywheel.h_max: ", "voltage"),
+        'wall_min = "-2mm"': ("flywheel.wall_min: ", "must be positive"),
+        "wheel_mass_max = true": ("flywheel.wheel_mass_max: ", "not a number"),
+        "material = 304": ("flywheel.material: ", "not a text"),
+    },
+    "[ocs]": {
+        "alpha = 40": ("ocs.alpha: ", "Did you mean 40deg?"),
+        'alpha_criterion = "simultanous"': ("ocs.alpha_criterion: ", "mean 'simultaneous'?"),
+        "position = [0, 1]": ("ocs.position: ", "needs 3, 6, ... or 18"),
+    },
+    "[validation]": {
+        'enabled = "yes"': ("validation.enabled: ", "neither true nor false"),
+        "seed = -1": ("validation.seed: ", "whole number"),
+    },
+    "[robot]": {"joints = 3": ("robot.joints: ", "table")},
+    "[[maneuver]]\nkind = 'drop'\nname = 'fall'\npitch = '30deg'": {
+        "heigth = 1": ("maneuver.fall.heigth: ", "Did you mean 'height'?"),
+        "": ("maneuver.fall.height: ", "missing"),
+    },
+    "[[maneuver]]": {
+        "kind = 'leap'": (
+            "maneuver[1].kind: ",
+            "'leap' is unknown; one of disturbance, shove, drop, flip",
         )
+    },
+    "[[maneuver]]\nname = 'nothing'": {"": ("maneuver.nothing.kind: ", "missing")},
+}
+
+
+def test_all_faults_are_told_at_once_each_with_its_key():
+    text = "\n".join("\n".join((heading, *lines)) for heading, lines in FAULTS.items())
+    with pytest.raises(SpecificationError) as caught:
+        parse_specification(text, "my.toml")
+    expected = [told for lines in FAULTS.values() for told in lines.values()]
     problems = caught.value.problems
-    for start, word in (
-        ("fly: ", "unknown key"),
-        ("flywheel.rmax: ", "Did you mean 'r_max'?"),
-        ("flywheel.r_min: ", "unknown unit 'furlong'"),
-        ("flywheel.h_max: ", "voltage"),
-        ("flywheel.wall_min: ", "must be positive"),
-        ("flywheel.wheel_mass_max: ", "not a number"),
-        ("flywheel.material: ", "not a text"),
-        ("ocs.alpha: ", "Did you mean 40deg?"),
-        ("ocs.alpha_criterion: ", "Did you mean 'simultaneous'?"),
-        ("ocs.position: ", "needs 3, 6, ... or 18"),
-        ("validation.enabled: ", "neither true nor false"),
-        ("validation.seed: ", "whole number"),
-        ("robot.joints: ", "table"),
-        ("maneuver.fall.heigth: ", "Did you mean 'height'?"),
-        ("maneuver.fall.height: ", "missing"),
-        ("maneuver[1].kind: ", "'leap' is unknown; one of disturbance, shove, drop, flip"),
-        ("maneuver.nothing.kind: ", "missing"),
-    ):
+    for start, word in expected:
         assert [line for line in problems if line.startswith(start) and word in line], (start, word)
-    assert len(problems) == 17
+    assert len(problems) == len(expected)
     assert str(caught.value).startswith("my.toml has 17 faults:\n  ")
     assert caught.value.exit_code == 3
 

@@ -115,26 +115,6 @@ def test_drums_and_primitives():
             assert found.distance <= 1e-6
 
 
-def test_the_nearest_of_many_postures_is_the_least_of_all():
-    collision, drawn_cases = cases(SOLO12, 40)
-    postures = [posture for posture, _ in drawn_cases]
-    ball = Ball(np.array([0.1, 0.1, 0.15]), 0.04)
-    each = [
-        collision.nearest(ball, collision.poses([posture]), collision.parts) for posture in postures
-    ]
-    together = collision.nearest(ball, collision.poses(postures), collision.parts)
-    least = min(each, key=lambda nearest: nearest.distance)
-    assert together.distance == pytest.approx(least.distance, abs=1e-9)
-    assert together.posture == least.posture
-
-
-def test_nothing_nearer_than_asked():
-    collision = collision_model(SOLO12)
-    far = Ball(np.array([0.0, 0.0, 1.0]), 0.04)
-    assert collision.nearest(far, collision.nominal, collision.parts, within=0.1) is None
-    assert collision.nearest(far, collision.nominal, collision.parts) is not None
-
-
 def test_parts_know_the_joints_that_move_them():
     parts = {part.name: part for part in collision_model(SOLO12).parts}
     assert (parts["base_link"].limb, parts["base_link"].joints) == ("", ())
@@ -169,11 +149,13 @@ def test_what_is_left_out_as_far_off_is_no_nearer(name, within):
                 for index in range(len(poses.postures))
                 for part in collision.parts
             ]
-            least = min((each.distance for each in alone if each is not None), default=None)
+            near = [each for each in alone if each is not None]
             found = collision.nearest(probe, poses, collision.parts, within=within)
-            assert (found is None) == (least is None)
+            assert (found is None) == (not near)
             if found is not None:
-                assert found.distance == pytest.approx(least, abs=1e-7)
+                least = min(near, key=lambda each: each.distance)
+                assert found.distance == pytest.approx(least.distance, abs=1e-7)
+                assert found.posture == least.posture
             single = poses[0]
             near = collision.nearest(probe, single, collision.parts, within=within)
             kept = collision.near([probe], single, collision.parts, within)

@@ -34,10 +34,6 @@ def test_lower_stands_weigh_less_about_every_axis(rows):
     assert (np.diff(traces) > 0.0).all()
 
 
-def test_named_postures_are_there(rows):
-    assert {"nominal (stand)", "standing", "straight_standing"} <= set(rows)
-
-
 def test_named_postures_are_those_that_can_be_asked_for():
     """A1's knees cannot be straight: what does not name them leaves them at their limit."""
     robot = read_robot(ROBOTS / "a1_description/urdf/a1.urdf")
