@@ -83,7 +83,7 @@ def test_an_empty_root_is_refused():
         insert_before_end(b'<robot name="r"/>', ADDITION)
 
 
-@given(st.text(st.characters(codec="utf-8", exclude_categories=["C"])), st.sampled_from(ENCODINGS))
+@given(st.text("ab -<>&?!]é机\n"), st.sampled_from(ENCODINGS))
 def test_any_comment_behind_the_robot_is_kept(comment, encoding):
     if encoding == "iso-8859-1":
         comment = comment.encode("latin-1", "ignore").decode("latin-1")
