@@ -8,11 +8,11 @@ import pinocchio as pin
 import pytest
 from pinocchio_robots import configuration
 from robots import ROBOTS
+from weighed import assert_same, by_mujoco, by_pinocchio
 from wheels import braked_inertia
 
 from ocs_design.export.mjcf import export_robot_mjcf
 from ocs_design.export.robot_model import robot_model
-from ocs_design.robot.mass import MassProperties, combine
 from ocs_design.robot.reader import read_robot
 
 LEGGED = [
@@ -122,30 +122,17 @@ def seen_by_mujoco(model, robot):
     for name, value in robot.posture.items():
         data.joint(name).qpos[0] = value
     mujoco.mj_forward(model, data)
-    axes = data.ximat[1:].reshape(-1, 3, 3)
-    own = axes @ (model.body_inertia[1:, :, None] * axes.transpose(0, 2, 1))
-    bodies = zip(model.body_mass[1:], data.xipos[1:], own, strict=True)
-    trunk = data.body(robot.trunk)
-    turn = trunk.xmat.reshape(3, 3).T
-    return combine(MassProperties(*body) for body in bodies).moved(turn, -turn @ trunk.xpos)
+    return by_mujoco(model, data, robot.trunk)
 
 
 def seen_by_pinocchio(text, robot):
     """The same of a URDF, its wheels at rest."""
     model = pinocchio_model(text)
-    data, q = model.createData(), configuration(model, robot.posture)
-    pin.ccrba(model, data, q, np.zeros(model.nv))
-    pin.updateFramePlacements(model, data)
-    trunk = data.oMf[model.getFrameId(robot.trunk, pin.FrameType.BODY)]
-    com = trunk.actInv(pin.centerOfMass(model, data, q))
-    return MassProperties(data.Ig.mass, com, trunk.rotation.T @ data.Ig.inertia @ trunk.rotation)
+    return by_pinocchio(model, configuration(model, robot.posture), robot.trunk)
 
 
 def check_whole(seen, robot, device):
     """It is the robot with the braked device."""
     expected = braked_inertia(robot, device)
-    assert seen.mass == pytest.approx(expected.mass, rel=1e-9)
     assert expected.mass == pytest.approx(robot.mass + device.mass, rel=1e-12)
-    np.testing.assert_allclose(seen.com, expected.com, rtol=0, atol=1e-9)
-    scale = np.trace(expected.inertia)
-    np.testing.assert_allclose(seen.inertia, expected.inertia, rtol=0, atol=1e-9 * scale)
+    assert_same(seen, expected, 1e-9)

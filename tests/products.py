@@ -5,7 +5,6 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
-import pinocchio as pin
 from commands import Result
 
 from ocs_design.parts.carrier_plate import CarrierPlate
@@ -181,12 +180,3 @@ def equal_rate(inertia):
     """The incidence at which one wheel speed changes roll and pitch by the same rate [rad]."""
     across = coupling(inertia)
     return np.arctan2(inertia[0, 0] - across, inertia[1, 1] - across)
-
-
-def composite(model, posture):
-    """Mass, centre of mass and inertia about it with the joints held, by Pinocchio."""
-    data, q = model.createData(), pin.neutral(model)
-    for name, value in posture.items():
-        q[model.joints[model.getJointId(name)].idx_q] = value
-    pin.ccrba(model, data, q, np.zeros(model.nv))
-    return data.Ig.mass, data.com[0].copy(), data.Ig.inertia.copy()

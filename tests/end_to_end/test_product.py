@@ -11,7 +11,9 @@ import pytest
 import trimesh
 from commands import SOLO12, everything_in
 from exported import check_moments, check_wheels_in_pinocchio
-from products import FILES, composite, with_modules
+from pinocchio_robots import configuration
+from products import FILES, with_modules
+from weighed import by_pinocchio
 
 from ocs_design.actuation.motor import build_gaps
 from ocs_design.catalogue.motors import motors
@@ -116,11 +118,11 @@ def test_the_total_is_the_sum_of_robot_and_modules(document, device):
 
 def test_the_exported_urdf_is_the_design_to_pinocchio(document, device, exported):
     check_wheels_in_pinocchio(exported, device, document["robot"]["trunk"])
-    mass, com, inertia = composite(exported, document["robot"]["posture"])
+    found = by_pinocchio(exported, configuration(exported, document["robot"]["posture"]))
     ocs = document["ocs"]
-    assert mass == pytest.approx(ocs["total_mass"], rel=1e-9)
-    np.testing.assert_allclose(com, ocs["total_com"], rtol=0.0, atol=1e-9)
-    np.testing.assert_allclose(inertia, ocs["total_inertia"], rtol=1e-9, atol=1e-11)
+    assert found.mass == pytest.approx(ocs["total_mass"], rel=1e-9)
+    np.testing.assert_allclose(found.com, ocs["total_com"], rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(found.inertia, ocs["total_inertia"], rtol=1e-9, atol=1e-11)
 
 
 @pytest.mark.parametrize("name", ["robot/solo12_ocs.xml", "robot/solo12_ocs.urdf"])

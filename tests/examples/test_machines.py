@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 import pytest
 from scripts import script_at
+from weighed import by_mujoco
 
 from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia
 from ocs_design.requirement.reading import read_specification
@@ -86,16 +87,10 @@ def test_rex_hopper_is_the_sum_of_its_links():
     model = mujoco.MjModel.from_xml_string(REX_HOPPER_LINKS)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    com, inertia = data.subtree_com[0], np.zeros((3, 3))
-    for body in range(1, model.nbody):
-        turn = data.ximat[body].reshape(3, 3)
-        arm = data.xipos[body] - com
-        inertia += turn @ np.diag(model.body_inertia[body]) @ turn.T
-        inertia += model.body_mass[body] * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-    whole = standing.REX_HOPPER
-    assert whole.mass == pytest.approx(model.body_mass.sum(), abs=5e-5)
-    np.testing.assert_allclose(whole.inertia, inertia, atol=1e-6)
-    np.testing.assert_allclose(whole.com - [0.0, 0.0, 0.45], com, atol=2e-3)
+    links, whole = by_mujoco(model, data), standing.REX_HOPPER
+    assert whole.mass == pytest.approx(links.mass, abs=5e-5)
+    np.testing.assert_allclose(whole.inertia, links.inertia, atol=1e-6)
+    np.testing.assert_allclose(whole.com - [0.0, 0.0, 0.45], links.com, atol=2e-3)
 
 
 @pytest.mark.parametrize(

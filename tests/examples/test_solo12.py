@@ -6,7 +6,9 @@ from xml.etree import ElementTree
 import numpy as np
 import pinocchio
 import pytest
+from pinocchio_robots import configuration
 from robots import SOLO12
+from weighed import assert_same, by_pinocchio
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "solo12.urdf"
 TOLERANCE = 1e-9
@@ -35,34 +37,24 @@ def public():
 
 
 def composite(model, angle_of):
-    """Mass, centre of mass and inertia about it with the joints held, trunk at the origin."""
-    posture = pinocchio.neutral(model)
-    for index, name in enumerate(model.names):
-        if index > 1:
-            posture[model.joints[index].idx_q] = angle_of(*name.split("_"))
-    data = model.createData()
-    pinocchio.ccrba(model, data, posture, np.zeros(model.nv))
-    return data.Ig.mass, data.com[0].copy(), data.Ig.inertia.copy()
+    """With the joints held, trunk at the origin."""
+    angles = {name: angle_of(*name.split("_")) for name in model.names[2:]}
+    return by_pinocchio(model, configuration(model, angles))
 
 
 @pytest.mark.parametrize("posture", POSTURES)
 def test_composite_inertia_is_that_of_the_public_robot(example, public, posture):
-    mass, com, inertia = composite(example, POSTURES[posture])
-    expected_mass, expected_com, expected_inertia = composite(public, POSTURES[posture])
-    assert mass == pytest.approx(expected_mass, rel=TOLERANCE)
-    np.testing.assert_allclose(com, expected_com, rtol=0.0, atol=TOLERANCE)
-    scale = np.abs(expected_inertia).max()
-    np.testing.assert_allclose(inertia, expected_inertia, rtol=0.0, atol=TOLERANCE * scale)
+    found, expected = (composite(model, POSTURES[posture]) for model in (example, public))
+    assert_same(found, expected, TOLERANCE)
 
 
 def test_figures_of_the_theory(example):
     """The locked inertias that docs/theory.md quotes."""
-    _, _, zero = composite(example, POSTURES["zero"])
-    mass, com, stand = composite(example, POSTURES["stand"])
-    assert mass == pytest.approx(2.50000279, abs=1e-12)
-    assert np.diag(zero) == pytest.approx([0.0367786, 0.0705134, 0.0802918], abs=5e-8)
-    assert np.diag(stand) == pytest.approx([0.0300029, 0.0514912, 0.0680453], abs=5e-8)
-    assert com[2] == pytest.approx(-0.0240347, abs=5e-8)
+    zero, stand = (composite(example, POSTURES[name]) for name in ("zero", "stand"))
+    assert stand.mass == pytest.approx(2.50000279, abs=1e-12)
+    assert np.diag(zero.inertia) == pytest.approx([0.0367786, 0.0705134, 0.0802918], abs=5e-8)
+    assert np.diag(stand.inertia) == pytest.approx([0.0300029, 0.0514912, 0.0680453], abs=5e-8)
+    assert stand.com[2] == pytest.approx(-0.0240347, abs=5e-8)
 
 
 def test_names_and_joint_frames_are_those_of_the_public_robot(example, public):

@@ -6,6 +6,7 @@ import trimesh
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.integrate import solve_bvp
+from weighed import assert_same
 
 from ocs_design.common.frames import Placement, rotation_from_rpy
 from ocs_design.export.meshes import solid_mesh
@@ -26,13 +27,6 @@ LENGTHS = st.floats(0.01, 1.0)
 def weighed(solid, density):
     """Mass properties of a solid of that density [kg/m^3]."""
     return Part("solid", density, (solid,)).mass_properties()
-
-
-def assert_same(one: MassProperties, other: MassProperties, tolerance: float = 1e-12) -> None:
-    assert one.mass == pytest.approx(other.mass, rel=tolerance)
-    np.testing.assert_allclose(one.com, other.com, atol=tolerance)
-    largest = np.abs(other.inertia).max()
-    np.testing.assert_allclose(one.inertia, other.inertia, atol=tolerance * largest)
 
 
 @given(LENGTHS, LENGTHS, LENGTHS)

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from weighed import assert_same, by_mujoco
 
 from ocs_design.common.errors import RobotError, UsageError
 from ocs_design.common.frames import rotation_from_rpy
@@ -18,6 +19,7 @@ from ocs_design.robot.manual import (
     person,
     robot_by_hand,
 )
+from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.free_place import place_on_top
 
 SOLO12 = (0.0300029, 0.0514912, 0.0680453)
@@ -39,10 +41,9 @@ def boxed_by_mujoco(robot):
         mass=robot.mass,
     )
     model = spec.compile()
-    turn = np.zeros(9)
-    mujoco.mju_quat2Mat(turn, model.body_iquat[1])
-    axes = turn.reshape(3, 3)
-    return model.body_mass[1], model.body_ipos[1], axes @ np.diag(model.body_inertia[1]) @ axes.T
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    return by_mujoco(model, data)
 
 
 def test_the_box_of_solo12():
@@ -66,11 +67,8 @@ def test_the_box_has_the_mass_properties_that_were_given(density, sides, angles)
     inertia = turn @ np.diag([b + c, a + c, a + b]) @ turn.T * mass / 12.0
     upper = inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
     robot = robot_by_hand(mass, upper, com=(0.1, -0.2, 0.3))
-    found_mass, found_com, found_inertia = boxed_by_mujoco(robot)
-    scale = np.abs(inertia).max()
-    assert found_mass == pytest.approx(mass)
-    assert found_com == pytest.approx([0.1, -0.2, 0.3])
-    assert found_inertia == pytest.approx(inertia, abs=1e-9 * scale)
+    given = MassProperties(mass, [0.1, -0.2, 0.3], inertia)
+    assert_same(boxed_by_mujoco(robot), given, 1e-9)
     assert sorted(robot.tree.bodies[0].shapes[0].size) == pytest.approx(
         np.sort(sides) / 2, rel=1e-6
     )

@@ -3,6 +3,7 @@ import pinocchio as pin
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from weighed import assert_same
 
 from ocs_design.common.frames import rotation_about, rotation_from_rpy
 from ocs_design.common.quaternions import rotation_from_quaternion
@@ -27,12 +28,6 @@ def random_cloud(rng: np.random.Generator, count: int = 8) -> MassProperties:
 
 def random_rotation(rng: np.random.Generator) -> np.ndarray:
     return rotation_from_quaternion(rng.normal(size=4))
-
-
-def assert_same(a: MassProperties, b: MassProperties) -> None:
-    assert a.mass == pytest.approx(b.mass, rel=1e-13)
-    np.testing.assert_allclose(a.com, b.com, atol=1e-13)
-    np.testing.assert_allclose(a.inertia, b.inertia, atol=1e-12)
 
 
 @given(seeds)

@@ -8,10 +8,10 @@ import mujoco
 import numpy as np
 import pytest
 import trimesh
+from weighed import assert_same, by_mujoco
 
 from ocs_design.common.errors import RobotError
 from ocs_design.robot import mjcf_spec
-from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.mjcf import read_mjcf
 from ocs_design.robot.tree import JointKind, ShapeKind, Tree
 
@@ -65,48 +65,20 @@ def with_equality(inside: str) -> str:
     return ZOO.replace("<actuator>", f"<equality>{inside}</equality><actuator>")
 
 
-def by_mujoco(text: str, base: str, posture: dict[str, float], pose: np.ndarray) -> MassProperties:
-    """Of all bodies under `base`, in its frame, with the base at `pose`."""
-    model = mujoco.MjModel.from_xml_string(text)
-    data = mujoco.MjData(model)
-    data.qpos[:7] = pose
-    for name, value in posture.items():
-        data.qpos[model.jnt_qposadr[model.joint(name).id]] = value
-    mujoco.mj_kinematics(model, data)
-    root = model.body(base).id
-    bodies = np.flatnonzero(model.body_rootid == root)
-    masses, points = model.body_mass[bodies], data.xipos[bodies]
-    com = masses @ points / masses.sum()
-    inertia = np.zeros((3, 3))
-    for body, mass, arm in zip(bodies, masses, points - com, strict=True):
-        axes = data.ximat[body].reshape(3, 3)
-        inertia += axes @ np.diag(model.body_inertia[body]) @ axes.T
-        inertia += mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-    frame = data.xmat[root].reshape(3, 3)
-    return MassProperties(
-        masses.sum(), frame.T @ (com - data.xpos[root]), frame.T @ inertia @ frame
-    )
-
-
-def assert_same(ours: MassProperties, theirs: MassProperties, relative: float = 1e-12) -> None:
-    size = np.sqrt(np.trace(theirs.inertia) / theirs.mass)
-    assert ours.mass == pytest.approx(theirs.mass, rel=relative)
-    np.testing.assert_allclose(ours.com, theirs.com, atol=relative * size)
-    np.testing.assert_allclose(
-        ours.inertia, theirs.inertia, atol=relative * np.abs(theirs.inertia).max()
-    )
-
-
 @pytest.mark.parametrize("seed", range(3))
 def test_mass_com_and_inertia_are_those_of_mujoco(seed):
     rng = np.random.default_rng(seed)
     tree = read(ZOO)
     posture = {name: rng.uniform(-1, 1) for name in tree.joints}
-    turn = rng.normal(size=4)
-    pose = np.concatenate([rng.normal(size=3), turn / np.linalg.norm(turn)])
-    assert_same(
-        tree.locked_mass_properties(posture, "trunk"), by_mujoco(ZOO, "trunk", posture, pose)
-    )
+    model = mujoco.MjModel.from_xml_string(ZOO)
+    data = mujoco.MjData(model)
+    data.qpos[:7] = rng.normal(size=7)
+    for name, value in posture.items():
+        data.joint(name).qpos = value
+    mujoco.mj_kinematics(model, data)
+    bodies = np.flatnonzero(model.body_rootid == model.body("trunk").id)
+    theirs = by_mujoco(model, data, "trunk", bodies)
+    assert_same(tree.locked_mass_properties(posture, "trunk"), theirs)
 
 
 def test_bodies_and_joints_of_the_zoo():

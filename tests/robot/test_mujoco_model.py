@@ -12,6 +12,7 @@ from anatomy import tree_of
 from robots import ALL_URDFS, ROBOTS, SOLO12, one_of_each
 from urdf_text import inertial, link
 from urdf_text import robot as urdf
+from weighed import assert_same, by_mujoco
 
 from ocs_design.common.errors import RobotError
 from ocs_design.robot.manual import robot_by_hand
@@ -99,17 +100,6 @@ def posed(robot, built=None):
     return model, data
 
 
-def locked_in_mujoco(model, data):
-    """Mass, centre of mass and locked inertia about it in the root's frame, as MuJoCo has them."""
-    full = np.zeros((model.nv, model.nv))
-    mujoco.mj_fullM(model, data, full)
-    rotation = data.xmat[1].reshape(3, 3)
-    mass = model.body_subtreemass[1]
-    com = rotation.T @ (data.subtree_com[1] - data.xpos[1])
-    offset = com @ com * np.eye(3) - np.outer(com, com)
-    return mass, com, full[3:6, 3:6] - mass * offset
-
-
 def write(folder: Path, text: str) -> Path:
     path = folder / "robot.xml"
     path.write_text(text)
@@ -120,16 +110,16 @@ def write(folder: Path, text: str) -> Path:
 def test_mass_and_inertia_are_the_trees(path):
     robot = unposed_robot(path)
     built = build_spec(robot, visuals=False)
-    mass, com, inertia = locked_in_mujoco(*posed(robot, built))
+    model, data = posed(robot, built)
+    found = by_mujoco(model, data, 1)
     if path.stem in MENDED:
         assert built.warnings
-        assert mass == pytest.approx(robot.mass, rel=1e-7)
+        assert found.mass == pytest.approx(robot.mass, rel=1e-7)
         return
     assert built.warnings == ()
-    assert mass == pytest.approx(robot.mass, rel=1e-12)
-    np.testing.assert_allclose(com, robot.com, atol=1e-12)
-    scale = np.abs(robot.inertia).max()
-    np.testing.assert_allclose(inertia, robot.inertia, rtol=0.0, atol=1e-9 * scale)
+    assert_same(found, robot.mass_properties, 1e-9)
+    assert found.mass == pytest.approx(robot.mass, rel=1e-12)
+    np.testing.assert_allclose(found.com, robot.com, atol=1e-12)
 
 
 def test_joints_are_those_of_the_file():

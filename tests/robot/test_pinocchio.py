@@ -7,6 +7,7 @@ import pinocchio as pin
 import pytest
 from pinocchio_robots import configuration, free_model
 from robots import ALL_URDFS, ROBOTS, one_of_each
+from weighed import by_pinocchio
 
 from ocs_design.robot.tree import JointKind, Tree
 from ocs_design.robot.urdf import read_urdf
@@ -29,17 +30,12 @@ def random_posture(tree: Tree, rng: np.random.Generator) -> dict[str, float]:
 
 def worst_difference(model: pin.Model, tree: Tree, posture: dict[str, float]) -> float:
     """Largest of the relative differences of mass, centre of mass and locked inertia."""
-    data = model.createData()
-    q = configuration(model, posture)
-    pin.ccrba(model, data, q, np.zeros(model.nv))
-    com = pin.centerOfMass(model, data, q)
+    theirs = by_pinocchio(model, configuration(model, posture))
     ours = tree.locked_mass_properties(posture, tree.bodies[0].name)
-    theirs = data.Ig.inertia
-    gyration = np.sqrt(np.trace(theirs) / data.Ig.mass)
     return max(
-        abs(ours.mass - data.Ig.mass) / data.Ig.mass,
-        float(np.abs(ours.com - com).max() / gyration),
-        float(np.abs(ours.inertia - theirs).max() / np.abs(theirs).max()),
+        abs(ours.mass - theirs.mass) / theirs.mass,
+        float(np.abs(ours.com - theirs.com).max() / theirs.gyration_radius),
+        float(np.abs(ours.inertia - theirs.inertia).max() / np.abs(theirs.inertia).max()),
     )
 
 
