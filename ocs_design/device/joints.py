@@ -305,6 +305,14 @@ def rim_fit(device: Device) -> ShrinkFit | None:
     )
 
 
+def bonded_on_shaft(device: Device) -> bool:
+    """Whether the wheel's hub is bonded on the motor's shaft."""
+    mounting, web = device.motor.mounting, device.flywheel.web
+    if mounting is None or web is None or device.motor.gear != DIRECT.name:
+        return False
+    return mounting.rotor is None and mounting.shaft_diameter is not None
+
+
 def _shaft_joints(device: Device, web: Web) -> Iterator[Margin]:
     """Margins of the joint between wheel and motor."""
     drive, mounting = device.motor, device.motor.mounting

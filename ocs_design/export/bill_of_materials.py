@@ -11,16 +11,16 @@ from ocs_design.actuation.fasteners import STEEL, Fastening
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.device.device import Device, Flywheel
 from ocs_design.device.joints import (
+    bonded_on_shaft,
     counted_foot_screws,
     foot_hold,
     foot_screws,
-    joints_of,
     unheld_moment,
 )
 from ocs_design.device.records.device import Margin
 from ocs_design.device.solids import foot_of, motor_mount
 from ocs_design.export.assembly_notes import drive_notes
-from ocs_design.export.device_parts import pedestal_kinds, printed_parts, ring_fixture
+from ocs_design.export.device_parts import BLOCK, pedestal_kinds, printed_parts, ring_fixture
 from ocs_design.export.electrics import battery, controllers, wiring_parts
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.carrier_plate import block_part, mast_part, plate_part, sleeve_part
@@ -66,6 +66,7 @@ class BillRow:
         mass: mass of one [kg]; 0: not known.
         remark: how it is made, its purpose, and cautions.
         source: source of its figures; empty: they are computed here.
+        piece: key of the metal piece in the booklet's pictures (`Piece`); empty for others.
     """
 
     part: str
@@ -75,6 +76,7 @@ class BillRow:
     mass: float
     remark: str
     source: str = ""
+    piece: str = ""
 
 
 def write(subject: Subject, folder: Path) -> Notes:
@@ -119,7 +121,7 @@ def bill_rows(device: Device, margins: Sequence[Margin] = ()) -> Sequence[BillRo
             made = "3-D print, holds the motor by its back"
             rows.append(BillRow("cage", count, "PETG", size, caged[0], made))
         if device.guard_wall:
-            ring = guard_ring(foot.housing)
+            mass = guard_ring(foot.housing).mass()
             outside = foot.housing.inner_radius - GUARD_GAP
             inside = outside - device.guard_wall
             tall = foot.housing.rim_height + 2.0 * CLEARANCE
@@ -129,7 +131,8 @@ def bill_rows(device: Device, margins: Sequence[Margin] = ()) -> Sequence[BillRo
                 f"{_mm(2.0 * outside)} (0/-0.2), with epoxy in a drum of "
                 f"{_mm(2.0 * foot.housing.inner_radius)}; holds a burst rim"
             )
-            rows.append(BillRow("guard ring", count, "mild steel (S235)", size, ring.mass(), made))
+            steel = "mild steel (S235)"
+            rows.append(BillRow("guard ring", count, steel, size, mass, made, piece="guard"))
         # Screws of wheel and motor only if the catalogue has their threads.
         screwed = (each.fastening for each in mount.screwed)
         rows += [_screw_row(each, count) for each in (*screwed, LID_SCREWS)]
@@ -150,14 +153,14 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
     """Supports of the feet: plate, mast and sleeves, or pedestals, each with its screws."""
     plate = device.plate
     if plate is not None:
-        size = " x ".join(map(_mm, plate.sizes))
+        of, size = plate.material, " x ".join(map(_mm, plate.sizes))
         made = (
             "milled or cut by water jet to plate.pdf (outline: `export --formats dxf`), "
             f"neck {_mm(2.0 * plate.neck)}; "
             f"{len(plate.feet) // len(plate.rows)} threads {plate.foot_thread} for the feet"
         )
         mass = plate_part(plate.each[0]).mass()
-        yield BillRow("plate under the feet", len(plate.rows), plate.material, size, mass, made)
+        yield BillRow("plate under the feet", len(plate.rows), of, size, mass, made, piece="plate")
         mast, under = plate.mast, "plate"
         tube = f"tube {_mm(2.0 * plate.sleeve_radius)} x {_mm(plate.sleeve_wall)} wall"
         if mast is not None:
@@ -171,7 +174,7 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
                 f"{_mm(mast.back + plate.neck)}, welded, and a plate on {each}"
             )
             mass = mast_part(plate, mast).mass()
-            yield BillRow("mast", 1, plate.material, stock, mass, made)
+            yield BillRow("mast", 1, of, stock, mass, made, piece="mast")
             if plate.relief is not None:
                 low, high = plate.block
                 size = " x ".join(map(_mm, (mast.side, high - low, mast.off)))
@@ -180,15 +183,16 @@ def _support_rows(device: Device) -> Iterator[BillRow]:
                     "before the upright and drilled with it"
                 )
                 mass = block_part(plate, plate.relief).mass()
-                yield BillRow("block of the mast", 1, plate.material, size, mass, made)
+                yield BillRow("block of the mast", 1, of, size, mass, made, piece=BLOCK)
             made = f"cut to {_mm(mast.bore)}, in the upright around each screw"
             mass, count = sleeve_part(plate, mast.bore).mass(), len(plate.trunk)
-            yield BillRow("sleeve in the mast", count, plate.material, tube, mass, made)
+            yield BillRow("sleeve in the mast", count, of, tube, mass, made, piece="sleeves")
         for length in sorted({length for length in plate.sleeves if length > 0.0}):
             shims = ", or shim washers" if length < SHIM else ""
             made = f"cut to {_mm(length)}{shims}, between {under} and trunk"
             count, mass = plate.sleeves.count(length), sleeve_part(plate, length).mass()
-            yield BillRow(f"sleeve under the {under}", count, plate.material, tube, mass, made)
+            what = f"sleeve under the {under}"
+            yield BillRow(what, count, of, tube, mass, made, piece="sleeves")
         for held in plate.fastenings:
             yield _screw_row(held, 1)
     for kind in pedestal_kinds(device):
@@ -245,7 +249,7 @@ def _unweighed_rows(device: Device, margins: Sequence[Margin]) -> Iterator[BillR
     if fixture is not None:
         where = "3-D print ring_fixture.stl, one per ring: glue spoils it; not in the device"
         yield BillRow("fixture for ring and bell", len(device.modules), "PETG", "", 0.0, where)
-    elif any(joint.note.startswith("bonded") for joint in joints_of(device)):
+    elif bonded_on_shaft(device):
         where = (
             f"wheel on shaft; at least {BOND_STRENGTH / 1e6:g} MPa in shear on steel (ISO 10123); "
             "follow its maker's sheet"
@@ -311,7 +315,7 @@ def plain(text: str) -> str:
 
 def _wheel_rows(wheel: Flywheel, count: int) -> Iterator[BillRow]:
     """Rows of the wheel: one piece if rim and web are of one material, else a rim on its web."""
-    web, cuts = wheel.web, wheel.cuts
+    web, cuts, of = wheel.web, wheel.cuts, wheel.material
     rim = f"turned to {_mm(2.0 * wheel.outer_radius)} x {_mm(wheel.height)}"
     if cuts.chamfer:
         rim += f", edges {_mm(cuts.chamfer)} x 45 deg"
@@ -321,17 +325,18 @@ def _wheel_rows(wheel: Flywheel, count: int) -> Iterator[BillRow]:
     bore = f", bore {_mm(2.0 * wheel.inner_radius)}" if wheel.inner_radius > 0.0 else ""
     if web is None:
         stock = _stock(wheel.outer_radius, wheel.inner_radius, wheel.height)
-        yield BillRow("flywheel rim", count, wheel.material, stock, wheel.mass, rim + bore)
+        yield BillRow("flywheel rim", count, of, stock, wheel.mass, rim + bore, piece="flywheel")
     elif web.material == wheel.material:
         stock = _stock(wheel.outer_radius, 0.0, max(wheel.height, web.hub.height))
         made = f"{rim}, {_web_text(web)}"
-        yield BillRow("flywheel, one piece", count, wheel.material, stock, wheel.mass, made)
+        yield BillRow("flywheel, one piece", count, of, stock, wheel.mass, made, piece="flywheel")
     else:
         stock = _stock(wheel.outer_radius, wheel.inner_radius, wheel.height)
         seat = f"{rim}{bore}, seated on the web"
-        yield BillRow("flywheel rim", count, wheel.material, stock, wheel.rim_mass, seat)
+        yield BillRow("flywheel rim", count, of, stock, wheel.rim_mass, seat, piece="rim")
+        of, made = web.material, _web_text(web)
         stock = _stock(wheel.inner_radius, 0.0, max(web.thickness, web.hub.height))
-        yield BillRow("flywheel web and hub", count, web.material, stock, web.mass, _web_text(web))
+        yield BillRow("flywheel web and hub", count, of, stock, web.mass, made, piece="hub")
 
 
 def _web_text(web: Web) -> str:

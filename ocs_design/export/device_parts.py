@@ -122,3 +122,17 @@ def printed_parts(device: Device) -> tuple[Part, ...]:
     foot, cage = foot_of(device), motor_mount(device).cage
     caged = () if cage is None else (cage_part(cage),)
     return (*housing_parts(foot.housing), foot_part(foot), *caged)
+
+
+def printed_pieces(device: Device) -> Mapping[str, Part]:
+    """Housing, foot and cage, pedestals, and the fixture of a bonded ring, by file name.
+
+    Wheels alone get a housing but no cage.
+
+    Raises:
+        PartError: they cannot be made.
+    """
+    pieces = {f"housing_{part.name}": part for part in printed_parts(device)}
+    pieces |= {kind.name: kind.part for kind in pedestal_kinds(device)}
+    fixture = ring_fixture(device)
+    return pieces if fixture is None else {**pieces, fixture.name: fixture}

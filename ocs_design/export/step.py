@@ -53,8 +53,7 @@ from ocs_design.export.assembly.placed import placed_parts
 from ocs_design.export.device_parts import (
     metal_pieces,
     pedestal_kinds,
-    printed_parts,
-    ring_fixture,
+    printed_pieces,
     wheel_pieces,
 )
 from ocs_design.export.formats import Notes, Subject
@@ -85,13 +84,8 @@ def write(subject: Subject, folder: Path) -> Notes:
     place, with motor and gear as cylinders, and `device.step` all modules and their supports.
     """
     device = subject.device
-    printed = {f"housing_{part.name}": part for part in printed_parts(device)}
     metal = {**wheel_pieces(device.flywheel), **metal_pieces(device)}
-    printed |= {kind.name: kind.part for kind in pedestal_kinds(device)}
-    fixture = ring_fixture(device)
-    if fixture is not None:
-        printed[fixture.name] = fixture
-    for name, part in {**metal, **printed}.items():
+    for name, part in {**metal, **printed_pieces(device)}.items():
         (folder / f"{name}.step").write_bytes(step_bytes(part))
     (folder / "module.step").write_bytes(module_bytes(device))
     (folder / "device.step").write_bytes(device_bytes(device))

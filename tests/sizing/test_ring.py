@@ -267,6 +267,9 @@ def test_the_booklet_has_the_fixture_in_table_picture_and_steps():
     assert row.number == len(assembly.numbers)
     steps = next(each for each in chapters(assembly) if each.title.startswith("Steps")).texts
     assert any(f"Print the fixture ({row.number})" in text for text in steps)
+    # The fixture sets the height of a ring, and no strips of another thickness.
+    before = next(each for each in chapters(assembly) if each.title.startswith("Before")).texts
+    assert any("strips of 1.5 mm for gaps" in text for text in before)
     page = assembly_pages(assembly)[1]
     texts = [item.text for item in page if isinstance(item, Text)]
     assert str(row.number) in texts

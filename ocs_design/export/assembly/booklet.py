@@ -334,18 +334,14 @@ def _made(device: Device, name: str, bill: Sequence[BillRow]) -> tuple[str, str]
     of_housing = name in ("drum", "lid", "foot", "cage")
     if of_housing or name.startswith(("pedestal", "ring_fixture")):
         return "printed, PETG", f"{'housing_' if of_housing else ''}{name}.stl"
-    starts = {"rim": "flywheel rim", "hub": "flywheel web", "sleeves": "sleeve"}
-    start = starts.get(name, name)
-    row = next((each for each in bill if each.part.startswith(start)), None)
+    row = next(each for each in bill if each.piece == name)
     if name == "guard":
-        assert row is not None, "the bill has a row for the ring"
         return f"{row.material}, {row.stock}", "guard_ring.stl"
     cut = {"plate": "plate.pdf", "mast": "plate.pdf", "sleeves": "", BLOCK: "block.stl"}
     if name in cut:
-        stock = "" if row is None else f" from {row.material}, {row.stock}"
-        return f"{'milled' if name == BLOCK else 'cut'}{stock}", cut[name]
-    made = "turned" if row is None else f"turned from {row.stock}, {row.material}"
-    return made, "wheel.pdf"
+        way = "milled" if name == BLOCK else "cut"
+        return f"{way} from {row.material}, {row.stock}", cut[name]
+    return f"turned from {row.stock}, {row.material}", "wheel.pdf"
 
 
 def piece_rows(assembly: Assembly) -> Iterator[PieceRow]:

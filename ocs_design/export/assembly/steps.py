@@ -14,6 +14,7 @@ from ocs_design.device.joints import (
     RUN_OUT,
     SHAFT_JOINT,
     balance_of,
+    bonded_on_shaft,
     foot_hold,
     joints_of,
     rim_fit,
@@ -220,8 +221,7 @@ def _drive_steps(assembly: Assembly) -> Iterator[str]:
 def _height_strip(assembly: Assembly) -> float | None:
     """Thickness of strips that set a wheel's height on its shaft [m]; None if it is not bonded."""
     device = assembly.device
-    bonded = any(each.note.startswith("bonded") for each in joints_of(device))
-    if assembly.screws_of(BoltedJoint.WHEEL) or not bonded:
+    if not bonded_on_shaft(device):
         return None
     return CLEARANCE + (foot_of(device).housing.rim_height - device.flywheel.height) / 2.0
 
