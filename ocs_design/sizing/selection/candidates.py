@@ -39,7 +39,7 @@ from ocs_design.sizing.bound.rim_problem import (
 from ocs_design.sizing.lightest_module import ModuleShape, lightest_module_at
 from ocs_design.sizing.place import Size
 from ocs_design.sizing.selection.composite_inertia import CompositeInertia
-from ocs_design.sizing.selection.drives import Drives, Seat
+from ocs_design.sizing.selection.drives import Drives, HubFigures, Seat
 from ocs_design.sizing.selection.problem import SelectionProblem
 
 _NO_HEIGHT, _LEAST_BELL = 1e-9, 1e-3
@@ -102,16 +102,18 @@ class Candidates(Table):
         problem, drives = self.problem, self.drives
         limits = rim_limits(problem, self.material, drives.overspeed, drives.seat.reach)
         if problem.web:
-            stress = drives.lightened_stress
+            hub = drives.hub
             limits = limits_with_web(
                 limits,
-                drives.hub_radius,
+                hub.radius,
                 problem.cuts,
                 None if problem.web_material is None else problem.web_material.density,
-                drives.rim_height,
-                lightened=drives.lightened,
-                lightened_bore=drives.lightened_bore,
-                stretch_left=stretch_beside_holes(stress, problem.envelope.stress_safety),
+                hub.rim_height,
+                lightened=hub.lightened,
+                lightened_bore=hub.lightened_bore,
+                stretch_left=stretch_beside_holes(
+                    hub.lightened_stress, problem.envelope.stress_safety
+                ),
             )
         elif problem.on_bell:
             limits = _around_bells(self, limits)
@@ -152,7 +154,7 @@ class Candidates(Table):
         mass = shapes.rim_mass + shapes.web_mass + drives.hub_mass
         tall = np.maximum(height, seat.room)
         whole = (
-            round_body(mass, wheel, across + web + drives.hub_across * drives.web_most)
+            round_body(mass, wheel, across + web + drives.hub.across * drives.web_most)
             + self.shell.moments(outer, tall)
             + seat.posts.moments(height)
             + seat.by_wheel
@@ -279,44 +281,42 @@ def drives_of(
     """
     motors, gears = pairs.T
     kinds = np.zeros_like(motors) if webs is None else webs
-    figures: list[tuple[float, ...]] = []
+    lines: list[DriveLine] = []
+    hubs: list[HubFigures[Any]] = []
+    rotors: list[tuple[float, float]] = []
     # Where one drive fails, the others share its power.
     busy = max(problem.layout.tilting - (problem.requirement.detection is not None), 1)
+    top = problem.wheel_speed_max or np.inf
     for (index, gear_index), kind in zip(pairs.tolist(), kinds.tolist(), strict=True):
         motor, gear = problem.motors[index], problem.gears[gear_index]
         line = drive_line(motor, gear, problem.bus_voltage)
-        hub = problem.hub(motor, gear, problem.lightenings[kind]) or NO_HUB
-        beyond = hub.beyond_web(1.0)
-        rotor, top = motor.rotor_inertia or 0.0, problem.wheel_speed_max or np.inf
         gain = gear.ratio * gear.efficiency * (motor.torque_constant or np.inf)
         peak = float(line.torque_limit) / gain
-        figures.append(
-            (
-                float(line.stall_torque),
-                float(line.no_load_speed),
-                float(line.torque_limit),
-                min(float(line.speed_max), top),
-                gear.efficiency * power_less_friction(problem.supply, busy, motor, peak) / busy,
-                rotor_share(rotor, gear),
-                armature(rotor, gear),
-                beyond.mass,
-                hub.radius,
-                hub.rim_height_min,
-                hub.lightened,
-                hub.bore_min,
-                hub.lightened_stress,
-                beyond.axial_inertia,
-                beyond.transverse_inertia,
-                problem.web_densities.min(),
-                problem.web_densities.max(),
-            )
-        )
-    columns = np.array(figures, dtype=np.float64).reshape(len(figures), -1 if figures else 17)
-    line, others = DriveLine(*columns.T[:5].copy()), columns.T[5:].copy()
-    drives = Drives(motors, gears, kinds, _seats(problem, pairs), line, *others)
+        power = gear.efficiency * power_less_friction(problem.supply, busy, motor, peak) / busy
+        lines.append(replace(line, speed_max=np.minimum(line.speed_max, top), power_max=power))
+        rotor = motor.rotor_inertia or 0.0
+        rotors.append((rotor_share(rotor, gear), armature(rotor, gear)))
+        hub = problem.hub(motor, gear, problem.lightenings[kind])
+        hubs.append(HubFigures.of(hub or NO_HUB))
+    # One more row, which is left out: there may be no pairs.
+    rows = slice(len(pairs))
+    share, moved = np.array([*rotors, (0.0, 0.0)]).T
+    drives = Drives(
+        motor=motors,
+        gear=gears,
+        web=kinds,
+        seat=_seats(problem, pairs),
+        whole=stacked([*lines, DriveLine(0.0, 0.0, 0.0, 0.0)]).take(rows),
+        rotor_share=share[rows],
+        armature=moved[rows],
+        hub=stacked([*hubs, HubFigures.of(NO_HUB)]).take(rows),
+        web_least=np.full(len(pairs), problem.web_densities.min()),
+        web_most=np.full(len(pairs), problem.web_densities.max()),
+    )
     if not problem.web:
         return drives
-    return replace(drives, hub_radius=np.maximum(drives.hub_radius, drives.seat.head_reach))
+    radius = np.maximum(drives.hub.radius, drives.seat.head_reach)
+    return replace(drives, hub=replace(drives.hub, radius=radius))
 
 
 def _seats(problem: SelectionProblem, pairs: NDArray[np.intp]) -> Seat[FloatArray]:

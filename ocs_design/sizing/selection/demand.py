@@ -247,4 +247,4 @@ def column(inertia: TiltInertia) -> TiltInertia:
 
 def columns(line: DriveLine) -> DriveLine:
     """Voltage lines of n drives with a second array axis for incidences."""
-    return DriveLine(*(np.asarray(value)[:, None] for value in vars(line).values()))
+    return DriveLine(**{name: np.asarray(limit)[:, None] for name, limit in vars(line).items()})

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.slew import slew_profile
 from ocs_design.actuation.spin_root import capability
 from ocs_design.actuation.tilt_inertia import TiltInertia
@@ -32,7 +31,7 @@ def device_of(solved: Solved) -> Candidate:
         material=material,
         motor=motor,
         gear=gear,
-        line=DriveLine(*(float(values[0]) for values in vars(drives.whole).values())),
+        line=drives.whole.take(0),
         supply=problem.supply,
         hub=problem.hub(motor, gear, problem.lightenings[drives.web[0]]),
         cuts=limits.cuts,

@@ -12,6 +12,7 @@ from ocs_design.parts.cage import Posts
 from ocs_design.parts.joints import OVERSPEED
 from ocs_design.parts.moments import MassMoments, Real
 from ocs_design.parts.motor_mount import Behind
+from ocs_design.parts.rim import Hub
 from ocs_design.sizing.place import Size, module_size
 
 
@@ -44,6 +45,45 @@ class Seat(Table, Generic[Real]):
 
 
 @dataclass(frozen=True, eq=False)
+class HubFigures(Table, Generic[Real]):
+    """Hub of a wheel and holes of its web, as the selection needs them.
+
+    Attributes:
+        radius: of the hub, or of the screw heads beside it [m]; 0 without a web.
+        rim_height: least rim height with room for the hub's screws [m]; 0: any.
+        lightened: fraction of its web that holes remove. lightened_bore: least bore of a rim with
+            room for them [m]; 0: any. lightened_stress: see `Hub`.
+        volume: mass of the hub beyond its web, over its density [m^3].
+        spread: its share of the spin inertia. across: its inertia about any transverse axis; both
+            over its density [m^5].
+    """
+
+    radius: Real
+    rim_height: Real
+    lightened: Real
+    lightened_bore: Real
+    lightened_stress: Real
+    volume: Real
+    spread: Real
+    across: Real
+
+    @classmethod
+    def of(cls, hub: Hub) -> "HubFigures[float]":
+        """Figures of one hub."""
+        beyond = hub.beyond_web(1.0)
+        return HubFigures(
+            radius=hub.radius,
+            rim_height=hub.rim_height_min,
+            lightened=hub.lightened,
+            lightened_bore=hub.bore_min,
+            lightened_stress=hub.lightened_stress,
+            volume=beyond.mass,
+            spread=beyond.axial_inertia,
+            across=beyond.transverse_inertia,
+        )
+
+
+@dataclass(frozen=True, eq=False)
 class Drives(Table):
     """Motors with gears, one per row.
 
@@ -53,13 +93,7 @@ class Drives(Table):
         whole: voltage line and limits at the wheel, without reserve.
         rotor_share: rotor's share of the spin inertia [kg m^2].
         armature: inertia that the motor accelerates beyond the spin inertia [kg m^2].
-        hub_volume: mass of the wheel's hub, over its density [m^3].
-        hub_radius: of the hub, or of the screw heads beside it [m]; 0 without a web.
-        rim_height: least rim height with room for the hub's screws [m]; 0: any.
-        lightened: fraction of its web that holes remove. lightened_bore: least bore of a rim with
-            room for them [m]; 0: any. lightened_stress: see `Hub`.
-        hub_spread: hub's share of the spin inertia. hub_across: its inertia about any transverse
-            axis; both over its density [m^5].
+        hub: of the wheel.
         web_least, web_most: bounds of the density of web and hub [kg/m^3], over all materials of
             the problem until one is chosen.
     """
@@ -71,14 +105,7 @@ class Drives(Table):
     whole: DriveLine
     rotor_share: FloatArray
     armature: FloatArray
-    hub_volume: FloatArray
-    hub_radius: FloatArray
-    rim_height: FloatArray
-    lightened: FloatArray
-    lightened_bore: FloatArray
-    lightened_stress: FloatArray
-    hub_spread: FloatArray
-    hub_across: FloatArray
+    hub: HubFigures[FloatArray]
     web_least: FloatArray
     web_most: FloatArray
 
@@ -92,17 +119,17 @@ class Drives(Table):
     @property
     def hub_mass(self) -> FloatArray:
         """Least mass of the wheel's hub beyond its web [kg]."""
-        return np.minimum(*self._of_hub(self.hub_volume))
+        return np.minimum(*self._of_hub(self.hub.volume))
 
     @property
     def hub_mass_most(self) -> FloatArray:
         """Largest mass of the wheel's hub beyond its web [kg]."""
-        return np.maximum(*self._of_hub(self.hub_volume))
+        return np.maximum(*self._of_hub(self.hub.volume))
 
     @property
     def hub_inertia(self) -> FloatArray:
         """Least inertia of the wheel's hub about any axis [kg m^2]."""
-        return np.minimum(*self._of_hub(np.minimum(self.hub_spread, self.hub_across)))
+        return np.minimum(*self._of_hub(np.minimum(self.hub.spread, self.hub.across)))
 
     @property
     def mass(self) -> FloatArray:
@@ -118,7 +145,7 @@ class Drives(Table):
     @property
     def beside_rim(self) -> FloatArray:
         """Largest part of the spin inertia that rim and web need not provide [kg m^2]."""
-        return self.rotor_share + np.maximum(*self._of_hub(self.hub_spread))
+        return self.rotor_share + np.maximum(*self._of_hub(self.hub.spread))
 
     def _of_hub(self, figure: FloatArray) -> tuple[FloatArray, FloatArray]:
         """A figure per density at either density; negative where the hub replaces more web."""
