@@ -15,7 +15,6 @@ import numpy as np
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.turns import TurnTo
-from ocs_design.sizing.trajectory.boundary import boundary
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.plans import gentlest
 
@@ -36,7 +35,7 @@ def main() -> None:
         plant = Gyrostat(INERTIA, np.asarray(axes), spin_inertia, 0.0)
         for factor in FACTORS:
             turn = TurnTo(name="turn", pitch=np.pi / 6.0, duration=0.385 * factor, jump_height=9.0)
-            asked = boundary(turn, 0.3)
+            asked = turn.boundary(0.3)
             gentlest(asked, plant, LINE)  # warm
             start = time.process_time()
             planned = gentlest(asked, plant, LINE)

@@ -73,6 +73,27 @@ def vertical(quaternion: FloatArray) -> FloatArray:
     return found
 
 
+def vertical_of(attitude: FloatArray) -> FloatArray:
+    """The world's upward direction in B times the attitude's squared length, shape (..., 3)."""
+    w, x, y, z = np.moveaxis(attitude, -1, 0)
+    return np.stack(
+        [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), w * w - x * x - y * y + z * z], axis=-1
+    )
+
+
+def turned_into_world(attitude: FloatArray, vectors: FloatArray) -> FloatArray:
+    """Vectors of B in the world, shape (..., 3), for attitudes (..., 4)."""
+    seen = np.concatenate([np.zeros_like(vectors[..., :1]), vectors], axis=-1)
+    return product(product(attitude, seen), conjugate(attitude))[..., 1:]
+
+
+def upright(above: FloatArray) -> FloatArray:
+    """Attitude in which a direction of B points up, the nearest to level, shape (4,)."""
+    x, y, z = above / np.linalg.norm(above)
+    half = np.array([1.0 + z, y, -x, 0.0])
+    return np.asarray(half / np.linalg.norm(half))
+
+
 def tilt(quaternion: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Roll and pitch of the trunk from the vertical [rad], whatever its heading; shapes (...).
 

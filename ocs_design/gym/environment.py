@@ -18,9 +18,9 @@ from ocs_design.common.errors import OcsError, UsageError
 from ocs_design.common.files import AnyPath
 from ocs_design.export.film import Take, film_model, render_takes
 from ocs_design.report.text.console import Steps
-from ocs_design.requirement.maneuver import End, Maneuver, Shove
+from ocs_design.requirement.boundary import End
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.specification import Specification
-from ocs_design.requirement.turns import TurnTo
 from ocs_design.simulation.metrics import measure
 from ocs_design.simulation.piloted import PilotedFlight
 from ocs_design.simulation.run import Metrics
@@ -165,7 +165,7 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
             reward = float(sum(each is True for each in found.values()))
             return self._last, reward, True, False, {**found, "reason": verdict.reason}
         observed, reward = self._observed(), 0.0
-        self._landed |= pilot.touches and not isinstance(self._maneuver, Shove)
+        self._landed |= pilot.touches and not self._maneuver.on_feet
         if not self._landed:
             far = float(np.linalg.norm(self._left))
             reward, self._far = self._far - far, far
@@ -224,7 +224,7 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         """Target roll, pitch with whole turns, and heading at touchdown [rad]; NaN: free."""
         maneuver, turn = self._maneuver, self._world.turn
         roll, pitch = turn.end * turn.axis[:2]
-        if not isinstance(maneuver, TurnTo):
+        if not maneuver.heads:
             return np.array([roll, pitch, np.nan])
         if maneuver.end == End.AT_REST:
             return np.full(3, np.nan)

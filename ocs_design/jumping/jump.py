@@ -1,12 +1,10 @@
 """A specified jump, and the leg references that make it; importing this needs no solver."""
 
 from dataclasses import dataclass
-from math import sqrt
 from typing import NamedTuple
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.requirement.maneuver import Disturbance, Maneuver, TimedTurn
-from ocs_design.requirement.turns import TurnTo
+from ocs_design.requirement.maneuver import Maneuver
 
 
 @dataclass(frozen=True)
@@ -83,15 +81,4 @@ BALLISTIC = JumpPlans(IN_FLIGHT, IN_FLIGHT)
 
 def jump_of(maneuver: Maneuver) -> Jump | None:
     """Jump that a maneuver requires of the legs; None: it starts in the air."""
-    match maneuver:
-        case Disturbance():
-            forward, upward = maneuver.takeoff_velocity
-            return Jump(forward, upward, maneuver.gravity)
-        case TurnTo() if any(maneuver.rate) or maneuver.wheel_speed or not maneuver.gravity:
-            # No push-off is planned that ends with these, and none is needed in orbit.
-            return None
-        case TimedTurn():
-            upward = sqrt(2.0 * maneuver.gravity * maneuver.jump_height)
-            return Jump(0.0, upward, maneuver.gravity)
-        case _:
-            return None
+    return Jump(*maneuver.takeoff, maneuver.gravity) if maneuver.pushed_off else None

@@ -20,7 +20,7 @@ from ocs_design.device.answers import (
 )
 from ocs_design.monte_carlo.campaign import Campaign
 from ocs_design.monte_carlo.outcomes import FAULTS, Outcomes, share, shares
-from ocs_design.requirement.maneuver import Flip, Maneuver, Shove
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.simulation.scenario import fly
 from ocs_design.simulation.verdict import Fault, ends_anyhow, landing_attitude, off_asked
@@ -43,9 +43,9 @@ def attitude_error(outcomes: Outcomes, maneuver: Maneuver, number: int) -> Float
     if ends_anyhow(maneuver):
         return np.full(len(roll), np.nan)
     error = off_asked(roll, pitch, maneuver)
-    if isinstance(maneuver, Flip):
+    if maneuver.turns_over:
         turned = outcomes.metric("turned_angle")[:, number]
-        error = np.maximum(error, np.abs(turned - maneuver.angle))
+        error = np.maximum(error, np.abs(turned - maneuver.angles[1]))
     _, _, heading = landing_attitude(maneuver)
     if heading is not None:
         off = outcomes.metric("heading_drift")[:, number] - heading
@@ -224,7 +224,7 @@ def summarised(campaign: Campaign, outcomes: Outcomes, asked: int) -> MonteCarlo
                 advice=advice(outcomes, maneuver, number)
                 or standing_advice(campaign, outcomes, number),
                 level=None
-                if isinstance(maneuver, Shove)
+                if maneuver.on_feet
                 else int(np.isin(codes, [0, 1 + FAULTS.index(Fault.STANDING)]).sum()),
                 stands=None
                 if flight.can_stand is None

@@ -13,6 +13,7 @@ from ocs_design.common.arrays import FloatArray, stacked_columns
 from ocs_design.device.bodies import PREFIX
 from ocs_design.device.device import Device
 from ocs_design.device.layout import Layout
+from ocs_design.requirement.boundary import Push
 from ocs_design.requirement.froude import standing_height
 from ocs_design.requirement.uncertainty import (
     Distribution,
@@ -24,7 +25,6 @@ from ocs_design.requirement.uncertainty import (
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.imperfections import AirDrag, Imperfections
-from ocs_design.simulation.launch import Push
 from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.schedule import SURE
 from ocs_design.simulation.target import StoppedDrive

@@ -18,8 +18,7 @@ from ocs_design.device.records.flights import (
 )
 from ocs_design.device.records.requirement import DemandRecord
 from ocs_design.report.table import Cell, CellTable, Tone, Toned, columns
-from ocs_design.requirement.maneuver import Disturbance, Flip, Maneuver
-from ocs_design.requirement.turns import TurnTo
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.simulation.run import UPRIGHT_TILT
 from ocs_design.simulation.verdict import ends_anyhow, landing_attitude, off_asked
@@ -113,12 +112,12 @@ def short_verdict(run: ValidationRecord, maneuver: Maneuver | None) -> Toned:
     roll, pitch = _angles(found, "touchdown_{}")
     # As in `judge`.
     angle, what = max(abs(roll), abs(pitch)), ""
-    if isinstance(maneuver, Flip):
+    if maneuver is not None and maneuver.turns_over:
         angle, what = abs(found["turned_angle"] or 0.0), " turned"
     elif found["touchdown_time"] == found["lift_off_time"]:
         # A push on a standing robot.
         angle, what = float(np.hypot(*_angles(found, "{}_swing"))), " swing"
-    elif isinstance(maneuver, TurnTo):
+    elif maneuver is not None and maneuver.heads:
         if ends_anyhow(maneuver):
             angle, what = found.get("touchdown_rate") or 0.0, " deg/s"
         elif any(landing_attitude(maneuver)[:2]):
@@ -288,11 +287,9 @@ def jump_remark(design: OcsDesign) -> str:
     told = []
     for run in design.validation:
         maneuver, rise = asked.get(run.scenario), run.metrics.get("rise")
-        # A vertical push in flight also changes the height.
-        pushed = isinstance(maneuver, Disturbance) and maneuver.velocity_change[2] != 0.0
-        if not run.ocs or maneuver is None or not maneuver.lift_off or not rise or pushed:
+        height = 0.0 if maneuver is None else maneuver.rise
+        if not run.ocs or not rise or not height:
             continue
-        height = maneuver.lift_off**2 / (2.0 * maneuver.gravity)
         if abs(rise / height - 1.0) > JUMP_OFF:
             told.append(
                 f"{run.scenario} {rise:.3f} m for {height:.3f} m ({rise / height - 1.0:+.1%})"

@@ -2,9 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import cycle
-from math import pi, remainder
-
-import numpy as np
+from math import inf
 
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.actuation.tilt_inertia import TiltInertia
@@ -18,19 +16,9 @@ from ocs_design.requirement.device_sections import (
     FlywheelSection,
     OcsSection,
 )
-from ocs_design.requirement.maneuver import (
-    Disturbance,
-    Drop,
-    Flip,
-    Maneuver,
-    TimedTurn,
-    Unforeseen,
-)
-from ocs_design.requirement.pivoted import Balance, Pivoted, StandUp
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.sections import TURNS, WORDS
 from ocs_design.requirement.specification import Specification
-from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.requirement.vocabulary import (
     ALL_LAYOUTS,
     ALUMINIUM_WEB,
@@ -40,7 +28,6 @@ from ocs_design.requirement.vocabulary import (
     MORE_PAIRS,
     NO_MOTOR,
     NO_WEB,
-    ORTHOGONAL,
     PAIR,
     PYRAMID,
     RING,
@@ -101,7 +88,8 @@ def contradictions(specification: Specification) -> Iterator[str]:
     if specification.maneuvers and specification.requirement.maneuvers is not None:
         yield "requirement.maneuvers: contradicts the [[maneuver]] tables"
     yield from _without_gravity(specification)
-    yield from _too_short_flights(specification.maneuvers)
+    for maneuver in specification.maneuvers:
+        yield from maneuver.contradictions()
 
 
 def _pointless(
@@ -128,36 +116,6 @@ def _empty_room(stated: FlywheelSection, limits: Mapping[str, float | None]) -> 
         yield f"flywheel: {limit('h_max')}, is below {limit('h_min')}"
 
 
-def _off_its_pivot(maneuver: Pivoted, stated: OcsSection) -> Iterator[str]:
-    """What the pivot or these wheels do not allow, one line each."""
-    where, axis = f"maneuver.{maneuver.name}", maneuver.axis
-    tilt = float(np.linalg.norm(maneuver.tilt))
-    if tilt > pi / 2.0:
-        yield (
-            f"{where}: tilted by {format_quantity(tilt, 'deg')}, it would be below its pivot: "
-            "90 deg at most"
-        )
-    if axis is None:
-        axes = np.reshape(stated.axes or (), (-1, 3))[:, :2]
-        alone = (
-            np.linalg.matrix_rank(axes) < len(axes.T) if len(axes) else stated.layout == "single"
-        )
-        if alone:
-            yield (
-                f"{where}: on a point it falls about roll and pitch, but these wheels act about "
-                "only one: give the edge that it stands on, or an ocs.layout with more wheels"
-            )
-        return
-    if abs(axis[2]) > _LEVEL:
-        yield f"{where}.edge: must be level in the trunk's frame, so its z must be 0"
-    if tilt and abs(abs(maneuver.tilt @ axis) - tilt) > _LEVEL:
-        along = ", ".join(f"{each:.3g}" for each in axis)
-        yield (
-            f"{where}: roll and pitch tilt it about an axis other than the edge, which is along "
-            f"({along}): it can turn about its edge only"
-        )
-
-
 def _idle(requirement: Requirement, stated: OcsSection) -> Iterator[str]:
     """Maneuvers that require nothing of the device, one line each.
 
@@ -168,48 +126,13 @@ def _idle(requirement: Requirement, stated: OcsSection) -> Iterator[str]:
     if not requirement.maneuvers:
         yield "requirement: nothing is required: add a maneuver, rate_change or spin_inertia"
     for each in requirement.maneuvers:
-        yaws = isinstance(each, TurnTo) and any(each.rate) and _acts_about_vertical(stated)
-        zeros = "" if yaws else _zeros(each)
+        zeros = each.with_wheels(direct=stated.acts_about_vertical).idle
         if zeros:
             yield f"maneuver.{each.name}: {zeros}, which requires nothing of the device"
 
 
-def _turns_on(caught: Catch, stated: OcsSection) -> Iterator[str]:
-    """A yaw rate that the wheels cannot stop, in one line."""
-    if caught.rate[2] and not _acts_about_vertical(stated):
-        yield (
-            f"maneuver.{caught.name}: these wheels do not act about the vertical and cannot stop a "
-            f"yaw of {np.degrees(caught.rate[2]):.4g} deg/s: leave yaw out, or choose ocs.layout "
-            f"{ORTHOGONAL!r} or {PYRAMID!r}"
-        )
-
-
-def _not_level(flip: Flip) -> Iterator[str]:
-    """What is wrong with a flip that is not a whole number of turns, in one line."""
-    left_over = abs(remainder(flip.angle, 2.0 * pi))
-    if left_over > LANDING_TOLERANCE:
-        asked = format_quantity(flip.angle, "deg")
-        yield (
-            f"maneuver.{flip.name}: after {asked} the trunk is {format_quantity(left_over, 'deg')} "
-            "off level, but a flip must land level: ask for 360deg (back, forward). If this "
-            "attitude at touchdown is meant, ask for a turn to it: "
-            f"'pitch {asked.replace(' ', '')} in {flip.duration:.3g}s'"
-        )
-
-
-def _acts_about_vertical(stated: OcsSection) -> bool:
-    """Whether the wheels act about all three axes of the trunk."""
-    if stated.axes is not None:
-        return bool(np.linalg.matrix_rank(np.reshape(stated.axes, (-1, 3))) == 3)
-    return stated.layout == ORTHOGONAL or (stated.layout == PYRAMID and stated.alpha != 0.0)
-
-
-_LEVEL = 1e-6
-"""Tolerance of a direction's components, for rounding."""
-
-
 def _without_gravity(specification: Specification) -> Iterator[str]:
-    """Jumps and falls in orbit, and turns without a jump or a time, one line each."""
+    """Jumps and falls in orbit, and turns without a time, requested in words, one line each."""
     asked = specification.requirement
     if asked.gravity == 0.0:
         falling = [word for word in WORDS if word not in TURNS and getattr(asked, word)]
@@ -219,33 +142,6 @@ def _without_gravity(specification: Specification) -> Iterator[str]:
             yield f"requirement.{word}: nothing jumps or falls in orbit: use a turn or a catch"
         if any(each.duration is None for word in TURNS for each in getattr(asked, word) or ()):
             yield "requirement: in orbit a turn needs a time: 'yaw 90deg in 60s'"
-    for maneuver in specification.maneuvers:
-        if not isinstance(maneuver, TurnTo):
-            if not maneuver.gravity:
-                yield f"maneuver.{maneuver.name}: nothing falls in orbit: use a turn or a catch"
-        elif bool(maneuver.gravity) != bool(maneuver.jump_height):
-            told = "is missing" if maneuver.gravity else "there is no jump in orbit"
-            yield f"maneuver.{maneuver.name}.jump_height: {told}"
-
-
-def _too_short_flights(maneuvers: Iterable[Maneuver]) -> Iterator[str]:
-    """Jumps that end before their torque or turn does, one line each."""
-    for maneuver in maneuvers:
-        match maneuver:
-            case Maneuver(gravity=0.0) | TurnTo(jump_height=0.0):
-                continue
-            case Disturbance():
-                what, needed = "its torque ends", maneuver.onset + maneuver.duration
-            case TimedTurn():
-                what, needed = "its turn ends", maneuver.duration
-            case _:
-                continue
-        if needed >= maneuver.flight_time:
-            flight = max(maneuver.flight_time, 0.0)
-            yield (
-                f"maneuver.{maneuver.name}: {what} {needed:.3g} s after lift-off, "
-                f"but the flight lasts {flight:.3g} s"
-            )
 
 
 def _of_layouts(specification: Specification) -> Iterator[str]:
@@ -339,14 +235,11 @@ def unfit_for_robot(
             yield error.sentence
     yield from _idle(requirement, stated)
     for each in requirement.maneuvers:
-        if isinstance(each, Pivoted):
-            yield from _off_its_pivot(each, stated)
-        if isinstance(each, Flip) and not varied:
-            yield from _not_level(each)
-        if isinstance(each, Catch):
-            yield from _turns_on(each, stated)
-    # Tables were checked before; maneuvers requested in words have their jump only now.
-    yield from _too_short_flights(requirement.maneuvers)
+        own = each.with_wheels(direct=stated.acts_about_vertical)
+        tolerance = inf if varied else LANDING_TOLERANCE
+        yield from own.unfit(tilting=stated.tilting, tolerance=tolerance)
+        # Tables were checked before; maneuvers requested in words have their jump only now.
+        yield from each.contradictions()
     yield from _misfed(specification, robot)
     chosen = specification.flywheel.material
     try:
@@ -429,20 +322,3 @@ def _misfed(specification: Specification, robot: Robot) -> Iterator[str]:
             f"supply.power_max: {power:g} W is less than {LEAST_POWER:g} W per kg of the robot "
             f"({robot.mass:.3g} kg): did you mean {power:g}kW?"
         )
-
-
-def _zeros(maneuver: Maneuver) -> str:
-    """Keys that are zero, so that nothing is required of roll and pitch; empty: something is."""
-    match maneuver:
-        case Drop(roll=0.0, pitch=0.0) | StandUp(roll=0.0, pitch=0.0):
-            return "roll and pitch are 0"
-        case Flip(angle=0.0):
-            return "angle is 0"
-        case TurnTo(roll=0.0, pitch=0.0, yaw=0.0, rate=(0.0, 0.0, _)):
-            return "roll, pitch and yaw, and the rates about roll and pitch are 0"
-        case Unforeseen(torque=(0.0, 0.0, _)):
-            return "torque about roll and pitch is 0"
-        case Balance() if not any((*maneuver.tilt, *maneuver.struck[:2])):
-            return "tilt, rate and impulse about roll and pitch are 0"
-        case _:
-            return ""

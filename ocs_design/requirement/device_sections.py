@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
+import numpy as np
+
 from ocs_design.actuation.motor import DIRECT
 from ocs_design.common.units import Dimension
 from ocs_design.requirement.keys import keyed
@@ -44,7 +46,9 @@ from ocs_design.requirement.vocabulary import (
     LIGHTENING,
     NO_CONTROLLERS,
     OF_WHEELS,
+    ORTHOGONAL,
     PAIR,
+    PYRAMID,
     STEEL,
     WEBS,
 )
@@ -123,6 +127,20 @@ class OcsSection:
         "heavier where a wide wheel is best.",
         assumed=DISC,
     )
+
+    @property
+    def acts_about_vertical(self) -> bool:
+        """Whether the wheels act about all three axes of the trunk."""
+        if self.axes is not None:
+            return bool(np.linalg.matrix_rank(np.reshape(self.axes, (-1, 3))) == 3)
+        return self.layout == ORTHOGONAL or (self.layout == PYRAMID and self.alpha != 0.0)
+
+    @property
+    def tilting(self) -> int:
+        """How many axes across the vertical the wheels act about."""
+        if not self.axes:
+            return 1 if self.layout == "single" else 2
+        return int(np.linalg.matrix_rank(np.reshape(self.axes, (-1, 3))[:, :2]))
 
 
 @dataclass(frozen=True, kw_only=True)

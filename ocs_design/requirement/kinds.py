@@ -1,14 +1,14 @@
-"""Kinds of maneuver: their names and keys in a specification, and easier versions of each."""
+"""Kinds of maneuver: their names and keys in a specification, and a change of one in words."""
 
 from collections.abc import Mapping
-from dataclasses import MISSING, dataclass, fields, replace
+from dataclasses import MISSING, dataclass, fields
 from functools import cached_property
 from types import MappingProxyType
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 from ocs_design.common.units import round_outwards, si_unit
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove, TimedTurn
-from ocs_design.requirement.pivoted import Balance, Pivoted, StandUp
+from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove
+from ocs_design.requirement.pivoted import Balance, StandUp
 from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.requirement.values import Quantities, Quantity, Value
 
@@ -86,62 +86,6 @@ def kind_of(maneuver: Maneuver) -> tuple[str, Mapping[str, Value[Any]]]:
         for word, kind in MANEUVER_KINDS.items()
         if kind.maneuver is type(maneuver)
     )
-
-
-_LONGER_THAN_ITS_TURN = 1.02
-"""Flight time over turn time, where a longer turn needs a longer flight."""
-
-
-def slower(maneuver: Maneuver, factor: float, standing_height: float) -> Maneuver:
-    """Maneuver with `factor` times the time for its turn: a higher fall or jump, a longer turn.
-
-    Args:
-        maneuver: to change. factor: positive; below 1: less time.
-        standing_height: of the trunk above the ground [m].
-    """
-    match maneuver:
-        case Drop():
-            fall = (maneuver.height - standing_height) * factor**2
-            return replace(maneuver, height=standing_height + fall)
-        case TimedTurn():
-            longer = maneuver.scaled(factor, "duration")
-            higher = max(_LONGER_THAN_ITS_TURN * longer.duration / maneuver.flight_time, 1.0) ** 2
-            return longer.scaled(higher, "jump_height")
-        case Disturbance():
-            time = maneuver.flight_time + (factor - 1.0) * maneuver.time_left
-            forward, _ = maneuver.takeoff_velocity
-            # The lift-off speed of `flight_time`, solved for.
-            left = time - maneuver.onset - 0.5 * maneuver.duration
-            gained = maneuver.velocity_change[2] * left / time
-            upward = time * maneuver.gravity / 2.0 - gained
-            return replace(maneuver, takeoff_velocity=(forward, upward))
-        case Shove():
-            return maneuver.scaled(factor, "settling")
-        case Pivoted():
-            return maneuver.scaled(factor, "duration")
-        case _:
-            return maneuver
-
-
-_MILDER: Mapping[type[Maneuver], tuple[str, ...]] = MappingProxyType(
-    {
-        Drop: ("roll", "pitch"),
-        StandUp: ("roll", "pitch"),
-        Disturbance: ("torque", "velocity_change", "impulse"),
-        Shove: ("torque",),
-    }
-)
-"""Fields that `milder` scales."""
-
-
-def milder(maneuver: Maneuver, share: float) -> Maneuver:
-    """Maneuver with part of its tilt or push; others unchanged, as part of a flip is no flip.
-
-    Args:
-        maneuver: to change. share: part that is left, 0..1.
-    """
-    names = _MILDER.get(type(maneuver))
-    return maneuver.scaled(share, *names) if names else maneuver
 
 
 def change_text(before: Maneuver, after: Maneuver) -> str:

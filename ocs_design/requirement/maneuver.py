@@ -5,18 +5,27 @@ paper's maneuvers: a disturbed jump, a shove, a drop and a flip.
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from enum import StrEnum
-from math import sqrt
-from typing import Annotated, Any, Self, TypeAlias
+from math import inf, pi, remainder, sqrt
+from typing import Annotated, Any, ClassVar, Self, TypeAlias
 
 import numpy as np
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
+from ocs_design.common.quaternions import from_axis_angle, product, vertical_of
 from ocs_design.common.units import STANDARD_GRAVITY, Dimension, format_quantity
+from ocs_design.requirement.boundary import (
+    UPRIGHT,
+    Boundary,
+    End,
+    Freedom,
+    Push,
+    X,
+    Y,
+)
 from ocs_design.requirement.values import (
     HEIGHT,
     INCIDENCE,
@@ -55,20 +64,6 @@ class Slew:
     one_way: bool = False
 
 
-class End(StrEnum):
-    """Condition at the end of a turn; about the axes that the wheels reach, it ends at rest.
-
-    Attributes:
-        LEVEL: the trunk is upright, whatever its heading.
-        ATTITUDE: it has the specified attitude, heading included.
-        AT_REST: it no longer turns, whatever its attitude.
-    """
-
-    LEVEL = "level"
-    ATTITUDE = "attitude"
-    AT_REST = "at rest"
-
-
 Time: TypeAlias = Annotated[float, TIME]
 Height: TypeAlias = Annotated[float, HEIGHT]
 JumpHeight: TypeAlias = Annotated[Height, "of the centre of mass"]
@@ -93,12 +88,23 @@ _LONGEST_STRIDE = 5.0
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Maneuver(ABC):
-    """One task of the device.
+    """One task of the device: a boundary value problem, and what follows from its kind.
 
     Attributes:
         name: unique in a specification.
         gravity: [m/s^2]; 0 in orbit, where only turns and catches are possible.
         incidence: angle to which the modules are turned by hand [rad]; None: the design's.
+        estimate: factor on the closed-form demand of a kind that is `estimated`.
+        on_pivot: whether the robot is on a point or an edge of its trunk, its joints locked.
+        on_feet: whether it is on its feet from start to end; otherwise it flies or floats.
+        foreseen: whether its trajectory can be planned; otherwise feedback alone meets it.
+        estimated: whether a plan may find that it takes more than its closed-form demand, so that
+            the device is resized.
+        turns_over: whether it turns the trunk over in pitch, and whole turns count.
+        heads: whether its change of heading is of interest.
+        turned_by: fields that make the angle of its turn, where a front may vary that and its time.
+        milder_by: fields to which its tilt or push is proportional. part: which of the two a
+            lighter device may be offered part of; empty: neither.
     """
 
     name: Annotated[str, Text(), "of your choice, different for each maneuver"]
@@ -108,16 +114,83 @@ class Maneuver(ABC):
         "if not that of [requirement]",
     ] = STANDARD_GRAVITY
     incidence: Annotated[float | None, INCIDENCE, "if the modules are turned by hand for it"] = None
+    estimate: float = 1.0
+
+    on_pivot: ClassVar[bool] = False
+    on_feet: ClassVar[bool] = False
+    foreseen: ClassVar[bool] = True
+    estimated: ClassVar[bool] = False
+    turns_over: ClassVar[bool] = False
+    heads: ClassVar[bool] = False
+    turned_by: ClassVar[tuple[str, ...]] = ()
+    milder_by: ClassVar[tuple[str, ...]] = ()
+    part: ClassVar[str] = ""
+
+    @abstractmethod
+    def boundary(self, standing_height: float) -> Boundary:
+        """The boundary value problem.
+
+        Args:
+            standing_height: of the trunk above the ground [m].
+
+        Raises:
+            SpecificationError: no time is left for it.
+        """
 
     @property
-    def turn(self) -> FloatArray:
-        """Turn about roll and pitch [rad], shape (2,); zero where a push does not prescribe it."""
-        return np.zeros(2)
+    def end(self) -> str:
+        """Condition at the end, one of `End`."""
+        return End.LEVEL
+
+    @property
+    def takeoff(self) -> tuple[float, float]:
+        """Speed at the end of a push-off, forward and upward [m/s]; zeros where there is none."""
+        return 0.0, 0.0
 
     @property
     def lift_off(self) -> float:
         """Upward speed at the end of a push-off [m/s]; 0 where there is none."""
+        return self.takeoff[1]
+
+    @property
+    def pushed_off(self) -> bool:
+        """Whether it begins with a push-off that the legs can be planned to make."""
+        return self.lift_off > 0.0
+
+    @property
+    def flight_time(self) -> float:
+        """Time until a rigid robot lands where it took off [s]; 0 where it does not."""
         return 0.0
+
+    @property
+    def rise(self) -> float:
+        """Height of its jump [m]; 0: there is none, or a push changes it."""
+        return self.lift_off**2 / (2.0 * self.gravity) if self.lift_off else 0.0
+
+    @property
+    def push(self) -> Push | None:
+        """Push on the trunk, which is not known in advance; None: there is none."""
+        return None
+
+    @property
+    def stride(self) -> float:
+        """Stride of a trot on the spot during which it happens [s]; 0: the robot does not trot."""
+        return 0.0
+
+    @property
+    def stop(self) -> float:
+        """Time in which a brake stops the wheels at the start [s]; inf: none does."""
+        return inf
+
+    @property
+    def angles(self) -> FloatArray:
+        """Roll and pitch between the start and the end of a turn [rad], shape (2,)."""
+        return np.zeros(2)
+
+    @property
+    def turn(self) -> FloatArray:
+        """Turn about roll and pitch that the wheels are sized for [rad], shape (2,); else zeros."""
+        return np.zeros(2)
 
     @property
     def headed(self) -> bool:
@@ -144,6 +217,20 @@ class Maneuver(ABC):
         """The maneuver for a body, in B, where it depends on the body."""
         del body
         return self
+
+    @property
+    def momentum_of_body(self) -> FloatArray | None:
+        """Momentum about roll and pitch that depends on the body [N m s], shape (2,); or None."""
+        return None
+
+    def with_wheels(self, *, direct: bool) -> Self:
+        """The maneuver for wheels that act about the vertical or not, where it depends on that."""
+        del direct
+        return self
+
+    def freedom(self, body: MassProperties) -> Freedom:
+        """How a body is free to turn."""
+        return Freedom(body.inertia, np.zeros(3), None)
 
     def turned(self, inertia: TiltInertia) -> TiltInertia:
         """Inertia that is turned, from that about the centre of mass."""
@@ -189,6 +276,64 @@ class Maneuver(ABC):
             changes[name] = tuple(factor * each for each in value) if row else factor * value
         return replace(self, **changes)
 
+    @abstractmethod
+    def slower(self, factor: float, standing_height: float) -> Self:
+        """The maneuver with `factor` times the time: a higher fall or jump, a longer turn.
+
+        Args:
+            factor: positive; below 1: less time.
+            standing_height: of the trunk above the ground [m].
+        """
+
+    def stretched(self, factor: float, standing_height: float) -> Self:
+        """The maneuver with `factor` times the time both for its turn and for its flight."""
+        return self.slower(factor, standing_height)
+
+    def milder(self, share: float) -> Self:
+        """The maneuver with part of its tilt or push, 0..1."""
+        return self.scaled(share, *self.milder_by)
+
+    def calmer(self) -> Self:
+        """The maneuver with less torque and more momentum, where it may be made so."""
+        return self
+
+    def corrected(self, factor: float) -> Self:
+        """The maneuver with another factor on its demand, if that is an estimate."""
+        return replace(self, estimate=factor) if self.estimated else self
+
+    def contradictions(self) -> Iterator[str]:
+        """What contradicts itself, one line each."""
+        if not self.gravity:
+            yield f"maneuver.{self.name}: nothing falls in orbit: use a turn or a catch"
+
+    def _landing_before(self, what: str, time: float) -> Iterator[str]:
+        """A flight that ends before this time after lift-off [s], in one line."""
+        if self.gravity and time >= self.flight_time:
+            yield (
+                f"maneuver.{self.name}: {what} ends {time:.3g} s after lift-off, "
+                f"but the flight lasts {max(self.flight_time, 0.0):.3g} s"
+            )
+
+    def unfit(self, *, tilting: int, tolerance: float) -> Iterator[str]:
+        """What these wheels cannot do (`with_wheels`), or no robot can, one line each.
+
+        Args:
+            tilting: how many axes across the vertical the wheels act about, 1 or 2.
+            tolerance: largest tilt at touchdown of a maneuver that ends level [rad].
+        """
+        del tilting, tolerance
+        yield from ()
+
+    @property
+    def idle(self) -> str:
+        """Keys whose zeros require nothing of roll and pitch; empty: something is required."""
+        return ""
+
+    @property
+    def upset(self) -> str:
+        """What feedback alone corrects, as in `pitch 2.1 deg`, where its time matters less."""
+        return ""
+
     @property
     @abstractmethod
     def summary(self) -> str:
@@ -206,10 +351,35 @@ class Unforeseen(Maneuver):
     torque: Vector3
     duration: float
 
+    foreseen: ClassVar[bool] = False
+
+    @property
+    @abstractmethod
+    def push(self) -> Push:
+        """The torque, and the force that goes with it."""
+
     @property
     @abstractmethod
     def time_left(self) -> float:
         """Time from the end of the torque until the trunk must be level and at rest again [s]."""
+
+    def boundary(self, standing_height: float) -> Boundary:
+        """Back to level in the time left after the torque, from level at its onset."""
+        if self.time_left <= 0.0:
+            raise SpecificationError(
+                f"maneuver {self.name!r}: no time is left after its torque",
+                hint="Let the torque start earlier, or the robot jump higher.",
+            )
+        return Boundary(
+            self.name,
+            UPRIGHT,
+            UPRIGHT,
+            Y,
+            0.0,
+            self.time_left,
+            push=self.push,
+            height=standing_height if self.on_feet else None,
+        )
 
     def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
         """The impulse, which the wheels hold until touchdown (docs/theory.md, Disturbances)."""
@@ -229,6 +399,11 @@ class Unforeseen(Maneuver):
             np.broadcast_to(momentum, shape),
             self.time_left,
         )
+
+    @property
+    def idle(self) -> str:
+        """Torque about roll and pitch, if it is zero."""
+        return "" if any(self.torque[:2]) else "torque about roll and pitch is 0"
 
     @property
     def _impulse(self) -> FloatArray:
@@ -269,6 +444,9 @@ class Disturbance(Unforeseen):
     )
     point: Point = (0.0, 0.0, 0.0)
 
+    milder_by: ClassVar[tuple[str, ...]] = ("torque", "velocity_change", "impulse")
+    part: ClassVar[str] = "push"
+
     def on(self, body: MassProperties) -> Self:
         """Disturbance of a body: the angular impulse r x p about its centre of mass, and p / m."""
         if not any(self.impulse):
@@ -282,9 +460,31 @@ class Disturbance(Unforeseen):
         )
 
     @property
-    def lift_off(self) -> float:
-        """Upward speed as specified [m/s]."""
-        return self.takeoff_velocity[1]
+    def momentum_of_body(self) -> FloatArray | None:
+        """Angular impulse of a force [N m s], shape (2,); None for a torque."""
+        return self._impulse if any(self.impulse) else None
+
+    @property
+    def push(self) -> Push:
+        """Torque and force, which hit the trunk in flight."""
+        return Push(
+            np.array(self.torque),
+            self.onset,
+            self.duration,
+            np.array(self.velocity_change) / self.duration,
+            np.array(self.impulse) / self.duration,
+            np.array(self.point),
+        )
+
+    @property
+    def takeoff(self) -> tuple[float, float]:
+        """Speed as specified [m/s]."""
+        return self.takeoff_velocity
+
+    @property
+    def rise(self) -> float:
+        """Height of its jump [m]; 0: a vertical push changes it."""
+        return 0.0 if self.velocity_change[2] else super().rise
 
     @property
     def time_left(self) -> float:
@@ -302,6 +502,22 @@ class Disturbance(Unforeseen):
         later = upward + gained
         lost = 2.0 * self.gravity * gained * (self.onset + 0.5 * self.duration)
         return (later + sqrt(max(later**2 - lost, 0.0))) / self.gravity
+
+    def slower(self, factor: float, standing_height: float) -> Self:
+        """A higher jump, with `factor` times the time after the torque."""
+        del standing_height
+        time = self.flight_time + (factor - 1.0) * self.time_left
+        forward, _ = self.takeoff_velocity
+        # The lift-off speed of `flight_time`, solved for.
+        left = time - self.onset - 0.5 * self.duration
+        gained = self.velocity_change[2] * left / time
+        upward = time * self.gravity / 2.0 - gained
+        return replace(self, takeoff_velocity=(forward, upward))
+
+    def contradictions(self) -> Iterator[str]:
+        """What contradicts itself, one line each: a torque must end in flight."""
+        yield from super().contradictions()
+        yield from self._landing_before("its torque", self.onset + self.duration)
 
     @property
     def summary(self) -> str:
@@ -339,6 +555,20 @@ class Shove(Unforeseen):
         "of a trot on the spot; 0: the robot stands",
     ] = 0.0
 
+    on_feet: ClassVar[bool] = True
+    milder_by: ClassVar[tuple[str, ...]] = ("torque",)
+    part: ClassVar[str] = "push"
+
+    @property
+    def push(self) -> Push:
+        """Torque as specified."""
+        return Push(np.array(self.torque), 0.0, self.duration)
+
+    def slower(self, factor: float, standing_height: float) -> Self:
+        """More time to come to rest."""
+        del standing_height
+        return self.scaled(factor, "settling")
+
     @property
     def time_left(self) -> float:
         """Time left as specified [s]."""
@@ -373,6 +603,11 @@ def angles_text(**angles: float) -> str:
 class Reorientation(Maneuver):
     """A rest-to-rest turn of the trunk from level by a specified angle."""
 
+    @property
+    def turn(self) -> FloatArray:
+        """All of its roll and pitch [rad], shape (2,)."""
+        return self.angles
+
     @abstractmethod
     def time(self, standing_height: float) -> float:
         """Time that the turn may take [s]."""
@@ -404,6 +639,21 @@ class Drop(Reorientation):
     roll: Annotated[Tilt, "at release"] = 0.0
     pitch: Annotated[Tilt, "at release"]
 
+    turned_by: ClassVar[tuple[str, ...]] = ("roll", "pitch")
+    milder_by: ClassVar[tuple[str, ...]] = turned_by
+    part: ClassVar[str] = "tilt"
+
+    def boundary(self, standing_height: float) -> Boundary:
+        """From rest, pitched about y and then rolled about x, to level within the fall."""
+        attitude = product(from_axis_angle(Y, self.pitch), from_axis_angle(X, self.roll))
+        vertical = vertical_of(attitude)
+        # A rate w changes the vertical v by -w x v.
+        axis = np.cross([0.0, 0.0, 1.0], vertical)
+        length = float(np.linalg.norm(axis))
+        axis = axis / length if length > 0.0 else Y
+        angle, duration = float(np.arctan2(length, vertical[2])), self.time(standing_height)
+        return Boundary(self.name, attitude, UPRIGHT, axis, angle, duration, height=self.height)
+
     def time(self, standing_height: float) -> float:
         """Time from release until the feet of the levelled robot touch the ground [s].
 
@@ -419,8 +669,18 @@ class Drop(Reorientation):
             )
         return float(np.sqrt(2.0 * fall / self.gravity))
 
+    def slower(self, factor: float, standing_height: float) -> Self:
+        """A higher fall."""
+        fall = (self.height - standing_height) * factor**2
+        return replace(self, height=standing_height + fall)
+
     @property
-    def turn(self) -> FloatArray:
+    def idle(self) -> str:
+        """Roll and pitch, if they are zero."""
+        return "" if self.roll or self.pitch else "roll and pitch are 0"
+
+    @property
+    def angles(self) -> FloatArray:
         """Turn of the trunk from level about roll and pitch [rad], shape (2,).
 
         The smallest turn that gives this tilt: its inverse brings the vertical of the world,
@@ -439,6 +699,10 @@ class Drop(Reorientation):
         return f"falls from {self.height:.3g} m at roll {roll} and pitch {pitch}"
 
 
+_LONGER_THAN_ITS_TURN = 1.02
+"""Flight time over turn time, where a longer turn needs a longer flight."""
+
+
 class TimedTurn(Reorientation):
     """A turn in a specified time, in a vertical jump or in orbit.
 
@@ -455,10 +719,27 @@ class TimedTurn(Reorientation):
         del standing_height
         return self.duration
 
+    def slower(self, factor: float, standing_height: float) -> Self:
+        """A longer turn; in a higher jump where it needs one."""
+        del standing_height
+        longer = self.scaled(factor, "duration")
+        higher = max(_LONGER_THAN_ITS_TURN * longer.duration / self.flight_time, 1.0) ** 2
+        return longer.scaled(higher, "jump_height")
+
+    def stretched(self, factor: float, standing_height: float) -> Self:
+        """A longer turn in the same part of a higher jump."""
+        del standing_height
+        return self.scaled(factor, "duration").scaled(factor**2, "jump_height")
+
+    def contradictions(self) -> Iterator[str]:
+        """What contradicts itself, one line each: a turn must end in flight."""
+        yield from super().contradictions()
+        yield from self._landing_before("its turn", self.duration)
+
     @property
-    def lift_off(self) -> float:
-        """Upward speed of the jump [m/s]; 0 in orbit."""
-        return self.gravity * self.flight_time / 2.0
+    def takeoff(self) -> tuple[float, float]:
+        """Speed of the vertical jump [m/s]; 0 in orbit."""
+        return 0.0, sqrt(2.0 * self.gravity * self.jump_height)
 
     @property
     def flight_time(self) -> float:
@@ -478,10 +759,37 @@ class Flip(TimedTurn):
     angle: Annotated[Turn, "of pitch"]
     duration: TurnTime
 
+    turns_over: ClassVar[bool] = True
+    turned_by: ClassVar[tuple[str, ...]] = ("angle",)
+
+    def boundary(self, standing_height: float) -> Boundary:
+        """A turn in pitch, from level."""
+        del standing_height
+        final = from_axis_angle(Y, self.angle)
+        return Boundary(self.name, UPRIGHT, final, Y, self.angle, self.duration)
+
     @property
-    def turn(self) -> FloatArray:
+    def angles(self) -> FloatArray:
         """Turn about pitch alone [rad], shape (2,)."""
         return np.array([0.0, self.angle])
+
+    @property
+    def idle(self) -> str:
+        """Angle, if it is zero."""
+        return "" if self.angle else "angle is 0"
+
+    def unfit(self, *, tilting: int, tolerance: float) -> Iterator[str]:
+        """A turn that is not whole, in one line."""
+        del tilting
+        left_over = abs(remainder(self.angle, 2.0 * pi))
+        if left_over > tolerance:
+            asked = format_quantity(self.angle, "deg")
+            yield (
+                f"maneuver.{self.name}: after {asked} the trunk is "
+                f"{format_quantity(left_over, 'deg')} off level, but a flip must land level: ask "
+                "for 360deg (back, forward). If this attitude at touchdown is meant, ask for a "
+                f"turn to it: 'pitch {asked.replace(' ', '')} in {self.duration:.3g}s'"
+            )
 
     @property
     def summary(self) -> str:

@@ -1,19 +1,21 @@
 """Maneuvers about a pivot: balancing on a point or an edge, and standing up on it."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from math import cos, exp, hypot, log, sqrt
+from math import cos, exp, hypot, inf, log, pi, sqrt
 from typing import Annotated, ClassVar, NamedTuple, Self
 
 import numpy as np
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
 from ocs_design.common.units import Dimension, format_quantity, rpm
 from ocs_design.common.wording import listed
+from ocs_design.requirement.boundary import Boundary, End, Freedom, Y
 from ocs_design.requirement.maneuver import (
-    End,
     Impulse,
     Maneuver,
     Point,
@@ -42,6 +44,10 @@ class Actuation(StrEnum):
     MOTOR = "motor"
     BRAKE = "brake"
 
+
+HELD_ON = 1.5
+"""Time for which a robot that has stood up or recovered is held upright, relative to the time
+given."""
 
 SPIN_UP = 60.0
 """Time for spinning wheels up to the speed from which a brake stops them [s]."""
@@ -107,9 +113,8 @@ class Pivoted(Maneuver):
         duration: until it is upright and at rest [s].
         wheel_speed: of all wheels at the start [rad/s].
         end: see `End`; not `at rest`, as a robot that is not upright cannot stay at rest.
-        estimate: factor on the closed-form demand; above 1 where a plan was found to need more.
-        slower: factor on the longest time of the estimate; a larger one needs less torque and more
-            momentum (`Pivoted.calmer`).
+        stretch: factor on the longest time of the estimate; a larger one needs less torque and more
+            momentum (`StandUp.calmer`).
         body: the robot, in B; None: not known yet (`on`).
     """
 
@@ -126,13 +131,48 @@ class Pivoted(Maneuver):
     end: Annotated[
         str, Choice((End.LEVEL, End.ATTITUDE)), "level, or attitude (heading included)"
     ] = End.LEVEL
-    estimate: float = 1.0
-    slower: float = 1.0
+    stretch: float = 1.0
     body: MassProperties | None = None
 
-    def calmer(self) -> Self:
-        """This maneuver with nearly the least torque, for motors that have no more."""
-        return replace(self, slower=4.0 / self._longest)
+    on_pivot: ClassVar[bool] = True
+
+    def boundary(self, standing_height: float) -> Boundary:
+        """To upright, from a tilt and, after a brake or an impulse, a rate."""
+        del standing_height
+        angle = float(np.linalg.norm(self.tilt))
+        axis = self.tilt / angle if angle > 0.0 else Y
+        if angle == 0.0 and self.begun.any():
+            axis = self.begun / float(np.linalg.norm(self.begun))
+        upright = quaternions.upright(self.pull)
+        attitude = quaternions.product(quaternions.from_axis_angle(axis, angle), upright)
+        return Boundary(
+            name=self.name,
+            attitude=attitude,
+            final_attitude=upright,
+            axis=axis,
+            angle=-angle,
+            duration=self.duration,
+            end=self.end,
+            rate=self.begun,
+            wheel_speed=self.wheel_speed,
+            # The pivot is at floor height.
+            height=-float((quaternions.matrix(attitude) @ np.array(self.pivot))[2]),
+        )
+
+    def freedom(self, body: MassProperties) -> Freedom:
+        """About the pivot, under gravity."""
+        own = self.on(body)
+        return Freedom(own.inertia, own.pull, own.axis)
+
+    @property
+    def momentum_of_body(self) -> FloatArray | None:
+        """Momentum of the wheels [N m s], shape (2,)."""
+        return self.momentum(TiltInertia.uncoupled(np.ones(2)), 0.0)
+
+    def slower(self, factor: float, standing_height: float) -> Self:
+        """More time until it is upright."""
+        del standing_height
+        return self.scaled(factor, "duration")
 
     def on(self, body: MassProperties) -> Self:
         """The maneuver for a body that stands on the pivot.
@@ -241,13 +281,40 @@ class Pivoted(Maneuver):
         """Axis about which the wheels first speed up, its roll and pitch parts, and the swing."""
         axis, inertia, stiffness, tilt, rate = self._pendulum
         axis = np.copysign(1.0, tilt + rate * sqrt(inertia / stiffness)) * axis
-        longest = self.slower * self._longest / sqrt(stiffness / inertia)
+        longest = self.stretch * self._longest / sqrt(stiffness / inertia)
         time = min(self.duration, longest)
         found = swing(stiffness, inertia, tilt, rate, time)
         return axis[:2], Swing(self.estimate * found.torque, found.switch)
 
     _longest: ClassVar[float] = 3.0
     """Longest time used in the estimate, over the e-folding time of a tilt."""
+
+    def unfit(self, *, tilting: int, tolerance: float) -> Iterator[str]:
+        """What the pivot or these wheels do not allow, one line each."""
+        del tolerance
+        where, axis = f"maneuver.{self.name}", self.axis
+        tilt = float(np.linalg.norm(self.tilt))
+        if tilt > pi / 2.0:
+            yield (
+                f"{where}: tilted by {format_quantity(tilt, 'deg')}, it would be below its pivot: "
+                "90 deg at most"
+            )
+        if axis is None:
+            if tilting < 2:
+                yield (
+                    f"{where}: on a point it falls about roll and pitch, but these wheels act "
+                    "about only one: give the edge that it stands on, or an ocs.layout with more "
+                    "wheels"
+                )
+            return
+        if abs(axis[2]) > _LEVEL:
+            yield f"{where}.edge: must be level in the trunk's frame, so its z must be 0"
+        if tilt and abs(abs(self.tilt @ axis) - tilt) > _LEVEL:
+            along = ", ".join(f"{each:.3g}" for each in axis)
+            yield (
+                f"{where}: roll and pitch tilt it about an axis other than the edge, which is "
+                f"along ({along}): it can turn about its edge only"
+            )
 
     def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
         """Momentum of the wheels when the torque changes its sign."""
@@ -287,6 +354,9 @@ class Pivoted(Maneuver):
 _STRAIGHT = 1e-6
 """Tilt below which a pendulum counts as linear [rad]."""
 
+_LEVEL = 1e-6
+"""Tolerance of a direction's components, for rounding."""
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Balance(Pivoted):
@@ -302,6 +372,8 @@ class Balance(Pivoted):
     point: Point = (0.0, 0.0, 0.0)
 
     _longest: ClassVar[float] = 2.0
+    foreseen: ClassVar[bool] = False
+    milder_by: ClassVar[tuple[str, ...]] = ("roll", "pitch", "rate", "impulse")
 
     @property
     def struck(self) -> FloatArray:
@@ -309,9 +381,12 @@ class Balance(Pivoted):
         turned = np.cross(np.subtract(self.point, self.pivot), self.impulse)
         return np.asarray(np.array(self.rate) + self.mobility @ turned)
 
-    def times(self, factor: float) -> Self:
-        """The maneuver with tilt, rate and impulse multiplied by `factor`."""
-        return self.scaled(factor, "roll", "pitch", "rate", "impulse")
+    @property
+    def idle(self) -> str:
+        """Tilt, rate and impulse, if all are zero."""
+        if any((*self.tilt, *self.struck[:2])):
+            return ""
+        return "tilt, rate and impulse about roll and pitch are 0"
 
     @property
     def upset(self) -> str:
@@ -349,6 +424,19 @@ class StandUp(Pivoted):
         "motor, or brake: wheels spun up beforehand are stopped in an instant",
     ] = Actuation.MOTOR
 
+    estimated: ClassVar[bool] = True
+    milder_by: ClassVar[tuple[str, ...]] = ("roll", "pitch")
+    part: ClassVar[str] = "tilt"
+
+    def calmer(self) -> Self:
+        """This climb with nearly the least torque, for motors that have no more; once only."""
+        return replace(self, stretch=4.0 / self._longest) if self.stretch == 1.0 else self
+
+    @property
+    def idle(self) -> str:
+        """Roll and pitch, if they are zero."""
+        return "" if self.roll or self.pitch else "roll and pitch are 0"
+
     @property
     def braked(self) -> bool:
         """Whether a brake gives the wheels' momentum to the robot."""
@@ -372,12 +460,12 @@ class StandUp(Pivoted):
 
     @property
     def stop(self) -> float:
-        """Time in which a brake stops the wheels [s].
+        """Time in which a brake stops the wheels [s]; inf: by the motor.
 
         Meanwhile gravity takes m g l t sin theta of the momentum sqrt(m g l I) theta, about kappa t
         of it, where kappa is `quickness`. For the Cubli's wheels (`_climb`) this gives 2.1 ms.
         """
-        return _INSTANT / self.quickness
+        return _INSTANT / self.quickness if self.braked else inf
 
     def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
         """Momentum of the wheels before braking, or when the torque changes its sign."""

@@ -7,8 +7,7 @@ import numpy as np
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
-from ocs_design.requirement.maneuver import Disturbance, Maneuver, Slew
-from ocs_design.requirement.pivoted import Pivoted
+from ocs_design.requirement.maneuver import Maneuver, Slew
 from ocs_design.robot.mass import MassProperties
 
 
@@ -73,13 +72,8 @@ class Requirement:
 
         They are the angular impulses of forces, and the wheels' momenta about a pivot.
         """
-        found = []
-        for each in self.maneuvers:
-            if isinstance(each, Disturbance) and any(each.impulse):
-                found.append(np.multiply(each.torque[:2], each.duration))
-            elif isinstance(each, Pivoted):
-                found.append(each.momentum(TiltInertia.uncoupled(np.ones(2)), 0.0))
-        return np.reshape(found, (-1, 2))
+        found = (each.momentum_of_body for each in self.maneuvers)
+        return np.reshape([each for each in found if each is not None], (-1, 2))
 
     def reserve(self, maneuver: Maneuver) -> ManeuverReserve:
         """Reserve for a maneuver; a neutral one if there is none."""

@@ -42,11 +42,9 @@ from ocs_design.requirement.froude import (
     standing_height,
 )
 from ocs_design.requirement.keys import assumed_section
-from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.sections import RequirementSection, RobotSection, ValidationSection
 from ocs_design.requirement.specification import Specification
-from ocs_design.requirement.turns import TurnTo
 from ocs_design.requirement.uncertainty import default_uncertainty
 from ocs_design.requirement.values import JointValue
 from ocs_design.requirement.vocabulary import (
@@ -223,14 +221,10 @@ class Resolved:
 
     def estimated(self, factors: Mapping[str, float]) -> "Resolved":
         """Requirement with these factors on the estimated demand of turns, by name of maneuver."""
-        estimated = self.requirement.changed(
-            lambda each: (
-                replace(each, estimate=factors.get(each.name, 1.0))
-                if isinstance(each, TurnTo | Pivoted)
-                else each
-            )
+        corrected = self.requirement.changed(
+            lambda each: each.corrected(factors.get(each.name, 1.0))
         )
-        return replace(self, requirement=estimated)
+        return replace(self, requirement=corrected)
 
     def carrying(self, requirement: Requirement) -> "Resolved":
         """Requirement for robot and device; notes on kicks are extended by what they do to both.
@@ -248,8 +242,8 @@ def _assumptions(
     """One sentence on each default in `resolved`."""
     flywheel, motor, scale = specification.flywheel, specification.motor, FroudeScale.of(robot)
     requirement, envelope, choice = resolved.requirement, resolved.envelope, resolved.choice
-    landing = (each.gravity for each in requirement.maneuvers if not isinstance(each, Pivoted))
-    if robot.standing_height is None and any(landing):
+    lands = any(each.gravity and not each.on_pivot for each in requirement.maneuvers)
+    if robot.standing_height is None and lands:
         height = format_quantity(requirement.standing_height, "mm", 3)
         yield f"No legs: standing height {height}, Solo12's scaled by radius of gyration."
     if (box := assumed_trunk(robot)) is not None:

@@ -12,8 +12,7 @@ import numpy as np
 from ocs_design.common.errors import UsageError
 from ocs_design.common.units import Dimension, format_quantity, parse_positive
 from ocs_design.requirement.choices import specified_supply
-from ocs_design.requirement.kinds import slower
-from ocs_design.requirement.maneuver import Drop, Flip, Maneuver
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.resolving import Resolved, resolve
 from ocs_design.requirement.specification import Specification
@@ -186,12 +185,13 @@ class ManeuverSweep(Sweep):
     """A figure of the maneuvers that turn the trunk.
 
     Attributes:
-        figure: of a maneuver, for the trunk's standing height [m]; None where it has none.
+        figure: of a maneuver that has one (`Maneuver.turned_by`), for the trunk's standing height
+            [m].
         scaled: a maneuver with its figure multiplied by a ratio, for that height.
         maneuver: the only one to vary; empty: all, in proportion, and the first gives the value.
     """
 
-    figure: Callable[[Maneuver, float], float | None]
+    figure: Callable[[Maneuver, float], float]
     scaled: Callable[[Maneuver, float, float], Maneuver]
     maneuver: str = ""
 
@@ -235,40 +235,30 @@ class ManeuverSweep(Sweep):
         figures = {
             maneuver.name: self.figure(maneuver, task.standing_height)
             for maneuver in task.maneuvers
-            if self.maneuver in ("", maneuver.name)
+            if self.maneuver in ("", maneuver.name) and maneuver.turned_by
         }
         return {name: figure for name, figure in figures.items() if figure}
 
 
-def _time(maneuver: Maneuver, standing_height: float) -> float | None:
-    """Time of a fall or of a flip [s]."""
-    return maneuver.time(standing_height) if isinstance(maneuver, Drop | Flip) else None
-
-
-def _in_time(maneuver: Maneuver, ratio: float, standing_height: float) -> Maneuver:
-    """Maneuver that takes `ratio` times as long: a higher fall, a longer jump."""
-    if isinstance(maneuver, Flip):
-        return maneuver.scaled(ratio, "duration").scaled(ratio**2, "jump_height")
-    return slower(maneuver, ratio, standing_height)
-
-
-def _angle(maneuver: Maneuver, _: float) -> float | None:
-    """Angle of a tilt or of a flip [rad], without its sign."""
-    if isinstance(maneuver, Flip):
-        return abs(maneuver.angle)
-    return hypot(maneuver.roll, maneuver.pitch) if isinstance(maneuver, Drop) else None
-
-
-def _by_angle(maneuver: Maneuver, ratio: float, _: float) -> Maneuver:
-    """Maneuver with `ratio` times the angle; roll and pitch of a tilt keep their proportion."""
-    turned = ("angle",) if isinstance(maneuver, Flip) else ("roll", "pitch")
-    return maneuver.scaled(ratio, *turned)
-
-
 _SWEEPS = (
-    ManeuverSweep("time", "time of the turn", Dimension.TIME, "ms", (0.8, 1.6), _time, _in_time),
     ManeuverSweep(
-        "angle", "angle of the turn", Dimension.ANGLE, "deg", (0.4, 1.6), _angle, _by_angle
+        "time",
+        "time of the turn",
+        Dimension.TIME,
+        "ms",
+        (0.8, 1.6),
+        lambda maneuver, height: maneuver.boundary(height).duration,
+        lambda maneuver, ratio, height: maneuver.stretched(ratio, height),
+    ),
+    ManeuverSweep(
+        "angle",
+        "angle of the turn",
+        Dimension.ANGLE,
+        "deg",
+        (0.4, 1.6),
+        lambda maneuver, _: hypot(*(getattr(maneuver, name) for name in maneuver.turned_by)),
+        # Roll and pitch of a tilt keep their proportion.
+        lambda maneuver, ratio, _: maneuver.scaled(ratio, *maneuver.turned_by),
     ),
     KeySweep(
         "radius",

@@ -1,17 +1,18 @@
 """Turns to an attitude, heading included, and stops of a trunk that rotates at lift-off."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from math import pi, remainder, sqrt
-from typing import Annotated, TypeAlias
+from typing import Annotated, ClassVar, Self, TypeAlias
 
 import numpy as np
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.quaternions import from_axis_angle, product
 from ocs_design.common.units import rpm
+from ocs_design.requirement.boundary import UPRIGHT, Boundary, End, X, Y, Z
 from ocs_design.requirement.maneuver import (
-    End,
     JumpHeight,
     Rate,
     Slew,
@@ -24,6 +25,7 @@ from ocs_design.requirement.maneuver import (
     rates_text,
 )
 from ocs_design.requirement.values import YAW, Choice
+from ocs_design.requirement.vocabulary import ORTHOGONAL, PYRAMID
 
 LOOP_SHARE = 0.75
 """Fraction of the tilt loop that wheels and motors are sized for, in that fraction of its time."""
@@ -63,7 +65,6 @@ class TurnTo(TimedTurn):
         rate: of the trunk at lift-off, in B [rad/s], shape (3,).
         wheel_speed: of all wheels at lift-off [rad/s].
         end: see `End`.
-        estimate: factor on the closed-form demand; above 1 where a plan was found to need more.
         direct: whether the wheels can act about the vertical, so that no tilt loop is needed.
     """
 
@@ -75,8 +76,62 @@ class TurnTo(TimedTurn):
     rate: _RateAtStart = (0.0, 0.0, 0.0)
     wheel_speed: Annotated[Spin, "of all wheels at lift-off"] = 0.0
     end: _End = End.ATTITUDE
-    estimate: float = 1.0
     direct: bool = False
+
+    estimated: ClassVar[bool] = True
+    heads: ClassVar[bool] = True
+
+    def boundary(self, standing_height: float) -> Boundary:
+        """From level to the attitude, by yaw, then pitch, then roll."""
+        del standing_height
+        angles = np.array([self.roll, self.pitch, self.yaw])
+        final = product(
+            from_axis_angle(Z, self.yaw),
+            product(from_axis_angle(Y, self.pitch), from_axis_angle(X, self.roll)),
+        )
+        if np.count_nonzero(angles) == 1:
+            # About one axis, it may be more than half a turn.
+            axis, angle = np.sign(angles), float(np.abs(angles).sum())
+        else:
+            final = final * np.copysign(1.0, final[0])
+            sine = float(np.linalg.norm(final[1:]))
+            axis = final[1:] / sine if sine > 0.0 else Y
+            angle = 2.0 * float(np.arctan2(sine, final[0]))
+        return Boundary(
+            self.name,
+            UPRIGHT,
+            final,
+            axis,
+            angle,
+            self.duration,
+            self.end,
+            np.array(self.rate),
+            self.wheel_speed,
+        )
+
+    @property
+    def pushed_off(self) -> bool:
+        """Whether the legs can be planned to make its jump; none is planned to end with a rate."""
+        return super().pushed_off and not (any(self.rate) or self.wheel_speed)
+
+    def with_wheels(self, *, direct: bool) -> Self:
+        """The turn by wheels that act about the vertical or not."""
+        return replace(self, direct=direct)
+
+    def contradictions(self) -> Iterator[str]:
+        """What contradicts itself, one line each: there is a jump where there is gravity."""
+        if bool(self.gravity) != bool(self.jump_height):
+            told = "is missing" if self.gravity else "there is no jump in orbit"
+            yield f"maneuver.{self.name}.jump_height: {told}"
+        else:
+            yield from self._landing_before("its turn", self.duration)
+
+    @property
+    def idle(self) -> str:
+        """Attitude and rates, if all that these wheels act about are zero."""
+        if self.headed or any((self.roll, self.pitch, self.yaw, *self.rate[:2])):
+            return ""
+        return "roll, pitch and yaw, and the rates about roll and pitch are 0"
 
     @property
     def headed(self) -> bool:
@@ -98,7 +153,7 @@ class TurnTo(TimedTurn):
         that share of the time, gives wheels 1.15 to 1.25 times as large as planned turns need,
         unless they are limited by torque (docs/theory.md, Yaw by two wheels).
         """
-        tilt = self._tilt
+        tilt = self.angles
         return np.asarray(self.estimate * self._share * (tilt + np.copysign(self._loop, tilt)))
 
     @property
@@ -106,7 +161,8 @@ class TurnTo(TimedTurn):
         return LOOP_SHARE if self._loop else 1.0
 
     @property
-    def _tilt(self) -> FloatArray:
+    def angles(self) -> FloatArray:
+        """Roll and pitch at the end [rad], shape (2,)."""
         return np.array([self.roll, self.pitch])
 
     @property
@@ -117,7 +173,7 @@ class TurnTo(TimedTurn):
     def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
         """Momentum of the tilt, half the time up and half down, of loop and initial rates."""
         del standing_height
-        peak = 2.0 * self._tilt + np.copysign(self._loop, self._tilt)
+        peak = 2.0 * self.angles + np.copysign(self._loop, self.angles)
         turning = self.estimate * np.abs(inertia.momentum(peak)) / self.duration
         return np.asarray(turning + np.abs(self._begun(inertia)))
 
@@ -155,3 +211,13 @@ class Catch(TurnTo):
     duration: Annotated[Time, "from lift-off until it is at rest"]
     rate: _RateAtStart
     end: _End = End.LEVEL
+
+    def unfit(self, *, tilting: int, tolerance: float) -> Iterator[str]:
+        """A yaw rate that the wheels cannot stop, in one line."""
+        del tilting, tolerance
+        if self.rate[2] and not self.direct:
+            yield (
+                f"maneuver.{self.name}: these wheels do not act about the vertical and cannot stop "
+                f"a yaw of {np.degrees(self.rate[2]):.4g} deg/s: leave yaw out, or choose "
+                f"ocs.layout {ORTHOGONAL!r} or {PYRAMID!r}"
+            )

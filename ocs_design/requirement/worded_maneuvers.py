@@ -235,13 +235,14 @@ def told_with_device(assumption: str, maneuvers: Iterable[Maneuver]) -> str:
         assumption: one sentence.
         maneuvers: of robot and device.
     """
-    for kick in maneuvers:
-        if not isinstance(kick, Disturbance) or not any(kick.impulse):
+    for each in maneuvers:
+        kick = each.push
+        if kick is None or not kick.force.any():
             continue
         # A maneuver of the file may have the name of another assumption, such as "Wheel".
-        if assumption.startswith(f"{kick.name}: ") and _WITHOUT_DEVICE in assumption:
-            turned = ", ".join(f"{each * kick.duration:.3g}" for each in kick.torque)
-            moved = np.linalg.norm(kick.velocity_change)
+        if assumption.startswith(f"{each.name}: ") and _WITHOUT_DEVICE in assumption:
+            turned = ", ".join(f"{part:.3g}" for part in kick.duration * kick.torque)
+            moved = kick.duration * np.linalg.norm(kick.acceleration)
             told = f"with the device on, ({turned}) N m s and {moved:.3g} m/s"
             return f"{assumption.removesuffix('.')}; {told}."
     return assumption

@@ -9,7 +9,6 @@ from ocs_design.common.units import rpm
 from ocs_design.device.joints import SHAFT_JOINT, joints_of, rim_fit
 from ocs_design.device.records.device import Margin
 from ocs_design.parts.joints import SERVICE
-from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.simulation.run import Run
 from ocs_design.sizing.margins import (
@@ -109,7 +108,7 @@ def _brake_margins(
     fit = rim_fit(device)
     for maneuver in resolved.requirement.maneuvers:
         plan = plans.get(maneuver.name)
-        if not isinstance(maneuver, StandUp) or plan is None or not plan.spun:
+        if plan is None or not plan.spun:
             continue
         slowed = plan.spun / maneuver.stop
         where = f"from {rpm(plan.spun)} in {1e3 * maneuver.stop:.2g} ms"

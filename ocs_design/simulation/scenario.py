@@ -13,8 +13,7 @@ from functools import cached_property
 from ocs_design.device.device import Device
 from ocs_design.device.records.flights import StoppedRecord, SurvivalRecord
 from ocs_design.jumping.jump import BALLISTIC, JumpPlans
-from ocs_design.requirement.maneuver import Maneuver, Shove
-from ocs_design.requirement.pivoted import Pivoted
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.leg_geometry import up_axis
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.batch import Recording
@@ -141,7 +140,7 @@ def run_scenarios(flights: Flights, progress: Progress | None = None) -> tuple[R
     doubtful = []
     for index, (maneuver, pair) in enumerate(zip(maneuvers, pairs, strict=True)):
         down = [flight.metrics for flight in pair if comes_down_well(flight.metrics, maneuver)]
-        lands = can_stand[index] and not isinstance(maneuver, Pivoted)
+        lands = can_stand[index] and not maneuver.on_pivot
         if lands and down and not any(stands(metrics) for metrics in down):
             doubtful.append(index)
     landings = [
@@ -192,14 +191,12 @@ def fly_stopped(
     for (maneuver, stopped, _), flight in zip(flown, ends, strict=True):
         against = refusal(flights.robot) or flight.objection
         # The landing counts, not whether the legs then keep the robot up.
-        shoved = isinstance(maneuver, Shove)
-        verdict = judge(
-            flight.metrics, maneuver, can_stand=True if shoved else None, objection=against
-        )
+        can_stand = True if maneuver.on_feet else None
+        verdict = judge(flight.metrics, maneuver, can_stand=can_stand, objection=against)
         tilt, ended = None, flight.metrics
         if ended is not None and verdict.fault is not Fault.UNSOUND:
             final = max(abs(ended.final_roll), abs(ended.final_pitch))
-            tilt = final if shoved else off_at_touchdown(ended, maneuver)
+            tilt = final if maneuver.on_feet else off_at_touchdown(ended, maneuver)
         found.append(
             StoppedRecord(
                 scenario=maneuver.name,

@@ -13,7 +13,7 @@ from ocs_design.common.errors import SpecificationError
 from ocs_design.jumping.jump import LegTrajectory
 from ocs_design.jumping.legged_body import obstacle_to_jumping
 from ocs_design.requirement.froude import FroudeScale
-from ocs_design.requirement.maneuver import Maneuver, Shove
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.leg_geometry import LegGeometry, leg_geometries
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.stance import lifted
@@ -55,7 +55,7 @@ def waiting(
     Raises:
         SpecificationError: it is to trot but lacks two diagonal pairs of point feet.
     """
-    if not isinstance(maneuver, Shove):
+    if not maneuver.on_feet:
         return None, None
     if not maneuver.stride:
         return settling, None
@@ -69,7 +69,7 @@ def require_trot(maneuvers: Iterable[Maneuver], robot: Robot) -> None:
     Raises:
         SpecificationError: one of them needs a trot, and the robot cannot trot.
     """
-    if any(isinstance(maneuver, Shove) and maneuver.stride for maneuver in maneuvers):
+    if any(maneuver.stride for maneuver in maneuvers):
         _pairs(robot, leg_geometries(robot.tree, robot.trunk, robot.legs))
 
 

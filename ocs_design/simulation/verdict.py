@@ -9,13 +9,12 @@ import numpy as np
 from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray
 from ocs_design.export.physics import STEADY_LEGS
-from ocs_design.requirement.maneuver import End, Flip, Maneuver, Shove
+from ocs_design.requirement.boundary import End
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.pivoted import Pivoted
-from ocs_design.requirement.turns import TurnTo
 from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.simulation.run import UPRIGHT_TILT, Metrics
 from ocs_design.simulation.wheel_law import tilt_error
-from ocs_design.sizing.trajectory.boundary import boundary
 
 REST_RATE = np.radians(5.0)
 """Largest turning rate of a robot that counts as at rest [rad/s]."""
@@ -81,17 +80,16 @@ def judge(
         return Verdict(None, unsound, Fault.UNSOUND)
     if isinstance(maneuver, Pivoted):
         return _pivot_verdict(metrics, maneuver)
-    shoved = isinstance(maneuver, Shove)
     verdict = (
         _shove_verdict(metrics, maneuver, can_stand)
-        if shoved
+        if maneuver.on_feet
         else _landing_verdict(metrics, maneuver, can_stand, legs)
     )
     if verdict.passed is None:
         return verdict
     return replace(
         verdict,
-        level=None if shoved else not _landing_failure(metrics, maneuver),
+        level=None if maneuver.on_feet else not _landing_failure(metrics, maneuver),
         stands=None if can_stand is None else metrics.upright_at_end,
     )
 
@@ -104,7 +102,7 @@ def _landing_verdict(
     if failure is not None:
         return failure
     landing, final = f"{_ends(maneuver)} at {_tilt(metrics)}", _final_tilt(metrics)
-    if isinstance(maneuver, TurnTo):
+    if maneuver.heads:
         landing += f", heading turned by {_degrees(metrics.heading_drift)} deg"
         if any(landing_attitude(maneuver)[:2]):
             off = _degrees(off_at_touchdown(metrics, maneuver))
@@ -221,11 +219,9 @@ def _unsound(metrics: Metrics | None, maneuver: Maneuver, gate: float = MOMENTUM
 
 def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> Verdict | None:
     """What was wrong up to touchdown; None if nothing."""
-    if (
-        isinstance(maneuver, Flip)
-        and abs(metrics.turned_angle - maneuver.angle) > LANDING_TOLERANCE
-    ):
-        share = f"{_degrees(metrics.turned_angle)} of {np.degrees(maneuver.angle):.0f} deg"
+    angle = float(maneuver.angles[1])
+    if maneuver.turns_over and abs(metrics.turned_angle - angle) > LANDING_TOLERANCE:
+        share = f"{_degrees(metrics.turned_angle)} of {np.degrees(angle):.0f} deg"
         failure = f"turns {share} before touchdown"
         return Verdict(False, failure, Fault.TURN)
     _, _, heading = landing_attitude(maneuver)
@@ -236,8 +232,8 @@ def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> Verdict | None:
             failure = f"{_ends(maneuver)} with its heading turned by {made}"
             return Verdict(False, failure, Fault.TURN)
     if failure := _landing_failure(metrics, maneuver):
-        if isinstance(maneuver, Flip) and abs(remainder(maneuver.angle, tau)) > LANDING_TOLERANCE:
-            asked = _degrees(maneuver.angle)
+        if maneuver.turns_over and abs(remainder(angle, tau)) > LANDING_TOLERANCE:
+            asked = _degrees(angle)
             failure += f": a turn of {asked} deg does not end level, one of 360 deg does"
         return Verdict(False, failure, Fault.LANDING)
     return None
@@ -245,9 +241,9 @@ def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> Verdict | None:
 
 def landing_attitude(maneuver: Maneuver) -> tuple[float, float, float | None]:
     """Roll, pitch and heading specified for touchdown [rad]; None: any heading."""
-    if not isinstance(maneuver, TurnTo) or maneuver.end != End.ATTITUDE:
+    if maneuver.on_pivot or maneuver.end != End.ATTITUDE:
         return 0.0, 0.0, None
-    attitude = boundary(maneuver, 0.0).final_attitude
+    attitude = maneuver.boundary(0.0).final_attitude
     roll, pitch = quaternions.tilt(attitude)
     return float(roll), float(pitch), float(quaternions.heading(attitude))
 
@@ -260,7 +256,7 @@ def lands_on_legs(maneuver: Maneuver) -> bool:
 
 def ends_anyhow(maneuver: Maneuver) -> bool:
     """Whether a maneuver may end at any attitude, such as a turn that only has to stop."""
-    return isinstance(maneuver, TurnTo) and maneuver.end == End.AT_REST
+    return maneuver.end == End.AT_REST
 
 
 def _landing_failure(metrics: Metrics, maneuver: Maneuver) -> str:

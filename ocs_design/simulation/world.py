@@ -13,12 +13,12 @@ import numpy as np
 from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray
 from ocs_design.jumping.jump import LegTrajectory
+from ocs_design.requirement.boundary import Push
 from ocs_design.robot.mujoco_bodies import quaternion
 from ocs_design.robot.robot import Robot
 from ocs_design.robot.tree import Body, JointKind
 from ocs_design.simulation.desaturation import Desaturation
 from ocs_design.simulation.imperfections import Imperfections
-from ocs_design.simulation.launch import Push
 from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.reference import Turn
 from ocs_design.simulation.target import StoppedDrive

@@ -21,14 +21,14 @@ from ocs_design.export.physics import (
 )
 from ocs_design.jumping.jump import IN_FLIGHT, JumpPlan
 from ocs_design.requirement.froude import FroudeScale
-from ocs_design.requirement.maneuver import Maneuver, Unforeseen
-from ocs_design.requirement.pivoted import Pivoted
+from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.pivoted import HELD_ON, Pivoted
 from ocs_design.requirement.sections import ValidationSection
 from ocs_design.requirement.vocabulary import CONTROL_PERIOD
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.desaturation import Desaturation
 from ocs_design.simulation.engine import Engine
-from ocs_design.simulation.launch import flight_time, launch, on_pivot, place
+from ocs_design.simulation.launch import flight_time, launch, place
 from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.reference import Profile, Quintic, fit_turn
 from ocs_design.simulation.scene import (
@@ -42,7 +42,6 @@ from ocs_design.simulation.scene import (
 from ocs_design.simulation.trotting import waiting
 from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw
 from ocs_design.simulation.world import Addresses, TrunkChain, World
-from ocs_design.sizing.trajectory.boundary import HELD_ON
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.motion import Trajectory
 
@@ -113,7 +112,7 @@ class WorldBuilder:
             level: fly it level and undisturbed, to see whether the legs can bear the landing.
         """
         active = wheels is Wheels.ACTIVE
-        if not active or isinstance(maneuver, Unforeseen):
+        if not active or maneuver.push is not None:
             trajectory = None
         device, legs = self._device.as_flown(maneuver), jump.legs
         pivoted = maneuver if isinstance(maneuver, Pivoted) else None
@@ -129,14 +128,14 @@ class WorldBuilder:
             model.opt.timestep = JUMP_STEP
         whole, wheel = whole_mass(model, data), device.flywheel
         body = Gyrostat(whole.inertia, device.axes, wheel.spin_inertia, device.motor.armature)
-        if pivoted is None:
-            start = launch(maneuver, standing, self._options.drop_profile)
-            start = start.undisturbed if level else start
-        else:
-            pivoted = pivoted.on(whole)
+        if pivoted is not None:
+            maneuver = pivoted = pivoted.on(whole)
             body = replace(body, inertia=pivoted.inertia, pull=pivoted.pull, edge=pivoted.axis)
-            start = on_pivot(pivoted, body, planned=trajectory is not None)
-
+        start = launch(maneuver, standing, self._options.drop_profile)
+        if pivoted is not None and trajectory is None:
+            # Without a plan, or without wheels, there is nothing to spin up and brake.
+            start = replace(start, rate=pivoted.struck)
+        start = start.undisturbed if level else start
         flight = flight_time(maneuver, start, standing)
         # Time simulated after touchdown: one second for Solo12 on Earth.
         settling = FroudeScale.of(self._robot).time(maneuver.gravity or STANDARD_GRAVITY)

@@ -22,7 +22,6 @@ from ocs_design.common.wording import some_of
 from ocs_design.requirement.bound import per_wheel, spin_demands
 from ocs_design.requirement.kinds import change_text
 from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.requirement.pivoted import Balance
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.sizing.bound.rim_problem import largest_spin_inertia
 from ocs_design.sizing.limits import (
@@ -239,17 +238,17 @@ def advice_on(
 def _caught(field: Field) -> Iterator[str]:
     """Sentence on the largest upset that the drives can balance, all else as specified."""
     requirement = field.problem.requirement
-    asked = [each for each in requirement.maneuvers if isinstance(each, Balance)]
+    asked = [each for each in requirement.maneuvers if each.upset]
 
     def does(part: float) -> bool:
-        less = requirement.changed(lambda m: m.times(part) if isinstance(m, Balance) else m)
+        less = requirement.changed(lambda each: each.milder(part) if each.upset else each)
         return field.with_requirement(less).possible
 
     least = 1.0 / MOST_ADVISED
     if not asked or not does(least):
         return
     part, _ = narrowed(lambda each: not does(each), least, 1.0, ADVICE_PRECISION)
-    told = some_of([f"{each.times(part).upset} for {each.name}" for each in asked])
+    told = some_of([f"{each.milder(part).upset} for {each.name}" for each in asked])
     yield f"A device exists with {told}."
 
 

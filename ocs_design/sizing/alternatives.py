@@ -22,9 +22,8 @@ from ocs_design.common.units import format_quantity, round_outwards
 from ocs_design.common.wording import degrees
 from ocs_design.device.records.selection import SAVES_NOTHING, Alternative, Owed
 from ocs_design.requirement.choices import BUS_VOLTAGES, any_motors, motor_choice
-from ocs_design.requirement.kinds import change_text, milder, slower
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove
-from ocs_design.requirement.pivoted import StandUp
+from ocs_design.requirement.kinds import change_text
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import AUTO, DISC, LIGHTEST, RING, STEEL
@@ -276,10 +275,10 @@ def changes(task: Task, choice: Choice) -> Iterator[Change]:
             asked_for = replace(task, specification=stated, resolved=replace(resolved, choice=own))
             yield Change(each.text, asked_for, relaxed)
     asked = problem.requirement
-    flips = [each for each in asked.maneuvers if isinstance(each, Flip)]
+    flips = [each for each in asked.maneuvers if each.turns_over]
     if problem.layout.pairs and any(flip.incidence is None for flip in flips):
         turned = asked.changed(
-            lambda m: replace(m, incidence=m.incidence or 0.0) if isinstance(m, Flip) else m
+            lambda m: replace(m, incidence=m.incidence or 0.0) if m.turns_over else m
         )
         kept = dict(asked.reserves)
         for flip in flips:
@@ -470,7 +469,7 @@ def _levers(task: Task, owed: str) -> Iterator[_Lever]:
     names, height = [maneuver.name for maneuver in task.maneuvers], task.standing_height
 
     def longer(maneuver: Maneuver, percent: int) -> Maneuver:
-        return slower(maneuver, 1.0 + percent / 100.0, height)
+        return maneuver.slower(1.0 + percent / 100.0, height)
 
     def share(percent: int) -> float:
         return round_outwards(1.0 / (1.0 + percent / 100.0), upwards=False, digits=2)
@@ -489,13 +488,10 @@ def _levers(task: Task, owed: str) -> Iterator[_Lever]:
                     f"{percent}% more time for one: {change_text(alone, longer(alone, percent))}"
                 ),
             )
-        kinds = {Drop: "tilt", StandUp: "tilt", Disturbance: "push", Shove: "push"}
-        if (what := kinds.get(type(alone))) is not None:
+        if alone.part:
             yield _Lever(
-                lambda percent: task.with_maneuvers(
-                    lambda _: milder(alone, share(percent)), [owed]
-                ),
-                lambda percent: f"{share(percent):.0%} of the {what} of {owed}",
+                lambda percent: task.with_maneuvers(lambda _: alone.milder(share(percent)), [owed]),
+                lambda percent: f"{share(percent):.0%} of the {alone.part} of {owed}",
             )
     resolved = task.resolved
     envelope, rate = resolved.envelope, resolved.requirement.rate_change

@@ -13,7 +13,6 @@ from ocs_design.device.answers import FrontDevice
 from ocs_design.device.layout import PAIR, Criterion
 from ocs_design.device.records.selection import CoDesignRecord
 from ocs_design.requirement.checks import contradictions
-from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import CONTAINING, LIGHTEST, MORE_PAIRS, PYRAMID
@@ -79,11 +78,10 @@ def design_device(
         except Infeasible:
             if all(short > 0.0 for short, _, _ in tried):
                 asked = task.resolved.requirement
-                climbs = [each for each in asked.maneuvers if isinstance(each, StandUp)]
-                if not any(each.slower == 1.0 for each in climbs):
+                calmer = asked.changed(lambda each: each.calmer())
+                if calmer.maneuvers == asked.maneuvers:
                     raise
                 # Standing up more slowly takes less torque and more momentum.
-                calmer = asked.changed(lambda m: m.calmer() if isinstance(m, StandUp) else m)
                 with suppress(Infeasible):
                     return design_device(task.asking(calmer), ranked=ranked, reserve=reserve)
                 raise

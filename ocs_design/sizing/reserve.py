@@ -21,12 +21,7 @@ from ocs_design.actuation.wheel_load import WheelTask, held_by_each, spin_demand
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.records.selection import KeptRecord, ReserveRecord, UncertaintyCost
 from ocs_design.requirement.bound import turned_roll
-from ocs_design.requirement.maneuver import (
-    Drop,
-    Flip,
-    Maneuver,
-    Unforeseen,
-)
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import ManeuverReserve, Requirement
 from ocs_design.requirement.uncertainty import UncertaintySection, complete_uncertainty, parts_of
 from ocs_design.requirement.vocabulary import DRAWN, RELIABILITY
@@ -427,8 +422,9 @@ class _Flown:
         rates = PUSH_OFF * device.total.mass * speed * off / diagonal
         rates = rates + (drawn["takeoff_rate"] if speed else 0.0)
         time, share = slew.duration, 1.0
-        arrives = isinstance(maneuver, Unforeseen | Drop)
-        if isinstance(maneuver, Flip):
+        # Measured for falls and pushes, where feedback turns the trunk to level until touchdown.
+        arrives = not maneuver.estimated and not maneuver.on_pivot
+        if maneuver.turns_over:
             # A robot behind its plan may use the whole flight, but then brakes late, and finishes
             # in time only if the supply absorbs the wheels' energy in the part of the flight after
             # the planned turn.
@@ -455,7 +451,7 @@ class _Flown:
             nominal=nominal,
             inertia=diagonal,
             # A turn cancels a tilt of the opposite sense.
-            swept=slew.swept * (1.0 if isinstance(maneuver, Unforeseen) else -1.0),
+            swept=slew.swept * (-1.0 if maneuver.push is None else 1.0),
             momentum=slew.momentum + diagonal * rates,
             rates=rates,
             duration=time - drawn["torque_delay"],
@@ -474,7 +470,7 @@ class _Flown:
     def _turns_over(self) -> bool:
         """Whether roll turns with the trunk (a flip) and the wheels cannot control yaw."""
         blind = bool((np.abs(self.designed[2]) <= OUT_OF_REACH).all())
-        return isinstance(self.maneuver, Flip) and blind
+        return self.maneuver.turns_over and blind
 
     @property
     def _undoes_roll(self) -> bool:

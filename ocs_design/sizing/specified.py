@@ -21,11 +21,9 @@ from ocs_design.parts.motor_mount import bond_length, is_held, motor_front, moun
 from ocs_design.parts.rim import NO_CUTS, WEB_MATERIAL, RimCuts, hub_height
 from ocs_design.requirement.choices import MotorChoice
 from ocs_design.requirement.device_sections import Envelope, FlywheelSection
-from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
-from ocs_design.requirement.turns import TurnTo
 from ocs_design.requirement.vocabulary import (
     ALL_LAYOUTS,
     ALUMINIUM_WEB,
@@ -56,9 +54,7 @@ def selection_problem(task: Task) -> SelectionProblem | None:
     direct = angle is not None and bool(np.linalg.matrix_rank(layout.axes(angle), _SPANS) == 3)
     problem = SelectionProblem(
         robot=footing.carried(robot.mass_properties),
-        requirement=resolved.requirement.changed(
-            lambda each: replace(each, direct=direct) if isinstance(each, TurnTo) else each
-        ),
+        requirement=resolved.requirement.changed(lambda each: each.with_wheels(direct=direct)),
         envelope=resolved.envelope,
         place=footing.place,
         motors=_held(specification, resolved, choice),
@@ -150,8 +146,7 @@ def _held(
 
         held = (each for each in motors if is_held(each, None) and holds_wheel(each))
         motors = tuple(held) or motors
-    climbs = (each for each in resolved.requirement.maneuvers if isinstance(each, StandUp))
-    stop = min((each.stop for each in climbs if each.braked), default=inf)
+    stop = min((each.stop for each in resolved.requirement.maneuvers), default=inf)
     if not isfinite(stop):
         return motors
     slowed = []

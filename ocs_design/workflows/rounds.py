@@ -21,12 +21,10 @@ from ocs_design.monte_carlo.running import run_campaign
 from ocs_design.monte_carlo.summary import summarised
 from ocs_design.report.text.console import Steps
 from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.requirement.pivoted import StandUp
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.sections import ValidationSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
-from ocs_design.requirement.turns import TurnTo
 from ocs_design.requirement.vocabulary import RELIABILITY
 from ocs_design.robot.collision import forget_collision_model
 from ocs_design.robot.meshes import size
@@ -263,7 +261,7 @@ def size_for_turns(placed: Placed, steps: Steps, *, strict: bool) -> Placed:
     for _ in range(TURN_ROUNDS):
         asked = placed.resolved.requirement.maneuvers
         estimates = dict(placed.estimates)
-        turns = {each.name: each for each in asked if isinstance(each, TurnTo | StandUp)}
+        turns = {each.name: each for each in asked if each.estimated}
         for name, reference in references_of(placed, list(turns.values())).items():
             factor = reference.lacking(turns[name].end)
             if factor is not None:
@@ -297,7 +295,7 @@ def turns_not_made(placed: Placed, references: Mapping[str, "Reference"]) -> Ite
         reference = references.get(maneuver.name)
         if reference is None or reference.trajectory is not None:
             continue
-        if isinstance(maneuver, TurnTo | StandUp):
+        if maneuver.estimated:
             yield f"{maneuver.name}: {reference.note}"
 
 

@@ -9,7 +9,7 @@ from specifications import MANEUVERS
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.errors import SpecificationError
-from ocs_design.requirement.kinds import change_text, slower
+from ocs_design.requirement.kinds import change_text
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.requirement.turns import Catch, TurnTo, loop_length
@@ -118,7 +118,7 @@ IN_THE_AIR = [each for each in MANEUVERS if not isinstance(each, Pivoted)]
 @pytest.mark.parametrize("factor", [1.01, 1.3, 4.0])
 def test_only_the_time_is_other(maneuver, factor):
     before = maneuver.slew(COUPLED, HEIGHT)
-    after = slower(maneuver, factor, HEIGHT).slew(COUPLED, HEIGHT)
+    after = maneuver.slower(factor, HEIGHT).slew(COUPLED, HEIGHT)
     assert after.duration == pytest.approx(factor * before.duration, rel=1e-12)
     np.testing.assert_allclose(after.swept, before.swept, rtol=1e-15)
     np.testing.assert_allclose(after.momentum, before.momentum, rtol=1e-15)
@@ -127,7 +127,7 @@ def test_only_the_time_is_other(maneuver, factor):
 @pytest.mark.parametrize("factor", [1.01, 1.3, 4.0])
 def test_a_turn_ends_before_its_flight(factor):
     flip = next(maneuver for maneuver in MANEUVERS if isinstance(maneuver, Flip))
-    longer = slower(flip, factor, HEIGHT)
+    longer = flip.slower(factor, HEIGHT)
     assert longer.duration < longer.flight_time
     assert (longer.jump_height == flip.jump_height) == (factor * flip.duration < flip.flight_time)
 
@@ -141,4 +141,4 @@ def test_keys_are_told_rounded_to_the_safe_side():
         (flip, 1.05, "back-flip duration 2.1 s"),
         (flip, 1.5, "back-flip jump_height 1.9 m and duration 3 s"),
     ):
-        assert change_text(maneuver, slower(maneuver, factor, HEIGHT)) == told
+        assert change_text(maneuver, maneuver.slower(factor, HEIGHT)) == told

@@ -30,7 +30,7 @@ def test_each_kind_of_maneuver_reads_each_of_its_fields():
         # vertical, or the robot's mass once more.
         assert set(kind.values) == {item.name for item in fields(kind.maneuver)} - {
             "estimate",
-            "slower",
+            "stretch",
             "direct",
             "body",
         }

@@ -14,7 +14,6 @@ from wheels import braked_inertia, paper_device
 
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.requirement.froude import default_maneuvers
-from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.maneuver import Disturbance
 from ocs_design.requirement.phrases import (
     CATCH_TEXT,
@@ -326,7 +325,7 @@ def test_a_kick_up_or_down_moves_the_landing(gained, upward, onset):
 def test_more_time_for_a_kicked_jump_is_that_much_more(real, gained):
     (kick,) = maneuvers(real, kick=["1 N s at 0.1,0,0.1"])
     kick = replace(kick, velocity_change=(0.0, 0.1, gained))
-    assert slower(kick, 1.2, 0.27).time_left == pytest.approx(1.2 * kick.time_left)
+    assert kick.slower(1.2, 0.27).time_left == pytest.approx(1.2 * kick.time_left)
 
 
 def test_a_kick_in_millimetres_without_their_unit_is_off_the_robot(solo12):

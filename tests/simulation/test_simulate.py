@@ -9,8 +9,8 @@ import pytest
 from trajectories import from_rest
 from wheels import paper_device, paper_maneuvers
 
+from ocs_design.requirement.boundary import Push
 from ocs_design.simulation.batch import Recording
-from ocs_design.simulation.launch import Push
 from ocs_design.simulation.reference import Quintic
 from ocs_design.simulation.scenario import Flights, Options, run_scenarios
 from ocs_design.simulation.scene import Wheels

@@ -140,7 +140,7 @@ def test_a_drop_starts_tilted_and_ends_level(builder):
 
 
 def test_a_drop_from_below_the_standing_height_is_refused(builder):
-    with pytest.raises(SpecificationError, match="the robot stands"):
+    with pytest.raises(SpecificationError, match="there is no fall"):
         builder.flight(Drop(name="low", height=0.1, pitch=0.5), Wheels.ACTIVE)
 
 

@@ -13,7 +13,6 @@ from ocs_design.requirement.device_sections import (
     OcsSection,
     SupplySection,
 )
-from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.maneuver import Flip
 from ocs_design.requirement.sections import RequirementSection, RobotSection
 from ocs_design.requirement.specification import Specification
@@ -55,7 +54,7 @@ def by_hand(task):
 
 
 def in_more_time(task):
-    return tuple(slower(each, MORE_TIME, task.standing_height) for each in task.maneuvers)
+    return tuple(each.slower(MORE_TIME, task.standing_height) for each in task.maneuvers)
 
 
 @pytest.mark.slow

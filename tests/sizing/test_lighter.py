@@ -8,7 +8,6 @@ import pytest
 from designed import design_of
 
 from ocs_design.requirement.device_sections import MotorSection
-from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.sections import RequirementSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.sizing.alternatives import _Search, lighter_by, owed_to
@@ -73,7 +72,7 @@ def test_every_answer_is_light_enough_and_the_smallest_change_that_is():
     def slower_by(percent):
         """Mass with so much more time."""
         maneuvers = tuple(
-            slower(each, 1.0 + percent / 100.0, task.standing_height) for each in task.maneuvers
+            each.slower(1.0 + percent / 100.0, task.standing_height) for each in task.maneuvers
         )
         return mass_of(task, replace(task.specification, maneuvers=maneuvers))
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
+from typing import Any
 
 import numpy as np
 
@@ -112,8 +113,9 @@ class ManeuverRecord:
                 (words or isinstance(value, str)) and value not in words
             ):
                 raise OcsError(f"maneuver {self.name!r}: {name} of a {self.kind} is not {value!r}")
+        figures: dict[str, Any] = {**self.parameters}
         return kind.maneuver(
-            name=self.name, gravity=self.gravity, incidence=self.incidence, **self.parameters
+            name=self.name, gravity=self.gravity, incidence=self.incidence, **figures
         )
 
 

@@ -32,7 +32,6 @@ from ocs_design.parts.rim import (
 )
 from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.device_sections import Envelope
-from ocs_design.requirement.kinds import slower
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.rim_problem import RimLimits, check_limits
@@ -178,7 +177,7 @@ def with_time(problem: SelectionProblem, factor: float, names: set[str]) -> Sele
     """The problem with `factor` times the time for the maneuvers of these names."""
     requirement, height = problem.requirement, problem.requirement.standing_height
     longer = requirement.changed(
-        lambda each: slower(each, factor, height) if each.name in names else each
+        lambda each: each.slower(factor, height) if each.name in names else each
     )
     return replace(problem, requirement=longer)
 

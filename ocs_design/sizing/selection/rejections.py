@@ -23,8 +23,6 @@ from ocs_design.common.units import format_quantity
 from ocs_design.parts.housing import PlainDrum
 from ocs_design.parts.rim import cylinder_spin_inertia
 from ocs_design.requirement.device_sections import Envelope
-from ocs_design.requirement.pivoted import Balance, Pivoted
-from ocs_design.requirement.turns import TurnTo
 from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits, smallest_rim_inertia
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.selection.bounds import PairBounds, cells_of, least_inertia
@@ -232,16 +230,16 @@ def _parts(
         needed = smallest_spin_inertia(task, line, armature)[0]
         taken = wheel_slew_time(task, largest[:, None], line, armature)[0]
         late = np.divide(taken, time, out=np.full(taken.shape, np.inf), where=time > 0.0)
-        if isinstance(maneuver, Balance):
+        if maneuver.upset:
             # The whole demand is proportional to the tilt, and the time is not set by the user.
             demand = spin_demand(task, line, armature)
             wheel = np.minimum(largest[:, None], 0.5 / demand.coupling)
             can = capability(demand, np.maximum(wheel, _NOTHING)).sweep
             late = np.divide(demand.sweep, can, out=np.full(can.shape, np.inf), where=can > 0.0)[0]
-        if isinstance(maneuver, TurnTo | Pivoted):
+        if maneuver.estimated:
             # The closed forms treat a full loop as part of it in part of the time, and a swing as a
             # turn there and back.
-            time = maneuver.duration
+            time = maneuver.boundary(requirement.standing_height).duration
         yield RequirementPart(maneuver.name, at, time, needed, late, slew_reason(task, line)[0])
         kept = requirement.reserve(maneuver)
         if kept.roll > 0.0:
@@ -311,8 +309,8 @@ def _reason(
         return reason, f"{wheel}, {which}"
     asked = next((each for each in problem.requirement.maneuvers if each.name == part.name), None)
     best, given = f"{part.late * part.time:.3g} s at best", f"{part.time:.3g} s"
-    if isinstance(asked, Balance):
-        best, given = f"{asked.times(float(1.0 / part.late)).upset} at best", asked.upset
+    if asked is not None and asked.upset:
+        best, given = f"{asked.milder(float(1.0 / part.late)).upset} at best", asked.upset
     elif np.isinf(part.late):
         best = "never in time"
     detail = f"{best} for {part.name}, {given} given"

@@ -16,11 +16,9 @@ from ocs_design.actuation.drive import RESERVE, DriveLine
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import module_axes
-from ocs_design.requirement.pivoted import Pivoted
 from ocs_design.sizing.lightest_module import binding_limits, lightest_module_at
 from ocs_design.sizing.selection.demand import UNDOES, rate_demands
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
-from ocs_design.sizing.trajectory.boundary import boundary
 from ocs_design.sizing.trajectory.flight import Flight, fly
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.program import Dimensions, solve
@@ -96,7 +94,7 @@ def co_design(problem: SelectionProblem, selected: Candidate) -> CoDesign:
     )
     if problem.requirement.spin_inertia is not None:
         return stands
-    if any(isinstance(each, Pivoted) for each in problem.requirement.maneuvers):
+    if any(each.on_pivot for each in problem.requirement.maneuvers):
         return replace(stands, note="the selection stands: a robot on a pivot is not co-designed")
     device = FreeDevice.of(problem, selected)
     if device is None:
@@ -233,7 +231,7 @@ class FreeDevice:
         requirement = self.problem.requirement
         for maneuver in requirement.maneuvers:
             own = maneuver.incidence
-            asked = boundary(maneuver, requirement.standing_height)
+            asked = maneuver.boundary(requirement.standing_height)
             gyrostat = _gyrostat(self.problem, start, start.incidence if own is None else own)
             yield Turn(asked, gyrostat, partial(self.plant, own=own))
 

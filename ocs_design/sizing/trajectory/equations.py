@@ -16,7 +16,7 @@ from functools import cache
 import casadi as ca
 import numpy as np
 
-from ocs_design.sizing.trajectory.boundary import Boundary
+from ocs_design.requirement.boundary import Boundary
 from ocs_design.sizing.trajectory.collocation import (
     BERNSTEIN,
     DEGREE,
@@ -147,8 +147,8 @@ def after_push(asked: Boundary) -> ca.Function:
     equation by classical Runge-Kutta steps.
     """
     inertia, now = ca.SX.sym("inertia", 3, 3), ca.SX.sym("now", 7)
-    rate, step = now[4:], asked.push_duration / _PUSH_STEPS
-    free = ca.DM(asked.push) - ca.cross(rate, inertia @ rate)
+    rate, step = now[4:], asked.push.duration / _PUSH_STEPS
+    free = ca.DM(asked.push.torque) - ca.cross(rate, inertia @ rate)
     change = ca.vertcat(0.5 * _product(now[:4], ca.vertcat(0.0, rate)), ca.inv(inertia) @ free)
     slope = ca.Function("slope", [now, inertia], [change])
     state = ca.SX(ca.vertcat(ca.DM(asked.attitude), ca.DM(asked.rate)))

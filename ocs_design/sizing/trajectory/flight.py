@@ -11,8 +11,7 @@ import numpy as np
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import cross
-from ocs_design.common.quaternions import conjugate, product
-from ocs_design.sizing.trajectory.boundary import turned_into_world, vertical_of
+from ocs_design.common.quaternions import conjugate, product, turned_into_world, vertical_of
 from ocs_design.sizing.trajectory.motion import Motion, Trajectory
 from ocs_design.sizing.trajectory.transcription import Turn
 

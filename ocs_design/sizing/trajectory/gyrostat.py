@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray
 
 NO_AUTHORITY = 1e-6
@@ -61,9 +62,7 @@ class Gyrostat:
     @property
     def upright(self) -> FloatArray:
         """Attitude with the centre of mass above the pivot, the nearest to level, shape (4,)."""
-        x, y, z = self.pull / np.linalg.norm(self.pull)
-        half = np.array([1.0 + z, y, -x, 0.0])
-        return np.asarray(half / np.linalg.norm(half))
+        return quaternions.upright(self.pull)
 
     @property
     def mobility(self) -> FloatArray:

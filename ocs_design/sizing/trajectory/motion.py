@@ -6,9 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.quaternions import conjugate, from_axis_angle, product
+from ocs_design.common.quaternions import (
+    conjugate,
+    from_axis_angle,
+    product,
+    turned_into_world,
+    vertical_of,
+)
+from ocs_design.requirement.boundary import Boundary
 from ocs_design.requirement.turns import loop_length
-from ocs_design.sizing.trajectory.boundary import Boundary, turned_into_world, vertical_of
 from ocs_design.sizing.trajectory.collocation import (
     BERNSTEIN,
     DEGREE,

@@ -8,20 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ocs_design.actuation.drive import PLANNED, DriveLine, power_less_friction
-from ocs_design.common.quaternions import conjugate, from_axis_angle, product
+from ocs_design.common.quaternions import conjugate, from_axis_angle, product, vertical_of
 from ocs_design.common.units import format_quantity, rpm
-from ocs_design.requirement.maneuver import End, Maneuver, Unforeseen
-from ocs_design.requirement.pivoted import Balance, Pivoted
-from ocs_design.requirement.turns import TurnTo
+from ocs_design.requirement.boundary import Boundary, End
+from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.pivoted import HELD_ON
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.place import with_device
-from ocs_design.sizing.trajectory.boundary import (
-    HELD_ON,
-    Boundary,
-    boundary,
-    pivot_boundary,
-    vertical_of,
-)
 from ocs_design.sizing.trajectory.flight import Flight, fly
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat, taken_over
 from ocs_design.sizing.trajectory.motion import HeadingLoop, Trajectory
@@ -186,17 +179,13 @@ def reference(
         one_stops: whether the other wheels must be able to follow it after any one drive has
             stopped.
     """
-    if isinstance(maneuver, Unforeseen):
+    if not maneuver.foreseen and not gyrostat.stands:
         return Reference(None, _UNFORESEEN)
-    if isinstance(maneuver, Balance):
-        return Reference(_balanced(gyrostat, line, maneuver), "")
-    asked = (
-        pivot_boundary(maneuver, gyrostat)
-        if isinstance(maneuver, Pivoted)
-        else boundary(maneuver, standing_height)
-    )
+    asked = maneuver.boundary(standing_height)
+    if not maneuver.foreseen:
+        return Reference(_balanced(gyrostat, line, asked.duration), "")
     spun = 0.0
-    if isinstance(maneuver, Pivoted) and asked.rate.any():
+    if gyrostat.stands and asked.rate.any():
         # Wheel speeds that the brake must stop about the controlled axes, h A W = I w.
         reached, momentum = gyrostat.turns_about, gyrostat.inertia @ asked.rate
         taken = np.linalg.pinv(reached @ gyrostat.axes) @ (reached @ momentum)
@@ -228,8 +217,8 @@ def reference(
         share, note = share * grows, _TOO_MUCH_FOR_OTHERS
     elif share == 1.0:
         note = f"the turn takes more than {PLANNED:.1%} of voltage, current or power"
-    if isinstance(maneuver, Pivoted):
-        trajectory = _balanced(gyrostat, line, maneuver, trajectory)
+    if gyrostat.stands:
+        trajectory = _balanced(gyrostat, line, asked.duration, trajectory)
         if spun:
             told = (
                 f"the wheels are stopped from {rpm(spun)} by brakes, which are neither "
@@ -246,14 +235,14 @@ def _refused(
     maneuver: Maneuver, asked: Boundary, gyrostat: Gyrostat, line: DriveLine, planned: Planned
 ) -> Reference:
     """Why there is no plan, and what would do; `planned` is the last one that failed."""
-    if isinstance(maneuver, TurnTo):
+    if maneuver.estimated and not gyrostat.stands:
         needed = quickest(asked, gyrostat, line)
         told = f"not even in {LONGEST:g} times that"
         if needed is not None:
             told = f"they need {needed * asked.duration:.3g} s"
         note = f"the wheels cannot make this turn in {asked.duration:.3g} s: {told}"
         return Reference(None, note, needed)
-    if isinstance(maneuver, Pivoted):
+    if gyrostat.stands:
         # Largest fraction of the tilt from which it stands up in time, by bisection to 1/16.
         low, high = 0.0, 1.0
         for _ in range(4):
@@ -277,11 +266,11 @@ def _refused(
 
 
 def _balanced(
-    gyrostat: Gyrostat, line: DriveLine, maneuver: Pivoted, planned: Trajectory | None = None
+    gyrostat: Gyrostat, line: DriveLine, duration: float, planned: Trajectory | None = None
 ) -> Trajectory:
     """Hold upright on a pivot after the plan, for `HELD_ON` times as long, wheels to rest."""
     wheels, begins = gyrostat.axes.shape[1], 0.0 if planned is None else planned.time[-1]
-    until = (1.0 + HELD_ON) * maneuver.duration
+    until = (1.0 + HELD_ON) * duration
     # The plan applies until then.
     time = begins + np.array([_AT_ONCE, BALANCE_STEP])
     none, upright = np.zeros((len(time), 3)), np.tile(gyrostat.upright, (len(time), 1))
@@ -413,10 +402,10 @@ def gyrostat_of(
 ) -> Gyrostat:
     """Robot and device as a rigid trunk with its wheels, about a pivot if the maneuver has one."""
     whole, figures = with_device(robot, device), (device.axes, device.flywheel.spin_inertia)
-    if isinstance(maneuver, Pivoted):
-        own = maneuver.on(whole)
-        return Gyrostat(own.inertia, *figures, device.motor.armature, own.pull, own.axis)
-    return Gyrostat(whole.inertia, *figures, device.motor.armature)
+    if maneuver is None:
+        return Gyrostat(whole.inertia, *figures, device.motor.armature)
+    inertia, pull, edge = maneuver.freedom(whole)
+    return Gyrostat(inertia, *figures, device.motor.armature, pull, edge)
 
 
 def drive_line_of(device: "Device") -> DriveLine:

@@ -14,8 +14,7 @@ import numpy as np
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.arrays import FloatArray
-from ocs_design.requirement.maneuver import End
-from ocs_design.sizing.trajectory.boundary import Boundary
+from ocs_design.requirement.boundary import Boundary, End
 from ocs_design.sizing.trajectory.collocation import DEGREE, TORQUE_DEGREE
 from ocs_design.sizing.trajectory.equations import (
     after_push,

@@ -130,7 +130,7 @@ def test_a_balance_that_no_motor_catches_says_what_they_catch():
     held = Balance(name="held", **edge, pitch=0.1, duration=1.0).on(problem.robot)
 
     def tilted(share):
-        asked = replace(problem.requirement, maneuvers=(held.times(share),), rate_change=None)
+        asked = replace(problem.requirement, maneuvers=(held.milder(share),), rate_change=None)
         return replace(problem, requirement=asked)
 
     with pytest.raises(Refused) as caught:

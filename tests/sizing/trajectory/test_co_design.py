@@ -13,7 +13,6 @@ from selections import lightest, random_problem
 from ocs_design.device.layout import module_axes
 from ocs_design.sizing.place import braked
 from ocs_design.sizing.trajectory import program
-from ocs_design.sizing.trajectory.boundary import boundary
 from ocs_design.sizing.trajectory.co_design import (
     LEAST_GAIN,
     FreeDevice,
@@ -114,7 +113,7 @@ def test_its_maneuvers_hold_on_the_fine_grid(answered):
         own = found.device.incidence if maneuver.incidence is None else maneuver.incidence
         wheels = Gyrostat(np.eye(3), module_axes(own), 1.0)
         assert flight.violation < 1e-6
-        assert missed(boundary(maneuver, standing), flight.trajectory) < 1e-4
+        assert missed(maneuver.boundary(standing), flight.trajectory) < 1e-4
         assert end_rate(wheels, flight.trajectory) < 1e-4
         assert flight.defect < 1e-4
         assert np.abs(flight.trajectory.wheel_torque).max() <= line.torque_limit * (1.0 + 1e-6)

@@ -23,9 +23,10 @@ from scipy.integrate import solve_ivp
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.errors import SpecificationError
+from ocs_design.common.quaternions import vertical_of
 from ocs_design.device.layout import Layout, LayoutName
+from ocs_design.requirement.boundary import Boundary
 from ocs_design.requirement.maneuver import Disturbance, Flip
-from ocs_design.sizing.trajectory.boundary import Boundary, vertical_of
 from ocs_design.sizing.trajectory.collocation import SQUARE
 from ocs_design.sizing.trajectory.equations import after_push
 from ocs_design.sizing.trajectory.flight import limit_violation

@@ -20,7 +20,7 @@ from gyrostats import (
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_load import WheelTask, smallest_spin_inertia
 from ocs_design.device.layout import Layout, LayoutName, module_axes
-from ocs_design.sizing.trajectory.boundary import UPRIGHT, Boundary
+from ocs_design.requirement.boundary import UPRIGHT, Boundary
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.motion import HeadingLoop
 
