@@ -116,13 +116,18 @@ def check_wheels_in_mujoco(model, device, trunk):
         np.testing.assert_allclose(position, module.position, rtol=0.0, atol=1e-12)
 
 
+def held_in_mujoco(model, posture):
+    """Its data with the joints held so."""
+    data = mujoco.MjData(model)
+    for name, value in posture.items():
+        data.joint(name).qpos = value
+    mujoco.mj_forward(model, data)
+    return data
+
+
 def seen_by_mujoco(model, robot):
     """Mass properties of the whole model in the robot's posture, in the frame of its trunk."""
-    data = mujoco.MjData(model)
-    for name, value in robot.posture.items():
-        data.joint(name).qpos[0] = value
-    mujoco.mj_forward(model, data)
-    return by_mujoco(model, data, robot.trunk)
+    return by_mujoco(model, held_in_mujoco(model, robot.posture), robot.trunk)
 
 
 def seen_by_pinocchio(text, robot):

@@ -3,6 +3,9 @@
 from dataclasses import replace
 from math import pi, radians
 
+import pytest
+
+from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.device_sections import (
     FlywheelSection,
     MotorSection,
@@ -12,6 +15,7 @@ from ocs_design.requirement.device_sections import (
 from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Shove
 from ocs_design.requirement.phrases import About, Climb, Kick, Pivot, Tilt
 from ocs_design.requirement.pivoted import Balance, StandUp
+from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.sections import RequirementSection, RobotSection, ValidationSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.turns import Catch, TurnTo
@@ -153,3 +157,10 @@ def same(one, other):
     """Maneuvers compare by identity."""
     plain = replace(one, maneuvers=()) == replace(other, maneuvers=())
     return plain and [vars(m) for m in one.maneuvers] == [vars(m) for m in other.maneuvers]
+
+
+def refused(specification, robot, size):
+    """What is wrong with it for a robot of that size, each with its key."""
+    with pytest.raises(SpecificationError) as caught:
+        resolve(specification, robot, size)
+    return caught.value.problems

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import trimesh
 from sampled import some
 from standing_parts import UPRIGHT, made_foot, standing_parts
 
@@ -64,17 +65,11 @@ def test_it_is_what_the_meshes_weigh(mounting, thick):
 
 
 def weighed(part, rotation, position):
-    """A part's mesh by its own volume integrals."""
+    """A part's mesh, by trimesh."""
     mesh = part_mesh(part, 256)
-    corners = mesh.vertices[mesh.triangles]
-    volumes = np.linalg.det(corners) / 6.0
-    mass = part.density * volumes.sum()
-    com = part.density * np.einsum("t,tkx->x", volumes, corners) / 4.0 / mass
-    both = corners.sum(axis=1)
-    second = np.einsum("t,tkx,tky->xy", volumes, corners, corners)
-    second = part.density * (second + np.einsum("t,tx,ty->xy", volumes, both, both)) / 20.0
-    second -= mass * np.outer(com, com)
-    own = MassProperties(mass, com, np.trace(second) * np.eye(3) - second)
+    found = trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False)
+    found.density = part.density
+    own = MassProperties(found.mass, found.center_mass, found.moment_inertia)
     return own.moved(rotation, position)
 
 
