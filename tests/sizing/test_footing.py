@@ -8,6 +8,7 @@ from math import acos, hypot, pi, sqrt
 import msgspec
 import numpy as np
 import pytest
+import urdf_text as urdf
 from designed import designed
 from masts import few_masts
 from robots import ROBOTS
@@ -59,15 +60,6 @@ DEVICE = driven_device()
 FOOT = foot_of(DEVICE)
 TOP = 0.05
 
-BOX = """<robot name="boxed">
-  <link name="base">
-    <inertial><mass value="10"/><inertia ixx="0.1" iyy="0.4" izz="0.4" ixy="0" ixz="0" iyz="0"/>
-    </inertial>
-    <collision><geometry><box size="{length} {width} 0.1"/></geometry></collision>
-    {more}
-  </link>
-</robot>"""
-
 REAL = [
     "solo_description/robots/solo12",
     "a1_description/urdf/a1",
@@ -78,13 +70,27 @@ REAL = [
 
 
 @pytest.fixture
-def boxed(tmp_path):
-    def read(width, length=0.6, more=""):
-        path = tmp_path / "boxed.urdf"
-        path.write_text(BOX.format(width=width, length=length, more=more))
-        return read_robot(path, trunk="base")
+def read(tmp_path):
+    """Reads the text of a URDF whose trunk is `base`."""
 
-    return read
+    def written(text):
+        (tmp_path / "robot.urdf").write_bytes(text)
+        return read_robot(tmp_path / "robot.urdf", trunk="base")
+
+    return written
+
+
+def box(x, y, z, xyz="0 0 0"):
+    return urdf.solid(f'<box size="{x} {y} {z}"/>', xyz)
+
+
+@pytest.fixture
+def boxed(read):
+    """A box 0.1 m high, and what more collides."""
+    own = urdf.inertial(10, "0.1 0.4 0.4")
+    return lambda width, length=0.6, more="": read(
+        urdf.robot(urdf.link("base", own, box(length, width, 0.1), more))
+    )
 
 
 def standing(out, up=0.0):
@@ -144,8 +150,7 @@ def test_what_of_a_foot_is_not_on_the_trunk_is_told(boxed, over, at_screws):
     """Half over the edge, or all screws over a step of 2 mm around a third of its base."""
     step = 0.2 * FOOT.base_radius
     more = "".join(
-        f'<collision><origin xyz="0 {side * 0.1} 0.051"/><geometry>'
-        f'<cylinder radius="{step}" length="0.002"/></geometry></collision>'
+        urdf.solid(f'<cylinder radius="{step}" length="0.002"/>', f"0 {side * 0.1} 0.051")
         for side in (1.0, -1.0)
     )
     robot = boxed(0.2 if over else 0.6, more="" if over else more)
@@ -230,11 +235,7 @@ def test_a_ring_of_modules_stands_on_one_plate(boxed, count):
 
 
 def test_a_bump_is_bridged_by_sleeves(boxed):
-    bump = (
-        '<collision><origin xyz="0 0 0.05"/><geometry><sphere radius="0.006"/></geometry>'
-        "</collision>"
-    )
-    robot = boxed(0.1, more=bump)
+    robot = boxed(0.1, more=urdf.solid('<sphere radius="0.006"/>', "0 0 0.05"))
     device = stand_on_trunk(standing(0.1), robot, stated=True)
     # The feet are where they were stated to be: what is under them is in the way.
     assert device.plate is None
@@ -419,36 +420,15 @@ def test_no_two_solids_of_any_layout_meet_over_a_full_turn(boxed, name, width):
     assert_none_meet(solids)
 
 
-def jointed(base, limb, mass, height, axis, inertia):
-    """A box of 20 kg with another one on a joint above it; sizes as in URDF."""
-    yy, zz = inertia
-    return f"""<robot name="jointed">
-  <link name="base">
-    <inertial><mass value="20"/>
-      <inertia ixx="0.3" iyy="{yy}" izz="{zz}" ixy="0" ixz="0" iyz="0"/></inertial>
-    <collision><geometry><box size="{base}"/></geometry></collision>
-  </link>
-  <link name="limb">
-    <inertial><mass value="{mass}"/>
-      <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>
-    <collision><geometry><box size="{limb}"/></geometry></collision>
-  </link>
-  <joint name="joint" type="revolute">
-    <parent link="base"/><child link="limb"/><origin xyz="0 0 {height}"/><axis xyz="{axis}"/>
-    <limit lower="-1" upper="1" effort="1" velocity="1"/>
-  </joint>
-</robot>"""
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "width"), [(LayoutName.PAIR, 0.12), (LayoutName.DOUBLE_PAIR, 0.5)]
 )
-def test_to_both_sides_of_an_arm_over_the_trunk(tmp_path, name, width):
+def test_to_both_sides_of_an_arm_over_the_trunk(read, name, width):
     """No part of any module, nor a plate under the arm, has any volume in common with it."""
-    armed = jointed(f"0.6 {width} 0.1", "0.6 0.06 0.06", 1, 0.13, "0 1 0", (0.6, 0.6))
-    (tmp_path / "armed.urdf").write_text(armed)
-    robot = read_robot(tmp_path / "armed.urdf", trunk="base")
+    base = urdf.inertial(20, "0.3 0.6 0.6") + box(0.6, width, 0.1)
+    arm = urdf.inertial(1, "0.01 0.01 0.01") + box(0.6, 0.06, 0.06)
+    robot = read(urdf.topped(base, arm, "0 0 0.13", "0 1 0"))
     device = stood(robot, Layout(name), with_motor(), 0.5)
     assert (device.plate is not None) == (width < 0.5)
     mounting_without_faults(robot, device)
@@ -466,17 +446,16 @@ BARS = np.arange(-0.14, 0.15, 0.07).round(3).tolist()
 """Places of bars across a trunk, 100 mm high, 60 mm apart: no module stands between them."""
 
 
-BAR = (
-    '<collision><origin xyz="{} 0 {}"/><geometry><box size="0.01 0.24 {}"/></geometry></collision>'
-)
-"""A bar: where, the height of its middle, its height [m]."""
+def bars(high, places=BARS):
+    """So high, on the trunk [m]."""
+    return "".join(box(0.01, 0.24, high, f"{x} 0 {TOP + high / 2.0}") for x in places)
 
 
 @pytest.mark.parametrize(("thickness", "length"), [(12e-3, 0.2), (15e-3, None)])
 def test_posts_are_no_longer_than_their_screws(boxed, monkeypatch, thickness, length):
     """Posts of 170 mm, threads of 15.2 mm and a plate of 12 mm take M8 x 200, one of 15 mm more."""
     monkeypatch.setattr("ocs_design.sizing.footing.plate.STOCK", (thickness,))
-    robot = boxed(0.24, 0.32, "".join(BAR.format(x, TOP + 0.085, 0.17) for x in BARS))
+    robot = boxed(0.24, 0.32, bars(0.17))
     _, plate = held_at(trunk_surface(robot), feet_of(standing(0.1)), None, (POST_SCREW,))
     assert (plate and plate.screw_lengths[0]) == length
 
@@ -496,8 +475,7 @@ def test_beside_a_plate_the_trunk_may_be_as_high_as_its_top(boxed, high, stands)
     """However thick it is: a module begins above it. Walls stand before and behind the feet."""
     feet, up = feet_of(standing(0.1)), 0.0335
     out = feet.reach + 0.003
-    walls = (BAR.format(x, TOP + high / 2.0, high) for x in (out, -out))
-    surface = trunk_surface(boxed(0.24, 0.32, "".join(walls)))
+    surface = trunk_surface(boxed(0.24, 0.32, bars(high, (out, -out))))
     _, plate = held_at(surface, feet, TOP + up)
     assert (plate is not None) == stands
     assert plate is None or plate.thickness == 4e-3
@@ -506,7 +484,7 @@ def test_beside_a_plate_the_trunk_may_be_as_high_as_its_top(boxed, high, stands)
 @pytest.mark.slow
 def test_over_bars_across_the_trunk_a_plate_stands_on_posts(boxed):
     """Which bear it, are weighed with it, and have no volume in common with bars and modules."""
-    robot = boxed(0.24, 0.32, "".join(BAR.format(x, TOP + 0.05, 0.1) for x in BARS))
+    robot = boxed(0.24, 0.32, bars(0.1))
     device = stood(robot, PAIR, with_motor(), 0.5)
     plate = device.plate
     assert plate.thread == "M8"
@@ -530,16 +508,16 @@ def test_over_bars_across_the_trunk_a_plate_stands_on_posts(boxed):
 
 
 @pytest.fixture
-def column(tmp_path):
+def column(read):
     """A trunk with a head on top, where nothing else has room."""
+    head = urdf.inertial(2, "0.01 0.01 0.01") + box(0.2, 0.3, 0.2)
 
-    def read(width=0.14):
-        path = tmp_path / "column.urdf"
-        box = f"0.12 {width} 0.3"
-        path.write_text(jointed(box, "0.2 0.3 0.2", 2, 0.3, "0 0 1", (0.3, 0.1)))
-        return read_robot(path, trunk="base")
+    def so_wide(width=0.14):
+        return read(
+            urdf.topped(urdf.inertial(20, "0.3 0.3 0.1") + box(0.12, width, 0.3), head, "0 0 0.3")
+        )
 
-    return read
+    return so_wide
 
 
 @pytest.mark.parametrize("name", some(2, [LayoutName.DOUBLE_PAIR, LayoutName.PAIR]))

@@ -9,6 +9,7 @@ import pytest
 import trimesh
 from manifold3d import Manifold, Mesh64, OpType
 from masts import few_masts
+from urdf_text import inertial, solid, topped
 from wheels import driven_device
 
 from ocs_design.common.errors import OcsError
@@ -32,33 +33,17 @@ from ocs_design.sizing.mounting import mounting_of, mounting_open_points
 
 DEVICE = driven_device()
 
-ROUND = """<robot name="round">
-  <link name="base">
-    <inertial><mass value="20"/>
-      <inertia ixx="0.3" iyy="0.3" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>
-    <collision>{shape}</collision>
-  </link>
-  <link name="head">
-    <inertial><mass value="2"/>
-      <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>
-    <collision><geometry><box size="0.2 0.3 0.2"/></geometry></collision>
-  </link>
-  <joint name="neck" type="revolute">
-    <parent link="base"/><child link="head"/><origin xyz="0 0 0.2"/><axis xyz="0 0 1"/>
-    <limit lower="-1" upper="1" effort="1" velocity="1"/>
-  </joint>
-</robot>"""
-
 RADIUS = 0.022
-CYLINDER = f'<geometry><cylinder radius="{RADIUS}" length="0.16"/></geometry>'
-RIDGE = '<origin rpy="0 0 0.785"/><geometry><box size="0.12 0.12 0.16"/></geometry>'
+CYLINDER = solid(f'<cylinder radius="{RADIUS}" length="0.16"/>')
+RIDGE = solid('<box size="0.12 0.12 0.16"/>', rpy="0 0 0.785")
+HEAD = inertial(2, "0.01 0.01 0.01") + solid('<box size="0.2 0.3 0.2"/>')
 
 
 @few_masts()
 def standing(folder, shape):
     """A trunk of that shape with a head on top, where nothing else has room, and its device."""
     path = folder / "round.urdf"
-    path.write_text(ROUND.format(shape=shape))
+    path.write_bytes(topped(inertial(20, "0.3 0.3 0.1") + shape, HEAD, "0 0 0.2"))
     robot = read_robot(path, trunk="base")
     return robot, stand_on_trunk(DEVICE, robot, stated=False, formed=True)
 

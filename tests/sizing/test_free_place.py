@@ -5,6 +5,7 @@ import pytest
 from anatomy import LEGGED
 from robots import ROBOTS
 from sampled import every
+from urdf_text import inertial, solid, topped
 
 from ocs_design.parts.foot import Foot
 from ocs_design.parts.housing import Housing
@@ -24,30 +25,15 @@ ON_TOP = {
 }  # fmt: skip
 """Robots that have nothing over their trunk."""
 
-MAST = """<robot name="masted">
-  <link name="base">
-    <inertial><mass value="10"/><inertia ixx="0.1" iyy="0.4" izz="0.4" ixy="0" ixz="0" iyz="0"/>
-    </inertial>
-    <collision><geometry><box size="0.6 0.3 0.1"/></geometry></collision>
-  </link>
-  <link name="head">
-    <inertial><mass value="0.01"/>
-      <inertia ixx="1e-5" iyy="1e-5" izz="1e-5" ixy="0" ixz="0" iyz="0"/></inertial>
-    <collision><origin xyz="0 0 0.1"/>
-      <geometry><cylinder radius="{radius}" length="0.2"/></geometry></collision>
-  </link>
-  <joint name="neck" type="revolute">
-    <parent link="base"/><child link="head"/><origin xyz="{x} 0 0.05"/><axis xyz="0 0 1"/>
-    <limit lower="-1" upper="1" effort="1" velocity="1"/>
-  </joint>
-</robot>"""
+BOX = inertial(10, "0.1 0.4 0.4") + solid('<box size="0.6 0.3 0.1"/>')
+MAST = inertial(0.01, "1e-5 1e-5 1e-5") + solid('<cylinder radius="0.02" length="0.2"/>', "0 0 0.1")
 
 
 @pytest.fixture
 def masted(tmp_path):
-    def read(x, radius=0.02):
-        path = tmp_path / f"masted_{x}_{radius}.urdf"
-        path.write_text(MAST.format(x=x, radius=radius))
+    def read(x):
+        path = tmp_path / "masted.urdf"
+        path.write_bytes(topped(BOX, MAST, f"{x} 0 0.05"))
         return read_robot(path, trunk="base")
 
     return read
