@@ -1,5 +1,6 @@
 """Rim problems for tests: the paper's, and random ones in which every limit gets to bind."""
 
+import numpy as np
 from hypothesis import strategies as st
 from numpy import pi
 
@@ -22,6 +23,22 @@ def room(outer_radius_max, height_max, **others):
         "stress_safety": 1.0,
     }
     return Envelope(outer_radius_max, height_max=height_max, **(limits | others))
+
+
+def used(problem, inner, outer, height, mass):
+    """What a rim uses of each limit, by its name: at most 1 where it is within all of them."""
+    limits, material = problem.envelope, problem.material
+    nu, speed = material.poisson_ratio, problem.wheel_speed
+    stress = material.density * speed**2 / 4.0 * ((3.0 + nu) * outer**2 + (1.0 - nu) * inner**2)
+    return {
+        "r_max": outer / limits.outer_radius_max,
+        "r_min": limits.inner_radius_min / np.maximum(inner, 1e-12),
+        "h_max": height / limits.height_max,
+        "h_min": limits.height_min / height,
+        "wall_min": limits.wall_min / (outer - inner),
+        "wheel_mass_max": mass / limits.mass_max,
+        "hoop_stress": stress / problem.hoop_stress_max,
+    }
 
 
 def paper_problem(spin_inertia, outer_radius_max, height_max):

@@ -89,18 +89,6 @@ def test_nothing_alone_would_do():
     assert "No single change within reason would do: loosen" in error.hint
 
 
-def test_data_for_json():
-    data = failure(paper_problem(7.11e-4, 0.03, 0.01)).data()
-    assert set(data) == {
-        "assumptions",
-        "binding",
-        "largest_spin_inertia",
-        "relaxations",
-        "required_spin_inertia",
-        "warnings",
-    }
-
-
 @few
 @given(rim_problems())
 @pytest.mark.exhaustive

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
-from rims import PAPER_STEEL, paper_problem, random_problem, rim_problems, room
+from rims import PAPER_STEEL, paper_problem, random_problem, rim_problems, room, used
 
 from ocs_design.common.errors import UsageError
 from ocs_design.sizing.bound.rim_problem import RimProblem, check_limits, lightest_rim
@@ -166,24 +166,14 @@ def test_figures_that_are_no_limits_are_refused(change, message):
 @given(rim_problems(), st.floats(0.3, 1.5), st.floats(0.0, 0.95))
 def test_each_limit_is_overstepped_where_the_rim_itself_oversteps_it(problem, share, bore):
     """Idle limits too, which no price and no optimum shows."""
-    limits, material = problem.envelope, problem.material
+    limits = problem.envelope
     outer = share * limits.outer_radius_max
     inner = bore * outer
     # The wall's limit is on b = r^2, and knows no rim that is narrower than the wall itself.
     assume(outer > limits.wall_min)
     mass = 2.0 * problem.spin_inertia / (outer**2 + inner**2)
-    height = mass / (np.pi * material.density * (outer**2 - inner**2))
-    nu, speed = material.poisson_ratio, problem.wheel_speed
-    stress = material.density * speed**2 / 4.0 * ((3.0 + nu) * outer**2 + (1.0 - nu) * inner**2)
-    over = {
-        "r_max": outer / limits.outer_radius_max,
-        "r_min": limits.inner_radius_min / max(inner, 1e-12),
-        "h_max": height / limits.height_max,
-        "h_min": limits.height_min / height,
-        "wall_min": limits.wall_min / (outer - inner),
-        "wheel_mass_max": mass / limits.mass_max,
-        "hoop_stress": stress / problem.hoop_stress_max,
-    }
+    height = mass / (np.pi * problem.material.density * (outer**2 - inner**2))
+    over = used(problem, inner, outer, height, mass)
     scale = limits.outer_radius_max
     constraints = RimConstraints(problem, scale)
     constraints.touch((outer / scale) ** 2, (inner / scale) ** 2)
