@@ -28,6 +28,16 @@ def pytest_collection_modifyitems(items):
     items.sort(key=lambda item: (item.name not in LONGEST, item.path.name != OPENED_BY_MANY))
 
 
+@pytest.fixture(scope="session")
+def solo12():
+    """Solo12 of example-robot-data, read once in a process that asks for it."""
+    from robots import SOLO12
+
+    from ocs_design.robot.reader import read_robot
+
+    return read_robot(SOLO12)
+
+
 @pytest.fixture(scope="module")
 def no_alternatives():
     """`size` looks for nothing lighter: half of its time, where nothing is asked of it."""

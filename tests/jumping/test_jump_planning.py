@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from robots import ROBOTS, SOLO12
+from robots import ROBOTS
 from wheels import braked_inertia, driven_device
 
 from ocs_design.common.frames import rotation_from_rpy
@@ -20,14 +20,9 @@ JUMP = Jump(0.4, 2.0, 9.81)
 
 
 @pytest.fixture(scope="module")
-def robot():
-    """Solo12 with the limits of its real joints; its file states none that bind."""
-    return read_robot(SOLO12)
-
-
-@pytest.fixture(scope="module")
-def body(robot):
-    found = LeggedBody.of(robot)
+def body(solo12):
+    """With the limits of its real joints; its file states none that bind."""
+    found = LeggedBody.of(solo12)
     joints = tuple(replace(joint, effort=2.7, velocity=40.0) for joint in found.joints)
     return replace(found, joints=joints)
 
@@ -42,8 +37,8 @@ def push_off(planner, body):
     return planner._push_offs.find(JUMP, body.trunk)
 
 
-def test_the_trunk_and_the_legs_are_the_whole_robot(robot, body):
-    assert body.trunk.mass + body.leg_mass == pytest.approx(robot.mass, rel=1e-12)
+def test_the_trunk_and_the_legs_are_the_whole_robot(solo12, body):
+    assert body.trunk.mass + body.leg_mass == pytest.approx(solo12.mass, rel=1e-12)
 
 
 def test_the_ground_gives_the_momentum_that_was_asked_for(push_off, body):
@@ -107,23 +102,23 @@ def test_the_limit_that_forbids_a_jump_is_named(planner, body):
     assert "more than its" in note
 
 
-def test_a_carried_device_weighs_and_turns_like_its_braked_module_less_the_free_wheels(robot):
+def test_a_carried_device_weighs_and_turns_like_its_braked_module_less_the_free_wheels(solo12):
     """About the wheels' axes the spinning parts do not turn with the trunk: J = I - h A A^T."""
     device = driven_device()
-    braked = braked_inertia(robot, device)
+    braked = braked_inertia(solo12, device)
     axes = device.axes
     free = braked.inertia - device.flywheel.spin_inertia * axes @ axes.T
-    bare = robot.mass_properties
+    bare = solo12.mass_properties
     carried = with_device(bare, device, free=True)
     assert carried.mass == pytest.approx(braked.mass)
     np.testing.assert_allclose(carried.com, braked.com, atol=1e-12)
     np.testing.assert_allclose(carried.inertia, free, atol=1e-12)
 
 
-def test_a_drop_has_no_push_off(robot):
-    drop = default_maneuvers(robot)[1]
+def test_a_drop_has_no_push_off(solo12):
+    drop = default_maneuvers(solo12)[1]
     assert jump_of(drop) is None
-    assert plan_jumps(robot, driven_device(), [drop]) == {}
+    assert plan_jumps(solo12, driven_device(), [drop]) == {}
 
 
 @pytest.mark.parametrize(

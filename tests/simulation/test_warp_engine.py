@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from campaigns import short_campaign
 from mujoco.rollout import Rollout
-from robots import SOLO12
 from wheels import driven_device
 
 from ocs_design.common.errors import MissingToolError, OcsError
@@ -19,7 +18,6 @@ from ocs_design.monte_carlo.campaign import fly_samples, metrics_of
 from ocs_design.requirement.pivoted import Balance
 from ocs_design.requirement.uncertainty import Normal, UncertaintySection
 from ocs_design.robot.manual import robot_by_hand
-from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.verdict import Fault
 from ocs_design.simulation.warp_engine import SINGLE_GATE, WarpPhysics, room, warp_engine
@@ -40,8 +38,8 @@ def engine():
 
 
 @pytest.fixture(scope="module")
-def campaign():
-    return short_campaign(read_robot(SOLO12), SPREAD)
+def campaign(solo12):
+    return short_campaign(solo12, SPREAD)
 
 
 @pytest.fixture(scope="module")

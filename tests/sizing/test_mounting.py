@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from mounted import MEASURED, contacts, flown_postures, mounted
-from robots import SOLO12
 from sampled import every, some
 from wheels import layout_device, paper_device
 
@@ -14,7 +13,6 @@ from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.froude import default_envelope
 from ocs_design.robot.clearance import drawn, landing_ranges
 from ocs_design.robot.manual import robot_by_hand
-from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points, placement_warnings
 
 BOX = robot_by_hand(6.0, (0.05, 0.05, 0.05))
@@ -63,8 +61,8 @@ def test_nothing_of_a_box_moves():
     np.testing.assert_array_equal(mounting.inertia_change, 0.0)
 
 
-def test_a_stated_position_that_is_hit_is_a_warning_with_a_free_one_and_strictly_an_error():
-    robot, device = read_robot(SOLO12), device_at(0.0, 0.05, 0.03)
+def test_a_stated_position_that_is_hit_is_a_warning_with_a_free_one_and_strictly_an_error(solo12):
+    robot, device = solo12, device_at(0.0, 0.05, 0.03)
     mounting = mounting_of(robot, device, (), robot.mass_properties)
     arguments = (mounting, robot, device, default_envelope(robot))
     (warning,) = placement_warnings(*arguments, stated=True)
@@ -83,9 +81,9 @@ def test_a_stated_position_that_is_hit_is_a_warning_with_a_free_one_and_strictly
     ],
 )
 @pytest.mark.parametrize("stated", some(2, [False, True]))
-def test_another_place_is_asked_for_as_its_layout_states_it(name, option, stated):
+def test_another_place_is_asked_for_as_its_layout_states_it(solo12, name, option, stated):
     """For none but a pair a free place is looked for where one is stated."""
-    robot, device = read_robot(SOLO12), layout_device(Layout(name))
+    robot, device = solo12, layout_device(Layout(name))
     low = [replace(each, position=each.position * [1.0, 1.0, 0.0]) for each in device.modules]
     device = replace(device, modules=tuple(low))
     mounting = mounting_of(robot, device, (), robot.mass_properties)
