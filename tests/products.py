@@ -1,4 +1,4 @@
-"""What `size` makes of Solo12 with a motor and without one, and the same by numpy and Pinocchio."""
+"""What `size` makes of Solo12 with a motor and without one, and the same by numpy."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,6 +24,7 @@ FIGURES = [
 FILES = [
     *(f"figures/{name}.svg" for name in FIGURES),
     "cad/bill_of_materials.csv",
+    "cad/flywheel.stl",
     "cad/wheel.svg",
     "cad/wheel.pdf",
     "cad/assembly.pdf",
@@ -50,6 +51,17 @@ FILES = [
 ]
 
 
+WITH_A_MOTOR = [
+    "cad/drilling.pdf",
+    "cad/housing_cage.stl",
+    "cad/plate.pdf",
+    "cad/plate.stl",
+    "figures/reliability.svg",
+    *(f"robot/meshes/ocs_{part}.stl" for part in ("housing", "foot", "cage", "plate")),
+]
+"""Of a device with a real motor, which is made and has something in reserve."""
+
+
 @dataclass(frozen=True)
 class Case:
     """One way to ask for a design.
@@ -58,58 +70,20 @@ class Case:
         options: of the command. headings: of its report, so many.
         words: that its report has among others.
         slack: relative, of what is held to a capacity.
-        pieces: of the wheel, each a file. standing: meshes of what stands still.
+        files: that are written beside the design and its report.
     """
 
     options: tuple[str, ...]
     headings: int
     words: tuple[str, ...]
     slack: float
-    pieces: tuple[str, ...]
-    standing: tuple[str, ...] = ()
-
-    @property
-    def files(self) -> list[str]:
-        meshes = [f"robot/meshes/ocs_{part}.stl" for part in self.standing]
-        pieces = [*self.pieces, *self.plates]
-        # Of a device with a real motor, which is made and has something in reserve.
-        made = ["cad/drilling.pdf", "figures/reliability.svg"] if self.standing else []
-        return [
-            *FILES,
-            *meshes,
-            *self.cages,
-            *self.sheets,
-            *made,
-            *(f"cad/{piece}.stl" for piece in pieces),
-        ]
-
-    @property
-    def cages(self) -> list[str]:
-        """What holds the motors by their backs, where it is printed."""
-        return ["cad/housing_cage.stl"] if "cage" in self.standing else []
-
-    @property
-    def plates(self) -> list[str]:
-        """What the feet stand on beside the trunk."""
-        return ["plate"] if "plate" in self.standing else []
-
-    @property
-    def sheets(self) -> list[str]:
-        """Drawings beside that of the wheel."""
-        return ["cad/plate.pdf"] if self.plates else []
+    files: list[str]
 
 
 CASES = {
-    "motor": Case(
-        ("--ballistic",),
-        5,
-        ("24 V", "housing"),
-        1e-5,
-        ("flywheel",),
-        ("housing", "foot", "cage", "plate"),
-    ),
+    "motor": Case(("--ballistic",), 5, ("24 V", "housing"), 1e-5, [*FILES, *WITH_A_MOTOR]),
     "no motor": Case(
-        ("--motor", "none", "--ballistic"), 4, ("7,200 rpm", "stainless"), 1e-9, ("flywheel",)
+        ("--motor", "none", "--ballistic"), 4, ("7,200 rpm", "stainless"), 1e-9, FILES
     ),
 }
 

@@ -37,6 +37,15 @@ MESHED = """<robot name="r">
 </robot>"""
 
 
+def refused(code, words, *typed):
+    """What the refusal says; nothing is written."""
+    result = run("export", *typed, "-o", "again")
+    assert result.code == code
+    assert words in result.said
+    assert not Path("again").exists()
+    return result.said
+
+
 @pytest.mark.slow
 def test_every_file_is_what_size_wrote(product, folder):
     result = run("export", product.folder, "-o", "again")
@@ -91,12 +100,9 @@ def test_the_robot_is_found_from_anywhere(solo12, folder, monkeypatch):
 
 def test_parts_and_snippets_need_no_robot(solo12):
     Path("solo12.urdf").unlink()
-    result = run("export", solo12, "-o", "again")
-    assert result.code == 3
-    assert "solo12.urdf: the robot's file no longer exists" in result.said
-    assert not Path("again").exists()
+    said = refused(3, "solo12.urdf: the robot's file no longer exists", solo12)
     cure = "--formats stl,bom,drawing,printed,assembly,snippets"
-    assert cure in result.said
+    assert cure in said
     assert run("export", solo12, "-o", "again", "-q", *cure.split()).code == 0
     original, again = made_in(solo12), made_in("again")
     assert again == {name: original[name] for name in original if not name.startswith("robot")}
@@ -126,14 +132,11 @@ def test_a_robot_that_has_moved_is_named(solo12):
 def test_a_robot_that_has_changed_is_refused_until_it_is_named(solo12):
     changed = Path("solo12.urdf").read_text().replace("</robot>", "<!-- new -->\n</robot>")
     Path("solo12.urdf").write_text(changed)
-    result = run("export", solo12, "-o", "again")
-    assert result.code == 3
-    assert "has changed since the device was sized for it" in result.said
-    assert "--robot solo12.urdf" in result.said
-    named = ("export", solo12, "-o", "again", "--robot", "solo12.urdf")
-    assert run(*named, "--strict").code == 3
-    assert not Path("again").exists()
-    result = run(*named, "--json")
+    said = refused(3, "has changed since the device was sized for it", solo12)
+    assert "--robot solo12.urdf" in said
+    named = (solo12, "--robot", "solo12.urdf")
+    refused(3, "not the file that the device was sized for", *named, "--strict")
+    result = run("export", *named, "-o", "again", "--json")
     (warning,) = result.document["warnings"]
     assert warning.startswith(
         "solo12.urdf: not the file that the device was sized for; mass 2.5 kg"
@@ -143,18 +146,13 @@ def test_a_robot_that_has_changed_is_refused_until_it_is_named(solo12):
 
 def test_a_robot_without_the_designs_trunk_is_refused(solo12):
     go2 = ROBOTS / "go2_description" / "urdf" / "go2.urdf"
-    result = run("export", solo12, "-o", "again", "--robot", go2)
-    assert result.code == 3
-    assert "the robot has no link 'base_link'" in result.said
-    assert not Path("again").exists()
+    refused(3, "the robot has no link 'base_link'", solo12, "--robot", go2)
 
 
 @pytest.mark.slow
 def test_a_robot_from_standard_input_is_asked_for(folder):
     source = sized("-", stdin=Path(SOLO12).read_bytes())
-    result = run("export", source, "-o", "again")
-    assert result.code == 3
-    assert "--robot FILE" in result.said
+    refused(3, "--robot FILE", source)
     assert run("export", source, "-o", "again", "-q", "--robot", SOLO12).code == 0
     assert made_in("again") == made_in(source)
 
@@ -184,7 +182,7 @@ def test_in_the_designs_own_folder_the_rest_stays(product, folder):
     shutil.copytree(product.folder, "ocs")
     Path("ocs/notes.txt").write_text("mine")
     Path("ocs/robot/solo12_ocs.glb").unlink()
-    Path(f"ocs/cad/{product.case.pieces[0]}.stl").write_bytes(b"broken")
+    Path("ocs/cad/flywheel.stl").write_bytes(b"broken")
     assert run("export", "ocs", "-o", "ocs", "--force", "-q").code == 0
     whole = files_in(product.folder)
     renewed = files_in("ocs")
@@ -218,11 +216,9 @@ def test_meshes_that_the_urdf_names_by_relative_paths_are_told_of_once(folder):
 
 
 def test_a_robot_that_may_not_be_read_is_an_error(solo12, monkeypatch):
-    refused = mock.Mock(side_effect=PermissionError(13, "Permission denied"))
-    monkeypatch.setattr("ocs_design.robot.source._read_bounded", refused)
-    result = run("export", solo12, "-o", "again")
-    assert result.code == 3
-    assert "cannot be read" in result.said
+    denied = mock.Mock(side_effect=PermissionError(13, "Permission denied"))
+    monkeypatch.setattr("ocs_design.robot.source._read_bounded", denied)
+    refused(3, "cannot be read", solo12)
 
 
 def test_the_json_document_names_what_was_made(solo12):
@@ -248,9 +244,7 @@ def test_what_is_no_design_is_an_error_with_nothing_written(folder, content):
 
 def test_a_folder_without_a_design_is_an_error(folder):
     Path("empty").mkdir()
-    result = run("export", "empty")
-    assert result.code == 3
-    assert "empty/design.json" in result.said
+    refused(3, "empty/design.json", "empty")
 
 
 def test_the_folder_can_be_moved(solo12, folder):
@@ -287,23 +281,17 @@ def test_what_is_written_on_request_alone(product, folder):
     result = run("export", product.folder, "-o", "again", *asked)
     assert result.code == 0, result.said
     again = files_in("again")
-    case = product.case
-    parts = {*(f"cad/housing_{part}.stl" for part in ("drum", "lid", "foot")), *case.cages}
-    steps = {part.replace(".stl", ".step") for part in parts}
-    steps |= {f"cad/{piece}.step" for piece in (*case.pieces, *case.plates)}
-    whole = {
-        f"cad/{name}" for name in ("flywheel.3mf", "housing.3mf", "module.step", "device.step")
-    }
-    assert set(again) == {"design.json", *whole, *parts, *steps}
+    printed = [f"housing_{part}" for part in ("drum", "lid", "foot", "cage")]
+    named = [f"{part}.stl" for part in printed]
+    named += [f"{part}.step" for part in (*printed, "flywheel", "plate", "module", "device")]
+    named += ["flywheel.3mf", "housing.3mf"]
+    assert set(again) == {"design.json", *(f"cad/{name}" for name in named)}
 
 
 @pytest.mark.parametrize("name", ["step", "dxf"])
 def test_a_format_without_its_extra_is_a_missing_tool(solo12, monkeypatch, name):
     monkeypatch.setattr(formats, "find_spec", lambda _: None)
-    result = run("export", solo12, "-o", "again", "--formats", name)
-    assert result.code == 5
-    assert f"pip install 'ocs-design[{name}]'" in result.said
-    assert not Path("again").exists()
+    refused(5, f"pip install 'ocs-design[{name}]'", solo12, "--formats", name)
 
 
 @pytest.mark.parametrize("name", ["step", "dxf"])
@@ -311,9 +299,7 @@ def test_a_library_that_does_not_load_is_a_missing_tool(solo12, monkeypatch, nam
     """As where a shared library that it needs is not on the system."""
     (each,) = (each for each in FORMATS if each.name == name)
     monkeypatch.setitem(sys.modules, f"ocs_design.export.{each.module}", None)
-    result = run("export", solo12, "-o", "again", "--formats", name)
-    assert result.code == 5
-    assert "cannot be loaded" in result.said
+    refused(5, "cannot be loaded", solo12, "--formats", name)
 
 
 def test_dxf_of_each_piece(solo12):

@@ -9,7 +9,9 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from commands import SOLO12, run
+from pinocchio_robots import configuration, free_model
 from products import equal_rate
+from weighed import by_pinocchio
 
 # Stated, so that nothing hangs on what only one of the formats knows.
 ROOM = ("--r-max", "50mm", "--r-min", "5mm", "--h-max", "10mm", "--h-min", "2mm")
@@ -23,7 +25,7 @@ NO_MANEUVERS = "[requirement]\nmaneuvers = 'none'\nrate_change = '6.3 rad/s'\n"
 @pytest.fixture(scope="module")
 def solo12():
     """Pinocchio's view of the example, with all its shapes."""
-    model = pin.buildModelFromUrdf(SOLO12, pin.JointModelFreeFlyer())
+    model = free_model(SOLO12)
     shapes = {
         kind: list(pin.buildGeomFromUrdf(model, SOLO12, kind).geometryObjects)
         for kind in (pin.GeometryType.COLLISION, pin.GeometryType.VISUAL)
@@ -183,28 +185,15 @@ def test_by_hand_the_same_inertia_gives_the_same_design(folder, no_files):
     assert found["requirement"]["maneuvers"] == expected["requirement"]["maneuvers"] == []
 
 
-def locked(solo12, joints, link="base_link"):
-    """Mass properties with the joints held, in the frame of a link, by Pinocchio."""
-    model, data = solo12.model, solo12.model.createData()
-    q = pin.neutral(model)
-    for name, value in joints.items():
-        q[model.joints[model.getJointId(name)].idx_q] = value
-    pin.ccrba(model, data, q, np.zeros(model.nv))
-    pin.framesForwardKinematics(model, data, q)
-    frame = data.oMf[model.getFrameId(link, pin.BODY)]
-    com = frame.actInv(data.com[0])
-    return com, frame.rotation.T @ data.Ig.inertia @ frame.rotation
-
-
 def check_inertia(document, solo12, joints, link="base_link"):
-    com, inertia = locked(solo12, joints, link)
+    held = by_pinocchio(solo12.model, configuration(solo12.model, joints), link)
     robot = document["robot"]
-    np.testing.assert_allclose(robot["com"], com, rtol=0.0, atol=1e-12)
-    np.testing.assert_allclose(robot["inertia"], inertia, rtol=1e-9, atol=1e-13)
+    np.testing.assert_allclose(robot["com"], held.com, rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(robot["inertia"], held.inertia, rtol=1e-9, atol=1e-13)
     assert robot["trunk"] == link
     ocs = document["ocs"]
     alone = ocs["incidence_by_criterion_robot_alone"]["equal-rate"]
-    assert alone == pytest.approx(equal_rate(inertia), abs=1e-9)
+    assert alone == pytest.approx(equal_rate(held.inertia), abs=1e-9)
 
 
 @pytest.mark.slow

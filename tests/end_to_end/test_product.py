@@ -147,32 +147,19 @@ def test_mujoco_reads_the_same_robot(product, document, device, name):
         assert model.body_mass.sum() == pytest.approx(document["ocs"]["total_mass"], rel=1e-9)
 
 
-def check_weight(meshes, device):
-    """Together they weigh and turn like the wheel, each of its own density."""
+def test_the_wheel_is_one_watertight_body_and_weighs_and_turns_as_it_should(product, device):
     wheel, rotor = device.flywheel, device.motor.rotor_inertia
-    inertia = np.zeros((3, 3))
-    for mesh, density in meshes:
-        assert mesh.is_watertight
-        assert mesh.is_winding_consistent
-        mesh.density = density
-        inertia += mesh.moment_inertia
-        np.testing.assert_allclose(mesh.center_mass, 0.0, atol=1e-6 * wheel.outer_radius)
-    assert sum(mesh.mass for mesh, _ in meshes) == pytest.approx(wheel.mass, rel=1e-6)
+    mesh = trimesh.load_mesh(product.folder / "cad/flywheel.stl").apply_scale(1e-3)
+    assert mesh.body_count == 1
+    assert mesh.is_watertight
+    assert mesh.is_winding_consistent
+    mesh.density = wheel.density
+    np.testing.assert_allclose(mesh.center_mass, 0.0, atol=1e-6 * wheel.outer_radius)
+    assert mesh.mass == pytest.approx(wheel.mass, rel=1e-6)
     expected = np.diag([wheel.transverse_inertia] * 2 + [wheel.spin_inertia - rotor])
-    np.testing.assert_allclose(inertia, expected, rtol=1e-6, atol=1e-6 * wheel.spin_inertia)
-
-
-def densities(wheel):
-    two = wheel.web is not None and wheel.web["material"] != wheel.material
-    return [wheel.density, wheel.web["density"]] if two else [wheel.density]
-
-
-def test_the_pieces_are_watertight_bodies_and_weigh_what_they_should(product, device):
-    meshes = [trimesh.load_mesh(product.folder / f"cad/{n}.stl") for n in product.case.pieces]
-    assert all(mesh.body_count == 1 for mesh in meshes)
-    for mesh in meshes:
-        mesh.apply_scale(1e-3)
-    check_weight(list(zip(meshes, densities(device.flywheel), strict=True)), device)
+    np.testing.assert_allclose(
+        mesh.moment_inertia, expected, rtol=1e-6, atol=1e-6 * wheel.spin_inertia
+    )
 
 
 @pytest.mark.parametrize("name", [name for name in FILES if name.startswith("validation/")])
