@@ -49,11 +49,7 @@ def refused(*typed):
 @pytest.mark.parametrize(
     "limits",
     [
-        pytest.param(
-            limits,
-            id=name,
-            marks=[pytest.mark.exhaustive] * (index % 2) + [pytest.mark.slow] * (name == "height"),
-        )
+        pytest.param(limits, id=name, marks=[pytest.mark.exhaustive] * (index % 2))
         for index, (name, limits) in enumerate(TOO_TIGHT.items())
     ],
 )

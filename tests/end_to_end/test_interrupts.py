@@ -12,7 +12,7 @@ from commands import BOUND, PROGRAM, SOLO12, everything_in
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("typed", ["inspect --json", pytest.param("size", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("typed", ["inspect --json", "size"])
 def test_the_reader_of_the_output_may_leave(folder, typed):
     """As `head` does: no complaint, and nothing half done is left."""
     command, *options = typed.split()

@@ -41,7 +41,7 @@ def test_size_ends_with_a_design_and_its_proof_or_with_the_motor_that_would_do(n
         check_proof(name, out, said.code, said.document)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaustive  # A mast on a simple column: `test_footing.py`.
 def test_a_humanoid_carries_them_on_its_back(tmp_path, no_alternatives):
     """Where its back is flat enough for screws, and out of reach of its feet in a landing."""
     robot = ROBOTS / "g1_description" / "urdf" / "g1_29dof_rev_1_0.urdf"

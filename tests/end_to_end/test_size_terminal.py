@@ -15,7 +15,7 @@ from ocs_design.report.text.size import print_design, print_outcome, print_solut
 
 SGR = re.compile(r"\x1b\[[0-9;]*m")
 SIZED_AGAIN = pytest.mark.parametrize(
-    "product", [pytest.param("motor", marks=pytest.mark.slow), "no motor"], indirect=True
+    "product", [pytest.param("motor", marks=pytest.mark.exhaustive), "no motor"], indirect=True
 )
 
 
@@ -49,7 +49,7 @@ def test_the_same_run_writes_the_same_bytes_on_any_number_of_threads(product, wi
     [
         ("motor", 80, "product"),
         ("no motor", 80, "product"),
-        pytest.param("motor", 120, "wide", marks=pytest.mark.slow),
+        pytest.param("motor", 120, "wide", marks=pytest.mark.exhaustive),
         ("no motor", 120, "wide"),
     ],
     indirect=["product"],
@@ -100,11 +100,7 @@ def test_a_wider_terminal_breaks_no_more_lines(product, wide):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "product",
-    [pytest.param("motor", marks=pytest.mark.exhaustive), "no motor"],
-    indirect=True,
-)
+@SIZED_AGAIN
 def test_json_is_the_artefact_and_nothing_else(product, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     result = run("size", SOLO12, *product.case.options, "--json")
@@ -122,8 +118,8 @@ WORDS, ERROR = ("inspect", SOLO12), ("inspect", "nowhere.urdf")
     [
         (WORDS, ("--no-color",), {}),
         (ERROR, (), {"NO_COLOR": "1"}),
-        pytest.param(WORDS, (), {"NO_COLOR": "1"}, marks=pytest.mark.slow),
-        pytest.param(ERROR, ("--no-color",), {}, marks=pytest.mark.slow),
+        (WORDS, (), {"NO_COLOR": "1"}),
+        (ERROR, ("--no-color",), {}),
     ],
 )
 def test_a_terminal_gets_colour_unless_it_is_declined(arguments, option, variables):

@@ -101,7 +101,8 @@ ANSWERS = [
     (("export", "DESIGN", "-o", "again", "--force", "--formats", "snippets"), "snippets/"),
     pytest.param(("validate", "DESIGN"), "level 3 of 3", marks=SLOW),
     pytest.param(("pareto", SOLO12, "--points", "2", *ONE_MOTOR), "mass", marks=SLOW),
-    pytest.param(("doctor",), "numpy", marks=SLOW),
+    # Of `--json` alone: `test_examination.py`.
+    pytest.param(("doctor",), "numpy", marks=pytest.mark.exhaustive),
 ]
 PROGRESS = re.compile(r" *[\d.]+ s  \S.*|warning: .*")
 IN_A_PROCESS = ("inspect", "doctor")

@@ -54,11 +54,15 @@ def test_it_keeps_the_promises_of_gymnasium(folder):
     check_env(env.unwrapped, skip_render_check=True)
 
 
+@pytest.fixture(scope="module")
+def outcomes(flight):
+    """One sample, flown in every maneuver."""
+    return fly_samples(flight._campaign, [5])
+
+
 @pytest.mark.parametrize("maneuver", ["drop", "disturbance", "back-flip"])
-def test_under_the_law_an_episode_is_the_flight_of_that_sample(flight, maneuver):
-    campaign = flight._campaign
-    outcomes = fly_samples(campaign, [5])
-    number = [each.maneuver.name for each in campaign.flights].index(maneuver)
+def test_under_the_law_an_episode_is_the_flight_of_that_sample(flight, outcomes, maneuver):
+    number = [each.maneuver.name for each in flight._campaign.flights].index(maneuver)
     _, _, told = flown(flight, by_law, maneuver=maneuver, sample=5)
     assert told["passed"] is bool(outcomes.passed[0, number])
     expected = metrics_of(outcomes, 0, number)

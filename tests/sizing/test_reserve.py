@@ -90,7 +90,10 @@ def solo12(more="", reliability=None, scale=1.0):
 
 
 def flights(more):
-    """The lightest nominal device, and the campaign that flies its only maneuver with seed 11."""
+    """The lightest nominal device, its only maneuver, and the campaign that flies it with seed 11.
+
+    It ends with the flight.
+    """
     more = f"{OF_THREE}{more}"
     found, task = solo12(more, 0.5), specified(more)
     robot, stated = task.robot, task.specification
@@ -102,7 +105,9 @@ def flights(more):
         can_stand=[True], uncertainty=Uncertainty.of(stated.reality, robot, found.device),
         seed=11,
     )  # fmt: skip
-    return found, campaign
+    (flight,) = campaign.flights
+    world = replace(flight.world, duration=flight.world.flight_time + 0.1)
+    return found, maneuver, replace(campaign, flights=(replace(flight, world=world),))
 
 
 def needed(factors, **more):
@@ -306,8 +311,7 @@ def test_a_turn_by_hand_is_told_how_often_it_drifts_off_level():
 def test_wheels_that_are_late_leave_a_third_of_what_they_miss():
     """Drops with up to 70 % less k_t: as many land level as is predicted, three deviations off."""
     more = f'{ONLY_DROP}[reality]\ntorque_constant_error = "uniform(-70%, 0%)"\n'
-    found, campaign = flights(more)
-    (drop,) = found.choice.problem.requirement.maneuvers
+    found, drop, campaign = flights(more)
     level = attitude_error(fly_samples(campaign, range(48)), drop, 0) <= LANDING_TOLERANCE
     expected = found.kept.predicted
     assert 0.2 < expected < 0.8
@@ -324,11 +328,7 @@ def test_what_costs_the_most_reliability_rescues_the_most_flights_when_it_is_kno
     rescues most of them; the less share, the farther off level they stay.
     """
     more = f"{ONLY_FLIP}[validation]\nballistic = true\n{MUCH}"
-    found, campaign = flights(more)
-    (maneuver,) = found.choice.problem.requirement.maneuvers
-    (flight,) = campaign.flights
-    world = replace(flight.world, duration=FLIP.flight_time + 0.1)
-    campaign = replace(campaign, flights=(replace(flight, world=world),))
+    found, maneuver, campaign = flights(more)
 
     def off_level(indices, key=None):
         spreads = dict(campaign.uncertainty.spreads)

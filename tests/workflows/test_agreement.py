@@ -33,7 +33,6 @@ KINDS = {
     "four wheels": Specification(motor=FLAT, ocs=OcsSection(layout="double-pair")),
     "no motor": Specification(motor=MotorSection(name="none")),
 }
-SLOW = "shrunk on", "spokes", "four wheels"
 
 
 @cache
@@ -43,10 +42,7 @@ def written(kind):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "kind",
-    [pytest.param(kind, marks=[pytest.mark.slow] * (kind in SLOW)) for kind in KINDS],
-)
+@pytest.mark.parametrize("kind", KINDS)
 def test_what_was_designed_agrees_with_itself(kind, tmp_path):
     (tmp_path / "design.json").write_bytes(written(kind))
     design, device = read_designed(tmp_path)

@@ -60,9 +60,7 @@ def test_a_turn_that_takes_longer_is_refused_with_its_time():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "layout", [LayoutName.TRIAD, pytest.param(LayoutName.PYRAMID, marks=pytest.mark.slow)]
-)
+@pytest.mark.parametrize("layout", [LayoutName.TRIAD, LayoutName.PYRAMID])
 def test_the_others_can_take_over_a_plan_whichever_drive_stops_at_its_start(layout):
     """The wheels left give its torque on the trunk and hold its momentum within their limits.
 
