@@ -198,12 +198,6 @@ def _highest_voltage(found: Motor) -> float:
     return found.voltage_max or found.rated_voltage or 0.0
 
 
-def any_motors(specification: Specification) -> tuple[Motor, ...]:
-    """Every motor on offer with its controller, including those that lack data needed to build."""
-    offered = _motors(replace(specification, motor=replace(specification.motor, any=True)))
-    return tuple(_controlled(each, specification) for each in offered)
-
-
 def doubts_about_motors(specification: Specification) -> tuple[str, ...]:
     """Warnings about the figures in the user's file of motors, one sentence each.
 

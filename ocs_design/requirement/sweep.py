@@ -51,6 +51,13 @@ class Task:
             SpecificationError: see `resolve`.
         """
         resolved = resolve(specification, self.robot, self.robot_size, varied=True)
+        before = self.specification
+        if (before.requirement, before.maneuvers) == (
+            specification.requirement,
+            specification.maneuvers,
+        ):
+            # It stays as it is: turns may have been found to need more than estimated.
+            resolved = replace(resolved, requirement=self.resolved.requirement)
         return replace(self, specification=specification, resolved=resolved)
 
     def asking(self, requirement: Requirement) -> "Task":

@@ -6,42 +6,35 @@ Alternatives, Trade-offs). Where the mass to save is specified, each answer is t
 change that saves it.
 """
 
-from bisect import bisect_left
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import cache, partial
-from itertools import combinations
-from math import inf, isfinite
+from functools import cache, cached_property, partial
+from itertools import combinations, product
+from math import ceil
 from typing import Any
 
 from ocs_design.actuation.motor import build_gaps
-from ocs_design.actuation.supply import Supply
-from ocs_design.catalogue.materials import strong_materials
-from ocs_design.common.errors import Infeasible, OcsError, SpecificationError
-from ocs_design.common.units import format_quantity, round_outwards
+from ocs_design.common.errors import Infeasible, OcsError
 from ocs_design.common.wording import degrees
 from ocs_design.device.records.selection import SAVES_NOTHING, Alternative, Owed
-from ocs_design.requirement.choices import BUS_VOLTAGES, any_motors, motor_choice
-from ocs_design.requirement.kinds import change_text
-from ocs_design.requirement.maneuver import Maneuver
-from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
-from ocs_design.requirement.vocabulary import AUTO, DISC, LIGHTEST, RING, STEEL
+from ocs_design.requirement.vocabulary import DISC, RING
+from ocs_design.sizing.changes import Change, Lever, changes, levers, options
 from ocs_design.sizing.design import design_device
-from ocs_design.sizing.limits import BUS_VOLTAGE, LIMITS, TIME, Progress, unseen
+from ocs_design.sizing.limits import Progress, narrowed, smallest_factor, unseen
 from ocs_design.sizing.on_robot import OnRobot
 from ocs_design.sizing.selection.problem import (
     Candidate,
     SelectionProblem,
     devices_by_mass,
-    with_limit,
 )
 from ocs_design.sizing.selection.select import devices_at, lightest_below
 from ocs_design.sizing.sized import Choice
-from ocs_design.sizing.specified import other_construction
-
-MORE_ROOM, MORE_TIME = 1.2, 1.1
-"""Factors on r_max and on the time of every maneuver."""
+from ocs_design.sizing.specified import (
+    other_construction,
+    specified_criterion,
+    specified_requirement,
+)
 
 _GAPS_TOLD = 2
 """Number of a motor's missing figures that fit on a line."""
@@ -53,70 +46,13 @@ _WORTH = 0.005
 """Fraction of the mass below which a saving is not reported."""
 
 
-@dataclass(frozen=True, eq=False)
-class Relaxation:
-    """A choice that the specification leaves open.
-
-    Attributes:
-        text: in words. option: command line option, with its drawback.
-        stated: applies it to a specification. problem: applies it to a problem.
-    """
-
-    text: str
-    option: str
-    stated: Callable[[Specification], Specification]
-    problem: Callable[[SelectionProblem], SelectionProblem]
-
-    @property
-    def told(self) -> str:
-        """The text with the option."""
-        return f"{self.text} ({self.option})"
-
-
-def relaxations(specification: Specification, asked: SelectionProblem) -> Iterator[Relaxation]:
-    """Choices that a specification leaves open; `asked` is the problem that it defines."""
-    stated = specification.ocs
-    if asked.layout.pairs and stated.alpha is None and stated.alpha_criterion != LIGHTEST:
-        yield Relaxation(
-            "the incidence with which it is lightest",
-            "--alpha-criterion lightest",
-            lambda s: replace(s, ocs=replace(s.ocs, alpha_criterion=LIGHTEST)),
-            lambda p: replace(p, incidence=None, requirement=replace(p.requirement, free=True)),
-        )
-    if specification.flywheel.material in {None, STEEL}:
-        yield Relaxation(
-            "any material",
-            "--material auto",
-            lambda s: replace(s, flywheel=replace(s.flywheel, material=AUTO)),
-            lambda p: replace(p, materials=strong_materials()),
-        )
-    if specification.motor.name in {None, AUTO} and not specification.motor.any:
-        # A motor slowed below its maker's speed stays so (`specified`).
-        own = {motor.name: motor for motor in asked.motors}
-        motors = tuple(own.get(motor.name, motor) for motor in any_motors(specification))
-        yield Relaxation(
-            "any motor of the catalogue",
-            "--motors-any, not buildable",
-            lambda s: replace(s, motor=replace(s.motor, any=True)),
-            lambda p: replace(p, motors=motors),
-        )
-    more = min((v for v in BUS_VOLTAGES.values() if v > asked.bus_voltage), default=None)
-    if more is not None:
-        yield Relaxation(
-            f"a supply of {more:g} V",
-            f"--bus-voltage {more:g}V",
-            lambda s: replace(s, supply=replace(s.supply, voltage=more)),
-            lambda p: with_limit(p, BUS_VOLTAGE, more),
-        )
-
-
 def lighter_otherwise(
     task: Task, choice: Choice | None, call: Callable[..., Callable[[], Any]] = partial
 ) -> Callable[[], tuple[tuple[Alternative, ...], Owed | None]]:
-    """Start computing what each relaxation would save, and which maneuver drives the mass.
+    """Start computing what each change would save, and which maneuver drives the mass.
 
     Args:
-        task: the design task; what its specification already relaxes is not offered again.
+        task: the design task; what its specification already states is not offered again.
         choice: the device, and what it was chosen from; None: it has no motor.
         call: starts a call and returns the function that waits for its answer, like `Beside.call`.
 
@@ -127,7 +63,7 @@ def lighter_otherwise(
         return lambda: ((), None)
     # The other construction takes longest.
     begun = [call(built_otherwise, task, choice)]
-    begun += [call(Change.saved, change, choice) for change in changes(task, choice)]
+    begun += [call(Variant.saved, variant) for variant in variants(task, choice)]
     begun.append(call(owed_to, task, choice))
 
     def answers() -> tuple[tuple[Alternative, ...], Owed | None]:
@@ -138,56 +74,97 @@ def lighter_otherwise(
     return answers
 
 
-def _answer(text: str, device: Candidate, note: str) -> Alternative:
+def _answer(text: str, device: Candidate, note: str = "") -> Alternative:
     """The device after a change, with a note for or against it."""
     return Alternative(change=text, mass_total=device.mass, motor=device.motor.name, note=note)
 
 
 @dataclass(frozen=True, eq=False)
-class Change:
-    """One change of the specification.
+class Variant:
+    """A design task with a change, and the present device that it is compared with.
 
     Attributes:
-        text: in words. task: the task with it.
-        problem: the same with the present device's footing and reserve.
+        text: of the change. task: with the change.
+        choice: the present device, and what it was chosen from.
     """
 
     text: str
     task: Task
-    problem: SelectionProblem
+    choice: Choice
+
+    @classmethod
+    def of(cls, change: Change, task: Task, choice: Choice) -> "Variant | None":
+        """A task with a change; None: it contradicts the task, or no motor suits it."""
+        try:
+            changed = task.with_specification(change.specification)
+        except OcsError:
+            return None
+        # Kicks about the centre of mass with a device, which hardly moves.
+        requirement = changed.resolved.requirement.on(choice.chosen.total)
+        variant = cls(change.text, changed.asking(requirement), choice)
+        return variant if variant.problem.motors else None
 
     @property
     def turns(self) -> bool:
         """Whether the incidence is chosen again."""
         return self.problem.incidence is None
 
-    def saved(self, choice: Choice) -> Alternative:
+    @cached_property
+    def problem(self) -> SelectionProblem:
+        """The selection's problem on the present device's footing, with its reserve.
+
+        Without a change that concerns them, incidence, material and motors are those that the
+        present device has or was chosen from.
+        """
+        present, chosen = self.choice.problem, self.choice.chosen
+        stated, offered = self.task.specification, self.task.resolved.choice
+        assert offered is not None, "there are motors to choose from"
+        asked = specified_requirement(self.task)
+        turns = specified_criterion(stated) is None and present.incidence is not None
+        reserves = dict(present.requirement.reserves)
+        for each in asked.maneuvers:
+            if each.incidence == 0.0 and each.name in reserves:
+                # At 0 deg no wheel takes up a rate of roll.
+                kept = reserves[each.name]
+                reserves[each.name] = replace(kept, rate=(0.0, kept.rate[1]), roll=0.0)
+        # A motor slowed below its maker's speed stays so (`specified`).
+        known = {motor.name: motor for motor in present.motors}
+        motors = (known.get(motor.name, motor) for motor in offered.motors)
+        same = tuple(offered.materials) == tuple(present.materials)
+        return replace(
+            present,
+            requirement=replace(asked, reserves=reserves, free=turns),
+            envelope=self.task.resolved.envelope,
+            supply=offered.supply,
+            motors=tuple(each for each in motors if stated.motor.any or each.name in known),
+            materials=(chosen.material,) if same else offered.materials,
+            incidence=None if turns else chosen.incidence,
+        )
+
+    def saved(self) -> Alternative:
         """The device with this change; the present one where it would save next to nothing."""
+        chosen, hangs = self.choice.chosen, self.choice.hangs
         # Searching for a mount takes longest where there is none, and sizing a device in full
         # repeats that search several times.
-        found = self.lighter(choice, quick=choice.hangs)
-        # A lighter device may be wider, and so may its plate.
-        if found is None or found.mass > (1.0 - _WORTH) * choice.chosen.mass:
-            return _answer(self.text, choice.chosen, SAVES_NOTHING)
-        quick = ["by a quick look"] if choice.hangs and not self.turns else []
-        return _answer(self.text, found, "; ".join([*quick, *self.notes(found, choice)]))
+        quick, most = hangs and not self.turns, (1.0 - _WORTH) * chosen.mass
+        found = self.selected(most) if quick else self.lighter(most)
+        if found is None:
+            return _answer(self.text, chosen, SAVES_NOTHING)
+        notes = ["by a quick look"] if quick else []
+        return _answer(self.text, found, "; ".join([*notes, *self.notes(found)]))
 
-    def lighter(self, choice: Choice, *, quick: bool) -> Candidate | None:
-        """The device with this change; None: a quick selection finds no drive that saves mass.
+    def selected(self, most: float) -> Candidate | None:
+        """The lightest device on the present footing; None: it is heavier than `most` [kg]."""
+        found = lightest_below(self.problem, most)
+        if found is not None and not self.choice.hangs:
+            found = OnRobot(self.task.robot).with_plate(found, self.problem)
+        return found if found is not None and found.mass <= most else None
 
-        It is sized in full with the lightest of those drives.
-
-        Args:
-            choice: the present device.
-            quick: whether a device at the same incidence is returned as the quick selection finds
-                it, without a mount.
-        """
-        found = lightest_below(self.problem, (1.0 - _WORTH) * choice.chosen.modules_mass)
-        offered = self.task.resolved.choice
+    def lighter(self, most: float) -> Candidate | None:
+        """The device in full, with the lightest drive; None: it is heavier than `most` [kg]."""
+        found, offered = self.selected(most), self.task.resolved.choice
         if found is None or offered is None:
             return None
-        if quick and not self.turns:
-            return found
         parts = replace(offered, motors=(found.motor,), gears=(found.gear,))
         if self.problem.materials != parts.materials:
             # Devices of different steels are much alike; trying all with every drive is slow.
@@ -196,13 +173,15 @@ class Change:
             found = devices_by_mass([found, *filter(None, built)])[0]
         parts = replace(parts, materials=(found.material,))
         asked = replace(self.task, resolved=replace(self.task.resolved, choice=parts))
-        return _whole(asked, near=found)
+        # A lighter device may be wider, and so may its plate.
+        device = _whole(asked, near=found)
+        return device if device is not None and device.mass <= most else None
 
-    def notes(self, found: Candidate, choice: Choice) -> Iterator[str]:
+    def notes(self, found: Candidate) -> Iterator[str]:
         """Notes on the device found, besides its mass and motor."""
         if self.turns:
             yield f"alpha {degrees(found.incidence)}"
-        if found.material != choice.chosen.material:
+        if found.material != self.choice.chosen.material:
             yield found.material.name
         rated = found.motor.rated_voltage
         if rated is not None and self.problem.bus_voltage > _OVER * rated:
@@ -210,7 +189,7 @@ class Change:
         gaps = build_gaps(found.motor)
         if gaps:
             yield f"not buildable: {', '.join(gaps[:_GAPS_TOLD])} not known"
-        elif found.motor.name not in {motor.name for motor in choice.problem.motors}:
+        elif found.motor.name not in {motor.name for motor in self.choice.problem.motors}:
             yield "not buildable: its threads or shaft do not hold the wheel or the motor"
 
 
@@ -246,61 +225,10 @@ def built_otherwise(task: Task, choice: Choice | None) -> tuple[Alternative, ...
     return () if found is None else (_answer(text, found, f"--wheel {wheel}"),)
 
 
-def changes(task: Task, choice: Choice) -> Iterator[Change]:
-    """Each relaxation, and more power, room and time, as a task with that change alone."""
-    specification, resolved = task.specification, task.resolved
-    offered, chosen = resolved.choice, choice.chosen
-    assert offered is not None, "there are motors to choose from"
-    problem = replace(choice.problem, incidence=chosen.incidence, materials=(chosen.material,))
-
-    def changed(text: str, to: SelectionProblem) -> Change:
-        # The rest stays as resolved: factors on turns that were found too small, and kicks about
-        # the centre of mass with a device.
-        requirement = replace(resolved.requirement, maneuvers=to.requirement.maneuvers)
-        own = replace(offered, supply=to.supply)
-        own_resolved = replace(resolved, requirement=requirement, envelope=to.envelope, choice=own)
-        return Change(text, replace(task, resolved=own_resolved), to)
-
-    for each in relaxations(specification, problem):
-        stated = each.stated(specification)
-        try:
-            own = motor_choice(stated, task.robot)
-        except SpecificationError:  # No motor is rated for so much.
-            continue
-        assert own is not None, "there are motors to choose from"
-        names, relaxed = {motor.name for motor in own.motors}, each.problem(problem)
-        motors = tuple(motor for motor in relaxed.motors if motor.name in names)
-        if motors:
-            relaxed = replace(relaxed, motors=motors)
-            asked_for = replace(task, specification=stated, resolved=replace(resolved, choice=own))
-            yield Change(each.text, asked_for, relaxed)
-    asked = problem.requirement
-    flips = [each for each in asked.maneuvers if each.turns_over]
-    if problem.layout.pairs and any(flip.incidence is None for flip in flips):
-        turned = asked.changed(
-            lambda m: replace(m, incidence=m.incidence or 0.0) if m.turns_over else m
-        )
-        kept = dict(asked.reserves)
-        for flip in flips:
-            if not flip.incidence and flip.name in kept:
-                # At 0 deg no wheel takes up a rate of roll.
-                own_reserve = kept[flip.name]
-                kept[flip.name] = replace(own_reserve, rate=(0.0, own_reserve.rate[1]), roll=0.0)
-        by_hand = replace(turned, reserves=kept)
-        text = "modules turned to 0 deg by hand for each flip"
-        yield changed(text, replace(problem, requirement=by_hand))
-    power = problem.supply.power
-    if isfinite(power):
-        least = format_quantity(power, "kW" if power >= 1e3 else "W", 3)
-        endless = Supply(problem.supply.voltage, inf, inf)
-        yield changed(f"a supply of more than {least}", replace(problem, supply=endless))
-    room = LIMITS["r_max"]
-    radius = MORE_ROOM * room.value(problem.envelope)
-    text = f"r_max {format_quantity(radius, 'mm', 3)}, {MORE_ROOM - 1.0:.0%} more"
-    yield changed(text, with_limit(problem, room, radius))
-    if asked.maneuvers:
-        text = f"{MORE_TIME - 1.0:.0%} more time for every maneuver"
-        yield changed(text, with_limit(problem, TIME, MORE_TIME))
+def variants(task: Task, choice: Choice) -> Iterator[Variant]:
+    """The task with each single change of its specification."""
+    found = (Variant.of(change, task, choice) for change in changes(task))
+    return (variant for variant in found if variant is not None)
 
 
 def owed_to(task: Task, choice: Choice | None) -> Owed | None:
@@ -328,23 +256,12 @@ def owed_to(task: Task, choice: Choice | None) -> Owed | None:
 MOST = 200
 """Largest change that is tried [%]."""
 
-_LOOSER = (0, 1, 3, 7, 15, 31)
-"""Amounts by which an answer is loosened in turn until its full design confirms it [%]."""
+_BEYOND = 1.5
+"""Largest factor beyond the change with which a selection is light enough until its full design is,
+too."""
 
-
-@dataclass(frozen=True, eq=False)
-class _Lever:
-    """One figure that can be relaxed by a percentage: the changed specification, and its text."""
-
-    changed: Callable[[int], Specification]
-    text: Callable[[int], str]
-
-    def beside(self, choice: Relaxation) -> "_Lever":
-        """Lever on the same figure combined with another choice."""
-        return _Lever(
-            lambda percent: choice.stated(self.changed(percent)),
-            lambda percent: f"{self.text(percent)}, and {choice.told}",
-        )
+_SHARP = 0.005
+"""Relative precision of the search for a change in whole per cent."""
 
 
 def lighter_by(
@@ -362,163 +279,50 @@ def lighter_by(
     target = choice.chosen.mass - mass
     if target <= 0.0:
         return ()
-    search = _Search(task, choice, target)
-    stated, levers = task.specification, list(_levers(task, owed))
-    options = list(relaxations(stated, choice.problem))
-    found = [search.answer(each.told, each.stated(stated)) for each in options]
-    vain = [option for option, answer in zip(options, found, strict=True) if answer is None]
-    for first, second in combinations(vain, 2):
-        both = second.stated(first.stated(stated))
-        found.append(search.answer(f"{first.told}, and {second.told}", both))
-    for index, lever in enumerate(levers):
-        found.append(search.smallest(lever))
-        progress((index + 1) / len(levers))
+    stated = task.specification
+    task = replace(task, specification=replace(stated, ocs=replace(stated.ocs, co_design=None)))
+
+    def answer(change: Change) -> Alternative | None:
+        variant = Variant.of(change, task, choice)
+        found = None if variant is None else variant.lighter(target)
+        return None if found is None else _answer(change.text, found)
+
+    def smallest(lever: Lever) -> Alternative | None:
+        """The smallest sufficient change: the more is relaxed, the lighter the device."""
+
+        @cache
+        def is_light(percent: int) -> bool:
+            """Whether a device on the present footing is light enough, which is quick to find."""
+            variant = Variant.of(lever(percent), task, choice)
+            return variant is not None and variant.selected(target) is not None
+
+        @cache
+        def at(percent: int) -> Alternative | None:
+            return answer(lever(percent)) if is_light(percent) else None
+
+        if not is_light(MOST):
+            return None
+        most = 1.0 + MOST / 100.0
+        start, light = narrowed(lambda factor: is_light(_percent(factor)), 1.0, most, _SHARP)
+        far = min(_BEYOND * light, most)
+        found = smallest_factor(lambda factor: bool(at(_percent(factor))), start, far, _SHARP)
+        return None if found is None else at(_percent(found))
+
+    nothing, figures = Change("", task.specification), list(levers(task, owed))
+    open_choices = list(options(task))
+    found = [answer(each.on(nothing)) for each in open_choices]
+    vain = [each for each, alone in zip(open_choices, found, strict=True) if alone is None]
+    found += [answer(second.on(first.on(nothing))) for first, second in combinations(vain, 2)]
+    for index, lever in enumerate(figures):
+        found.append(smallest(lever))
+        progress((index + 1) / len(figures))
     if not any(found):
         # No single figure or choice saves enough: one of each together may.
-        found += [search.smallest(lever.beside(each)) for each in options for lever in levers]
+        for each, lever in product(open_choices, figures):
+            found.append(smallest(each.beside(lever)))
     return tuple(answer for answer in found if answer is not None)
 
 
-@dataclass(frozen=True, eq=False)
-class _Search:
-    """Devices for changed specifications, no heavier than the target [kg]."""
-
-    task: Task
-    choice: Choice
-    target: float
-
-    def smallest(self, lever: _Lever) -> Alternative | None:
-        """The smallest sufficient change: the more is relaxed, the lighter the device."""
-
-        def does(percent: int) -> bool:
-            return self._selected(lever.changed(percent)) is not None
-
-        @cache
-        def answer(percent: int) -> Alternative | None:
-            return self.answer(lever.text(percent), lever.changed(percent))
-
-        if not does(MOST):
-            return None
-        low = least = bisect_left(range(MOST), True, lo=1, key=does)
-        for looser in _LOOSER:
-            if answer(least + looser) is not None:
-                tried = range(least + looser)
-                return answer(bisect_left(tried, True, lo=low, key=lambda p: bool(answer(p))))
-            low = least + looser + 1
-        return None
-
-    def answer(self, text: str, changed: Specification) -> Alternative | None:
-        """The device for a changed specification, sized in full with the selected motor."""
-        selected = self._selected(changed)
-        if selected is None:
-            return None
-        motor = replace(changed.motor, name=selected.motor.name)
-        named = replace(changed, motor=motor, ocs=replace(changed.ocs, co_design=None))
-        try:
-            asked = self.task.with_specification(named)
-            device = design_device(asked, ranked=False, near=selected).device
-        except Infeasible:
-            return None
-        if device.mass > self.target:
-            return None
-        return Alternative(change=text, mass_total=device.mass, motor=device.motor.name)
-
-    def _selected(self, changed: Specification) -> Candidate | None:
-        """The lightest device for a changed specification, on the present device's footing.
-
-        None: it is too heavy, or none is feasible.
-        """
-        chosen, stated, asked = self.choice.chosen, changed.ocs, self.choice.problem
-        try:
-            resolved = self.task.with_specification(changed).resolved
-        except OcsError:
-            return None
-        offered = resolved.choice
-        assert offered is not None, "wheels without motors are not made lighter"
-        motors = offered.motors
-        if not changed.motor.any:
-            # Those that the device was chosen from, as far as they are rated for the supply.
-            names = {motor.name for motor in offered.motors}
-            motors = tuple(motor for motor in asked.motors if motor.name in names)
-        if not motors:
-            return None
-        any_material = changed.flywheel.material == AUTO
-        free = stated.alpha is None and stated.alpha_criterion == LIGHTEST
-        problem = replace(
-            asked,
-            requirement=resolved.requirement.on(chosen.total),
-            envelope=resolved.envelope,
-            supply=offered.supply,
-            motors=motors,
-            materials=offered.materials if any_material else (chosen.material,),
-            incidence=None if free else chosen.incidence,
-        )
-        found = lightest_below(problem, self.target)
-        if found is None:
-            return None
-        found = OnRobot(self.task.robot).with_plate(found, problem)
-        return found if found.mass <= self.target else None
-
-
-def _levers(task: Task, owed: str) -> Iterator[_Lever]:
-    """Figures that can be relaxed: time, room, supply, and the requirement.
-
-    For the maneuver that drives the mass (`owed`), its own time where there are several, and its
-    tilt or push; a flip cannot be made smaller.
-    """
-    names, height = [maneuver.name for maneuver in task.maneuvers], task.standing_height
-
-    def longer(maneuver: Maneuver, percent: int) -> Maneuver:
-        return maneuver.slower(1.0 + percent / 100.0, height)
-
-    def share(percent: int) -> float:
-        return round_outwards(1.0 / (1.0 + percent / 100.0), upwards=False, digits=2)
-
-    if names:
-        yield _Lever(
-            lambda percent: task.with_maneuvers(lambda each: longer(each, percent), names),
-            lambda percent: f"{percent}% more time for every maneuver",
-        )
-    alone = next((each for each in task.maneuvers if each.name == owed), None)
-    if alone is not None:
-        if len(names) > 1:
-            yield _Lever(
-                lambda percent: task.with_maneuvers(lambda _: longer(alone, percent), [owed]),
-                lambda percent: (
-                    f"{percent}% more time for one: {change_text(alone, longer(alone, percent))}"
-                ),
-            )
-        if alone.part:
-            yield _Lever(
-                lambda percent: task.with_maneuvers(lambda _: alone.milder(share(percent)), [owed]),
-                lambda percent: f"{share(percent):.0%} of the {alone.part} of {owed}",
-            )
-    resolved = task.resolved
-    envelope, rate = resolved.envelope, resolved.requirement.rate_change
-    yield _key(task, "flywheel", "r_max", envelope.outer_radius_max, "mm")
-    yield _key(task, "flywheel", "h_max", envelope.height_max, "mm")
-    if rate is not None:
-        yield _key(task, "requirement", "rate_change", rate, "rad/s", upwards=False)
-    if resolved.choice is not None:
-        supply = resolved.choice.supply
-        yield _key(task, "supply", "voltage", supply.voltage, "V")
-        if isfinite(supply.power_max):
-            yield _key(task, "supply", "power_max", supply.power_max, "W")
-
-
-def _key(
-    task: Task, section: str, key: str, own: float, unit: str, *, upwards: bool = True
-) -> _Lever:
-    """Lever on a key of the file, rounded to three digits towards the looser side."""
-
-    def value(percent: int) -> float:
-        factor = 1.0 + percent / 100.0
-        return round_outwards(own * factor if upwards else own / factor, upwards=upwards)
-
-    return _Lever(
-        lambda percent: task.with_key(section, key, value(percent)),
-        lambda percent: (
-            f"{key} {format_quantity(value(percent), unit)} in place of "
-            f"{format_quantity(own, unit, 3)}"
-        ),
-    )
+def _percent(factor: float) -> int:
+    """A factor on a limit as a change in whole per cent, rounded up."""
+    return ceil(100.0 * (factor - 1.0) - 1e-9)

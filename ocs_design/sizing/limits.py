@@ -7,8 +7,7 @@ quickly.
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
-from math import isfinite, log10, pi, sqrt
+from math import isfinite, pi, sqrt
 from typing import Any, TypeAlias, TypeVar
 
 from ocs_design.common.errors import Constraint
@@ -140,69 +139,55 @@ def smallest_changes(
     """Values of single limits that just make the design feasible, the gentlest change first [SI].
 
     Args:
-        values: present values of the limits [SI].
-        mends, precision, most, conceivable: as in `smallest_change`, for any limit.
+        values: present values of the limits [SI], at which no design is feasible.
+        mends: whether a design is feasible with one limit changed.
+        precision: relative precision of the values.
+        most: largest factor by which a limit is changed.
+        conceivable: where `mends` takes long, whether a bound leaves any design: true from some
+            change onwards. A limit that does not help at its largest change is then assumed never
+            to help.
         progress: called with the fraction done.
     """
-    found = {}
+    factors: dict[Limit, float | None] = {}
     for index, (limit, now) in enumerate(values.items()):
-        value = smallest_change(
-            limit,
-            now,
-            partial(mends, limit),
-            precision=precision,
-            most=most(limit),
-            conceivable=None if conceivable is None else partial(conceivable, limit),
-        )
-        if value is not None:
-            found[limit] = value
+
+        def at(test: Test, limit: Limit = limit, now: float = now) -> Callable[[float], bool]:
+            """A test as a function of the factor by which the limit is loosened."""
+            return lambda factor: test(limit, limit.loosened(now, factor))
+
+        if isfinite(now) and now > 0.0:
+            start, far = 1.0, most(limit)
+            if conceivable is not None:
+                # A bound's edge, which is quick to find, is where to start.
+                can = at(mends)(far)
+                start = narrowed(at(conceivable), start, far, precision)[0] if can else far
+            factors[limit] = smallest_factor(at(mends), start, far, precision)
         progress((index + 1) / len(values))
-    return dict(sorted(found.items(), key=lambda item: abs(log10(item[1] / values[item[0]]))))
+    found = {limit: factor for limit, factor in factors.items() if factor is not None}
+    ordered = sorted(found.items(), key=lambda item: item[1])
+    return {limit: limit.loosened(values[limit], factor) for limit, factor in ordered}
 
 
-def smallest_change(
-    limit: Limit,
-    now: float,
-    mends: Callable[[float], bool],
-    *,
-    precision: float = PRECISION,
-    most: float = MOST_CHANGE,
-    conceivable: Callable[[float], bool] | None = None,
+def smallest_factor(
+    mends: Callable[[float], bool], start: float, most: float, precision: float
 ) -> float | None:
-    """The smallest loosening from `now` that makes the design feasible; None: there is none.
+    """The smallest factor on a limit that makes the design feasible; None: there is none.
 
     Growing steps outwards until one succeeds, then bisection of the last one: loosening a limit too
     far may fail where a smaller change succeeds, since a larger wheel also loads the robot.
 
     Args:
-        limit: the limit, which knows its loose side.
-        now: its present value, at which no design is feasible.
-        mends: whether a design is feasible at a value.
-        precision: relative precision of the value.
-        most: largest factor by which it is changed.
-        conceivable: where `mends` takes long, whether a bound leaves any design: true from some
-            change onwards. A limit that does not help at its largest change is then assumed never
-            to help.
+        mends: whether a design is feasible with a factor.
+        start: factor of at least 1 that fails. most: largest factor to try.
+        precision: relative precision of the result.
     """
-    if not (isfinite(now) and now > 0.0):
-        return None
-
-    # Tests as functions of the factor by which the limit is loosened.
-    def at(test: Callable[[float], bool]) -> Callable[[float], bool]:
-        return lambda factor: test(limit.loosened(now, factor))
-
-    low, step = 1.0, 1.0 + precision
-    if conceivable is not None:
-        if not at(mends)(most):
-            return None
-        low, _ = narrowed(at(conceivable), low, most, precision)
-    high = min(low * step, most)
-    while not at(mends)(high):
-        if high >= most:
-            return None
-        low, step = high, min(step**2, _LARGEST_STEP)
+    low, step = start, 1.0 + precision
+    while low < most:
         high = min(low * step, most)
-    return limit.loosened(now, narrowed(at(mends), low, high, precision)[1])
+        if mends(high):
+            return narrowed(mends, low, high, precision)[1]
+        low, step = high, min(step**2, _LARGEST_STEP)
+    return None
 
 
 def advice(changes: Sequence[str], otherwise: str) -> str:

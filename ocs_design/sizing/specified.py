@@ -21,6 +21,7 @@ from ocs_design.parts.motor_mount import bond_length, is_held, motor_front, moun
 from ocs_design.parts.rim import NO_CUTS, WEB_MATERIAL, RimCuts, hub_height
 from ocs_design.requirement.choices import MotorChoice
 from ocs_design.requirement.device_sections import Envelope, FlywheelSection
+from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
@@ -51,10 +52,9 @@ def selection_problem(task: Task) -> SelectionProblem | None:
     stated, layout = specification.ocs, specified_layout(specification)
     footing = footing_of(robot, resolved.envelope, stated.position, layout)
     angle = layout.angle if stated.alpha is None else stated.alpha
-    direct = angle is not None and bool(np.linalg.matrix_rank(layout.axes(angle), _SPANS) == 3)
     problem = SelectionProblem(
         robot=footing.carried(robot.mass_properties),
-        requirement=resolved.requirement.changed(lambda each: each.with_wheels(direct=direct)),
+        requirement=specified_requirement(task),
         envelope=resolved.envelope,
         place=footing.place,
         motors=_held(specification, resolved, choice),
@@ -72,6 +72,14 @@ def selection_problem(task: Task) -> SelectionProblem | None:
         lightenings=specified_lightenings(specification.flywheel),
     )
     return on_bells(problem, choice) if stated.wheel == RING else problem
+
+
+def specified_requirement(task: Task) -> Requirement:
+    """Requirement of a task; turns are direct where the layout spans all three axes."""
+    stated, layout = task.specification.ocs, specified_layout(task.specification)
+    angle = layout.angle if stated.alpha is None else stated.alpha
+    direct = angle is not None and bool(np.linalg.matrix_rank(layout.axes(angle), _SPANS) == 3)
+    return task.resolved.requirement.changed(lambda each: each.with_wheels(direct=direct))
 
 
 def on_bells(problem: SelectionProblem, choice: MotorChoice) -> SelectionProblem:

@@ -85,7 +85,7 @@ def answers_alone():
 def test_a_question_has_its_answer(question, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     # What one change would save is asked by none.
-    monkeypatch.setattr(alternatives, "changes", lambda *_: ())
+    monkeypatch.setattr(alternatives, "variants", lambda *_: ())
     monkeypatch.setattr(alternatives, "built_otherwise", lambda *_: ())
     if not re.search("driven by|Trade-offs to save", question["answer"]):
         monkeypatch.setattr(alternatives, "owed_to", lambda *_: None)

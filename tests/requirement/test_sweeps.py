@@ -1,12 +1,16 @@
 """Each figure varied alone, and all else kept."""
 
+from dataclasses import replace
 from math import hypot, radians
 
 import pytest
 
 from ocs_design.common.errors import UsageError
 from ocs_design.requirement.maneuver import Disturbance, Drop
+from ocs_design.requirement.phrases import About
 from ocs_design.requirement.reading import parse_specification
+from ocs_design.requirement.sections import RequirementSection
+from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import SWEEPS, Task, sweep_of
 
 ROLLED = """
@@ -139,3 +143,12 @@ def test_a_level_drop_has_no_angle_to_scale(task):
     level += "[requirement]\nrate_change = 2\n"
     with pytest.raises(UsageError, match="has no turn"):
         SWEEPS["angle"].own(task(level))
+
+
+def test_a_variant_keeps_what_the_plan_of_a_turn_has_shown(solo12):
+    """A turn that was found to need 1.3 times its estimate does so in another room, too."""
+    words = Specification(requirement=RequirementSection(turn=(About(0.5, 0.0, 0.0, 0.5, "rad"),)))
+    task = Task.of(words, solo12)
+    task = replace(task, resolved=task.resolved.estimated({"turn": 1.3}))
+    varied = task.with_specification(task.with_key("flywheel", "r_max", 0.06))
+    assert [each.estimate for each in varied.maneuvers] == [1.3]

@@ -17,12 +17,12 @@ from ocs_design.requirement.maneuver import Flip
 from ocs_design.requirement.sections import RequirementSection, RobotSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.sizing.alternatives import (
-    MORE_TIME,
     built_otherwise,
-    changes,
     lighter_otherwise,
     owed_to,
+    variants,
 )
+from ocs_design.sizing.changes import MORE_TIME
 from ocs_design.sizing.design import design_device
 
 ABOUT = 5e-3
@@ -43,8 +43,8 @@ def compared(specification, change):
 
 def saved(task, choice, text):
     """What the change with this text would save."""
-    (change,) = [each for each in changes(task, choice) if each.text == text]
-    return change.saved(choice)
+    (variant,) = [each for each in variants(task, choice) if each.text == text]
+    return variant.saved()
 
 
 def by_hand(task):
@@ -54,7 +54,9 @@ def by_hand(task):
 
 
 def in_more_time(task):
-    return tuple(each.slower(MORE_TIME, task.standing_height) for each in task.maneuvers)
+    return tuple(
+        each.slower(1.0 + MORE_TIME / 100.0, task.standing_height) for each in task.maneuvers
+    )
 
 
 @pytest.mark.slow
@@ -69,7 +71,7 @@ def in_more_time(task):
         ("any material", "flywheel", lambda _: FlywheelSection(material="auto")),
         ("modules turned to 0 deg by hand for each flip", "maneuvers", by_hand),
         ("a supply of 48 V", "supply", lambda _: SupplySection(voltage=48.0)),
-        ("r_max 60 mm, 20% more", "flywheel", lambda _: FlywheelSection(r_max=0.06)),
+        ("r_max 60 mm in place of 50 mm", "flywheel", lambda _: FlywheelSection(r_max=0.06)),
         ("10% more time for every maneuver", "maneuvers", in_more_time),
     ],
 )
@@ -103,7 +105,7 @@ def test_rings_on_a_robot_are_weighed_on_feet_and_a_plate_of_their_own():
 def offered(specification):
     """What would be looked for."""
     task, designed = design_of(specification)
-    return {each.text for each in changes(task, designed.choice)}
+    return {each.text for each in variants(task, designed.choice)}
 
 
 @pytest.mark.slow

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 from functools import cache
-from math import inf
 
 import pytest
 from designed import design_of
@@ -10,7 +9,8 @@ from designed import design_of
 from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.sections import RequirementSection
 from ocs_design.requirement.specification import Specification
-from ocs_design.sizing.alternatives import _Search, lighter_by, owed_to
+from ocs_design.sizing.alternatives import Variant, lighter_by, owed_to
+from ocs_design.sizing.changes import Change
 from ocs_design.sizing.design import design_device
 
 MOTORS = MotorSection(name="MN4014 KV400")
@@ -90,13 +90,13 @@ def test_no_motor_is_told_at_a_voltage_that_it_is_not_rated_for():
     """MN4014 KV400 is rated for 33.6 V; others of the catalogue for more."""
     task, designed, _ = made()
     task = task.with_specification(replace(task.specification, motor=MotorSection()))
-    search = _Search(task, designed.choice, inf)
 
-    def selected(voltage):
-        return search._selected(task.with_key("supply", "voltage", voltage))
+    def offered(voltage):
+        change = Change("", task.with_key("supply", "voltage", voltage))
+        return Variant.of(change, task, designed.choice)
 
-    assert selected(33.0).motor.name == MOTORS.name
-    assert selected(34.0) is None
+    assert [motor.name for motor in offered(33.0).problem.motors] == [MOTORS.name]
+    assert offered(34.0) is None
 
 
 @pytest.mark.slow
@@ -104,13 +104,12 @@ def test_where_neither_does_alone_a_figure_is_tried_with_a_choice(monkeypatch):
     task, designed, _ = made(fall=(1.0,))
     asked = {}
 
-    def smallest(_, lever):
-        """What would be asked at 10 %."""
-        asked[lever.text(10)] = lever.changed(10)
+    def too_heavy(variant, _most):
+        asked[variant.text] = variant.task.specification
 
-    monkeypatch.setattr("ocs_design.sizing.alternatives._Search.answer", lambda *_: None)
-    monkeypatch.setattr("ocs_design.sizing.alternatives._Search.smallest", smallest)
+    monkeypatch.setattr(Variant, "selected", lambda *_: designed.choice.chosen)
+    monkeypatch.setattr(Variant, "lighter", too_heavy)
     assert lighter_by(LESS, task, designed.choice, "") == ()
-    (both,) = (each for text, each in asked.items() if "r_max 55 mm" in text and "incid" in text)
+    both = next(each for text, each in asked.items() if "r_max" in text and "incidence" in text)
     assert both.ocs.alpha_criterion == "lightest"
     assert both.flywheel.r_max > task.resolved.envelope.outer_radius_max

@@ -10,11 +10,15 @@ from ocs_design.sizing.limits import (
     PRECISION,
     RIM_LIMITS,
     TOP_SPEED,
-    smallest_change,
     smallest_changes,
 )
 
 BY_NAME = {limit.name: limit for limit in (*RIM_LIMITS, TOP_SPEED)}
+
+
+def smallest_change(limit, now, mends):
+    """Of one limit; None: there is none."""
+    return smallest_changes({limit: now}, lambda _, value: mends(value)).get(limit)
 
 
 @given(st.floats(1e-3, 1e3), st.floats(1.0001, 900.0))
