@@ -19,6 +19,7 @@ from ocs_design.actuation.motor import DIRECT, Gear, GearRoom, Motor, Mounting
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import FloatArray, Table, finite_or_none
 from ocs_design.common.errors import OcsError
+from ocs_design.common.ranges import Length, LengthIfAny, NotNegative, Positive, Signed
 from ocs_design.common.records import recorded
 from ocs_design.common.units import rpm
 
@@ -228,33 +229,33 @@ class Drive:
     """
 
     name: str
-    mass: float
-    stall_torque: float | None
-    no_load_speed: float
-    torque_limit: float | None
-    rotor_inertia: float
+    mass: NotNegative
+    stall_torque: Positive | None
+    no_load_speed: Positive
+    torque_limit: Positive | None
+    rotor_inertia: Signed
     source: str
     gear: str = DIRECT.name
-    gear_ratio: float = DIRECT.ratio
-    gear_efficiency: float = DIRECT.efficiency
-    gear_mass: float = DIRECT.mass
-    bus_voltage: float | None = None
-    speed_max: float | None = None
-    armature: float = 0.0
-    torque_constant: float | None = None
-    resistance: float | None = None
-    continuous_torque: float | None = None
-    rated_voltage: float | None = None
-    diameter: float | None = None
-    length: float | None = None
+    gear_ratio: Positive = DIRECT.ratio
+    gear_efficiency: Positive = DIRECT.efficiency
+    gear_mass: NotNegative = DIRECT.mass
+    bus_voltage: Positive | None = None
+    speed_max: Positive | None = None
+    armature: Signed = 0.0
+    torque_constant: Positive | None = None
+    resistance: Positive | None = None
+    continuous_torque: NotNegative | None = None
+    rated_voltage: Positive | None = None
+    diameter: Length | None = None
+    length: LengthIfAny | None = None
     mounting: Mounting | None = None
-    no_load_current: float | None = None
+    no_load_current: NotNegative | None = None
     gear_room: GearRoom | None = None
-    saturation_torque: float | None = None
+    saturation_torque: Positive | None = None
     rotor_inertia_source: str = ""
     continuous_torque_source: str = ""
     confidence: str = ""
-    controller_mass: float = 0.0
+    controller_mass: NotNegative = 0.0
     maker: str = ""
 
     @property

@@ -3,8 +3,10 @@
 from dataclasses import dataclass
 from enum import Enum
 from math import asin, ceil, inf, isfinite, pi, sqrt
+from typing import Annotated, TypeAlias
 
 from ocs_design.common.errors import PartError
+from ocs_design.common.ranges import OneOf
 
 
 @dataclass(frozen=True)
@@ -329,6 +331,9 @@ SCREWS = (
 sockets: ISO 4762:2004; pitches: ISO 262."""
 
 SCREW_NAMES = tuple(known.name for known in SCREWS)
+
+ThreadName: TypeAlias = Annotated[str, OneOf(SCREW_NAMES)]
+ScrewClass: TypeAlias = Annotated[str, OneOf(tuple(CLASSES))]
 
 
 def screw(name: str) -> Screw:

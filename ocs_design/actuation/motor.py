@@ -20,7 +20,15 @@ from dataclasses import dataclass
 from enum import StrEnum
 from math import inf, pi, sin
 
-from ocs_design.actuation.fasteners import CLASSES, OFF_BOTTOM, USUAL_CLASS, screw
+from ocs_design.actuation.fasteners import (
+    CLASSES,
+    OFF_BOTTOM,
+    USUAL_CLASS,
+    ScrewClass,
+    ThreadName,
+    screw,
+)
+from ocs_design.common.ranges import Count, Length, LengthIfAny
 
 
 class TorqueConstantConvention(StrEnum):
@@ -112,13 +120,13 @@ class BoltCircle:
         drawn: depth of the threads in a model that is not the maker's [m]; None: none is known.
     """
 
-    diameter: float
-    bolts: int
-    thread: str
-    screws: str = USUAL_CLASS
-    depth: float | None = None
-    depth_max: float | None = None
-    drawn: float | None = None
+    diameter: Length
+    bolts: Count
+    thread: ThreadName
+    screws: ScrewClass = USUAL_CLASS
+    depth: LengthIfAny | None = None
+    depth_max: LengthIfAny | None = None
+    drawn: LengthIfAny | None = None
 
     def __str__(self) -> str:
         """Text such as `4 x M3 on 25 mm`."""
@@ -180,11 +188,11 @@ class Mounting:
         shaft_form: form of the shaft.
     """
 
-    shaft_diameter: float | None = None
+    shaft_diameter: LengthIfAny | None = None
     rotor: BoltCircle | None = None
     stator: BoltCircle | None = None
     stator_face: Face | None = None
-    shaft_length: float | None = None
+    shaft_length: LengthIfAny | None = None
     shaft_form: ShaftForm | None = None
 
 
@@ -200,11 +208,11 @@ class GearRoom:
         center: centre of its mass, from the wheel's axis towards the motor's [m].
     """
 
-    depth: float = 0.0
-    offset: float = 0.0
-    wheel_radius: float = 0.0
-    motor_radius: float = 0.0
-    center: float = 0.0
+    depth: LengthIfAny = 0.0
+    offset: LengthIfAny = 0.0
+    wheel_radius: LengthIfAny = 0.0
+    motor_radius: LengthIfAny = 0.0
+    center: LengthIfAny = 0.0
 
 
 @dataclass(frozen=True)

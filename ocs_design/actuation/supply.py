@@ -3,6 +3,8 @@
 from dataclasses import dataclass, replace
 from math import inf
 
+from ocs_design.common.ranges import Capacity, Positive
+
 
 @dataclass(frozen=True)
 class Supply:
@@ -14,9 +16,9 @@ class Supply:
         power_max: drawn or fed back, of all motors together [W]; inf: not limited.
     """
 
-    voltage: float
-    current_max: float = inf
-    power_max: float = inf
+    voltage: Positive
+    current_max: Capacity = inf
+    power_max: Capacity = inf
 
     @property
     def power(self) -> float:

@@ -4,62 +4,21 @@ Files are made from it without further checks, so invalid lengths, masses and di
 here.
 """
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
-from math import hypot, inf, isfinite, pi
+from math import hypot
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ocs_design.actuation.fasteners import CLASSES, SCREW_NAMES
 from ocs_design.common.errors import OcsError, SpecificationError
+from ocs_design.common.ranges import LARGEST_LENGTH, SMALLEST_LENGTH, ranges_of
 from ocs_design.device.device import Device, Flywheel
 from ocs_design.parts.carrier_plate import CarrierPlate, Mast
-from ocs_design.parts.rim import LIGHTENED
 from ocs_design.robot.mass import MassProperties
 
-LARGEST = 1e12
-"""Largest figure of a device, SI: stresses reach 1e9."""
-
-LARGEST_LENGTH, SMALLEST_LENGTH = 100.0, 1e-7
-"""Limits of a wheel's dimensions [m]."""
-
-MOST_BOLTS = 100
-"""Largest number of bolts or holes in a ring."""
-
-_OR_NONE = (
-    *("inner_radius", "bore_radius", "bolt_circle_radius", "bolt_hole_radius", "length"),
-    *("chamfer", "hole_radius", "hole_depth"),
-)
-_OF_GEARS = ("gear_room.depth", "offset", "wheel_radius", "motor_radius", "center")
-"""Lengths [m] that are zero where the feature is absent."""
-
-_LENGTHS = {
-    "outer_radius",
-    "height",
-    "thickness",
-    "radius",
-    "diameter",
-    "half_length",
-    "sleeve_wall",
-}
-_POSITIVE = {
-    *("density", "mass", "spin_inertia", "gear_efficiency", "no_load_speed", "speed_max"),
-    *("stall_torque", "torque_limit", "saturation_torque", "torque_constant", "resistance"),
-    *("bus_voltage", "rated_voltage", "gear_ratio"),
-}
-_ANY_SIGN = {
-    *("rotor_inertia", "stress_margin", "armature"),
-    *("along", "up", "product_of_inertia"),
-}
-_MAY_BE_ZERO = {"motor.mass", "carrier.mass"}
-
-_CHOICES: Mapping[str, Collection[str | int]] = {
-    "thread": SCREW_NAMES,
-    "foot_thread": SCREW_NAMES,
-    "screws": CLASSES,
-    "lightening": LIGHTENED,
-}
-"""Allowed words and numbers, by the name of the figure."""
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
 
 _UNIT_TOLERANCE = 1e-6
 
@@ -74,28 +33,9 @@ def check_device(device: Device) -> None:
     Raises:
         OcsError: lists every fault.
     """
-    faults = [
-        fault
-        for part in ("flywheel", "motor", "carrier", "plate")
-        for fault in _figures(getattr(device, part), part)
-    ]
-    faults += _pedestal_faults(device)
+    faults = [*_figures(device), *_pedestal_faults(device)]
     if device.plate is not None:
         faults += _plate_faults(device.plate)
-    if not 0.0 <= device.guard_wall <= LARGEST_LENGTH:
-        faults.append(_outside("ocs.guard_wall", device.guard_wall, 0.0, LARGEST_LENGTH))
-    if not SMALLEST_LENGTH <= device.foot_plate <= LARGEST_LENGTH:
-        faults.append(
-            _outside("ocs.foot_plate", device.foot_plate, SMALLEST_LENGTH, LARGEST_LENGTH)
-        )
-    if device.supply is not None:
-        # An absent limit is infinite.
-        for name, highest in (("voltage", LARGEST), ("current_max", inf), ("power_max", inf)):
-            value = getattr(device.supply, name)
-            if not 0.0 < value <= highest:
-                faults.append(f"supply.{name} is {value:g}, not positive")
-    if not isfinite(device.incidence):
-        faults.append(f"ocs.incidence is {device.incidence}, not finite")
     if tuple(module.name for module in device.modules) != device.layout.names:
         faults.append(f"ocs.modules are not those of {device.layout.text}")
     for module in device.modules:
@@ -165,12 +105,6 @@ def _pedestal_faults(device: Device) -> Iterator[str]:
     if device.plate is not None and device.pedestals:
         yield "it has both a plate and pedestals"
     for pedestal in device.pedestals:
-        for name in _PEDESTAL_LENGTHS:
-            size = getattr(pedestal, name)
-            if not SMALLEST_LENGTH <= size <= LARGEST_LENGTH:
-                yield _outside(f"pedestals.{name}", size, SMALLEST_LENGTH, LARGEST_LENGTH)
-        if not _UNIT_TOLERANCE < pedestal.lean <= pi / 2.0 + _UNIT_TOLERANCE:
-            yield _outside("pedestals.lean", pedestal.lean, _UNIT_TOLERANCE, pi / 2.0)
         places = np.array([*pedestal.position, pedestal.heading])
         if not (np.abs(places) <= LARGEST_LENGTH).all():
             yield "the position of a pedestal is out of range"
@@ -178,37 +112,15 @@ def _pedestal_faults(device: Device) -> Iterator[str]:
             yield f"a pedestal belongs to a module that does not exist: {pedestal.module}"
 
 
-_PEDESTAL_LENGTHS = "base_radius", "slot_radius", "wheel_height", "middle", "thickness", "base"
-
-
-def _figures(value: object, path: str) -> Iterator[str]:
-    """Faults of every number in a value, recursively."""
-    if is_dataclass(value):
-        for each in fields(value):
-            yield from _figures(getattr(value, each.name), f"{path}.{each.name}")
-    elif path.rpartition(".")[2] in _CHOICES:
-        known = _CHOICES[path.rpartition(".")[2]]
-        if value not in known:
-            yield f"{path} is {value!r}, which is not one of {', '.join(map(str, known))}"
-    elif path.endswith((".bolts", ".holes")) and isinstance(value, int | float):
-        if not 0 <= value <= MOST_BOLTS:
-            yield _outside(path, value, 0, MOST_BOLTS)
-    elif isinstance(value, float):
-        name = path.rpartition(".")[2]
-        if name in _LENGTHS or path.endswith(_OR_NONE + _OF_GEARS):
-            low, high = SMALLEST_LENGTH, LARGEST_LENGTH
-        elif name in _ANY_SIGN:
-            low, high = -LARGEST, LARGEST
-        else:
-            low, high = (1e-15 if name in _POSITIVE and path not in _MAY_BE_ZERO else 0.0), LARGEST
-        absent = value == 0.0 and path.endswith(_OR_NONE + _OF_GEARS)
-        if not absent and not low <= value <= high:
-            yield _outside(path, value, low, high)
-
-
-def _outside(path: str, value: float, low: float, high: float) -> str:
-    """Fault of a figure that is out of its range."""
-    return f"{path} is {value:g}, not between {low:g} and {high:g}"
+def _figures(record: "DataclassInstance", path: str = "") -> Iterator[str]:
+    """Faults of every number of a record and of its parts, each by the range of its field."""
+    ranges = ranges_of(type(record))
+    for name, value in ((field.name, getattr(record, field.name)) for field in fields(record)):
+        if name in ranges and value is not None and (fault := ranges[name].fault(value)):
+            yield f"{path or 'ocs'}.{name} {fault}"
+        for part in value if isinstance(value, tuple) else (value,):
+            if is_dataclass(part) and not isinstance(part, type):
+                yield from _figures(part, f"{path}.{name}".lstrip("."))
 
 
 HEAVY = 0.3

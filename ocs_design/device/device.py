@@ -7,6 +7,15 @@ import numpy as np
 from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.ranges import (
+    Angle,
+    Distance,
+    Length,
+    LengthIfAny,
+    NotNegative,
+    Positive,
+    Signed,
+)
 from ocs_design.common.units import format_quantity
 from ocs_design.device.layout import PAIR, Layout, sense, standing_frames
 from ocs_design.parts.carrier_plate import CarrierPlate
@@ -41,17 +50,17 @@ class Flywheel:
         cuts: chamfers and balancing holes of the rim.
     """
 
-    inner_radius: float
-    outer_radius: float
-    height: float
+    inner_radius: LengthIfAny
+    outer_radius: Length
+    height: Length
     material: str
-    density: float
-    mass: float
-    spin_inertia: float
-    transverse_inertia: float
-    hoop_stress: float | None
-    stress_margin: float | None
-    stored_energy: float
+    density: Positive
+    mass: Positive
+    spin_inertia: Positive
+    transverse_inertia: NotNegative
+    hoop_stress: NotNegative | None
+    stress_margin: Signed | None
+    stored_energy: NotNegative
     web: Web | None = None
     cuts: RimCuts = NO_CUTS
 
@@ -111,15 +120,15 @@ class Device:
         on_bell: whether each wheel is a ring around the bell of its motor.
     """
 
-    incidence: float
+    incidence: Angle
     modules: tuple[Module, ...]
     flywheel: Flywheel
     motor: Drive
     carrier: Carrier = NO_CARRIER
     supply: Supply | None = None
     plate: CarrierPlate | None = None
-    guard_wall: float = 0.0
-    foot_plate: float = PLATE_THICKNESS
+    guard_wall: Distance = 0.0
+    foot_plate: Length = PLATE_THICKNESS
     layout: Layout = PAIR
     pedestals: tuple[Pedestal, ...] = ()
     on_bell: bool = False

@@ -21,10 +21,11 @@ from typing import TypeAlias, TypeVar
 
 import numpy as np
 
-from ocs_design.actuation.fasteners import BoltedJoint, Fastening, Screw, screw
+from ocs_design.actuation.fasteners import BoltedJoint, Fastening, Screw, ThreadName, screw
 from ocs_design.catalogue.materials import material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import BACKWARDS, FORWARDS, Placement
+from ocs_design.common.ranges import Distance, Length, LengthIfAny, Positive
 from ocs_design.parts.dog_bone import DogBone, directions
 from ocs_design.parts.printed import AROUND_SLOT, TRUNK_SCREW, Bulk
 from ocs_design.parts.shapes import Disc, Rectangle
@@ -107,13 +108,13 @@ class Mast:
             Empty: the block is flat.
     """
 
-    side: float
-    wall: float
-    face: float
-    below: float
-    high: float
-    overhang: float
-    spacer: float = 0.0
+    side: Distance
+    wall: Distance
+    face: Distance
+    below: Distance
+    high: Distance
+    overhang: Distance
+    spacer: Distance = 0.0
     formed: tuple[tuple[float, ...], ...] = ()
 
     @property
@@ -177,24 +178,24 @@ class CarrierPlate:
     """
 
     position: tuple[float, float, float]
-    radius: float
-    half_length: float
-    neck: float
-    thickness: float
-    across: float
-    window: float
+    radius: Length
+    half_length: LengthIfAny
+    neck: Distance
+    thickness: Length
+    across: Distance
+    window: Distance
     feet: tuple[Point, ...]
     trunk: tuple[Point, ...]
     sleeves: tuple[float, ...]
-    thread: str = "M3"
-    foot_thread: str = "M3"
+    thread: ThreadName = "M3"
+    foot_thread: ThreadName = "M3"
     material: str = MATERIAL
-    density: float = ALUMINIUM.density
+    density: Positive = ALUMINIUM.density
     rows: tuple[float, ...] = (0.0,)
     levels: tuple[float, ...] = ()
     mast: Mast | None = None
     arms: int = 2
-    sleeve_wall: float = SLEEVE_WALL
+    sleeve_wall: Length = SLEEVE_WALL
 
     @property
     def shape(self) -> DogBone:

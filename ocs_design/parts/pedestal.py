@@ -13,12 +13,14 @@ underside, below the line where seat and base meet.
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from math import ceil, cos, hypot, pi, sin, sqrt
+from typing import Annotated
 
 import numpy as np
 
 from ocs_design.actuation.fasteners import IN_PLASTIC, BoltedJoint, Fastening
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import Placement
+from ocs_design.common.ranges import Length, Range, Signed
 from ocs_design.parts.joints import SHEAR_SHARE, pattern_use
 from ocs_design.parts.printed import (
     AROUND_SLOT,
@@ -45,6 +47,10 @@ _ROUNDS = 50
 """Most steps of 0.1 mm by which a base is thickened, since thickening it raises wheel and load."""
 
 
+_ROUNDED = 1e-6
+"""Angle that counts as rounding [rad]."""
+
+
 @dataclass(frozen=True)
 class Pedestal:
     """Frame under one leaning foot.
@@ -61,17 +67,17 @@ class Pedestal:
         heading: of its y axis in B, from x to y [rad].
     """
 
-    base_radius: float
-    slot_radius: float
-    wheel_height: float
-    lean: float
-    middle: float
-    thickness: float = LEAST_SEAT
-    base: float = BASE_THICKNESS
-    foot_base: float = BASE_THICKNESS
+    base_radius: Length
+    slot_radius: Length
+    wheel_height: Length
+    lean: Annotated[float, Range(_ROUNDED, pi / 2.0 + _ROUNDED)]
+    middle: Length
+    thickness: Length = LEAST_SEAT
+    base: Length = BASE_THICKNESS
+    foot_base: Length = BASE_THICKNESS
     module: str = ""
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    heading: float = pi / 2.0
+    heading: Signed = pi / 2.0
 
     @property
     def length(self) -> float:

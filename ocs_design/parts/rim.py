@@ -37,12 +37,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import inf, pi, sin, sqrt
+from typing import Annotated
 
 import numpy as np
 
 from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.fasteners import LIGAMENT, screw
 from ocs_design.actuation.motor import Motor, Mounting
+from ocs_design.common.ranges import Count, Length, LengthIfAny, OneOf
 from ocs_design.parts.moments import Real, cylinder_mass
 from ocs_design.parts.printed import CLEARANCE
 from ocs_design.parts.shapes import Disc
@@ -163,9 +165,9 @@ class HoleRing:
         hole_radius: of each [m].
     """
 
-    count: int
-    circle_radius: float
-    hole_radius: float
+    count: Count
+    circle_radius: LengthIfAny
+    hole_radius: LengthIfAny
 
     @classmethod
     def lightening(cls, count: int, hub_radius: float, bore: float) -> "HoleRing":
@@ -212,10 +214,10 @@ class RimCuts:
         hole_radius, hole_depth: of each [m].
     """
 
-    chamfer: float = 0.0
-    holes: int = 0
-    hole_radius: float = 0.0
-    hole_depth: float = 0.0
+    chamfer: LengthIfAny = 0.0
+    holes: Count = 0
+    hole_radius: LengthIfAny = 0.0
+    hole_depth: LengthIfAny = 0.0
 
     @property
     def wall_min(self) -> float:
@@ -314,16 +316,16 @@ class Hub:
         lightening: number of holes in that web (`LIGHTENED`); 0: none.
     """
 
-    radius: float
-    height: float
-    bore_radius: float
-    bolts: int = 0
-    bolt_circle_radius: float = 0.0
-    bolt_hole_radius: float = 0.0
-    chamfer: float = 0.0
-    bolt_head: float = 0.0
-    web_thickness: float = WEB_THICKNESS
-    lightening: int = 0
+    radius: Length
+    height: Length
+    bore_radius: LengthIfAny
+    bolts: Count = 0
+    bolt_circle_radius: LengthIfAny = 0.0
+    bolt_hole_radius: LengthIfAny = 0.0
+    chamfer: LengthIfAny = 0.0
+    bolt_head: LengthIfAny = 0.0
+    web_thickness: LengthIfAny = WEB_THICKNESS
+    lightening: Annotated[int, OneOf(tuple(LIGHTENED))] = 0
 
     @property
     def lightened(self) -> float:

@@ -11,6 +11,7 @@ import numpy as np
 
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.common.frames import Placement
+from ocs_design.common.ranges import NotNegative, Signed
 from ocs_design.parts.moments import MassMoments, Real, product
 from ocs_design.parts.outline import Outline, even_points
 from ocs_design.robot.mass import MassProperties, combine
@@ -338,13 +339,13 @@ class Carrier:
             module, below the axis.
     """
 
-    mass: float
-    axial_inertia: float
-    transverse_inertia: float
-    vertical_inertia: float | None = None
-    product_of_inertia: float = 0.0
-    along: float = 0.0
-    up: float = 0.0
+    mass: NotNegative
+    axial_inertia: NotNegative
+    transverse_inertia: NotNegative
+    vertical_inertia: NotNegative | None = None
+    product_of_inertia: Signed = 0.0
+    along: Signed = 0.0
+    up: Signed = 0.0
 
     @classmethod
     def of(cls, moments: MassMoments[float]) -> "Carrier":

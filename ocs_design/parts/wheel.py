@@ -6,6 +6,7 @@ from math import inf
 
 from ocs_design.actuation.fasteners import LIGAMENT
 from ocs_design.common.errors import PartError
+from ocs_design.common.ranges import Length, Positive
 from ocs_design.parts.rim import CHAMFER_SHARE, NO_CUTS, HoleRing, Hub, RimCuts
 from ocs_design.parts.solids import Part, Prism, Revolution, revolved
 
@@ -55,9 +56,9 @@ class Web:
     """
 
     material: str
-    density: float
-    thickness: float
-    mass: float
+    density: Positive
+    thickness: Length
+    mass: Positive
     hub: Hub
     holes: HoleRing | None = None
 

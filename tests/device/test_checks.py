@@ -1,6 +1,6 @@
 """Figures of a device that an edited `design.json` may hold, and none of which can be made."""
 
-from dataclasses import replace
+from dataclasses import make_dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -8,9 +8,14 @@ import pytest
 
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import OcsError
+from ocs_design.common.ranges import Length, ranges_of
 from ocs_design.device.checks import check_device, device_warnings
+from ocs_design.device.device import Flywheel
 from ocs_design.device.records.design import read_design
+from ocs_design.parts.carrier_plate import CarrierPlate, Mast
 from ocs_design.parts.pedestal import Pedestal
+from ocs_design.parts.rim import HoleRing, Hub
+from ocs_design.parts.wheel import Web
 from ocs_design.robot.mass import MassProperties
 
 DEVICE = read_design(Path(__file__).parents[1] / "data" / "design_0_1_0.json").ocs.device()
@@ -46,8 +51,8 @@ def test_figures_of_no_device_are_refused(part, figure, value):
         ({"incidence": np.nan}, "ocs.incidence is nan, not finite"),
         (
             {"pedestals": (Pedestal(0.027, 0.02, 0.05, 2.0, 500.0),)},
-            "pedestals.middle is 500, not between 1e-07 and 100; "
-            "pedestals.lean is 2, not between 1e-06 and 1.5708",
+            "pedestals.lean is 2, not between 1e-06 and 1.5708; "
+            "pedestals.middle is 500, not between 1e-07 and 100",
         ),
     ],
 )
@@ -56,6 +61,17 @@ def test_a_fault_tells_the_rule_that_is_broken(change, rule):
         check_device(replace(DEVICE, **change))
     assert rule in str(refused.value)
     assert "the design describes a device that cannot exist: " in str(refused.value)
+
+
+@pytest.mark.parametrize("record", [Flywheel, Web, Hub, HoleRing, Mast, CarrierPlate, Pedestal])
+def test_every_number_of_a_part_states_its_range(record):
+    """Those of parts that the device of these tests lacks, too."""
+    assert ranges_of(record)
+
+
+def test_a_number_without_a_range_is_not_forgotten():
+    with pytest.raises(TypeError, match=r"Row.height states no range"):
+        ranges_of(make_dataclass("Row", [("radius", Length), ("height", float | None)]))
 
 
 @pytest.mark.parametrize("value", [0.0, -5.0, np.nan])
