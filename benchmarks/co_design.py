@@ -17,10 +17,10 @@ from math import degrees, radians
 from paired import ROBOTS
 
 from ocs_design.common.errors import Infeasible
-from ocs_design.requirement.maneuver import Drop, Flip
 from ocs_design.requirement.sections import RobotSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
+from ocs_design.requirement.turns import Drop, Flip
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.selection.device import with_demands
 from ocs_design.sizing.selection.problem import SelectionProblem

@@ -18,8 +18,9 @@ from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material
 from ocs_design.parts.rim import NO_CUTS, RimCuts
 from ocs_design.requirement.device_sections import Envelope
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.pushes import Disturbance
 from ocs_design.requirement.requirement import Requirement
+from ocs_design.requirement.turns import Drop, Flip
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.robot import Robot
 from ocs_design.sizing.free_place import place_on_top

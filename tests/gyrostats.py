@@ -9,7 +9,8 @@ from scipy.spatial.transform import Rotation
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.device.layout import module_axes
 from ocs_design.requirement.boundary import End
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.pushes import Disturbance
+from ocs_design.requirement.turns import Drop, Flip
 from ocs_design.sizing.trajectory.flight import Flight, fly
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.program import Dimensions, Solution, solve

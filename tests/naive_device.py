@@ -27,7 +27,8 @@ from standing_parts import driving_parts
 
 from ocs_design.actuation.fasteners import LIGAMENT
 from ocs_design.parts.rim import SHOULDER, STEP, hub_of
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.pushes import Disturbance
+from ocs_design.requirement.turns import Drop, Flip
 
 USABLE = 0.95
 """Of voltage, current and speed."""

@@ -9,8 +9,9 @@ from ocs_design.actuation.motor import DIRECT, BoltCircle, Face, Gear, GearRoom,
 from ocs_design.actuation.supply import Supply
 from ocs_design.catalogue.materials import Material
 from ocs_design.requirement.device_sections import Envelope
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.pushes import Disturbance
 from ocs_design.requirement.requirement import Requirement
+from ocs_design.requirement.turns import Drop, Flip
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.place import Place
 from ocs_design.sizing.selection.device import with_demands

@@ -12,13 +12,13 @@ from ocs_design.requirement.device_sections import (
     OcsSection,
     SupplySection,
 )
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Shove
 from ocs_design.requirement.phrases import About, Climb, Kick, Pivot, Tilt
 from ocs_design.requirement.pivoted import Balance, StandUp
+from ocs_design.requirement.pushes import Disturbance, Shove
 from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.sections import RequirementSection, RobotSection, ValidationSection
 from ocs_design.requirement.specification import Specification
-from ocs_design.requirement.turns import Catch, TurnTo
+from ocs_design.requirement.turns import Catch, Drop, Flip, TurnTo
 from ocs_design.requirement.uncertainty import UncertaintySection, Uniform, spreads
 
 MANEUVERS = (

@@ -14,7 +14,7 @@ from matplotlib.patches import Ellipse
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.requirement.bound import bound_curve
-from ocs_design.requirement.maneuver import Disturbance
+from ocs_design.requirement.pushes import Disturbance
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.run import Run
 

@@ -13,8 +13,10 @@ from design_figures import paper_wheels
 from statements import Statement, number, outcome, taken
 
 from ocs_design import design_ocs, read_specification
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver
+from ocs_design.requirement.maneuver import Maneuver
+from ocs_design.requirement.pushes import Disturbance
 from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.turns import Drop, Flip
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.reference import Step
 from ocs_design.simulation.run import Metrics, Run

@@ -140,8 +140,7 @@ def coupling_notes(design: OcsDesign) -> Iterator[str]:
         maneuver = maneuvers.get(demand.source)
         if maneuver is None or design.ocs.axes != PAIR:
             continue
-        roll, pitch = (maneuver.parameters.get(name, 0.0) != 0.0 for name in AXES)
-        pitch = pitch or maneuver.kind == "flip"
+        roll, pitch = maneuver.maneuver().angles != 0.0
         # It turns about both axes, or about neither.
         if roll == pitch:
             continue

@@ -10,9 +10,10 @@ from math import pi, radians, sqrt
 
 from ocs_design.common.units import STANDARD_GRAVITY
 from ocs_design.requirement.device_sections import Envelope
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.pivoted import Actuation, Balance, StandUp
-from ocs_design.requirement.turns import Catch, TurnTo
+from ocs_design.requirement.pushes import Disturbance, Shove
+from ocs_design.requirement.turns import Catch, Drop, Flip, TurnTo
 from ocs_design.robot.robot import Robot
 
 LUNAR_GRAVITY = 1.62

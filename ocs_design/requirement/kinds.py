@@ -7,9 +7,10 @@ from types import MappingProxyType
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 from ocs_design.common.units import round_outwards, si_unit
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip, Maneuver, Shove
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.pivoted import Balance, StandUp
-from ocs_design.requirement.turns import Catch, TurnTo
+from ocs_design.requirement.pushes import Disturbance, Shove
+from ocs_design.requirement.turns import Catch, Drop, Flip, TurnTo
 from ocs_design.requirement.values import Quantities, Quantity, Value
 
 

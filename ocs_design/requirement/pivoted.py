@@ -159,6 +159,11 @@ class Pivoted(Maneuver):
             height=-float((quaternions.matrix(attitude) @ np.array(self.pivot))[2]),
         )
 
+    @property
+    def angles(self) -> FloatArray:
+        """Roll and pitch at the start [rad], shape (2,)."""
+        return np.array([self.roll, self.pitch])
+
     def freedom(self, body: MassProperties) -> Freedom:
         """About the pivot, under gravity."""
         own = self.on(body)

@@ -1,5 +1,6 @@
-"""Turns to an attitude, heading included, and stops of a trunk that rotates at lift-off."""
+"""Turns in a given time: a fall, a flip, a turn to an attitude with its heading, and a catch."""
 
+from abc import abstractmethod
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from math import pi, remainder, sqrt
@@ -9,23 +10,228 @@ import numpy as np
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.quaternions import from_axis_angle, product
-from ocs_design.common.units import rpm
+from ocs_design.common.errors import SpecificationError
+from ocs_design.common.quaternions import from_axis_angle, product, vertical_of
+from ocs_design.common.units import format_quantity, rpm
 from ocs_design.requirement.boundary import UPRIGHT, Boundary, End, X, Y, Z
 from ocs_design.requirement.maneuver import (
-    JumpHeight,
+    Maneuver,
     Rate,
     Slew,
     Spin,
+    Tilt,
     Time,
-    TimedTurn,
-    Turn,
-    TurnTime,
     angles_text,
     rates_text,
 )
-from ocs_design.requirement.values import YAW, Choice
+from ocs_design.requirement.values import HEIGHT, TURN, YAW, Choice
 from ocs_design.requirement.vocabulary import ORTHOGONAL, PYRAMID
+
+_Height: TypeAlias = Annotated[float, HEIGHT]
+_JumpHeight: TypeAlias = Annotated[_Height, "of the centre of mass"]
+_Turn: TypeAlias = Annotated[float, TURN]
+_TurnTime: TypeAlias = Annotated[Time, "of the turn, from lift-off"]
+
+
+class Reorientation(Maneuver):
+    """A rest-to-rest turn of the trunk from level by a specified angle."""
+
+    @property
+    def turn(self) -> FloatArray:
+        """All of its roll and pitch [rad], shape (2,)."""
+        return self.angles
+
+    @abstractmethod
+    def time(self, standing_height: float) -> float:
+        """Time that the turn may take [s]."""
+
+    def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+        """Half the time speeding up, half slowing down: a peak rate of 2 theta / T."""
+        peak = 2.0 / self.time(standing_height)
+        return np.abs(inertia.momentum(self.turn)) * peak
+
+    def least_torque(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+        """Least torque of the turn from rest to rest, 4 I theta / T^2 [N m]."""
+        return 2.0 * self.momentum(inertia, standing_height) / self.time(standing_height)
+
+    def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
+        """The whole turn, rest to rest."""
+        swept = inertia.momentum(self.turn)
+        return Slew(swept, np.zeros_like(swept), self.time(standing_height))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Drop(Reorientation):
+    """A fall from rest with the trunk tilted (paper, section 4, second test).
+
+    Attributes:
+        height: of the trunk frame's origin above the ground [m]. roll, pitch: at release [rad].
+    """
+
+    height: Annotated[_Height, "of the trunk above the ground"]
+    roll: Annotated[Tilt, "at release"] = 0.0
+    pitch: Annotated[Tilt, "at release"]
+
+    turned_by: ClassVar[tuple[str, ...]] = ("roll", "pitch")
+    milder_by: ClassVar[tuple[str, ...]] = turned_by
+    part: ClassVar[str] = "tilt"
+
+    def boundary(self, standing_height: float) -> Boundary:
+        """From rest, pitched about y and then rolled about x, to level within the fall."""
+        attitude = product(from_axis_angle(Y, self.pitch), from_axis_angle(X, self.roll))
+        vertical = vertical_of(attitude)
+        # A rate w changes the vertical v by -w x v.
+        axis = np.cross([0.0, 0.0, 1.0], vertical)
+        length = float(np.linalg.norm(axis))
+        axis = axis / length if length > 0.0 else Y
+        angle, duration = float(np.arctan2(length, vertical[2])), self.time(standing_height)
+        return Boundary(self.name, attitude, UPRIGHT, axis, angle, duration, height=self.height)
+
+    def time(self, standing_height: float) -> float:
+        """Time from release until the feet of the levelled robot touch the ground [s].
+
+        Raises:
+            SpecificationError: the robot would already stand on the ground.
+        """
+        fall = self.height - standing_height
+        if fall <= 0.0:
+            raise SpecificationError(
+                f"maneuver {self.name!r}: the trunk is released at {self.height:.3g} m, but stands "
+                f"at {standing_height:.3g} m: there is no fall",
+                hint="Release it higher.",
+            )
+        return float(np.sqrt(2.0 * fall / self.gravity))
+
+    def slower(self, factor: float, standing_height: float) -> Self:
+        """A higher fall."""
+        fall = (self.height - standing_height) * factor**2
+        return replace(self, height=standing_height + fall)
+
+    @property
+    def idle(self) -> str:
+        """Roll and pitch, if they are zero."""
+        return "" if self.roll or self.pitch else "roll and pitch are 0"
+
+    @property
+    def angles(self) -> FloatArray:
+        """Turn of the trunk from level about roll and pitch [rad], shape (2,).
+
+        The smallest turn that gives this tilt: its inverse brings the vertical of the world,
+        (-sin p, cos p sin r, cos p cos r) as seen from a trunk pitched by p and then rolled by r,
+        to the trunk's own; the heading is free.
+        """
+        forward, left = np.sin(self.pitch), np.cos(self.pitch) * np.sin(self.roll)
+        sine = np.hypot(forward, left)
+        angle = np.arctan2(sine, np.cos(self.pitch) * np.cos(self.roll))
+        return np.array([left, forward]) * (angle / sine if sine > 0.0 else 1.0)
+
+    @property
+    def summary(self) -> str:
+        """Height, attitude and gravity."""
+        roll, pitch = format_quantity(self.roll, "deg"), format_quantity(self.pitch, "deg")
+        return f"falls from {self.height:.3g} m at roll {roll} and pitch {pitch}"
+
+
+_LONGER_THAN_ITS_TURN = 1.02
+"""Flight time over turn time, where a longer turn needs a longer flight."""
+
+
+class TimedTurn(Reorientation):
+    """A turn in a specified time, in a vertical jump or in orbit.
+
+    Attributes:
+        jump_height: of the centre of mass above its height at lift-off [m]; 0 in orbit.
+        duration: from lift-off [s].
+    """
+
+    jump_height: float
+    duration: float
+
+    def time(self, standing_height: float) -> float:
+        """Time as specified [s]."""
+        del standing_height
+        return self.duration
+
+    def slower(self, factor: float, standing_height: float) -> Self:
+        """A longer turn; in a higher jump where it needs one."""
+        del standing_height
+        longer = self.scaled(factor, "duration")
+        higher = max(_LONGER_THAN_ITS_TURN * longer.duration / self.flight_time, 1.0) ** 2
+        return longer.scaled(higher, "jump_height")
+
+    def stretched(self, factor: float, standing_height: float) -> Self:
+        """A longer turn in the same part of a higher jump."""
+        del standing_height
+        return self.scaled(factor, "duration").scaled(factor**2, "jump_height")
+
+    def contradictions(self) -> Iterator[str]:
+        """What contradicts itself, one line each: a turn must end in flight."""
+        yield from super().contradictions()
+        yield from self._landing_before("its turn", self.duration)
+
+    @property
+    def takeoff(self) -> tuple[float, float]:
+        """Speed of the vertical jump [m/s]; 0 in orbit."""
+        return 0.0, sqrt(2.0 * self.gravity * self.jump_height)
+
+    @property
+    def flight_time(self) -> float:
+        """Time until a rigid robot lands where it took off; in orbit, until the turn ends [s]."""
+        return sqrt(8.0 * self.jump_height / self.gravity) if self.gravity else self.duration
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Flip(TimedTurn):
+    """A full turn, or part of one, in a vertical jump (paper, section 4, third test).
+
+    Attributes:
+        angle: of pitch [rad]; a back-flip is negative about y (left).
+    """
+
+    jump_height: _JumpHeight
+    angle: Annotated[_Turn, "of pitch"]
+    duration: _TurnTime
+
+    turns_over: ClassVar[bool] = True
+    turned_by: ClassVar[tuple[str, ...]] = ("angle",)
+
+    def boundary(self, standing_height: float) -> Boundary:
+        """A turn in pitch, from level."""
+        del standing_height
+        final = from_axis_angle(Y, self.angle)
+        return Boundary(self.name, UPRIGHT, final, Y, self.angle, self.duration)
+
+    @property
+    def angles(self) -> FloatArray:
+        """Turn about pitch alone [rad], shape (2,)."""
+        return np.array([0.0, self.angle])
+
+    @property
+    def idle(self) -> str:
+        """Angle, if it is zero."""
+        return "" if self.angle else "angle is 0"
+
+    def unfit(self, *, tilting: int, tolerance: float) -> Iterator[str]:
+        """A turn that is not whole, in one line."""
+        del tilting
+        left_over = abs(remainder(self.angle, 2.0 * pi))
+        if left_over > tolerance:
+            asked = format_quantity(self.angle, "deg")
+            yield (
+                f"maneuver.{self.name}: after {asked} the trunk is "
+                f"{format_quantity(left_over, 'deg')} off level, but a flip must land level: ask "
+                "for 360deg (back, forward). If this attitude at touchdown is meant, ask for a "
+                f"turn to it: 'pitch {asked.replace(' ', '')} in {self.duration:.3g}s'"
+            )
+
+    @property
+    def summary(self) -> str:
+        """Turn, time, jump and gravity."""
+        return (
+            f"turns {format_quantity(self.angle, 'deg')} of pitch in {self.duration:.3g} s, "
+            f"in a jump of {self.jump_height:.3g} m at {self.gravity:.3g} m/s2"
+        )
+
 
 LOOP_SHARE = 0.75
 """Fraction of the tilt loop that wheels and motors are sized for, in that fraction of its time."""
@@ -68,11 +274,11 @@ class TurnTo(TimedTurn):
         direct: whether the wheels can act about the vertical, so that no tilt loop is needed.
     """
 
-    jump_height: JumpHeight = 0.0
-    roll: Annotated[Turn, "at the end, reached by yaw, then pitch, then roll"] = 0.0
-    pitch: Annotated[Turn, "at the end"] = 0.0
+    jump_height: _JumpHeight = 0.0
+    roll: Annotated[_Turn, "at the end, reached by yaw, then pitch, then roll"] = 0.0
+    pitch: Annotated[_Turn, "at the end"] = 0.0
     yaw: Annotated[float, YAW, "at the end"] = 0.0
-    duration: TurnTime
+    duration: _TurnTime
     rate: _RateAtStart = (0.0, 0.0, 0.0)
     wheel_speed: Annotated[Spin, "of all wheels at lift-off"] = 0.0
     end: _End = End.ATTITUDE
@@ -207,7 +413,7 @@ class TurnTo(TimedTurn):
 class Catch(TurnTo):
     """A stop of a trunk that rotates at lift-off."""
 
-    roll: Annotated[Turn, "at the end, where end is attitude"] = 0.0
+    roll: Annotated[_Turn, "at the end, where end is attitude"] = 0.0
     duration: Annotated[Time, "from lift-off until it is at rest"]
     rate: _RateAtStart
     end: _End = End.LEVEL

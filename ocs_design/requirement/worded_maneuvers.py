@@ -12,9 +12,10 @@ from ocs_design.common.errors import SpecificationError
 from ocs_design.common.files import comparable_name
 from ocs_design.common.units import STANDARD_GRAVITY, format_quantity
 from ocs_design.requirement.froude import default_maneuvers, jump_for, standing_height
-from ocs_design.requirement.maneuver import Disturbance, Maneuver
+from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.phrases import Kick, Tilt
 from ocs_design.requirement.pivoted import Actuation, Balance, Pivoted, StandUp
+from ocs_design.requirement.pushes import Disturbance
 from ocs_design.requirement.sections import RequirementSection
 from ocs_design.requirement.turns import Catch, TurnTo
 from ocs_design.requirement.values import Vector3, did_you_mean

@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from wheels import EC45, PAPER_WHEEL, driven_device, geared, motor, paper_device
 
-from ocs_design.requirement.maneuver import Drop
+from ocs_design.requirement.turns import Drop
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.simulation.motor_limits import USED, MotorLimits
 from ocs_design.simulation.reference import Step

@@ -11,8 +11,7 @@ from scipy import stats
 from ocs_design.device.layout import module_axes
 from ocs_design.monte_carlo.outcomes import METRICS, share
 from ocs_design.monte_carlo.summary import advice, attitude_error, causes, order
-from ocs_design.requirement.maneuver import Drop, Flip
-from ocs_design.requirement.turns import TurnTo
+from ocs_design.requirement.turns import Drop, Flip, TurnTo
 
 DROP = Drop(name="drop", height=1.0, pitch=0.5)
 IN_LINE = Flip(name="flip", jump_height=1.0, angle=-3.0, duration=1.0, incidence=0.0)

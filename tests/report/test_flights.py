@@ -24,8 +24,7 @@ from ocs_design.report.flights import (
 )
 from ocs_design.report.text.front import NONE, OWN, print_front
 from ocs_design.requirement.boundary import End
-from ocs_design.requirement.maneuver import Drop, Flip
-from ocs_design.requirement.turns import TurnTo
+from ocs_design.requirement.turns import Drop, Flip, TurnTo
 from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.simulation.verdict import off_at_touchdown
 

@@ -18,7 +18,7 @@ from ocs_design.device.bodies import PLATE, device_bodies
 from ocs_design.export.film import Take, film_model, render_takes
 from ocs_design.report import video
 from ocs_design.report.video import BAD, GOOD, captioned, encode, film_or_tell
-from ocs_design.requirement.maneuver import Drop
+from ocs_design.requirement.turns import Drop
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.mujoco_bodies import HIDDEN_GROUP
 

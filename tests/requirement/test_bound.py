@@ -14,8 +14,9 @@ from ocs_design.requirement.bound import (
     spin_bound,
     spin_demands,
 )
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.pushes import Disturbance
 from ocs_design.requirement.requirement import Requirement
+from ocs_design.requirement.turns import Drop, Flip
 
 INERTIA, RATE_CHANGE, WHEEL_SPEED = 0.0515, 2.0, 750.0
 TOTAL = np.diag([0.03, 0.0535, 0.068])

@@ -10,9 +10,9 @@ from specifications import MANEUVERS
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.errors import SpecificationError
 from ocs_design.requirement.kinds import change_text
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
 from ocs_design.requirement.pivoted import Pivoted
-from ocs_design.requirement.turns import Catch, TurnTo, loop_length
+from ocs_design.requirement.pushes import Disturbance
+from ocs_design.requirement.turns import Catch, Drop, Flip, TurnTo, loop_length
 
 INERTIA = TiltInertia.uncoupled([0.03, 0.0515])
 PUSH = Disturbance(

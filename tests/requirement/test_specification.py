@@ -6,9 +6,9 @@ import pytest
 
 from ocs_design.requirement.device_sections import LIMIT_OF_KEY, Envelope, FlywheelSection
 from ocs_design.requirement.kinds import MANEUVER_KINDS
-from ocs_design.requirement.maneuver import Flip
 from ocs_design.requirement.sections import RequirementSection, RobotSection
 from ocs_design.requirement.specification import SECTIONS, Specification, all_keys, merge
+from ocs_design.requirement.turns import Flip
 
 FLIP = Flip(name="flip", jump_height=1.0, angle=1.0, duration=1.0)
 

@@ -6,12 +6,13 @@ from math import hypot, radians
 import pytest
 
 from ocs_design.common.errors import UsageError
-from ocs_design.requirement.maneuver import Disturbance, Drop
 from ocs_design.requirement.phrases import About
+from ocs_design.requirement.pushes import Disturbance
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.sections import RequirementSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import SWEEPS, Task, sweep_of
+from ocs_design.requirement.turns import Drop
 
 ROLLED = """
 [[maneuver]]

@@ -15,7 +15,6 @@ from wheels import braked_inertia, paper_device
 
 from ocs_design.common.errors import OcsError, SpecificationError
 from ocs_design.requirement.froude import default_maneuvers
-from ocs_design.requirement.maneuver import Disturbance
 from ocs_design.requirement.phrases import (
     CATCH_TEXT,
     FLIP,
@@ -29,6 +28,7 @@ from ocs_design.requirement.phrases import (
     person_text,
     tilt_text,
 )
+from ocs_design.requirement.pushes import Disturbance
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.resolving import resolve
 from ocs_design.requirement.sections import RequirementSection

@@ -15,7 +15,7 @@ from ocs_design.common import quaternions
 from ocs_design.device.bodies import joint_names
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.froude import default_maneuvers
-from ocs_design.requirement.maneuver import Flip
+from ocs_design.requirement.turns import Flip
 from ocs_design.simulation.desaturation import WheelBrake
 from ocs_design.simulation.firmware import targets_of, write_controller
 from ocs_design.simulation.reference import Quintic

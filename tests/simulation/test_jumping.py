@@ -12,7 +12,7 @@ from ocs_design.export.physics import STEP
 from ocs_design.jumping.jump import JumpPlan, JumpPlans
 from ocs_design.jumping.planning import plan_jumps
 from ocs_design.requirement.froude import default_maneuvers
-from ocs_design.requirement.maneuver import Shove
+from ocs_design.requirement.pushes import Shove
 from ocs_design.simulation.metrics import measure, series_of
 from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import JUMP_STEP, Wheels

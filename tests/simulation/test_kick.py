@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from wheels import paper_device
 
-from ocs_design.requirement.maneuver import Disturbance
+from ocs_design.requirement.pushes import Disturbance
 from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.simulate import simulate

@@ -11,7 +11,7 @@ from wheels import EC45, driven_device, geared, paper_maneuvers
 from ocs_design.actuation.drive import RESERVE
 from ocs_design.common import quaternions
 from ocs_design.device.layout import module_axes
-from ocs_design.requirement.maneuver import Drop
+from ocs_design.requirement.turns import Drop
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.simulation.motor_limits import MotorLimits
 from ocs_design.simulation.reference import (

@@ -10,8 +10,7 @@ from wheels import layout_device, paper_device, scaled_device
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.boundary import End
 from ocs_design.requirement.froude import default_maneuvers
-from ocs_design.requirement.maneuver import Drop
-from ocs_design.requirement.turns import TurnTo
+from ocs_design.requirement.turns import Drop, TurnTo
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation import scenario

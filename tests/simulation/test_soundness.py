@@ -8,7 +8,7 @@ import pytest
 from wheels import paper_device
 
 from ocs_design.requirement.froude import default_maneuvers
-from ocs_design.requirement.maneuver import Drop
+from ocs_design.requirement.turns import Drop
 from ocs_design.simulation.metrics import breakdown, drive_growth, measure, objection
 from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from wheels import layout_device, paper_maneuvers
 
 from ocs_design.device.layout import Layout, LayoutName
-from ocs_design.requirement.maneuver import Shove
+from ocs_design.requirement.pushes import Shove
 from ocs_design.simulation.piloted import PilotedFlight
 from ocs_design.simulation.scenario import STOPS, Flights, fly_stopped
 from ocs_design.simulation.scene import Wheels

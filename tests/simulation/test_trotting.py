@@ -9,7 +9,7 @@ from robots import ROBOTS
 from wheels import paper_device
 
 from ocs_design.common.errors import SpecificationError
-from ocs_design.requirement.maneuver import Shove
+from ocs_design.requirement.pushes import Shove
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels

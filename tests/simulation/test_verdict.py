@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from campaigns import calm_metrics
 
-from ocs_design.requirement.maneuver import Drop, Flip, Shove
-from ocs_design.requirement.turns import TurnTo
+from ocs_design.requirement.pushes import Shove
+from ocs_design.requirement.turns import Drop, Flip, TurnTo
 from ocs_design.simulation.verdict import comes_down_well, judge, landing_attitude, stands
 
 GOOD = calm_metrics(

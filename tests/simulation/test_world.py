@@ -12,7 +12,7 @@ from wheels import EC45_BODY, braked_inertia, driven_device, geared, paper_devic
 from ocs_design.common import quaternions
 from ocs_design.common.errors import SpecificationError
 from ocs_design.export.physics import HELD_ARMATURE, lowest_point, set_gains
-from ocs_design.requirement.maneuver import Drop
+from ocs_design.requirement.turns import Drop
 from ocs_design.robot.mujoco_model import build_spec, trunk_body
 from ocs_design.robot.reader import read_robot
 from ocs_design.simulation.metrics import measure

@@ -13,9 +13,9 @@ from ocs_design.requirement.device_sections import (
     OcsSection,
     SupplySection,
 )
-from ocs_design.requirement.maneuver import Flip
 from ocs_design.requirement.sections import RequirementSection, RobotSection
 from ocs_design.requirement.specification import Specification
+from ocs_design.requirement.turns import Flip
 from ocs_design.sizing.alternatives import (
     built_otherwise,
     lighter_otherwise,

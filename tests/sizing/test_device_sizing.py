@@ -9,8 +9,9 @@ from rims import STEEL, room
 
 from ocs_design.common.errors import Infeasible, UsageError
 from ocs_design.device.layout import Criterion, incidence_by_criterion, module_axes
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.pushes import Disturbance
 from ocs_design.requirement.requirement import Requirement
+from ocs_design.requirement.turns import Drop, Flip
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.device_problem import DeviceProblem, find_fixed_point
 from ocs_design.sizing.bound.device_sizing import size_device

@@ -16,10 +16,10 @@ from ocs_design.monte_carlo.summary import attitude_error
 from ocs_design.monte_carlo.uncertainty import Uncertainty
 from ocs_design.requirement.bound import turned_roll
 from ocs_design.requirement.froude import standing_height
-from ocs_design.requirement.maneuver import Flip
 from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.requirement import ManeuverReserve, Requirement
 from ocs_design.requirement.specification import merge
+from ocs_design.requirement.turns import Flip
 from ocs_design.requirement.uncertainty import Constant
 from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.simulation.scenario import Flights

@@ -19,10 +19,11 @@ from ocs_design.common.errors import Infeasible, UsageError
 from ocs_design.device.layout import module_axes
 from ocs_design.parts.joints import SERVICE
 from ocs_design.requirement.device_sections import FlywheelSection, MotorSection
-from ocs_design.requirement.maneuver import Disturbance, Flip
+from ocs_design.requirement.pushes import Disturbance
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
+from ocs_design.requirement.turns import Flip
 from ocs_design.robot.reader import read_robot
 from ocs_design.sizing.advice import ADVICE_PRECISION, advice_on
 from ocs_design.sizing.limits import BUS_VOLTAGE, TIME

@@ -7,7 +7,7 @@ import pytest
 from selections import lightest, random_problem
 
 from ocs_design.common.errors import Infeasible
-from ocs_design.requirement.maneuver import Drop, Flip
+from ocs_design.requirement.turns import Drop, Flip
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.selection.select import select
 from ocs_design.sizing.sized import sized_selection

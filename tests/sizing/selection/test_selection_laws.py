@@ -11,7 +11,8 @@ from sampled import some
 
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import Infeasible
-from ocs_design.requirement.maneuver import Disturbance, Drop, Flip
+from ocs_design.requirement.pushes import Disturbance
+from ocs_design.requirement.turns import Drop, Flip
 from ocs_design.sizing.selection.select import select
 
 POSSIBLE = (2, 6)

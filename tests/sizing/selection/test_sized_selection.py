@@ -11,7 +11,7 @@ from rims import STEEL
 from scipy.optimize import minimize
 from selections import lightest
 
-from ocs_design.requirement.maneuver import Drop, Flip
+from ocs_design.requirement.turns import Drop, Flip
 from ocs_design.sizing.sized import sized_selection
 
 FIELD = {

@@ -9,7 +9,7 @@ from gyrostats import BACK_FLIP, PUSH
 from wheels import EC45, PAPER_WHEEL, braked_inertia, driven_device, geared
 
 from ocs_design.actuation.drive import RESERVE
-from ocs_design.requirement.maneuver import Drop
+from ocs_design.requirement.turns import Drop
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.sizing.trajectory.plans import drive_line_of, gyrostat_of, plan
 

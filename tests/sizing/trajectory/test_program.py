@@ -26,7 +26,8 @@ from ocs_design.common.errors import SpecificationError
 from ocs_design.common.quaternions import vertical_of
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.boundary import Boundary
-from ocs_design.requirement.maneuver import Disturbance, Flip
+from ocs_design.requirement.pushes import Disturbance
+from ocs_design.requirement.turns import Flip
 from ocs_design.sizing.trajectory.collocation import SQUARE
 from ocs_design.sizing.trajectory.equations import after_push
 from ocs_design.sizing.trajectory.flight import limit_violation

@@ -1,0 +1,281 @@
+"""Pushes that are not known in advance: a torque that hits the trunk in flight or on its feet."""
+
+from abc import abstractmethod
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from math import sqrt
+from typing import Annotated, ClassVar, Self, TypeAlias
+
+import numpy as np
+
+from ocs_design.actuation.tilt_inertia import TiltInertia
+from ocs_design.common.arrays import FloatArray
+from ocs_design.common.errors import SpecificationError
+from ocs_design.common.units import Dimension
+from ocs_design.requirement.boundary import (
+    UPRIGHT,
+    Boundary,
+    Push,
+    Y,
+)
+from ocs_design.requirement.maneuver import Impulse, Maneuver, Point, Slew, Time, row_text
+from ocs_design.requirement.values import (
+    Quantities,
+    Quantity,
+    Sign,
+    Vector3,
+)
+from ocs_design.robot.mass import MassProperties
+
+Torque: TypeAlias = Annotated[
+    Vector3,
+    Quantities(Dimension.TORQUE, (3,)),
+    "on the trunk, about its x (forward), y (left) and z",
+]
+
+_LONGEST_STRIDE = 5.0
+"""Longest stride [s]: a giraffe's takes one second; a robot is observed for several strides."""
+
+
+class Unforeseen(Maneuver):
+    """A torque on the trunk that is not known in advance.
+
+    Attributes:
+        torque: in B [N m], shape (3,).
+        duration: of the torque [s].
+    """
+
+    torque: Vector3
+    duration: float
+
+    foreseen: ClassVar[bool] = False
+
+    @property
+    @abstractmethod
+    def push(self) -> Push:
+        """The torque, and the force that goes with it."""
+
+    @property
+    @abstractmethod
+    def time_left(self) -> float:
+        """Time from the end of the torque until the trunk must be level and at rest again [s]."""
+
+    def boundary(self, standing_height: float) -> Boundary:
+        """Back to level in the time left after the torque, from level at its onset."""
+        if self.time_left <= 0.0:
+            raise SpecificationError(
+                f"maneuver {self.name!r}: no time is left after its torque",
+                hint="Let the torque start earlier, or the robot jump higher.",
+            )
+        return Boundary(
+            self.name,
+            UPRIGHT,
+            UPRIGHT,
+            Y,
+            0.0,
+            self.time_left,
+            push=self.push,
+            height=standing_height if self.on_feet else None,
+        )
+
+    def momentum(self, inertia: TiltInertia, standing_height: float) -> FloatArray:
+        """The impulse, which the wheels hold until touchdown (docs/theory.md, Disturbances)."""
+        del inertia, standing_height
+        return np.abs(self._impulse)
+
+    def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
+        """Stop the trunk, turn it back and hold its momentum, from the end of the torque on.
+
+        When a torque on a free trunk ends, it has tilted the trunk by half its impulse times its
+        duration over the inertia.
+        """
+        del standing_height
+        momentum, shape = self._impulse, np.shape(inertia.diagonal)
+        return Slew(
+            np.broadcast_to(0.5 * self.duration * momentum, shape),
+            np.broadcast_to(momentum, shape),
+            self.time_left,
+        )
+
+    @property
+    def idle(self) -> str:
+        """Torque about roll and pitch, if it is zero."""
+        return "" if any(self.torque[:2]) else "torque about roll and pitch is 0"
+
+    @property
+    def _impulse(self) -> FloatArray:
+        """Angular impulse about roll and pitch [N m s], shape (2,)."""
+        return np.array(self.torque[:2]) * self.duration
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Disturbance(Unforeseen):
+    """A jump during which a torque hits the trunk (paper, section 4, first test).
+
+    Attributes:
+        takeoff_velocity: forward and upward at lift-off [m/s].
+        torque: on the trunk in B [N m], shape (3,).
+        onset: time from lift-off to the torque [s].
+        duration: of the torque [s].
+        velocity_change: of the centre of mass by a force of the same duration, in B [m/s], shape
+            (3,); the torque is then the one about the centre of mass.
+        impulse: of that force, if torque and change of velocity follow from it (`on`), in B [N s],
+            shape (3,). point: where it hits the trunk, in B [m], shape (3,).
+    """
+
+    takeoff_velocity: Annotated[
+        tuple[float, float], Quantities(Dimension.SPEED, (2,)), "forward, up"
+    ]
+    torque: Torque
+    onset: Annotated[float, Quantity(Dimension.TIME, Sign.NOT_NEGATIVE), "after lift-off"]
+    duration: Annotated[Time, "of the torque"]
+    velocity_change: Annotated[
+        Vector3,
+        Quantities(Dimension.SPEED, (3,)),
+        "of the centre of mass, by a force in addition to the torque",
+    ] = (0.0, 0.0, 0.0)
+    impulse: Annotated[Impulse, "of a force, from which torque and velocity_change follow"] = (
+        0.0,
+        0.0,
+        0.0,
+    )
+    point: Point = (0.0, 0.0, 0.0)
+
+    milder_by: ClassVar[tuple[str, ...]] = ("torque", "velocity_change", "impulse")
+    part: ClassVar[str] = "push"
+
+    def on(self, body: MassProperties) -> Self:
+        """Disturbance of a body: the angular impulse r x p about its centre of mass, and p / m."""
+        if not any(self.impulse):
+            return self
+        # Rounded, so that zeros are exact.
+        turned = np.round(np.cross(np.subtract(self.point, body.com), self.impulse), 12) + 0.0
+        return replace(
+            self,
+            torque=tuple((turned / self.duration).tolist()),
+            velocity_change=tuple((np.array(self.impulse) / body.mass).tolist()),
+        )
+
+    @property
+    def momentum_of_body(self) -> FloatArray | None:
+        """Angular impulse of a force [N m s], shape (2,); None for a torque."""
+        return self._impulse if any(self.impulse) else None
+
+    @property
+    def push(self) -> Push:
+        """Torque and force, which hit the trunk in flight."""
+        return Push(
+            np.array(self.torque),
+            self.onset,
+            self.duration,
+            np.array(self.velocity_change) / self.duration,
+            np.array(self.impulse) / self.duration,
+            np.array(self.point),
+        )
+
+    @property
+    def takeoff(self) -> tuple[float, float]:
+        """Speed as specified [m/s]."""
+        return self.takeoff_velocity
+
+    @property
+    def rise(self) -> float:
+        """Height of its jump [m]; 0: a vertical push changes it."""
+        return 0.0 if self.velocity_change[2] else super().rise
+
+    @property
+    def time_left(self) -> float:
+        """Time left in the air [s]."""
+        return self.flight_time - self.onset - self.duration
+
+    @property
+    def flight_time(self) -> float:
+        """Time until a rigid robot lands at the height of its take-off [s].
+
+        An upward change of velocity w in the middle of the push, at t', shifts the parabola:
+        v t - g t^2 / 2 + w (t - t') = 0.
+        """
+        upward, gained = self.takeoff_velocity[1], self.velocity_change[2]
+        later = upward + gained
+        lost = 2.0 * self.gravity * gained * (self.onset + 0.5 * self.duration)
+        return (later + sqrt(max(later**2 - lost, 0.0))) / self.gravity
+
+    def slower(self, factor: float, standing_height: float) -> Self:
+        """A higher jump, with `factor` times the time after the torque."""
+        del standing_height
+        time = self.flight_time + (factor - 1.0) * self.time_left
+        forward, _ = self.takeoff_velocity
+        # The lift-off speed of `flight_time`, solved for.
+        left = time - self.onset - 0.5 * self.duration
+        gained = self.velocity_change[2] * left / time
+        upward = time * self.gravity / 2.0 - gained
+        return replace(self, takeoff_velocity=(forward, upward))
+
+    def contradictions(self) -> Iterator[str]:
+        """What contradicts itself, one line each: a torque must end in flight."""
+        yield from super().contradictions()
+        yield from self._landing_before("its torque", self.onset + self.duration)
+
+    @property
+    def summary(self) -> str:
+        """Lift-off and torque."""
+        forward, upward = self.takeoff_velocity
+        told = (
+            f"lift-off at {forward:.3g} m/s forward and {upward:.3g} m/s up, "
+            f"{row_text(self.torque)} N m on the trunk for {self.duration:.3g} s, "
+            f"{self.onset:.3g} s after it"
+        )
+        if any(self.velocity_change):
+            told += f", which changes its velocity by {row_text(self.velocity_change)} m/s"
+        return told
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Shove(Unforeseen):
+    """A torque on the trunk of a standing or trotting robot, to be absorbed (paper, section 5).
+
+    The legs are not relied on: the device is sized to absorb it alone.
+
+    Attributes:
+        torque: on the trunk in B [N m], shape (3,).
+        duration: of the torque [s].
+        settling: from its end until the trunk must be level and at rest again [s].
+        stride: of a trot on the spot [s]; 0: the robot stands.
+    """
+
+    torque: Torque
+    duration: Annotated[Time, "of the torque"]
+    settling: Annotated[Time, "from the end of the torque to rest"]
+    stride: Annotated[
+        float,
+        Quantity(Dimension.TIME, Sign.NOT_NEGATIVE, most=_LONGEST_STRIDE),
+        "of a trot on the spot; 0: the robot stands",
+    ] = 0.0
+
+    on_feet: ClassVar[bool] = True
+    milder_by: ClassVar[tuple[str, ...]] = ("torque",)
+    part: ClassVar[str] = "push"
+
+    @property
+    def push(self) -> Push:
+        """Torque as specified."""
+        return Push(np.array(self.torque), 0.0, self.duration)
+
+    def slower(self, factor: float, standing_height: float) -> Self:
+        """More time to come to rest."""
+        del standing_height
+        return self.scaled(factor, "settling")
+
+    @property
+    def time_left(self) -> float:
+        """Time left as specified [s]."""
+        return self.settling
+
+    @property
+    def summary(self) -> str:
+        """Torque and time."""
+        does = f"trots on the spot, {self.stride:.3g} s a stride" if self.stride else "stands"
+        return (
+            f"{does}; {row_text(self.torque)} N m on the trunk for {self.duration:.3g} s, "
+            f"to be at rest {self.settling:.3g} s after it"
+        )
