@@ -22,9 +22,8 @@ from typing import (
     get_type_hints,
 )
 
-from ocs_design.common.errors import SpecificationError
+from ocs_design.common.errors import SpecificationError, closest
 from ocs_design.common.files import TextKind
-from ocs_design.common.wording import closest
 
 # A thousand motors take a quarter of a MiB.
 _FILE = TextKind("catalogue", 1 << 20, 5000, "Check the path.", "maker = 'maxon'")

@@ -2,12 +2,14 @@
 
 Every error has its data as attributes, a message that says what is wrong and where, and a hint on
 what to do. The command line prints them as one panel; any other exception that escapes is a bug and
-keeps its traceback. For missing packages the hint is an install command, composed here.
+keeps its traceback. What hints are made of stands here too: install commands of missing packages,
+and names that a mistyped one may mean.
 """
 
 import shlex
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from difflib import get_close_matches
 from enum import StrEnum
 from importlib.util import find_spec
 from pathlib import Path
@@ -206,3 +208,15 @@ def install_command(*requirements: str, options: str = "") -> str:
 def extra_command(*extras: str) -> str:
     """Command that installs extras of this program, such as `ocs-design[step]`."""
     return install_command(f"{DISTRIBUTION}[{','.join(extras)}]")
+
+
+def closest(word: str, known: Iterable[str], *, most: int = 1, cutoff: float = 0.6) -> list[str]:
+    """Names that a mistyped word may mean, whatever their case, the closest first.
+
+    Args:
+        word: as typed. known: all names.
+        most: largest number of names. cutoff: least similarity, 0..1 (`difflib`).
+    """
+    folded = {each.casefold(): each for each in known}
+    found = get_close_matches(word.casefold(), folded, n=most, cutoff=cutoff)
+    return [folded[match] for match in found]

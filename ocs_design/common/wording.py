@@ -1,7 +1,6 @@
-"""Numbers in workshop units (mm, g, degrees), counts, lists and suggested names, for display."""
+"""Numbers in workshop units (mm, g, degrees), counts and lists, for display."""
 
-from collections.abc import Iterable, Sequence
-from difflib import get_close_matches
+from collections.abc import Sequence
 from typing import TypeVar
 
 import numpy as np
@@ -94,18 +93,6 @@ def some_of(names: Sequence[str], most: int = 4) -> str:
     """Names separated by commas; beyond `most`, only how many more there are."""
     shown = ", ".join(names[:most])
     return shown if len(names) <= most else f"{shown} and {len(names) - most} more"
-
-
-def closest(word: str, known: Iterable[str], *, most: int = 1, cutoff: float = 0.6) -> list[str]:
-    """Names that a mistyped word may mean, whatever their case, the closest first.
-
-    Args:
-        word: as typed. known: all names.
-        most: largest number of names. cutoff: least similarity, 0..1 (`difflib`).
-    """
-    folded = {each.casefold(): each for each in known}
-    found = get_close_matches(word.casefold(), folded, n=most, cutoff=cutoff)
-    return [folded[match] for match in found]
 
 
 def _rounded(value: float, digits: int) -> float:

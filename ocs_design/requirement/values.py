@@ -12,7 +12,7 @@ from math import pi
 from reprlib import repr as shortened
 from typing import Any, Generic, Protocol, TypeAlias, TypeVar
 
-from ocs_design.common.errors import QuantityError, SpecificationError
+from ocs_design.common.errors import QuantityError, SpecificationError, closest
 from ocs_design.common.units import (
     UNITS,
     Dimension,
@@ -21,7 +21,6 @@ from ocs_design.common.units import (
     si_unit,
     written_unit,
 )
-from ocs_design.common.wording import closest
 
 T = TypeVar("T")
 T_co = TypeVar("T_co", covariant=True)

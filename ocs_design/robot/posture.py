@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ocs_design.common.errors import RobotError
-from ocs_design.common.wording import closest, some_of
+from ocs_design.common.errors import RobotError, closest
+from ocs_design.common.wording import some_of
 from ocs_design.robot.chain import neutral_posture
 from ocs_design.robot.leg_geometry import leg_geometries, sole_depths
 from ocs_design.robot.mass import MassProperties

@@ -10,9 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
-from ocs_design.common.errors import RobotError
+from ocs_design.common.errors import RobotError, closest
 from ocs_design.common.files import AnyPath
-from ocs_design.common.wording import closest
 
 STANDARD_INPUT = "-"
 MAX_BYTES = 64 * 2**20
