@@ -100,6 +100,28 @@ class Module:
         return standing_frames(sense(self.name) * self.axis)
 
 
+def braked(
+    robot: MassProperties,
+    bodies: tuple[Carrier, ...],
+    centers: FloatArray,
+    incidence: float,
+    layout: Layout = PAIR,
+) -> MassProperties:
+    """Robot and all modules as one rigid body in B.
+
+    Args:
+        robot: without the modules.
+        bodies: rigid bodies of one module, in its own frame (`Layout.frames`).
+        centers: of the wheels in B [m], shape (n, 3).
+        incidence: of their axes, or the layout's angle [rad].
+        layout: of the modules.
+    """
+    parts = [robot]
+    for center, attitude in zip(centers, layout.frames(incidence), strict=True):
+        parts += [body.mass_properties().moved(attitude, center) for body in bodies]
+    return combine(parts)
+
+
 @dataclass(frozen=True, eq=False)
 class Device:
     """The orientation control system: equal modules with their drives and mounts.
@@ -157,6 +179,23 @@ class Device:
         """Mass properties of a robot with plate or pedestals on it, in B."""
         under = [each.mass_properties() for each in self.under]
         return combine([robot, *under]) if under else robot
+
+    def on(self, robot: MassProperties, *, free: bool = False) -> MassProperties:
+        """A robot with this device as one rigid body in B, wheels braked.
+
+        Wheels that spin freely keep the momentum of wheel and rotor about their axis, whatever the
+        trunk does (docs/theory.md, The robot with its wheels: a gyrostat); the carrier's inertia
+        includes the rotor's.
+
+        Args:
+            robot: without the device.
+            free: whether the wheels spin freely.
+        """
+        wheel = self.flywheel
+        turning = (0.0 if free else wheel.spin_inertia) - self.motor.rotor_inertia
+        bodies = Carrier(wheel.mass, turning, wheel.transverse_inertia), self.carrier
+        centers = np.stack([module.position for module in self.modules])
+        return braked(self.plated(robot), bodies, centers, self.incidence, self.layout)
 
     @property
     def axes(self) -> FloatArray:

@@ -18,7 +18,6 @@ from ocs_design.jumping.push_off import PushOff, PushOffs
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.robot import Robot
-from ocs_design.sizing.place import with_device
 
 _BRAKE = 0.15
 _SWING = 1.5
@@ -81,7 +80,7 @@ class JumpPlanning:
         if self._bare:
             for maneuver, jump in self._jumps:
                 # Nothing drives the wheels until lift-off.
-                trunk = with_device(self._body.trunk, device.as_flown(maneuver), free=True)
+                trunk = device.as_flown(maneuver).on(self._body.trunk, free=True)
                 similar = self._bare[jump]
                 self._carrying[maneuver.name] = self._threads.submit(
                     self._plan, jump, trunk, similar

@@ -9,6 +9,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import Infeasible
 from ocs_design.common.records import recorded
 from ocs_design.common.wording import some_of
+from ocs_design.device.device import braked
 from ocs_design.device.layout import PAIR, Criterion
 from ocs_design.device.records.selection import CoDesignRecord
 from ocs_design.requirement.checks import contradictions
@@ -25,7 +26,6 @@ from ocs_design.sizing.footing.standing import standing_on
 from ocs_design.sizing.free_place import specified_place
 from ocs_design.sizing.limits import DEVICE_MASS, Progress
 from ocs_design.sizing.on_robot import OnRobot
-from ocs_design.sizing.place import braked
 from ocs_design.sizing.reserve import Reality, Reserve, account
 from ocs_design.sizing.selection.device import with_demands
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem

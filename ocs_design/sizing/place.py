@@ -1,4 +1,4 @@
-"""Size of a module, positions of modules as they grow, and robot and modules as one rigid body."""
+"""Size of a module, and positions of modules as they grow."""
 
 from dataclasses import dataclass
 from typing import Any, Generic, NamedTuple, TypeVar
@@ -6,14 +6,11 @@ from typing import Any, Generic, NamedTuple, TypeVar
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray, frozen, vector
-from ocs_design.device.device import Device
 from ocs_design.device.layout import PAIR, Direction, Layout
 from ocs_design.parts.foot import Foot, larger
 from ocs_design.parts.housing import Housing
 from ocs_design.parts.motor_mount import Behind
 from ocs_design.parts.printed import PLATE_THICKNESS, MountHoles
-from ocs_design.parts.solids import Carrier
-from ocs_design.robot.mass import MassProperties, combine
 
 SPACING = 1.1
 """Space kept around a wheel, relative to the radius of the sphere that it sweeps at any
@@ -117,43 +114,3 @@ def place_at(position: tuple[float, ...], layout: Layout = PAIR) -> Place:
     if layout == PAIR:
         places = np.concatenate([places, places * [1.0, -1.0, 1.0]])
     return Place(tuple(vector(each) for each in places), ((0.0, 0.0, 0.0),) * len(places))
-
-
-def braked(
-    robot: MassProperties,
-    bodies: tuple[Carrier, ...],
-    centers: FloatArray,
-    incidence: float,
-    layout: Layout = PAIR,
-) -> MassProperties:
-    """Robot and all modules as one rigid body in B.
-
-    Args:
-        robot: without the modules.
-        bodies: rigid bodies of one module, in its own frame (`Layout.frames`).
-        centers: of the wheels in B [m], shape (n, 3).
-        incidence: of their axes, or the layout's angle [rad].
-        layout: of the modules.
-    """
-    parts = [robot]
-    for center, attitude in zip(centers, layout.frames(incidence), strict=True):
-        parts += [body.mass_properties().moved(attitude, center) for body in bodies]
-    return combine(parts)
-
-
-def with_device(robot: MassProperties, device: Device, *, free: bool = False) -> MassProperties:
-    """Robot and device as one rigid body in B, wheels braked.
-
-    Wheels that spin freely keep the momentum of wheel and rotor about their axis, whatever the
-    trunk does (docs/theory.md, The robot with its wheels: a gyrostat); the carrier's inertia
-    includes the rotor's.
-
-    Args:
-        robot: without the device. device: device on it.
-        free: whether the wheels spin freely.
-    """
-    wheel = device.flywheel
-    turning = (0.0 if free else wheel.spin_inertia) - device.motor.rotor_inertia
-    bodies = Carrier(wheel.mass, turning, wheel.transverse_inertia), device.carrier
-    centers = np.stack([module.position for module in device.modules])
-    return braked(device.plated(robot), bodies, centers, device.incidence, device.layout)

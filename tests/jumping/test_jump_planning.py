@@ -14,7 +14,6 @@ from ocs_design.jumping.node import FRICTION
 from ocs_design.jumping.planning import JumpPlanner, plan_jumps
 from ocs_design.requirement.froude import default_maneuvers
 from ocs_design.robot.reader import read_robot
-from ocs_design.sizing.place import with_device
 
 JUMP = Jump(0.4, 2.0, 9.81)
 
@@ -109,7 +108,7 @@ def test_a_carried_device_weighs_and_turns_like_its_braked_module_less_the_free_
     axes = device.axes
     free = braked.inertia - device.flywheel.spin_inertia * axes @ axes.T
     bare = solo12.mass_properties
-    carried = with_device(bare, device, free=True)
+    carried = device.on(bare, free=True)
     assert carried.mass == pytest.approx(braked.mass)
     np.testing.assert_allclose(carried.com, braked.com, atol=1e-12)
     np.testing.assert_allclose(carried.inertia, free, atol=1e-12)

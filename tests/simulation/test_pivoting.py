@@ -14,7 +14,6 @@ from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.world_builder import WorldBuilder
-from ocs_design.sizing.place import with_device
 from ocs_design.sizing.trajectory.plans import gyrostat_of, plan
 
 ROBOT = robot_by_hand(2.5, (0.02, 0.025, 0.02))
@@ -94,7 +93,7 @@ def test_energy_about_the_pivot_is_kept_where_nothing_drives(maneuver):
     device = driven_device()
     world = WorldBuilder(ROBOT, device).flight(maneuver, Wheels.BRAKED)
     recording = simulate([replace(world, duration=2.0)])
-    own = maneuver.on(with_device(ROBOT.mass_properties, device))
+    own = maneuver.on(device.on(ROBOT.mass_properties))
     rate = recording.rate[:, 0]
     kinetic = 0.5 * np.einsum("ki,ij,kj->k", rate, own.inertia, rate)
     w, x, y, z = recording.attitude[:, 0].T

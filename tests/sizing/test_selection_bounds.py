@@ -10,12 +10,13 @@ from selections import lopsided, random_problem
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.actuation.wheel_load import smallest_spin_inertia
+from ocs_design.device.device import braked
 from ocs_design.device.layout import PAIR, Layout, LayoutName
 from ocs_design.parts.moments import MassMoments, point, round_body
 from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.requirement import ManeuverReserve
 from ocs_design.robot.mass import MassProperties
-from ocs_design.sizing.place import Place, Size, around, braked
+from ocs_design.sizing.place import Place, Size, around
 from ocs_design.sizing.selection.bounds import (
     Cell,
     RimFloor,

@@ -16,6 +16,7 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import UsageError
+from ocs_design.device.device import braked
 from ocs_design.device.layout import Criterion, incidence_by_criterion
 from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia
 from ocs_design.parts.solids import Carrier
@@ -30,7 +31,6 @@ from ocs_design.sizing.bound.rim_problem import (
     lightest_rim,
     smallest_rim_inertia,
 )
-from ocs_design.sizing.place import braked
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,6 +15,7 @@ from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.catalogue.materials import Material
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.common.errors import UsageError
+from ocs_design.device.device import braked
 from ocs_design.device.layout import PAIR, Layout
 from ocs_design.device.records.selection import TaskDemand
 from ocs_design.parts.carrier_plate import CarrierPlate
@@ -37,7 +38,7 @@ from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.rim_problem import RimLimits, check_limits
 from ocs_design.sizing.driven_wheel import DrivenWheel
 from ocs_design.sizing.limits import BUS_VOLTAGE, RIM_LIMITS, SUPPLY_POWER, TIME, TOP_SPEED, Limit
-from ocs_design.sizing.place import Place, braked, module_size
+from ocs_design.sizing.place import Place, module_size
 
 
 @dataclass(frozen=True, eq=False)

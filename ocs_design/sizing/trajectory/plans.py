@@ -14,7 +14,6 @@ from ocs_design.requirement.boundary import Boundary, End
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.pivoted import HELD_ON
 from ocs_design.robot.mass import MassProperties
-from ocs_design.sizing.place import with_device
 from ocs_design.sizing.trajectory.flight import Flight, fly
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat, taken_over
 from ocs_design.sizing.trajectory.motion import HeadingLoop, Trajectory
@@ -144,7 +143,7 @@ def plan(
     line, factors, found = drive_line_of(device), kept or {}, {}
     for maneuver in maneuvers:
         flown = device.as_flown(maneuver)
-        own = maneuver.on(with_device(robot, flown))
+        own = maneuver.on(flown.on(robot))
         gyrostat = gyrostat_of(robot, flown, own)
         kept_of = factors.get(maneuver.name, 1.0)
         found[maneuver.name] = reference(
@@ -401,7 +400,7 @@ def gyrostat_of(
     robot: MassProperties, device: "Device", maneuver: Maneuver | None = None
 ) -> Gyrostat:
     """Robot and device as a rigid trunk with its wheels, about a pivot if the maneuver has one."""
-    whole, figures = with_device(robot, device), (device.axes, device.flywheel.spin_inertia)
+    whole, figures = device.on(robot), (device.axes, device.flywheel.spin_inertia)
     if maneuver is None:
         return Gyrostat(whole.inertia, *figures, device.motor.armature)
     inertia, pull, edge = maneuver.freedom(whole)

@@ -10,8 +10,8 @@ from gyrostats import end_rate, missed
 from naive_wheel import wheel_of
 from selections import lightest, random_problem
 
+from ocs_design.device.device import braked
 from ocs_design.device.layout import module_axes
-from ocs_design.sizing.place import braked
 from ocs_design.sizing.trajectory import program
 from ocs_design.sizing.trajectory.co_design import (
     LEAST_GAIN,
