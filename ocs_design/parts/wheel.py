@@ -3,12 +3,16 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import inf
+from typing import TypeAlias
 
 from ocs_design.actuation.fasteners import LIGAMENT
 from ocs_design.common.errors import PartError
 from ocs_design.common.ranges import Length, Positive
 from ocs_design.parts.rim import CHAMFER_SHARE, NO_CUTS, HoleRing, Hub, RimCuts
 from ocs_design.parts.solids import Part, Prism, Revolution, revolved
+
+Point: TypeAlias = tuple[float, float]
+"""Radius and height above the wheel's middle [m]."""
 
 ROUNDING = 1e-9
 """Rounding allowed for lengths at their lower limits [m]: a thousandth of a micrometre."""
@@ -42,6 +46,17 @@ class Rim:
         """Balancing holes, the same in both faces; None: none."""
         return self.cuts.ring(self.inner_radius, self.outer_radius)
 
+    @property
+    def corners(self) -> list[Point]:
+        """Corners of the upper half of its cross-section, from the outside to the bore."""
+        inner, outer, edge, top = (
+            self.inner_radius,
+            self.outer_radius,
+            self.chamfer,
+            self.height / 2,
+        )
+        return [(outer, top - edge), (outer - edge, top), (inner + edge, top), (inner, top - edge)]
+
 
 @dataclass(frozen=True)
 class Web:
@@ -65,6 +80,19 @@ class Web:
     def height(self, radius: float) -> float:
         """Extent of hub or disc along the axis at a radius [m]."""
         return self.hub.height if radius < self.hub.radius else self.thickness
+
+    def corners(self, bore: float) -> list[Point]:
+        """Corners of the upper half of its cross-section, from a rim's bore [m] inwards."""
+        hub, level, edge = self.hub, self.thickness / 2.0, self.hub.chamfer
+        top = hub.height / 2.0
+        return [
+            (bore, level),
+            (hub.radius, level),
+            (hub.radius, top - edge),
+            (hub.radius - edge, top),
+            (hub.bore_radius + edge, top),
+            (hub.bore_radius, top - edge),
+        ]
 
 
 @dataclass(frozen=True)
@@ -150,40 +178,24 @@ def _ring_faults(
 def wheel_parts(wheel: Wheel) -> tuple[Part[float], ...]:
     """One part for each piece: the whole wheel, or its rim and its hub."""
     rim, web = wheel.rim, wheel.web
-    inner, outer = rim.inner_radius, rim.outer_radius
-    half, edge = rim.height / 2.0, rim.chamfer
-    # Corners of the upper half, from the outside to the bore.
-    upper = [(outer, half - edge), (outer - edge, half), (inner + edge, half), (inner, half - edge)]
     holes: tuple[Prism[float], ...] = ()
     if rim.balancing is not None:
+        half = rim.height / 2.0
         bottom = half - rim.cuts.hole_depth
         holes = (rim.balancing.prism(bottom, half), rim.balancing.prism(-half, -bottom))
     if web is None:
-        return (Part("rim", rim.density, (_mirrored(upper),), holes),)
-
-    hub, level = web.hub, web.thickness / 2.0
-    top, edge = hub.height / 2.0, hub.chamfer
-    disc = [
-        (rim.inner_radius, level),
-        (hub.radius, level),
-        (hub.radius, top - edge),
-        (hub.radius - edge, top),
-        (hub.bore_radius + edge, top),
-        (hub.bore_radius, top - edge),
-    ]
-    drilled: tuple[Prism[float], ...] = ()
-    if hub.bolt_ring is not None:
-        drilled += (hub.bolt_ring.prism(-top, top),)
-    if web.holes is not None:
-        drilled += (web.holes.prism(-level, level),)
+        return (Part("rim", rim.density, (_mirrored(rim.corners),), holes),)
+    disc = web.corners(rim.inner_radius)
+    rings = (web.hub.bolt_ring, web.hub.height / 2.0), (web.holes, web.thickness / 2.0)
+    drilled = tuple(ring.prism(-end, end) for ring, end in rings if ring is not None)
     if not wheel.shrunk_on:
-        return (Part("wheel", rim.density, (_mirrored([*upper, *disc]),), holes + drilled),)
+        return (Part("wheel", rim.density, (_mirrored([*rim.corners, *disc]),), holes + drilled),)
     return (
-        Part("rim", rim.density, (_mirrored(upper),), holes),
+        Part("rim", rim.density, (_mirrored(rim.corners),), holes),
         Part("hub", web.density, (_mirrored(disc),), drilled),
     )
 
 
-def _mirrored(upper: list[tuple[float, float]]) -> Revolution:
+def _mirrored(upper: list[Point]) -> Revolution:
     """A body of revolution from its upper half and the mirror image below z = 0."""
     return revolved([*upper, *((radius, -height) for radius, height in reversed(upper))])

@@ -237,13 +237,13 @@ def cut_faces(wheel: Wheel, *, above: bool) -> Iterator[tuple[Profile, bool]]:
     cuts = [ring for ring in rings if is_cut(ring, above=above)]
     starts = [hub.bore_radius, *(ring.high for ring in cuts)]
     ends = [*(ring.low for ring in cuts), wheel.rim.inner_radius]
-    profiles, edge = [], hub.chamfer
+    corners = [(z, radius) for radius, z in reversed(web.corners(wheel.rim.inner_radius))]
+    profiles = []
     for inside, outside in zip(starts, ends, strict=True):
-        low, high = web.height(inside) / 2.0, web.height(outside) / 2.0
-        at_bore = [(low - edge, inside), (low, inside + edge)]
-        start = at_bore if inside == hub.bore_radius else [(low, inside)]
-        step = [(low, hub.radius - edge), (low - edge, hub.radius), (high, hub.radius)]
-        right = [*start, *(step if inside < hub.radius < outside else []), (high, outside)]
+        right = [corner for corner in corners if inside <= corner[1] <= outside]
+        if inside > hub.bore_radius:
+            right.insert(0, (web.height(inside) / 2.0, inside))
+        right.append((web.height(outside) / 2.0, outside))
         profiles.append(_distinct([*right, *[(-z, radius) for z, radius in reversed(right)]]))
     *inner, outermost = profiles
     if not wheel.shrunk_on:
@@ -263,13 +263,13 @@ def is_cut(ring: HoleRing, *, above: bool) -> bool:
 
 def rim_profile(rim: Rim, *, above: bool) -> Profile:
     """Outline of the rim from the left end of its bore, around its blind holes."""
-    r, R, half, c = rim.inner_radius, rim.outer_radius, rim.height / 2.0, rim.chamfer
-    notch: Profile = []
+    right = [(z, radius) for radius, z in reversed(rim.corners)]
     ring = rim.balancing
     if ring is not None and is_cut(ring, above=above):
+        half = rim.height / 2.0
         bottom = half - rim.cuts.hole_depth
-        notch = [(half, ring.low), (bottom, ring.low), (bottom, ring.high), (half, ring.high)]
-    right = [(half - c, r), (half, r + c), *notch, (half, R - c), (half - c, R)]
+        # In the middle of its face.
+        right[2:2] = [(half, ring.low), (bottom, ring.low), (bottom, ring.high), (half, ring.high)]
     left = [(-z, radius) for z, radius in reversed(right)]
     return _distinct([left[-1], *right, *left[:-1]])
 
