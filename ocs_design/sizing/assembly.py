@@ -8,11 +8,9 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.device.device import Device, Flywheel, Module
 from ocs_design.device.layout import PAIR, Layout
 from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts, hoop_stress, stored_energy, wheel_body
-from ocs_design.parts.solids import Carrier
 from ocs_design.parts.wheel import Web
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.sizing.bound.device_sizing import DeviceSizing
-from ocs_design.sizing.driven_wheel import DrivenWheel
 from ocs_design.sizing.selection.problem import Candidate
 
 
@@ -39,45 +37,29 @@ def assemble(sizing: DeviceSizing, resolved: Resolved) -> Device:
 
 
 def assemble_selected(candidate: Candidate) -> Device:
-    """Modules as they were selected."""
-    size = candidate.incidence, candidate.centers
-    device = assemble_driven(candidate, candidate.carrier, *size, layout=candidate.layout)
-    return replace(
-        device,
+    """Modules as they were selected, each with a motor of the catalogue."""
+    drive = candidate.drive
+    flywheel = _flywheel(
+        (candidate.inner_radius, candidate.outer_radius, candidate.height),
+        candidate.material,
+        drive.top_speed,
+        drive.rotor_inertia,
+        candidate.hub,
+        cuts=candidate.cuts,
+        web_material=candidate.web_material,
+    )
+    return Device(
+        candidate.incidence,
+        _modules(candidate.layout, candidate.incidence, candidate.centers),
+        flywheel,
+        drive,
+        candidate.carrier,
+        layout=candidate.layout,
         supply=candidate.supply.told,
         guard_wall=candidate.guard_wall,
         foot_plate=candidate.foot_plate,
         on_bell=candidate.on_bell,
     )
-
-
-def assemble_driven(
-    wheel: DrivenWheel,
-    carrier: Carrier,
-    incidence: float,
-    centers: FloatArray,
-    *,
-    layout: Layout = PAIR,
-) -> Device:
-    """Modules, each with a motor of the catalogue.
-
-    Args:
-        carrier: the stationary part of each.
-        incidence: of the wheel axes, or the layout's angle [rad].
-        centers: of the wheels in B [m], shape (n, 3).
-    """
-    motor = wheel.drive
-    flywheel = _flywheel(
-        (wheel.inner_radius, wheel.outer_radius, wheel.height),
-        wheel.material,
-        motor.top_speed,
-        motor.rotor_inertia,
-        wheel.hub,
-        cuts=wheel.cuts,
-        web_material=wheel.web_material,
-    )
-    modules = _modules(layout, incidence, centers)
-    return Device(incidence, modules, flywheel, motor, carrier, layout=layout)
 
 
 def _modules(layout: Layout, incidence: float, centers: FloatArray) -> tuple[Module, ...]:

@@ -24,17 +24,17 @@ class Limit:
 
     Attributes:
         name: the constraint. label: of the figure that sets it, in the specification.
-        field: attribute of the `Envelope` or the `Requirement` that holds it.
         loosens_upwards: whether a larger value allows more.
         unit: of its figure in messages. per_si: ratio of that figure to the SI one.
+        field: attribute of the `Envelope` or the `Requirement` that holds it; empty: neither does.
     """
 
     name: Constraint
     label: str
-    field: str
     loosens_upwards: bool
     unit: str
     per_si: float
+    field: str = ""
 
     def value(self, owner: Owner) -> float:
         """Present value of the limit [SI]."""
@@ -63,27 +63,27 @@ class Limit:
         return f"{self.label} {figure:.6g} {self.unit}".rstrip()
 
 
-STRESS = Limit(Constraint.HOOP_STRESS, "stress_safety", "stress_safety", False, "", 1.0)
+STRESS = Limit(Constraint.HOOP_STRESS, "stress_safety", False, "", 1.0, "stress_safety")
 
 RIM_LIMITS = (
-    Limit(Constraint.R_MAX, "r_max", "outer_radius_max", True, "mm", 1e3),
-    Limit(Constraint.R_MIN, "r_min", "inner_radius_min", False, "mm", 1e3),
-    Limit(Constraint.H_MAX, "h_max", "height_max", True, "mm", 1e3),
-    Limit(Constraint.H_MIN, "h_min", "height_min", False, "mm", 1e3),
-    Limit(Constraint.WALL_MIN, "wall_min", "wall_min", False, "mm", 1e3),
-    Limit(Constraint.WHEEL_MASS_MAX, "wheel_mass_max", "mass_max", True, "g", 1e3),
+    Limit(Constraint.R_MAX, "r_max", True, "mm", 1e3, "outer_radius_max"),
+    Limit(Constraint.R_MIN, "r_min", False, "mm", 1e3, "inner_radius_min"),
+    Limit(Constraint.H_MAX, "h_max", True, "mm", 1e3, "height_max"),
+    Limit(Constraint.H_MIN, "h_min", False, "mm", 1e3, "height_min"),
+    Limit(Constraint.WALL_MIN, "wall_min", False, "mm", 1e3, "wall_min"),
+    Limit(Constraint.WHEEL_MASS_MAX, "wheel_mass_max", True, "g", 1e3, "mass_max"),
     STRESS,
 )
 """Limits of the envelope, in the order in which they are reported."""
 
 TOP_SPEED = Limit(
-    Constraint.WHEEL_SPEED_MAX, "wheel_speed_max", "wheel_speed_max", True, "rpm", 30.0 / pi
+    Constraint.WHEEL_SPEED_MAX, "wheel_speed_max", True, "rpm", 30.0 / pi, "wheel_speed_max"
 )
-BUS_VOLTAGE = Limit(Constraint.BUS_VOLTAGE, "bus_voltage", "bus_voltage", True, "V", 1.0)
-SUPPLY_POWER = Limit(Constraint.BUS_POWER, "supply.power_max", "power", True, "W", 1.0)
-TIME = Limit(Constraint.TIME, "time for every maneuver", "", True, "times what is given", 1.0)
+BUS_VOLTAGE = Limit(Constraint.BUS_VOLTAGE, "bus_voltage", True, "V", 1.0)
+SUPPLY_POWER = Limit(Constraint.BUS_POWER, "supply.power_max", True, "W", 1.0)
+TIME = Limit(Constraint.TIME, "time for every maneuver", True, "times what is given", 1.0)
 
-DEVICE_MASS = Limit(Constraint.MASS_MAX, "mass_max", "mass_max", True, "g", 1e3)
+DEVICE_MASS = Limit(Constraint.MASS_MAX, "mass_max", True, "g", 1e3)
 
 LIMITS: Mapping[str, Limit] = {
     limit.name: limit
