@@ -1,52 +1,19 @@
-"""Comparison of lightest devices: by the value of one figure, and by layout."""
+"""Comparison of lightest devices: at each value of one figure, and for each layout."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 from ocs_design.actuation.wheel_load import reach, reach_without_one
 from ocs_design.common.arrays import vector
-from ocs_design.common.errors import Infeasible, SpecificationError, UsageError
-from ocs_design.common.records import recorded
+from ocs_design.common.errors import Infeasible, SpecificationError
 from ocs_design.common.units import format_quantity, si_unit
 from ocs_design.device.answers import Front, FrontDevice, FrontPoint, LayoutAnswer
 from ocs_design.requirement.sweep import Sweep, Task
 from ocs_design.requirement.vocabulary import DETECTION
 from ocs_design.requirement.writing import specification_to_toml, with_absolute_files
-from ocs_design.sizing.design import design_device
 from ocs_design.sizing.limits import Progress, unseen
 from ocs_design.sizing.mounting import mounting_of, mounting_open_points
 from ocs_design.sizing.selection.device import survived
 from ocs_design.sizing.sized import Designed
-
-
-def lightest_device(task: Task) -> FrontDevice:
-    """Lightest device that is selected for a task, before any co-design.
-
-    Raises:
-        Infeasible: there is none; without advice on what would help.
-        UsageError: the specification has no motor.
-    """
-    if task.resolved.choice is None:
-        raise UsageError(
-            "a front needs motors to choose from",
-            hint="leave out --motor none, or motor.name in the specification",
-        )
-    stated = task.specification
-    alone = replace(stated, ocs=replace(stated.ocs, co_design=False))
-    designed = design_device(replace(task, specification=alone), ranked=False)
-    choice = designed.choice
-    assert choice is not None, "there are motors to choose from"
-    best = choice.chosen
-    return recorded(
-        FrontDevice,
-        best,
-        share=best.mass / task.robot.mass,
-        motor=best.motor.name,
-        gear=best.gear.name,
-        material=best.material.name,
-        overvoltage=designed.device.motor.overvoltage,
-    )
-
 
 Choose = Callable[[Task], FrontDevice]
 """The lightest device for a task; raises `Infeasible` where there is none."""

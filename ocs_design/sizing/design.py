@@ -6,9 +6,10 @@ from dataclasses import replace
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.errors import Infeasible
+from ocs_design.common.errors import Infeasible, UsageError
 from ocs_design.common.records import recorded
 from ocs_design.common.wording import some_of
+from ocs_design.device.answers import FrontDevice
 from ocs_design.device.device import braked
 from ocs_design.device.layout import PAIR, Criterion
 from ocs_design.device.records.selection import CoDesignRecord
@@ -293,4 +294,33 @@ def _by_selection(
         choice=Choice(problem, selection, chosen, co_designed, hangs),
         reserve=reserve,
         account=lambda: account(reserve, reality, problem, chosen, resized, nominal=least()),
+    )
+
+
+def lightest_device(task: Task) -> FrontDevice:
+    """Lightest device that is selected for a task, before any co-design.
+
+    Raises:
+        Infeasible: there is none; without advice on what would help.
+        UsageError: the specification has no motor.
+    """
+    if task.resolved.choice is None:
+        raise UsageError(
+            "a front needs motors to choose from",
+            hint="leave out --motor none, or motor.name in the specification",
+        )
+    stated = task.specification
+    alone = replace(stated, ocs=replace(stated.ocs, co_design=False))
+    designed = design_device(replace(task, specification=alone), ranked=False)
+    choice = designed.choice
+    assert choice is not None, "there are motors to choose from"
+    best = choice.chosen
+    return recorded(
+        FrontDevice,
+        best,
+        share=best.mass / task.robot.mass,
+        motor=best.motor.name,
+        gear=best.gear.name,
+        material=best.material.name,
+        overvoltage=designed.device.motor.overvoltage,
     )

@@ -16,7 +16,8 @@ from ocs_design.requirement.reading import specification_of
 from ocs_design.requirement.resolving import read_specified_robot
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task, sweep_of
-from ocs_design.sizing.comparison import draw_front, lightest_device
+from ocs_design.sizing.comparison import draw_front
+from ocs_design.sizing.design import lightest_device
 
 
 def pareto_front(

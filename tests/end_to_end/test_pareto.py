@@ -8,7 +8,7 @@ import pytest
 from commands import SOLO12, everything_in, run
 
 from ocs_design.requirement.reading import read_specification
-from ocs_design.sizing.comparison import lightest_device
+from ocs_design.sizing.design import lightest_device
 from ocs_design.workflows.pareto import read_task
 
 pytestmark = pytest.mark.slow

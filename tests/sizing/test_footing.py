@@ -47,13 +47,13 @@ from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.reader import read_robot
 from ocs_design.robot.surface import trunk_surface
 from ocs_design.sizing.design import design_device
-from ocs_design.sizing.footing.contact import FLATNESS, contacts_of
+from ocs_design.sizing.footing.contact import FLATNESS
 from ocs_design.sizing.footing.feet import device_size, feet_of
 from ocs_design.sizing.footing.on_top import ASIDE
 from ocs_design.sizing.footing.plate import POST_SCREW, held_at
 from ocs_design.sizing.footing.standing import footing_of, stand_on_trunk
 from ocs_design.sizing.free_place import place_free, place_on_top
-from ocs_design.sizing.mounting import mounting_of, mounting_open_points
+from ocs_design.sizing.mounting import contacts_of, mounting_of, mounting_open_points
 from ocs_design.sizing.place import SPACING
 
 DEVICE = driven_device()

@@ -6,27 +6,23 @@ under its base. A plate is held by four screws where the trunk is equally flat u
 sleeve.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import inf, pi
+from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.device.device import Device, Module
-from ocs_design.device.solids import foot_of, pedestal_of
-from ocs_design.parts.carrier_plate import TOUCH, CarrierPlate, Point, steepest
-from ocs_design.parts.dog_bone import DogBone, directions
+from ocs_design.device.solids import pedestal_of
+from ocs_design.parts.carrier_plate import CarrierPlate, Point
+from ocs_design.parts.dog_bone import DogBone
 from ocs_design.parts.module import part_name
 from ocs_design.parts.outline import even_points
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import AROUND_SLOT
-from ocs_design.robot.robot import Robot
-from ocs_design.robot.surface import Surface, trunk_back, trunk_surface
-from ocs_design.sizing.footing.feet import feet_of, leans
-from ocs_design.sizing.footing.formed import TILT_MAX, off_trunk
+from ocs_design.robot.surface import Surface
 
 FLATNESS = 1e-3
 """Largest depth of a trunk's surface below the part that stands on it [m]: a washer's thickness."""
@@ -108,39 +104,6 @@ class FootContact:
     leans: bool = False
 
 
-def contacts_of(robot: Robot, device: Device) -> tuple[FootContact, ...]:
-    """What the feet stand on, and each screw of the plate where there is one.
-
-    Empty for wheels without feet. A foot whose wheel's axis is not horizontal stands on a pedestal,
-    and that on the trunk; without a pedestal it has no support.
-    """
-    if device.carrier.mass == 0.0:
-        return ()
-    surface, plate, feet = trunk_surface(robot), device.plate, feet_of(device)
-    height, found = foot_of(device).wheel_height, []
-    for module, middle in zip(device.modules, feet.middles, strict=True):
-        name, underside = part_name("foot", module.name), float(module.position[2]) - height
-        under = [each for each in device.pedestals if each.module == module.name]
-        if under:
-            found += [under_pedestal(surface, device, module, each) for each in under]
-        elif leans(module):
-            found.append(FootContact(name, "trunk", 0.0, inf, 0.0, held=False, leans=True))
-        elif plate is not None:
-            # A plate supports a foot around its screw circle.
-            gap = min(abs(underside - plate.top - level) for level in plate.heights)
-            share = float(_over_plate(plate, disc_points(middle, feet.radius)).mean())
-            lands = ring_points(middle, *feet.lands)
-            held = bool(_over_plate(plate, lands).all()) and gap <= PROUD
-            found.append(FootContact(name, "plate", share, gap, 0.0, held))
-        else:
-            found.append(
-                contact_of(name, surface, middle, feet.radius, plane=underside, lands=feet.lands)
-            )
-    if plate is not None:
-        found += _plate_contacts(robot, plate)
-    return tuple(found)
-
-
 def under_pedestal(
     surface: Surface | None, device: Device, module: Module, pedestal: Pedestal
 ) -> FootContact:
@@ -156,56 +119,6 @@ def under_pedestal(
         and pedestal.middle >= pedestal_of(device, module).middle - 1e-6
     )
     return replace(found, held=found.held and seated)
-
-
-def _over_plate(plate: CarrierPlate, points: FloatArray) -> NDArray[np.bool_]:
-    """Whether points of B are over a plate's aluminium, screw holes counted as solid."""
-    own, over = points - np.array(plate.position[:2]), np.zeros(len(points), dtype=bool)
-    for shape in plate.shapes:
-        inside = shape.holds(own)
-        for middle in plate.across * directions(plate.arms) + [shape.x, 0.0]:
-            inside &= np.hypot(*(own - middle).T) >= plate.window
-        over |= inside
-    return over
-
-
-def _plate_contacts(robot: Robot, plate: CarrierPlate) -> Iterator[FootContact]:
-    """Contact of each of a plate's screws, or of its sleeve, with the trunk.
-
-    For a formed block, the contact of its front.
-    """
-    (x, y, z), mast = plate.position, plate.mast
-    if mast is None:
-        surface, plane = trunk_surface(robot), z
-        outline = -inf if surface is None else highest_of(surface, plate_points(plate))
-    else:
-        # Seen from behind.
-        surface, plane, half = trunk_back(robot), -x - mast.face - mast.spacer, mast.side / 2.0
-        x, outline = z, -inf
-        if surface is not None:
-            block, upright = (
-                surface.farthest(z + low, z + high, half)
-                for low, high in (plate.block, (mast.low, mast.high))
-            )
-            outline = max(block, upright - mast.spacer)
-            off = off_trunk(surface, plate)
-            if off is not None:
-                # Distance of the trunk from a formed block at points all over its front.
-                known = np.nan_to_num(off, nan=inf)
-                gap = max(0.0, float(known.max()))
-                proud = max(0.0, -float(known.min()), upright - mast.spacer - plane)
-                share = float((np.abs(known) <= TOUCH).mean())
-                held = gap <= TOUCH and proud <= PROUD and steepest(plate) <= TILT_MAX
-                yield FootContact("mast's block", "trunk", share, gap, proud, held)
-                return
-    what = "plate" if mast is None else "mast"
-    for number, (hole, sleeve) in enumerate(zip(plate.trunk, plate.sleeves, strict=True), start=1):
-        along, across = hole if mast is None else hole[::-1]
-        name, middle = f"{what}'s screw {number}", (x + along, y + across)
-        radius = plate.sleeve_radius
-        found = contact_of(name, surface, middle, radius, plane=plane - sleeve, lands=(0.0, radius))
-        proud = max(found.proud, outline - plane)
-        yield replace(found, proud=proud, held=found.held and proud <= PROUD)
 
 
 def contact_of(
