@@ -8,7 +8,7 @@ from hypothesis import assume
 from hypothesis import strategies as st
 
 from ocs_design.common.errors import PartError
-from ocs_design.export.drawing.sheet import FRAME_BOX, Circle, Line, Text
+from ocs_design.export.drawing.sheet import FRAME_BOX, Circle, Lettering, Line
 from ocs_design.export.drawing.wheel import WheelDrawing
 from ocs_design.parts.rim import HoleRing, Hub, RimCuts
 from ocs_design.parts.wheel import Rim, Web, Wheel
@@ -138,7 +138,7 @@ def box_of(text):
 
 
 def texts(items):
-    return [item for item in items if isinstance(item, Text) and item.text]
+    return [item for item in items if isinstance(item, Lettering) and item.text]
 
 
 def check_words(page):

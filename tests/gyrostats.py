@@ -14,7 +14,7 @@ from ocs_design.requirement.turns import Drop, Flip
 from ocs_design.sizing.trajectory.flight import Flight, fly
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.program import Dimensions, Solution, solve
-from ocs_design.sizing.trajectory.transcription import Plant, Turn
+from ocs_design.sizing.trajectory.transcription import Phase, Plant
 
 DIAGONAL = np.diag([0.030, 0.0535, 0.068])
 FULL = np.array([[0.030, 0.001, 0.003], [0.001, 0.0535, -0.002], [0.003, -0.002, 0.068]])
@@ -88,7 +88,7 @@ def smallest_wheels(guess, asked, *, free_incidence=False, start=None, passes=(1
             axes = ca.vertcat(ca.horzcat(sine, -sine), ca.horzcat(cosine, cosine), ca.MX(1, 2))
         return fixed._replace(spin_inertia=factor * guess.spin_inertia, axes=axes)
 
-    turn = Turn(asked, guess, plant, start)
+    turn = Phase(asked, guess, plant, start)
     lower, upper = np.array([1e-2, low]), np.array([1e2, high])
     free = Dimensions(np.array([1.0, incidence]), lower, upper, lambda dimensions: dimensions[0])
     solution = solve([turn], EC_45_FLAT, passes, free)

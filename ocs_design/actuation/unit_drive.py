@@ -226,7 +226,7 @@ class Rise(NamedTuple):
     line: FloatArray
 
 
-class Sweep(NamedTuple):
+class SlewPart(NamedTuple):
     """Duration and angle of a part of a slew.
 
     Attributes:
@@ -259,7 +259,7 @@ def risen_speed(drive: UnitDrive, rise: Rise) -> FloatArray:
     return speed
 
 
-def rise_sweep(drive: UnitDrive, rise: Rise) -> Sweep:
+def rise_sweep(drive: UnitDrive, rise: Rise) -> SlewPart:
     """Time and angle of a rise."""
     knee, spare, z = drive.knee, drive.spare, rise.line
     on_line = knee * ((1.0 - spare) * z + spare * exp_remainder(z))
@@ -267,18 +267,18 @@ def rise_sweep(drive: UnitDrive, rise: Rise) -> Sweep:
     first, last = np.arcsinh(begin / c), np.arcsinh((begin + rise.gain) / c)
     powered = _powered_sweep(drive, first, last, 1.0)
     time, angle = (np.where(rise.gain > 0.0, each, 0.0) for each in powered)
-    return Sweep(rise.ramp + time + knee * z, rise.ramp**2 / 2.0 + angle + on_line)
+    return SlewPart(rise.ramp + time + knee * z, rise.ramp**2 / 2.0 + angle + on_line)
 
 
-def _powered_sweep(drive: UnitDrive, first: FloatArray, last: FloatArray, sense: float) -> Sweep:
+def _powered_sweep(drive: UnitDrive, first: FloatArray, last: FloatArray, sense: float) -> SlewPart:
     """Sweep at the power limit from one u to another; `sense` is 1 up and -1 down."""
 
-    def reached(u: FloatArray) -> Sweep:
+    def reached(u: FloatArray) -> SlewPart:
         """Sweep since u = 0, up to a constant."""
         grown = np.exp(u)
-        return Sweep(grown**2 / 2.0 + sense * u, drive.current * (grown**3 / 3.0 + 1.0 / grown))
+        return SlewPart(grown**2 / 2.0 + sense * u, drive.current * (grown**3 / 3.0 + 1.0 / grown))
 
-    return Sweep(
+    return SlewPart(
         *(
             drive.knee * (after - before)
             for after, before in zip(reached(last), reached(first), strict=True)
@@ -286,7 +286,7 @@ def _powered_sweep(drive: UnitDrive, first: FloatArray, last: FloatArray, sense:
     )
 
 
-def brake_sweep(drive: UnitDrive, peak: FloatArray, final: FloatArray) -> Sweep:
+def brake_sweep(drive: UnitDrive, peak: FloatArray, final: FloatArray) -> SlewPart:
     """Braking from peak to final speed, limited by the power, the current, then the voltage."""
     top = np.minimum(np.maximum(drive.regenerating, final), peak)
     c, fed_back = 2.0 * drive.current, peak > top
@@ -297,7 +297,7 @@ def brake_sweep(drive: UnitDrive, peak: FloatArray, final: FloatArray) -> Sweep:
     ratio = (middle - final) / (1.0 + final)
     excess = log_remainder(ratio)
     clamped = drive.brake * (top - middle)
-    return Sweep(
+    return SlewPart(
         time + clamped + drive.knee * (ratio - excess),
         angle + clamped * (top + middle) / 2.0 + drive.knee * (final * ratio + excess),
     )
@@ -328,7 +328,7 @@ def rise_to(drive: UnitDrive, speed: FloatArray) -> Rise:
         return Rise(ramp, gain, -np.log1p(-np.minimum(span, 1.0)))
 
 
-def since_rest(drive: UnitDrive, speed: FloatArray) -> Sweep:
+def since_rest(drive: UnitDrive, speed: FloatArray) -> SlewPart:
     """Time and angle since rest of a wheel that accelerates through `speed` [w_0].
 
     The time is negative below rest.
@@ -336,7 +336,7 @@ def since_rest(drive: UnitDrive, speed: FloatArray) -> Sweep:
     up = rise_sweep(drive, rise_to(drive, np.maximum(speed, 0.0)))
     down = brake_sweep(drive, np.maximum(-speed, 0.0), np.zeros_like(speed))
     back = speed < 0.0
-    return Sweep(np.where(back, -down.time, up.time), np.where(back, down.angle, up.angle))
+    return SlewPart(np.where(back, -down.time, up.time), np.where(back, down.angle, up.angle))
 
 
 def attained(drive: UnitDrive, time: FloatArray, final: FloatArray) -> FloatArray:

@@ -21,7 +21,7 @@ from ocs_design.parts.joints import GRADE
 from ocs_design.parts.motor_mount import motor_front
 from ocs_design.parts.printed import PETG, SHOCK, TRUNK_SCREW
 from ocs_design.robot.manual import assumed_trunk, origin_by_hand
-from ocs_design.robot.robot import Format, Robot
+from ocs_design.robot.robot import Robot, RobotFormat
 from ocs_design.robot.surface import trunk_surface
 
 ON_TOP = 0.5e-3
@@ -247,7 +247,7 @@ def trunk_notes(device: Device, robot: Robot) -> tuple[str, ...]:
             f"file has fixed to it: {measured}"
         )
         return trunk_threads(device), where
-    if robot.format is not Format.MANUAL:
+    if robot.format is not RobotFormat.MANUAL:
         return (trunk_threads(device),)
     where = f"the origin of the base frame is {origin_by_hand(robot.com.tolist())}"
     box = assumed_trunk(robot)

@@ -21,10 +21,10 @@ from ocs_design.export.drawing.sheet import (
     Area,
     Circle,
     Item,
+    Lettering,
     Line,
     Point,
     Polyline,
-    Text,
     arrow,
     cross,
     level_dimension,
@@ -159,9 +159,9 @@ def drilling_of(subject: Subject) -> Drilling | None:
         reach = [length - plate.clamped - gap for length, gap in held]
     radius = MILLIMETRES * thread.tapping_drill / 2.0
     marks: list[Item] = [*cross((0.0, 0.0), 3.0 * CROSS), arrow((3.0 * CROSS, 0.0), (1.0, 0.0))]
-    marks.append(Text((3.0 * CROSS, -1.0), "forward" if mast is None else "up", 2.5))
+    marks.append(Lettering((3.0 * CROSS, -1.0), "forward" if mast is None else "up", 2.5))
     for hole in holes:
-        words = Text(
+        words = Lettering(
             (hole[0] + radius, hole[1] - radius - 1.0), f"{hole[0]:.1f}, {hole[1]:.1f}", 1.8
         )
         marks += [Circle(hole, radius), *cross(hole, radius + CROSS), words]
@@ -170,13 +170,15 @@ def drilling_of(subject: Subject) -> Drilling | None:
         (middle,) = _millimetres([(float(module.position[0]), float(module.position[1]))])
         base = MILLIMETRES * foot.base_radius
         items += [Circle(middle, base, THIN), *cross(middle, CROSS)]
-        items.append(Text((middle[0] + base / 2.0, middle[1]), part_name("foot", module.name), 2.5))
+        items.append(
+            Lettering((middle[0] + base / 2.0, middle[1]), part_name("foot", module.name), 2.5)
+        )
     for each in device.pedestals:
         side, near, far = each.width / 2.0, -each.flange, each.length + each.flange
         around = [(-side, near), (side, near), (side, far), (-side, far), (0.0, each.length / 2.0)]
         *rim, inside = _millimetres(each.in_base(around))
         items.append(Polyline((*rim, rim[0]), THIN))
-        items.append(Text(inside, part_name("pedestal", each.module), 2.5))
+        items.append(Lettering(inside, part_name("pedestal", each.module), 2.5))
     if plate is not None and mast is not None:
         low, high = (MILLIMETRES * (plate.position[2] + end) for end in (mast.low, mast.high))
         half = MILLIMETRES * mast.side / 2.0
@@ -233,7 +235,7 @@ def pages(drilling: Drilling) -> Iterator[list[Item]]:
     if across * along == 1:
         # Centred without its words, as far as there is space for them.
         low, right_end, high, left_end = bounds(
-            each for each in shown if not isinstance(each, Text)
+            each for each in shown if not isinstance(each, Lettering)
         )
         spare_x, spare_y = (height - (front - back)) / 2.0, (width - (leftmost - rightmost)) / 2.0
         aim = (low + high) / 2.0, (right_end + left_end) / 2.0
@@ -255,7 +257,7 @@ def pages(drilling: Drilling) -> Iterator[list[Item]]:
                 *(
                     Area(rectangle(x, y - item.height, x + item.width, y), white=True)
                     for item in marks
-                    if isinstance(item, Text)
+                    if isinstance(item, Lettering)
                     for x, y in [item.start]
                 ),
                 *marks,
@@ -270,7 +272,7 @@ def pages(drilling: Drilling) -> Iterator[list[Item]]:
 def _words(drilling: Drilling, number: int, count: int) -> Iterator[Item]:
     left, top, _, bottom = SHEET
     for line, text in enumerate(drilling.verdict):
-        yield Text((left, top + line * LEADING), text, _VERDICT)
+        yield Lettering((left, top + line * LEADING), text, _VERDICT)
     words = [
         *drilling.words,
         "Print at 100 %, without fitting it to the page, and measure the 50 mm.",
@@ -278,10 +280,10 @@ def _words(drilling: Drilling, number: int, count: int) -> Iterator[Item]:
     if count > 1:
         words[-1] += f" Sheet {number} of {count}: cut along the frame and join edge to edge."
     for line, text in enumerate(words):
-        yield Text((left + CHECK + 5.0, bottom + (line + 1) * LEADING), text, 2.2)
+        yield Lettering((left + CHECK + 5.0, bottom + (line + 1) * LEADING), text, 2.2)
     y = bottom + 3.0 * LEADING
     yield from level_dimension("", left=left, right=left + CHECK, y=y, text_x=left + CHECK)
-    yield Text((left + CHECK / 2.0 - 5.0, y - 1.0), f"{CHECK:.0f} mm")
+    yield Lettering((left + CHECK / 2.0 - 5.0, y - 1.0), f"{CHECK:.0f} mm")
     for x in (left, left + CHECK):
         yield Line((x, y - 3.0), (x, y + 3.0))
 
@@ -297,7 +299,7 @@ def bounds(items: Iterable[Item]) -> tuple[float, float, float, float]:
                 points += start, end
             case Polyline(corners) | Area(corners):
                 points += corners
-            case Text():
+            case Lettering():
                 # On paper text runs against y.
                 x, y = item.place
                 points += (x, y), (x + item.height, y - item.width)
@@ -321,5 +323,5 @@ def _on_paper(item: Item, offset: Point) -> Item:
             return replace(item, points=tuple(map(place, item.points)))
         case Area():
             return Area(tuple(map(place, item.corners)))
-        case Text():
+        case Lettering():
             return replace(item, place=place(item.place))

@@ -18,7 +18,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.units import MILLIMETRES
 from ocs_design.export.device_parts import BLOCK, plate_pieces, wheel_pieces
 from ocs_design.export.drawing import sheet
-from ocs_design.export.drawing.sheet import Area, Circle, Line, Polyline, Text
+from ocs_design.export.drawing.sheet import Area, Circle, Lettering, Line, Polyline
 from ocs_design.export.drilling import CHECK, Drilling, bounds, drilling_of
 from ocs_design.export.formats import Notes, Subject
 from ocs_design.parts.solids import Part, Prism, Revolution
@@ -96,7 +96,7 @@ def drilling_text(drilling: Drilling) -> str:
                 space.add_line(start, end, dxfattribs={"layer": AXES})
             case Polyline(points) | Area(points):
                 space.add_lwpolyline(points, close=True, dxfattribs={"layer": FEET})
-            case Text(place, text, height):
+            case Lettering(place, text, height):
                 _add_text(space, text, place, height)
     _, low, _, high = bounds(drilling.items)
     if drilling.refused:

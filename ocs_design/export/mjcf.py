@@ -23,7 +23,7 @@ from ocs_design.export.robot_model import HOLD, HOME, RobotModel, model_of
 from ocs_design.export.snapshot import snapshot
 from ocs_design.export.templates import fill, in_comment, numbers, quoted, template_text
 from ocs_design.export.visuals import WHEEL_MESH
-from ocs_design.robot.robot import Format
+from ocs_design.robot.robot import RobotFormat
 
 _MESHES = PurePath(WHEEL_MESH).parent
 
@@ -159,7 +159,7 @@ def readme(subject: Subject, data: mujoco.MjData, file: str, picture: str) -> st
         "legs": (drives if legs else "None was recognised.") if model.driven else own,
         "others": others if held else "",
         "contact": "The robot's own contacts are as in its file"
-        if robot.format is Format.MJCF
+        if robot.format is RobotFormat.MJCF
         else "Links collide with floors and objects, not with each other, as in the flights",
         "wheels": ", ".join(f"`{joint}`" for joint in joint_names(device)),
     }

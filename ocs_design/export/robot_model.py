@@ -27,7 +27,7 @@ from ocs_design.robot.links import unused_name
 from ocs_design.robot.mjcf_spec import compiled
 from ocs_design.robot.mujoco_bodies import GEOM_TYPES, HIDDEN_GROUP, VISUAL_GROUP, quaternion
 from ocs_design.robot.mujoco_model import build_spec
-from ocs_design.robot.robot import Format, Robot
+from ocs_design.robot.robot import Robot, RobotFormat
 
 HOME = f"{PREFIX}home"
 """Keyframe in which the robot stands in its nominal posture and its actuators carry its weight."""
@@ -71,7 +71,7 @@ def robot_model(robot: Robot, device: Device) -> RobotModel:
     built = build_spec(robot)
     spec = built.spec
     flight_options(spec)
-    if robot.format is not Format.MJCF:
+    if robot.format is not RobotFormat.MJCF:
         # As in the flights. MJX also lacks contacts of cylinders with boxes and meshes.
         meet_no_link(spec)
         for pair in list(spec.excludes):

@@ -22,7 +22,7 @@ from ocs_design.export.visuals import WHEEL_MESH, Visual, plain_visuals, still_v
 from ocs_design.robot.leg_geometry import BASE_FRAME
 from ocs_design.robot.links import unused_name
 from ocs_design.robot.mass import MassProperties
-from ocs_design.robot.robot import Format, Mount, Robot
+from ocs_design.robot.robot import Mount, Robot, RobotFormat
 from ocs_design.robot.tree import Body, Joint, JointKind, Shape, ShapeKind, Tree
 from ocs_design.robot.xml import parse_xml
 
@@ -55,9 +55,9 @@ def robot_urdf(robot: Robot, device: Device) -> bytes:
     A user's URDF is preserved byte for byte, with its references to meshes: those relative to the
     file are valid only in its folder. Other robots are written from what was read.
     """
-    content = robot.content if robot.format is Format.URDF else tree_urdf(robot.tree).encode()
+    content = robot.content if robot.format is RobotFormat.URDF else tree_urdf(robot.tree).encode()
     root = parse_xml(content)
-    base = () if robot.mount is None or robot.format is not Format.URDF else (BASE_FRAME,)
+    base = () if robot.mount is None or robot.format is not RobotFormat.URDF else (BASE_FRAME,)
     made = list(device_bodies(device))
     links, joints = [body.name for body in made], [body.joint or body.name for body in made]
     for kind, names in (("link", links), ("joint", joints)):
@@ -67,14 +67,14 @@ def robot_urdf(robot: Robot, device: Device) -> bytes:
     )
     elements = device_urdf(device, robot.trunk, mesh=WHEEL_MESH)
     # A URDF written from the tree already has the base frame.
-    if robot.mount is not None and robot.format is Format.URDF:
+    if robot.mount is not None and robot.format is RobotFormat.URDF:
         elements = mount_urdf(robot.mount) + elements
     return insert_before_end(content, heading + elements)
 
 
 def urdf_notes(robot: Robot) -> Notes:
     """Notes for users of the written URDF."""
-    if robot.format is not Format.URDF:
+    if robot.format is not RobotFormat.URDF:
         return ()
     meshes = {mesh.get("filename", "") for mesh in parse_xml(robot.content).iter("mesh")}
     relative = [name for name in meshes if "://" not in name and not PurePath(name).is_absolute()]

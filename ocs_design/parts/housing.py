@@ -29,7 +29,7 @@ from ocs_design.parts.printed import (
     half_height,
 )
 from ocs_design.parts.shapes import EAR_COUNT, Disc, Eared
-from ocs_design.parts.solids import Part, Prism, Shape
+from ocs_design.parts.solids import Part, Prism, Region
 
 FIRST_EAR = pi / 4.0
 """Angle of the first ear from the x axis [rad]: none protrudes below, above, in front or behind."""
@@ -75,7 +75,7 @@ class Housing(Generic[Real]):
         return half_height(self.rim_height)
 
     @property
-    def band(self) -> Shape[Real]:
+    def band(self) -> Region[Real]:
         """The band's disc, with ears if there is a screw for them."""
         if self.lid_screw is None:
             return Disc(self.radius)
@@ -104,7 +104,7 @@ def undrilled(housing: Housing[Real]) -> tuple[Part[Real], Part[Real]]:
     """Drum and lid without the mount's holes; see `Housing` for sizes."""
     low, high, held = -housing.half_height, housing.half_height, housing.lid_screw
     floor, under = low + PANEL, high - PANEL
-    band: Shape[Real] = housing.band
+    band: Region[Real] = housing.band
     room: Prism[Real] = Prism(Disc(housing.inner_radius), floor, under)
     drum, lid = Prism(band, low, under), Prism(band, under, high)
     if held is None or not isinstance(band, Eared):

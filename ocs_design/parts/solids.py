@@ -22,7 +22,7 @@ THREE_POINTS = tuple(map(frozen, np.polynomial.legendre.leggauss(3)))
 """Nodes and weights of three-point Gauss quadrature on [-1, 1]."""
 
 
-class Shape(Protocol[Real]):
+class Region(Protocol[Real]):
     """A region of a plane."""
 
     @property
@@ -90,7 +90,7 @@ class Prism(Generic[Real]):
         first: angle of the first of them around that axis [rad].
     """
 
-    shape: Shape[Real]
+    shape: Region[Real]
     low: Real | float
     high: Real | float
     placement: Placement = HERE

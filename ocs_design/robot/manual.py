@@ -10,7 +10,7 @@ from ocs_design.common.errors import RobotError, UsageError
 from ocs_design.common.frames import Placement
 from ocs_design.common.units import UNITS, Dimension
 from ocs_design.robot.mass import MassProperties, ball_density, impossible_size, solid_defect
-from ocs_design.robot.robot import Format, Robot
+from ocs_design.robot.robot import Robot, RobotFormat
 from ocs_design.robot.tree import Body, Shape, ShapeKind, Tree
 
 TRUNK = "base"
@@ -55,7 +55,7 @@ def robot_by_hand(
         name=name,
         source="by hand",
         sha256="",
-        format=Format.MANUAL,
+        format=RobotFormat.MANUAL,
         content=b"",
         tree=Tree(name, (body,)),
         trunk=TRUNK,
@@ -141,7 +141,7 @@ def assumed_trunk(robot: Robot) -> Shape | None:
 
     A person wears the device, and nothing is placed by that box.
     """
-    by_hand = robot.format is Format.MANUAL and robot.worn_at is None
+    by_hand = robot.format is RobotFormat.MANUAL and robot.worn_at is None
     return robot.tree.bodies[0].shapes[0] if by_hand else None
 
 

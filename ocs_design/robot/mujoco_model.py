@@ -13,7 +13,7 @@ from ocs_design.common.frames import Placement
 from ocs_design.robot.links import Warnings, unused_name
 from ocs_design.robot.mjcf_spec import compiled, delete_geom, parse_mjcf
 from ocs_design.robot.mujoco_bodies import body_names, drop_refused_meshes, spec_from_tree
-from ocs_design.robot.robot import Format, Leg, Robot
+from ocs_design.robot.robot import Leg, Robot, RobotFormat
 from ocs_design.robot.source import STANDARD_INPUT
 
 _FOOT_SHARE = 0.02
@@ -329,7 +329,7 @@ def plain_spec(robot: Robot, warnings: Warnings, *, visuals: bool) -> mujoco.MjS
         warnings: receives what was changed for MuJoCo.
         visuals: whether to load visual shapes; an MJCF robot keeps them in any case.
     """
-    if robot.format is not Format.MJCF:
+    if robot.format is not RobotFormat.MJCF:
         return spec_from_tree(robot.tree, warnings, visuals=visuals)
     folder = Path.cwd() if robot.source == STANDARD_INPUT else Path(robot.source).absolute().parent
     # The reader has already warned of oddities in the file itself.
@@ -345,7 +345,7 @@ def compile_spec(spec: mujoco.MjSpec, robot: Robot, warnings: Warnings) -> mujoc
     try:
         return compiled(spec)
     except RobotError:
-        if robot.format is Format.MJCF:
+        if robot.format is RobotFormat.MJCF:
             raise
         drop_refused_meshes(spec, warnings)
         return compiled(spec)
@@ -353,7 +353,7 @@ def compile_spec(spec: mujoco.MjSpec, robot: Robot, warnings: Warnings) -> mujoc
 
 def trunk_body(spec: mujoco.MjSpec, robot: Robot) -> tuple[mujoco.MjsBody, Placement]:
     """The trunk's body in a spec of `build_spec`, and the base frame B in that body's frame."""
-    if robot.format is Format.MJCF:
+    if robot.format is RobotFormat.MJCF:
         # The tree merges welded bodies; in the user's model they are still separate.
         if robot.mount is not None:
             return spec.body(robot.mount.link), robot.mount.placement

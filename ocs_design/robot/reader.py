@@ -20,7 +20,7 @@ from ocs_design.robot.meshes import MESHES, lacks_mesh, trunk_top, unmeasured, w
 from ocs_design.robot.packages import MeshFinder
 from ocs_design.robot.posture import resolve_posture, unknown_name
 from ocs_design.robot.recognition import recognise
-from ocs_design.robot.robot import Format, Leg, Robot
+from ocs_design.robot.robot import Leg, Robot, RobotFormat
 from ocs_design.robot.source import Source, read_source
 from ocs_design.robot.tree import Tree
 from ocs_design.robot.urdf import is_xacro, read_urdf
@@ -104,7 +104,7 @@ class Loaded:
     """
 
     tree: Tree
-    format: Format
+    format: RobotFormat
     content: bytes
     sha256: str
     source: str
@@ -172,7 +172,7 @@ def _load(read: Source, package_paths: Mapping[str, Path], named: Sequence[str])
         tree = read_mjcf(content, folder, named)
         unseen = any(map(lacks_mesh, tree.bodies))
         cure = f"put them where the model names them, below {folder}" if unseen else ""
-        return Loaded(tree, Format.MJCF, content, read.sha256, read.path_text, cure)
+        return Loaded(tree, RobotFormat.MJCF, content, read.sha256, read.path_text, cure)
     if root.tag == "robot" and is_xacro(root):
         content = expand_xacro(content, folder / Path(read.path_text).name, package_paths)
     finder = MeshFinder(folder, package_paths)
@@ -185,7 +185,7 @@ def _load(read: Source, package_paths: Mapping[str, Path], named: Sequence[str])
     postures = postures_beside(read, tree, warnings)
     every = (*tree.warnings, *warnings.sentences())
     tree = replace(tree, named_postures=postures, warnings=every)
-    return Loaded(tree, Format.URDF, content, read.sha256, read.path_text, cure)
+    return Loaded(tree, RobotFormat.URDF, content, read.sha256, read.path_text, cure)
 
 
 def read_robot(

@@ -13,7 +13,7 @@ from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.tree import Tree
 
 
-class Format(StrEnum):
+class RobotFormat(StrEnum):
     """Format of the description from which a robot was read."""
 
     URDF = "urdf"
@@ -169,7 +169,7 @@ class Robot:
         name: from the file, or given.
         source: path as the user wrote it, `-` for standard input, `by hand`.
         sha256: of the bytes that were read; empty by hand.
-        format: see `Format`.
+        format: see `RobotFormat`.
         content: the file's text as bytes, unzipped and expanded; empty by hand.
         tree: moving bodies; by hand, one body with the homogeneous box of the same inertia.
         trunk: link that carries the device; its frame is the base frame B; see also `mount`.
@@ -191,7 +191,7 @@ class Robot:
     name: str
     source: str
     sha256: str
-    format: Format
+    format: RobotFormat
     content: bytes
     tree: Tree
     trunk: str

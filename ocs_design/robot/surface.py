@@ -18,7 +18,7 @@ from ocs_design.robot.meshes import (
     check_mesh_file,
     load_with_trimesh,
 )
-from ocs_design.robot.robot import Format, Robot
+from ocs_design.robot.robot import Robot, RobotFormat
 from ocs_design.robot.tree import Shape, ShapeKind
 
 STEP = 1e-3
@@ -41,7 +41,7 @@ _ROUND = 96
 
 
 @dataclass(frozen=True, eq=False)
-class Surface:
+class HeightMap:
     """Height of the highest point over each place of a grid.
 
     Attributes:
@@ -97,7 +97,7 @@ class Surface:
 
 
 @lru_cache(maxsize=1)
-def trunk_surface(robot: Robot) -> Surface | None:
+def trunk_surface(robot: Robot) -> HeightMap | None:
     """Upper surface of the trunk and everything fixed to it; None if its shapes are not known.
 
     Visual shapes are used; if none of them can be read, collision shapes.
@@ -107,13 +107,13 @@ def trunk_surface(robot: Robot) -> Surface | None:
 
 
 @lru_cache(maxsize=1)
-def trunk_back(robot: Robot) -> Surface | None:
+def trunk_back(robot: Robot) -> HeightMap | None:
     """Surface of the trunk's back, x up and z backwards; None if its shapes are not known."""
     triangles = trunk_triangles(robot)
     return None if triangles is None else surface_of(triangles @ BACKWARDS)
 
 
-def surface_of(triangles: FloatArray) -> Surface:
+def surface_of(triangles: FloatArray) -> HeightMap:
     """Map of the highest point of any triangle over each place of a grid.
 
     Args:
@@ -151,7 +151,7 @@ def surface_of(triangles: FloatArray) -> Surface:
         window = heights[i[0] : i[-1] + 1, j[0] : j[-1] + 1]
         x, y = origin[0] + step * i[:, None], origin[1] + step * j
         np.maximum(window, _heights_on(triangles[row], x, y), out=window)
-    return Surface(float(origin[0]), float(origin[1]), step, frozen(heights))
+    return HeightMap(float(origin[0]), float(origin[1]), step, frozen(heights))
 
 
 def _heights_on(corners: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
@@ -177,7 +177,7 @@ def _heights_on(corners: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray
 def trunk_triangles(robot: Robot) -> FloatArray | None:
     """Triangles of the trunk's shapes in B [m], shape (n, 3, 3); None if they are not known."""
     # The box of a robot given by hand only represents its inertia.
-    if robot.format is Format.MANUAL:
+    if robot.format is RobotFormat.MANUAL:
         return None
     body = robot.tree.bodies[robot.tree.body_of_link[robot.trunk]]
     base = body.links[robot.trunk]

@@ -8,6 +8,7 @@ import numpy as np
 
 from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray
+from ocs_design.common.wording import degrees_number
 from ocs_design.export.physics import STEADY_LEGS
 from ocs_design.requirement.boundary import End
 from ocs_design.requirement.maneuver import Maneuver
@@ -103,9 +104,9 @@ def _landing_verdict(
         return failure
     landing, final = f"{_ends(maneuver)} at {_tilt(metrics)}", _final_tilt(metrics)
     if maneuver.heads:
-        landing += f", heading turned by {_degrees(metrics.heading_drift)} deg"
+        landing += f", heading turned by {degrees_number(metrics.heading_drift)} deg"
         if any(landing_attitude(maneuver)[:2]):
-            off = _degrees(off_at_touchdown(metrics, maneuver))
+            off = degrees_number(off_at_touchdown(metrics, maneuver))
             landing += f", its vertical {off} deg off what is asked"
     if not maneuver.gravity:
         return Verdict(True, landing)
@@ -221,19 +222,19 @@ def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> Verdict | None:
     """What was wrong up to touchdown; None if nothing."""
     angle = float(maneuver.angles[1])
     if maneuver.turns_over and abs(metrics.turned_angle - angle) > LANDING_TOLERANCE:
-        share = f"{_degrees(metrics.turned_angle)} of {np.degrees(angle):.0f} deg"
+        share = f"{degrees_number(metrics.turned_angle)} of {np.degrees(angle):.0f} deg"
         failure = f"turns {share} before touchdown"
         return Verdict(False, failure, Fault.TURN)
     _, _, heading = landing_attitude(maneuver)
     if heading is not None:
         turned = metrics.heading_drift
         if abs(remainder(turned - heading, tau)) > LANDING_TOLERANCE:
-            made = f"{_degrees(turned)} of {_degrees(heading)} deg"
+            made = f"{degrees_number(turned)} of {degrees_number(heading)} deg"
             failure = f"{_ends(maneuver)} with its heading turned by {made}"
             return Verdict(False, failure, Fault.TURN)
     if failure := _landing_failure(metrics, maneuver):
         if maneuver.turns_over and abs(remainder(angle, tau)) > LANDING_TOLERANCE:
-            asked = _degrees(angle)
+            asked = degrees_number(angle)
             failure += f": a turn of {asked} deg does not end level, one of 360 deg does"
         return Verdict(False, failure, Fault.LANDING)
     return None
@@ -325,10 +326,4 @@ def _final_tilt(metrics: Metrics) -> str:
 
 
 def _angles(pitch: float, roll: float) -> str:
-    return f"pitch {_degrees(pitch)}, roll {_degrees(roll)} deg"
-
-
-def _degrees(angle: float) -> str:
-    """Angle [rad] in degrees with one decimal, and no minus sign before zero."""
-    text = f"{np.degrees(angle):.1f}"
-    return "0.0" if text == "-0.0" else text
+    return f"pitch {degrees_number(pitch)}, roll {degrees_number(roll)} deg"

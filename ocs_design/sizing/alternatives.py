@@ -29,7 +29,7 @@ from ocs_design.sizing.selection.problem import (
     devices_by_mass,
 )
 from ocs_design.sizing.selection.select import devices_at, lightest_below
-from ocs_design.sizing.sized import Choice
+from ocs_design.sizing.sized import DriveChoice
 from ocs_design.sizing.specified import (
     other_construction,
     specified_criterion,
@@ -47,7 +47,7 @@ _WORTH = 0.005
 
 
 def lighter_otherwise(
-    task: Task, choice: Choice | None, call: Callable[..., Callable[[], Any]] = partial
+    task: Task, choice: DriveChoice | None, call: Callable[..., Callable[[], Any]] = partial
 ) -> Callable[[], tuple[tuple[Alternative, ...], Owed | None]]:
     """Start computing what each change would save, and which maneuver drives the mass.
 
@@ -90,10 +90,10 @@ class Variant:
 
     text: str
     task: Task
-    choice: Choice
+    choice: DriveChoice
 
     @classmethod
-    def of(cls, change: Change, task: Task, choice: Choice) -> "Variant | None":
+    def of(cls, change: Change, task: Task, choice: DriveChoice) -> "Variant | None":
         """A task with a change; None: it contradicts the task, or no motor suits it."""
         try:
             changed = task.with_specification(change.specification)
@@ -202,7 +202,7 @@ def _whole(task: Task, near: Candidate | None = None) -> Candidate | None:
     return None if own.choice is None else own.choice.chosen
 
 
-def built_otherwise(task: Task, choice: Choice | None) -> tuple[Alternative, ...]:
+def built_otherwise(task: Task, choice: DriveChoice | None) -> tuple[Alternative, ...]:
     """The device with rings in place of discs, or discs in place of rings; empty if infeasible.
 
     It is reported whether lighter or not, unless the device has no mount. All drives are tried:
@@ -225,13 +225,13 @@ def built_otherwise(task: Task, choice: Choice | None) -> tuple[Alternative, ...
     return () if found is None else (_answer(text, found, f"--wheel {wheel}"),)
 
 
-def variants(task: Task, choice: Choice) -> Iterator[Variant]:
+def variants(task: Task, choice: DriveChoice) -> Iterator[Variant]:
     """The task with each single change of its specification."""
     found = (Variant.of(change, task, choice) for change in changes(task))
     return (variant for variant in found if variant is not None)
 
 
-def owed_to(task: Task, choice: Choice | None) -> Owed | None:
+def owed_to(task: Task, choice: DriveChoice | None) -> Owed | None:
     """The maneuver without which the device would be lightest; None: there are no maneuvers."""
     if choice is None:
         return None
@@ -265,7 +265,7 @@ _SHARP = 0.005
 
 
 def lighter_by(
-    mass: float, task: Task, choice: Choice, owed: str, progress: Progress = unseen
+    mass: float, task: Task, choice: DriveChoice, owed: str, progress: Progress = unseen
 ) -> tuple[Alternative, ...]:
     """Changes of the specification, each of which saves the given mass.
 

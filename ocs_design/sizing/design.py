@@ -31,7 +31,7 @@ from ocs_design.sizing.reserve import Reality, Reserve, account
 from ocs_design.sizing.selection.device import with_demands
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
 from ocs_design.sizing.selection.select import device_at
-from ocs_design.sizing.sized import Choice, Designed, sized_by_bound, sized_selection
+from ocs_design.sizing.sized import Designed, DriveChoice, sized_by_bound, sized_selection
 from ocs_design.sizing.specified import require_survival, selection_problem, specified_criterion
 
 BY_HAND = "by hand"
@@ -291,7 +291,7 @@ def _by_selection(
         device=device,
         sized=replace(sized_selection(problem, chosen, robot.mass_properties), total=total),
         criterion=BY_HAND if stated else name,
-        choice=Choice(problem, selection, chosen, co_designed, hangs),
+        choice=DriveChoice(problem, selection, chosen, co_designed, hangs),
         reserve=reserve,
         account=lambda: account(reserve, reality, problem, chosen, resized, nominal=least()),
     )

@@ -46,7 +46,7 @@ Spot = tuple[float, float, float]
 
 
 @dataclass(frozen=True, eq=False)
-class Face:
+class TrunkSide:
     """A side of the box around the trunk.
 
     Attributes:
@@ -95,7 +95,7 @@ class Face:
                     yield shift, offset, stand_off
 
 
-def faces(robot: Robot, layout: Layout = PAIR) -> tuple[Face, ...]:
+def faces(robot: Robot, layout: Layout = PAIR) -> tuple[TrunkSide, ...]:
     """Top, back and flanks of the trunk; only pairs stand behind or beside it.
 
     Nothing is put beneath it, where a robot lands that falls short, or in front, where legs fold up
@@ -111,16 +111,16 @@ def faces(robot: Robot, layout: Layout = PAIR) -> tuple[Face, ...]:
     found = (
         _sagittal_face(robot, ON_TOP, UP, FORWARD),
         _sagittal_face(robot, "behind", -FORWARD, UP),
-        Face("beside", LEFT, FORWARD, UP, SPACING * LEFT, flank, shifts, offsets),
+        TrunkSide("beside", LEFT, FORWARD, UP, SPACING * LEFT, flank, shifts, offsets),
     )
     return tuple(replace(face, layout=layout) for face in found)
 
 
-def _sagittal_face(robot: Robot, name: str, normal: FloatArray, along: FloatArray) -> Face:
+def _sagittal_face(robot: Robot, name: str, normal: FloatArray, along: FloatArray) -> TrunkSide:
     """Face with both modules side by side, at most as far apart as the trunk is wide."""
     shift, shifts = _range(robot, along)
     upright = name == ON_TOP
-    return Face(
+    return TrunkSide(
         name,
         normal,
         along,
@@ -245,7 +245,7 @@ class Search:
         """Search for modules of this size alone."""
         return cls(collision_model(robot), Sizes(size, size), layout, on_feet)
 
-    def spots(self) -> list[tuple[Face, Spot]]:
+    def spots(self) -> list[tuple[TrunkSide, Spot]]:
         """Spots of all faces, the nearest first."""
         found = [
             (face, spot)
@@ -274,7 +274,7 @@ class Search:
             for solid in collision.near(solids, pose, others, -_ROUNDING)
         )
 
-    def drawn_in(self, face: Face, spot: Spot) -> Spot:
+    def drawn_in(self, face: TrunkSide, spot: Spot) -> Spot:
         """Free spot refined between grid points, nearer to the face and the trunk's centre."""
         for axis in (2, 1, 0):
             step = np.sign(spot[axis]) * min(STEP * self.sizes.largest.reach, abs(spot[axis]))

@@ -37,7 +37,7 @@ from ocs_design.robot.collision import CollisionModel, Nearest, collision_model
 from ocs_design.robot.mass import MassProperties
 from ocs_design.robot.probe import Drum
 from ocs_design.robot.robot import Robot
-from ocs_design.robot.surface import Surface, trunk_back, trunk_surface
+from ocs_design.robot.surface import HeightMap, trunk_back, trunk_surface
 from ocs_design.sizing.footing.contact import (
     PROUD,
     FootContact,
@@ -276,7 +276,7 @@ def _nearest_part(
     collision: CollisionModel,
     device: Device,
     flown: Sequence[Sequence[ModuleSolids]],
-    surface: Surface | None,
+    surface: HeightMap | None,
 ) -> Clearance | None:
     """The nearest of all links, the plate and other modules; a module is named after its wheel.
 
@@ -322,7 +322,7 @@ def _nearest_part(
     return min(known, key=lambda each: each.distance)
 
 
-def _above(surface: Surface, solid: Drum) -> float:
+def _above(surface: HeightMap, solid: Drum) -> float:
     """Least height of a cylinder above the trunk's surface [m]; inf: nothing is below."""
     side = np.cross(solid.axis, [0.0, 0.0, 1.0] if abs(solid.axis[2]) < 0.9 else [1.0, 0.0, 0.0])
     side /= np.linalg.norm(side)

@@ -150,7 +150,7 @@ def _shadow_prices(problem: SelectionProblem, chosen: Candidate) -> dict[str, fl
 
 
 @dataclass(frozen=True, eq=False)
-class Choice:
+class DriveChoice:
     """How motor, gear and material were chosen.
 
     Attributes:
@@ -183,7 +183,7 @@ class Designed:
     device: Device
     sized: Sized
     criterion: str
-    choice: Choice | None
+    choice: DriveChoice | None
     reserve: Reserve | None = None
     account: Callable[[], ReserveRecord | None] = lambda: None
     requirement: Requirement | None = None

@@ -70,7 +70,7 @@ def trajectories(plans: Mapping[str, "Reference"]) -> Mapping[str, Trajectory]:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Planned(Flights):
+class PlannedFlights(Flights):
     """Flights of a design, with progress reports.
 
     Attributes:
@@ -118,7 +118,7 @@ class Planned(Flights):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class DesignFlights(Planned):
+class DesignFlights(PlannedFlights):
     """Flights of a design that was read from its file, of at least one maneuver.
 
     Attributes:

@@ -44,10 +44,10 @@ from ocs_design.robot.robot import Robot
 from ocs_design.simulation.run import Run
 from ocs_design.sizing.mounting import DeviceMounting
 from ocs_design.sizing.selection.refinement import mass_prices
-from ocs_design.sizing.sized import Choice, Designed
+from ocs_design.sizing.sized import Designed, DriveChoice
 
 
-def record_selection(choice: Choice, kept: ReserveRecord | None = None) -> SelectionRecord:
+def record_selection(choice: DriveChoice, kept: ReserveRecord | None = None) -> SelectionRecord:
     """Record of how motor, gear, material and incidence were chosen."""
     problem, chosen, selection = choice.problem, choice.chosen, choice.selection
     return SelectionRecord(

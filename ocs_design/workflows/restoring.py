@@ -22,7 +22,7 @@ from ocs_design.robot.leg_geometry import BASE_FRAME
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.posture import OUTSIDE
 from ocs_design.robot.reader import read_robot
-from ocs_design.robot.robot import Format, Mount, Robot
+from ocs_design.robot.robot import Mount, Robot, RobotFormat
 from ocs_design.robot.source import STANDARD_INPUT, read_source
 
 
@@ -62,7 +62,7 @@ def robot_of(record: RobotRecord, path: AnyPath, package_paths: Mapping[str, Any
     Raises:
         RobotError: the file lacks the trunk or a joint of the record.
     """
-    if record.format == Format.MANUAL:
+    if record.format == RobotFormat.MANUAL:
         (xx, xy, xz), (_, yy, yz), (_, _, zz) = record.inertia
         return robot_by_hand(record.mass, (xx, yy, zz, xy, xz, yz), record.com, record.name)
     # A base frame that was found, and is not a link of the file, is found again.
@@ -132,7 +132,7 @@ def read_recorded_robot(
         for name, text in record.package_paths.items()
     }
     source = where.robot_file
-    if source is None and record.format == Format.MANUAL:
+    if source is None and record.format == RobotFormat.MANUAL:
         source = Path(record.source)
     elif source is None:
         if record.source == STANDARD_INPUT:

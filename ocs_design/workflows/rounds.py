@@ -52,7 +52,7 @@ from ocs_design.sizing.selection.rejections import Refused
 from ocs_design.sizing.sized import Designed
 from ocs_design.sizing.specified import CannotSurvive
 from ocs_design.workflows.flying import (
-    Planned,
+    PlannedFlights,
     planned,
     trajectories,
 )
@@ -330,7 +330,7 @@ class Proof:
     """
 
     references: Mapping[str, "Reference"]
-    flights: Planned
+    flights: PlannedFlights
     runs: tuple[Run, ...] = ()
     survival: SurvivalRecord | None = None
     certificate: Certificate | None = None
@@ -347,7 +347,7 @@ def prove(placed: Placed, stated: ValidationSection, steps: Steps) -> Proof:
             others = [name for name, jump in jumps.items() if jump.carrying.legs is None]
             step.note = f"starting at lift-off: {', '.join(others)}" if others else ""
     control = control_of(stated, placed.robot)
-    flights = Planned(
+    flights = PlannedFlights(
         placed.robot,
         placed.designed.device,
         requirement.maneuvers,

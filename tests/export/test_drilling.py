@@ -11,7 +11,7 @@ from wheels import paper_device
 
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.export.device_parts import foot_holes
-from ocs_design.export.drawing.sheet import HEIGHT, THIN, Area, Circle, Line, Text
+from ocs_design.export.drawing.sheet import HEIGHT, THIN, Area, Circle, Lettering, Line
 from ocs_design.export.drawing.writers import pdf_of_pages
 from ocs_design.export.drilling import CHECK, SHEET, drilling_of, pages
 from ocs_design.export.formats import Base, Subject
@@ -65,7 +65,7 @@ def test_on_paper_the_holes_are_in_full_size_with_forward_up(device):
     offset = found - expected
     np.testing.assert_allclose(offset, offset[[0]].repeat(len(offset), axis=0), atol=1e-9)
     assert all(each.radius == pytest.approx(1.25) for each in thick)
-    words = " ".join(each.text for each in page if isinstance(each, Text))
+    words = " ".join(each.text for each in page if isinstance(each, Lettering))
     assert f"dog: drill {len(thick)} holes of 2.5 mm at the crosses, and tap M3" in words
     levels = [each for each in page if isinstance(each, Line) and each.start[1] == each.end[1]]
     below = [each for each in levels if each.start[1] > bottom and each.start[0] == left]
@@ -74,7 +74,7 @@ def test_on_paper_the_holes_are_in_full_size_with_forward_up(device):
 
 def test_thin_lines_end_at_coordinates(device):
     (page,) = pages(drilling_of(subject(device)))
-    numbers = [each for each in page if isinstance(each, Text) and each.height == 1.8]
+    numbers = [each for each in page if isinstance(each, Lettering) and each.height == 1.8]
     assert len(numbers) == len(trunk_holes(device))
     last = max(k for k, each in enumerate(page) if isinstance(each, Circle) and each.pen == THIN)
     white = ((k, each) for k, each in enumerate(page) if isinstance(each, Area) and each.white)
@@ -93,7 +93,7 @@ def test_what_is_wider_than_a_sheet_goes_on_several():
     for sheet in sheets:
         *_, cover = (k for k, each in enumerate(sheet) if isinstance(each, Area) and each.white)
         assert {y for _, y in sheet[cover].corners} == {SHEET[3], HEIGHT}
-        assert any("100 %" in each.text for each in sheet[cover:] if isinstance(each, Text))
+        assert any("100 %" in each.text for each in sheet[cover:] if isinstance(each, Lettering))
     left, top, right, bottom = SHEET
     assert len(sheets) == 2
     held = [
@@ -105,7 +105,9 @@ def test_what_is_wider_than_a_sheet_goes_on_several():
         for sheet in sheets
     ]
     assert held == [2, 2]
-    assert "Sheet 2 of 2" in " ".join(each.text for each in sheets[1] if isinstance(each, Text))
+    assert "Sheet 2 of 2" in " ".join(
+        each.text for each in sheets[1] if isinstance(each, Lettering)
+    )
 
 
 def test_threads_are_as_deep_as_the_screws_go(device):
@@ -182,7 +184,7 @@ def test_what_cannot_be_built_is_not_drilled(device):
     """The verdict stands above everything else on each sheet, and no hole is asked for."""
     refused = "NOT buildable as it stands. The feet hang in the air; " + 40 * "give a place "
     for page in pages(drilling_of(subject(device, refused))):
-        texts = [each for each in page if isinstance(each, Text)]
+        texts = [each for each in page if isinstance(each, Lettering)]
         order = " ".join(each.text for each in sorted(texts, key=lambda each: each.place[1]))
         assert order.startswith("NOT buildable as it stands. The feet hang in the air;")
         assert "drill nothing by this sheet" in order

@@ -13,7 +13,7 @@ from urdf_text import TWO_LINKS
 
 from ocs_design.common.errors import RobotError
 from ocs_design.robot.reader import find_srdfs, load, read_group_states, read_robot
-from ocs_design.robot.robot import Format
+from ocs_design.robot.robot import RobotFormat
 
 QUADRUPED = ROBOTS / "quadruped_description/urdf/quadruped.urdf"
 HUMAN = ROBOTS / "human_description/robots/human.urdf"
@@ -22,7 +22,7 @@ HUMAN = ROBOTS / "human_description/robots/human.urdf"
 def test_solo12_with_no_option():
     found = read_robot(SOLO12)
     assert found.name == "solo"
-    assert found.format is Format.URDF
+    assert found.format is RobotFormat.URDF
     assert (found.trunk, found.floating_base, found.posture_name) == (
         "base_link",
         "base_link",
@@ -78,7 +78,9 @@ MJCF = (
 )
 
 
-@pytest.mark.parametrize(("content", "expected"), [(TWO_LINKS, Format.URDF), (MJCF, Format.MJCF)])
+@pytest.mark.parametrize(
+    ("content", "expected"), [(TWO_LINKS, RobotFormat.URDF), (MJCF, RobotFormat.MJCF)]
+)
 @pytest.mark.parametrize("name", ["robot.urdf", "robot.xml", "robot"])
 def test_the_content_chooses_the_format_and_not_the_name(tmp_path: Path, content, expected, name):
     path = tmp_path / name

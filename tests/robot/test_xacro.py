@@ -8,7 +8,7 @@ import pytest
 from ocs_design.common.errors import MissingToolError, RobotError
 from ocs_design.robot import xacro
 from ocs_design.robot.reader import load
-from ocs_design.robot.robot import Format
+from ocs_design.robot.robot import RobotFormat
 from ocs_design.robot.xacro import check_expression, check_variable
 
 XACRO = """<robot name="test" xmlns:xacro="http://www.ros.org/wiki/xacro">
@@ -37,7 +37,7 @@ def write(folder: Path, include: str) -> Path:
 def test_a_xacro_is_expanded(tmp_path: Path, include: str):
     pytest.importorskip("xacro", reason="the extra [xacro] is not installed")
     loaded = load(write(tmp_path, include))
-    assert loaded.format is Format.URDF
+    assert loaded.format is RobotFormat.URDF
     assert loaded.tree.bodies[0].mass_properties.mass == 5.0
     assert b"xacro:" not in loaded.content
     assert "ament_index_python" not in sys.modules

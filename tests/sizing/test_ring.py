@@ -17,7 +17,7 @@ from ocs_design.export.assembly.booklet import assembly_pages, chapters, piece_r
 from ocs_design.export.assembly.content import Assembly
 from ocs_design.export.assembly.placed import bonding_pieces, placed_parts
 from ocs_design.export.bill_of_materials import bill_rows
-from ocs_design.export.drawing.sheet import Text
+from ocs_design.export.drawing.sheet import Lettering
 from ocs_design.parts.bell import FIXTURE_FIT, FIXTURE_FLOOR, GLUE_GAP
 from ocs_design.parts.module import Printed
 from ocs_design.parts.motor_mount import mount_of
@@ -271,7 +271,7 @@ def test_the_booklet_has_the_fixture_in_table_picture_and_steps():
     before = next(each for each in chapters(assembly) if each.title.startswith("Before")).texts
     assert any("strips of 1.5 mm for gaps" in text for text in before)
     page = assembly_pages(assembly)[1]
-    texts = [item.text for item in page if isinstance(item, Text)]
+    texts = [item.text for item in page if isinstance(item, Lettering)]
     assert str(row.number) in texts
     assert sum(text.startswith("One module cut along its axis, 1:") for text in texts) == 1
     assert not Assembly("solo12", made("disc")[1].device).bonding

@@ -29,10 +29,10 @@ from ocs_design.export.drawing.sheet import (
     Box,
     Circle,
     Item,
+    Lettering,
     Line,
     Polyline,
     Scale,
-    Text,
     fitted,
     wrapped,
 )
@@ -140,7 +140,7 @@ def assembly_pages(assembly: Assembly) -> list[list[Item]]:
     view, scale = _exploded(assembly)
     first = [*view, *_scale("One module pulled apart", scale, EXPLODED_BOX)]
     for line, text in enumerate(_refused_lines(assembly)):
-        first.append(Text((LEFT + _INSET, TOP + 15.0 + line * _LEADING), text, _HEADING))
+        first.append(Lettering((LEFT + _INSET, TOP + 15.0 + line * _LEADING), text, _HEADING))
     cells = [tuple(map(str, row)) for row in piece_rows(assembly)]
     top = EXPLODED_BOX[3] + 3.0
     width = (RIGHT - LEFT - 2.0 * _INSET - _GUTTER) / 2.0
@@ -166,8 +166,8 @@ def assembly_pages(assembly: Assembly) -> list[list[Item]]:
     for number, body in enumerate(bodies, start=1):
         sheet = f"{identity} · sheet {number} / {len(bodies)}"
         heading: list[Item] = [
-            Text((LEFT + _INSET, y), title, _TITLE),
-            Text((RIGHT - _INSET, y), sheet, _TEXT, Anchor.END),
+            Lettering((LEFT + _INSET, y), title, _TITLE),
+            Lettering((RIGHT - _INSET, y), sheet, _TEXT, Anchor.END),
             Line((LEFT, TOP + 10.0), (RIGHT, TOP + 10.0)),
         ]
         pages.append([*frame(), *heading, *body])
@@ -265,12 +265,12 @@ def _text_pages(assembly: Assembly, texts: Sequence[Chapter]) -> list[list[Item]
             lines = _lines(number, text, here)
         page, (left, top, *_) = here
         if number:
-            pages[page].append(Text((left, y), number, _TEXT))
+            pages[page].append(Lettering((left, y), number, _TEXT))
             left += _NUMBER
         elif y > top:
             y += _AFTER
         for line in lines:
-            pages[page].append(Text((left, y), line, _TEXT if number else _HEADING))
+            pages[page].append(Lettering((left, y), line, _TEXT if number else _HEADING))
             y += _LEADING
         y += _AFTER
     return pages
@@ -292,7 +292,7 @@ def _halves(top: float) -> list[Box]:
 
 
 def _scale(what: str, scale: Scale, box: Box) -> Iterator[Item]:
-    yield Text((box[0] + 2.0, box[3] - 1.0), f"{what}, {scale}", _TEXT)
+    yield Lettering((box[0] + 2.0, box[3] - 1.0), f"{what}, {scale}", _TEXT)
 
 
 def _table(
@@ -315,7 +315,7 @@ def _table(
         x = left
         for texts, width in zip(lines, wide, strict=True):
             for place, text in enumerate(texts):
-                items.append(Text((x, y + 3.0 + place * 3.1), text, _TEXT))
+                items.append(Lettering((x, y + 3.0 + place * 3.1), text, _TEXT))
             x += width
         y += 3.1 * max(1, *map(len, lines)) + 1.5
         items.append(Line((left, y), (right, y), THIN))

@@ -17,11 +17,11 @@ from ocs_design.export.drawing.sheet import (
     Box,
     Circle,
     Item,
+    Lettering,
     Line,
     Pen,
     Polyline,
     Scale,
-    Text,
     hatching,
     largest_scale,
 )
@@ -204,7 +204,7 @@ def _balloons(
             Circle(at, BALLOON, THIN),
             Line((float(start[0]), float(start[1])), to, THIN),
             Circle(to, 0.4, THIN),
-            Text((at[0], at[1] + 1.25), str(number), 2.5, Anchor.MIDDLE),
+            Lettering((at[0], at[1] + 1.25), str(number), 2.5, Anchor.MIDDLE),
         ]
     return items
 

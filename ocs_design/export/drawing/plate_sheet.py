@@ -25,11 +25,11 @@ from ocs_design.export.drawing.sheet import (
     Box,
     Circle,
     Item,
+    Lettering,
     Line,
     Point,
     Polyline,
     Scale,
-    Text,
     arrow,
     cross,
     extension,
@@ -194,9 +194,9 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
         Line((edge_left - 3.0, middle[1]), (edge_right + 3.0, middle[1]), CENTRE),
         Line((middle[0], upper - 3.0), (middle[0], lower + 3.0), CENTRE),
         arrow((middle[0], upper - 3.0), (0.0, -1.0)),
-        Text((middle[0] + 2.0, upper - 2.0), "x, forward", 1.8),
+        Lettering((middle[0] + 2.0, upper - 2.0), "x, forward", 1.8),
         arrow((edge_left - 3.0, middle[1]), (-1.0, 0.0)),
-        Text((edge_left - 4.0, middle[1] - 2.0), "y, left", 1.8, Anchor.END),
+        Lettering((edge_left - 4.0, middle[1] - 2.0), "y, left", 1.8, Anchor.END),
         *_tall(plain(tall), edge_right, (upper, lower)),
     ]
     # The edge seen from the front, below the plate in first-angle projection.
@@ -210,7 +210,7 @@ def _top_view(plate: CarrierPlate) -> tuple[Scale, list[Item]]:
     return scale, [*items, *_hole_table(plate)]
 
 
-def _named(name: str, at: Point, radius: float, lines: FloatArray) -> Text:
+def _named(name: str, at: Point, radius: float, lines: FloatArray) -> Lettering:
     """Name of a hole, placed beside it clear of lines, or inside a large hole.
 
     Args:
@@ -218,7 +218,7 @@ def _named(name: str, at: Point, radius: float, lines: FloatArray) -> Text:
         lines: points of all lines [mm], shape (n, 2).
     """
     aside, high = (1.0 if radius > _WINDOW else radius + 0.8), 1.8
-    found = Text((at[0] + aside, at[1] - aside), name, high)
+    found = Lettering((at[0] + aside, at[1] - aside), name, high)
     for right, up in ((1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)):
         x = at[0] + aside if right > 0.0 else at[0] - aside - found.width
         y = at[1] - aside if up > 0.0 else at[1] + aside + high
@@ -239,7 +239,7 @@ def _hole_table(plate: CarrierPlate) -> Iterator[Item]:
     ]
     for row in rows:
         for column, cell in zip(columns, row, strict=True):
-            yield Text((column, y), cell)
+            yield Lettering((column, y), cell)
         y += _ROW
         yield Line((x, y - 3.6), (RIGHT - 4.0, y - 3.6), THIN)
 
@@ -318,7 +318,7 @@ def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[Scale, list[Item]]:
         items += [
             Line((beside + 1.0, at), (beside + 8.0, at)),
             Line((beside + 8.0, at), (beside + 11.0, row)),
-            Text((beside + 12.0, row + 1.0), f"z = {1e3 * z:.2f}", 2.5),
+            Lettering((beside + 12.0, row + 1.0), f"z = {1e3 * z:.2f}", 2.5),
         ]
     y = back(0.0, mast.low)[1] + 8.0
     front, rear = side(mast.face, mast.low)[0], side(end, 0.0)[0]
@@ -331,8 +331,10 @@ def _mast_views(plate: CarrierPlate, mast: Mast) -> tuple[Scale, list[Item]]:
     items += level_dimension(
         plain(across[-1] - across[0]), left=ends[0], right=ends[1], y=y, text_x=ends[1] + 8.0
     )
-    items.append(Text(((front + rear) / 2.0, upper - 4.0), "from the left", 2.5, Anchor.MIDDLE))
-    items.append(Text((behind, upper - 4.0), "from behind", 2.5, Anchor.MIDDLE))
+    items.append(
+        Lettering(((front + rear) / 2.0, upper - 4.0), "from the left", 2.5, Anchor.MIDDLE)
+    )
+    items.append(Lettering((behind, upper - 4.0), "from behind", 2.5, Anchor.MIDDLE))
     return scale, items
 
 
@@ -389,5 +391,5 @@ def _tall(label: str, edge: float, ends: tuple[float, float]) -> Iterator[Item]:
         Line((x, upper - 2.0 * ARROW), (x, lower + 2.0 * ARROW)),
         arrow((x, upper), (0.0, 1.0)),
         arrow((x, lower), (0.0, -1.0)),
-        Text((x + 1.5, upper - ARROW), label),
+        Lettering((x + 1.5, upper - ARROW), label),
     )

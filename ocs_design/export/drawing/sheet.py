@@ -106,7 +106,7 @@ class Area:
 
 
 @dataclass(frozen=True)
-class Text:
+class Lettering:
     """One line of lettering.
 
     Attributes:
@@ -144,7 +144,7 @@ class Text:
         return (x, y + back) if self.upright else (x - back, y)
 
 
-Item: TypeAlias = Line | Polyline | Circle | Area | Text
+Item: TypeAlias = Line | Polyline | Circle | Area | Lettering
 
 
 @dataclass(frozen=True)
@@ -246,9 +246,9 @@ def printable(text: str) -> str:
 def fitted(text: str, width: float, height: float) -> str:
     """Text truncated to a width [mm], with an ellipsis if it does not fit."""
     text = printable(text)
-    if Text((0.0, 0.0), text, height).width <= width:
+    if Lettering((0.0, 0.0), text, height).width <= width:
         return text
-    while text and Text((0.0, 0.0), text + "…", height).width > width:
+    while text and Lettering((0.0, 0.0), text + "…", height).width > width:
         text = text[:-1]
     return text + "…"
 
@@ -258,7 +258,7 @@ def wrapped(text: str, width: float, height: float) -> list[str]:
     lines: list[str] = []
     for word in text.split():
         longer = f"{lines[-1]} {word}" if lines else word
-        if lines and Text((0.0, 0.0), longer, height).width <= width:
+        if lines and Lettering((0.0, 0.0), longer, height).width <= width:
             lines[-1] = longer
         else:
             lines.append(fitted(word, width, height))
@@ -291,7 +291,7 @@ def arrow(tip: Point, toward: Point) -> Area:
 
 def fits_inside(label: str, span: float) -> bool:
     """Whether a text fits between the arrows of a dimension of that length [mm]."""
-    return Text((0.0, 0.0), label).width + 2.0 <= span and span >= 3.0 * ARROW
+    return Lettering((0.0, 0.0), label).width + 2.0 <= span and span >= 3.0 * ARROW
 
 
 def upright_dimension(
@@ -313,7 +313,7 @@ def upright_dimension(
         Line((x, top), (x, bottom)),
         arrow((x, top), (0.0, -1.0)),
         arrow((x, bottom), (0.0, 1.0)),
-        Text((x - RAISE, middle), label, anchor=Anchor.MIDDLE, upright=True),
+        Lettering((x - RAISE, middle), label, anchor=Anchor.MIDDLE, upright=True),
     ]
 
 
@@ -326,9 +326,9 @@ def level_dimension(
     """
     if text_x is None:
         outside, end = False, right
-        text = Text(((left + right) / 2.0, y - RAISE), label, anchor=Anchor.MIDDLE)
+        text = Lettering(((left + right) / 2.0, y - RAISE), label, anchor=Anchor.MIDDLE)
     else:
-        outside, text = right - left < 3.0 * ARROW, Text((text_x, y - RAISE), label)
+        outside, text = right - left < 3.0 * ARROW, Lettering((text_x, y - RAISE), label)
         end = text_x + text.width
     side = -1.0 if outside else 1.0
     start = left - 2.0 * ARROW if outside else left
@@ -352,7 +352,9 @@ def leader(lines: Sequence[str], center: Point, radius: float, shelf: Point) -> 
     distance = math.hypot(x - cx, y - cy)
     u, v = (cx - x) / distance, (cy - y) / distance
     tip = (cx - radius * u, cy - radius * v)
-    texts = [Text((x + 1.0, y - RAISE + row * LEADING), line) for row, line in enumerate(lines)]
+    texts = [
+        Lettering((x + 1.0, y - RAISE + row * LEADING), line) for row, line in enumerate(lines)
+    ]
     end = x + 2.0 + max(text.width for text in texts)
     return [Line(tip, shelf), Line(shelf, (end, y)), arrow(tip, (u, v)), *texts]
 
@@ -369,5 +371,5 @@ def viewing_arrow(*, x: float, edge: float, down: bool) -> list[Item]:
         Line((x, y), (x + 10.0, y), OUTLINE),
         arrow((x, y), (-1.0, 0.0)),
         # Leaders come in from the right.
-        Text((x - 2.5, y + 1.75), "A", 3.5, Anchor.END),
+        Lettering((x - 2.5, y + 1.75), "A", 3.5, Anchor.END),
     ]

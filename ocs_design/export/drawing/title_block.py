@@ -22,9 +22,9 @@ from ocs_design.export.drawing.sheet import (
     Anchor,
     Circle,
     Item,
+    Lettering,
     Line,
     Scale,
-    Text,
     fitted,
     outline,
     rectangle,
@@ -125,7 +125,7 @@ def whole_sheet(
     items, sentences = [*frame(), *views], [*notes]
     if refused:
         words = "NOT buildable as it stands: make nothing from this sheet, note 1 says why"
-        items.append(Text((RIGHT - 4.0, TOP + 4.1), words, 3.0, Anchor.END))
+        items.append(Lettering((RIGHT - 4.0, TOP + 4.1), words, 3.0, Anchor.END))
         if len(refused) > _MOST_WORDS:
             points = refused[:_MOST_WORDS].rpartition(". ")[0]
             refused = f"{points}. cad/assembly.pdf has all open points."
@@ -171,8 +171,8 @@ def _title_block(entries: Entries) -> list[Item]:
         for width, caption, value, height in cells:
             items += outline(rectangle(left, top, left + width, top + ROW_HEIGHT), THIN)
             room = width - 3.0
-            items.append(Text((left + 1.5, top + 2.9), fitted(caption, room, 1.8), 1.8))
-            items.append(Text((left + 1.5, top + 7.5), fitted(value, room, height), height))
+            items.append(Lettering((left + 1.5, top + 2.9), fitted(caption, room, 1.8), 1.8))
+            items.append(Lettering((left + 1.5, top + 7.5), fitted(value, room, height), height))
             left += width
     # A truncated cone in first-angle projection: its side, and to the right its small end.
     x, y = BLOCK_LEFT + 167.0, BLOCK_TOP + 4.5
@@ -199,12 +199,12 @@ def _numbered(sentences: Sequence[str], block: float) -> list[Item]:
         items: list[Item] = []
         y, left = NOTES_TOP, NOTES_LEFT + NUMBER_WIDTH
         for number, sentence in enumerate(sentences, start=1):
-            items.append(Text((NOTES_LEFT, y), f"{number}", height))
+            items.append(Lettering((NOTES_LEFT, y), f"{number}", height))
             lines = wrapped(sentence, RIGHT - left - 2.0, height)
             if y + (len(lines) - 1) * leading + 2.0 > block:
                 lines = wrapped(sentence, BLOCK_LEFT - left - 2.0, height)
             for line in lines:
-                items.append(Text((left, y), line.replace("~", " "), height))
+                items.append(Lettering((left, y), line.replace("~", " "), height))
                 y += leading
         if y - leading + 2.0 < FRAME_BOX[3]:
             return items

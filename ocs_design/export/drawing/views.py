@@ -14,10 +14,10 @@ from ocs_design.export.drawing.sheet import (
     Anchor,
     Circle,
     Item,
+    Lettering,
     Line,
     Point,
     Scale,
-    Text,
     extension,
     fits_inside,
     hatching,
@@ -163,7 +163,7 @@ def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
         (corner,) = _placed([middle], layout, _BELOW)
         shelf = (corner[0] + CHAMFER_ASIDE, y + edge + BELOW)
         items += leader([f"{chamfer} × 45°"], corner, 0.0, shelf)
-    return [*items, Text((x, y - edge - ABOVE - 7.0), "A–A", 5.0, Anchor.MIDDLE)]
+    return [*items, Lettering((x, y - edge - ABOVE - 7.0), "A–A", 5.0, Anchor.MIDDLE)]
 
 
 def _placed(profile: Profile, layout: SheetLayout, side: float) -> list[Point]:

@@ -16,7 +16,7 @@ from ocs_design.export.drawing.sheet import (
     THIN,
     WIDTH,
     Item,
-    Text,
+    Lettering,
     fitted,
     outline,
     rectangle,
@@ -129,7 +129,7 @@ def parts_list(drawing: WheelDrawing) -> list[Item]:
         for value, start, end in zip(values, _PARTS_COLUMNS, _PARTS_COLUMNS[1:], strict=False):
             left, right = BLOCK_LEFT + start, BLOCK_LEFT + end
             items += outline(rectangle(left, top, right, top + PARTS_ROW), THIN)
-            items.append(Text((left + 1.5, top + 4.0), fitted(value, right - left - 3.0, 2.5)))
+            items.append(Lettering((left + 1.5, top + 4.0), fitted(value, right - left - 3.0, 2.5)))
     return items
 
 

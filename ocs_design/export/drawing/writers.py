@@ -15,11 +15,11 @@ from ocs_design.export.drawing.sheet import (
     Box,
     Circle,
     Item,
+    Lettering,
     Line,
     Pen,
     Point,
     Polyline,
-    Text,
     printable,
 )
 
@@ -59,7 +59,7 @@ def pdf_of_pages(pages: Iterable[Iterable[Item]], title: str, *, compressed: boo
                     path.close()
                     canvas.drawPath(path, stroke=0, fill=1)
                     canvas.setFillGray(0.0)
-                case Text():
+                case Lettering():
                     x, y = item.start
                     text = canvas.beginText()
                     text.setFont(FONT, item.size)
@@ -106,7 +106,7 @@ def svg_text(items: Iterable[Item], title: str, box: Box) -> str:
                 points = " ".join(f"{_num(x)},{_num(y)}" for x, y in corners)
                 fill = "#fff" if white else "#000"
                 elements.append(f'<polygon points="{points}" fill="{fill}" stroke="none"/>')
-            case Text():
+            case Lettering():
                 x, y = item.start
                 turn = f' transform="rotate(-90 {_num(x)} {_num(y)})"' if item.upright else ""
                 # With its width given, it has the measured length in any font.

@@ -27,11 +27,10 @@ from ocs_design.sizing.bound.rim_problem import RimProblem, lightest_rim
 if TYPE_CHECKING:
     from types import ModuleType
 
-    from cvxpy import Constraint as CvxpyConstraint
-    from cvxpy import Expression, Problem, Variable
+    from cvxpy import Constraint, Expression, Problem, Variable
 
 
-class Constraint(NamedTuple):
+class RimConstraint(NamedTuple):
     """One limit, g(a, b; limit) <= 0.
 
     Attributes:
@@ -40,7 +39,7 @@ class Constraint(NamedTuple):
             limit].
     """
 
-    convex: "CvxpyConstraint"
+    convex: "Constraint"
     derivative: Callable[[float, float], float]
 
 
@@ -70,11 +69,11 @@ class RimConstraints:
         # express the same cone, but costs Clarabel four digits of the multipliers.
         norm = cvxpy.norm(cvxpy.hstack([self.b, np.sqrt(tall)]))
         self.by_name = {
-            "r_max": Constraint(
+            "r_max": RimConstraint(
                 self.a / radius**2 <= 1.0, lambda _a, _b: -2.0 / room.outer_radius_max
             ),
-            "r_min": Constraint(self.b >= bore**2, lambda _a, _b: 2.0 * bore / scale),
-            "h_max": Constraint(
+            "r_min": RimConstraint(self.b >= bore**2, lambda _a, _b: 2.0 * bore / scale),
+            "h_max": RimConstraint(
                 norm <= self.a,
                 lambda _a, b: -tall / (2.0 * room.height_max * np.hypot(b, np.sqrt(tall))),
             ),
@@ -86,7 +85,7 @@ class RimConstraints:
                 widest = np.sqrt(a) - wall
                 return widest**2, widest / np.sqrt(a)
 
-            self.by_name["wall_min"] = Constraint(
+            self.by_name["wall_min"] = RimConstraint(
                 self.b <= self._tangent(self.a, widest_bore),
                 lambda a, _b: 2.0 * (np.sqrt(a) - wall) / scale,
             )
@@ -97,19 +96,19 @@ class RimConstraints:
                 widest = np.hypot(b, np.sqrt(flat))
                 return widest, b / widest
 
-            self.by_name["h_min"] = Constraint(
+            self.by_name["h_min"] = RimConstraint(
                 self.a <= self._tangent(self.b, widest_rim),
                 lambda _a, b: flat / (2.0 * room.height_min * widest_rim(b)[0]),
             )
         if np.isfinite(room.mass_max):
             least = 2.0 * inertia / (room.mass_max * scale**2)
-            self.by_name["wheel_mass_max"] = Constraint(
+            self.by_name["wheel_mass_max"] = RimConstraint(
                 (self.a + self.b) / least >= 1.0, lambda _a, _b: -1.0 / room.mass_max
             )
         if np.isfinite(problem.stretch_max):
             stretch = problem.stretch_max / scale**2
             outer, inner = hoop_weights(problem.material.poisson_ratio or 0.0)
-            self.by_name["hoop_stress"] = Constraint(
+            self.by_name["hoop_stress"] = RimConstraint(
                 self.a * (outer / stretch) + self.b * (inner / stretch) <= 1.0,
                 lambda _a, _b: -1.0 / problem.hoop_stress_max,
             )

@@ -22,7 +22,7 @@ from ocs_design.parts.module import part_name
 from ocs_design.parts.outline import even_points
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import AROUND_SLOT
-from ocs_design.robot.surface import Surface
+from ocs_design.robot.surface import HeightMap
 
 FLATNESS = 1e-3
 """Largest depth of a trunk's surface below the part that stands on it [m]: a washer's thickness."""
@@ -31,12 +31,12 @@ PROUD = 1e-4
 """Largest height of a trunk's surface above the part's underside [m]: rounding of meshes."""
 
 
-def heights_at(surface: Surface, points: FloatArray) -> FloatArray:
+def heights_at(surface: HeightMap, points: FloatArray) -> FloatArray:
     """Heights of a surface at points in B [m], shape (...) for points of shape (..., 2)."""
     return surface.height(points[..., 0], points[..., 1])
 
 
-def highest_of(surface: Surface, points: FloatArray) -> float:
+def highest_of(surface: HeightMap, points: FloatArray) -> float:
     """Largest of those heights [m]; -inf: none of the points is over the surface."""
     return float(heights_at(surface, points).max())
 
@@ -105,7 +105,7 @@ class FootContact:
 
 
 def under_pedestal(
-    surface: Surface | None, device: Device, module: Module, pedestal: Pedestal
+    surface: HeightMap | None, device: Device, module: Module, pedestal: Pedestal
 ) -> FootContact:
     """Contact of a pedestal with the trunk; held only if the foot is seated on the pedestal."""
     place = pedestal.placement
@@ -123,7 +123,7 @@ def under_pedestal(
 
 def contact_of(
     name: str,
-    surface: Surface | None,
+    surface: HeightMap | None,
     middle: Point,
     radius: float,
     *,
@@ -137,7 +137,7 @@ def contact_of(
 
 def _contact(
     name: str,
-    surface: Surface | None,
+    surface: HeightMap | None,
     points: tuple[FloatArray, FloatArray],
     plane: float,
 ) -> FootContact:

@@ -13,7 +13,7 @@ from scipy.ndimage import maximum_filter
 from ocs_design.common.arrays import FloatArray, frozen
 from ocs_design.parts.carrier_plate import TOUCH, CarrierPlate
 from ocs_design.parts.solids import Relief
-from ocs_design.robot.surface import Surface
+from ocs_design.robot.surface import HeightMap
 
 TILT_MAX = pi / 9.0
 """Largest slope of a trunk under a screw's head, from square to the screw [rad].
@@ -44,7 +44,7 @@ _DIGITS = 5
 
 
 @lru_cache(maxsize=4096)
-def front_of(back: Surface, half: float, low: float, high: float) -> FloatArray | None:
+def front_of(back: HeightMap, half: float, low: float, high: float) -> FloatArray | None:
     """Backward distances of a block's front on a grid to the left and upwards [m], shape (m, n).
 
     None: the trunk is not everywhere behind it, is too deep, or has an edge that it cannot follow.
@@ -90,7 +90,7 @@ def thicknesses(front: FloatArray, spacer: float) -> tuple[float, tuple[tuple[fl
     return plane, tuple(map(tuple, rows))
 
 
-def off_trunk(back: Surface, plate: CarrierPlate) -> FloatArray | None:
+def off_trunk(back: HeightMap, plate: CarrierPlate) -> FloatArray | None:
     """Distances of a plate's formed block from the trunk all over its front [m]; None: no block."""
     relief, mast, (x, y, z) = plate.relief, plate.mast, plate.position
     if relief is None or mast is None:

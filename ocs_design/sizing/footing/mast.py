@@ -29,7 +29,7 @@ from ocs_design.parts.joints import pattern_use
 from ocs_design.parts.plate_strength import arm_stress, mast_screws_use, mast_stress
 from ocs_design.parts.printed import SHOCK
 from ocs_design.robot.robot import Robot
-from ocs_design.robot.surface import Surface, trunk_back
+from ocs_design.robot.surface import HeightMap, trunk_back
 from ocs_design.sizing.footing.contact import FLATNESS, PROUD, disc_points
 from ocs_design.sizing.footing.feet import SENSES, FailedSearches, Feet, Footing
 from ocs_design.sizing.footing.formed import (
@@ -236,7 +236,7 @@ def _all_arms(feet: Feet, *, far: bool) -> Iterator[CarrierPlate]:
 
 
 def _placed(
-    back: Surface, plate: CarrierPlate, size: Size[float], height: float, face: float
+    back: HeightMap, plate: CarrierPlate, size: Size[float], height: float, face: float
 ) -> Place:
     """Place of pairs behind the trunk, clear of it and of a mast's upright.
 
@@ -272,7 +272,7 @@ def _between(side: float, reach: float) -> float:
 
 
 def _masted(
-    back: Surface,
+    back: HeightMap,
     feet: Feet,
     plate: CarrierPlate,
     search: Search,
@@ -346,7 +346,7 @@ def _masted(
 
 
 def _patterns(
-    back: Surface, feet: Feet, plate: CarrierPlate, spot: _Spot, centers: FloatArray
+    back: HeightMap, feet: Feet, plate: CarrierPlate, spot: _Spot, centers: FloatArray
 ) -> list[tuple[float, float, float, tuple[Point, Point]]]:
     """Patterns of four screws that fit the trunk's back and are strong enough, shortest mast first.
 
@@ -400,7 +400,7 @@ class _Pairs(NamedTuple):
 
 @lru_cache(maxsize=256)
 def _pairs(
-    back: Surface, radius: float, least: float, most: float, *, is_formed: bool = False
+    back: HeightMap, radius: float, least: float, most: float, *, is_formed: bool = False
 ) -> _Pairs | None:
     """Heights at which a trunk's back takes screws on both sides; None: they do not fit the tube.
 

@@ -15,7 +15,7 @@ from ocs_design.device.solids import foot_of, pedestal_of, pedestal_solids, plat
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import AROUND_SLOT
 from ocs_design.robot.robot import Robot
-from ocs_design.robot.surface import Surface, trunk_surface
+from ocs_design.robot.surface import HeightMap, trunk_surface
 from ocs_design.sizing.footing.contact import (
     base_points,
     contact_of,
@@ -49,7 +49,7 @@ _ENDLESS = 1e3
 
 
 def footing_on_top(
-    surface: Surface, feet: Feet, search: Search, failed: FailedSearches
+    surface: HeightMap, feet: Feet, search: Search, failed: FailedSearches
 ) -> Footing | None:
     """The nearest place that holds the feet, as close together as possible; pairs also apart."""
     robot, layout = search.collision.robot, search.layout
@@ -93,7 +93,7 @@ def _at_com(robot: Robot, feet: Feet, layout: Layout) -> Feet:
 
 
 def _nearest_footing(
-    surface: Surface, feet: Feet, search: Search, aside: float, held_by: Screw
+    surface: HeightMap, feet: Feet, search: Search, aside: float, held_by: Screw
 ) -> Footing | None:
     """The place nearest to that of the feet where they are held and no leg comes near.
 
@@ -140,7 +140,7 @@ def _nearest_footing(
 
 
 def footing_on_pedestals(
-    robot: Robot, surface: Surface | None, device: Device, *, stated: bool
+    robot: Robot, surface: HeightMap | None, device: Device, *, stated: bool
 ) -> Footing | None:
     """The nearest place where the trunk holds the pedestals of tilted modules, and the other feet.
 
@@ -150,7 +150,7 @@ def footing_on_pedestals(
     layout, size = device.layout, device_size(device)
     if surface is None:
         _, _, top = place_on_top(robot, layout).origins[0]
-        surface = Surface(0.0, 0.0, _ENDLESS, np.array([[top]]))
+        surface = HeightMap(0.0, 0.0, _ENDLESS, np.array([[top]]))
     if any(leans(module) and module.frame[2, 1] < -OUT_OF_REACH for module in device.modules):
         return None
     if stated:
@@ -182,7 +182,7 @@ def footing_on_pedestals(
 
 
 def _all_held(
-    surface: Surface, device: Device, *, fixed: bool
+    surface: HeightMap, device: Device, *, fixed: bool
 ) -> tuple[list[float], tuple[Pedestal, ...]] | None:
     """Heights of the modules in B and the pedestals under them; None: the trunk does not hold all.
 

@@ -28,7 +28,7 @@ from ocs_design.parts.carrier_plate import (
 )
 from ocs_design.parts.dog_bone import directions
 from ocs_design.parts.plate_strength import plate_screws_use, plate_stresses
-from ocs_design.robot.surface import Surface
+from ocs_design.robot.surface import HeightMap
 from ocs_design.sizing.footing.contact import (
     FLATNESS,
     PROUD,
@@ -99,7 +99,7 @@ class Patterns(Table):
 
 
 def flat_patterns(
-    surface: Surface, feet: Feet, row: float, plates: Sequence[CarrierPlate]
+    surface: HeightMap, feet: Feet, row: float, plates: Sequence[CarrierPlate]
 ) -> Patterns:
     """Screw patterns at which the trunk may be flat, whatever its height.
 
@@ -128,7 +128,7 @@ def flat_patterns(
     return replace(grid.take(kept), top=top, low=low)
 
 
-def _top_and_low(surface: Surface, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _top_and_low(surface: HeightMap, points: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Largest and least height of a trunk at the points of each disc [m], shape (..., m, 2)."""
     heights = heights_at(surface, points)
     return heights.max(axis=-1), heights.min(axis=-1)
@@ -177,7 +177,7 @@ def _pattern_grid(
 
 
 def screwed(
-    surface: Surface, plate: CarrierPlate, patterns: Sequence[Patterns]
+    surface: HeightMap, plate: CarrierPlate, patterns: Sequence[Patterns]
 ) -> CarrierPlate | None:
     """The plate with the widest pattern of screws that the trunk holds; None: there is none.
 
@@ -202,7 +202,7 @@ def screwed(
 
 
 def _widest(
-    surface: Surface, plate: CarrierPlate, x: float, patterns: Patterns
+    surface: HeightMap, plate: CarrierPlate, x: float, patterns: Patterns
 ) -> tuple[int, FloatArray] | None:
     """Index of the widest pattern that holds one row of a plate, and its sleeves' lengths [m].
 
@@ -250,7 +250,7 @@ _FEW = 29
 
 
 def held_at(
-    surface: Surface,
+    surface: HeightMap,
     feet: Feet,
     underside: float | None = None,
     held_by: Sequence[Screw] = (PLATE_SCREW, STRONG_SCREW),
@@ -284,7 +284,7 @@ def held_at(
 
 
 def _plate(
-    surface: Surface, feet: Feet, underside: float | None, held_by: Screw
+    surface: HeightMap, feet: Feet, underside: float | None, held_by: Screw
 ) -> CarrierPlate | None:
     """The lightest plate, over all necks and stock thicknesses, that carries all modules; or None.
 
@@ -369,7 +369,7 @@ def _outlines(feet: Feet, held_by: Screw) -> tuple[CarrierPlate, ...]:
 
 
 def _borne(
-    surface: Surface,
+    surface: HeightMap,
     feet: Feet,
     blank: CarrierPlate,
     patterns: Sequence[Patterns],

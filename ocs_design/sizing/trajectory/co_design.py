@@ -22,7 +22,7 @@ from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
 from ocs_design.sizing.trajectory.flight import Flight, fly
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.program import Dimensions, solve
-from ocs_design.sizing.trajectory.transcription import Plant, Turn
+from ocs_design.sizing.trajectory.transcription import Phase, Plant
 
 LEAST_GAIN = 1e-4
 """Fraction of the mass below which a gain is within the program's error, and the selection
@@ -225,7 +225,7 @@ class FreeDevice:
             armature=ca.MX(self.selected.drive.armature),
         )
 
-    def turns(self) -> Iterator[Turn]:
+    def turns(self) -> Iterator[Phase]:
         """Every maneuver, at its own incidence if it has one, else at that of the device."""
         start = self.at(*self.dimensions().start.tolist())
         requirement = self.problem.requirement
@@ -233,7 +233,7 @@ class FreeDevice:
             own = maneuver.incidence
             asked = maneuver.boundary(requirement.standing_height)
             gyrostat = _gyrostat(self.problem, start, start.incidence if own is None else own)
-            yield Turn(asked, gyrostat, partial(self.plant, own=own))
+            yield Phase(asked, gyrostat, partial(self.plant, own=own))
 
     def dimensions(self) -> Dimensions:
         """Bounds of all three dimensions, and the mass to be minimised."""

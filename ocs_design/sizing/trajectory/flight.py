@@ -13,7 +13,7 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import cross
 from ocs_design.common.quaternions import conjugate, product, turned_into_world, vertical_of
 from ocs_design.sizing.trajectory.motion import Motion, Trajectory
-from ocs_design.sizing.trajectory.transcription import Turn
+from ocs_design.sizing.trajectory.transcription import Phase
 
 FINER = 10
 """Steps for each interval of the program."""
@@ -49,7 +49,7 @@ class Flight:
         return ""
 
 
-def fly(flown: Turn, line: DriveLine, motion: Motion) -> Flight:
+def fly(flown: Phase, line: DriveLine, motion: Motion) -> Flight:
     """Integrate the torques of a motion from the start of the turn, for this robot and device.
 
     `line`: usable voltage line of the drives.

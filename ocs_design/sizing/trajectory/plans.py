@@ -19,7 +19,7 @@ from ocs_design.sizing.trajectory.gyrostat import Gyrostat, taken_over
 from ocs_design.sizing.trajectory.motion import HeadingLoop, Trajectory
 from ocs_design.sizing.trajectory.program import Solution, solve
 from ocs_design.sizing.trajectory.tracking import tracking_gains
-from ocs_design.sizing.trajectory.transcription import Turn
+from ocs_design.sizing.trajectory.transcription import Phase
 
 if TYPE_CHECKING:
     from ocs_design.device.device import Device
@@ -305,12 +305,12 @@ def gentlest(
     """The turn of least peak power, or of least effort without a power limit, and its check.
 
     It is the best from several initial guesses, as a change of heading has several optima. Nothing
-    is required at the end about an axis that the wheels do not control. `one_stops`: see `Turn`.
+    is required at the end about an axis that the wheels do not control. `one_stops`: see `Phase`.
     """
     # Wheels of one axis cannot command a heading; wheels of two change it by a loop of the tilt.
     if asked.end == End.ATTITUDE and gyrostat.spanned == 1:
         asked = replace(asked, end=End.LEVEL)
-    about_axis = Turn(asked, gyrostat, one_stops=one_stops)
+    about_axis = Phase(asked, gyrostat, one_stops=one_stops)
     start = about_axis.outline.attitude
     w, x, y, z = product(conjugate(start), asked.final_attitude)
     heading = remainder(2.0 * np.arctan2(z, w), 2.0 * np.pi)

@@ -14,9 +14,9 @@ from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.arrays import FloatArray
 from ocs_design.sizing.trajectory.motion import Motion
 from ocs_design.sizing.trajectory.transcription import (
+    Phase,
     Plant,
-    Shape,
-    Turn,
+    ProgramStructure,
     Variables,
     numbers_of,
     transcribe,
@@ -110,7 +110,7 @@ class Solution:
 
 
 def solve(
-    turns: Sequence[Turn],
+    turns: Sequence[Phase],
     line: DriveLine,
     passes: Sequence[int],
     dimensions: Dimensions | None = None,
@@ -144,7 +144,7 @@ def solve(
 
 
 def _solve(
-    turns: Sequence[Turn],
+    turns: Sequence[Phase],
     guesses: Sequence[Motion],
     line: DriveLine,
     dimensions: Dimensions | None,
@@ -157,7 +157,7 @@ def _solve(
             numbers = numbers_of(turn, Plant.of(turn.gyrostat), line, guess)
             values = {name: ca.sparsify(ca.evalf(each)) for name, each in numbers.items()}
             patterns = ((name, tuple(each.sparsity().compress())) for name, each in values.items())
-            shape = Shape.of(turn, line, guess)
+            shape = ProgramStructure.of(turn, line, guess)
             program, parameters, variables = _plan_program(shape, tuple(patterns))
             for name, parameter in parameters.items():
                 program.set_value(parameter, values[name].nonzeros())
@@ -172,7 +172,10 @@ def _solve(
     objective, found = dimensions.objective(free), []
     for turn, guess in zip(turns, guesses, strict=True):
         plant = Plant.of(turn.gyrostat) if turn.plant is None else turn.plant(free)
-        shape, numbers = Shape.of(turn, line, guess), numbers_of(turn, plant, line, guess)
+        shape, numbers = (
+            ProgramStructure.of(turn, line, guess),
+            numbers_of(turn, plant, line, guess),
+        )
         variables = transcribe(program, shape, numbers)
         variables.begin(program, turn, guess, numbers)
         objective += EFFORT_WEIGHT * variables.effort
@@ -185,7 +188,7 @@ def _solve(
 
 @lru_cache(maxsize=16)
 def _plan_program(
-    shape: Shape, patterns: tuple[tuple[str, tuple[int, ...]], ...]
+    shape: ProgramStructure, patterns: tuple[tuple[str, tuple[int, ...]], ...]
 ) -> tuple[ca.Opti, dict[str, ca.MX], Variables]:
     """Program for all turns of a shape, with the nonzero numbers as its parameters.
 

@@ -55,7 +55,7 @@ class Plant(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Turn:
+class Phase:
     """One maneuver in the program.
 
     Attributes:
@@ -80,7 +80,7 @@ class Turn:
         return FixedAxisTurn.of(self.asked, *(np.asarray(part).ravel() for part in start))
 
 
-class Shape(NamedTuple):
+class ProgramStructure(NamedTuple):
     """Properties of a turn that determine the equations of its program.
 
     Attributes:
@@ -108,7 +108,7 @@ class Shape(NamedTuple):
     one_stops: bool
 
     @classmethod
-    def of(cls, turn: Turn, line: DriveLine, guess: Motion) -> "Shape":
+    def of(cls, turn: Phase, line: DriveLine, guess: Motion) -> "ProgramStructure":
         """The shape of a turn on the intervals of a guess."""
         gyrostat = turn.gyrostat
         back_emf = isfinite(float(line.stall_torque))
@@ -129,7 +129,7 @@ class Shape(NamedTuple):
         )
 
 
-def numbers_of(turn: Turn, plant: Plant, line: DriveLine, guess: Motion) -> dict[str, ca.MX]:
+def numbers_of(turn: Phase, plant: Plant, line: DriveLine, guess: Motion) -> dict[str, ca.MX]:
     """All numbers of a turn's equations, by name."""
     asked, outline, gyrostat = turn.asked, turn.outline, turn.gyrostat
     wheels = len(guess.torques)
@@ -199,7 +199,7 @@ class Variables:
     peak: ca.MX | None
 
     def begin(
-        self, program: ca.Opti, turn: Turn, guess: Motion, numbers: Mapping[str, ca.MX | ca.DM]
+        self, program: ca.Opti, turn: Phase, guess: Motion, numbers: Mapping[str, ca.MX | ca.DM]
     ) -> None:
         """Set the initial guess of the search."""
         scale, torque_unit = (
@@ -213,7 +213,9 @@ class Variables:
             program.set_initial(self.peak, 1.0)
 
 
-def transcribe(program: ca.Opti, shape: Shape, numbers: Mapping[str, ca.MX]) -> Variables:
+def transcribe(
+    program: ca.Opti, shape: ProgramStructure, numbers: Mapping[str, ca.MX]
+) -> Variables:
     """One turn by direct collocation on its intervals."""
     wheels, count = shape.wheels, shape.intervals
     scale, torque_unit, speed_unit = (
@@ -275,7 +277,10 @@ def transcribe(program: ca.Opti, shape: Shape, numbers: Mapping[str, ca.MX]) -> 
 
 
 def _powers_left(
-    shape: Shape, numbers: Mapping[str, ca.MX], mapped: Mapping[str, ca.MX], scaled: ca.MX
+    shape: ProgramStructure,
+    numbers: Mapping[str, ca.MX],
+    mapped: Mapping[str, ca.MX],
+    scaled: ca.MX,
 ) -> ca.MX:
     """Bernstein coefficients of the power after any one drive has stopped [W], a column.
 

@@ -28,7 +28,7 @@ from ocs_design.export.assembly.views import BALLOON, pulled_apart, spread
 from ocs_design.export.assembly_notes import trunk_threads
 from ocs_design.export.bill_of_materials import bill_rows
 from ocs_design.export.device_parts import pedestal_kinds
-from ocs_design.export.drawing.sheet import FRAME_BOX, THIN, Circle, Line, Polyline, Text
+from ocs_design.export.drawing.sheet import FRAME_BOX, THIN, Circle, Lettering, Line, Polyline
 from ocs_design.export.electrics import wiring, wiring_parts
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import WALL
@@ -476,10 +476,12 @@ def test_what_cannot_be_built_is_told_first_of_all():
             assert words in settled or device.plate is None
         for page in assembly_pages(assembly):
             check_words(page)
-            title, *_ = (each.text for each in page if isinstance(each, Text) and each.height > 3.0)
+            title, *_ = (
+                each.text for each in page if isinstance(each, Lettering) and each.height > 3.0
+            )
             assert title == "Assembly, solo12: NOT buildable as it stands"
         first, *_ = assembly_pages(assembly)
-        (told,) = (each for each in first if isinstance(each, Text) and each.text == refused)
+        (told,) = (each for each in first if isinstance(each, Lettering) and each.text == refused)
         drawn = [each.center[1] for each in first if isinstance(each, Circle)]
         assert told.place[1] < min(drawn) - 4.0
 

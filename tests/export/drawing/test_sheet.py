@@ -12,7 +12,14 @@ from hypothesis import strategies as st
 from made_parts import RIM_ALONE, TWO_PIECES
 
 from ocs_design.device.joints import permissible_eccentricity
-from ocs_design.export.drawing.sheet import SPACING, Scale, Text, hatching, largest_scale, printable
+from ocs_design.export.drawing.sheet import (
+    SPACING,
+    Lettering,
+    Scale,
+    hatching,
+    largest_scale,
+    printable,
+)
 from ocs_design.export.drawing.wheel import BROKEN_EDGE, lost_by_breaking, plus_minus
 from ocs_design.export.drawing.wheel_sheet import wheel_sheet
 from ocs_design.parts.joints import Grade, tolerance_width
@@ -21,7 +28,7 @@ from ocs_design.parts.rim import NO_CUTS
 
 def test_a_capital_is_as_high_as_told_and_as_wide_as_the_font_has_it():
     """Helvetica's M is 833 thousandths of the font's size wide, and its capitals are 718 high."""
-    assert Text((0.0, 0.0), "M", 7.18).width == pytest.approx(8.33)
+    assert Lettering((0.0, 0.0), "M", 7.18).width == pytest.approx(8.33)
 
 
 def test_what_can_be_encoded_is_printable_and_all_else_a_question_mark():

@@ -27,7 +27,7 @@ from scipy.integrate import quad
 from wheels import paper_device
 
 from ocs_design.actuation.supply import Supply
-from ocs_design.export.drawing.sheet import FRAME_BOX, OUTLINE, Circle, Line, Text
+from ocs_design.export.drawing.sheet import FRAME_BOX, OUTLINE, Circle, Lettering, Line
 from ocs_design.export.drawing.title_block import device_hash
 from ocs_design.export.drawing.views import AXIS_Y, lay_out, section_view
 from ocs_design.export.drawing.wheel import inertia_error, inside_corners
@@ -103,7 +103,7 @@ def test_the_webs_thickness_is_measured_where_no_hole_is():
     cut, layout = HOLED.wheel.web.holes, lay_out(HOLED.wheel)
     shown = section_view(HOLED.wheel, layout)
     ((_, y),) = (
-        each.place for each in shown if isinstance(each, Text) and each.text == "1.50 ±0.05"
+        each.place for each in shown if isinstance(each, Lettering) and each.text == "1.50 ±0.05"
     )
     off = abs(AXIS_Y - y) - layout.scale(cut.circle_radius)
     assert abs(off) > layout.scale(cut.hole_radius) + 1.0
@@ -243,7 +243,7 @@ def test_both_formats_show_the_same_texts():
     ]
     assert shown == [each for each in decoded if each]
     assert shown == [
-        item.text for item in wheel_sheet(FLAT) if isinstance(item, Text) and item.text
+        item.text for item in wheel_sheet(FLAT) if isinstance(item, Lettering) and item.text
     ]
 
 

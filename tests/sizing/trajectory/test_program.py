@@ -34,7 +34,7 @@ from ocs_design.sizing.trajectory.flight import limit_violation
 from ocs_design.sizing.trajectory.gyrostat import Gyrostat
 from ocs_design.sizing.trajectory.plans import gentlest
 from ocs_design.sizing.trajectory.program import solve
-from ocs_design.sizing.trajectory.transcription import Turn
+from ocs_design.sizing.trajectory.transcription import Phase
 
 FORTY = np.radians(40.0)
 CASES = {
@@ -316,7 +316,7 @@ def test_a_kept_program_remembers_nothing_of_other_turns():
 @pytest.mark.parametrize("name", ["pair", "triad", "orthogonal", "pyramid"])
 def test_an_uneven_guess_moves_the_trunk_no_further_in_the_end(name):
     gyrostat = Gyrostat(FULL, np.asarray(Layout(LayoutName(name)).axes(0.6)), 1e-4, 2e-5)
-    even = Turn(asked(drop(30.0)), gyrostat).outline.motion(gyrostat, 12)
+    even = Phase(asked(drop(30.0)), gyrostat).outline.motion(gyrostat, 12)
     uneven = even.uneven(gyrostat)
     change = uneven.states[4:] - even.states[4:]
     assert np.abs(change).max() > 0.01 * np.abs(even.states[4:]).max()
