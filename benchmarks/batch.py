@@ -36,7 +36,15 @@ def paper_device() -> Device:
     axes = module_axes(np.radians(40.0))
     left = Module("left", axes[:, 0], np.array([0.0, 0.04, 0.05]))
     right = Module("right", axes[:, 1], np.array([0.0, -0.04, 0.05]))
-    motor = Drive("unlimited", 0.0, None, np.inf, None, 0.0, "benchmark")
+    motor = Drive(
+        name="unlimited",
+        mass=0.0,
+        stall_torque=None,
+        no_load_speed=np.inf,
+        torque_limit=None,
+        rotor_inertia=0.0,
+        source="benchmark",
+    )
     return Device(np.radians(40.0), (left, right), wheel, motor)
 
 

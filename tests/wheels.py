@@ -46,7 +46,15 @@ def motor(
     stall_torque: float | None = None,
     torque_limit: float | None = None,
 ) -> Drive:
-    return Drive("test", 0.0, stall_torque, no_load_speed, torque_limit, 0.0, "made up")
+    return Drive(
+        name="test",
+        mass=0.0,
+        stall_torque=stall_torque,
+        no_load_speed=no_load_speed,
+        torque_limit=torque_limit,
+        rotor_inertia=0.0,
+        source="made up",
+    )
 
 
 # docs/theory.md, What a motor can do: maxon's EC 45 flat 70 W at 24 V, its drive limited to 1 N m.

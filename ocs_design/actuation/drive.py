@@ -15,11 +15,11 @@ from math import inf
 
 import numpy as np
 
-from ocs_design.actuation.motor import DIRECT, Gear, GearRoom, Motor, Mounting
+from ocs_design.actuation.motor import DIRECT, Gear, GearRoom, Motor, MotorFigures, Mounting
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import FloatArray, Table, finite_or_none
 from ocs_design.common.errors import OcsError
-from ocs_design.common.ranges import Length, LengthIfAny, NotNegative, Positive, Signed
+from ocs_design.common.ranges import NotNegative, Positive, Signed
 from ocs_design.common.records import recorded
 from ocs_design.common.units import rpm
 
@@ -187,15 +187,15 @@ def power_less_friction(
     return max(supply.power - motors * friction * (supply.voltage + drop), 0.0)
 
 
-@dataclass(frozen=True)
-class Drive:
+@dataclass(frozen=True, kw_only=True)
+class Drive(MotorFigures):
     """Motor at a voltage with a gear: its voltage line, limits and inertia, all at the wheel.
 
     It is written to `design.json` unchanged. None means not limited or unknown; for the assumed
     motor that is everything except its speed and, where specified, its torque.
 
     Attributes:
-        name: in the catalogue, or "assumed".
+        name: in the catalogue, or "assumed". maker: of the motor; empty: unknown.
         mass: of the motor alone, without its gear [kg].
         stall_torque: torque of the voltage line at rest [N m]; None: full torque up to the top
             speed.
@@ -204,14 +204,11 @@ class Drive:
         rotor_inertia: what the rotor adds to the spin inertia of the wheel [kg m^2]: its own times
             the gear ratio, negative where the gear reverses.
         rotor_inertia_source: empty: the maker's figure; otherwise the estimate and its uncertainty.
-        source: source of the figures.
         gear: name in the catalogue, or "direct".
         gear_ratio: motor speed over wheel speed.
         gear_efficiency: of the torque, 0..1, counted as a loss in both directions.
         gear_mass: [kg].
         bus_voltage: [V].
-        rated_voltage: of the motor [V].
-        diameter, length: of its body [m].
         speed_max: mechanical limit of wheel, gear and motor [rad/s].
         armature: inertia that the motor accelerates beyond the spin inertia of the wheel, at the
             wheel [kg m^2]; 0 without a gear.
@@ -219,22 +216,18 @@ class Drive:
         resistance: of the motor, line to line [ohm].
         continuous_torque: thermally sustainable torque of the winding [N m].
         continuous_torque_source: empty: the maker's figure; otherwise the estimate.
-        confidence: in the motor's figures, in words.
         mounting: its shaft and threads, where known and the wheel sits on the motor without a gear.
-        no_load_current: drawn by the motor alone, turning freely at its rated voltage [A].
         gear_room: space that its gear takes; None: no gear.
         saturation_torque: torque at the wheel above which the motor's k_t decreases [N m].
         controller_mass: of the controller mounted with the motor [kg]; 0: not counted.
-        maker: of the motor; empty: unknown.
     """
 
-    name: str
     mass: NotNegative
+    maker: str = ""
     stall_torque: Positive | None
     no_load_speed: Positive
     torque_limit: Positive | None
     rotor_inertia: Signed
-    source: str
     gear: str = DIRECT.name
     gear_ratio: Positive = DIRECT.ratio
     gear_efficiency: Positive = DIRECT.efficiency
@@ -245,18 +238,12 @@ class Drive:
     torque_constant: Positive | None = None
     resistance: Positive | None = None
     continuous_torque: NotNegative | None = None
-    rated_voltage: Positive | None = None
-    diameter: Length | None = None
-    length: LengthIfAny | None = None
     mounting: Mounting | None = None
-    no_load_current: NotNegative | None = None
     gear_room: GearRoom | None = None
     saturation_torque: Positive | None = None
     rotor_inertia_source: str = ""
     continuous_torque_source: str = ""
-    confidence: str = ""
     controller_mass: NotNegative = 0.0
-    maker: str = ""
 
     @property
     def full_name(self) -> str:

@@ -19,6 +19,7 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 from math import inf, pi, sin
+from typing import Annotated
 
 from ocs_design.actuation.fasteners import (
     CLASSES,
@@ -28,7 +29,7 @@ from ocs_design.actuation.fasteners import (
     ThreadName,
     screw,
 )
-from ocs_design.common.ranges import Count, Length, LengthIfAny
+from ocs_design.common.ranges import Count, Length, LengthIfAny, NotNegative, Positive, Unit
 
 
 class TorqueConstantConvention(StrEnum):
@@ -261,31 +262,52 @@ DIRECT = Gear(
 """Direct drive, without a gear."""
 
 
-@dataclass(frozen=True)
-class Motor:
+@dataclass(frozen=True, kw_only=True)
+class MotorFigures:
+    """Figures of a motor that no convention, voltage or gear changes.
+
+    A row of the catalogue, the motor made from it and a drive with that motor all have them. None
+    means that the source does not give the figure.
+
+    Attributes:
+        name: in the catalogue, unique. maker: of the motor.
+        source: source of the figures. confidence: good, second-hand, ...
+        mass: of the motor alone [kg]. diameter, length: of its body [m].
+        rated_voltage: voltage at which the figures hold, or the highest of the maker's range [V].
+        no_load_current: drawn when turning freely at the rated voltage [A].
+    """
+
+    name: str
+    maker: str
+    source: str
+    confidence: str = ""
+    mass: Annotated[NotNegative | None, Unit("kg")] = None
+    diameter: Annotated[Length | None, Unit("m")] = None
+    length: Annotated[LengthIfAny | None, Unit("m")] = None
+    rated_voltage: Annotated[Positive | None, Unit("v")] = None
+    no_load_current: Annotated[NotNegative | None, Unit("a")] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Motor(MotorFigures):
     """A brushless motor as an equivalent DC motor: `V = R i + k_t w` (docs/theory.md, The motor).
 
     None means that its source does not give the figure.
 
     Attributes:
-        name: in the catalogue, unique. maker: of the motor.
-        mass: [kg]. diameter, length: of its body [m].
         torque_constant: k_t, torque per current and voltage per speed, line to line (six-step
             commutation) [N m/A].
         resistance: line to line [ohm].
-        rated_voltage: voltage at which the figures hold, or the highest of the maker's range [V].
         no_load_speed: as stated, at the rated voltage [rad/s].
         speed_max: highest speed for bearings and rotor, if stated [rad/s].
         peak_torque: at the highest short-term current [N m].
         peak_current: of the supply line, in the same convention [A].
         continuous_torque: thermally sustainable torque of the winding [N m].
         rotor_inertia: [kg m^2].
-        source: source of the figures. confidence: good, second-hand, ...
         peak_basis: basis of `peak_torque`: the maker's peak torque, k_t times its peak current, or
             the stall torque of its data sheet.
         remark: note on the figures.
         mounting: shaft and threads, if any of them is known.
-        no_load_current: drawn when turning freely at the rated voltage [A].
         saturation_torque: torque above which k_t decreases [N m]; not a limit of the torque, as the
             maker's peak torque is measured with saturation.
         kind: kind of motor.
@@ -296,26 +318,17 @@ class Motor:
         controller_mass: of the controller supplied with it [kg].
     """
 
-    name: str
-    maker: str
-    mass: float | None
-    diameter: float | None
-    length: float | None
     torque_constant: float | None
     resistance: float | None
-    rated_voltage: float | None
     no_load_speed: float | None
     speed_max: float | None
     peak_torque: float | None
     peak_current: float | None
     continuous_torque: float | None
     rotor_inertia: float | None
-    source: str
-    confidence: str
     peak_basis: str = ""
     remark: str = ""
     mounting: Mounting | None = None
-    no_load_current: float | None = None
     saturation_torque: float | None = None
     kind: MotorKind | None = None
     voltage_max: float | None = None

@@ -8,6 +8,7 @@ from functools import cache
 from math import inf
 from pathlib import Path
 from types import MappingProxyType
+from typing import Annotated
 
 import msgspec
 
@@ -18,6 +19,7 @@ from ocs_design.actuation.motor import (
     BoltCircle,
     Face,
     Motor,
+    MotorFigures,
     MotorKind,
     Mounting,
     ResistanceConvention,
@@ -30,8 +32,9 @@ from ocs_design.actuation.motor import (
     six_step_current,
     six_step_torque_constant,
 )
-from ocs_design.catalogue.rows import entry, extended, load_entries, packaged
+from ocs_design.catalogue.rows import columns_of, entry, extended, load_entries, packaged
 from ocs_design.common.files import to_json
+from ocs_design.common.ranges import Unit
 from ocs_design.common.records import recorded
 
 
@@ -64,26 +67,24 @@ def drawn_threads(name: str, source: str) -> DrawnThreads | None:
     return next((each for each in _DRAWN_THREADS if re.search(rf"\b{each.model}\b", named)), None)
 
 
-@dataclass(frozen=True)
-class MotorSheet:
+@dataclass(frozen=True, kw_only=True)
+class MotorSheet(MotorFigures):
     """A motor's data as given by its source; each field is a column, with its unit as suffix.
 
     Each column is parsed by its type (`catalogue.rows.columns_of`). None means not given.
 
     Attributes:
-        name: unique. maker: of the motor. kind: by the part that turns.
-        mass_kg: of the whole motor. diameter_m, length_m: of its body.
+        kind: by the part that turns.
         kt_nm_per_a: torque constant, in the convention `kt_convention`.
         kv_rpm_per_v: speed constant, no-load speed per supply voltage.
         resistance_ohm: of the winding, measured between `resistance_between`.
-        rated_voltage_v: voltage at which the figures hold, or the highest of the maker's range.
-        voltage_max_v: highest supply voltage that the maker allows, if not the rated one.
-        no_load_speed_rpm, no_load_current_a: as stated, at the rated voltage.
+        voltage_max: highest supply voltage that the maker allows, if not the rated one.
+        no_load_speed_rpm: as stated, at the rated voltage.
         stall_torque_nm, stall_current_a: at rest and at the rated voltage.
         speed_max_rpm: highest that the maker allows.
         peak_torque_nm, peak_current_a: highest that the maker allows for a short time.
         continuous_torque_nm: thermally sustainable torque of the winding.
-        saturation_torque_nm: torque above which k_t decreases.
+        saturation_torque: torque above which k_t decreases.
         rotor_inertia_kg_m2: of the rotor.
         shaft_diameter_m: on the wheel's side.
         shaft_length_m: protrusion there, from the mounting face of the motor.
@@ -95,25 +96,15 @@ class MotorSheet:
             `stator_face`.
         rotor_depth_m, rotor_depth_max_m, stator_depth_m, stator_depth_max_m: least and largest
             depth of engagement of the screws that the maker allows.
-        source: source of the figures. confidence: good, second-hand, ...
         remark: explanation of apparent contradictions.
     """
 
-    name: str
-    maker: str
-    source: str
-    confidence: str = ""
-    mass_kg: float | None = None
-    diameter_m: float | None = None
-    length_m: float | None = None
     kt_nm_per_a: float | None = None
     kt_convention: TorqueConstantConvention | None = None
     kv_rpm_per_v: float | None = None
     resistance_ohm: float | None = None
     resistance_between: ResistanceConvention | None = None
-    rated_voltage_v: float | None = None
     no_load_speed_rpm: float | None = None
-    no_load_current_a: float | None = None
     stall_torque_nm: float | None = None
     stall_current_a: float | None = None
     speed_max_rpm: float | None = None
@@ -131,9 +122,9 @@ class MotorSheet:
     stator_thread: str | None = None
     stator_face: Face | None = None
     remark: str = ""
-    saturation_torque_nm: float | None = None
+    saturation_torque: Annotated[float | None, Unit("nm")] = None
     kind: MotorKind | None = None
-    voltage_max_v: float | None = None
+    voltage_max: Annotated[float | None, Unit("v")] = None
     shaft_form: ShaftForm | None = None
     rotor_screws: str | None = None
     rotor_depth_m: float | None = None
@@ -205,13 +196,11 @@ class MotorSheet:
             torque, basis = self.peak_current * self.torque_constant, "peak current"
         inertia, inertia_source = self.rotor_inertia_kg_m2, ""
         if inertia is None:
-            inertia, inertia_source = estimated_rotor_inertia(
-                self.kind, self.mass_kg, self.diameter_m
-            )
+            inertia, inertia_source = estimated_rotor_inertia(self.kind, self.mass, self.diameter)
         continuous, continuous_source = self.continuous_torque_nm, ""
         if continuous is None:
             continuous, continuous_source = estimated_continuous_torque(
-                self.torque_constant, self.resistance, self.diameter_m, self.length_m
+                self.torque_constant, self.resistance, self.diameter, self.length
             )
             # The continuous torque cannot exceed the short-term one.
             if continuous is not None and torque is not None:
@@ -219,11 +208,7 @@ class MotorSheet:
         return recorded(
             Motor,
             self,
-            mass=self.mass_kg,
             controller_mass=0.0,
-            diameter=self.diameter_m,
-            length=self.length_m,
-            rated_voltage=self.rated_voltage_v,
             no_load_speed=_speed(self.no_load_speed_rpm),
             speed_max=_speed(self.speed_max_rpm),
             peak_torque=torque,
@@ -231,9 +216,6 @@ class MotorSheet:
             continuous_torque=continuous,
             rotor_inertia=inertia,
             peak_basis=basis,
-            no_load_current=self.no_load_current_a,
-            saturation_torque=self.saturation_torque_nm,
-            voltage_max=self.voltage_max_v,
             rotor_inertia_source=inertia_source,
             continuous_torque_source=continuous_source,
         )
@@ -276,7 +258,7 @@ PEAK_TOLERANCE = 0.05
 
 def _contradictions(sheet: MotorSheet) -> Iterator[str]:
     """Figures that cannot both be right within the tolerances, one line each."""
-    voltage, resistance, k_t = sheet.rated_voltage_v, sheet.resistance, sheet.torque_constant
+    voltage, resistance, k_t = sheet.rated_voltage, sheet.resistance, sheet.torque_constant
 
     # k_t = 30 / (pi Kv) in the six-step convention; `actuation.motor` has the others.
     stated, convention, kv = sheet.kt_nm_per_a, sheet.kt_convention, sheet.kv_rpm_per_v
@@ -291,7 +273,7 @@ def _contradictions(sheet: MotorSheet) -> Iterator[str]:
     # No-load speed is (V - R I_0) / k_t; without I_0, V / k_t.
     no_load = sheet.no_load_speed_rpm
     if no_load is not None and voltage is not None and k_t is not None:
-        drop = (resistance or 0.0) * (sheet.no_load_current_a or 0.0)
+        drop = (resistance or 0.0) * (sheet.no_load_current or 0.0)
         expected = (voltage - drop) / k_t
         if not _close(rad_s(no_load), expected, NO_LOAD_TOLERANCE):
             yield (
@@ -361,8 +343,8 @@ def _bolt_circle_faults(sheet: MotorSheet, side: str, circle: BoltCircle | None)
         yield f"{columns[1]} is {circle.bolts}; it must be {LEAST_BOLTS[side]} or more"
     elif circle.thread not in SCREW_NAMES:
         yield f"{columns[2]} is {circle.thread!r}, which is not one of {', '.join(SCREW_NAMES)}"
-    elif circle.diameter >= (sheet.diameter_m or inf):
-        yield f"{where}, but the motor is only {sheet.diameter_m:g} m wide"
+    elif circle.diameter >= (sheet.diameter or inf):
+        yield f"{where}, but the motor is only {sheet.diameter:g} m wide"
     elif circle.inside < (sheet.shaft_diameter_m or 0.0) / 2.0 + LIGAMENT:
         yield f"{where}: holes for {circle.thread} leave less than 1 mm to the shaft"
     elif circle.spacing < LIGAMENT:
@@ -400,7 +382,7 @@ tenth to ten times that."""
 
 def _density(sheet: MotorSheet) -> float | None:
     """Mass over the volume of the body's enclosing cylinder [kg/m^3]; None: unknown."""
-    mass, diameter, length = sheet.mass_kg, sheet.diameter_m, sheet.length_m
+    mass, diameter, length = sheet.mass, sheet.diameter, sheet.length
     if mass is None or diameter is None or length is None:
         return None
     return mass / (math.pi / 4.0 * diameter**2 * length)
@@ -421,11 +403,9 @@ def _meant(value: float, unit: str, share: float, limits: tuple[float, float]) -
 
 def _of_mass(sheet: MotorSheet, limits: tuple[float, float]) -> Iterator[str]:
     """Line on a mass that is implausible for the body, given a range of densities [kg/m^3]."""
-    mass, density = sheet.mass_kg or 0.0, _density(sheet)
+    mass, density = sheet.mass or 0.0, _density(sheet)
     if density is not None and not limits[0] <= density <= limits[1]:
-        size = " x ".join(
-            f"{1e3 * (each or 0.0):.4g}" for each in (sheet.diameter_m, sheet.length_m)
-        )
+        size = " x ".join(f"{1e3 * (each or 0.0):.4g}" for each in (sheet.diameter, sheet.length))
         usual = " to ".join(f"{1e-3 * each:g}" for each in DENSITIES)
         yield (
             f"mass_kg is {mass:g} kg in a body of {size} mm, {1e-3 * density:.4g} g/cm3, where "
@@ -436,7 +416,7 @@ def _of_mass(sheet: MotorSheet, limits: tuple[float, float]) -> Iterator[str]:
 def _doubts(sheet: MotorSheet) -> Iterator[str]:
     """Figures that are possible but implausible, one line each, with the likely mistake."""
     yield from _of_mass(sheet, LIKELY)
-    mass, torque = sheet.mass_kg, sheet.motor().peak_torque
+    mass, torque = sheet.mass, sheet.motor().peak_torque
     # Without a size, the mass is judged by the torque.
     if mass is not None and torque is not None and _density(sheet) is None:
         least, most = TORQUE_SHARES
@@ -447,7 +427,7 @@ def _doubts(sheet: MotorSheet) -> Iterator[str]:
                 f"to {heaviest:.2g} kg: "
                 f"{_meant(mass, 'kg', mass, (lightest / 3.0, 3.0 * heaviest))}"
             )
-    shaft, body = sheet.shaft_length_m, sheet.length_m
+    shaft, body = sheet.shaft_length_m, sheet.length
     if shaft is not None and body is not None and shaft > SHAFT_SHARE * body:
         yield (
             f"shaft_length_m is {shaft:g} m, {shaft / body:.2g} times its motor's body, and shafts "
@@ -464,7 +444,7 @@ def _doubts(sheet: MotorSheet) -> Iterator[str]:
             f"{name} is {value:g} {unit}, where motors have {slow:g} to {fast:g} rpm/V: "
             f"{_meant(value or 0.0, unit, share, limits)}"
         )
-    current, resistance, voltage = sheet.peak_current, sheet.resistance, sheet.rated_voltage_v
+    current, resistance, voltage = sheet.peak_current, sheet.resistance, sheet.rated_voltage
     if current is not None and resistance is not None and voltage is not None:
         share = current * resistance / voltage
         if not VOLTAGE_SHARES[0] <= share <= VOLTAGE_SHARES[1]:
@@ -478,7 +458,8 @@ def _doubts(sheet: MotorSheet) -> Iterator[str]:
 
 def _faults(sheet: MotorSheet) -> Iterator[str]:
     """Faults of a row, one line each; only contradictions can be excused by a remark."""
-    sizes = {name: size for name, size in vars(sheet).items() if name.endswith("_m") and size}
+    figures = {name: getattr(sheet, each.field) for name, each in columns_of(MotorSheet).items()}
+    sizes = {name: size for name, size in figures.items() if name.endswith("_m") and size}
     large = {name: size for name, size in sizes.items() if size >= LARGEST_MOTOR}
     for name, size in large.items():
         yield f"{name} is {size:g} m, and no motor is that large: did you mean {size / 1e3:g} m?"
@@ -488,12 +469,12 @@ def _faults(sheet: MotorSheet) -> Iterator[str]:
         yield f"kt_nm_per_a needs its kt_convention{_fitting(sheet)}"
     if sheet.resistance_ohm is not None and sheet.resistance_between is None:
         yield "resistance_ohm needs its resistance_between"
-    shaft, body = sheet.shaft_diameter_m, sheet.diameter_m
+    shaft, body = sheet.shaft_diameter_m, sheet.diameter
     if shaft is not None and body is not None and shaft >= body:
         yield f"shaft_diameter_m is {shaft:g}, but the motor is only {body:g} m wide"
     yield from _bolt_circle_faults(sheet, "rotor", sheet.rotor)
     yield from _bolt_circle_faults(sheet, "stator", sheet.stator)
-    voltage, most = sheet.rated_voltage_v, sheet.voltage_max_v
+    voltage, most = sheet.rated_voltage, sheet.voltage_max
     if voltage is not None and most is not None and voltage > most:
         yield f"rated_voltage_v is {voltage:g}, above voltage_max_v, {most:g}"
     if sheet.shaft_form is not None and sheet.shaft_diameter_m is None:

@@ -12,8 +12,8 @@ from pathlib import Path
 from reprlib import repr as shortened
 from types import MappingProxyType, UnionType
 from typing import (
-    Annotated,
     Any,
+    NamedTuple,
     Protocol,
     TypeVar,
     Union,
@@ -24,6 +24,7 @@ from typing import (
 
 from ocs_design.common.errors import SpecificationError, closest
 from ocs_design.common.files import TextKind
+from ocs_design.common.ranges import Unit
 
 # A thousand motors take a quarter of a MiB.
 _FILE = TextKind("catalogue", 1 << 20, 5000, "Check the path.", "maker = 'maxon'")
@@ -202,20 +203,30 @@ _READERS: Mapping[object, Reader] = {
 }
 
 
-@cache
-def columns_of(sheet: type) -> Mapping[str, Reader]:
-    """Reader of each column, by the type of a dataclass's field; None means an omitted cell.
+class Column(NamedTuple):
+    """A column of a file: the field that it fills, and how its cells are read."""
 
-    Where the type is not specific enough, the field names its reader: `Annotated[float, fraction]`.
+    field: str
+    read: Reader
+
+
+@cache
+def columns_of(sheet: type) -> Mapping[str, Column]:
+    """Columns for the fields of a dataclass, by name, each read by its type.
+
+    A field that states its unit, `Annotated[float | None, Unit("kg")]`, has the column `mass_kg`;
+    others have columns of their own names. Where the type is not specific enough, the field names
+    its reader: `Annotated[float, fraction]`. None means an omitted cell.
     """
-    found: dict[str, Reader] = {}
+    kinds, found = get_type_hints(sheet), {}
     for name, hint in get_type_hints(sheet, include_extras=True).items():
-        if get_origin(hint) is Annotated:
-            found[name] = get_args(hint)[1]
-            continue
-        kind = get_args(hint)[0] if get_origin(hint) in {Union, UnionType} else hint
+        kind, stated = kinds[name], getattr(hint, "__metadata__", ())
+        if get_origin(kind) in {Union, UnionType}:
+            kind = get_args(kind)[0]
         is_words = isinstance(kind, type) and issubclass(kind, StrEnum)
-        found[name] = choice(kind) if is_words else _READERS[kind]
+        readers = [*filter(callable, stated), choice(kind) if is_words else _READERS[kind]]
+        units = [mark.suffix for mark in stated if isinstance(mark, Unit)]
+        found["_".join([name, *units])] = Column(name, readers[0])
     return found
 
 
@@ -363,11 +374,11 @@ def _read_cells(
             faults.append(f"{where}, {column}: unknown column. {hint}")
             continue
         try:
-            values[column] = columns[column](raw)
+            values[columns[column].field] = columns[column].read(raw)
         except ValueError as error:
             faults.append(f"{where}, {column}: {error}")
-            if columns[column] in {positive, whole}:
-                unread.append(column)
+            if columns[column].read in {positive, whole}:
+                unread.append(columns[column].field)
     required = {item.name for item in fields(sheet) if item.default is MISSING}
     missing = sorted(required - row.cells.keys())
     faults.extend(f"{where}, {column}: is missing" for column in missing)

@@ -1,6 +1,7 @@
 """Ranges of the figures of a design, stated with each field of its records: `height: Length`.
 
-They are wide: what is outside cannot exist, whatever is designed. `device.checks` refuses it.
+They are wide: what is outside cannot exist, whatever is designed. `device.checks` refuses it. A
+field that is a column of a catalogue's file states its unit there, too.
 """
 
 from collections.abc import Collection, Mapping
@@ -75,6 +76,12 @@ Capacity: TypeAlias = Annotated[float, Range(1e-15, inf, words="positive")]
 
 Angle: TypeAlias = Annotated[float, Range(-LARGEST, LARGEST, words="finite")]
 Count: TypeAlias = Annotated[int, Range(0, MOST_BOLTS)]
+
+
+class Unit(NamedTuple):
+    """Unit of a figure in a file, at the end of its column's name: `kg` in `mass_kg`."""
+
+    suffix: str
 
 
 @cache

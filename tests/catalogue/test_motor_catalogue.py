@@ -107,11 +107,13 @@ def test_motor_constant_per_mass_is_that_of_outrunners():
 
 def test_a_column_is_a_field_of_a_row_and_is_read_as_its_type_asks():
     columns = columns_of(MotorSheet)
-    assert list(columns) == [field.name for field in fields(MotorSheet)]
+    assert [column.field for column in columns.values()] == [
+        each.name for each in fields(MotorSheet)
+    ]
     asked = {"maker": text, "mass_kg": positive, "rotor_bolts": whole, "rotor_thread": text}
-    assert {name: columns[name] for name in asked} == asked
+    assert {name: columns[name].read for name in asked} == asked
     with pytest.raises(ValueError, match="not one of six-step, foc, foc-rms"):
-        columns["kt_convention"]("sine")
+        columns["kt_convention"].read("sine")
 
 
 REDUCER = Gear("r", 3.0, 0.9, 0.1, 1e-6, 1e4, math.inf, 10.0, reverses=False, source="made up")
