@@ -117,6 +117,14 @@ class Field:
             drives = drives_of(problem, np.column_stack([drives.motor, drives.gear]))
         return Field.of(problem, drives)
 
+    def value_of(self, limit: Limit) -> float:
+        """Present value of one of the problem's limits [SI]."""
+        return limits_of(self.problem)[limit]
+
+    def with_limit(self, limit: Limit, value: float) -> "Field":
+        """Field of these drives with one of the problem's limits changed [SI]."""
+        return self.changed(with_limit(self.problem, limit, value))
+
     def with_requirement(self, requirement: Requirement) -> "Field":
         """Field of these drives for another requirement."""
         return self.changed(replace(self.problem, requirement=requirement))
@@ -259,15 +267,13 @@ def single_changes(field: Field, progress: Progress = unseen) -> dict[Limit, flo
     change that only an unlikely drive could use may be missed (`Field.possible`).
     """
 
-    def changed(limit: Limit, value: float) -> Field:
-        return field.changed(with_limit(field.problem, limit, value))
-
     return smallest_changes(
+        field,
         limits_of(field.problem),
-        lambda limit, value: changed(limit, value).possible,
+        lambda changed: changed.possible,
         precision=ADVICE_PRECISION,
         most=lambda limit: _MOST_ADVISED.get(limit.name, MOST_ADVISED),
-        conceivable=lambda limit, value: changed(limit, value).conceivable,
+        conceivable=lambda changed: changed.conceivable,
         progress=progress,
     )
 

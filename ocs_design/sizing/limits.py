@@ -1,21 +1,22 @@
 """The limits of the specification by name, and the smallest change of one that would do.
 
-The search for that change knows nothing of designs. It asks whether a design exists with a limit at
-another value and, where that takes long, whether one is conceivable at all, which a bound answers
-quickly.
+The search for that change knows nothing of designs. It asks whether a problem is feasible with a
+limit at another value and, where that takes long, whether it is conceivable at all, which a bound
+answers quickly.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite, pi, sqrt
-from typing import Any, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, Self, TypeAlias, TypeVar
 
 from ocs_design.common.errors import Constraint
 from ocs_design.common.units import round_outwards
-from ocs_design.requirement.device_sections import Envelope
-from ocs_design.requirement.requirement import Requirement
 
-Owner = TypeVar("Owner", Envelope, Requirement)
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+Owner = TypeVar("Owner", bound="DataclassInstance")
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ class Limit:
     per_si: float
     field: str = ""
 
-    def value(self, owner: Owner) -> float:
+    def value(self, owner: object) -> float:
         """Present value of the limit [SI]."""
         return float(getattr(owner, self.field))
 
@@ -101,8 +102,18 @@ PRECISION = 1e-6
 _LARGEST_STEP = 1.25
 """Largest ratio of two successive changes tried."""
 
-Test: TypeAlias = Callable[[Limit, float], bool]
-"""Whether something holds with one limit at another value [SI]."""
+
+class Limited(Protocol):
+    """A problem whose limits can be changed one at a time."""
+
+    def value_of(self, limit: Limit) -> float:
+        """Present value of one of its limits [SI]."""
+
+    def with_limit(self, limit: Limit, value: float) -> Self:
+        """The problem with one of its limits changed [SI]."""
+
+
+Problem = TypeVar("Problem", bound=Limited)
 
 Progress: TypeAlias = Callable[[float], None]
 """Called with the fraction done."""
@@ -128,44 +139,47 @@ def narrowed(
 
 
 def smallest_changes(
-    values: Mapping[Limit, float],
-    mends: Test,
+    problem: Problem,
+    limits: Collection[Limit],
+    possible: Callable[[Problem], bool],
     *,
     precision: float = PRECISION,
     most: Callable[[Limit], float] = lambda _: MOST_CHANGE,
-    conceivable: Test | None = None,
+    conceivable: Callable[[Problem], bool] | None = None,
     progress: Progress = unseen,
 ) -> dict[Limit, float]:
-    """Values of single limits that just make the design feasible, the gentlest change first [SI].
+    """Values of single limits that just make a problem feasible, the gentlest change first [SI].
 
     Args:
-        values: present values of the limits [SI], at which no design is feasible.
-        mends: whether a design is feasible with one limit changed.
+        problem: as it is, infeasible. limits: to change.
+        possible: whether a problem with one limit changed is feasible.
         precision: relative precision of the values.
         most: largest factor by which a limit is changed.
-        conceivable: where `mends` takes long, whether a bound leaves any design: true from some
+        conceivable: where `possible` takes long, whether a bound leaves any design: true from some
             change onwards. A limit that does not help at its largest change is then assumed never
             to help.
         progress: called with the fraction done.
     """
     factors: dict[Limit, float | None] = {}
-    for index, (limit, now) in enumerate(values.items()):
+    for index, limit in enumerate(limits):
+        now, start, far = problem.value_of(limit), 1.0, most(limit)
 
-        def at(test: Test, limit: Limit = limit, now: float = now) -> Callable[[float], bool]:
-            """A test as a function of the factor by which the limit is loosened."""
-            return lambda factor: test(limit, limit.loosened(now, factor))
+        def at(
+            holds: Callable[[Problem], bool], limit: Limit = limit, now: float = now
+        ) -> Callable[[float], bool]:
+            """A test of the problem, as a function of the factor by which the limit is loosened."""
+            return lambda factor: holds(problem.with_limit(limit, limit.loosened(now, factor)))
 
         if isfinite(now) and now > 0.0:
-            start, far = 1.0, most(limit)
             if conceivable is not None:
                 # A bound's edge, which is quick to find, is where to start.
-                can = at(mends)(far)
+                can = at(possible)(far)
                 start = narrowed(at(conceivable), start, far, precision)[0] if can else far
-            factors[limit] = smallest_factor(at(mends), start, far, precision)
-        progress((index + 1) / len(values))
+            factors[limit] = smallest_factor(at(possible), start, far, precision)
+        progress((index + 1) / len(limits))
     found = {limit: factor for limit, factor in factors.items() if factor is not None}
     ordered = sorted(found.items(), key=lambda item: item[1])
-    return {limit: limit.loosened(values[limit], factor) for limit, factor in ordered}
+    return {limit: limit.loosened(problem.value_of(limit), factor) for limit, factor in ordered}
 
 
 def smallest_factor(

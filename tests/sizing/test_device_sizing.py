@@ -15,7 +15,7 @@ from ocs_design.requirement.turns import Drop, Flip
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.device_problem import DeviceProblem, find_fixed_point
 from ocs_design.sizing.bound.device_sizing import size_device
-from ocs_design.sizing.bound.infeasible import DEVICE_PRECISION, with_limit
+from ocs_design.sizing.bound.infeasible import DEVICE_PRECISION
 from ocs_design.sizing.limits import RIM_LIMITS, TOP_SPEED
 
 SOLO12 = MassProperties(
@@ -173,10 +173,10 @@ def test_infeasible_by_its_robot():
     problem = problem_of(requirement, envelope)
     by_name = {limit.name: limit for limit in (*RIM_LIMITS, TOP_SPEED)}
     for name, value in error.relaxations.items():
-        mended = with_limit(problem, by_name[name], value)
+        mended = problem.with_limit(by_name[name], value)
         size_device(mended)
         tighter = by_name[name].loosened(value, 1.0 / (1.0 + 3.0 * DEVICE_PRECISION))
-        assert find_fixed_point(with_limit(problem, by_name[name], tighter)).shape is None
+        assert find_fixed_point(problem.with_limit(by_name[name], tighter)).shape is None
 
 
 def test_a_given_spin_inertia_is_not_mended_by_wheel_speed():

@@ -12,7 +12,6 @@ from ocs_design.sizing.bound.infeasible import (
     conflicting_limits,
     is_feasible,
     largest_spin_inertia,
-    with_limit,
 )
 from ocs_design.sizing.bound.rim_problem import RimProblem, lightest_rim
 from ocs_design.sizing.bound.rim_program import solve_rim
@@ -97,13 +96,13 @@ def test_each_relaxation_is_the_smallest_that_does(problem):
     error = failure(problem)
     for name, relaxed in error.relaxations.items():
         limit, value = BY_NAME[name], as_limit(problem, name, relaxed)
-        solve_rim(with_limit(problem, limit, value))
+        solve_rim(problem.with_limit(limit, value))
         tighter = limit.loosened(value, 1.0 / (1.0 + 3e-6))
-        assert not is_feasible(with_limit(problem, limit, tighter))
+        assert not is_feasible(problem.with_limit(limit, tighter))
     for limit in RIM_LIMITS:
         if limit.name not in error.relaxations:
             loose = limit.loosened(limit.value(problem.envelope), MOST_CHANGE)
-            assert not is_feasible(with_limit(problem, limit, loose))
+            assert not is_feasible(problem.with_limit(limit, loose))
 
 
 @few
@@ -115,13 +114,13 @@ def test_conflict_is_minimal(problem):
     assert conflict
     for limit in RIM_LIMITS:
         if limit not in conflict:
-            problem = with_limit(
-                problem, limit, limit.loosened(limit.value(problem.envelope), MOST_CHANGE)
+            problem = problem.with_limit(
+                limit, limit.loosened(limit.value(problem.envelope), MOST_CHANGE)
             )
     assert not is_feasible(problem)
     for limit in conflict:
         loose = limit.loosened(limit.value(problem.envelope), MOST_CHANGE)
-        assert is_feasible(with_limit(problem, limit, loose))
+        assert is_feasible(problem.with_limit(limit, loose))
 
 
 @few

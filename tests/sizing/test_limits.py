@@ -1,5 +1,8 @@
 """The search for the smallest change, and figures for people."""
 
+from collections.abc import Mapping
+from dataclasses import dataclass
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -10,15 +13,31 @@ from ocs_design.sizing.limits import (
     PRECISION,
     RIM_LIMITS,
     TOP_SPEED,
+    Limit,
     smallest_changes,
 )
 
 BY_NAME = {limit.name: limit for limit in (*RIM_LIMITS, TOP_SPEED)}
 
 
+@dataclass(frozen=True)
+class Changed:
+    """A problem that is nothing but the values of its limits, and the one that was changed."""
+
+    values: Mapping
+    limit: Limit | None = None
+
+    def value_of(self, limit):
+        return self.values[limit]
+
+    def with_limit(self, limit, value):
+        return Changed({**self.values, limit: value}, limit)
+
+
 def smallest_change(limit, now, mends):
     """Of one limit; None: there is none."""
-    return smallest_changes({limit: now}, lambda _, value: mends(value)).get(limit)
+    asked = Changed({limit: now})
+    return smallest_changes(asked, [limit], lambda each: mends(each.values[limit])).get(limit)
 
 
 @given(st.floats(1e-3, 1e3), st.floats(1.0001, 900.0))
@@ -47,10 +66,11 @@ def test_a_change_too_far_may_not_help():
 def test_gentlest_change_first():
     edges = {BY_NAME["r_max"]: 3.0, BY_NAME["wall_min"]: 0.5, BY_NAME["h_max"]: 1e6}
 
-    def mends(limit, value):
-        return value >= edges[limit] if limit.loosens_upwards else value <= edges[limit]
+    def possible(asked):
+        value, edge = asked.values[asked.limit], edges[asked.limit]
+        return value >= edge if asked.limit.loosens_upwards else value <= edge
 
-    found = smallest_changes(dict.fromkeys(edges, 1.0), mends)
+    found = smallest_changes(Changed(dict.fromkeys(edges, 1.0)), edges, possible)
     assert [limit.name for limit in found] == ["wall_min", "r_max"]
 
 

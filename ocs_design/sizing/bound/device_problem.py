@@ -31,6 +31,7 @@ from ocs_design.sizing.bound.rim_problem import (
     lightest_rim,
     smallest_rim_inertia,
 )
+from ocs_design.sizing.limits import TOP_SPEED, Limit
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +55,16 @@ class DeviceProblem:
     place: Callable[[float, float], FloatArray]
     incidence: float | None
     criterion: Criterion
+
+    def value_of(self, limit: Limit) -> float:
+        """Present value of one of its limits [SI]."""
+        return limit.value(self.requirement if limit is TOP_SPEED else self.envelope)
+
+    def with_limit(self, limit: Limit, value: float) -> "DeviceProblem":
+        """The problem with one of its limits changed [SI]."""
+        if limit is TOP_SPEED:
+            return replace(self, requirement=limit.replaced(self.requirement, value))
+        return replace(self, envelope=limit.replaced(self.envelope, value))
 
     def rim_problem(self, spin_inertia: float) -> RimProblem:
         """Rim problem of one wheel with this spin inertia [kg m^2]."""

@@ -3,7 +3,6 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from math import degrees, isfinite, isinf
-from typing import TypeVar
 
 import numpy as np
 
@@ -22,6 +21,7 @@ from ocs_design.sizing.limits import (
     STRESS,
     TOP_SPEED,
     Limit,
+    Problem,
     advice,
     narrowed,
     smallest_changes,
@@ -30,8 +30,6 @@ from ocs_design.sizing.limits import (
 DEVICE_PRECISION = 1e-4
 """Relative precision of a device's changes: they are reported to three digits, and each step of the
 search sizes a whole device."""
-
-Problem = TypeVar("Problem", RimProblem, DeviceProblem)
 
 
 def infeasible_rim(problem: RimProblem, solve: Callable[[RimProblem], object]) -> Infeasible:
@@ -93,18 +91,9 @@ def _changes(
     precision: float,
 ) -> dict[Limit, float]:
     """Values of single limits that just make the problem feasible [SI]."""
-
-    def mends(limit: Limit, value: float) -> bool:
-        """Whether a value just inside is feasible: at the edge no solver can verify it."""
-        return possible(with_limit(problem, limit, limit.loosened(value, 1.0 - precision / 3.0)))
-
-    values = {
-        limit: limit.value(problem.requirement)
-        if isinstance(problem, DeviceProblem) and limit is TOP_SPEED
-        else limit.value(problem.envelope)
-        for limit in limits
-    }
-    return smallest_changes(values, mends, precision=precision / 3.0)
+    found = smallest_changes(problem, limits, possible, precision=precision / 3.0)
+    # A little looser, as no solver can verify a value at the edge.
+    return {limit: limit.loosened(value, 1.0 + precision / 3.0) for limit, value in found.items()}
 
 
 def _infeasible(
@@ -119,7 +108,7 @@ def _infeasible(
     """The error with the changes that would help, each verified by solving with it."""
     texts, relaxations = [], {}
     for limit, value in changes.items():
-        solve(with_limit(problem, limit, value))
+        solve(problem.with_limit(limit, value))
         text, relaxations[limit.name] = limit.loose_text(value), value
         if limit is STRESS:
             safety = rim.envelope.stress_safety
@@ -137,13 +126,6 @@ def _infeasible(
         relaxations=relaxations,
         hint=advice(texts, "loosen several, or require less."),
     )
-
-
-def with_limit(problem: Problem, limit: Limit, value: float) -> Problem:
-    """The problem with one limit changed [SI]."""
-    if isinstance(problem, RimProblem) or limit is not TOP_SPEED:
-        return replace(problem, envelope=limit.replaced(problem.envelope, value))
-    return replace(problem, requirement=limit.replaced(problem.requirement, value))
 
 
 def is_feasible(problem: RimProblem) -> bool:
@@ -170,7 +152,7 @@ def conflicting_limits(problem: RimProblem) -> tuple[Limit, ...]:
     needed = []
     for limit in reversed(limits_set(problem)):
         loosest = limit.loosened(limit.value(problem.envelope), MOST_CHANGE)
-        without = with_limit(problem, limit, loosest)
+        without = problem.with_limit(limit, loosest)
         if is_feasible(without):
             needed.append(limit)
         else:

@@ -51,6 +51,7 @@ from ocs_design.parts.rim import (
     spread_left,
 )
 from ocs_design.requirement.device_sections import Envelope
+from ocs_design.sizing.limits import Limit
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,6 +117,14 @@ class RimProblem:
     envelope: Envelope
     material: Material
     wheel_speed: float
+
+    def value_of(self, limit: Limit) -> float:
+        """Present value of one of its limits [SI]."""
+        return limit.value(self.envelope)
+
+    def with_limit(self, limit: Limit, value: float) -> "RimProblem":
+        """The problem with one of its limits changed [SI]."""
+        return replace(self, envelope=limit.replaced(self.envelope, value))
 
     @property
     def hoop_stress_max(self) -> float:
