@@ -12,7 +12,8 @@ from ocs_design.device.solids import foot_of
 from ocs_design.parts.carrier_plate import CarrierPlate, Mast
 from ocs_design.parts.module import standing
 from ocs_design.parts.moments import cylinder_mass
-from ocs_design.parts.rim import WEB_THICKNESS, hub_of
+from ocs_design.parts.motor_mount import hub_of
+from ocs_design.parts.rim import WEB_THICKNESS
 from ocs_design.parts.solids import Carrier
 
 CAGED = motor("MN5212 KV340")

@@ -26,7 +26,8 @@ from naive_wheel import hub_body, spokes
 from standing_parts import driving_parts
 
 from ocs_design.actuation.fasteners import LIGAMENT
-from ocs_design.parts.rim import SHOULDER, STEP, hub_of
+from ocs_design.parts.motor_mount import hub_of
+from ocs_design.parts.rim import SHOULDER, STEP
 from ocs_design.requirement.pushes import Disturbance
 from ocs_design.requirement.turns import Drop, Flip
 

@@ -21,7 +21,8 @@ from ocs_design.device.device import Device
 from ocs_design.device.records.design import OcsDesign
 from ocs_design.device.solids import foot_of
 from ocs_design.parts.module import standing
-from ocs_design.parts.rim import HoleRing, hoop_stress, hub_of, stored_energy, wheel_body
+from ocs_design.parts.motor_mount import hub_of
+from ocs_design.parts.rim import HoleRing, hoop_stress, stored_energy, wheel_body
 from ocs_design.parts.solids import Carrier
 from ocs_design.robot.mass import MassProperties, combine
 

@@ -1,4 +1,4 @@
-"""Mount of a motor behind the foot's plate, and its screws.
+"""Mount of a motor behind the foot's plate, its screws, and the wheel's hub on it.
 
 A motor is held by its output face, with screws through plate and floor; or by its back, in a cage,
 from which it reaches through plate and floor to the wheel's hub; or, if its threads are not known
@@ -10,20 +10,23 @@ from dataclasses import dataclass, field, replace
 from math import inf, sin
 from typing import Generic
 
+from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.fasteners import (
     CLASSES,
     IN_PLASTIC,
+    LIGAMENT,
     BoltedJoint,
     Fastening,
     longest_within,
     screw,
 )
-from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
+from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Motor, Mounting
 from ocs_design.common.arrays import Table
 from ocs_design.parts.bell import Bell, HeldMotor, bell_of
 from ocs_design.parts.cage import HALF_POST, NO_POSTS, Cage, Posts
 from ocs_design.parts.moments import MassMoments, Real, point, ring
 from ocs_design.parts.printed import (
+    CLEARANCE,
     LID_SCREW,
     PANEL,
     PLATE_THICKNESS,
@@ -32,7 +35,22 @@ from ocs_design.parts.printed import (
     ear_radius,
     half_height,
 )
-from ocs_design.parts.rim import BOLTED_HUB_HEIGHT, HUB_WALL, hub_height
+from ocs_design.parts.rim import WEB_THICKNESS, Hub
+
+HUB_HEIGHT = 5.0e-3
+"""Least height of a hub on a shaft [m]; its bond is as long as the shaft's diameter."""
+
+BOLTED_HUB_HEIGHT = 3.0e-3
+"""Height of a hub clamped by screws [m]: M3 heads press on it with 150 MPa."""
+
+HEAD_ROOM = 0.5e-3
+"""Least clearance between the heads of a hub's screws and the lid above them [m]."""
+
+HUB_WALL = 2.0e-3
+"""Least wall around bore and bolts [m]."""
+
+PILOT_BORE = 3.0e-3
+"""Largest bore diameter if the motor's shaft is not in the catalogue [m]: to be bored to fit."""
 
 SHAFT_ROOM = 1.0e-3
 """Clearance of a shaft that turns in a printed hole [m]: prints are off by 0.2 mm."""
@@ -334,6 +352,63 @@ def motor_front(mount: MotorMount, height: float) -> float:
     if mount.cage is not None:
         return -mount.cage.front
     return -(half_height(height) + mount.foot_plate + mount.gap)
+
+
+def hub_height(mounting: Mounting) -> float:
+    """Height of a hub: 3 mm on a rotor; on a shaft its diameter, at least `HUB_HEIGHT` [m]."""
+    if mounting.rotor is not None:
+        return BOLTED_HUB_HEIGHT
+    return max(HUB_HEIGHT, mounting.shaft_diameter or 0.0)
+
+
+def hub_of(
+    motor: Motor | Drive,
+    *,
+    direct: bool = True,
+    chamfer: float = 0.0,
+    web_thickness: float = WEB_THICKNESS,
+    lightening: int = 0,
+) -> Hub:
+    """Hub of a wheel on this motor, with the bore of its shaft and holes for its screws.
+
+    On a shaft its diameter is twice the shaft's, as usual for hubs of steel (Roloff/Matek
+    Maschinenelemente, table 12-1: 1.8 to 2). If the catalogue has neither shaft nor screws, it has
+    a pilot bore and is as wide as the bolt circles of motors of this diameter; the same behind a
+    gear, not `direct`. `chamfer` is that of its edges, `web_thickness` and `lightening` are those
+    of its web [m].
+    """
+    mounting = (motor.mounting if direct else None) or Mounting()
+    rotor, bore = mounting.rotor, PILOT_BORE / 2.0
+    if mounting.shaft_diameter is not None:
+        bore = mounting.shaft_diameter / 2.0
+    elif rotor is not None:
+        # A pilot bore stays clear of the screws.
+        bore = min(bore, rotor.inside - LIGAMENT)
+    on_shaft = mounting.shaft_diameter is not None
+    wide = 2.0 * bore if on_shaft else 5.5e-3 + 0.15 * (motor.diameter or 0.03)
+    hub = Hub(
+        max(wide, bore + HUB_WALL),
+        hub_height(mounting),
+        bore,
+        chamfer=chamfer,
+        web_thickness=web_thickness,
+        lightening=lightening,
+    )
+    if rotor is None:
+        return hub
+    return replace(
+        hub,
+        radius=rotor.reach + HUB_WALL,
+        bolts=rotor.bolts,
+        bolt_circle_radius=rotor.radius,
+        bolt_hole_radius=rotor.hole_radius,
+        bolt_head=screw(rotor.thread).head_height,
+    )
+
+
+def rim_height_min(hub: Hub) -> float:
+    """Least height of a rim whose lid leaves room for hub and heads [m]; 0: any."""
+    return max(hub.height + 2.0 * (hub.bolt_head + HEAD_ROOM - CLEARANCE), 0.0)
 
 
 def bond_length(mounting: Mounting, hub_height: float, chamfer: float, front: float) -> float:

@@ -34,19 +34,16 @@ spin inertia; the material that this disc lacks within the hub is counted with t
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from math import inf, pi, sin, sqrt
 from typing import Annotated
 
 import numpy as np
 
-from ocs_design.actuation.drive import Drive
-from ocs_design.actuation.fasteners import LIGAMENT, screw
-from ocs_design.actuation.motor import Motor, Mounting
+from ocs_design.actuation.fasteners import LIGAMENT
 from ocs_design.common.ranges import Count, Length, LengthIfAny, OneOf
 from ocs_design.parts.moments import Real, cylinder_mass
-from ocs_design.parts.printed import CLEARANCE
 from ocs_design.parts.shapes import Disc
 from ocs_design.parts.solids import Carrier, Part, Prism
 
@@ -69,21 +66,6 @@ SHOULDER = 0.5e-3
 
 STEP = 0.1e-3
 """Least length of a rim's bore between its chamfers, in excess of its web's thickness [m]."""
-
-HUB_HEIGHT = 5.0e-3
-"""Least height of a hub on a shaft [m]; its bond is as long as the shaft's diameter."""
-
-BOLTED_HUB_HEIGHT = 3.0e-3
-"""Height of a hub clamped by screws [m]: M3 heads press on it with 150 MPa."""
-
-HEAD_ROOM = 0.5e-3
-"""Least clearance between the heads of a hub's screws and the lid above them [m]."""
-
-HUB_WALL = 2.0e-3
-"""Least wall around bore and bolts [m]."""
-
-PILOT_BORE = 3.0e-3
-"""Largest bore diameter if the motor's shaft is not in the catalogue [m]: to be bored to fit."""
 
 
 LIGHTENED: Mapping[int, float] = {0: 0.0, 5: 0.35, 6: 0.4, 7: 0.4, 8: 0.35}
@@ -367,11 +349,6 @@ class Hub:
         """Mass of hub and web in a rim of this bore radius, minus all holes [kg]."""
         return self.web(bore, density).mass + self.beyond_web(density).mass
 
-    @property
-    def rim_height_min(self) -> float:
-        """Least height of a rim whose lid leaves room for hub and heads [m]; 0: any."""
-        return max(self.height + 2.0 * (self.bolt_head + HEAD_ROOM - CLEARANCE), 0.0)
-
     def beyond_web(self, density: float) -> Carrier:
         """The hub in addition to its `web`, with the material which that lacks, as one body."""
         unit = _beyond_web(self)
@@ -425,58 +402,6 @@ def _lightened_bore(count: int, hub_radius: float) -> float:
 
 NO_HUB = Hub(radius=0.0, height=0.0, bore_radius=0.0)
 """Hub of massless spokes."""
-
-
-def hub_height(mounting: Mounting) -> float:
-    """Height of a hub: 3 mm on a rotor; on a shaft its diameter, at least `HUB_HEIGHT` [m]."""
-    if mounting.rotor is not None:
-        return BOLTED_HUB_HEIGHT
-    return max(HUB_HEIGHT, mounting.shaft_diameter or 0.0)
-
-
-def hub_of(
-    motor: Motor | Drive,
-    *,
-    direct: bool = True,
-    chamfer: float = 0.0,
-    web_thickness: float = WEB_THICKNESS,
-    lightening: int = 0,
-) -> Hub:
-    """Hub of a wheel on this motor, with the bore of its shaft and holes for its screws.
-
-    On a shaft its diameter is twice the shaft's, as usual for hubs of steel (Roloff/Matek
-    Maschinenelemente, table 12-1: 1.8 to 2). If the catalogue has neither shaft nor screws, it has
-    a pilot bore and is as wide as the bolt circles of motors of this diameter; the same behind a
-    gear, not `direct`. `chamfer` is that of its edges, `web_thickness` and `lightening` are those
-    of its web [m].
-    """
-    mounting = (motor.mounting if direct else None) or Mounting()
-    rotor, bore = mounting.rotor, PILOT_BORE / 2.0
-    if mounting.shaft_diameter is not None:
-        bore = mounting.shaft_diameter / 2.0
-    elif rotor is not None:
-        # A pilot bore stays clear of the screws.
-        bore = min(bore, rotor.inside - LIGAMENT)
-    on_shaft = mounting.shaft_diameter is not None
-    wide = 2.0 * bore if on_shaft else 5.5e-3 + 0.15 * (motor.diameter or 0.03)
-    hub = Hub(
-        max(wide, bore + HUB_WALL),
-        hub_height(mounting),
-        bore,
-        chamfer=chamfer,
-        web_thickness=web_thickness,
-        lightening=lightening,
-    )
-    if rotor is None:
-        return hub
-    return replace(
-        hub,
-        radius=rotor.reach + HUB_WALL,
-        bolts=rotor.bolts,
-        bolt_circle_radius=rotor.radius,
-        bolt_hole_radius=rotor.hole_radius,
-        bolt_head=screw(rotor.thread).head_height,
-    )
 
 
 def wheel_body(

@@ -17,8 +17,8 @@ from ocs_design.common.wording import some_of
 from ocs_design.device.layout import PAIR, Criterion, Layout, LayoutName
 from ocs_design.parts.bell import bell_of
 from ocs_design.parts.joints import SERVICE, hub_joint
-from ocs_design.parts.motor_mount import bond_length, is_held, motor_front, mount_of
-from ocs_design.parts.rim import NO_CUTS, WEB_MATERIAL, RimCuts, hub_height
+from ocs_design.parts.motor_mount import bond_length, hub_height, is_held, motor_front, mount_of
+from ocs_design.parts.rim import NO_CUTS, WEB_MATERIAL, RimCuts
 from ocs_design.requirement.choices import MotorChoice
 from ocs_design.requirement.device_sections import Envelope, FlywheelSection
 from ocs_design.requirement.requirement import Requirement

@@ -20,8 +20,7 @@ from ocs_design.catalogue.motors import motors
 from ocs_design.common.files import to_json
 from ocs_design.device.records.design import read_design
 from ocs_design.parts.joints import hub_joint
-from ocs_design.parts.motor_mount import bond_length, motor_front, mount_of
-from ocs_design.parts.rim import hub_height
+from ocs_design.parts.motor_mount import bond_length, hub_height, motor_front, mount_of
 
 # INTERFACE: the fields that scripts and other programs rely on.
 SCHEMA = {

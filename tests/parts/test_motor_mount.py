@@ -14,15 +14,16 @@ from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
 from ocs_design.catalogue.motors import motor
 from ocs_design.device.device import Flywheel, Web
 from ocs_design.parts.moments import cylinder_mass
-from ocs_design.parts.motor_mount import bond_length, is_held, motor_front, mount_of
-from ocs_design.parts.rim import (
+from ocs_design.parts.motor_mount import (
     HUB_WALL,
     PILOT_BORE,
-    WEB_THICKNESS,
-    Hub,
+    bond_length,
     hub_of,
-    wheel_body,
+    is_held,
+    motor_front,
+    mount_of,
 )
+from ocs_design.parts.rim import WEB_THICKNESS, Hub, wheel_body
 from ocs_design.parts.solids import total
 from ocs_design.parts.wheel import wheel_parts
 

@@ -177,7 +177,7 @@ def limits_with_web(
         hub_radius: [m].
         cuts: chamfers and holes of the rims.
         web_density: of web and hub [kg/m^3]; None: in one piece with the rim.
-        rim_height_min: least height with room for the hub's screws (`Hub.rim_height_min`) [m].
+        rim_height_min: least height with room for the hub's screws (`rim_height_min`) [m].
         lightened: fraction of the web that holes remove (`Hub.lightened`).
         lightened_bore: least bore with room for them (`Hub.bore_min`) [m].
         stretch_left: fraction of the allowed hoop stress at which the holes do not yield.

@@ -21,9 +21,9 @@ from ocs_design.common.arrays import FloatArray
 from ocs_design.device.layout import Layout
 from ocs_design.parts.housing import PlainDrum
 from ocs_design.parts.module import Printed
-from ocs_design.parts.motor_mount import mount_of
+from ocs_design.parts.motor_mount import hub_of, mount_of
 from ocs_design.parts.printed import half_height
-from ocs_design.parts.rim import LIGHTENED, hub_of
+from ocs_design.parts.rim import LIGHTENED
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.sizing.bound.rim_problem import (

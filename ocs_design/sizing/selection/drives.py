@@ -11,7 +11,7 @@ from ocs_design.common.arrays import FloatArray, Table
 from ocs_design.parts.cage import Posts
 from ocs_design.parts.joints import OVERSPEED
 from ocs_design.parts.moments import MassMoments, Real
-from ocs_design.parts.motor_mount import Behind
+from ocs_design.parts.motor_mount import Behind, rim_height_min
 from ocs_design.parts.rim import Hub
 from ocs_design.sizing.place import Size, module_size
 
@@ -73,7 +73,7 @@ class HubFigures(Table, Generic[Real]):
         beyond = hub.beyond_web(1.0)
         return HubFigures(
             radius=hub.radius,
-            rim_height=hub.rim_height_min,
+            rim_height=rim_height_min(hub),
             lightened=hub.lightened,
             lightened_bore=hub.bore_min,
             lightened_stress=hub.lightened_stress,

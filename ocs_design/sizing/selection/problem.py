@@ -20,17 +20,10 @@ from ocs_design.device.layout import PAIR, Layout
 from ocs_design.device.records.selection import TaskDemand
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.module import Printed, standing
-from ocs_design.parts.motor_mount import MotorMount, mount_of
+from ocs_design.parts.motor_mount import MotorMount, hub_of, mount_of
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import PLATE_THICKNESS
-from ocs_design.parts.rim import (
-    NO_CUTS,
-    SHRUNK_WEB_THICKNESS,
-    WEB_THICKNESS,
-    Hub,
-    RimCuts,
-    hub_of,
-)
+from ocs_design.parts.rim import NO_CUTS, SHRUNK_WEB_THICKNESS, WEB_THICKNESS, Hub, RimCuts
 from ocs_design.parts.solids import Carrier
 from ocs_design.requirement.device_sections import Envelope
 from ocs_design.requirement.requirement import Requirement
