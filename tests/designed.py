@@ -46,10 +46,15 @@ def solo12():
     return read_task(Specification(robot=RobotSection(file=SOLO12)))
 
 
-def on_solo12(**options):
-    """The task for it with these options of the command; `motor__name` is `motor.name`."""
+def asked_of_solo12(**options):
+    """The specification for it of these options of the command; `motor__name` is `motor.name`."""
     named = {name.replace("__", "."): value for name, value in options.items()}
-    return solo12().with_specification(specification_from_options({"robot.file": SOLO12, **named}))
+    return specification_from_options({"robot.file": SOLO12, **named})
+
+
+def on_solo12(**options):
+    """The task of the same."""
+    return solo12().with_specification(asked_of_solo12(**options))
 
 
 def as_recorded(task, made, *, seed=0, files=None):

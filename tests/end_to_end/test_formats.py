@@ -16,8 +16,6 @@ from weighed import by_pinocchio
 # Stated, so that nothing hangs on what only one of the formats knows.
 ROOM = ("--r-max", "50mm", "--r-min", "5mm", "--h-max", "10mm", "--h-min", "2mm")
 ROOM = (*ROOM, "--wall-min", "2mm", "--wheel-mass-max", "250g")
-# What a robot is does not hang on how its wheels are driven, and the bound alone takes no time.
-BOUND = ("--motor", "none")
 FEET = ("--legs", "FL_FOOT,FR_FOOT,HL_FOOT,HR_FOOT")
 NO_MANEUVERS = "[requirement]\nmaneuvers = 'none'\nrate_change = '6.3 rad/s'\n"
 

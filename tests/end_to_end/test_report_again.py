@@ -36,7 +36,7 @@ def design(product, tmp_path, monkeypatch):
 @pytest.mark.slow
 def test_the_commands_of_the_page_work(design, capsys):
     for line in "".join(shown("sh")).splitlines():
-        result = run(*line.replace("--samples 200", "--samples 20").split()[1:])
+        result = run(*line.replace("--samples 200", "--samples 8").split()[1:])
         assert result.code == 0, result.said
     exec(shown("python")[0], {})
     assert float(capsys.readouterr().out) == read_design(design / "design.json").ocs.incidence
@@ -44,7 +44,7 @@ def test_the_commands_of_the_page_work(design, capsys):
     assert pictures == {".svg", ".png"}
     page = Path("with-samples/report.html").read_text()
     assert 'id="samples"' in page
-    assert "20 sampled robots" in page
+    assert "8 sampled robots" in page
 
 
 @pytest.mark.slow

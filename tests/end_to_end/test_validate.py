@@ -163,12 +163,6 @@ def test_flights_are_shown_in_real_time(by_hand, folder, monkeypatch):
     assert seconds == pytest.approx(0.015)
 
 
-def test_another_law_is_recorded(by_hand, folder):
-    Path("law.toml").write_text("[validation]\nkp = 90.0\n")
-    run("validate", by_hand, "--spec", "law.toml", "-o", "first", "-q")
-    assert json.loads(Path("first/design.json").read_text())["control"]["kp"] == 90.0
-
-
 @pytest.mark.slow
 def test_flights_by_another_law_are_recorded_with_it(by_hand, folder):
     """Flown again from there they are the same, and a case of theirs is known."""

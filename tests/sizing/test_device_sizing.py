@@ -2,16 +2,17 @@
 
 from dataclasses import replace
 
+import gyrostats
 import numpy as np
 import pinocchio
 import pytest
+from gyrostats import PUSH
 from rims import STEEL, room
 
 from ocs_design.common.errors import Infeasible, UsageError
 from ocs_design.device.layout import Criterion, incidence_by_criterion, module_axes
-from ocs_design.requirement.pushes import Disturbance
 from ocs_design.requirement.requirement import Requirement
-from ocs_design.requirement.turns import Drop, Flip
+from ocs_design.requirement.turns import Drop
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.bound.device_problem import DeviceProblem, find_fixed_point
 from ocs_design.sizing.bound.device_sizing import size_device
@@ -28,23 +29,9 @@ ROOM = room(
     stress_safety=2.0,
 )  # fmt: skip
 SPEED = 754.0
-DISTURBANCE = Disturbance(
-    name="disturbance",
-    takeoff_velocity=(0.5, 2.4),
-    torque=(0.2, 0.8, 0.0),
-    onset=0.1,
-    duration=0.05,
-)
 DROP = Drop(name="drop", height=1.0, pitch=np.radians(30.0))
-BACK_FLIP = Flip(
-    name="back-flip",
-    gravity=1.62,
-    incidence=0.0,
-    jump_height=1.0,
-    angle=-2.0 * np.pi,
-    duration=2.0,
-)
-MANEUVERS = (DISTURBANCE, DROP, BACK_FLIP)
+BACK_FLIP = replace(gyrostats.BACK_FLIP, incidence=0.0)
+MANEUVERS = (PUSH, DROP, BACK_FLIP)
 
 
 def place(outer_radius, height):
@@ -113,7 +100,7 @@ def test_fixed_point_from_scratch(criterion):
     # Roll, out of the wheels' reach, follows pitch and takes some of it.
     flip = (turned[1, 1] - coupled(turned) ** 2 / turned[0, 0]) * 2.0 * np.pi
     expected = {
-        "disturbance": impulse[0] / sine + impulse[1] / cosine,
+        "push": impulse[0] / sine + impulse[1] / cosine,
         "drop": drop * (1.0 / cosine + product / inertia[1, 1] / sine),
         "back-flip": flip,
         "rate change, roll": 3.0 * (inertia[0, 0] / sine + product / cosine),
@@ -140,8 +127,8 @@ def test_given_spin_inertia_is_kept():
 
 
 def test_a_maneuver_turned_by_hand_has_no_say_in_the_incidence():
-    with_flip = size(asks(DROP, DISTURBANCE, BACK_FLIP, spin_inertia=1e-4), criterion="weighted")
-    without = size(asks(DROP, DISTURBANCE, spin_inertia=1e-4), criterion="weighted")
+    with_flip = size(asks(DROP, PUSH, BACK_FLIP, spin_inertia=1e-4), criterion="weighted")
+    without = size(asks(DROP, PUSH, spin_inertia=1e-4), criterion="weighted")
     assert with_flip.incidence == without.incidence
 
 

@@ -50,13 +50,7 @@ inertia_error = "normal(0, 15%)"
 torque_constant_error = "normal(0, 6%)"
 bus_voltage_error = "uniform(-25%, 20%)"
 """
-MUCH = """
-[reality]
-mass_error = "normal(0, 6%)"
-inertia_error = "normal(0, 15%)"
-torque_constant_error = "normal(0, 6%)"
-bus_voltage_error = "uniform(-35%, 15%)"
-"""
+MUCH = WIDE.replace("(-25%, 20%)", "(-35%, 15%)")
 ONLY_FLIP = """
 [[maneuver]]
 kind = "flip"

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from commands import SOLO12, run
-from designed import on_solo12
+from designed import asked_of_solo12, on_solo12
 
 from ocs_design.actuation.wheel_load import reach, reach_without_one
 from ocs_design.common.errors import Constraint, Infeasible, UsageError
@@ -11,7 +11,7 @@ from ocs_design.device.layout import ISOTROPIC, PAIR, Layout, LayoutName
 from ocs_design.device.records.design import read_design
 from ocs_design.requirement.checks import contradictions
 from ocs_design.requirement.device_sections import OcsSection
-from ocs_design.requirement.reading import parse_specification, specification_of
+from ocs_design.requirement.reading import parse_specification
 from ocs_design.requirement.specification import Specification, merge, specification_from_options
 from ocs_design.requirement.vocabulary import LAYOUTS
 from ocs_design.sizing.design import design_device
@@ -29,6 +29,8 @@ pytestmark = pytest.mark.usefixtures("no_alternatives", "no_files")
 
 S, C = np.sin(0.5), np.cos(0.5)
 THIRD = np.sqrt(3.0)
+DESIGNED = {"validation__enabled": False}
+"""Not flown."""
 
 
 @pytest.mark.parametrize(
@@ -91,17 +93,12 @@ def test_axes_by_hand():
 @pytest.mark.slow
 def test_four_wheels_where_no_motor_is_strong_enough_for_two(tmp_path):
     """One motor to choose from: four share what two cannot; a pair that is stated is refused."""
-    asked = {
-        "robot.file": SOLO12,
-        "motor.name": "XING 2806.5 KV1800",
-        "requirement.reliability": "0.5",
-        "validation.enabled": False,
-    }
+    asked = {**DESIGNED, "motor__name": "XING 2806.5 KV1800", "requirement__reliability": "0.5"}
     with pytest.raises(Infeasible, match="XING"):
-        design_ocs(specification_from_options({**asked, "ocs.layout": "pair"}), out=tmp_path / "a")
+        design_ocs(asked_of_solo12(**asked, ocs__layout="pair"), out=tmp_path / "a")
     told = []
     outcome = design_ocs(
-        specification_from_options(asked),
+        asked_of_solo12(**asked),
         out=tmp_path / "b",
         progress=lambda label, share: told.append(label),
     )
@@ -134,14 +131,9 @@ def test_fewer_robots_where_nothing_is_sure_for_99_of_100(tmp_path):
 
     Of a normal rate 90 % stay below 1.645 deviations, 99 % below 2.576.
     """
-    asked = {
-        "robot.file": SOLO12,
-        "motor.name": "Antigravity MN5006 KV450",
-        "ocs.layout": "pair",
-        "ocs.alpha": "33deg",
-        "validation.enabled": False,
-    }
-    stated = merge(specification_from_options(asked), parse_specification(ROLLING, "test"))
+    motor = "Antigravity MN5006 KV450"
+    asked = asked_of_solo12(**DESIGNED, motor__name=motor, ocs__layout="pair", ocs__alpha="33deg")
+    stated = merge(asked, parse_specification(ROLLING, "test"))
     sure = merge(stated, specification_from_options({"requirement.reliability": "0.99"}))
     with pytest.raises(Infeasible, match="MN5006"):
         design_ocs(sure, out=tmp_path / "a")
@@ -165,15 +157,8 @@ def test_the_lightest_is_the_same_without_the_plates_of_the_others():
 @pytest.mark.slow
 def test_all_layouts_of_one_robot():
     """A flip alone: a single wheel is the lightest, and it does not roll the robot."""
-    asked = specification_from_options(
-        {
-            "robot.file": SOLO12,
-            "requirement.flip": "back",
-            "requirement.gravity": "1.62",
-            "motor.gear": "direct",
-        }
-    )
-    answer = compare_layouts(specification_of(asked))
+    asked = {"requirement__flip": "back", "requirement__gravity": "1.62", "motor__gear": "direct"}
+    answer = compare_layouts(asked_of_solo12(**asked))
     by_name = {each.layout: each for each in answer.layouts}
     assert tuple(by_name) == LAYOUTS
     assert by_name["single"].mass < by_name["pair"].mass < by_name["orthogonal"].mass
@@ -202,11 +187,11 @@ def test_the_robot_is_read_once_and_no_device_at_all_is_told_by_the_exit_code(mo
 
 
 SURVIVES = {
-    "motor.gear": "direct",
-    "requirement.survives": "one",
-    "requirement.fall": "1m",
-    "requirement.tilt": "20deg",
-    "validation.ballistic": True,
+    "motor__gear": "direct",
+    "requirement__survives": "one",
+    "requirement__fall": "1m",
+    "requirement__tilt": "20deg",
+    "validation__ballistic": True,
 }
 
 
@@ -233,7 +218,7 @@ def test_what_does_not_go_with_a_stopped_drive(option):
 @pytest.mark.parametrize("layout", ["single", "double-pair"])
 def test_wheels_share_the_supply_when_sized_as_when_planned(layout):
     """Four wheels that were promised the half of it each found no plan of the drop."""
-    drop = {"requirement.fall": "1m", "requirement.tilt": "30deg", "supply.power_max": "600 W"}
+    drop = {"requirement__fall": "1m", "requirement__tilt": "30deg", "supply__power_max": "600 W"}
     task = on_solo12(**drop, ocs__layout=layout)
     designed = design_device(task)
     promised = designed.choice.chosen.line.power_max
@@ -248,7 +233,7 @@ def test_wheels_share_the_supply_when_sized_as_when_planned(layout):
 @pytest.mark.parametrize(("layout", "direct"), [("pair", False), ("orthogonal", True)])
 def test_wheels_that_reach_yaw_are_sized_for_it_without_a_loop(layout, direct):
     """The wheels are what the closed form asks for, and a plan for them leaves something."""
-    turning = {"requirement.turn": "yaw 90deg in 2s", "requirement.gravity": "1.62"}
+    turning = {"requirement__turn": "yaw 90deg in 2s", "requirement__gravity": "1.62"}
     task = on_solo12(**turning, ocs__layout=layout)
     problem = selection_problem(task)
     (turn,) = problem.requirement.maneuvers
@@ -289,14 +274,7 @@ def test_what_needs_less_than_the_smallest_rim_gets_a_larger_one():
 @pytest.mark.slow
 def test_a_triad_for_solo12_can_be_built(tmp_path):
     """On one plate, whose mass is a part of the device's; read again it is the same."""
-    asked = specification_from_options(
-        {
-            "robot.file": SOLO12,
-            "ocs.layout": "triad",
-            "motor.gear": "direct",
-            "validation.enabled": False,
-        }
-    )
+    asked = asked_of_solo12(**DESIGNED, ocs__layout="triad", motor__gear="direct")
     design = design_ocs(asked, out=tmp_path / "a").design
     assert design.buildable.yes is True
     assert design.buildable.open == ()
@@ -311,8 +289,7 @@ def test_a_triad_for_solo12_can_be_built(tmp_path):
 @pytest.mark.parametrize("layout", ["triad", pytest.param("pyramid", marks=pytest.mark.exhaustive)])
 def test_what_survives_lands_whichever_drive_stops(layout, tmp_path):
     """Every drive at every instant; what costs mass is told, and the table has each flight."""
-    asked = {**SURVIVES, "robot.file": SOLO12, "ocs.layout": layout}
-    outcome = design_ocs(specification_from_options(asked), out=tmp_path / "a")
+    outcome = design_ocs(asked_of_solo12(**SURVIVES, ocs__layout=layout), out=tmp_path / "a")
     survival = outcome.design.survival
     assert not survival.lost
     assert outcome.device.mass > survival.mass_without
@@ -325,7 +302,6 @@ def test_what_survives_lands_whichever_drive_stops(layout, tmp_path):
 @pytest.mark.slow
 def test_a_refusal_names_what_would_survive_with_its_mass(tmp_path):
     with pytest.raises(CannotSurvive) as refused:
-        asked = specification_from_options({**SURVIVES, "robot.file": SOLO12})
-        design_ocs(asked, out=tmp_path / "a")
+        design_ocs(asked_of_solo12(**SURVIVES), out=tmp_path / "a")
     assert "`--layout triad`" in refused.value.hint
     assert not (tmp_path / "a").exists()
