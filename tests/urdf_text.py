@@ -30,6 +30,26 @@ def joint(name: str, parent: str, child: str, *inside: str, kind: str = "revolut
     )
 
 
+def hinge(name: str, parent: str, child: str, xyz: str, axis: str = "0 1 0") -> str:
+    """With room for nearly half a turn both ways."""
+    return joint(name, parent, child, f'<origin xyz="{xyz}"/><axis xyz="{axis}"/>', WIDE)
+
+
+def leg(name, hip, thigh, shank, parent="trunk", words=("thigh", "shank", "foot")):
+    """Two hinges about y; `thigh` and `shank` are the vectors along them at zero [m]."""
+    upper, lower, foot = (f"{name}_{word}" for word in words)
+    text = [" ".join(f"{0.5 * x}" for x in part) for part in (thigh, shank)]
+    ends = [" ".join(map(str, part)) for part in (hip, thigh, shank)]
+    return (
+        link(upper, inertial(0.2, "3e-4 3e-4 3e-4", text[0])),
+        link(lower, inertial(0.1, "2e-4 2e-4 2e-4", text[1])),
+        link(foot),
+        hinge(f"{name}_a", parent, upper, ends[0]),
+        hinge(f"{name}_b", upper, lower, ends[1]),
+        joint(f"{name}_c", lower, foot, f'<origin xyz="{ends[2]}"/>', kind="fixed"),
+    )
+
+
 def topped(base: str, top: str, xyz: str, axis: str = "0 0 1") -> bytes:
     """A link `base` and another one on a joint at that place, with what is inside of them."""
     place = f'<origin xyz="{xyz}"/><axis xyz="{axis}"/>'
@@ -37,6 +57,7 @@ def topped(base: str, top: str, xyz: str, axis: str = "0 0 1") -> bytes:
     return robot(link("base", base), link("top", top), joint("j", "base", "top", place, limit))
 
 
+WIDE = '<limit lower="-3.1" upper="3.1" effort="3" velocity="4"/>'
 LIMIT = '<limit lower="-1" upper="2" effort="3" velocity="4"/>'
 TWO_LINKS = robot(
     link("trunk", inertial(2.0)), link("leg", inertial()), joint("hip", "trunk", "leg", LIMIT)

@@ -7,14 +7,10 @@ from pathlib import Path
 import pytest
 from commands import BY_HAND, SOLO12, run
 from PIL import Image
-from urdf_text import inertial, joint, link, robot
+from urdf_text import hinge, inertial, leg, link, robot
 
-LIMIT = '<limit lower="-3" upper="3" effort="3" velocity="4"/>'
+DOWN = (0.0, 0.0, -0.2)
 SVG = "{http://www.w3.org/2000/svg}"
-
-
-def hinge(name, parent, child, xyz):
-    return joint(name, parent, child, f'<origin xyz="{xyz}"/><axis xyz="0 1 0"/>', LIMIT)
 
 
 @pytest.fixture
@@ -27,16 +23,7 @@ def dog(tmp_path):
     ]
     for parent in ("chest", "pelvis"):
         for side, y in (("l", 0.1), ("r", -0.1)):
-            name = f"{parent[0]}{side}"
-            thigh, shank, foot = f"{name}_thigh", f"{name}_shank", f"{name}_foot"
-            elements += [
-                link(thigh, inertial(0.2, "3e-4 3e-4 3e-4", "0 0 -0.1")),
-                link(shank, inertial(0.1, "2e-4 2e-4 2e-4", "0 0 -0.1")),
-                link(foot),
-                hinge(f"{name}_hip", parent, thigh, f"0 {y} 0"),
-                hinge(f"{name}_knee", thigh, shank, "0 0 -0.2"),
-                joint(f"{name}_end", shank, foot, '<origin xyz="0 0 -0.2"/>', kind="fixed"),
-            ]
+            elements += leg(f"{parent[0]}{side}", (0.0, y, 0.0), DOWN, DOWN, parent)
     path = tmp_path / "dog.urdf"
     path.write_bytes(robot(*elements))
     return path

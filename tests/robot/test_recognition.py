@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from urdf_text import inertial, joint, link, robot
+from urdf_text import WIDE, hinge, inertial, joint, leg, link, robot
 
 from ocs_design.common.errors import RobotError
 from ocs_design.robot.reader import read_robot
@@ -19,28 +19,8 @@ from ocs_design.robot.robot import Recognition
 from ocs_design.robot.tree import Tree
 from ocs_design.robot.urdf import read_urdf
 
-LIMIT = '<limit lower="-3.1" upper="3.1" effort="3" velocity="4"/>'
 CORNERS = {"fl": (0.2, 0.1), "fr": (0.2, -0.1), "hl": (-0.2, 0.1), "hr": (-0.2, -0.1)}
 TRUNK = link("trunk", inertial(5.0, "0.02 0.05 0.06"))
-
-
-def hinge(name, parent, child, xyz, axis="0 1 0"):
-    return joint(name, parent, child, f'<origin xyz="{xyz}"/><axis xyz="{axis}"/>', LIMIT)
-
-
-def leg(name, hip, thigh, shank, parent="trunk", words=("thigh", "shank", "foot")):
-    """Two hinges about y; `thigh` and `shank` are the vectors along them at zero [m]."""
-    upper, lower, foot = (f"{name}_{word}" for word in words)
-    text = [" ".join(f"{0.5 * x}" for x in part) for part in (thigh, shank)]
-    ends = [" ".join(map(str, part)) for part in (hip, thigh, shank)]
-    return (
-        link(upper, inertial(0.2, "3e-4 3e-4 3e-4", text[0])),
-        link(lower, inertial(0.1, "2e-4 2e-4 2e-4", text[1])),
-        link(foot),
-        hinge(f"{name}_a", parent, upper, ends[0]),
-        hinge(f"{name}_b", upper, lower, ends[1]),
-        joint(f"{name}_c", lower, foot, f'<origin xyz="{ends[2]}"/>', kind="fixed"),
-    )
 
 
 def quadruped(thigh, shank, words=("thigh", "shank", "foot")):
@@ -110,7 +90,7 @@ def slides():
         yield from (link(at[1], inertial(0.1)), link(at[2], inertial(0.1, xyz="0 0 -0.3")))
         for above, below, xyz in ((at[0], at[1], f"0 {y} 0"), (at[1], at[2], "0 0 -0.3")):
             place = f'<origin xyz="{xyz}"/><axis xyz="0 0 1"/>'
-            yield joint(below, above, below, place, LIMIT, kind="prismatic")
+            yield joint(below, above, below, place, WIDE, kind="prismatic")
 
 
 def hexapod(zero, **scales):
