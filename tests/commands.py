@@ -75,6 +75,13 @@ def run(*arguments, stdin=b"", piped=False):
     return Result(code, out, err)
 
 
+def failure(code, *arguments):
+    """What a command says that ends with this exit code."""
+    result = run(*arguments)
+    assert result.code == code, result.said
+    return result.said
+
+
 def run_process(*arguments, **options):
     """In a process of its own."""
     done = subprocess.run(

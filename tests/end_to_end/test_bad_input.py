@@ -4,7 +4,7 @@ import re
 
 import pytest
 from bad_input import CASES
-from commands import BOUND, environment, everything_in, run, run_process
+from commands import BOUND, environment, everything_in, failure, run, run_process
 from urdf_text import inertial, link, robot
 
 
@@ -39,9 +39,7 @@ def test_a_xacro_that_cannot_be_expanded(tmp_path, monkeypatch):
     (tmp_path / "x.xacro").write_text(
         '<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro"><link name="${n}"/></robot>'
     )
-    result = run("size", "x.xacro")
-    assert result.code == 3
-    assert "x.xacro: xacro cannot expand the file" in result.said
+    assert "x.xacro: xacro cannot expand the file" in failure(3, "size", "x.xacro")
     assert everything_in(tmp_path) == ["x.xacro"]
 
 

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from commands import BOUND, SOLO12, everything_in, run
+from commands import BOUND, SOLO12, everything_in, failure, run
 
 
 @contextmanager
@@ -71,10 +71,9 @@ def test_a_parent_that_is_read_only(folder):
     if os.geteuid() == 0:
         with small_disk(parent, kib=64) as mount:
             mount("-o", "remount,ro")
-            result = run("size", SOLO12, *BOUND, "-o", "locked/out")
+            said = failure(3, "size", SOLO12, *BOUND, "-o", "locked/out")
     else:
         parent.chmod(0o555)
-        result = run("size", SOLO12, *BOUND, "-o", "locked/out")
-    assert result.code == 3
-    assert re.search("cannot be written to: .* choose a folder .* with -o", result.said)
+        said = failure(3, "size", SOLO12, *BOUND, "-o", "locked/out")
+    assert re.search("cannot be written to: .* choose a folder .* with -o", said)
     assert everything_in(folder) == ["locked"]

@@ -17,6 +17,7 @@ from commands import (
     ROOT,
     SOLO12,
     everything_in,
+    failure,
     files_in,
     made_in,
     run,
@@ -39,11 +40,10 @@ MESHED = """<robot name="r">
 
 def refused(code, words, *typed):
     """What the refusal says; nothing is written."""
-    result = run("export", *typed, "-o", "again")
-    assert result.code == code
-    assert words in result.said
+    said = failure(code, "export", *typed, "-o", "again")
+    assert words in said
     assert not Path("again").exists()
-    return result.said
+    return said
 
 
 @pytest.mark.slow
@@ -171,9 +171,7 @@ def test_parts_and_snippets_need_neither_simulator_nor_solver(solo12):
 
 def test_an_existing_folder_is_kept(solo12):
     before = files_in(solo12)
-    result = run("export", solo12, "-o", solo12)
-    assert result.code == 3
-    assert "--force" in result.said
+    assert "--force" in failure(3, "export", solo12, "-o", solo12)
     assert files_in(solo12) == before
 
 

@@ -5,7 +5,7 @@ import sys
 
 import numpy as np
 import pytest
-from commands import BOUND, BY_HAND, SOLO12, run
+from commands import BOUND, BY_HAND, SOLO12, failure, run
 from products import equal_rate
 
 from ocs_design import __version__
@@ -55,9 +55,7 @@ def test_bound_in_words_names_both_forms():
     ],
 )
 def test_a_bound_that_makes_no_sense_is_wrong_usage(options, words):
-    result = run(*PAPER, *options)
-    assert result.code == 2
-    assert words in result.said
+    assert words in failure(2, *PAPER, *options)
 
 
 def test_inspect_says_what_size_goes_by():
@@ -79,9 +77,7 @@ def test_inspect_says_what_size_goes_by():
 def test_the_bound_alone_names_the_extra_that_it_needs(monkeypatch, tmp_path):
     monkeypatch.setitem(sys.modules, "cvxpy", None)
     monkeypatch.chdir(tmp_path)
-    result = run("size", *BY_HAND, *BOUND)
-    assert result.code == 5
-    assert extra_command("bound") in result.said
+    assert extra_command("bound") in failure(5, "size", *BY_HAND, *BOUND)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -108,10 +104,9 @@ def test_the_demo_sizes_solo12_from_any_folder(folder, monkeypatch):
     design = read_design(folder / "design.json")
     assert design.robot.name == "solo12"
     assert all(flight.passed for flight in design.validation if flight.ocs)
-    again = run("demo")
-    assert again.code == 3
-    assert "solo12-ocs: exists already" in again.said
-    assert "--force" in again.said
+    again = failure(3, "demo")
+    assert "solo12-ocs: exists already" in again
+    assert "--force" in again
 
 
 @pytest.mark.parametrize("asked", [True, False])

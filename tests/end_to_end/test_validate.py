@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from commands import BOUND, BY_HAND, run
+from commands import BOUND, BY_HAND, failure, run
 
 import ocs_design.workflows.rounds
 from ocs_design.monte_carlo.certificate import ROUND, Lesson, certificate
@@ -189,18 +189,14 @@ def test_a_case_of_another_design_is_refused(by_hand, folder):
     other = ("size", *BY_HAND, *BOUND, *spec, "-q", "-o", "other")
     assert run(*other).code == 0
     case = next(Path("mc/worst").iterdir())
-    result = run("validate", "other", "--replay", case)
-    assert result.code == 3
-    assert "another design" in result.said
+    assert "another design" in failure(3, "validate", "other", "--replay", case)
 
 
 def test_a_design_without_maneuvers_has_nothing_to_fly(folder):
     sized = ("size", *BY_HAND, *BOUND, "--rate-change", "6rad/s", "-q", "-o", "ocs")
     Path("none.toml").write_text('[requirement]\nmaneuvers = "none"\n')
     assert run(*sized, "--spec", "none.toml").code == 0
-    result = run("validate", "ocs")
-    assert result.code == 3
-    assert "nothing to fly" in result.said
+    assert "nothing to fly" in failure(3, "validate", "ocs")
 
 
 @pytest.mark.slow
@@ -243,9 +239,8 @@ def test_a_certificate_is_in_the_design_in_its_report_and_can_be_flown_again(fol
 
 def test_without_a_maneuver_nothing_is_certified(folder):
     asked = ("--rate-change", "1rad/s", "--certify", "-o", "none")
-    result = run("size", *BY_HAND, *BOUND, *asked)
-    assert result.code == 2
-    assert "--certify repeats maneuvers, but none is specified" in result.said
+    said = failure(2, "size", *BY_HAND, *BOUND, *asked)
+    assert "--certify repeats maneuvers, but none is specified" in said
     assert not (folder / "none").exists()
 
 
