@@ -27,6 +27,13 @@ PROGRAM = (sys.executable, "-m", "ocs_design")
 # Bound alone: the quickest way to size, where what is tested has nothing to do with motors.
 BOUND = ("--motor", "none")
 BY_HAND = ("--mass", "2.5", "--inertia", "0.032,0.055,0.07")
+DROP = """[[maneuver]]
+kind = "drop"
+name = "drop"
+height = 1.0
+pitch = "20deg"
+"""
+"""The quickest maneuver to fly, as a specification."""
 MADE = ("cad", "robot", "snippets")
 """Folders of a design that `export` answers for."""
 

@@ -8,7 +8,17 @@ from dataclasses import asdict
 from pathlib import Path
 
 import pytest
-from commands import SOLO12, Result, environment, run_measured, sized
+from commands import (
+    BOUND,
+    BY_HAND,
+    DROP,
+    SOLO12,
+    Result,
+    environment,
+    run,
+    run_measured,
+    sized,
+)
 from exported import pinocchio_model
 from products import CASES, Product, device_of
 
@@ -60,6 +70,16 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setitem(sys.modules, "xacro", None)
     return tmp_path
+
+
+@pytest.fixture(scope="session")
+def by_hand(tmp_path_factory):
+    """The quickest design to fly: a trunk, two wheels and no legs, dropped once."""
+    folder = tmp_path_factory.mktemp("by_hand")
+    (folder / "drop.toml").write_text(DROP)
+    typed = ("size", *BY_HAND, *BOUND, "--spec", folder / "drop.toml", "-q", "-o", folder / "ocs")
+    assert run(*typed).code == 0
+    return folder / "ocs"
 
 
 @pytest.fixture(scope="session")

@@ -90,7 +90,6 @@ def test_signals_that_are_ignored_stay_so(monkeypatch):
     assert set(handlers) == {signal.SIGHUP, signal.SIGINT, signal.SIGTERM}
 
 
-SLOW = pytest.mark.slow
 ONE_MOTOR = ("--motor", "Antigravity MN5008 KV400", "--gear", "direct")
 ANSWERS = [
     (("inspect", SOLO12), "locked inertia"),
@@ -99,8 +98,8 @@ ANSWERS = [
     (("init", "-y", "-o", "task.toml", "--force"), "next"),
     ((*UNSIZED, "--force"), "no flight was simulated"),
     (("export", "DESIGN", "-o", "again", "--force", "--formats", "snippets"), "snippets/"),
-    pytest.param(("validate", "DESIGN"), "level 3 of 3", marks=SLOW),
-    pytest.param(("pareto", SOLO12, "--points", "2", *ONE_MOTOR), "mass", marks=SLOW),
+    (("validate", "DESIGN"), "level 1 of 1"),
+    pytest.param(("pareto", SOLO12, "--points", "2", *ONE_MOTOR), "mass", marks=pytest.mark.slow),
     # Of `--json` alone: `test_examination.py`.
     pytest.param(("doctor",), "numpy", marks=pytest.mark.exhaustive),
 ]
@@ -117,11 +116,10 @@ def in_a_pipe(command, *options):
     return run(command, *options, piped=True)
 
 
-@pytest.mark.parametrize("product", ["no motor"], indirect=True)
 @pytest.mark.parametrize(("arguments", "word"), ANSWERS)
-def test_answers_go_to_standard_output_and_all_else_beside_it(folder, product, arguments, word):
+def test_answers_go_to_standard_output_and_all_else_beside_it(folder, by_hand, arguments, word):
     """In a pipe without frames, colours or broken lines; one document with --json."""
-    typed = [str(product.folder) if each == "DESIGN" else each for each in arguments]
+    typed = [str(by_hand) if each == "DESIGN" else each for each in arguments]
     piped = in_a_pipe(*typed)
     assert piped.code == 0, piped.said
     assert word in piped.stdout

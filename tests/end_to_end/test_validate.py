@@ -9,28 +9,11 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from commands import BOUND, BY_HAND, failure, run
+from commands import BOUND, BY_HAND, DROP, failure, run
 
 import ocs_design.workflows.rounds
 from ocs_design.monte_carlo.certificate import ROUND, Lesson, certificate
 from ocs_design.requirement.uncertainty import spreads
-
-DROP = """[[maneuver]]
-kind = "drop"
-name = "drop"
-height = 1.0
-pitch = "20deg"
-"""
-
-
-@pytest.fixture(scope="module")
-def by_hand(tmp_path_factory):
-    """The quickest flight: a trunk, two wheels and no legs, dropped once."""
-    folder = tmp_path_factory.mktemp("by_hand")
-    (folder / "drop.toml").write_text(DROP)
-    sized = ("size", *BY_HAND, *BOUND, "--spec", folder / "drop.toml", "-q", "-o", folder / "ocs")
-    assert run(*sized).code == 0
-    return folder / "ocs"
 
 
 @pytest.mark.slow

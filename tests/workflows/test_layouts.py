@@ -90,7 +90,14 @@ def test_axes_by_hand():
         assert len([*contradictions(specification_from_options({**asked, **wrong}))]) == 1
 
 
+@pytest.fixture
+def no_advice(monkeypatch):
+    """Refusals come without what would do, whose search takes longer than the sizing."""
+    monkeypatch.setattr("ocs_design.workflows.rounds.advised", lambda refusal, *_: refusal)
+
+
 @pytest.mark.slow
+@pytest.mark.usefixtures("no_advice")
 def test_four_wheels_where_no_motor_is_strong_enough_for_two(tmp_path):
     """One motor to choose from: four share what two cannot; a pair that is stated is refused."""
     asked = {**DESIGNED, "motor__name": "XING 2806.5 KV1800", "requirement__reliability": "0.5"}
@@ -126,6 +133,7 @@ duration = 2.0
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("no_advice")
 def test_fewer_robots_where_nothing_is_sure_for_99_of_100(tmp_path):
     """A pair that has no room for the roll of 99 % has it for 90 %, and only where none is stated.
 
