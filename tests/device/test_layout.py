@@ -22,8 +22,8 @@ MOMENTUM = st.floats(0.1, 10.0)
 
 def wheel_momentum(momenta, incidence):
     """What each wheel must hold, from the corners of what two wheels of +-1 can do together."""
-    axes = module_axes(incidence)[:2]
-    return np.abs(np.linalg.solve(axes, momenta)).max()
+    axes = PAIR.axes(incidence)[..., :2, :]
+    return np.abs(np.linalg.solve(axes, np.asarray(momenta)[:, None])).max(axis=(-2, -1))
 
 
 def test_solo12_equal_rate():
@@ -68,9 +68,9 @@ def test_equal_rate_and_weighted_treat_both_axes_alike(roll, pitch):
 @pytest.mark.parametrize("momenta", [(1.0, 1.0), (0.02, 0.9), (5.0, 0.3), (0.06, 0.103)])
 def test_simultaneous_is_the_least_over_all_angles(momenta):
     grid = np.linspace(1e-4, np.pi / 2.0 - 1e-4, 5001)
-    by_grid = np.array([wheel_momentum(np.array(momenta), angle) for angle in grid])
+    by_grid = wheel_momentum(momenta, grid)
     best = incidence_by_criterion(STANCE, np.array(momenta))[Criterion.SIMULTANEOUS]
-    at_best = wheel_momentum(np.array(momenta), best)
+    at_best = wheel_momentum(momenta, best)
     assert at_best <= by_grid.min() * (1.0 + 1e-12)
     assert at_best == pytest.approx(by_grid.min(), rel=1e-6)
     assert abs(grid[by_grid.argmin()] - best) < 2.0 * (grid[1] - grid[0])

@@ -80,6 +80,7 @@ def test_drives_do_not_exceed_the_joint_effort():
         np.testing.assert_allclose(model.actuator(name).forcerange, (-joint.effort, joint.effort))
 
 
+@pytest.mark.slow
 def test_joints_that_are_in_no_leg_stay_where_they_are():
     """The iCub's file gives its head next to no inertia, and its neck a damping that no step of a
     millisecond could follow."""

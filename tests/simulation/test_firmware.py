@@ -25,7 +25,7 @@ from ocs_design.simulation.world_builder import Options, WorldBuilder
 from ocs_design.sizing.trajectory.plans import drive_line_of
 from ocs_design.sizing.trajectory.tracking import tracking_gains
 
-PERIOD, STATES = 0.005, 1_000
+PERIOD, STATES = 0.005, 400
 WOUND = replace(EC45, resistance=0.6, torque_constant=0.037)
 
 
