@@ -8,7 +8,7 @@ import re
 import subprocess
 import sys
 import time
-from contextlib import redirect_stderr, redirect_stdout, suppress
+from contextlib import contextmanager, redirect_stderr, redirect_stdout, suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -19,6 +19,7 @@ import typer
 
 from ocs_design.cli import errors
 from ocs_design.cli.app import app
+from ocs_design.export.formats import FORMATS
 
 ROOT = Path(__file__).parents[1]
 SOLO12 = str(ROOT / "examples" / "solo12.urdf")
@@ -87,6 +88,17 @@ def failure(code, *arguments):
     result = run(*arguments)
     assert result.code == code, result.said
     return result.said
+
+
+@contextmanager
+def writing(*names):
+    """`size` writes files of these formats beside its design, and no report."""
+    usual = tuple(each for each in FORMATS if each.name in names)
+    with (
+        mock.patch("ocs_design.workflows.size.USUAL_FORMATS", usual),
+        mock.patch("ocs_design.workflows.size._write_report", lambda design, *_: design),
+    ):
+        yield
 
 
 def run_process(*arguments, **options):

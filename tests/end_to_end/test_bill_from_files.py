@@ -14,12 +14,10 @@ import mujoco
 import numpy as np
 import pytest
 import trimesh
-from commands import run
+from commands import run, writing
 from flown_margins import row_of
 from robots import ROBOTS, SOLO12
 from sampled import every
-
-from ocs_design.export.formats import FORMATS
 
 PETG, ALUMINIUM, STEEL = 1270.0, 2710.0, 7850.0
 ISO_4762 = {
@@ -36,18 +34,13 @@ SIZED = {
     "in rings": (SOLO12, "--motor", "AT2820 KV1050", "--guard", "containing"),
 }
 
-READ = tuple(each for each in FORMATS if each.name in {"stl", "printed", "bom", "mjcf"})
-"""Formats of the files that are read here."""
-
 
 @pytest.fixture(scope="module", params=every(2, SIZED))
 def sized(request, tmp_path_factory, no_alternatives):
     """What `size` said, its design and its parts as meshes [m]."""
     out = tmp_path_factory.mktemp("bill") / "out"
     asked = (*SIZED[request.param], "--gear", "direct", "--no-validate", "-v", "-o", out)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("ocs_design.workflows.size.USUAL_FORMATS", READ)
-        patch.setattr("ocs_design.workflows.size._write_report", lambda design, *_: design)
+    with writing("stl", "printed", "bom", "mjcf"):
         said = run("size", *asked)
     assert said.code in {0, 1}, said.said
     with (out / "cad" / "bill_of_materials.csv").open(encoding="utf-8") as stream:
