@@ -25,7 +25,7 @@ def housed(
 ) -> Device:
     """The paper's rim on a web, in a housing, on a motor with that mounting."""
     held = replace(CAGED, mounting=mounting)
-    hub = hub_of(held)
+    hub = hub_of(mounting, held.diameter)
     of = PAPER_WHEEL.density
     disc = cylinder_mass(0.0, PAPER_WHEEL.inner_radius, WEB_THICKNESS, of)
     mass = disc + hub.beyond_web(of).mass

@@ -56,8 +56,8 @@ class Drive:
         if problem.web:
             self.web = 1.0e-3 if problem.web_material is None else 1.5e-3
             hub = hub_of(
-                motor,
-                direct=gear.name == "direct",
+                motor.mounting if gear.name == "direct" else None,
+                motor.diameter,
                 chamfer=problem.cuts.chamfer,
                 web_thickness=self.web,
             )

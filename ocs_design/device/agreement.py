@@ -238,8 +238,8 @@ def _of_carrier(device: Device) -> Iterator[_Figure]:
     web = wheel.web
     if web is not None:
         hub = hub_of(
-            motor,
-            direct=motor.gear_room is None,
+            motor.mounting,
+            motor.diameter,
             chamfer=wheel.cuts.chamfer,
             web_thickness=web.thickness,
             lightening=web.hub.lightening,

@@ -10,7 +10,6 @@ from dataclasses import dataclass, field, replace
 from math import inf, sin
 from typing import Generic
 
-from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.fasteners import (
     CLASSES,
     IN_PLASTIC,
@@ -20,7 +19,7 @@ from ocs_design.actuation.fasteners import (
     longest_within,
     screw,
 )
-from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Motor, Mounting
+from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
 from ocs_design.common.arrays import Table
 from ocs_design.parts.bell import Bell, HeldMotor, bell_of
 from ocs_design.parts.cage import HALF_POST, NO_POSTS, Cage, Posts
@@ -362,22 +361,25 @@ def hub_height(mounting: Mounting) -> float:
 
 
 def hub_of(
-    motor: Motor | Drive,
+    mounting: Mounting | None,
+    motor_diameter: float | None,
     *,
-    direct: bool = True,
     chamfer: float = 0.0,
     web_thickness: float = WEB_THICKNESS,
     lightening: int = 0,
 ) -> Hub:
-    """Hub of a wheel on this motor, with the bore of its shaft and holes for its screws.
+    """Hub of a wheel on a motor, with the bore of its shaft and holes for its screws.
 
     On a shaft its diameter is twice the shaft's, as usual for hubs of steel (Roloff/Matek
     Maschinenelemente, table 12-1: 1.8 to 2). If the catalogue has neither shaft nor screws, it has
-    a pilot bore and is as wide as the bolt circles of motors of this diameter; the same behind a
-    gear, not `direct`. `chamfer` is that of its edges, `web_thickness` and `lightening` are those
-    of its web [m].
+    a pilot bore and is as wide as the bolt circles of motors of this diameter.
+
+    Args:
+        mounting: of the motor; None: unknown, or the wheel is behind a gear.
+        motor_diameter: [m]. chamfer: of the hub's edges [m].
+        web_thickness, lightening: of its web, see `Hub`.
     """
-    mounting = (motor.mounting if direct else None) or Mounting()
+    mounting = mounting or Mounting()
     rotor, bore = mounting.rotor, PILOT_BORE / 2.0
     if mounting.shaft_diameter is not None:
         bore = mounting.shaft_diameter / 2.0
@@ -385,7 +387,7 @@ def hub_of(
         # A pilot bore stays clear of the screws.
         bore = min(bore, rotor.inside - LIGAMENT)
     on_shaft = mounting.shaft_diameter is not None
-    wide = 2.0 * bore if on_shaft else 5.5e-3 + 0.15 * (motor.diameter or 0.03)
+    wide = 2.0 * bore if on_shaft else 5.5e-3 + 0.15 * (motor_diameter or 0.03)
     hub = Hub(
         max(wide, bore + HUB_WALL),
         hub_height(mounting),

@@ -93,7 +93,7 @@ def wheel_on(hub: Hub) -> Flywheel:
 
 
 def on_threads(mounting: Mounting) -> Hub:
-    return hub_of(replace(PLAIN, mounting=mounting))
+    return hub_of(mounting, PLAIN.diameter)
 
 
 @st.composite
@@ -121,14 +121,15 @@ def test_what_the_catalogue_lets_through_can_be_made_and_weighs_what_was_sized(m
 
 def test_hub_of_a_known_shaft_and_threads():
     """MN5212: a shaft of 4 mm, 3 x M3 on 17 mm; M3 passes through 3.4 mm."""
-    hub = hub_of(motor("MN5212 KV340"))
+    known = motor("MN5212 KV340")
+    hub = hub_of(known.mounting, known.diameter)
     assert (hub.bore_radius, hub.bolts) == (0.002, 3)
     assert (hub.bolt_circle_radius, hub.bolt_hole_radius) == pytest.approx((0.0085, 0.0017))
     assert hub.radius == pytest.approx(0.0085 + 0.0017 + HUB_WALL)
 
 
 def test_without_threads_it_is_as_long_and_twice_as_wide_as_the_shaft():
-    bare, shaft = hub_of(PLAIN), on_threads(Mounting(shaft_diameter=0.006))
+    bare, shaft = hub_of(None, PLAIN.diameter), on_threads(Mounting(shaft_diameter=0.006))
     assert (bare.bore_radius, bare.bolts) == (PILOT_BORE / 2.0, 0)
     assert shaft == replace(bare, bore_radius=0.003, radius=0.006, height=0.006)
     wide = on_threads(Mounting(shaft_diameter=0.04))
@@ -141,8 +142,3 @@ def test_a_pilot_bore_stays_clear_of_the_screws():
     hub = on_threads(Mounting(rotor=BoltCircle(0.007, 3, "M2")))
     assert hub.bore_radius == pytest.approx(0.0035 - 0.0012 - LIGAMENT)
     assert hub.bore_radius < PILOT_BORE / 2.0
-
-
-def test_behind_a_gear_the_motor_s_threads_do_not_count():
-    known = motor("MN5212 KV340")
-    assert hub_of(known, direct=False) == hub_of(replace(known, mounting=None))

@@ -138,8 +138,11 @@ class RimFloor:
         if problem.web:
             held = zip(problem.motors, mounts, strict=True)
             narrow = min(
-                *(max(hub_of(motor).radius, mount.head_reach) for motor, mount in held),
-                *(hub_of(motor, direct=False).radius for motor in problem.motors),
+                *(
+                    max(hub_of(motor.mounting, motor.diameter).radius, mount.head_reach)
+                    for motor, mount in held
+                ),
+                *(hub_of(None, motor.diameter).radius for motor in problem.motors),
             )
             share = [LIGHTENED[count] for count in problem.lightenings]
             limits = limits_with_web(

@@ -107,8 +107,8 @@ class SelectionProblem:
         if not self.web:
             return None
         hub = hub_of(
-            motor,
-            direct=gear.room is None,
+            motor.mounting if gear.room is None else None,
+            motor.diameter,
             chamfer=self.cuts.chamfer,
             web_thickness=self.web_thickness,
             lightening=lightening,
