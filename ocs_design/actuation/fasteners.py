@@ -198,6 +198,11 @@ class BoltedJoint(Enum):
         return self in (BoltedJoint.CAGE, BoltedJoint.LID, BoltedJoint.FOOT_ON_PEDESTAL)
 
     @property
+    def on_print(self) -> bool:
+        """Whether the screws go through a print and their heads press on it."""
+        return self not in (BoltedJoint.WHEEL, BoltedJoint.PLATE, BoltedJoint.MAST)
+
+    @property
     def in_trunk(self) -> bool:
         """Whether the threads are the trunk's."""
         return self.of_support or self is BoltedJoint.FOOT_ON_TRUNK

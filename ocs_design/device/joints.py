@@ -73,7 +73,8 @@ def burst_of(device: Device, speed: float | None = None) -> Containment:
         web_mass=web,
         wheel_speed=device.motor.top_speed if speed is None else speed,
     )
-    return Containment.of(piece, wheel.outer_radius, housing_of(device).rim_height)
+    housing = housing_of(device)
+    return Containment.of(piece, housing.guard_radius, housing.guard_height)
 
 
 def foot_hold(device: Device) -> FootHold:

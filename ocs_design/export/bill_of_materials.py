@@ -28,7 +28,6 @@ from ocs_design.parts.housing import LID_SCREWS, guard_ring
 from ocs_design.parts.joints import BOND_STRENGTH, EPOXY
 from ocs_design.parts.printed import (
     CLEARANCE,
-    GUARD_GAP,
     PANEL,
     TRUNK_SCREW,
     TRUNK_SCREW_COUNT,
@@ -122,9 +121,8 @@ def bill_rows(device: Device, margins: Sequence[Margin] = ()) -> Sequence[BillRo
             rows.append(BillRow("cage", count, "PETG", size, caged[0], made))
         if device.guard_wall:
             mass = guard_ring(foot.housing).mass()
-            outside = foot.housing.inner_radius - GUARD_GAP
-            inside = outside - device.guard_wall
-            tall = foot.housing.rim_height + 2.0 * CLEARANCE
+            inside, tall = foot.housing.guard_radius, foot.housing.guard_height
+            outside = inside + device.guard_wall
             size = f"ring {_mm(2.0 * inside)} inside x {_mm(device.guard_wall)} wall x {_mm(tall)}"
             made = (
                 "bent and welded or turned from tube, no wall thinner; outside "

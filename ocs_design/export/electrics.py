@@ -73,7 +73,10 @@ def wiring_parts(device: Device, margins: Sequence[Margin]) -> Iterator[tuple[st
         "encoder at the motor's back with its magnet, or Hall sensors, that the controller "
         f"reads{up_to}; not needed if the motor has one",
     )
-    fuse = "" if bus is None else f"; the next usual rating is {_fuse(bus)} A"
+    fuse = ""
+    if bus is not None:
+        usual = next((each for each in FUSES if each >= bus), _up(bus))
+        fuse = f"; the next usual rating is {usual} A"
     yield "fuse with holder", 1, f"between battery and switch; carries {flows}{fuse}"
     yield "switch", 1, f"cuts the supply within reach; carries and breaks {flows}"
     yield "bus cables, two wires", 1, f"battery to controllers, short; {flows}"
@@ -95,11 +98,6 @@ def wiring_parts(device: Device, margins: Sequence[Margin]) -> Iterator[tuple[st
 
 FUSES = (10, 15, 20, 25, 30, 40, 50, 60, 70, 80, 100, 125, 150, 175, 200, 250, 300, 400, 500)
 """Standard ratings of automotive fuses [A]: ISO 8820-3 and -5."""
-
-
-def _fuse(current: float) -> int:
-    """Next standard fuse rating [A], or the current itself if it exceeds the largest."""
-    return next((each for each in FUSES if each >= current), _up(current))
 
 
 def wiring(device: Device, margins: Sequence[Margin]) -> Iterator[str]:

@@ -22,7 +22,6 @@ from math import ceil, pi, sin, sqrt
 from ocs_design.actuation.fasteners import STEEL
 from ocs_design.catalogue.materials import material
 from ocs_design.parts.moments import cylinder_mass
-from ocs_design.parts.printed import CLEARANCE, GUARD_GAP
 
 PIECES = 3
 """Number of equal fragments of a bursting rim."""
@@ -121,15 +120,14 @@ class Containment:
     aluminium: float
 
     @classmethod
-    def of(cls, fragment: Fragment, outer_radius: float, height: float) -> "Containment":
-        """Rings around a rim of that outer radius and height [m]."""
+    def of(cls, fragment: Fragment, inner_radius: float, height: float) -> "Containment":
+        """Rings of that inner radius and height [m]."""
         steel = steel_wall(fragment.energy, fragment.diameter)
         # There are no tests of aluminium: the energy to shear a plug is proportional to strength
         # times thickness squared (A. C. Hagg, G. O. Sankey, The Containment of Disk Burst Fragments
         # by Cylindrical Shells, J. Eng. Power 96(2), 1974).
         aluminium = steel * sqrt(STEEL_STRENGTH / ALUMINIUM_STRENGTH)
-        room = outer_radius + CLEARANCE - GUARD_GAP, height + 2.0 * CLEARANCE
-        return cls(fragment, *room, steel, aluminium)
+        return cls(fragment, inner_radius, height, steel, aluminium)
 
     @property
     def masses(self) -> tuple[float, float]:

@@ -75,6 +75,16 @@ class Housing(Generic[Real]):
         return half_height(self.rim_height)
 
     @property
+    def guard_radius(self) -> Real:
+        """Inner radius of a guard ring [m]; the glue outside makes it that much narrower."""
+        return self.rim_radius + CLEARANCE - GUARD_GAP
+
+    @property
+    def guard_height(self) -> Real:
+        """Height of a guard ring, from the floor to the lid [m]."""
+        return self.rim_height + 2.0 * CLEARANCE
+
+    @property
     def band(self) -> Region[Real]:
         """The band's disc, with ears if there is a screw for them."""
         if self.lid_screw is None:
@@ -134,11 +144,8 @@ def lid_sag(housing: Housing[float]) -> float:
 
 
 def guard_ring(housing: Housing[Real]) -> Part[Real]:
-    """The ring of mild steel in the drum, from its floor to the lid, in the wheel's frame.
-
-    The glue is between ring and drum, so the ring is that much closer to the rim.
-    """
-    half, inside = housing.rim_height / 2.0 + CLEARANCE, housing.rim_radius + CLEARANCE - GUARD_GAP
+    """The ring of mild steel in the drum, in the wheel's frame."""
+    half, inside = housing.guard_height / 2.0, housing.guard_radius
     room: Prism[Real] = Prism(Disc(inside), -half, half)
     return Part("guard", STEEL, (Prism(Disc(inside + housing.guard_wall), -half, half),), (room,))
 

@@ -49,12 +49,8 @@ class Rim:
     @property
     def corners(self) -> list[Point]:
         """Corners of the upper half of its cross-section, from the outside to the bore."""
-        inner, outer, edge, top = (
-            self.inner_radius,
-            self.outer_radius,
-            self.chamfer,
-            self.height / 2,
-        )
+        inner, outer = self.inner_radius, self.outer_radius
+        edge, top = self.chamfer, self.height / 2.0
         return [(outer, top - edge), (outer - edge, top), (inner + edge, top), (inner, top - edge)]
 
 

@@ -13,6 +13,7 @@ from ocs_design.parts.guard import (
     fragment_of,
     steel_wall,
 )
+from ocs_design.parts.housing import Housing
 
 RIM = {"inner_radius": 0.040, "outer_radius": 0.044, "height": 0.006}
 
@@ -58,7 +59,8 @@ def test_no_other_number_of_equal_pieces_has_one_percent_more_energy():
 
 def test_the_ring_stands_around_the_rim():
     """1.9 mm of air around a rim of 44 mm, and 2 mm on both sides of its 6 mm."""
-    found = Containment.of(fragment(), 0.044, 0.006)
+    housing = Housing(0.044, 0.006)
+    found = Containment.of(fragment(), housing.guard_radius, housing.guard_height)
     assert found.inner_radius == pytest.approx(0.0459)
     assert found.height == pytest.approx(0.010)
     assert found.aluminium > found.steel == steel_wall(fragment().energy, fragment().diameter)

@@ -42,7 +42,6 @@ class Tightened:
         torque: tightening torque [N m].
         rule: limit that sets the torque.
         engagement: minimum length of engaged thread [m].
-        on_print: whether the screws go through a print and their heads press on it.
         washers: whether there is a washer under each head.
     """
 
@@ -50,7 +49,6 @@ class Tightened:
     torque: float
     rule: str
     engagement: float
-    on_print: bool = False
     washers: bool = False
 
     @property
@@ -72,7 +70,6 @@ def tightened(
     is deeper than `deepest` [m].
     """
     screw, joint = fastening.screw, fastening.joint
-    head_on_print = joint not in (BoltedJoint.PLATE, BoltedJoint.MAST)
     engagement = min(fastening.engagement, deepest)
     washers = on_slot is not None and on_slot.washers
     sheared = pi * screw.diameter * engagement / 2.0
@@ -83,7 +80,7 @@ def tightened(
         rule = f"the joint, as computed; {share:.0%} of the load that strips a thread in 6061-T6"
         return Tightened(fastening, held * tightening_torque(screw, strength), rule, engagement)
     limits = [(screw.preload, "class 8.8 at 90 % of yield (VDI 2230, friction 0.12)")]
-    if head_on_print:
+    if joint.on_print:
         pressed = PRESSURE_SHARE * PETG.strength * screw.head_area
         where = "head on PETG"
         if on_slot is not None:
@@ -97,7 +94,7 @@ def tightened(
         stripped = THREAD_SHARE * sheared * ALUMINIUM_SHEAR
         limits.append((stripped, "thread in aluminium at half the load that strips it"))
     preload, rule = min(limits)
-    return Tightened(fastening, screw.torque(preload), rule, engagement, head_on_print, washers)
+    return Tightened(fastening, screw.torque(preload), rule, engagement, washers)
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,7 +156,7 @@ class Assembly(Documented):
         found, lock = self.screws[held], "no threadlocker"
         if not held.joint.in_print:
             lock = "medium-strength threadlocker"
-            if found.on_print:
+            if held.joint.on_print:
                 lock += ", a drop on the tips only, because it attacks the print"
         plate, where = self.device.plate, ""
         # Places of these screws on the trunk [mm] if their lengths differ.
