@@ -43,9 +43,9 @@ def attitude_error(outcomes: Outcomes, maneuver: Maneuver, number: int) -> Float
     if ends_anyhow(maneuver):
         return np.full(len(roll), np.nan)
     error = off_asked(roll, pitch, maneuver)
-    if maneuver.turns_over:
+    if maneuver.counts_turns:
         turned = outcomes.metric("turned_angle")[:, number]
-        error = np.maximum(error, np.abs(turned - maneuver.angles[1]))
+        error = np.maximum(error, np.abs(turned - maneuver.boundary(0.0).angle))
     _, _, heading = landing_attitude(maneuver)
     if heading is not None:
         off = outcomes.metric("heading_drift")[:, number] - heading

@@ -112,7 +112,7 @@ def short_verdict(run: ValidationRecord, maneuver: Maneuver | None) -> Toned:
     roll, pitch = _angles(found, "touchdown_{}")
     # As in `judge`.
     angle, what = max(abs(roll), abs(pitch)), ""
-    if maneuver is not None and maneuver.turns_over:
+    if maneuver is not None and maneuver.counts_turns:
         angle, what = abs(found["turned_angle"] or 0.0), " turned"
     elif found["touchdown_time"] == found["lift_off_time"]:
         # A push on a standing robot.

@@ -81,7 +81,7 @@ class Maneuver(ABC):
         foreseen: whether its trajectory can be planned; otherwise feedback alone meets it.
         estimated: whether a plan may find that it takes more than its closed-form demand, so that
             the device is resized.
-        turns_over: whether it turns the trunk over in pitch, and whole turns count.
+        counts_turns: whether whole turns about its axis count, and not its final attitude alone.
         heads: whether its change of heading is of interest.
         turned_by: fields that make the angle of its turn, where a front may vary that and its time.
         milder_by: fields to which its tilt or push is proportional. part: which of the two a
@@ -101,7 +101,7 @@ class Maneuver(ABC):
     on_feet: ClassVar[bool] = False
     foreseen: ClassVar[bool] = True
     estimated: ClassVar[bool] = False
-    turns_over: ClassVar[bool] = False
+    counts_turns: ClassVar[bool] = False
     heads: ClassVar[bool] = False
     turned_by: ClassVar[tuple[str, ...]] = ()
     milder_by: ClassVar[tuple[str, ...]] = ()
@@ -167,6 +167,11 @@ class Maneuver(ABC):
     def angles(self) -> FloatArray:
         """Roll and pitch between the start and the end of a turn [rad], shape (2,)."""
         return np.zeros(2)
+
+    @property
+    def pitches_over(self) -> bool:
+        """Whether it turns the trunk over in pitch, and with it the axis of roll."""
+        return self.counts_turns and bool(self.angles[1])
 
     @property
     def turn(self) -> FloatArray:

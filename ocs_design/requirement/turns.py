@@ -192,7 +192,7 @@ class Flip(TimedTurn):
     angle: Annotated[_Turn, "of pitch"]
     duration: _TurnTime
 
-    turns_over: ClassVar[bool] = True
+    counts_turns: ClassVar[bool] = True
     turned_by: ClassVar[tuple[str, ...]] = ("angle",)
 
     def boundary(self, standing_height: float) -> Boundary:

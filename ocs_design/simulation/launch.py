@@ -8,7 +8,7 @@ import numpy as np
 from ocs_design.common import quaternions
 from ocs_design.common.arrays import FloatArray
 from ocs_design.export.physics import set_trunk
-from ocs_design.requirement.boundary import NO_PUSH, Push
+from ocs_design.requirement.boundary import NO_PUSH, Push, Y
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.robot.robot import Robot
 from ocs_design.simulation.reference import NO_TURN, Profile, Quintic, Turn
@@ -26,6 +26,7 @@ class Launch:
         push: external push on the trunk.
         rate: of the whole robot, in B [rad/s], shape (3,).
         wheel_speed: of all wheels [rad/s].
+        counted: axis about which whole turns count, in B, shape (3,).
     """
 
     rotation: FloatArray
@@ -35,6 +36,7 @@ class Launch:
     push: Push
     rate: FloatArray = field(default_factory=lambda: np.zeros(3))
     wheel_speed: FloatArray | float = 0.0
+    counted: FloatArray = field(default_factory=lambda: Y)
 
     @property
     def undisturbed(self) -> "Launch":
@@ -70,6 +72,7 @@ def launch(maneuver: Maneuver, standing_height: float, profile: Profile) -> Laun
         push=asked.push,
         rate=asked.rate,
         wheel_speed=asked.wheel_speed,
+        counted=asked.axis if maneuver.counts_turns else Y,
     )
 
 

@@ -8,7 +8,9 @@ import mujoco
 import numpy as np
 
 from ocs_design.common import quaternions
+from ocs_design.common.arrays import FloatArray
 from ocs_design.export.physics import lowest_point
+from ocs_design.requirement.boundary import Z
 from ocs_design.simulation.batch import Recording
 from ocs_design.simulation.run import UPRIGHT_TILT, Metrics, Series
 from ocs_design.simulation.world import World
@@ -73,6 +75,7 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
     flight, after = slice(first, last + 1), slice(last, None)
     driven = flight if world.stands is None else after
     attitude, comes_down = recording.attitude[: end + 1, index], bool(touching.size)
+    turned = _angle_about(world.counted, attitude)
     roll, pitch = series.roll, series.pitch
     if world.settles is not None:
         comes_down, last = True, int(np.argmin(np.abs(series.time - world.settles)))
@@ -107,7 +110,7 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
         touchdown_roll=float(roll[last]),
         touchdown_pitch=_within_half_turn(pitch[last]),
         touchdown_rate=float(turning),
-        turned_angle=float(series.pitch[last] - series.pitch[first]),
+        turned_angle=float(turned[last] - turned[first]),
         heading_drift=_within_half_turn(series.yaw[last] - series.yaw[first]),
         peak_wheel_speed=float(np.abs(series.wheel_speed[driven]).max()),
         final_wheel_speed=float(np.abs(series.wheel_speed[-1]).max()),
@@ -121,6 +124,14 @@ def measure(recording: Recording, index: int, world: World) -> Metrics | None:
         settling_time=float(series.time[settled] - series.time[last]),
         nutation=float(momentum / np.sqrt(smallest.prod()) * world.model.opt.timestep),
     )
+
+
+def _angle_about(axis: FloatArray, attitude: FloatArray) -> FloatArray:
+    """Angle about an axis across or along the vertical, whole turns counted [rad], shape (n,)."""
+    if axis[2]:
+        return np.unwrap(axis[2] * quaternions.heading(attitude))
+    up = quaternions.vertical(attitude)
+    return np.unwrap(np.arctan2(up @ np.cross(Z, axis), up[:, 2]))
 
 
 def _momentum_error(recording: Recording, index: int, flown: slice, world: World) -> float:

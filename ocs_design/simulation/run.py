@@ -82,7 +82,8 @@ class Metrics:
             turn [rad]; on a pivot, from the balanced attitude, here and below.
         touchdown_rate: of roll and pitch together at that instant, and of yaw if the wheels can
             control it [rad/s].
-        turned_angle: of pitch since lift-off, whole turns counted [rad].
+        turned_angle: since lift-off, whole turns counted, of pitch unless the maneuver counts those
+            about another axis [rad].
         heading_drift: about the vertical since lift-off [rad].
         peak_wheel_speed: in flight [rad/s]. peak_wheel_torque: in flight [N m].
         momentum_error: largest change of angular momentum in flight that no outer torque explains,

@@ -220,8 +220,8 @@ def _unsound(metrics: Metrics | None, maneuver: Maneuver, gate: float = MOMENTUM
 
 def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> Verdict | None:
     """What was wrong up to touchdown; None if nothing."""
-    angle = float(maneuver.angles[1])
-    if maneuver.turns_over and abs(metrics.turned_angle - angle) > LANDING_TOLERANCE:
+    angle = maneuver.boundary(0.0).angle if maneuver.counts_turns else 0.0
+    if maneuver.counts_turns and abs(metrics.turned_angle - angle) > LANDING_TOLERANCE:
         share = f"{degrees_number(metrics.turned_angle)} of {np.degrees(angle):.0f} deg"
         failure = f"turns {share} before touchdown"
         return Verdict(False, failure, Fault.TURN)
@@ -233,7 +233,7 @@ def _flight_failure(metrics: Metrics, maneuver: Maneuver) -> Verdict | None:
             failure = f"{_ends(maneuver)} with its heading turned by {made}"
             return Verdict(False, failure, Fault.TURN)
     if failure := _landing_failure(metrics, maneuver):
-        if maneuver.turns_over and abs(remainder(angle, tau)) > LANDING_TOLERANCE:
+        if maneuver.counts_turns and abs(remainder(angle, tau)) > LANDING_TOLERANCE:
             asked = degrees_number(angle)
             failure += f": a turn of {asked} deg does not end level, one of 360 deg does"
         return Verdict(False, failure, Fault.LANDING)

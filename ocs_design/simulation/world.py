@@ -147,6 +147,7 @@ class World:
         wheels: their names.
         body: the law's model of the robot, measured on the simulated model at the start.
         law: of the wheels. turn: of the trunk, to be followed. pushes: external ones.
+        counted: axis about which whole turns count, in B, shape (3,).
         limits: of the motors; None: the wheels are not driven, or torque is not limited.
         trajectory: to be followed instead of the turn, with its feed-forward torque; None: none.
         legs: trajectory of their push-off or trot; None: they hold their posture.
@@ -175,6 +176,7 @@ class World:
     law: WheelLaw
     limits: MotorLimits | None
     turn: Turn
+    counted: FloatArray
     trajectory: Trajectory | None
     legs: LegTrajectory | None
     pushes: tuple[Push, ...]

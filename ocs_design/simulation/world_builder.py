@@ -177,6 +177,7 @@ class WorldBuilder:
             law=law,
             limits=self._limits if active and self._limits.is_finite else None,
             turn=turn,
+            counted=start.counted,
             trajectory=trajectory,
             legs=trot or legs,
             pushes=(start.push,),

@@ -97,7 +97,7 @@ def changes(task: Task) -> Iterator[Change]:
     stated, offered = task.specification, task.resolved.choice
     assert offered is not None, "there are motors to choose from"
     yield from (Change(each.text, each.stated(stated)) for each in options(task))
-    flips = [each for each in task.maneuvers if each.turns_over]
+    flips = [each for each in task.maneuvers if each.pitches_over]
     if specified_layout(stated).pairs and any(flip.incidence is None for flip in flips):
         by_hand = task.with_maneuvers(
             lambda flip: replace(flip, incidence=flip.incidence or 0.0),

@@ -424,7 +424,7 @@ class _Flown:
         time, share = slew.duration, 1.0
         # Measured for falls and pushes, where feedback turns the trunk to level until touchdown.
         arrives = not maneuver.estimated and not maneuver.on_pivot
-        if maneuver.turns_over:
+        if maneuver.counts_turns:
             # A robot behind its plan may use the whole flight, but then brakes late, and finishes
             # in time only if the supply absorbs the wheels' energy in the part of the flight after
             # the planned turn.
@@ -470,7 +470,7 @@ class _Flown:
     def _turns_over(self) -> bool:
         """Whether roll turns with the trunk (a flip) and the wheels cannot control yaw."""
         blind = bool((np.abs(self.designed[2]) <= OUT_OF_REACH).all())
-        return self.maneuver.turns_over and blind
+        return self.maneuver.pitches_over and blind
 
     @property
     def _undoes_roll(self) -> bool:
