@@ -14,7 +14,6 @@ from ocs_design.requirement.device_sections import (
     LIMIT_OF_KEY,
     Envelope,
     FlywheelSection,
-    OcsSection,
 )
 from ocs_design.requirement.requirement import Requirement
 from ocs_design.requirement.sections import TURNS, WORDS
@@ -116,21 +115,6 @@ def _empty_room(stated: FlywheelSection, limits: Mapping[str, float | None]) -> 
         yield f"flywheel: {limit('h_max')}, is below {limit('h_min')}"
 
 
-def _idle(requirement: Requirement, stated: OcsSection) -> Iterator[str]:
-    """Maneuvers that require nothing of the device, one line each.
-
-    One in a list is refused as well: a device has no ratio to a demand of zero.
-    """
-    if requirement.rate_change is not None or requirement.spin_inertia is not None:
-        return
-    if not requirement.maneuvers:
-        yield "requirement: nothing is required: add a maneuver, rate_change or spin_inertia"
-    for each in requirement.maneuvers:
-        zeros = each.with_wheels(direct=stated.acts_about_vertical).idle
-        if zeros:
-            yield f"maneuver.{each.name}: {zeros}, which requires nothing of the device"
-
-
 def _without_gravity(specification: Specification) -> Iterator[str]:
     """Jumps and falls in orbit, and turns without a time, requested in words, one line each."""
     asked = specification.requirement
@@ -228,18 +212,22 @@ def unfit_for_robot(
         )
     limits = {key: getattr(envelope, limit) for key, limit in LIMIT_OF_KEY.items()}
     yield from _empty_room(specification.flywheel, limits)
+    alone = requirement.rate_change is None and requirement.spin_inertia is None
+    if alone and not requirement.maneuvers:
+        yield "requirement: nothing is required: add a maneuver, rate_change or spin_inertia"
     for each in requirement.maneuvers:
         try:
             each.momentum(TiltInertia.of(robot.inertia), requirement.standing_height)
         except OcsError as error:
             yield error.sentence
-    yield from _idle(requirement, stated)
-    for each in requirement.maneuvers:
         own = each.with_wheels(direct=stated.acts_about_vertical)
+        # One in a list is refused as well: a device has no ratio to a demand of zero.
+        if alone and own.idle:
+            yield f"maneuver.{own.name}: {own.idle}, which requires nothing of the device"
         tolerance = inf if varied else LANDING_TOLERANCE
         yield from own.unfit(tilting=stated.tilting, tolerance=tolerance)
         # Tables were checked before; maneuvers requested in words have their jump only now.
-        yield from each.contradictions()
+        yield from own.contradictions()
     yield from _misfed(specification, robot)
     chosen = specification.flywheel.material
     try:
