@@ -21,7 +21,7 @@ from ocs_design.common.quaternions import rotation_from_quaternion
 from ocs_design.common.wording import some_of
 from ocs_design.robot.links import Connection, Link, Warnings, check_number_of_links, make_tree
 from ocs_design.robot.mass import MassProperties
-from ocs_design.robot.mjcf_spec import Lost, mujoco_refusal, mujoco_warnings_to, parse_mjcf
+from ocs_design.robot.mjcf_spec import mujoco_refusal, mujoco_warnings_to, parse_mjcf
 from ocs_design.robot.mujoco_bodies import GEOM_TYPES, JOINT_TYPES
 from ocs_design.robot.tree import (
     LARGEST_NUMBER,
@@ -242,10 +242,9 @@ def read_mjcf(content: bytes, folder: Path | None, named: Sequence[str] = ()) ->
         named: links that the user named, to find the robot among other bodies of the model.
     """
     warnings = Warnings()
-    lost: Lost = []
     try:
         with mujoco_warnings_to(warnings):
-            spec = parse_mjcf(content, folder or Path.cwd(), warnings, lost)
+            spec, lost = parse_mjcf(content, folder or Path.cwd(), warnings)
             model = spec.compile()
     except ValueError as error:
         raise mujoco_refusal(error) from error

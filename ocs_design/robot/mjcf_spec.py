@@ -74,9 +74,7 @@ Lost: TypeAlias = list[tuple[mujoco.MjsBody, bool]]
 """Bodies that lose a geom because its mesh is missing, and whether that geom collides."""
 
 
-def embed_assets(
-    spec: mujoco.MjSpec, folder: Path, warnings: Warnings, lost: Lost | None = None
-) -> None:
+def embed_assets(spec: mujoco.MjSpec, folder: Path, warnings: Warnings) -> Lost:
     """Read every file that the model refers to, so that it compiles anywhere.
 
     The files' names in the model then have no folders.
@@ -85,8 +83,11 @@ def embed_assets(
         spec: parsed, not compiled yet.
         folder: of the model's file.
         warnings: receives the names of missing files.
-        lost: receives the geoms left out because of them.
+
+    Returns:
+        Geoms left out because of them.
     """
+    lost: Lost = []
     of_meshes: list[Asset] = [*spec.meshes, *spec.skins, *spec.hfields]
     assets = [(each, each.compiler.meshdir) for each in of_meshes]
     assets += [(each, each.compiler.texturedir) for each in spec.textures]
@@ -104,12 +105,9 @@ def embed_assets(
                     "" if used == asset.name else used for used in material.textures
                 ]
         elif isinstance(asset, mujoco.MjsMesh):
-            geoms = [geom for geom in spec.geoms if geom.meshname == asset.name]
-            left_out = [(geom.parent, bool(geom.contype or geom.conaffinity)) for geom in geoms]
-            if lost is not None:
-                lost += left_out
-            for geom in geoms:
+            for geom in [geom for geom in spec.geoms if geom.meshname == asset.name]:
                 require_inertial(spec, geom, asset.file)
+                lost.append((geom.parent, bool(geom.contype or geom.conaffinity)))
                 delete_geom(spec, geom)
         elif isinstance(asset, mujoco.MjsHField):
             for geom in [geom for geom in spec.geoms if geom.hfieldname == asset.name]:
@@ -118,6 +116,7 @@ def embed_assets(
     for each in rules:
         each.meshdir = each.texturedir = ""
     spec.strippath = False
+    return lost
 
 
 def _embed(spec: mujoco.MjSpec, asset: Asset, folder: Path, names: dict[Path, str]) -> str | None:
@@ -156,16 +155,16 @@ def delete_geom(spec: mujoco.MjSpec, geom: mujoco.MjsGeom) -> None:
     spec.delete(geom)
 
 
-def parse_mjcf(
-    content: bytes, folder: Path, warnings: Warnings, lost: Lost | None = None
-) -> mujoco.MjSpec:
+def parse_mjcf(content: bytes, folder: Path, warnings: Warnings) -> tuple[mujoco.MjSpec, Lost]:
     """The model of an MJCF file; its bodies, joints and actuators all have names.
 
     Args:
         content: the file, unzipped, in any encoding that XML supports.
         folder: to which its includes and assets are relative.
         warnings: receives the names of missing files; elements that need them are left out.
-        lost: receives the geoms left out because of them.
+
+    Returns:
+        The model, and the geoms left out.
     """
     root = parse_xml(content, warnings)
     _expand_includes(root, folder, seen=set())
@@ -178,11 +177,11 @@ def parse_mjcf(
         raise mujoco_refusal(error) from error
     # Fused bodies lose their names, and the trunk may be one of them.
     spec.compiler.fusestatic = False
-    embed_assets(spec, folder, warnings, lost)
+    lost = embed_assets(spec, folder, warnings)
     _name(spec.bodies, "body")
     _name(spec.joints, "joint")
     _name(spec.actuators, "actuator")
-    return spec
+    return spec, lost
 
 
 def _name(elements: Sequence["mujoco.MjsBody | mujoco.MjsJoint"], kind: str) -> None:

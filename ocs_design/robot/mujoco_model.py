@@ -333,7 +333,7 @@ def plain_spec(robot: Robot, warnings: Warnings, *, visuals: bool) -> mujoco.MjS
         return spec_from_tree(robot.tree, warnings, visuals=visuals)
     folder = Path.cwd() if robot.source == STANDARD_INPUT else Path(robot.source).absolute().parent
     # The reader has already warned of oddities in the file itself.
-    spec = parse_mjcf(robot.content, folder, Warnings())
+    spec, _ = parse_mjcf(robot.content, folder, Warnings())
     write_out_orientations(spec)
     write_out_inertials(spec)
     free_base(spec, robot.floating_base, warnings)

@@ -29,21 +29,19 @@ def parse_xml(content: bytes, warnings: Warnings | None = None) -> ET.Element:
     # Elements take at least fifty times their four bytes: gigabytes, if nobody counted them.
     if content.count(b"<") > 2 * MOST_ELEMENTS:
         raise _too_many_elements()
+    warnings = warnings or Warnings()
     # Simulators tolerate a declaration after blank lines or comments; the line count is kept.
     if late := _LATE_DECLARATION.match(content):
         start, end = late.span(1)
         content = content[:start] + b" " * (end - start) + content[end:]
-        if warnings is not None:
-            warnings.add("the XML declaration is not the first thing in the file: read without it")
+        warnings.add("the XML declaration is not the first thing in the file: read without it")
     try:
         root = _parsed(content)
     except ET.ParseError as error:
         root = _parsed_as_cp1252(content, error)
-        if warnings is not None:
-            warnings.add(
-                "the file is not UTF-8 and declares no other encoding: read as Windows-1252 "
-                "(Latin-1)"
-            )
+        warnings.add(
+            "the file is not UTF-8 and declares no other encoding: read as Windows-1252 (Latin-1)"
+        )
     except (ValueError, LookupError) as error:
         raise RobotError(
             f"the file declares a text encoding that cannot be read: {error}",
