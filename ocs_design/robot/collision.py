@@ -34,17 +34,14 @@ PROBES = (BALL, *DRUMS)
 """Geoms on the trunk that represent solids."""
 
 
-def solid_model(robot: Robot, warnings: Warnings) -> mujoco.MjModel:
+def solid_model(robot: Robot) -> mujoco.MjModel:
     """Compiled model of the robot with the probes on its trunk.
 
     A body is represented by its collision shapes or, if it has none, by its visual ones; meshes by
     their convex hulls.
-
-    Args:
-        robot: as read.
-        warnings: receives the meshes that cannot be read.
     """
-    bodies = []
+    # Exporting the robot already warns of meshes that cannot be read.
+    warnings, bodies = Warnings(), []
     for body in robot.tree.bodies:
         shapes = tuple(replace(shape, collides=True) for shape in solid_shapes(body))
         bodies.append(replace(body, shapes=shapes))
@@ -199,8 +196,7 @@ class CollisionModel:
 
     def __init__(self, robot: Robot) -> None:
         self.robot = robot
-        # Exporting the robot already warns of meshes that cannot be read.
-        self._model = solid_model(robot, Warnings())
+        self._model = solid_model(robot)
         self._data = mujoco.MjData(self._model)
         self.parts = parts_of(robot, self._model)
         self.limbs = tuple(part for part in self.parts if part.limb)
