@@ -16,7 +16,6 @@ import numpy as np
 
 from ocs_design.actuation.motor import DIRECT, Motor
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.errors import Infeasible
 from ocs_design.common.units import round_outwards
 from ocs_design.common.wording import some_of
 from ocs_design.requirement.bound import per_wheel, spin_demands
@@ -196,8 +195,8 @@ def advice_on(
     *,
     default: bool = False,
     lightest: bool = True,
-) -> Infeasible:
-    """The error with the single changes that would do.
+) -> Refused:
+    """The refusal, with the single changes that would do.
 
     Args:
         refused: problem that no motor can solve, and why.
@@ -233,14 +232,9 @@ def advice_on(
         ]
     if refused.for_reserve:
         hints.append("A lower --reliability needs a smaller reserve.")
-    return Infeasible(
-        refused.message,
-        binding=refused.binding,
-        required_spin_inertia=refused.required_spin_inertia,
-        largest_spin_inertia=refused.largest_spin_inertia,
-        relaxations={limit.name: value for limit, value in changes.items()},
-        hint=" ".join(hints),
-    )
+    refused.relaxations = {limit.name: value for limit, value in changes.items()}
+    refused.hint = " ".join(hints)
+    return refused
 
 
 def _caught(field: Field) -> Iterator[str]:
@@ -248,15 +242,14 @@ def _caught(field: Field) -> Iterator[str]:
     requirement = field.problem.requirement
     asked = [each for each in requirement.maneuvers if each.upset]
 
-    def does(part: float) -> bool:
-        less = requirement.changed(lambda each: each.milder(part) if each.upset else each)
+    def does(factor: float) -> bool:
+        less = requirement.changed(lambda each: each.milder(1.0 / factor) if each.upset else each)
         return field.with_requirement(less).possible
 
-    least = 1.0 / MOST_ADVISED
-    if not asked or not does(least):
+    if not asked or not does(MOST_ADVISED):
         return
-    part, _ = narrowed(lambda each: not does(each), least, 1.0, ADVICE_PRECISION)
-    told = some_of([f"{each.milder(part).upset} for {each.name}" for each in asked])
+    _, factor = narrowed(does, 1.0, MOST_ADVISED, ADVICE_PRECISION)
+    told = some_of([f"{each.milder(1.0 / factor).upset} for {each.name}" for each in asked])
     yield f"A device exists with {told}."
 
 
@@ -266,7 +259,6 @@ def single_changes(field: Field, progress: Progress = unseen) -> dict[Limit, flo
     Each is verified by searching for a device again, among all motors and gears of the problem; a
     change that only an unlikely drive could use may be missed (`Field.possible`).
     """
-
     return smallest_changes(
         field,
         limits_of(field.problem),

@@ -6,7 +6,6 @@ Only unspecified values change, and only as far as the specified ones allow.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from ocs_design.common.errors import Infeasible
 from ocs_design.common.units import format_quantity
 from ocs_design.device.device import Device
 from ocs_design.requirement.checks import contradictions
@@ -151,14 +150,12 @@ def closest(tried: Sequence[Attempt], robot_mass: float) -> Refused:
 
 def advised(
     refusal: Refused, specification: Specification, tried: Sequence[Attempt], progress: Progress
-) -> Infeasible:
-    """The error with the single changes that would help, where every attempt was refused."""
+) -> Refused:
+    """The refusal, with the single changes that would help, where every attempt was refused."""
     refused = [each.error for each in tried if isinstance(each.error, Refused)]
-    found = advice_on(
+    return advice_on(
         refusal,
         progress,
         default=specification.asks_nothing,
         lightest=all(error.problem.incidence is not None for error in refused),
     )
-    found.assumptions, found.warnings = refusal.assumptions, refusal.warnings
-    return found
