@@ -114,48 +114,29 @@ def _designed(
     near: Candidate | None,
 ) -> Designed:
     """The device for the task as resolved; see `design_device`."""
-    specification, robot, resolved = task.specification, task.robot, task.resolved
     problem = selection_problem(task)
     if problem is None:
-        # See docs/theory.md, Lower bound on the wheels' inertia.
-        ocs, envelope = specification.ocs, resolved.envelope
-        criterion = Criterion(ocs.alpha_criterion or Criterion.EQUAL_RATE)
-        sizing = size_device(
-            DeviceProblem(
-                robot.mass_properties,
-                resolved.requirement,
-                envelope,
-                resolved.material,
-                specified_place(ocs.position, robot, envelope),
-                incidence=ocs.alpha,
-                criterion=criterion,
-            )
-        )
-        designed = Designed(
-            device=assemble(sizing, resolved),
-            sized=sized_by_bound(sizing, resolved.requirement.wheel_speed_max),
-            criterion=BY_HAND if ocs.alpha is not None else str(criterion),
-            choice=None,
-        )
+        designed = _by_bound(task)
     else:
-        assert resolved.reliability is not None, "there are motors to choose from"
+        reliability = task.resolved.reliability
+        assert reliability is not None, "there are motors to choose from"
         require_survival(problem)
-        reserve = reserve or Reserve(resolved.reliability)
-        search = OnRobot(robot, specified_criterion(specification), near, failed)
+        reserve = reserve or Reserve(reliability)
+        search = OnRobot(task.robot, specified_criterion(task.specification), near, failed)
         designed = _by_selection(task, problem, search, reserve, ranked=ranked)
-        at, choice = designed.device, designed.choice
+        device, choice = designed.device, designed.choice
         formed = replace(problem, formed=True)
         # The last resort, after all mounts on flat surfaces.
         if (
-            at.layout.pairs
+            device.layout.pairs
             and choice is not None
             and choice.hangs
-            and search.footing(at, formed) is not None
+            and search.footing(device, formed) is not None
         ):
             with suppress(Infeasible):
                 again = _by_selection(task, formed, search, reserve, ranked=ranked)
                 designed = designed if again.device.plate is None else again
-    device, most = designed.device, specification.ocs.mass_max
+    device, most = designed.device, task.specification.ocs.mass_max
     # This device is already the lightest: no search is needed.
     if most is None or device.mass <= most:
         return designed
@@ -171,52 +152,27 @@ def _designed(
     )
 
 
-SURVIVORS = ("triad", *MORE_PAIRS[:1], PYRAMID)
-"""Layouts that control roll and pitch with any one wheel missing, the fewest wheels first."""
-
-
-def survivors(specification: Specification, robot: Robot, progress: Progress) -> str:
-    """Layouts that would survive a stopped drive, with their masses, for a layout that cannot.
-
-    Args:
-        specification: as given. robot: robot that carries the device.
-        progress: called with the fraction done.
-    """
-    masses: dict[str, float] = {}
-    against: list[str] = []
-    for done, layout in enumerate(SURVIVORS):
-        progress(done / len(SURVIVORS))
-        ocs = replace(
-            specification.ocs, layout=layout, axes=None, position=None, alpha=None,
-            alpha_criterion=None,
-        )  # fmt: skip
-        asked = replace(specification, ocs=ocs)
-        if any(contradictions(asked)):
-            continue
-        try:
-            masses[layout] = design_device(Task.of(asked, robot), ranked=False).device.mass
-        except Infeasible as error:
-            against.append(f"{layout}: {error.message.rstrip('.')}")
-    if not masses:
-        why = f" ({'; '.join(against)})" if against else ""
-        return f"No layout that survives it has a feasible device either{why}."
-    told = some_of([f"`--layout {name}` {1e3 * mass:.0f} g" for name, mass in masses.items()])
-    return (
-        f"Layouts that survive it: {told}. `validate DESIGN --survives one` reports at which "
-        "instants of failure a device that was not sized to survive still lands."
+def _by_bound(task: Task) -> Designed:
+    """Two wheels without motors (docs/theory.md, Lower bound on the wheels' inertia)."""
+    ocs, robot, resolved = task.specification.ocs, task.robot, task.resolved
+    criterion = Criterion(ocs.alpha_criterion or Criterion.EQUAL_RATE)
+    sizing = size_device(
+        DeviceProblem(
+            robot.mass_properties,
+            resolved.requirement,
+            resolved.envelope,
+            resolved.material,
+            specified_place(ocs.position, robot, resolved.envelope),
+            incidence=ocs.alpha,
+            criterion=criterion,
+        )
     )
-
-
-def mass_without_survival(task: Task) -> float | None:
-    """Mass of the lightest device that need not survive a stopped drive [kg]; None: there is none.
-
-    Args:
-        task: task whose device has to survive it.
-    """
-    with suppress(Infeasible):
-        free = task.asking(replace(task.resolved.requirement, detection=None))
-        return design_device(free, ranked=False).device.mass
-    return None
+    return Designed(
+        device=assemble(sizing, resolved),
+        sized=sized_by_bound(sizing, resolved.requirement.wheel_speed_max),
+        criterion=BY_HAND if ocs.alpha is not None else str(criterion),
+        choice=None,
+    )
 
 
 def _by_selection(
@@ -295,6 +251,54 @@ def _by_selection(
         reserve=reserve,
         account=lambda: account(reserve, reality, problem, chosen, resized, nominal=least()),
     )
+
+
+SURVIVORS = ("triad", *MORE_PAIRS[:1], PYRAMID)
+"""Layouts that control roll and pitch with any one wheel missing, the fewest wheels first."""
+
+
+def survivors(specification: Specification, robot: Robot, progress: Progress) -> str:
+    """Layouts that would survive a stopped drive, with their masses, for a layout that cannot.
+
+    Args:
+        specification: as given. robot: robot that carries the device.
+        progress: called with the fraction done.
+    """
+    masses: dict[str, float] = {}
+    against: list[str] = []
+    for done, layout in enumerate(SURVIVORS):
+        progress(done / len(SURVIVORS))
+        ocs = replace(
+            specification.ocs, layout=layout, axes=None, position=None, alpha=None,
+            alpha_criterion=None,
+        )  # fmt: skip
+        asked = replace(specification, ocs=ocs)
+        if any(contradictions(asked)):
+            continue
+        try:
+            masses[layout] = design_device(Task.of(asked, robot), ranked=False).device.mass
+        except Infeasible as error:
+            against.append(f"{layout}: {error.message.rstrip('.')}")
+    if not masses:
+        why = f" ({'; '.join(against)})" if against else ""
+        return f"No layout that survives it has a feasible device either{why}."
+    told = some_of([f"`--layout {name}` {1e3 * mass:.0f} g" for name, mass in masses.items()])
+    return (
+        f"Layouts that survive it: {told}. `validate DESIGN --survives one` reports at which "
+        "instants of failure a device that was not sized to survive still lands."
+    )
+
+
+def mass_without_survival(task: Task) -> float | None:
+    """Mass of the lightest device that need not survive a stopped drive [kg]; None: there is none.
+
+    Args:
+        task: task whose device has to survive it.
+    """
+    with suppress(Infeasible):
+        free = task.asking(replace(task.resolved.requirement, detection=None))
+        return design_device(free, ranked=False).device.mass
+    return None
 
 
 def lightest_device(task: Task) -> FrontDevice:
