@@ -73,6 +73,11 @@ class Web:
     hub: Hub
     holes: HoleRing | None = None
 
+    @property
+    def rings(self) -> tuple[HoleRing, ...]:
+        """Through holes, from the inside out: for bolts in the hub, and to lighten the disc."""
+        return tuple(ring for ring in (self.hub.bolt_ring, self.holes) if ring is not None)
+
     def height(self, radius: float) -> float:
         """Extent of hub or disc along the axis at a radius [m]."""
         return self.hub.height if radius < self.hub.radius else self.thickness
@@ -182,8 +187,11 @@ def wheel_parts(wheel: Wheel) -> tuple[Part[float], ...]:
     if web is None:
         return (Part("rim", rim.density, (_mirrored(rim.corners),), holes),)
     disc = web.corners(rim.inner_radius)
-    rings = (web.hub.bolt_ring, web.hub.height / 2.0), (web.holes, web.thickness / 2.0)
-    drilled = tuple(ring.prism(-end, end) for ring, end in rings if ring is not None)
+    drilled = tuple(
+        ring.prism(-end, end)
+        for ring in web.rings
+        for end in [web.height(ring.circle_radius) / 2.0]
+    )
     if not wheel.shrunk_on:
         return (Part("wheel", rim.density, (_mirrored([*rim.corners, *disc]),), holes + drilled),)
     return (

@@ -196,8 +196,8 @@ def _cut_rings(wheel: Wheel) -> Iterator[tuple[HoleRing, float, float]]:
     """Hole rings cut by the section, half the width at the hole [m], and the side."""
     rings = [] if wheel.rim.balancing is None else [(wheel.rim.balancing, wheel.rim.height / 2.0)]
     if wheel.web is not None:
-        found = (ring for ring in (wheel.web.hub.bolt_ring, wheel.web.holes) if ring is not None)
-        rings += [(ring, wheel.web.height(ring.circle_radius) / 2.0) for ring in found]
+        web = wheel.web
+        rings += [(ring, web.height(ring.circle_radius) / 2.0) for ring in web.rings]
     for ring, width in rings:
         for side in (_ABOVE, _BELOW):
             if is_cut(ring, above=side == _ABOVE):
@@ -233,8 +233,7 @@ def cut_faces(wheel: Wheel, *, above: bool) -> Iterator[tuple[Profile, bool]]:
         return
     # Web and hub up to the rim's bore, in pieces where holes are cut.
     hub = web.hub
-    rings = [ring for ring in (hub.bolt_ring, web.holes) if ring is not None]
-    cuts = [ring for ring in rings if is_cut(ring, above=above)]
+    cuts = [ring for ring in web.rings if is_cut(ring, above=above)]
     starts = [hub.bore_radius, *(ring.high for ring in cuts)]
     ends = [*(ring.low for ring in cuts), wheel.rim.inner_radius]
     corners = [(z, radius) for radius, z in reversed(web.corners(wheel.rim.inner_radius))]
