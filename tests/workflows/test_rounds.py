@@ -159,7 +159,9 @@ QUARTER = Specification(
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("no_alternatives", "no_files")
-@pytest.mark.parametrize("most", [rounds.TURN_ROUNDS, 0])
+@pytest.mark.parametrize(
+    "most", [rounds.TURN_ROUNDS, pytest.param(0, marks=pytest.mark.exhaustive)]
+)
 def test_a_closed_form_that_asks_too_little_is_made_good_by_the_plan(most, tmp_path, monkeypatch):
     full = turns.loop_length
     monkeypatch.setattr(turns, "loop_length", lambda heading: 0.6 * full(heading))
