@@ -182,12 +182,14 @@ def beside_solo12(tmp_path, monkeypatch):
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")  # Those of Jupyter's own packages.
 def test_the_notebook_runs(beside_solo12, monkeypatch):
-    """With a few samples in place of a certificate, which takes minutes; that has its own test."""
+    """With few samples in place of a certificate, which takes minutes, and fewer points."""
     nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
     page = (beside_solo12 / "solo12.ipynb").read_text()
-    assert page.count("certify=True") == 1
-    notebook = nbformat.reads(page.replace("certify=True", "samples=3"), as_version=4)
+    for whole, few in (("certify=True", "samples=3"), ("points=5", "points=2")):
+        assert page.count(whole) == 1
+        page = page.replace(whole, few)
+    notebook = nbformat.reads(page, as_version=4)
     nbclient.NotebookClient(notebook, timeout=600).execute()
     kinds = [
         kind

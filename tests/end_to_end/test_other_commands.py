@@ -11,6 +11,7 @@ from products import equal_rate
 from ocs_design import __version__
 from ocs_design.common.errors import extra_command
 from ocs_design.device.records.design import read_design
+from ocs_design.requirement import specification
 
 PAPER = ("bound", "--inertia", "0.0515", "--rate-change", "2", "--wheel-speed-max", "750rad/s")
 
@@ -93,9 +94,17 @@ def test_json_errors_are_one_document():
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("no_alternatives", "no_files")
+@pytest.mark.usefixtures("no_files")
 def test_the_demo_sizes_solo12_from_any_folder(folder, monkeypatch):
-    """Without a screen the page's place is said; a second one is not written over it."""
+    """Without a screen the page's place is said; a second one is not written over it.
+
+    Of wheels alone, which is quick: with all its defaults the notebook sizes it.
+    """
+    asked = specification.specification_from_options
+    quick = {"motor.name": "none", "validation.ballistic": True}
+    monkeypatch.setattr(
+        specification, "specification_from_options", lambda options: asked({**options, **quick})
+    )
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"):
         monkeypatch.delenv(name, raising=False)
     told, folder = run("demo"), folder / "solo12-ocs"
