@@ -15,7 +15,7 @@ from math import inf
 
 import numpy as np
 
-from ocs_design.actuation.motor import DIRECT, Gear, GearRoom, Motor, MotorFigures, Mounting
+from ocs_design.actuation.motor import DIRECT, AnyMotor, Gear, GearRoom, Motor
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import FloatArray, Table, finite_or_none
 from ocs_design.common.errors import OcsError
@@ -170,9 +170,7 @@ def _sense(gear: Gear) -> float:
     return -1.0 if gear.reverses else 1.0
 
 
-def power_less_friction(
-    supply: Supply, motors: int, motor: "Motor | Drive", peak_current: float
-) -> float:
+def power_less_friction(supply: Supply, motors: int, motor: AnyMotor, peak_current: float) -> float:
     """Least power of a supply that remains after the motors' friction [W].
 
     (R (i + I_0) + k_t w) (i + I_0) exceeds (R i + k_t w) i by at most I_0 (V + R (i + I_0)).
@@ -188,7 +186,7 @@ def power_less_friction(
 
 
 @dataclass(frozen=True, kw_only=True)
-class Drive(MotorFigures):
+class Drive(AnyMotor):
     """Motor at a voltage with a gear: its voltage line, limits and inertia, all at the wheel.
 
     It is written to `design.json` unchanged. None means not limited or unknown; for the assumed
@@ -203,7 +201,6 @@ class Drive(MotorFigures):
         torque_limit: at the current limit of motor and drive, or of the gear [N m].
         rotor_inertia: what the rotor adds to the spin inertia of the wheel [kg m^2]: its own times
             the gear ratio, negative where the gear reverses.
-        rotor_inertia_source: empty: the maker's figure; otherwise the estimate and its uncertainty.
         gear: name in the catalogue, or "direct".
         gear_ratio: motor speed over wheel speed.
         gear_efficiency: of the torque, 0..1, counted as a loss in both directions.
@@ -212,14 +209,9 @@ class Drive(MotorFigures):
         speed_max: mechanical limit of wheel, gear and motor [rad/s].
         armature: inertia that the motor accelerates beyond the spin inertia of the wheel, at the
             wheel [kg m^2]; 0 without a gear.
-        torque_constant: of the motor itself, six-step, line to line [N m/A].
-        resistance: of the motor, line to line [ohm].
         continuous_torque: thermally sustainable torque of the winding [N m].
-        continuous_torque_source: empty: the maker's figure; otherwise the estimate.
-        mounting: its shaft and threads, where known and the wheel sits on the motor without a gear.
         gear_room: space that its gear takes; None: no gear.
         saturation_torque: torque at the wheel above which the motor's k_t decreases [N m].
-        controller_mass: of the controller mounted with the motor [kg]; 0: not counted.
     """
 
     mass: NotNegative
@@ -235,15 +227,9 @@ class Drive(MotorFigures):
     bus_voltage: Positive | None = None
     speed_max: Positive | None = None
     armature: Signed = 0.0
-    torque_constant: Positive | None = None
-    resistance: Positive | None = None
     continuous_torque: NotNegative | None = None
-    mounting: Mounting | None = None
     gear_room: GearRoom | None = None
     saturation_torque: Positive | None = None
-    rotor_inertia_source: str = ""
-    continuous_torque_source: str = ""
-    controller_mass: NotNegative = 0.0
 
     @property
     def full_name(self) -> str:

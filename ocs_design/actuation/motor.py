@@ -289,15 +289,36 @@ class MotorFigures:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Motor(MotorFigures):
-    """A brushless motor as an equivalent DC motor: `V = R i + k_t w` (docs/theory.md, The motor).
-
-    None means that its source does not give the figure.
+class AnyMotor(MotorFigures):
+    """A motor on its own or in a drive, with its figures in the convention of this module.
 
     Attributes:
         torque_constant: k_t, torque per current and voltage per speed, line to line (six-step
             commutation) [N m/A].
         resistance: line to line [ohm].
+        mounting: shaft and threads, if any of them is known; in a drive only without a gear, where
+            the wheel sits on the motor.
+        rotor_inertia_source: empty: the source's own figure; otherwise the estimate and its
+            uncertainty.
+        continuous_torque_source: the same of the continuous torque.
+        controller_mass: of the controller mounted with the motor [kg]; 0: not counted.
+    """
+
+    torque_constant: Positive | None = None
+    resistance: Positive | None = None
+    mounting: Mounting | None = None
+    rotor_inertia_source: str = ""
+    continuous_torque_source: str = ""
+    controller_mass: NotNegative = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Motor(AnyMotor):
+    """A brushless motor as an equivalent DC motor: `V = R i + k_t w` (docs/theory.md, The motor).
+
+    None means that its source does not give the figure.
+
+    Attributes:
         no_load_speed: as stated, at the rated voltage [rad/s].
         speed_max: highest speed for bearings and rotor, if stated [rad/s].
         peak_torque: at the highest short-term current [N m].
@@ -307,19 +328,12 @@ class Motor(MotorFigures):
         peak_basis: basis of `peak_torque`: the maker's peak torque, k_t times its peak current, or
             the stall torque of its data sheet.
         remark: note on the figures.
-        mounting: shaft and threads, if any of them is known.
         saturation_torque: torque above which k_t decreases [N m]; not a limit of the torque, as the
             maker's peak torque is measured with saturation.
         kind: kind of motor.
         voltage_max: highest supply voltage that the maker allows, if not the rated one [V].
-        rotor_inertia_source: empty: the source's own figure; otherwise the estimate and its
-            uncertainty.
-        continuous_torque_source: the same of the continuous torque.
-        controller_mass: of the controller supplied with it [kg].
     """
 
-    torque_constant: float | None
-    resistance: float | None
     no_load_speed: float | None
     speed_max: float | None
     peak_torque: float | None
@@ -328,13 +342,9 @@ class Motor(MotorFigures):
     rotor_inertia: float | None
     peak_basis: str = ""
     remark: str = ""
-    mounting: Mounting | None = None
     saturation_torque: float | None = None
     kind: MotorKind | None = None
     voltage_max: float | None = None
-    rotor_inertia_source: str = ""
-    continuous_torque_source: str = ""
-    controller_mass: float = 0.0
 
 
 INERTIA_SHARE = {

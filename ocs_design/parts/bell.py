@@ -5,10 +5,9 @@ an MN4006 (github.com/wheelbot/Mini-Wheelbot, hardware/how-to-assemble-motors.md
 on the floor of the housing, inside the ring; its back is screwed to floor and plate.
 """
 
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
-from ocs_design.actuation.drive import Drive
-from ocs_design.actuation.motor import Face, Motor
+from ocs_design.actuation.motor import AnyMotor, Face
 from ocs_design.parts.printed import CLEARANCE, PETG, WALL
 from ocs_design.parts.solids import Part, revolved
 
@@ -27,10 +26,6 @@ FIXTURE_FIT = 0.1e-3
 
 GLUE_ROOM = 1.0e-3
 """Width and depth of the groove under the glue gap, for glue that is squeezed out [m]."""
-
-
-HeldMotor: TypeAlias = Motor | Drive
-"""Types with the figures of a motor that its mount, or a ring around its bell, needs."""
 
 
 class Bell(NamedTuple):
@@ -58,7 +53,7 @@ class Bell(NamedTuple):
         return max(FIXTURE_FLOOR, self.shaft_length + FIXTURE_FIT)
 
 
-def bell_of(motor: HeldMotor) -> Bell | None:
+def bell_of(motor: AnyMotor) -> Bell | None:
     """Bell of a motor with threads at its back; None: there is none, or its size is not known.
 
     The motor stands on the housing's floor, with its shaft clear of the lid. So the middle of the

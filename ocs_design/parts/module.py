@@ -5,11 +5,10 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ocs_design.actuation.motor import Gear, GearRoom
+from ocs_design.actuation.motor import AnyMotor, Gear, GearRoom
 from ocs_design.common.arrays import FloatArray
 from ocs_design.parts import foot as feet
 from ocs_design.parts import housing as housings
-from ocs_design.parts.bell import HeldMotor
 from ocs_design.parts.cage import NO_POSTS, Posts
 from ocs_design.parts.foot import Foot, foot_mass_per_height
 from ocs_design.parts.housing import (
@@ -95,7 +94,7 @@ Shell: TypeAlias = Printed | PlainDrum
 """Structure around a wheel, whose mass grows with the rim's outer radius and height [m]."""
 
 
-def drive_moments(motor: HeldMotor) -> MassMoments[float]:
+def drive_moments(motor: AnyMotor) -> MassMoments[float]:
     """Moments of a motor about its middle.
 
     A solid cylinder; a thin disc if its length is not known, a point without a diameter. Both
@@ -113,7 +112,7 @@ def gear_moments(gear: Gear, foot_plate: float) -> MassMoments[float]:
     return point(gear.mass).shifted(-(foot_plate + room.depth / 2.0), room.center)
 
 
-def by_floor(motor: HeldMotor, gear: Gear, mount: MotorMount) -> MassMoments[float]:
+def by_floor(motor: AnyMotor, gear: Gear, mount: MotorMount) -> MassMoments[float]:
     """Moments of parts attached to the housing's floor, about the middle of its outside.
 
     Screws and gear, minus the mount's holes through floor and plate, and a motor behind the plate.
@@ -126,7 +125,7 @@ def by_floor(motor: HeldMotor, gear: Gear, mount: MotorMount) -> MassMoments[flo
     return held + drive_moments(motor).shifted(-middle, mount.up)
 
 
-def by_wheel(motor: HeldMotor, mount: MotorMount) -> MassMoments[float]:
+def by_wheel(motor: AnyMotor, mount: MotorMount) -> MassMoments[float]:
     """Moments of parts positioned by the wheel's hub, about the wheel's middle.
 
     Screws, and a motor in its cage with the cage's floor; for the posts see `Posts`. They are the
@@ -139,7 +138,7 @@ def by_wheel(motor: HeldMotor, mount: MotorMount) -> MassMoments[float]:
 
 
 def standing(
-    motor: HeldMotor,
+    motor: AnyMotor,
     gear: Gear,
     outer_radius: float,
     height: float,

@@ -19,9 +19,9 @@ from ocs_design.actuation.fasteners import (
     longest_within,
     screw,
 )
-from ocs_design.actuation.motor import BoltCircle, Face, GearRoom, Mounting
+from ocs_design.actuation.motor import AnyMotor, BoltCircle, Face, GearRoom, Mounting
 from ocs_design.common.arrays import Table
-from ocs_design.parts.bell import Bell, HeldMotor, bell_of
+from ocs_design.parts.bell import Bell, bell_of
 from ocs_design.parts.cage import HALF_POST, NO_POSTS, Cage, Posts
 from ocs_design.parts.moments import MassMoments, Real, point, ring
 from ocs_design.parts.printed import (
@@ -163,7 +163,7 @@ class MotorMount:
         found = self.holes.screws
         return 0.0 if found is None else found.radius + screw(found.thread).head_diameter / 2.0
 
-    def behind(self, motor: HeldMotor) -> Behind[float]:
+    def behind(self, motor: AnyMotor) -> Behind[float]:
         """Extent behind the plate, with the motor."""
         if self.bell is not None:
             return Behind(max(each.fastening.screw.head_height for each in self.screwed), 0.0)
@@ -185,7 +185,7 @@ class MotorMount:
 
 
 def mount_of(
-    motor: HeldMotor,
+    motor: AnyMotor,
     room: GearRoom | None,
     foot_plate: float = PLATE_THICKNESS,
     *,
@@ -252,7 +252,7 @@ def mount_of(
     return MotorMount(passage, cage, (*wheel, held, on_plate), foot_plate=foot_plate)
 
 
-def is_held(motor: HeldMotor, room: GearRoom | None) -> bool:
+def is_held(motor: AnyMotor, room: GearRoom | None) -> bool:
     """True if known screws hold the motor: through plate and floor, or in a cage.
 
     False behind any gear: the catalogue does not say how gear and motor are fixed to each other.
@@ -260,7 +260,7 @@ def is_held(motor: HeldMotor, room: GearRoom | None) -> bool:
     return mount_of(motor, room).holes.screws is not None
 
 
-def cage_of(motor: HeldMotor, mounting: Mounting, foot_plate: float) -> Cage | None:
+def cage_of(motor: AnyMotor, mounting: Mounting, foot_plate: float) -> Cage | None:
     """Cage of a motor with threads at its back; None if its size is unknown or unsuitable.
 
     `foot_plate` is the thickness of the foot's plate [m].
@@ -430,7 +430,7 @@ def bond_length(mounting: Mounting, hub_height: float, chamfer: float, front: fl
 
 
 def drive_cylinders(
-    motor: HeldMotor, room: GearRoom | None, mount: MotorMount, height: float
+    motor: AnyMotor, room: GearRoom | None, mount: MotorMount, height: float
 ) -> Iterator[DriveSolid]:
     """Gear, motor and cage of a wheel with this rim height [m], as far as sizes are known.
 
