@@ -109,9 +109,9 @@ def changes(task: Task) -> Iterator[Change]:
         least = format_quantity(power, "kW" if power >= 1e3 else "W", 3)
         endless = replace(stated.supply, power_max=inf, current_max=inf)
         yield Change(f"a supply of more than {least}", replace(stated, supply=endless))
-    yield room(task)(MORE_ROOM)
+    yield _room(task)(MORE_ROOM)
     if task.maneuvers:
-        yield time(task)(MORE_TIME)
+        yield _time(task)(MORE_TIME)
 
 
 def levers(task: Task, owed: str) -> Iterator[Lever]:
@@ -121,7 +121,7 @@ def levers(task: Task, owed: str) -> Iterator[Lever]:
     tilt or push; a flip cannot be made smaller.
     """
     if task.maneuvers:
-        yield time(task)
+        yield _time(task)
     alone = next((each for each in task.maneuvers if each.name == owed), None)
     if alone is not None:
 
@@ -140,7 +140,7 @@ def levers(task: Task, owed: str) -> Iterator[Lever]:
         if alone.part:
             yield gentler
     resolved = task.resolved
-    yield room(task)
+    yield _room(task)
     yield _key(task, "flywheel", "h_max", resolved.envelope.height_max, "mm")
     rate = resolved.requirement.rate_change
     if rate is not None:
@@ -152,7 +152,7 @@ def levers(task: Task, owed: str) -> Iterator[Lever]:
             yield _key(task, "supply", "power_max", supply.power_max, "W")
 
 
-def time(task: Task) -> Lever:
+def _time(task: Task) -> Lever:
     """The time of all maneuvers."""
 
     def change(percent: int) -> Change:
@@ -164,7 +164,7 @@ def time(task: Task) -> Lever:
     return change
 
 
-def room(task: Task) -> Lever:
+def _room(task: Task) -> Lever:
     """The largest radius of a rim."""
     return _key(task, "flywheel", "r_max", task.resolved.envelope.outer_radius_max, "mm")
 

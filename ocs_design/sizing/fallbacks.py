@@ -127,7 +127,7 @@ def substitutions(
     return tuple(told), tuple(few)
 
 
-def closest(tried: Sequence[Attempt], robot_mass: float) -> Refused:
+def closest_refusal(tried: Sequence[Attempt], robot_mass: float) -> Refused:
     """The refusal on which advice is based.
 
     Where a wheel lacks room, it is that of the specification itself; where the motors are too weak,

@@ -40,7 +40,7 @@ from ocs_design.sizing.fallbacks import (
     advised,
     attempt_text,
     attempts,
-    closest,
+    closest_refusal,
     less_sure,
     more_wheels_may_do,
     substitutions,
@@ -205,7 +205,7 @@ def size_or_advise(
                 best.cancel()
                 raise
         return best.telling(substitutions(specification, best.specification, tried))
-    refusal = closest(tried, robot.mass)
+    refusal = closest_refusal(tried, robot.mass)
     with steps.step("search for the smallest changes that make it feasible") as step:
         found = advised(refusal, specification, tried, step.update)
     raise found
