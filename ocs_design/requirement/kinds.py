@@ -80,19 +80,15 @@ MANEUVER_KINDS: Mapping[str, ManeuverKind] = MappingProxyType(
 """Every kind, by the value of the key `kind`."""
 
 
-def kind_of(maneuver: Maneuver) -> tuple[str, Mapping[str, Value[Any]]]:
-    """Value of the key `kind` for a maneuver, and the parsers of its fields."""
-    return next(
-        (word, kind.values)
-        for word, kind in MANEUVER_KINDS.items()
-        if kind.maneuver is type(maneuver)
-    )
+def kind_of(maneuver: Maneuver) -> tuple[str, ManeuverKind]:
+    """Kind of a maneuver, with the value of the key `kind`."""
+    return next(item for item in MANEUVER_KINDS.items() if item[1].maneuver is type(maneuver))
 
 
 def change_text(before: Maneuver, after: Maneuver) -> str:
     """Keys of `after` that differ from those of `before`, rounded up, as in `height 2 m`."""
     changes = []
-    for name, how in kind_of(after)[1].items():
+    for name, how in kind_of(after)[1].values.items():
         old, new = getattr(before, name), getattr(after, name)
         match how:
             case Quantity(dimension=dimension) if old != new:

@@ -15,7 +15,7 @@ from typing import Any
 
 from ocs_design.common.units import Dimension, format_quantity, parse_quantity, si_unit
 from ocs_design.requirement.keys import keys_of
-from ocs_design.requirement.kinds import MANEUVER_KINDS, kind_of
+from ocs_design.requirement.kinds import kind_of
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.phrases import About, Climb, Kick, Person, Pivot, Tilt
 from ocs_design.requirement.specification import SECTIONS, Specification, all_keys, with_files
@@ -65,8 +65,8 @@ def specification_to_toml(specification: Specification, comment: str = "") -> st
         specified = list(_fields(getattr(specification, name), how))
         lines += ["", f"[{name}]", *specified] if specified else []
     for maneuver in specification.maneuvers:
-        word, values = kind_of(maneuver)
-        lines += ["", "[[maneuver]]", f"kind = {_text(word)}", *_fields(maneuver, values)]
+        word, kind = kind_of(maneuver)
+        lines += ["", "[[maneuver]]", f"kind = {_text(word)}", *_fields(maneuver, kind.values)]
     return "\n".join(lines).lstrip("\n") + "\n"
 
 
@@ -228,10 +228,9 @@ def rounded_text(specification: Specification, path: str) -> str:
 
 def _commented_maneuver(maneuver: Maneuver, figures: Figures, mark: str) -> Iterator[str]:
     """Table of a maneuver with a note on each field; `mark` comments it out."""
-    word, values = kind_of(maneuver)
-    kind = MANEUVER_KINDS[word]
+    word, kind = kind_of(maneuver)
     yield from (f"# {kind.note}", f"{mark}[[maneuver]]", f'{mark}kind = "{word}"')
-    for name, how in values.items():
+    for name, how in kind.values.items():
         value = getattr(maneuver, name)
         if value is not None:
             line = f"{name} = {written(value, how, figures)}"

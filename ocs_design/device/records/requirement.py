@@ -86,14 +86,14 @@ class ManeuverRecord:
     @classmethod
     def of(cls, maneuver: Maneuver) -> "ManeuverRecord":
         """The record of a required maneuver."""
-        kind, values = kind_of(maneuver)
+        word, kind = kind_of(maneuver)
         common = {each.name for each in fields(Maneuver)}
         parameters = {
             name: value
             for name, value in asdict(maneuver).items()
-            if name in values and name not in common
+            if name in kind.values and name not in common
         }
-        return recorded(cls, maneuver, kind=kind, parameters=parameters)
+        return recorded(cls, maneuver, kind=word, parameters=parameters)
 
     def maneuver(self) -> Maneuver:
         """The required maneuver.
