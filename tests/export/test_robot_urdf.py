@@ -3,13 +3,7 @@
 import numpy as np
 import pytest
 from built import DEVICES
-from exported import (
-    LEGGED_PATHS,
-    MJCF,
-    check_wheels_in_pinocchio,
-    pinocchio_model,
-    robot_at,
-)
+from exported import LEGGED_PATHS, MJCF, check_wheels_in_pinocchio, pinocchio_model, robot_at
 from robots import SOLO12, marked
 from wheels import driven_device, paper_device
 

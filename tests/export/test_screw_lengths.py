@@ -5,13 +5,7 @@ from math import isfinite
 
 import pytest
 
-from ocs_design.actuation.fasteners import (
-    CLASSES,
-    IN_PLASTIC,
-    USUAL_CLASS,
-    BoltedJoint,
-    screw,
-)
+from ocs_design.actuation.fasteners import CLASSES, IN_PLASTIC, USUAL_CLASS, BoltedJoint, screw
 from ocs_design.catalogue.motors import known_motors
 from ocs_design.export.assembly.content import tightened
 from ocs_design.parts.foot import PLATE_THICKNESS

@@ -7,12 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ocs_design.parts.guard import (
-    PIECES,
-    Containment,
-    fragment_of,
-    steel_wall,
-)
+from ocs_design.parts.guard import PIECES, Containment, fragment_of, steel_wall
 from ocs_design.parts.housing import Housing
 
 RIM = {"inner_radius": 0.040, "outer_radius": 0.044, "height": 0.006}

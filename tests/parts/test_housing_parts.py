@@ -22,14 +22,7 @@ from ocs_design.parts.housing import (
     undrilled,
 )
 from ocs_design.parts.module import Printed
-from ocs_design.parts.printed import (
-    CLEARANCE,
-    LID_SCREW,
-    PANEL,
-    PETG,
-    WALL,
-    MountHoles,
-)
+from ocs_design.parts.printed import CLEARANCE, LID_SCREW, PANEL, PETG, WALL, MountHoles
 from ocs_design.parts.solids import total
 from ocs_design.parts.wheel import wheel_parts
 
