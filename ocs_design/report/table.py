@@ -39,7 +39,7 @@ Rows: TypeAlias = tuple[tuple[str, str], ...]
 
 
 @dataclass(frozen=True)
-class Column:
+class Heading:
     """Heading of one column.
 
     Attributes:
@@ -56,17 +56,17 @@ class Column:
 _HEADING = re.compile(r"(<?)(.*?)(?: \[(.*)\])?", re.DOTALL)
 
 
-def columns(*headings: str) -> tuple[Column, ...]:
+def columns(*headings: str) -> tuple[Heading, ...]:
     """Columns from headings such as `mass [g]`; a leading `<` marks a column of words."""
     parts = (_HEADING.fullmatch(heading) for heading in headings)
-    return tuple(Column(each[2], each[3] or "", bool(each[1])) for each in parts if each)
+    return tuple(Heading(each[2], each[3] or "", bool(each[1])) for each in parts if each)
 
 
 @dataclass(frozen=True)
 class CellTable:
     """Columns and rows of cells, as many in each row as there are columns."""
 
-    columns: tuple[Column, ...]
+    columns: tuple[Heading, ...]
     rows: tuple[tuple[Cell, ...], ...]
 
     def first(self, columns: int) -> "CellTable":
