@@ -199,24 +199,6 @@ class Node:
         )
 
 
-def spline_slopes(values: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """First and second derivatives, by share of time, of the spline through `values` at the nodes.
-
-    The spline starts at rest and has a natural end; all arrays have shape (m, NODES).
-    """
-    rise = np.diff(values, axis=1) / STEPS
-    matrix, right = np.eye(NODES), np.zeros_like(values)
-    matrix[0, :2], right[:, 0] = (2.0 * STEPS[0], STEPS[0]), 6.0 * rise[:, 0]
-    for k in range(1, NODES - 1):
-        before, after = STEPS[k - 1], STEPS[k]
-        matrix[k, k - 1 : k + 2] = before, 2.0 * (before + after), after
-        right[:, k] = 6.0 * (rise[:, k] - rise[:, k - 1])
-    second = np.linalg.solve(matrix, right.T).T
-    gained = np.cumsum(0.5 * STEPS * (second[:, 1:] + second[:, :-1]), axis=1)
-    first = np.hstack([np.zeros((len(values), 1)), gained])
-    return first, np.asarray(second, dtype=np.float64)
-
-
 @dataclass(frozen=True, eq=False)
 class _Units:
     """Units of force [N], moment [N m], one leg's joint torque [N m], speed [m/s] and time [s]."""

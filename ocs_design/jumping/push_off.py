@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import CubicSpline, PPoly
 
 from ocs_design.common.arrays import FloatArray
 from ocs_design.jumping.floating_base import POSE, FloatingBase, Load
@@ -17,7 +18,6 @@ from ocs_design.jumping.node import (
     NodeLayout,
     SoftLimit,
     limit_or_inf,
-    spline_slopes,
 )
 from ocs_design.jumping.program import Program, PushOffSolution
 from ocs_design.robot.mass import MassProperties
@@ -64,13 +64,10 @@ class PushOff:
 
     def joints_at(self, times: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Positions and velocities of the joints on the cubic splines, shape (len(times), n)."""
-        last = len(self.time) - 2
-        k = np.clip(np.searchsorted(self.time, times, side="right") - 1, 0, last)
-        t = (times - self.time[k])[:, None]
         y, v, a = (each[:, POSE:] for each in (self.y, self.v, self.a))
-        jerk = np.diff(a, axis=0)[k] / np.diff(self.time)[k, None]
-        position = y[k] + t * (v[k] + t * (a[k] / 2.0 + t * jerk / 6.0))
-        return position, v[k] + t * (a[k] + t * jerk / 2.0)
+        jerk = np.diff(a, axis=0) / np.diff(self.time)[:, None]
+        spline = PPoly(np.array([jerk / 6.0, a[:-1] / 2.0, v[:-1], y[:-1]]), self.time)
+        return np.asarray(spline(times)), np.asarray(spline(times, 1))
 
 
 class PushOffs:
@@ -164,7 +161,9 @@ def _initial_guess(
         rows = slice(POSE + where.start, POSE + where.stop)
         lifts = body.height - found[2]
         found[rows] = lifted(leg.chain, leg.foot, leg.length, body.posture[where], lifts).T
-    found[layout.v], found[layout.a] = spline_slopes(found[layout.y])
+    # From rest, with a natural end.
+    spline = CubicSpline(SHARES, found[layout.y], axis=1, bc_type=("clamped", "natural"))
+    found[layout.v], found[layout.a] = spline(SHARES, 1), spline(SHARES, 2)
     rising = found[layout.a][2] / duration**2 / gravity
     found[layout.f][2::3] = np.maximum(1.0 + rising, 0.2) / len(body.legs)
     found[layout.duration] = duration

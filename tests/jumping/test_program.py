@@ -4,11 +4,10 @@ import casadi as ca
 import numpy as np
 import pytest
 from robots import ROBOTS
-from scipy.interpolate import CubicSpline
 
 from ocs_design.jumping.floating_base import FloatingBase, Load
 from ocs_design.jumping.legged_body import LeggedBody
-from ocs_design.jumping.node import NODES, SHARES, STEPS, WEIGHTS, Node, spline_slopes
+from ocs_design.jumping.node import NODES, SHARES, STEPS, WEIGHTS, Node
 from ocs_design.jumping.program import Program
 from ocs_design.robot.reader import read_robot
 
@@ -64,15 +63,6 @@ def test_curvature_of_the_lagrangian(program, point):
         expected = np.asarray(twice(*point)).ravel()
         scale = np.abs(expected).max()
         np.testing.assert_allclose(whole @ direction, expected, atol=1e-10 * scale)
-
-
-def test_the_spline_is_scipys():
-    values = np.random.default_rng(0).normal(size=(3, NODES))
-    ends = ((1, np.zeros(3)), (2, np.zeros(3)))
-    spline = CubicSpline(SHARES, values, axis=1, bc_type=ends)
-    first, second = spline_slopes(values)
-    np.testing.assert_allclose(first, spline(SHARES, 1), atol=1e-9)
-    np.testing.assert_allclose(second, spline(SHARES, 2), atol=1e-8)
 
 
 def test_the_nodes_fill_the_push_off_and_weigh_as_trapezoids():
