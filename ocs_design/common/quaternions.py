@@ -73,7 +73,7 @@ def vertical(quaternion: FloatArray) -> FloatArray:
     return found
 
 
-def vertical_of(attitude: FloatArray) -> FloatArray:
+def scaled_vertical(attitude: FloatArray) -> FloatArray:
     """The world's upward direction in B times the attitude's squared length, shape (..., 3)."""
     w, x, y, z = np.moveaxis(attitude, -1, 0)
     return np.stack(

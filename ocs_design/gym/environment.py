@@ -224,7 +224,7 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         """Target roll, pitch with whole turns, and heading at touchdown [rad]; NaN: free."""
         maneuver, turn = self._maneuver, self._world.turn
         roll, pitch = turn.end * turn.axis[:2]
-        if not maneuver.heads:
+        if not maneuver.heading_matters:
             return np.array([roll, pitch, np.nan])
         if maneuver.end == End.AT_REST:
             return np.full(3, np.nan)

@@ -117,7 +117,7 @@ def short_verdict(run: ValidationRecord, maneuver: Maneuver | None) -> Toned:
     elif found["touchdown_time"] == found["lift_off_time"]:
         # A push on a standing robot.
         angle, what = float(np.hypot(*_angles(found, "{}_swing"))), " swing"
-    elif maneuver is not None and maneuver.heads:
+    elif maneuver is not None and maneuver.heading_matters:
         if ends_anyhow(maneuver):
             angle, what = found.get("touchdown_rate") or 0.0, " deg/s"
         elif any(landing_attitude(maneuver)[:2]):

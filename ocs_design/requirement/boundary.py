@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ocs_design.common.arrays import FloatArray
-from ocs_design.common.quaternions import vertical_of
+from ocs_design.common.quaternions import scaled_vertical
 
 UPRIGHT = np.array([1.0, 0.0, 0.0, 0.0])
 """Trunk upright, its x axis along the world's."""
@@ -97,7 +97,8 @@ class Boundary:
         rate: of the trunk at the start, in B [rad/s], shape (3,).
         wheel_speed: at the start [rad/s], shape (n,) or one for all.
         push: on the trunk before the turn; the wheels are held until it ends.
-        height: of the trunk above the ground at the start [m]; None: it has just lifted off.
+        height: of the trunk above the ground at the start [m]; None: it has just lifted off, or
+            floats.
     """
 
     name: str
@@ -115,4 +116,4 @@ class Boundary:
     @property
     def final_vertical(self) -> FloatArray:
         """The world's upward direction in B at the end, shape (3,)."""
-        return vertical_of(self.final_attitude)
+        return scaled_vertical(self.final_attitude)

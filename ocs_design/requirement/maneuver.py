@@ -82,10 +82,10 @@ class Maneuver(ABC):
         estimated: whether a plan may find that it takes more than its closed-form demand, so that
             the device is resized.
         counts_turns: whether whole turns about its axis count, and not its final attitude alone.
-        heads: whether its change of heading is of interest.
+        heading_matters: whether its change of heading is judged and told.
         turned_by: fields that make the angle of its turn, where a front may vary that and its time.
-        milder_by: fields to which its tilt or push is proportional. part: which of the two a
-            lighter device may be offered part of; empty: neither.
+        milder_by: fields to which its tilt or push is proportional.
+        reducible: `tilt` or `push`, if less of it may be proposed for a lighter device; empty: not.
     """
 
     name: Annotated[str, Text(), "of your choice, different for each maneuver"]
@@ -102,10 +102,10 @@ class Maneuver(ABC):
     foreseen: ClassVar[bool] = True
     estimated: ClassVar[bool] = False
     counts_turns: ClassVar[bool] = False
-    heads: ClassVar[bool] = False
+    heading_matters: ClassVar[bool] = False
     turned_by: ClassVar[tuple[str, ...]] = ()
     milder_by: ClassVar[tuple[str, ...]] = ()
-    part: ClassVar[str] = ""
+    reducible: ClassVar[str] = ""
 
     @abstractmethod
     def boundary(self, standing_height: float) -> Boundary:

@@ -137,7 +137,7 @@ class Pivoted(Maneuver):
     on_pivot: ClassVar[bool] = True
 
     def boundary(self, standing_height: float) -> Boundary:
-        """To upright, from a tilt and, after a brake or an impulse, a rate."""
+        """A turn to upright, from a tilt and, after a brake or an impulse, a rate."""
         del standing_height
         angle = float(np.linalg.norm(self.tilt))
         axis = self.tilt / angle if angle > 0.0 else Y
@@ -165,7 +165,7 @@ class Pivoted(Maneuver):
         return np.array([self.roll, self.pitch])
 
     def freedom(self, body: MassProperties) -> Freedom:
-        """About the pivot, under gravity."""
+        """Freedom to turn about the pivot, under gravity."""
         own = self.on(body)
         return Freedom(own.inertia, own.pull, own.axis)
 
@@ -431,7 +431,7 @@ class StandUp(Pivoted):
 
     estimated: ClassVar[bool] = True
     milder_by: ClassVar[tuple[str, ...]] = ("roll", "pitch")
-    part: ClassVar[str] = "tilt"
+    reducible: ClassVar[str] = "tilt"
 
     def calmer(self) -> Self:
         """This climb with nearly the least torque, for motors that have no more; once only."""

@@ -61,7 +61,7 @@ class Unforeseen(Maneuver):
         """Time from the end of the torque until the trunk must be level and at rest again [s]."""
 
     def boundary(self, standing_height: float) -> Boundary:
-        """Back to level in the time left after the torque, from level at its onset."""
+        """A return to level in the time left after the torque, from level at its onset."""
         if self.time_left <= 0.0:
             raise SpecificationError(
                 f"maneuver {self.name!r}: no time is left after its torque",
@@ -142,7 +142,7 @@ class Disturbance(Unforeseen):
     point: Point = (0.0, 0.0, 0.0)
 
     milder_by: ClassVar[tuple[str, ...]] = ("torque", "velocity_change", "impulse")
-    part: ClassVar[str] = "push"
+    reducible: ClassVar[str] = "push"
 
     def on(self, body: MassProperties) -> Self:
         """Disturbance of a body: the angular impulse r x p about its centre of mass, and p / m."""
@@ -254,7 +254,7 @@ class Shove(Unforeseen):
 
     on_feet: ClassVar[bool] = True
     milder_by: ClassVar[tuple[str, ...]] = ("torque",)
-    part: ClassVar[str] = "push"
+    reducible: ClassVar[str] = "push"
 
     @property
     def push(self) -> Push:

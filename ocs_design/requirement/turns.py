@@ -11,7 +11,7 @@ import numpy as np
 from ocs_design.actuation.tilt_inertia import TiltInertia
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.errors import SpecificationError
-from ocs_design.common.quaternions import from_axis_angle, product, vertical_of
+from ocs_design.common.quaternions import from_axis_angle, product, scaled_vertical
 from ocs_design.common.units import format_quantity, rpm
 from ocs_design.requirement.boundary import UPRIGHT, Boundary, End, X, Y, Z
 from ocs_design.requirement.maneuver import (
@@ -74,12 +74,12 @@ class Drop(Reorientation):
 
     turned_by: ClassVar[tuple[str, ...]] = ("roll", "pitch")
     milder_by: ClassVar[tuple[str, ...]] = turned_by
-    part: ClassVar[str] = "tilt"
+    reducible: ClassVar[str] = "tilt"
 
     def boundary(self, standing_height: float) -> Boundary:
-        """From rest, pitched about y and then rolled about x, to level within the fall."""
+        """A turn to level within the fall, from rest, pitched about y and then rolled about x."""
         attitude = product(from_axis_angle(Y, self.pitch), from_axis_angle(X, self.roll))
-        vertical = vertical_of(attitude)
+        vertical = scaled_vertical(attitude)
         # A rate w changes the vertical v by -w x v.
         axis = np.cross([0.0, 0.0, 1.0], vertical)
         length = float(np.linalg.norm(axis))
@@ -285,10 +285,10 @@ class TurnTo(TimedTurn):
     direct: bool = False
 
     estimated: ClassVar[bool] = True
-    heads: ClassVar[bool] = True
+    heading_matters: ClassVar[bool] = True
 
     def boundary(self, standing_height: float) -> Boundary:
-        """From level to the attitude, by yaw, then pitch, then roll."""
+        """A turn from level to the attitude, which is yaw, then pitch, then roll."""
         del standing_height
         angles = np.array([self.roll, self.pitch, self.yaw])
         final = product(

@@ -40,7 +40,7 @@ class Launch:
 
     @property
     def undisturbed(self) -> "Launch":
-        """The same start, level and without anything to do."""
+        """This start with the trunk level and not turning, no turn to make and no push."""
         return Launch(np.eye(3), self.height, self.velocity, NO_TURN, NO_PUSH)
 
 

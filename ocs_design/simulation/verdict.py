@@ -103,7 +103,7 @@ def _landing_verdict(
     if failure is not None:
         return failure
     landing, final = f"{_ends(maneuver)} at {_tilt(metrics)}", _final_tilt(metrics)
-    if maneuver.heads:
+    if maneuver.heading_matters:
         landing += f", heading turned by {degrees_number(metrics.heading_drift)} deg"
         if any(landing_attitude(maneuver)[:2]):
             off = degrees_number(off_at_touchdown(metrics, maneuver))

@@ -132,12 +132,12 @@ def levers(task: Task, owed: str) -> Iterator[Lever]:
 
         def gentler(percent: int) -> Change:
             share = round_outwards(1.0 / (1.0 + percent / 100.0), upwards=False, digits=2)
-            text = f"{share:.0%} of the {alone.part} of {owed}"
+            text = f"{share:.0%} of the {alone.reducible} of {owed}"
             return Change(text, task.with_maneuvers(lambda each: each.milder(share), [owed]))
 
         if len(task.maneuvers) > 1:
             yield longer
-        if alone.part:
+        if alone.reducible:
             yield gentler
     resolved = task.resolved
     yield _room(task)

@@ -61,7 +61,7 @@ def test_a_slower_one_has_so_much_more_time(maneuver, factor):
 def test_one_of_which_nothing_is_left_requires_nothing(maneuver):
     assert not maneuver.idle
     assert bool(maneuver.milder(0.0).idle) == bool(maneuver.milder_by)
-    assert not maneuver.part or maneuver.milder_by
+    assert not maneuver.reducible or maneuver.milder_by
 
 
 @of_every_kind
@@ -69,7 +69,7 @@ def test_only_turns_need_no_gravity(maneuver):
     assert not list(maneuver.contradictions())
     (fault,) = replace(maneuver, gravity=0.0).contradictions()
     assert "orbit" in fault
-    if maneuver.heads:
+    if maneuver.heading_matters:
         assert not list(replace(maneuver, gravity=0.0, jump_height=0.0).contradictions())
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import cross
-from ocs_design.common.quaternions import conjugate, product, turned_into_world, vertical_of
+from ocs_design.common.quaternions import conjugate, product, scaled_vertical, turned_into_world
 from ocs_design.sizing.trajectory.motion import Motion, Trajectory
 from ocs_design.sizing.trajectory.transcription import Phase
 
@@ -64,7 +64,7 @@ def fly(flown: Phase, line: DriveLine, motion: Motion) -> Flight:
         rate = state[4:7]
         on_trunk = cross(mass_matrix[:3] @ state[4:], rate)
         if gyrostat.stands:
-            on_trunk += cross(vertical_of(state[:4]), pull)
+            on_trunk += cross(scaled_vertical(state[:4]), pull)
         accelerations = inverse @ np.concatenate([on_trunk, torque])
         turning = 0.5 * product(state[:4], np.append(0.0, rate))
         return np.concatenate([turning, accelerations])
@@ -87,7 +87,7 @@ def fly(flown: Phase, line: DriveLine, motion: Motion) -> Flight:
     torque = np.vstack([first[:1], (first[1:] + last[:-1]) / 2.0, last[-1:]])
     trajectory = Trajectory(
         time=np.append(0.0, np.cumsum(steps)),
-        vertical=vertical_of(passed[:, :4]),
+        vertical=scaled_vertical(passed[:, :4]),
         rate=passed[:, 4:7],
         acceleration=np.array([slope(*row)[4:7] for row in zip(passed, torque, strict=True)]),
         wheel_speed=passed[:, 7:],

@@ -10,8 +10,8 @@ from ocs_design.common.quaternions import (
     conjugate,
     from_axis_angle,
     product,
+    scaled_vertical,
     turned_into_world,
-    vertical_of,
 )
 from ocs_design.requirement.boundary import Boundary
 from ocs_design.requirement.turns import loop_length
@@ -214,7 +214,7 @@ class FixedAxisTurn:
             return cls(attitude, asked.axis, 0.0, asked.angle, asked.duration)
         # A push has turned the trunk about the axis of its rate, which must be undone; a brake has
         # set it in motion towards the final attitude.
-        vertical, wanted = vertical_of(attitude), asked.final_vertical
+        vertical, wanted = scaled_vertical(attitude), asked.final_vertical
         left = float(np.arccos(np.clip(vertical @ wanted, -1.0, 1.0)))
         nears = np.cross(vertical, rate) @ wanted > 0.0
         return cls(attitude, rate / fast, fast, left if nears else -left, asked.duration)

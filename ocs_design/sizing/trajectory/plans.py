@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ocs_design.actuation.drive import PLANNED, DriveLine, power_less_friction
-from ocs_design.common.quaternions import conjugate, from_axis_angle, product, vertical_of
+from ocs_design.common.quaternions import conjugate, from_axis_angle, product, scaled_vertical
 from ocs_design.common.units import format_quantity, rpm
 from ocs_design.requirement.boundary import Boundary, End
 from ocs_design.requirement.maneuver import Maneuver
@@ -275,7 +275,7 @@ def _balanced(
     none, upright = np.zeros((len(time), 3)), np.tile(gyrostat.upright, (len(time), 1))
     held = Trajectory(
         time=time,
-        vertical=vertical_of(upright),
+        vertical=scaled_vertical(upright),
         rate=none,
         acceleration=none,
         wheel_speed=np.zeros((len(time), wheels)),

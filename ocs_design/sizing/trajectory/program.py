@@ -151,14 +151,14 @@ def _solve(
 ) -> Solution:
     """Solve on the intervals of the guesses."""
     if dimensions is None:
-        # One turn of a fixed device, by the cached program of its shape.
+        # One turn of a fixed device, by the cached program of its structure.
         turn, guess = turns[0], guesses[0]
         with _ONE_AT_A_TIME:
             numbers = numbers_of(turn, Plant.of(turn.gyrostat), line, guess)
             values = {name: ca.sparsify(ca.evalf(each)) for name, each in numbers.items()}
             patterns = ((name, tuple(each.sparsity().compress())) for name, each in values.items())
-            shape = ProgramStructure.of(turn, line, guess)
-            program, parameters, variables = _plan_program(shape, tuple(patterns))
+            structure = ProgramStructure.of(turn, line, guess)
+            program, parameters, variables = _plan_program(structure, tuple(patterns))
             for name, parameter in parameters.items():
                 program.set_value(parameter, values[name].nonzeros())
             variables.begin(program, turn, guess, values)
@@ -172,11 +172,9 @@ def _solve(
     objective, found = dimensions.objective(free), []
     for turn, guess in zip(turns, guesses, strict=True):
         plant = Plant.of(turn.gyrostat) if turn.plant is None else turn.plant(free)
-        shape, numbers = (
-            ProgramStructure.of(turn, line, guess),
-            numbers_of(turn, plant, line, guess),
-        )
-        variables = transcribe(program, shape, numbers)
+        structure = ProgramStructure.of(turn, line, guess)
+        numbers = numbers_of(turn, plant, line, guess)
+        variables = transcribe(program, structure, numbers)
         variables.begin(program, turn, guess, numbers)
         objective += EFFORT_WEIGHT * variables.effort
         found.append(variables)
@@ -188,14 +186,14 @@ def _solve(
 
 @lru_cache(maxsize=16)
 def _plan_program(
-    shape: ProgramStructure, patterns: tuple[tuple[str, tuple[int, ...]], ...]
+    structure: ProgramStructure, patterns: tuple[tuple[str, tuple[int, ...]], ...]
 ) -> tuple[ca.Opti, dict[str, ca.MX], Variables]:
-    """Program for all turns of a shape, with the nonzero numbers as its parameters.
+    """Program for all turns of one structure, with the nonzero numbers as its parameters.
 
     Deriving a program takes as long as 40 iterations.
 
     Args:
-        shape: of the turns. patterns: each number's name, and where it is not zero.
+        structure: of the turns. patterns: each number's name, and where it is not zero.
     """
     program, parameters, numbers = ca.Opti(), {}, {}
     for name, pattern in patterns:
@@ -204,17 +202,17 @@ def _plan_program(
         if where.nnz():
             parameters[name] = program.parameter(where.nnz())
             numbers[name] = ca.MX(where, parameters[name])
-    variables = transcribe(program, shape, numbers)
+    variables = transcribe(program, structure, numbers)
     # Without a power limit, only the effort counts.
     peak = 0.0 if variables.peak is None else variables.peak / POWER_EFFORT
     program.minimize(variables.effort + peak)
-    options = _options(guessed=shape.guessed) | {"expand": True} | PLAN_OPTIONS
-    if shape.power_limited:
+    options = _options(guessed=structure.guessed) | {"expand": True} | PLAN_OPTIONS
+    if structure.power_limited:
         # The peak is reached at many instants at once: a monotone barrier takes half the time.
         options["ipopt.mu_strategy"] = "monotone"
         options["ipopt.mu_linear_decrease_factor"] = 0.1
         options["ipopt.mu_superlinear_decrease_power"] = 1.6
-    if shape.one_stops:
+    if structure.one_stops:
         # The many rows make an iteration three times as long, and feasible plans need no more
         # restoration steps.
         options["ipopt.max_resto_iter"] = 4

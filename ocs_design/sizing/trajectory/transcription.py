@@ -1,6 +1,6 @@
 """Transcription of one turn by direct collocation: its numbers, variables and constraints.
 
-Turns of one shape differ only in their numbers, so their program is derived once.
+Turns of one structure differ only in their numbers, so their program is derived once.
 """
 
 from collections.abc import Callable, Mapping
@@ -109,7 +109,7 @@ class ProgramStructure(NamedTuple):
 
     @classmethod
     def of(cls, turn: Phase, line: DriveLine, guess: Motion) -> "ProgramStructure":
-        """The shape of a turn on the intervals of a guess."""
+        """Structure of the program of a turn on the intervals of a guess."""
         gyrostat = turn.gyrostat
         back_emf = isfinite(float(line.stall_torque))
         return cls(
@@ -214,10 +214,10 @@ class Variables:
 
 
 def transcribe(
-    program: ca.Opti, shape: ProgramStructure, numbers: Mapping[str, ca.MX]
+    program: ca.Opti, structure: ProgramStructure, numbers: Mapping[str, ca.MX]
 ) -> Variables:
     """One turn by direct collocation on its intervals."""
-    wheels, count = shape.wheels, shape.intervals
+    wheels, count = structure.wheels, structure.intervals
     scale, torque_unit, speed_unit = (
         numbers[name] for name in ("scale", "torque_unit", "speed_unit")
     )
@@ -229,7 +229,7 @@ def transcribe(
     turned = program.variable(1, count)
 
     scaled = ca.repmat(scale, 1, count * DEGREE + 1) * states
-    mapped = interval(wheels, stands=shape.stands).map(count)(
+    mapped = interval(wheels, stands=structure.stands).map(count)(
         states=ca.horzcat(*(scaled[:, k * DEGREE : (k + 1) * DEGREE + 1] for k in range(count))),
         torques=torques * torque_unit,
         length=numbers["lengths"].T,
@@ -238,37 +238,39 @@ def transcribe(
     for defect, unit in (("turning", 1.0), ("driving", torque_unit * duration)):
         program.subject_to(ca.vec(mapped[defect]) / unit == 0.0)
     program.subject_to(states[: 4 + wheels, 0] == ca.vertcat(attitude, numbers["speed"]))
-    if shape.stands:
+    if structure.stands:
         program.subject_to(states[4 + wheels :, 0] == numbers["momentum"])
         program.subject_to(ca.vec(mapped["swinging"]) / scale[-1] == 0.0)
-    for k in range(shape.axes_at_rest):
+    for k in range(structure.axes_at_rest):
         program.subject_to(numbers["at_rest"][:, k].T @ mapped["rates"][:, -1] / rate_unit == 0.0)
-    if shape.end != End.AT_REST:
-        whole = shape.end == End.ATTITUDE and not shape.on_edge
+    if structure.end != End.AT_REST:
+        whole = structure.end == End.ATTITUDE and not structure.on_edge
         ending = numbers["final"], numbers["up"], numbers["righted"]
-        program.subject_to(missed(shape.axes_of_tilt, whole=whole)(states[:4, -1], *ending) == 0.0)
+        program.subject_to(
+            missed(structure.axes_of_tilt, whole=whole)(states[:4, -1], *ending) == 0.0
+        )
     # Accumulated step by step: a single sum would be a dense row, which slows down Jacobians.
     program.subject_to(turned == ca.horzcat(ca.MX(0.0), turned[:-1]) + mapped["swept"])
-    if not shape.guessed and shape.end != End.AT_REST:
+    if not structure.guessed and structure.end != End.AT_REST:
         program.subject_to(program.bounded(-WINDING, turned[-1] - numbers["angle"], WINDING))
 
     # Limits on Bernstein coefficients hold between the nodes too.
     speeds, elevated = ca.vec(mapped["speeds"]) / speed_unit, ca.vec(mapped["elevated"])
-    if shape.torque_limited:
+    if structure.torque_limited:
         largest = numbers["torque_most"]
         program.subject_to(program.bounded(-largest, ca.vec(torques), largest))
-    if shape.back_emf:
+    if structure.back_emf:
         slope = numbers["slope"] / torque_unit
         program.subject_to(program.bounded(-1.0, speeds + slope * elevated, 1.0))
-    if shape.speed_limited:
+    if structure.speed_limited:
         highest = numbers["speed_most"]
         program.subject_to(program.bounded(-highest, speeds, highest))
     peak = None
-    if shape.power_limited:
+    if structure.power_limited:
         peak, power = program.variable(), ca.vec(mapped["power"]) / numbers["power_most"]
         program.subject_to(program.bounded(0.0, peak, 1.0))
-        if shape.one_stops:
-            left = _powers_left(shape, numbers, mapped, scaled)
+        if structure.one_stops:
+            left = _powers_left(structure, numbers, mapped, scaled)
             power = ca.vertcat(power, left / numbers["power_most"])
         program.subject_to(power - peak <= 0.0)
         program.subject_to(power + peak >= 0.0)
@@ -277,7 +279,7 @@ def transcribe(
 
 
 def _powers_left(
-    shape: ProgramStructure,
+    structure: ProgramStructure,
     numbers: Mapping[str, ca.MX],
     mapped: Mapping[str, ca.MX],
     scaled: ca.MX,
@@ -289,7 +291,7 @@ def _powers_left(
     it keeps, so the extremes count: for a turn from rest to rest these are at the start, with none,
     and halfway.
     """
-    wheels, count, found = shape.wheels, shape.intervals, []
+    wheels, count, found = structure.wheels, structure.intervals, []
     by_interval = left_power(wheels)
     for wheel in range(wheels):
         shared = numbers[f"shared {wheel}"]

@@ -23,7 +23,7 @@ from scipy.integrate import solve_ivp
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.errors import SpecificationError
-from ocs_design.common.quaternions import vertical_of
+from ocs_design.common.quaternions import scaled_vertical
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.boundary import Boundary
 from ocs_design.requirement.pushes import Disturbance
@@ -247,7 +247,7 @@ def test_a_push_leaves_what_eulers_equation_says():
     start = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
     end = solve_ivp(slope, (0.0, PUSH.duration), start, "DOP853", rtol=1e-10, atol=1e-12).y[:, -1]
     attitude, rate = (np.asarray(each).ravel() for each in after_push(asked(PUSH))(inertia))
-    np.testing.assert_allclose(vertical_of(attitude), end[:3], rtol=0, atol=1e-8)
+    np.testing.assert_allclose(scaled_vertical(attitude), end[:3], rtol=0, atol=1e-8)
     np.testing.assert_allclose(rate, end[3:], rtol=1e-8)
 
 
