@@ -78,7 +78,7 @@ class DriveLine(Table):
         """The line for the change of a wheel's speed from an initial one [rad/s].
 
         It is that of the same winding at a voltage reduced by the back EMF at the initial speed,
-        exactly for a wheel that only speeds up.
+        exactly for a wheel that only speeds up and that the supply's power does not limit.
         """
         left = np.maximum(1.0 - speed / np.asarray(self.no_load_speed), _NO_SPEED)
         return replace(

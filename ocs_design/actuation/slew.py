@@ -73,8 +73,8 @@ class SlewProfile:
     Attributes:
         brake_from, end: times of the start of braking and of the end [s].
         peak_speed: of the wheel [rad/s].
-        peak_torque: of the motor at the wheel, at the start or where braking starts [N m]: the
-            torque falls with speed while accelerating and rises with it while braking.
+        peak_torque: of the motor at the wheel [N m]: the torque falls with speed while
+            accelerating, and while braking rises with it up to where the supply limits that.
     """
 
     brake_from: FloatArray
@@ -99,8 +99,12 @@ def slew_profile(
     slew = farthest_slew(drive, np.where(possible, time, 0.0) / unit, final)
     known = np.where(possible, unit, np.nan)
     brake_from, end = (slew.up + slew.coast) * known, np.where(possible, time, np.nan)
-    pushes = np.where(slew.up * known > 0.0, drive.forwards(drive.begin), 0.0)
-    brakes = np.where(brake_from < end, drive.forwards(-slew.peak), 0.0)
+    # The speed at which most torque slows the wheel, first one way, then the other.
+    strongest = -drive.regenerating
+    pushes = drive.forwards(np.clip(strongest, drive.begin, slew.peak))
+    brakes = drive.forwards(np.clip(strongest, -slew.peak, -final))
+    pushes = np.where(slew.up * known > 0.0, pushes, 0.0)
+    brakes = np.where(brake_from < end, brakes, 0.0)
     return SlewProfile(
         brake_from=brake_from,
         end=end,

@@ -56,7 +56,7 @@ class SlewReason(IntEnum):
     AXIS = 1
     """The wheels cannot control a required axis."""
     TORQUE = 2
-    """Even the torque at the start, kept constant, is too slow with any wheel."""
+    """Even the torques at the speed of the start, kept constant, are too slow with any wheel."""
     SPEED = 3
     """The torque suffices; the drive's speed determines how large its wheel must be."""
 
@@ -370,8 +370,9 @@ def smallest_spin_inertia(
 
     The time falls as h grows, up to h = 1 / (2 kappa), where the wheels hold half the inertia that
     they turn and the search ends. Only a negative armature (a gear that speeds the wheel up) can
-    make the time rise again temporarily. A larger h, required by another turn, must then be checked
-    again, as `least` of `spin_demand`.
+    make the time rise again temporarily, or a wheel that turns against the turn at the start: a
+    smaller one gets away from that speed, at which it has less torque on the way back. A larger h,
+    required by another turn, must then be checked again, as `least` of `spin_demand`.
 
     Args:
         task: its inertia is fixed, independent of h.
@@ -404,20 +405,21 @@ def spin_demand(
 def slew_reason(task: WheelTask, line: DriveLine) -> NDArray[np.int_]:
     """Reason why no wheel, or none that fits, does a turn, as `SlewReason` values, shape (...).
 
-    The time falls as the wheel grows, towards that of the torque at the start, there and back. A
-    wheel so large that it holds much of the given inertia itself (I_red below h) may still be
-    faster; this is ignored, and the reason is lack of torque.
+    The time falls as the wheel grows, towards that of the torques at its speed at the start, there
+    and back, which differ for a wheel that turns. A wheel so large that it holds much of the given
+    inertia itself (I_red below h) may still be faster; this is ignored, and the reason is lack of
+    torque.
     """
     load = task.load()
     drive = UnitDrive.of(*load.started(line))
-    torque = drive.torque * drive.forwards(drive.begin)
+    there, back = (drive.torque * drive.forwards(at) for at in (drive.begin, -drive.begin))
     duration = np.maximum(np.asarray(task.duration, dtype=np.float64), 0.0)
     final = load.held
     with np.errstate(invalid="ignore"):
-        # Constant torque changes a wheel's momentum by tau t, up to its peak and back down.
-        peak = (torque * duration + final) / 2.0
-        swept = (peak**2 - final**2 / 2.0) / positive(torque)
-        done = np.where(torque > 0.0, swept, 0.0) - load.held * duration
+        # Constant torques change a wheel's momentum by tau t, up to its peak and back down.
+        peak = there * (back * duration + final) / positive(there + back)
+        swept = peak**2 / (2.0 * positive(there)) + (peak**2 - final**2) / (2.0 * positive(back))
+        done = np.where(drive.torque > 0.0, swept, 0.0) - final * duration
         weak = np.where(peak >= final, done, -np.inf) < load.excess
     reason = np.where(weak, SlewReason.TORQUE, SlewReason.SPEED)
     return np.where(np.isinf(load.excess + load.held), SlewReason.AXIS, reason)

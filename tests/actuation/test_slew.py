@@ -424,6 +424,11 @@ def test_a_wheel_that_turns_at_the_start_obeys_the_motor_equation(begins, share,
     assert profile.peak_speed == pytest.approx(peak, abs=1e-6 * FAST)
     assert last == pytest.approx(begins + gain, abs=1e-6 * FAST)
     assert angle - (begins + gain) * float(profile.end) == pytest.approx(phi, rel=1e-6, abs=1e-5)
+    ways = (begins, peak, 1.0), (peak, last, -1.0)
+    most = max(
+        abs(motor(speed, sense)) for a, b, sense in ways for speed in np.linspace(a, b, 2_000)
+    )
+    assert profile.peak_torque == pytest.approx(most, rel=2e-3)
 
 
 def on_weak_supplies(count):
