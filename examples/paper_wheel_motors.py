@@ -30,7 +30,7 @@ from ocs_design.simulation.scene import Wheels
 from ocs_design.simulation.simulate import simulate
 from ocs_design.simulation.verdict import Verdict, judge
 from ocs_design.simulation.world_builder import WorldBuilder
-from ocs_design.sizing.assembly import assemble_driven
+from ocs_design.sizing.assembly import flywheel_of, modules_at
 from ocs_design.sizing.driven_wheel import DrivenWheel
 from ocs_design.sizing.free_place import place_on_top
 
@@ -71,8 +71,9 @@ def on_paper_wheel(robot: Robot, motor: Motor, voltage: float) -> Device:
         line=drive_line(motor, DIRECT, voltage),
         supply=Supply(voltage),
     )
-    centers = place_on_top(robot)(OUTER_RADIUS, HEIGHT)
-    return assemble_driven(wheel, Carrier.of(drive_moments(motor)), INCIDENCE, centers)
+    modules = modules_at(place_on_top(robot)(OUTER_RADIUS, HEIGHT), INCIDENCE)
+    carrier = Carrier.of(drive_moments(motor))
+    return Device(INCIDENCE, modules, flywheel_of(wheel), wheel.drive, carrier)
 
 
 def fly(

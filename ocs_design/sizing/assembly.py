@@ -11,6 +11,7 @@ from ocs_design.parts.rim import NO_CUTS, Hub, RimCuts, hoop_stress, stored_ener
 from ocs_design.parts.wheel import Web
 from ocs_design.requirement.resolving import Resolved
 from ocs_design.sizing.bound.device_sizing import DeviceSizing
+from ocs_design.sizing.driven_wheel import DrivenWheel
 from ocs_design.sizing.selection.problem import Candidate
 
 
@@ -21,7 +22,7 @@ def assemble(sizing: DeviceSizing, resolved: Resolved) -> Device:
     flywheel = _flywheel(cylinder, resolved.material, speed, rotor_share=0.0)
     return Device(
         sizing.incidence,
-        _modules(PAIR, sizing.incidence, sizing.centers),
+        modules_at(sizing.centers, sizing.incidence),
         # Exactly the mass that was minimised.
         replace(flywheel, mass=rim.mass),
         Drive(
@@ -38,21 +39,11 @@ def assemble(sizing: DeviceSizing, resolved: Resolved) -> Device:
 
 def assemble_selected(candidate: Candidate) -> Device:
     """Modules as they were selected, each with a motor of the catalogue."""
-    drive = candidate.drive
-    flywheel = _flywheel(
-        (candidate.inner_radius, candidate.outer_radius, candidate.height),
-        candidate.material,
-        drive.top_speed,
-        drive.rotor_inertia,
-        candidate.hub,
-        cuts=candidate.cuts,
-        web_material=candidate.web_material,
-    )
     return Device(
         candidate.incidence,
-        _modules(candidate.layout, candidate.incidence, candidate.centers),
-        flywheel,
-        drive,
+        modules_at(candidate.centers, candidate.incidence, candidate.layout),
+        flywheel_of(candidate),
+        candidate.drive,
         candidate.carrier,
         layout=candidate.layout,
         supply=candidate.supply.told,
@@ -62,9 +53,23 @@ def assemble_selected(candidate: Candidate) -> Device:
     )
 
 
-def _modules(layout: Layout, incidence: float, centers: FloatArray) -> tuple[Module, ...]:
+def modules_at(centers: FloatArray, incidence: float, layout: Layout = PAIR) -> tuple[Module, ...]:
+    """Modules with the centres of their wheels in B [m], shape (n, 3), at an incidence [rad]."""
     each = zip(layout.names, layout.axes(incidence).T, centers, strict=True)
     return tuple(Module(name, axis, center) for name, axis, center in each)
+
+
+def flywheel_of(wheel: DrivenWheel) -> Flywheel:
+    """The wheel that a motor of the catalogue drives, with the rotor's share."""
+    return _flywheel(
+        (wheel.inner_radius, wheel.outer_radius, wheel.height),
+        wheel.material,
+        wheel.drive.top_speed,
+        wheel.drive.rotor_inertia,
+        wheel.hub,
+        cuts=wheel.cuts,
+        web_material=wheel.web_material,
+    )
 
 
 def _flywheel(
