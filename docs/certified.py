@@ -34,6 +34,8 @@ FLIGHTS = (
     *("common/frames.py", "common/quaternions.py", "device/*.py", "export/physics.py"),
     *("jumping/*.py", "monte_carlo/*.py"),
     "robot/*.py",
+    *("requirement/boundary.py", "requirement/maneuver.py", "requirement/pivoted.py"),
+    *("requirement/pushes.py", "requirement/turns.py"),
     *("requirement/froude.py", "requirement/uncertainty.py", "requirement/reality.toml"),
     *("simulation/*.py", "sizing/trajectory/*.py"),
 )

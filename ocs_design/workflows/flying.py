@@ -212,9 +212,11 @@ def read_flights(
 def flown_hash(design: OcsDesign, control: ControlRecord, detection: float | None) -> str:
     """SHA-256 of the flown parts of a design: device, maneuvers and wheel law.
 
+    It does not depend on the order in which the fields of a record are declared.
+
     Args:
         detection: time until a failed drive is detected, if one also fails in flights [s].
     """
     stops = () if detection is None else (detection,)
     flown = (design.ocs, design.requirement.maneuvers, control, *stops)
-    return hashlib.sha256(msgspec.json.encode(flown, order="deterministic")).hexdigest()
+    return hashlib.sha256(msgspec.json.encode(flown, order="sorted")).hexdigest()

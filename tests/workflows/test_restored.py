@@ -1,6 +1,8 @@
 """From the records of a design back to what they were made from, to the last digit."""
 
+import hashlib
 import json
+from pathlib import Path
 
 import msgspec
 import numpy as np
@@ -16,6 +18,7 @@ from ocs_design.device.records.requirement import ManeuverRecord, RobotRecord
 from ocs_design.robot.manual import robot_by_hand
 from ocs_design.robot.posture import OUTSIDE
 from ocs_design.robot.reader import read_robot
+from ocs_design.workflows.flying import flown_hash
 from ocs_design.workflows.restoring import Whereabouts, read_recorded_robot, robot_of, seat_of
 
 HUMAN = next(ROBOTS.rglob("human.urdf"))
@@ -170,3 +173,10 @@ def test_a_turn_comes_back_with_the_word_for_its_end():
             recorded("turn", figures | {"end": end}).maneuver()
     with pytest.raises(OcsError, match="yaw of a turn is not 'far'"):
         recorded("turn", figures | {"yaw": "far"}).maneuver()
+
+
+def test_a_flown_design_is_known_whatever_the_order_of_its_keys():
+    design = read_design(Path(__file__).parents[1] / "data" / "design_1.json")
+    flown = msgspec.to_builtins((design.ocs, design.requirement.maneuvers, design.control))
+    same = hashlib.sha256(msgspec.json.encode(flown, order="sorted")).hexdigest()
+    assert flown_hash(design, design.control, None) == same
