@@ -68,8 +68,9 @@ def device_hash(device: Device) -> str:
         *(device.flywheel, device.motor, device.carrier, device.guard_wall, device.foot_plate),
         *(device.plate, device.pedestals, device.incidence),
     )
-    # NumPy numbers are encoded like the plain numbers that are read back.
-    return hashlib.sha256(msgspec.json.encode(parts, enc_hook=float)).hexdigest()[:DIGITS]
+    # NumPy numbers are encoded like the plain numbers that are read back; keys have no order.
+    content = msgspec.json.encode(parts, enc_hook=float, order="sorted")
+    return hashlib.sha256(content).hexdigest()[:DIGITS]
 
 
 def frame() -> list[Item]:

@@ -2,7 +2,7 @@
 
 import math
 import re
-from dataclasses import replace
+from dataclasses import make_dataclass, replace
 from itertools import combinations
 from xml.etree import ElementTree as ET
 
@@ -328,6 +328,8 @@ def test_the_hash_follows_everything_that_is_drawn():
     ]
     assert len({device_hash(each) for each in (built, *others)}) == 1 + len(others)
     assert device_hash(built) == device_hash(replace(built, supply=Supply(24.0)))
+    backwards = make_dataclass("Backwards", reversed(vars(built.motor)))(**vars(built.motor))
+    assert device_hash(built) == device_hash(replace(built, motor=backwards))
     assert len(device_hash(built)) == 12
 
 
