@@ -74,7 +74,6 @@ Signed: TypeAlias = Annotated[float, Range(-LARGEST, LARGEST)]
 Capacity: TypeAlias = Annotated[float, Range(1e-15, inf, words="positive")]
 """Limit of a supply; infinite: not limited."""
 
-Angle: TypeAlias = Annotated[float, Range(-LARGEST, LARGEST, words="finite")]
 Count: TypeAlias = Annotated[int, Range(0, MOST_BOLTS)]
 
 

@@ -8,7 +8,6 @@ from ocs_design.actuation.drive import Drive
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.ranges import (
-    Angle,
     Distance,
     Length,
     LengthIfAny,
@@ -142,7 +141,7 @@ class Device:
         on_bell: whether each wheel is a ring around the bell of its motor.
     """
 
-    incidence: Angle
+    incidence: Signed
     modules: tuple[Module, ...]
     flywheel: Flywheel
     motor: Drive

@@ -48,7 +48,7 @@ def test_figures_of_no_device_are_refused(part, figure, value):
     [
         ({"guard_wall": -1.0}, "ocs.guard_wall is -1, not between 0 and 100"),
         ({"foot_plate": 0.0}, "ocs.foot_plate is 0, not between 1e-07 and 100"),
-        ({"incidence": np.nan}, "ocs.incidence is nan, not finite"),
+        ({"incidence": 1e13}, "ocs.incidence is 1e+13, not between -1e+12 and 1e+12"),
         (
             {"pedestals": (Pedestal(0.027, 0.02, 0.05, 2.0, 500.0),)},
             "pedestals.lean is 2, not between 1e-06 and 1.5708; "
