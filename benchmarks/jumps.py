@@ -90,8 +90,10 @@ class Jumper:
     def steps(self) -> Iterator[Work]:
         """Before each step, the derived quantities computed: what was done until then."""
         work = exchanged = 0.0
+        # Before touchdown no weight is added to the plan.
+        bears = np.zeros(1, dtype=bool)
         for k in range(int(self.world.duration / self.model.opt.timestep)):
-            self._legs.write(k, self._control)
+            self._legs.write(k, self._control, bears)
             self.data.ctrl[:] = self._control[0, 0]
             mujoco.mj_forward(self.model, self.data)
             yield Work(work, exchanged)
