@@ -159,13 +159,13 @@ class HoleRing:
         return cls(count, sqrt(circle), sqrt(square))
 
     @property
-    def low(self) -> float:
-        """Radius of the holes' edges nearest to the axis [m]."""
+    def inside(self) -> float:
+        """Radius to the inner edge of the holes [m]."""
         return self.circle_radius - self.hole_radius
 
     @property
-    def high(self) -> float:
-        """Radius of the holes' edges farthest from the axis [m]."""
+    def reach(self) -> float:
+        """Radius to the outer edge of the holes [m]."""
         return self.circle_radius + self.hole_radius
 
     @property
@@ -177,7 +177,7 @@ class HoleRing:
 
     def spoke(self, inner: float, outer: float) -> float:
         """Least material between two of them, or to the edges at these radii [m]."""
-        return min(self.low - inner, outer - self.high, self.spacing)
+        return min(self.inside - inner, outer - self.reach, self.spacing)
 
     def prism(self, low: float, high: float) -> Prism[float]:
         """The holes between two heights [m]."""

@@ -168,9 +168,9 @@ def _ring_faults(
     """Faults of holes of this depth between two edges [m]."""
     if ring.count < 1 or ring.hole_radius <= 0.0 or depth <= 0.0:
         yield f"its {name} holes have no count, size or depth"
-    elif ring.low < inner + LIGAMENT - ROUNDING:
+    elif ring.inside < inner + LIGAMENT - ROUNDING:
         yield f"its {name} holes are too close to the inner edge"
-    elif ring.high > outer - LIGAMENT + ROUNDING:
+    elif ring.reach > outer - LIGAMENT + ROUNDING:
         yield f"its {name} holes are too close to the outer edge"
     elif ring.spacing < LIGAMENT - ROUNDING:
         yield f"its {name} holes are too close to each other"

@@ -146,9 +146,9 @@ def section_view(wheel: Wheel, layout: SheetLayout) -> list[Item]:
         hub, cut = web.hub, web.holes
         inside, outside = hub.radius, rim.inner_radius
         if cut is not None and 2.0 * cut.circle_radius > inside + outside:
-            outside = cut.low
+            outside = cut.inside
         elif cut is not None:
-            inside = cut.high
+            inside = cut.reach
         away = max(NEAREST, scale(inside + outside) / 2.0)
         thick = toleranced(web.thickness, WEB_GRADE)
         items += _width(thick, web.thickness, wheel, layout, y=y - away)
@@ -234,8 +234,8 @@ def cut_faces(wheel: Wheel, *, above: bool) -> Iterator[tuple[Profile, bool]]:
     # Web and hub up to the rim's bore, in pieces where holes are cut.
     hub = web.hub
     cuts = [ring for ring in web.rings if is_cut(ring, above=above)]
-    starts = [hub.bore_radius, *(ring.high for ring in cuts)]
-    ends = [*(ring.low for ring in cuts), wheel.rim.inner_radius]
+    starts = [hub.bore_radius, *(ring.reach for ring in cuts)]
+    ends = [*(ring.inside for ring in cuts), wheel.rim.inner_radius]
     corners = [(z, radius) for radius, z in reversed(web.corners(wheel.rim.inner_radius))]
     profiles = []
     for inside, outside in zip(starts, ends, strict=True):
@@ -268,7 +268,12 @@ def rim_profile(rim: Rim, *, above: bool) -> Profile:
         half = rim.height / 2.0
         bottom = half - rim.cuts.hole_depth
         # In the middle of its face.
-        right[2:2] = [(half, ring.low), (bottom, ring.low), (bottom, ring.high), (half, ring.high)]
+        right[2:2] = [
+            (half, ring.inside),
+            (bottom, ring.inside),
+            (bottom, ring.reach),
+            (half, ring.reach),
+        ]
     left = [(-z, radius) for z, radius in reversed(right)]
     return _distinct([left[-1], *right, *left[:-1]])
 
