@@ -212,7 +212,7 @@ def size_or_advise(
 
 
 def _lightest_of(
-    attempts: Iterable[Specification], specification: Specification, robot: Robot, steps: Steps
+    in_turn: Iterable[Specification], specification: Specification, robot: Robot, steps: Steps
 ) -> tuple[Placed | None, list[Attempt]]:
     """The device of the first attempt that gives one, or of more wheels that are lighter.
 
@@ -221,7 +221,7 @@ def _lightest_of(
     """
     tried: list[Attempt] = []
     best: Placed | None = None
-    for asked in attempts:
+    for asked in in_turn:
         if best is not None:
             of_best = best.specification
             if asked.ocs.layout == of_best.ocs.layout or asked.requirement != of_best.requirement:
