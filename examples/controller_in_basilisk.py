@@ -72,14 +72,14 @@ def fly(
     design: dict, maneuver: dict, module: object, index: int, end: float
 ) -> tuple[np.ndarray, float]:
     """The world's upward direction in B at the last control instant; angle turned about y [rad]."""
-    ocs, stated, period = design["ocs"], maneuver["parameters"], module.PERIOD
+    ocs, specified, period = design["ocs"], maneuver["parameters"], module.PERIOD
     sim = SimulationBaseClass.SimBaseClass()
     process = sim.CreateNewProcess("process")
     process.addTask(sim.CreateNewTask("control", macros.sec2nano(period)), 2)
     process.addTask(sim.CreateNewTask("physics", macros.sec2nano(STEP)), 1)
     body = spacecraft.Spacecraft()
     body.hub.mHub, body.hub.IHubPntBc_B = ocs["total_mass"], ocs["total_inertia"]
-    pitch = stated["pitch"] if maneuver["kind"] == "drop" else 0.0
+    pitch = specified["pitch"] if maneuver["kind"] == "drop" else 0.0
     body.hub.sigma_BNInit = [[0.0], [np.tan(pitch / 4.0)], [0.0]]
     wheels, factory = (
         reactionWheelStateEffector.ReactionWheelStateEffector(),
@@ -99,12 +99,12 @@ def fly(
         sim.AddModelToTask("physics", model)
     sim.InitializeSimulation()
 
-    begin = stated.get("onset", 0.0)
-    until, turned = begin + stated.get("duration", 0.0), 0.0
+    begin = specified.get("onset", 0.0)
+    until, turned = begin + specified.get("duration", 0.0), 0.0
     for k in range(1, int(end / STEP) // round(period / STEP) * round(period / STEP) + 1):
         if maneuver["kind"] == "disturbance":
             acts = begin <= (k - 0.5) * STEP < until
-            push.extTorquePntB_B = [[acts * each] for each in stated["torque"]]
+            push.extTorquePntB_B = [[acts * each] for each in specified["torque"]]
         sim.ConfigureStopTime(macros.sec2nano(k * STEP))
         sim.ExecuteSimulation()
         turned += STEP * law.attitude().omega_BN_B[1]

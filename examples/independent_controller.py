@@ -81,21 +81,21 @@ class Start:
     """A maneuver: where it starts, what hits the trunk, and the pitch that it should have."""
 
     def __init__(self, maneuver: dict, standing: float) -> None:
-        stated, self.gravity = maneuver["parameters"], maneuver["gravity"]
+        specified, self.gravity = maneuver["parameters"], maneuver["gravity"]
         self.height, self.velocity = standing * 1.001, np.zeros(3)
         self.push, self.onset, self.duration = np.zeros(3), 0.0, 0.0
         self.first, self.last, self.time = 0.0, 0.0, 1.0
         self.incidence = maneuver["incidence"]
         if maneuver["kind"] == "disturbance":
-            self.velocity[[0, 2]] = stated["takeoff_velocity"]
-            self.push = np.array(stated["torque"])
-            self.onset, self.duration = stated["onset"], stated["duration"]
+            self.velocity[[0, 2]] = specified["takeoff_velocity"]
+            self.push = np.array(specified["torque"])
+            self.onset, self.duration = specified["onset"], specified["duration"]
         elif maneuver["kind"] == "drop":  # tilted in pitch alone
-            self.height, self.first = stated["height"], stated["pitch"]
+            self.height, self.first = specified["height"], specified["pitch"]
             self.time = np.sqrt(2.0 * (self.height - standing) / self.gravity)
         else:
-            self.velocity[2] = np.sqrt(2.0 * self.gravity * stated["jump_height"])
-            self.last, self.time = stated["angle"], stated["duration"]
+            self.velocity[2] = np.sqrt(2.0 * self.gravity * specified["jump_height"])
+            self.last, self.time = specified["angle"], specified["duration"]
 
     def pitch(self, time: float) -> float:
         """Rest to rest by a polynomial of fifth order [rad]."""

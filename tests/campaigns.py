@@ -20,13 +20,13 @@ NOTHING = {name: Constant(1.0 if name == "contact_friction" else 0.0) for name i
 NAMES = quantities(PAIR)
 
 
-def short_campaign(robot, stated=None, *, device=None, seed=7, until=0.6, drop_only=False):
+def short_campaign(robot, specified=None, *, device=None, seed=7, until=0.6, drop_only=False):
     """Jump and drop of the paper's wheels on a real motor, cut off soon after touchdown."""
     device, maneuvers = device or driven_device(), default_maneuvers(robot)[:2]
     campaign = make_campaign(
         Flights(robot, device, maneuvers[1:] if drop_only else maneuvers),
         can_stand=[True] if drop_only else [True, True],
-        uncertainty=Uncertainty.of(stated or UncertaintySection(), robot, device),
+        uncertainty=Uncertainty.of(specified or UncertaintySection(), robot, device),
         seed=seed,
     )
     flights = [

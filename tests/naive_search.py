@@ -68,9 +68,9 @@ def _axes(problem, seat):
     angles, radii, heights, walls = COARSE
     low = max(room.inner_radius_min, 1e-3) + room.wall_min
     thick = room.outer_radius_max - room.inner_radius_min
-    stated = problem.incidence
+    specified = problem.incidence
     return (
-        np.linspace(0.0, pi / 2.0, angles) if stated is None else np.array([stated]),
+        np.linspace(0.0, pi / 2.0, angles) if specified is None else np.array([specified]),
         np.linspace(low, room.outer_radius_max, radii),
         np.linspace(max(room.height_min, seat), room.height_max, heights),
         np.exp(np.linspace(log(least_wall(problem)), log(thick), walls)),
@@ -96,7 +96,7 @@ def refine(problem, device):
 def _axes_around(problem, point, widths, seat):
     """The incidence is moved by angles, all else by ratios; the limits themselves are on them."""
     room = problem.envelope
-    stated = problem.incidence
+    specified = problem.incidence
     angles = np.clip(point[0] + np.linspace(-widths[0], widths[0], FINE[0]), 0.0, pi / 2.0)
     limits = ((0.0, room.outer_radius_max), (max(room.height_min, seat), room.height_max))
     limits += ((least_wall(problem), inf),)
@@ -104,7 +104,7 @@ def _axes_around(problem, point, widths, seat):
         np.unique(np.clip(at * np.exp(np.linspace(-width, width, count)), *limit))
         for at, width, count, limit in zip(point[1:], widths[1:], FINE[1:], limits, strict=True)
     )
-    return (np.unique(angles) if stated is None else np.array([stated]), *rest)
+    return (np.unique(angles) if specified is None else np.array([specified]), *rest)
 
 
 def _lightest(problem, drive, material, names, axes, below):

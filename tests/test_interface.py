@@ -60,9 +60,9 @@ def test_a_folder_without_a_design_says_so(tmp_path):
 @pytest.mark.parametrize("form", [str, Path])
 def test_robots_and_specifications_are_read_from_text_and_paths(form):
     assert read_robot(form(EXAMPLES / "solo12.urdf")).name == "solo12"
-    stated = read_specification(form(EXAMPLES / "solo12.toml"))
-    assert toml(specification_of(form(EXAMPLES / "solo12.toml"))) == toml(stated)
-    assert specification_of(stated) is stated
+    specified = read_specification(form(EXAMPLES / "solo12.toml"))
+    assert toml(specification_of(form(EXAMPLES / "solo12.toml"))) == toml(specified)
+    assert specification_of(specified) is specified
     file = form(EXAMPLES / "solo12.urdf")
     assert specification_of(file) == specify(file) == specify(robot={"file": file})
 

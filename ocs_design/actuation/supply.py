@@ -26,6 +26,6 @@ class Supply:
         return min(self.power_max, self.voltage * self.current_max)
 
     @property
-    def told(self) -> "Supply":
+    def explicit(self) -> "Supply":
         """The supply with both limits made explicit, for records."""
         return replace(self, current_max=self.power / self.voltage, power_max=self.power)

@@ -83,18 +83,18 @@ def init(
     from ocs_design.report.text.answers import print_initialized
     from ocs_design.workflows.init import read_start, write_start
 
-    packages, stated = package_paths_of_command(context), specified_by_command(context)
+    packages, specified = package_paths_of_command(context), specified_by_command(context)
     read = partial(read_start, package_paths=packages, strict=strict)
     asking = not (yes or as_json) and sys.stdin.isatty() and sys.stderr.isatty()
-    own = stated.robot
+    own = specified.robot
     if asking and all(item is None for item in (own.file, own.mass, own.inertia, own.human)):
         start = _ask(
             "Robot file (URDF, xacro or MJCF), or nothing",
             "",
-            lambda file: read(replace(stated, robot=replace(own, file=file.strip() or None))),
+            lambda file: read(replace(specified, robot=replace(own, file=file.strip() or None))),
         )
     else:
-        start = read(stated)
+        start = read(specified)
     file = out or start.default_file
     check_file_target(file, force=force)
     chosen: tuple[str, ...] = ()
@@ -114,10 +114,10 @@ def _ask_task(start: "Start") -> tuple["Start", tuple[str, ...]]:
         """The start with an answer as a key's value; a bare number is in the default's unit."""
         unit = default.partition(" ")[2] if answer.strip()[-1:].isdigit() else ""
         given = {} if answer == default else {path: f"{answer} {unit}".rstrip()}
-        return replace(start, stated=merge(start.stated, specification_from_options(given)))
+        return replace(start, specified=merge(start.specified, specification_from_options(given)))
 
     chosen: tuple[str, ...] = ()
-    if start.stated.takes_default_maneuvers:
+    if start.specified.takes_default_maneuvers:
         known = [maneuver.name for maneuver in start.default.maneuvers]
 
         def maneuvers(answer: str) -> tuple[str, ...]:
@@ -134,8 +134,8 @@ def _ask_task(start: "Start") -> tuple["Start", tuple[str, ...]]:
         chosen = _ask(question, ALL, maneuvers)
     for path, question in QUESTIONS.items():
         section, _, name = path.partition(".")
-        is_moot = section in {"motor", "supply"} and start.stated.motor.name == NO_MOTOR
-        if not is_moot and getattr(getattr(start.stated, section), name) is None:
+        is_moot = section in {"motor", "supply"} and start.specified.motor.name == NO_MOTOR
+        if not is_moot and getattr(getattr(start.specified, section), name) is None:
             default = rounded_text(start.default, path)
             start = _ask(question, default, partial(with_key, path, default))
     return start, chosen

@@ -134,6 +134,6 @@ def maneuvers(context: typer.Context, incomplete: str) -> list[str]:
         from ocs_design.requirement.reading import read_specification
 
         with suppress(OcsError):
-            stated = read_specification(Path(context.params["spec"])).maneuvers
-            names = [each.name for each in stated if " " not in each.name] or PAPERS
+            specified = read_specification(Path(context.params["spec"])).maneuvers
+            names = [each.name for each in specified if " " not in each.name] or PAPERS
     return any_of(lambda: names)(incomplete)

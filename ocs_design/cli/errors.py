@@ -106,28 +106,28 @@ def _write_nowhere(*streams: TextIO) -> None:
 
 def _report(error: Failure, *, as_json: bool, color: bool) -> int:
     """Print what went wrong; returns the exit code."""
-    told = _as_ocs_error(error)
+    known = _as_ocs_error(error)
     unprinted = isinstance(error, OSError) and error.filename is None
     if unprinted:
         # Output that could not be printed is still in the buffer.
         _write_nowhere(sys.stdout)
     try:
         if as_json and not unprinted:
-            stated = {"kind": told.kind, "message": told.message, "hint": told.hint}
-            document = {"schema_version": SCHEMA_VERSION, "error": {**stated, **told.data()}}
+            message = {"kind": known.kind, "message": known.message, "hint": known.hint}
+            document = {"schema_version": SCHEMA_VERSION, "error": {**message, **known.data()}}
             print(json.dumps(document, indent=2))
         else:
             from ocs_design.report.text.console import error_panel, make_console
 
-            problems = told.problems if isinstance(told, SpecificationError) else ()
-            lines = [told.message, *(f"  - {problem}" for problem in problems)]
-            error_panel(lines, told.hint, color=color)
-            if isinstance(told, Infeasible):
+            problems = known.problems if isinstance(known, SpecificationError) else ()
+            lines = [known.message, *(f"  - {problem}" for problem in problems)]
+            error_panel(lines, known.hint, color=color)
+            if isinstance(known, Infeasible):
                 from ocs_design.report.text.size import print_assumed
 
-                print_assumed(make_console(color=color, stderr=True), told.assumptions)
+                print_assumed(make_console(color=color, stderr=True), known.assumptions)
     except OSError:
         if not isinstance(error, OSError):
             raise
         _write_nowhere(sys.stderr)
-    return told.exit_code
+    return known.exit_code

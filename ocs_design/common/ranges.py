@@ -102,9 +102,9 @@ def ranges_of(record: type) -> Mapping[str, Range | OneOf]:
 
 def _rule_of(hint: object) -> Range | OneOf | None:
     for option in (hint, *_options(hint)):
-        for stated in getattr(option, "__metadata__", ()):
-            if isinstance(stated, Range | OneOf):
-                return stated
+        for specified in getattr(option, "__metadata__", ()):
+            if isinstance(specified, Range | OneOf):
+                return specified
     return None
 
 

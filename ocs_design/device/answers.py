@@ -494,15 +494,15 @@ class Validated:
 
     def __repr__(self) -> str:
         flown = [run.passed for run in self.validation if run.ocs]
-        told = f"{flown.count(True)} of {len(flown)} flights pass"
+        text = f"{flown.count(True)} of {len(flown)} flights pass"
         if self.survival is not None:
-            told += f", {len(self.survival.lost)} of {len(self.survival.flights)} lost by a drive"
+            text += f", {len(self.survival.lost)} of {len(self.survival.flights)} lost by a drive"
         if self.monte_carlo is not None:
             found = self.monte_carlo.success
-            told += f"; {found.passed:,} of {found.flown:,} sampled robots"
+            text += f"; {found.passed:,} of {found.flown:,} sampled robots"
             if self.monte_carlo.certificate is not None:
-                told += f", {self.monte_carlo.certificate.verdict}"
-        return f"<Validated {self.robot}: {told}>"
+                text += f", {self.monte_carlo.certificate.verdict}"
+        return f"<Validated {self.robot}: {text}>"
 
     def _repr_html_(self) -> str:
         from ocs_design import as_html  # noqa: PLC0415 - the report stands above

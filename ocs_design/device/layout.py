@@ -68,11 +68,11 @@ class Layout:
 
     Attributes:
         name: see `LayoutName`.
-        stated: axes given by hand, otherwise empty.
+        specified: axes given by hand, otherwise empty.
     """
 
     name: LayoutName = LayoutName.PAIR
-    stated: tuple[Direction, ...] = ()
+    specified: tuple[Direction, ...] = ()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -126,7 +126,7 @@ class Layout:
             x, y, z = sine * left_right, cosine * left_right**2, 0.0 * sine * left_right**2
             return frozen(np.stack([x, y, z], axis=-2))
         if self.name in {LayoutName.ORTHOGONAL, LayoutName.BY_HAND}:
-            rows = np.eye(3) if self.name is LayoutName.ORTHOGONAL else np.array(self.stated).T
+            rows = np.eye(3) if self.name is LayoutName.ORTHOGONAL else np.array(self.specified).T
             return frozen(np.broadcast_to(rows, (*at.shape[:-1], *rows.shape)))
         rise = 1.0 if self.name is LayoutName.PYRAMID else 0.0
         level, up = np.where(rise, cosine, 1.0), rise * sine

@@ -120,11 +120,11 @@ def _macro_wheels(device: Device) -> dict[str, str]:
             f'    <xacro:ocs_flywheel side="{name}" rpy="{rpy}" position="${{{place}}}" '
             'parent="${prefix}ocs_base" prefix="${prefix}"/>\n'
         )
-    told = (
+    words = (
         f"  {name:<15} {text}{' in that frame' * ('centre' in text)}" for name, text in what.items()
     )
     return {
-        "arguments": "\n".join(told) + "\n",
+        "arguments": "\n".join(words) + "\n",
         "params": " ".join(params),
         "wheels": "".join(wheels),
     }
@@ -139,7 +139,7 @@ def _macro_carrier(device: Device) -> str:
     # Xacro reads names that look like numbers as numbers.
     sides = [name if name.isdigit() else f"'{name}'" for name in device.layout.names]
 
-    def told(values: Sequence[str]) -> str:
+    def by_side(values: Sequence[str]) -> str:
         """The common value, or an expression for that of each side."""
         if len({*values}) == 1:
             return values[0]
@@ -148,7 +148,7 @@ def _macro_carrier(device: Device) -> str:
         )
         return "${" + "".join([*chain][:-1]) + f"'{values[-1]}'" + "}"
 
-    sided = {name: told([values[name] for values in each]) for name in each[0]}
+    sided = {name: by_side([values[name] for values in each]) for name in each[0]}
     looks = [visuals_urdf(plain_visuals(device, each)) for each in device.modules]
     if len({*looks}) == 1:
         visuals = looks[0]

@@ -138,8 +138,8 @@ class OcsFlight(gymnasium.Env[Observation, Observation]):
         self._poses = [self._pilot.pose]
         observed = self._observed()
         self._far = float(np.linalg.norm(self._left))
-        told = {"maneuver": name, "sample": sample if self._randomise else None}
-        return observed, {**told, "law": self._law_action()}
+        info = {"maneuver": name, "sample": sample if self._randomise else None}
+        return observed, {**info, "law": self._law_action()}
 
     def step(self, action: Observation) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Fly one control step; `info["law"]` is the action that the law would take next.

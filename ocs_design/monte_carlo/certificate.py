@@ -119,11 +119,11 @@ class Lesson:
 
     Attributes:
         factor: by which to raise the reserve; 1: a larger reserve does not help.
-        told: the observation, in one sentence.
+        observation: what was seen, in one sentence.
     """
 
     factor: float
-    told: str
+    observation: str
 
 
 def lesson(test: SequentialTest, campaign: Campaign, outcomes: Outcomes) -> Lesson:

@@ -157,7 +157,7 @@ def standing_advice(campaign: Campaign, outcomes: Outcomes, number: int) -> str:
         judged = [campaign.judged(flight.metrics, number).passed for flight in found]
         stand[words] = judged.count(True)
     best = sorted(stand, key=lambda words: -stand[words])
-    told = ", ".join(f"{stand[words]} with {words}" for words in best)
+    text = ", ".join(f"{stand[words]} with {words}" for words in best)
     roll, pitch = (
         np.abs(outcomes.metric(f"final_{axis}")[falls, number]) for axis in ("roll", "pitch")
     )
@@ -166,7 +166,7 @@ def standing_advice(campaign: Campaign, outcomes: Outcomes, number: int) -> str:
     of = "these" if len(worlds) == len(fell) else f"{len(worlds)} of these"
     return (
         f"{len(fell)} land level and then fall {way}, where a {stance} stance would help; when "
-        f"{of} are flown again, {told} stand"
+        f"{of} are flown again, {text} stand"
     )
 
 

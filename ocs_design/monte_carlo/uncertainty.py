@@ -65,13 +65,13 @@ class Uncertainty:
     @classmethod
     def of(
         cls,
-        stated: UncertaintySection,
+        specified: UncertaintySection,
         robot: Robot,
         device: Device,
         detection: float | None = None,
     ) -> "Uncertainty":
         """Specified distributions, with defaults for the rest."""
-        complete = complete_uncertainty(stated, standing_height(robot), device.motor)
+        complete = complete_uncertainty(specified, standing_height(robot), device.motor)
         return cls({key: getattr(complete, key) for key in KEYS}, device.layout, detection)
 
     def written(self) -> Mapping[str, str]:

@@ -218,9 +218,9 @@ def survival_table(survival: SurvivalRecord) -> CellTable:
     """Final error angle by the drive that fails and the share of the flight before the failure."""
     rows: dict[tuple[str, str], list[Cell]] = {}
     for each in survival.flights:
-        told = "-" if each.tilt is None else degrees_number(each.tilt)
+        text = "-" if each.tilt is None else degrees_number(each.tilt)
         tone = Tone.PLAIN if each.lands else Tone.FAIL
-        rows.setdefault((each.scenario, each.module), []).append(Toned(told, tone))
+        rows.setdefault((each.scenario, each.module), []).append(Toned(text, tone))
     count = max(map(len, rows.values()))
     shares = (f"{part / count:.0%}" for part in range(count))
     return CellTable(
@@ -284,20 +284,20 @@ def landing_remarks(design: OcsDesign) -> Iterator[str]:
 def jump_remark(design: OcsDesign) -> str:
     """Sentence on jumps that are higher or lower than specified; empty if there are none."""
     asked = {each.name: each.maneuver() for each in design.requirement.maneuvers}
-    told = []
+    others = []
     for run in design.validation:
         maneuver, rise = asked.get(run.scenario), run.metrics.get("rise")
         height = 0.0 if maneuver is None else maneuver.rise
         if not run.ocs or not rise or not height:
             continue
         if abs(rise / height - 1.0) > JUMP_OFF:
-            told.append(
+            others.append(
                 f"{run.scenario} {rise:.3f} m for {height:.3f} m ({rise / height - 1.0:+.1%})"
             )
-    if not told:
+    if not others:
         return ""
     return (
-        f"jumps are flown higher or lower than asked: {', '.join(told)}; the legs follow the "
+        f"jumps are flown higher or lower than asked: {', '.join(others)}; the legs follow the "
         "planned push-off with an error, and --ballistic starts at the lift-off speed asked for"
     )
 

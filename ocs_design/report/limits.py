@@ -152,9 +152,9 @@ def tightest(design: OcsDesign) -> Rows:
     for (percent, scenario), found in sorted(used.items(), key=lambda item: -item[0][0]):
         # The maneuver, and the remedy where the capacity is exceeded.
         notes = [each.note for each in found] if percent > _ROUNDED else []
-        told = "; ".join(filter(None, [scenario, *notes]))
+        text = "; ".join(filter(None, [scenario, *notes]))
         names = listed([each.name for each in found])
-        rows.append((f"{percent:>3}%", f"{names} ({told})" if told else names))
+        rows.append((f"{percent:>3}%", f"{names} ({text})" if text else names))
     return tuple(rows)
 
 

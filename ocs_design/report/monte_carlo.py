@@ -127,8 +127,8 @@ def campaign_remarks(record: MonteCarloRecord) -> Iterator[str]:
         known = {"level": scenario.level, "stands": scenario.stands}
         counts = {word: count for word, count in known.items() if count is not None}
         if min(counts.values(), default=record.samples) < record.samples:
-            told = (f"{word} {count:,} of {record.samples:,}" for word, count in counts.items())
-            yield f"{scenario.scenario}: {', '.join(told)}"
+            counted = (f"{word} {count:,} of {record.samples:,}" for word, count in counts.items())
+            yield f"{scenario.scenario}: {', '.join(counted)}"
         if scenario.advice:
             yield f"{scenario.scenario}: {scenario.advice}"
         worst = ", ".join(map(str, scenario.worst))

@@ -99,12 +99,12 @@ def _pointless(
     return (f"{table}.{key}: {why}" for key in keys if getattr(section, key) is not None)
 
 
-def _empty_room(stated: FlywheelSection, limits: Mapping[str, float | None]) -> Iterator[str]:
+def _empty_room(specified: FlywheelSection, limits: Mapping[str, float | None]) -> Iterator[str]:
     """Limits of a rim, specified or default, that leave no space between them."""
 
     def limit(key: str) -> str:
         """Key and figure, with a note if it is a default."""
-        note = " (default: set it too)" if getattr(stated, key) is None else ""
+        note = " (default: set it too)" if getattr(specified, key) is None else ""
         return f"{key}, {format_quantity(limits[key] or 0.0, 'mm')}{note}"
 
     bore, radius = limits["r_min"], limits["r_max"]
@@ -130,30 +130,29 @@ def _without_gravity(specification: Specification) -> Iterator[str]:
 
 def _of_layouts(specification: Specification) -> Iterator[str]:
     """Faulty axes or positions, and keys of pairs for other layouts, one line each."""
-    stated = specification.ocs
-    places = 1 if stated.layout in {None, PAIR, ALL_LAYOUTS} else WHEELS[stated.layout]
-    if stated.axes is not None:
-        if stated.layout is not None:
+    specified = specification.ocs
+    places = 1 if specified.layout in {None, PAIR, ALL_LAYOUTS} else WHEELS[specified.layout]
+    if specified.axes is not None:
+        if specified.layout is not None:
             yield "ocs.axes: takes the place of ocs.layout, so leave that out"
-        rows = [stated.axes[first : first + 3] for first in range(0, len(stated.axes), 3)]
+        rows = [specified.axes[first : first + 3] for first in range(0, len(specified.axes), 3)]
         if not all(map(any, rows)):
             yield "ocs.axes: an axis of length 0 has no direction"
         places = len(rows)
-    if stated.position is not None and len(stated.position) != 3 * places:
-        yield (
-            f"ocs.position: this layout needs {3 * places} coordinates, not {len(stated.position)}"
-        )
-    if stated.co_design and specification.requirement.notices is not None:
+    given = len(specified.position or ())
+    if specified.position is not None and given != 3 * places:
+        yield f"ocs.position: this layout needs {3 * places} coordinates, not {given}"
+    if specified.co_design and specification.requirement.notices is not None:
         yield "ocs.co_design: plans with all wheels, but requirement.survives has one fail"
-    layout = stated.layout if stated.axes is None else "by hand"
+    layout = specified.layout if specified.axes is None else "by hand"
     if layout in {None, PAIR, ALL_LAYOUTS}:
         return
     pairs = layout in MORE_PAIRS
-    if stated.alpha is not None and not pairs and layout != PYRAMID:
+    if specified.alpha is not None and not pairs and layout != PYRAMID:
         yield f"ocs.alpha: has no effect where ocs.layout is {layout!r}"
-    if stated.alpha_criterion and not pairs:
+    if specified.alpha_criterion and not pairs:
         yield f"ocs.alpha_criterion: for pairs only, but ocs.layout is {layout!r}"
-    if stated.co_design:
+    if specified.co_design:
         yield f"ocs.co_design: for a pair only, but ocs.layout is {layout!r}"
     if specification.motor.name == NO_MOTOR:
         yield f"ocs.layout: {layout!r} needs a motor, but motor.name is {NO_MOTOR!r}"
@@ -203,8 +202,8 @@ def unfit_for_robot(
     """
     position = specification.ocs.position
     yield from _oversized(specification, robot, robot_size)
-    stated = specification.ocs
-    of_pair = stated.axes is None and stated.layout in {None, PAIR, ALL_LAYOUTS}
+    specified = specification.ocs
+    of_pair = specified.axes is None and specified.layout in {None, PAIR, ALL_LAYOUTS}
     if position is not None and of_pair and position[1] <= 0.0:
         yield (
             f"ocs.position: y = {format_quantity(position[1], 'mm')} is not on the left side: "
@@ -220,12 +219,12 @@ def unfit_for_robot(
             each.momentum(TiltInertia.of(robot.inertia), requirement.standing_height)
         except OcsError as error:
             yield error.sentence
-        own = each.with_wheels(direct=stated.acts_about_vertical)
+        own = each.with_wheels(direct=specified.acts_about_vertical)
         # One in a list is refused as well: a device has no ratio to a demand of zero.
         if alone and own.idle:
             yield f"maneuver.{own.name}: {own.idle}, which requires nothing of the device"
         tolerance = inf if varied else LANDING_TOLERANCE
-        yield from own.unfit(tilting=stated.tilting, tolerance=tolerance)
+        yield from own.unfit(tilting=specified.tilting, tolerance=tolerance)
         # Tables were checked before; maneuvers requested in words have their jump only now.
         yield from own.contradictions()
     yield from _misfed(specification, robot)

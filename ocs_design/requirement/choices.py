@@ -92,22 +92,22 @@ def default_supply(robot: Robot) -> Supply:
 
 def specified_supply(specification: Specification, robot: Robot) -> Supply:
     """The supply, with the defaults where nothing is specified."""
-    stated, default = specification.supply, default_supply(robot)
+    specified, default = specification.supply, default_supply(robot)
     return Supply(
-        stated.voltage or default.voltage,
-        stated.current_max or default.current_max,
-        stated.power_max or default.power_max,
+        specified.voltage or default.voltage,
+        specified.current_max or default.current_max,
+        specified.power_max or default.power_max,
     )
 
 
 def _controlled(found: Motor, specification: Specification) -> Motor:
     """The motor with its controller's mass, specified or estimated from its current."""
-    stated = specification.supply.controllers
-    if stated == NO_CONTROLLERS:
+    specified = specification.supply.controllers
+    if specified == NO_CONTROLLERS:
         return found
     return replace(
         found,
-        controller_mass=stated if isinstance(stated, float) else controller_mass_of(found),
+        controller_mass=specified if isinstance(specified, float) else controller_mass_of(found),
     )
 
 
@@ -119,19 +119,19 @@ def unknown_names(specification: Specification) -> Iterator[str]:
     Raises:
         SpecificationError: a catalogue file has faults.
     """
-    stated = specification.motor
+    specified = specification.motor
     # If no motor is named, the fault is in the file: no motors, or none to build with.
-    names = "motor.motors" if stated.name in {None, AUTO} else "motor.name"
+    names = "motor.motors" if specified.name in {None, AUTO} else "motor.name"
     choices: tuple[tuple[str, Callable[[], object], str, Callable[[], object]], ...] = (
         (
             "motor.motors",
-            lambda: known_motors(_path(stated.motors)),
+            lambda: known_motors(_path(specified.motors)),
             names,
             lambda: _motors(specification),
         ),
         (
             "motor.gears",
-            lambda: known_gears(_path(stated.gears)),
+            lambda: known_gears(_path(specified.gears)),
             "motor.gear",
             lambda: _gears(specification),
         ),

@@ -338,5 +338,5 @@ def rates_text(rates: Vector3) -> str:
 
 def angles_text(**angles: float) -> str:
     """Nonzero angles by name [rad] for display, as in `roll 5 deg and yaw 2 deg`."""
-    told = (f"{name} {format_quantity(angle, 'deg')}" for name, angle in angles.items() if angle)
-    return " and ".join(told)
+    text = (f"{name} {format_quantity(angle, 'deg')}" for name, angle in angles.items() if angle)
+    return " and ".join(text)

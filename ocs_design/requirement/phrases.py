@@ -265,17 +265,17 @@ class AboutText:
         parts = [part.strip() for part in re.split(r"\b(roll|pitch|yaw)\b", said, flags=re.I)]
         # The axis comes before its value, or after it.
         before = not parts[0]
-        axes, stated = parts[1::2], parts[2::2] if before else parts[:-1:2]
+        axes, specified = parts[1::2], parts[2::2] if before else parts[:-1:2]
         rest = "" if before else parts[-1]
         words = [axis.casefold() for axis in axes]
-        if not axes or rest or not all(stated) or len(set(words)) < len(words):
+        if not axes or rest or not all(specified) or len(set(words)) < len(words):
             raise SpecificationError(
                 f"{where}: {shortened(raw)} must give each value with its axis",
                 hint=f"Write {self.example!r}.",
             )
         found = {
             axis: self.values[axis].read(value, f"{where}, {axis}")
-            for axis, value in zip(words, stated, strict=True)
+            for axis, value in zip(words, specified, strict=True)
         }
         return About(
             **{axis: found.get(axis, 0.0) for axis in self.values},

@@ -397,12 +397,12 @@ class Balance(Pivoted):
     def upset(self) -> str:
         """Tilt, rate and impulse, as in `pitch 2.1 deg and an impulse of (0, 0.2, 0) N s`."""
         angles = {"roll": self.roll, "pitch": self.pitch}
-        told = [f"{name} {format_quantity(a, 'deg')}" for name, a in angles.items() if a]
+        upsets = [f"{name} {format_quantity(a, 'deg')}" for name, a in angles.items() if a]
         if any(self.rate):
-            told.append(f"a rate of {rates_text(self.rate)}")
+            upsets.append(f"a rate of {rates_text(self.rate)}")
         if any(self.impulse):
-            told.append(f"an impulse of {row_text(self.impulse)} N s")
-        return listed(told)
+            upsets.append(f"an impulse of {row_text(self.impulse)} N s")
+        return listed(upsets)
 
     @property
     def summary(self) -> str:

@@ -220,14 +220,14 @@ class Disturbance(Unforeseen):
     def summary(self) -> str:
         """Lift-off and torque."""
         forward, upward = self.takeoff_velocity
-        told = (
+        text = (
             f"lift-off at {forward:.3g} m/s forward and {upward:.3g} m/s up, "
             f"{row_text(self.torque)} N m on the trunk for {self.duration:.3g} s, "
             f"{self.onset:.3g} s after it"
         )
         if any(self.velocity_change):
-            told += f", which changes its velocity by {row_text(self.velocity_change)} m/s"
-        return told
+            text += f", which changes its velocity by {row_text(self.velocity_change)} m/s"
+        return text
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -61,7 +61,7 @@ from ocs_design.requirement.vocabulary import (
     RING,
     STEEL,
 )
-from ocs_design.requirement.worded_maneuvers import Worded, told_with_device, worded_maneuvers
+from ocs_design.requirement.worded_maneuvers import Worded, assumption_with_device, worded_maneuvers
 from ocs_design.robot.manual import assumed_trunk, person, robot_by_hand
 from ocs_design.robot.mass import impossible_size
 from ocs_design.robot.reader import read_robot
@@ -121,35 +121,35 @@ def read_specified_robot(
         RobotError: the file cannot be read; trunk or legs are in doubt; with `strict`, also if
             there is any warning.
     """
-    stated = specification.robot
-    if stated.file is not None and (stated.mass is not None or stated.inertia is not None):
+    specified = specification.robot
+    if specified.file is not None and (specified.mass is not None or specified.inertia is not None):
         raise UsageError("a robot file and --mass/--inertia exclude each other", hint="give one")
-    if stated.file is not None:
+    if specified.file is not None:
         robot = read_robot(
-            stated.file,
-            trunk=stated.trunk,
-            legs=stated.legs,
-            posture=stated.posture,
-            joints=stated.joints or {},
+            specified.file,
+            trunk=specified.trunk,
+            legs=specified.legs,
+            posture=specified.posture,
+            joints=specified.joints or {},
             package_paths=package_paths,
         )
-        _check_units(stated.joints or {}, robot)
+        _check_units(specified.joints or {}, robot)
         impossible = impossible_size(robot.mass_properties) if sure else None
         if impossible is not None:
             raise RobotError(
-                f"{stated.file}: {impossible}",
+                f"{specified.file}: {impossible}",
                 hint="a robot file is in kg, m and kg m^2: are its masses in grams, or its lengths "
-                f"in millimetres? See `ocs-design inspect {stated.file}`",
+                f"in millimetres? See `ocs-design inspect {specified.file}`",
             )
         if sure and robot.recognition is not None and not robot.recognition.sure:
             question = question_about(robot.recognition)
-            raise RobotError(f"{stated.file}: {question.message}", hint=question.hint)
-    elif stated.human is not None:
-        who = stated.human
-        robot = person(who.mass, who.height, who.payload, stated.name or "person")
-    elif stated.mass is not None and stated.inertia is not None:
-        robot = robot_by_hand(stated.mass, stated.inertia, name=stated.name or "robot")
-    elif stated.mass is not None or stated.inertia is not None:
+            raise RobotError(f"{specified.file}: {question.message}", hint=question.hint)
+    elif specified.human is not None:
+        who = specified.human
+        robot = person(who.mass, who.height, who.payload, specified.name or "person")
+    elif specified.mass is not None and specified.inertia is not None:
+        robot = robot_by_hand(specified.mass, specified.inertia, name=specified.name or "robot")
+    elif specified.mass is not None or specified.inertia is not None:
         raise UsageError(
             "a robot without a file needs both mass and inertia",
             hint="give --mass MASS and --inertia IXX,IYY,IZZ, or both keys under [robot]",
@@ -160,7 +160,7 @@ def read_specified_robot(
             hint="give a robot file, or --mass and --inertia, or --human, or [robot] in the "
             "specification; `ocs-design demo` needs none",
         )
-    weighed = stated.weighed
+    weighed = specified.weighed
     if weighed is not None and not 1e-2 < weighed / robot.mass < 1e2:
         unit = "g" if weighed > robot.mass else "kg"
         raise UsageError(
@@ -232,8 +232,10 @@ class Resolved:
         Args:
             requirement: of robot and device.
         """
-        told = tuple(told_with_device(each, requirement.maneuvers) for each in self.assumptions)
-        return replace(self, requirement=requirement, assumptions=told)
+        text = tuple(
+            assumption_with_device(each, requirement.maneuvers) for each in self.assumptions
+        )
+        return replace(self, requirement=requirement, assumptions=text)
 
 
 def _assumptions(
@@ -260,9 +262,9 @@ def _assumptions(
         paper = requirement.maneuvers[: -len(worded.maneuvers) or None]
         yield from (f"{item.name}: {item.summary}." for item in paper)
     yield from worded.notes
-    stated = specification.ocs
-    pairs = stated.axes is None and stated.layout in {None, PAIR, *MORE_PAIRS}
-    if pairs and stated.alpha is None and stated.alpha_criterion is None:
+    specified = specification.ocs
+    pairs = specified.axes is None and specified.layout in {None, PAIR, *MORE_PAIRS}
+    if pairs and specified.alpha is None and specified.alpha_criterion is None:
         yield "Incidence: alpha* = atan(Ixx/Iyy) of robot and device (equal-rate)."
 
     lengths = [
@@ -315,18 +317,18 @@ def _assumptions(
         yield "Motor torque: not limited."
 
 
-def _assumed_supply(stated: SupplySection, supply: Supply) -> Iterator[str]:
+def _assumed_supply(specified: SupplySection, supply: Supply) -> Iterator[str]:
     """Defaults of the supply, one sentence each."""
     assumed = []
-    if stated.voltage is None:
+    if specified.voltage is None:
         assumed.append(f"{supply.voltage:g} V")
-    # A stated current may be the tighter limit; then the default does not count.
-    if stated.power_max is None and supply.power_max <= supply.power:
+    # A specified current may be the tighter limit; then the default does not count.
+    if specified.power_max is None and supply.power_max <= supply.power:
         power = format_quantity(supply.power_max, "kW" if supply.power_max >= 1e3 else "W", 3)
         assumed.append(f"at most {power} ({POWER_PER_MASS:g} W per kg of robot)")
     if assumed:
         yield f"Supply: {', '.join(assumed)}."
-    if stated.controllers in {None, AUTO}:
+    if specified.controllers in {None, AUTO}:
         base, per_current = (
             format_quantity(each, "g", 3) for each in (BASE_MASS, MASS_PER_CURRENT)
         )

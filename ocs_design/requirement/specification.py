@@ -57,7 +57,7 @@ class Specification:
         return self.takes_default_maneuvers and self.requirement.maneuvers is None
 
     @property
-    def stated(self) -> Mapping[str, object]:
+    def specified(self) -> Mapping[str, object]:
         """Values that are specified, by the paths of their keys; without maneuvers."""
         return {
             f"{section}.{name}": value
@@ -67,9 +67,9 @@ class Specification:
         }
 
     def __repr__(self) -> str:
-        stated = [f"{path}={value!r}" for path, value in self.stated.items()]
-        stated += [f"maneuver {each.name}" for each in self.maneuvers]
-        text = ", ".join(stated) or "nothing specified"
+        specified = [f"{path}={value!r}" for path, value in self.specified.items()]
+        specified += [f"maneuver {each.name}" for each in self.maneuvers]
+        text = ", ".join(specified) or "nothing specified"
         more = " ..." if len(text) > LONGEST_REPR else ""
         return f"<Specification: {text[:LONGEST_REPR]}{more}>"
 

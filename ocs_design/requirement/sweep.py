@@ -66,8 +66,8 @@ class Task:
 
     def with_key(self, section: str, key: str, value: float) -> Specification:
         """The specification with one key of the file at another value [SI]."""
-        stated: Any = getattr(self.specification, section)
-        changes: dict[str, Any] = {section: replace(stated, **{key: value})}
+        specified: Any = getattr(self.specification, section)
+        changes: dict[str, Any] = {section: replace(specified, **{key: value})}
         return replace(self.specification, **changes)
 
     def with_maneuvers(

@@ -327,8 +327,8 @@ class TurnTo(TimedTurn):
     def contradictions(self) -> Iterator[str]:
         """What contradicts itself, one line each: there is a jump where there is gravity."""
         if bool(self.gravity) != bool(self.jump_height):
-            told = "is missing" if self.gravity else "there is no jump in orbit"
-            yield f"maneuver.{self.name}.jump_height: {told}"
+            text = "is missing" if self.gravity else "there is no jump in orbit"
+            yield f"maneuver.{self.name}.jump_height: {text}"
         else:
             yield from self._landing_before("its turn", self.duration)
 
@@ -398,15 +398,15 @@ class TurnTo(TimedTurn):
     @property
     def summary(self) -> str:
         """Attitude, rate, time, jump and gravity."""
-        told = f"turns to {angles_text(roll=self.roll, pitch=self.pitch, yaw=self.yaw) or 'level'}"
+        text = f"turns to {angles_text(roll=self.roll, pitch=self.pitch, yaw=self.yaw) or 'level'}"
         if any(self.rate):
-            told += f" from rates of {rates_text(self.rate)}"
+            text += f" from rates of {rates_text(self.rate)}"
         if self.wheel_speed:
-            told += f" with wheels at {rpm(self.wheel_speed)}"
+            text += f" with wheels at {rpm(self.wheel_speed)}"
         where = "in orbit"
         if self.gravity:
             where = f"in a jump of {self.jump_height:.3g} m at {self.gravity:.3g} m/s2"
-        return f"{told}{_ENDS[self.end]} in {self.duration:.3g} s, {where}"
+        return f"{text}{_ENDS[self.end]} in {self.duration:.3g} s, {where}"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

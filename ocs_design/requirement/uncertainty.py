@@ -319,8 +319,8 @@ class Entry:
     def words(self, spread: Spread) -> str:
         """Text such as `normal(0%, 1%) of standing height`."""
         unit = "%" if self.of else spread.unit
-        told = self.value.written(lambda number: format_quantity(number, unit))
-        return f"{told} of {self.of}" if self.of else told
+        text = self.value.written(lambda number: format_quantity(number, unit))
+        return f"{text} of {self.of}" if self.of else text
 
 
 def entries(file: Path = DEFAULTS) -> Mapping[str, Entry]:
@@ -354,20 +354,20 @@ def _read_entries(file: Path) -> Mapping[str, Entry]:
         faults.unknown(name, name, ("reality",))
     for name, raw in faults.table(content.get("reality", {}), "reality").items():
         where, spread = f"reality.{name}", spreads().get(name)
-        stated = raw if isinstance(raw, dict) else {"value": raw, "source": str(file)}
+        specified = raw if isinstance(raw, dict) else {"value": raw, "source": str(file)}
         if spread is None:
             faults.unknown(where, name, tuple(spreads()))
             continue
-        for key in sorted(stated.keys() - _ENTRY_KEYS):
+        for key in sorted(specified.keys() - _ENTRY_KEYS):
             faults.unknown(f"{where}.{key}", key, _ENTRY_KEYS)
-        texts = {key: str(stated.get(key, "")) for key in _ENTRY_KEYS[1:]}
+        texts = {key: str(specified.get(key, "")) for key in _ENTRY_KEYS[1:]}
         if texts["of"] and texts["of"] not in _SCALES:
             faults.unknown(f"{where}.of", texts["of"], _SCALES)
         how = Spread(Dimension.RATIO, "%") if texts["of"] else spread
-        if "value" not in stated:
+        if "value" not in specified:
             faults.append(f"{where}.value: is missing")
             continue
-        value = faults.read(how, stated["value"], where)
+        value = faults.read(how, specified["value"], where)
         if value is not None:
             found[name] = Entry(value, **texts)
     if faults:
@@ -423,26 +423,26 @@ def default_uncertainty(
 
 
 def complete_uncertainty(
-    stated: UncertaintySection, standing_height: float, motor: Drive
+    specified: UncertaintySection, standing_height: float, motor: Drive
 ) -> UncertaintySection:
     """Specified distributions, and for the rest those of their file or of the package.
 
     Args:
-        stated: by the user. standing_height: of the robot [m]. motor: that turns the wheels.
+        specified: by the user. standing_height: of the robot [m]. motor: that turns the wheels.
 
     Raises:
         SpecificationError: see `default_uncertainty`.
     """
-    default = default_uncertainty(standing_height, motor, stated.file)
+    default = default_uncertainty(standing_height, motor, specified.file)
     return replace(
-        default, **{name: getattr(stated, name) or getattr(default, name) for name in spreads()}
+        default, **{name: getattr(specified, name) or getattr(default, name) for name in spreads()}
     )
 
 
 def uncertainty_texts(section: UncertaintySection) -> Mapping[str, str]:
     """Specified distributions by key, as in `design.json`: SI, with full precision."""
-    stated = {name: getattr(section, name) for name in spreads()}
-    return {name: spread.written() for name, spread in stated.items() if spread is not None}
+    specified = {name: getattr(section, name) for name in spreads()}
+    return {name: spread.written() for name, spread in specified.items() if spread is not None}
 
 
 def uncertainty_of_texts(texts: Mapping[str, str], where: str) -> UncertaintySection:

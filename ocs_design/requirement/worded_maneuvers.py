@@ -51,14 +51,14 @@ def worded_maneuvers(asked: RequirementSection, robot: Robot, taken: Iterable[st
     notes: list[str] = []
     files = {comparable_name(name) for name in taken}
 
-    def add(maneuver: Maneuver, note: str, told: str = "") -> None:
+    def add(maneuver: Maneuver, note: str, text: str = "") -> None:
         """Add a maneuver with a note on it; if its name is taken, it gets a number."""
         name, number = maneuver.name, 2
         while comparable_name(name) in files:
             name, number = f"{maneuver.name} {number}", number + 1
         files.add(comparable_name(name))
         maneuvers.append(replace(maneuver, name=name))
-        notes.append(f"{name}: {told or maneuver.summary}{note}.")
+        notes.append(f"{name}: {text or maneuver.summary}{note}.")
 
     highest = disturbance.takeoff_velocity[1] ** 2 / (2.0 * disturbance.gravity)
     for height in asked.jump_height or (highest,):
@@ -77,8 +77,8 @@ def worded_maneuvers(asked: RequirementSection, robot: Robot, taken: Iterable[st
         assumed = " (the paper's, scaled)" if asked.jump_height is None else ""
         of_jump = f", in a vertical jump of {height:.3g} m{assumed}"
         for kick in asked.kick or ():
-            kicked, told = _kicked(kick, jump, robot)
-            add(kicked, of_jump, told)
+            kicked, text = _kicked(kick, jump, robot)
+            add(kicked, of_jump, text)
         if asked.jump_height and not any((asked.kick, asked.flip, asked.turn, asked.catch)):
             add(jump, f"{of_jump}; the torque is that of the paper's first test, scaled")
     share = back_flip.duration / back_flip.flight_time
@@ -168,12 +168,12 @@ def _pivoted(
         )
     pivot, edge = asked.pivot.point, asked.pivot.along or (0.0, 0.0, 0.0)
 
-    def lasting(one: Pivoted, stated: float | None, times: float) -> tuple[Pivoted, str]:
+    def lasting(one: Pivoted, specified: float | None, times: float) -> tuple[Pivoted, str]:
         """The maneuver in the specified time, or in `times` e-folding times of a tilt."""
         one = one.on(robot.mass_properties)
         grows = format_quantity(1.0 / one.quickness, "ms", 3)
         note = f"; the time is {times:g} times the e-folding time of a tilt, {grows}"
-        return replace(one, duration=stated or times / one.quickness), "" if stated else note
+        return replace(one, duration=specified or times / one.quickness), "" if specified else note
 
     for upset in asked.balance or ():
         caught = Balance(name="balance", gravity=gravity, duration=1.0, pivot=pivot, edge=edge)
@@ -229,7 +229,7 @@ def _kicked(kick: Kick, jump: Disturbance, robot: Robot) -> tuple[Disturbance, s
     )
 
 
-def told_with_device(assumption: str, maneuvers: Iterable[Maneuver]) -> str:
+def assumption_with_device(assumption: str, maneuvers: Iterable[Maneuver]) -> str:
     """An assumption; one about a kick is extended by what the kick does with the device on.
 
     Args:
@@ -244,8 +244,8 @@ def told_with_device(assumption: str, maneuvers: Iterable[Maneuver]) -> str:
         if assumption.startswith(f"{each.name}: ") and _WITHOUT_DEVICE in assumption:
             turned = ", ".join(f"{part:.3g}" for part in kick.duration * kick.torque)
             moved = kick.duration * np.linalg.norm(kick.acceleration)
-            told = f"with the device on, ({turned}) N m s and {moved:.3g} m/s"
-            return f"{assumption.removesuffix('.')}; {told}."
+            text = f"with the device on, ({turned}) N m s and {moved:.3g} m/s"
+            return f"{assumption.removesuffix('.')}; {text}."
     return assumption
 
 

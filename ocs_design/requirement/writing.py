@@ -102,8 +102,8 @@ def written(  # noqa: PLR0911
             unit = PEOPLE_UNITS.get(dimension, si_unit(dimension)) if small else si_unit(dimension)
             return _text(_quantity_text(value, dimension, unit, figures))
         case Spread(dimension=dimension), Distribution():
-            told = partial(_quantity_text, dimension=dimension, unit=how.unit, figures=figures)
-            return _text(value.written(told))
+            as_text = partial(_quantity_text, dimension=dimension, unit=how.unit, figures=figures)
+            return _text(value.written(as_text))
         case Several(each=each), Sequence():
             return f"[{', '.join(written(entry, each, figures) for entry in value)}]"
         case Quantities(dimension=Dimension.RATIO), Sequence():
@@ -120,11 +120,11 @@ def _quantity_text(value: float, dimension: Dimension, unit: str, figures: Figur
     """Quantity in `unit` or in SI, as `figures` says."""
     if figures is Figures.ROUNDED:
         return format_quantity(value, unit)
-    told = format_quantity(value, unit, digits=12)
+    text = format_quantity(value, unit, digits=12)
     if figures is Figures.EXACT and isclose(
-        parse_quantity(told, dimension, ""), value, rel_tol=_SAME
+        parse_quantity(text, dimension, ""), value, rel_tol=_SAME
     ):
-        return told
+        return text
     bare = _plain(value)
     return bare if dimension is Dimension.RATIO else f"{bare} {si_unit(dimension)}"
 
@@ -169,17 +169,17 @@ _WIDTH = 40
 
 
 def commented_toml(
-    stated: Specification,
+    specified: Specification,
     default: Specification,
     *,
     title: str,
     chosen: Collection[str] = (),
     examples: tuple[Maneuver, ...] = (),
 ) -> str:
-    """The text of the file; it reads back as `stated` with the chosen maneuvers.
+    """The text of the file; it reads back as `specified` with the chosen maneuvers.
 
     Args:
-        stated: written with full precision.
+        specified: written with full precision.
         default: the defaults, to four digits, commented out.
         title: of the file; may have several lines.
         chosen: names of default maneuvers to include as well.
@@ -189,7 +189,7 @@ def commented_toml(
     for name, section in SECTIONS.items():
         lines += ["", f"[{name}]"]
         for key_name, key in keys_of(section).items():
-            own, assumed = (getattr(getattr(one, name), key_name) for one in (stated, default))
+            own, assumed = (getattr(getattr(one, name), key_name) for one in (specified, default))
             rounded = "" if assumed is None else written(assumed, key.value, Figures.ROUNDED)
             shown = rounded or key.example
             lines += ["", f"# {key.summary} [{key.value.takes}]", f"# {key.why}"]
@@ -206,10 +206,10 @@ def commented_toml(
         "# What the device must do, one table per maneuver. If any is given, they replace the",
         "# default ones, and requirement.maneuvers must be left out.",
     ]
-    maneuvers = stated.maneuvers or default.maneuvers
-    figures = Figures.EXACT if stated.maneuvers else Figures.ROUNDED
+    maneuvers = specified.maneuvers or default.maneuvers
+    figures = Figures.EXACT if specified.maneuvers else Figures.ROUNDED
     for maneuver in maneuvers:
-        is_specified = bool(stated.maneuvers) or maneuver.name in chosen
+        is_specified = bool(specified.maneuvers) or maneuver.name in chosen
         lines += ["", *_commented_maneuver(maneuver, figures, "" if is_specified else "# ")]
     kinds = {kind_of(maneuver)[0] for maneuver in maneuvers}
     for maneuver in examples:

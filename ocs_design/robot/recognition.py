@@ -122,7 +122,7 @@ def question_about(found: Recognition) -> RobotError:
         *(doubt.what for doubt in best.doubts),
         *(sign.against for sign in best.signs if sign.holds is False),
     ]
-    told = (
+    text = (
         f"{len(best.legs)} legs ({some_of([leg.name for leg in best.legs], most=6)}) on "
         f"'{best.trunk}'"
         if best.legs
@@ -135,7 +135,7 @@ def question_about(found: Recognition) -> RobotError:
     none = f"; or --legs {NO_LEGS}" if f"--legs {NO_LEGS}" not in answers else ""
     why = "; ".join(against) or "nothing certain"
     return RobotError(
-        f"trunk and legs are not clear: most likely {told}, at {best.confidence:.0%} "
+        f"trunk and legs are not clear: most likely {text}, at {best.confidence:.0%} "
         f"confidence ({SURE:.0%} needed). Against it: {why}",
         hint=f"say which: {answers}{none}. `inspect ROBOT --picture FILE.svg` draws them",
     )

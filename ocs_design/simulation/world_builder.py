@@ -240,7 +240,7 @@ def addresses(model: mujoco.MjModel, device: Device) -> Addresses:
     )
 
 
-def control_of(stated: ValidationSection, robot: Robot) -> ControlRecord:
+def control_of(specified: ValidationSection, robot: Robot) -> ControlRecord:
     """Wheel law as specified, with defaults for the rest."""
     gains = wheel_gains(robot)
     default = ControlRecord(
@@ -250,24 +250,26 @@ def control_of(stated: ValidationSection, robot: Robot) -> ControlRecord:
         period=round(CONTROL_PERIOD / STEP) * STEP,
         ballistic=False,
     )
-    return overridden(default, stated)
+    return overridden(default, specified)
 
 
-def overridden(control: ControlRecord, stated: ValidationSection) -> ControlRecord:
+def overridden(control: ControlRecord, specified: ValidationSection) -> ControlRecord:
     """Wheel law as recorded, with the specified values replaced.
 
     Raises:
         SpecificationError: the control period is not a whole number of physics steps.
     """
     period = control.period
-    if stated.control_period is not None:
-        steps = stated.control_period / STEP
+    if specified.control_period is not None:
+        steps = specified.control_period / STEP
         period = round(steps) * STEP
         if steps < 0.5 or abs(steps - round(steps)) > 1e-6:
             raise SpecificationError(
                 f"validation.control_period: {steps * STEP:.4g} s is not a whole number of "
                 f"milliseconds"
             )
-    given = {name: getattr(stated, name) for name in vars(control).keys() & vars(stated).keys()}
+    given = {
+        name: getattr(specified, name) for name in vars(control).keys() & vars(specified).keys()
+    }
     changes = {name: value for name, value in given.items() if value is not None}
     return replace(control, period=period, **changes)

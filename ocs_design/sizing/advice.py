@@ -249,8 +249,8 @@ def _caught(field: Field) -> Iterator[str]:
     if not asked or not does(MOST_ADVISED):
         return
     _, factor = narrowed(does, 1.0, MOST_ADVISED, ADVICE_PRECISION)
-    told = some_of([f"{each.milder(1.0 / factor).upset} for {each.name}" for each in asked])
-    yield f"A device exists with {told}."
+    text = some_of([f"{each.milder(1.0 / factor).upset} for {each.name}" for each in asked])
+    yield f"A device exists with {text}."
 
 
 def single_changes(field: Field, progress: Progress = unseen) -> dict[Limit, float]:
@@ -285,8 +285,8 @@ def _hints(
         )
         return
     free = replace(field.problem, incidence=None)
-    stated = layout.pairs and field.problem.incidence is not None
-    if lightest and stated and field.changed(free).possible:
+    specified = layout.pairs and field.problem.incidence is not None
+    if lightest and specified and field.changed(free).possible:
         yield (
             "Other incidences are feasible: leave out --alpha and choose "
             "--alpha-criterion lightest."

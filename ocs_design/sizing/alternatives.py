@@ -117,10 +117,10 @@ class Variant:
         present device has or was chosen from.
         """
         present, chosen = self.choice.problem, self.choice.chosen
-        stated, offered = self.task.specification, self.task.resolved.choice
+        specified, offered = self.task.specification, self.task.resolved.choice
         assert offered is not None, "there are motors to choose from"
         asked = specified_requirement(self.task)
-        turns = specified_criterion(stated) is None and present.incidence is not None
+        turns = specified_criterion(specified) is None and present.incidence is not None
         reserves = dict(present.requirement.reserves)
         for each in asked.maneuvers:
             if each.incidence == 0.0 and each.name in reserves:
@@ -136,7 +136,7 @@ class Variant:
             requirement=replace(asked, reserves=reserves, free=turns),
             envelope=self.task.resolved.envelope,
             supply=offered.supply,
-            motors=tuple(each for each in motors if stated.motor.any or each.name in known),
+            motors=tuple(each for each in motors if specified.motor.any or each.name in known),
             materials=(chosen.material,) if same else offered.materials,
             incidence=None if turns else chosen.incidence,
         )
@@ -219,8 +219,8 @@ def built_otherwise(task: Task, choice: DriveChoice | None) -> tuple[Alternative
         text = "a ring bonded around each motor's bell in place of the disc"
     wheel = RING if other.on_bell else DISC
     # The bell fixes the bore, which a co-design would change.
-    stated = task.specification
-    built = replace(stated, ocs=replace(stated.ocs, wheel=wheel, co_design=None))
+    specified = task.specification
+    built = replace(specified, ocs=replace(specified.ocs, wheel=wheel, co_design=None))
     found = _whole(replace(task, specification=built))
     return () if found is None else (_answer(text, found, f"--wheel {wheel}"),)
 
@@ -279,8 +279,10 @@ def lighter_by(
     target = choice.chosen.mass - mass
     if target <= 0.0:
         return ()
-    stated = task.specification
-    task = replace(task, specification=replace(stated, ocs=replace(stated.ocs, co_design=None)))
+    specified = task.specification
+    task = replace(
+        task, specification=replace(specified, ocs=replace(specified.ocs, co_design=None))
+    )
 
     def answer(change: Change) -> Alternative | None:
         variant = Variant.of(change, task, choice)

@@ -46,7 +46,7 @@ def assemble_selected(candidate: Candidate) -> Device:
         candidate.drive,
         candidate.carrier,
         layout=candidate.layout,
-        supply=candidate.supply.told,
+        supply=candidate.supply.explicit,
         guard_wall=candidate.guard_wall,
         foot_plate=candidate.foot_plate,
         on_bell=candidate.on_bell,

@@ -42,18 +42,18 @@ class Option:
 
     Attributes:
         text: in words. option: command line option, with its drawback.
-        stated: makes this choice in a specification.
+        specified: makes this choice in a specification.
     """
 
     text: str
     option: str
-    stated: Callable[[Specification], Specification]
+    specified: Callable[[Specification], Specification]
 
     def on(self, change: Change) -> Change:
         """This choice in addition to another change."""
         text = f"{self.text} ({self.option})"
         joined = f"{change.text}, and {text}" if change.text else text
-        return Change(joined, self.stated(change.specification))
+        return Change(joined, self.specified(change.specification))
 
     def beside(self, lever: Lever) -> Lever:
         """This choice in addition to the relaxation of a figure."""
@@ -64,8 +64,8 @@ def options(task: Task) -> Iterator[Option]:
     """Choices that the specification of a task leaves open."""
     specification, offered = task.specification, task.resolved.choice
     assert offered is not None, "there are motors to choose from"
-    stated, pairs = specification.ocs, specified_layout(specification).pairs
-    if pairs and stated.alpha is None and stated.alpha_criterion != LIGHTEST:
+    specified, pairs = specification.ocs, specified_layout(specification).pairs
+    if pairs and specified.alpha is None and specified.alpha_criterion != LIGHTEST:
         yield Option(
             "the incidence with which it is lightest",
             "--alpha-criterion lightest",
@@ -94,11 +94,11 @@ def options(task: Task) -> Iterator[Option]:
 
 def changes(task: Task) -> Iterator[Change]:
     """Each choice that the specification leaves open, more power, more room and more time."""
-    stated, offered = task.specification, task.resolved.choice
+    specified, offered = task.specification, task.resolved.choice
     assert offered is not None, "there are motors to choose from"
-    yield from (Change(each.text, each.stated(stated)) for each in options(task))
+    yield from (Change(each.text, each.specified(specified)) for each in options(task))
     flips = [each for each in task.maneuvers if each.pitches_over]
-    if specified_layout(stated).pairs and any(flip.incidence is None for flip in flips):
+    if specified_layout(specified).pairs and any(flip.incidence is None for flip in flips):
         by_hand = task.with_maneuvers(
             lambda flip: replace(flip, incidence=flip.incidence or 0.0),
             [flip.name for flip in flips],
@@ -107,8 +107,8 @@ def changes(task: Task) -> Iterator[Change]:
     power = offered.supply.power
     if isfinite(power):
         least = format_quantity(power, "kW" if power >= 1e3 else "W", 3)
-        endless = replace(stated.supply, power_max=inf, current_max=inf)
-        yield Change(f"a supply of more than {least}", replace(stated, supply=endless))
+        endless = replace(specified.supply, power_max=inf, current_max=inf)
+        yield Change(f"a supply of more than {least}", replace(specified, supply=endless))
     yield _room(task)(MORE_ROOM)
     if task.maneuvers:
         yield _time(task)(MORE_TIME)

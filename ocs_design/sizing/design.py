@@ -204,7 +204,7 @@ def _by_selection(
     best = with_demands(problem, selection.best)
     selection = replace(selection, ranking=(best, *selection.ranking[1:]))
     chosen, co_designed = best, None
-    stated = problem.layout != PAIR or specification.ocs.alpha is not None
+    specified = problem.layout != PAIR or specification.ocs.alpha is not None
     if specification.ocs.co_design:
         # CasADi takes a third of a second to import.
         from ocs_design.sizing.trajectory.co_design import co_design  # noqa: PLC0415
@@ -218,8 +218,12 @@ def _by_selection(
                 note = "the selection stands: a heavier plate outweighs what the wheels would save"
                 tried = replace(tried, adopted=False, note=note, device=best)
         chosen = tried.device
-        told = {"mass": tried.found_mass, "violation": tried.fine_violation, "remark": tried.note}
-        co_designed = recorded(CoDesignRecord, tried, **told)
+        figures = {
+            "mass": tried.found_mass,
+            "violation": tried.fine_violation,
+            "remark": tried.note,
+        }
+        co_designed = recorded(CoDesignRecord, tried, **figures)
     name = LIGHTEST if criterion is None else str(criterion)
 
     def resized(other: Reserve) -> float | None:
@@ -246,7 +250,7 @@ def _by_selection(
     return Designed(
         device=device,
         sized=replace(sized_selection(problem, chosen, robot.mass_properties), total=total),
-        criterion=BY_HAND if stated else name,
+        criterion=BY_HAND if specified else name,
         choice=DriveChoice(problem, selection, chosen, co_designed, hangs),
         reserve=reserve,
         account=lambda: account(reserve, reality, problem, chosen, resized, nominal=least()),
@@ -282,9 +286,9 @@ def survivors(specification: Specification, robot: Robot, progress: Progress) ->
     if not masses:
         why = f" ({'; '.join(against)})" if against else ""
         return f"No layout that survives it has a feasible device either{why}."
-    told = some_of([f"`--layout {name}` {1e3 * mass:.0f} g" for name, mass in masses.items()])
+    text = some_of([f"`--layout {name}` {1e3 * mass:.0f} g" for name, mass in masses.items()])
     return (
-        f"Layouts that survive it: {told}. `validate DESIGN --survives one` reports at which "
+        f"Layouts that survive it: {text}. `validate DESIGN --survives one` reports at which "
         "instants of failure a device that was not sized to survive still lands."
     )
 
@@ -313,8 +317,8 @@ def lightest_device(task: Task) -> FrontDevice:
             "a front needs motors to choose from",
             hint="leave out --motor none, or motor.name in the specification",
         )
-    stated = task.specification
-    alone = replace(stated, ocs=replace(stated.ocs, co_design=False))
+    specified = task.specification
+    alone = replace(specified, ocs=replace(specified.ocs, co_design=False))
     designed = design_device(replace(task, specification=alone), ranked=False)
     choice = designed.choice
     assert choice is not None, "there are motors to choose from"

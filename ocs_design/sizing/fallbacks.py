@@ -56,15 +56,15 @@ def attempts(specification: Specification) -> Iterator[Specification]:
     Where neither layout nor incidence is specified, the lightest incidence and more pairs.
     """
     yield specification
-    stated = specification.ocs
-    if stated.layout is not None or stated.axes is not None:
+    specified = specification.ocs
+    if specified.layout is not None or specified.axes is not None:
         return
-    free = stated.alpha is None and stated.alpha_criterion is None
+    free = specified.alpha is None and specified.alpha_criterion is None
     for layout in (None, *MORE_PAIRS):
-        for criterion in (stated.alpha_criterion, LIGHTEST)[: 1 + free]:
-            ocs = replace(stated, layout=layout, alpha_criterion=criterion)
+        for criterion in (specified.alpha_criterion, LIGHTEST)[: 1 + free]:
+            ocs = replace(specified, layout=layout, alpha_criterion=criterion)
             asked = replace(specification, ocs=ocs)
-            if ocs != stated and not any(contradictions(asked)):
+            if ocs != specified and not any(contradictions(asked)):
                 yield asked
 
 
@@ -107,24 +107,28 @@ def substitutions(
     specification: Specification, asked: Specification, tried: Sequence[Attempt]
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Substitutes for unspecified values, and why: as assumptions, and as warnings."""
-    told: list[str] = []
+    assumptions: list[str] = []
     few: list[str] = []
-    stated, more, less = specification.ocs.layout, asked.ocs.layout, asked.requirement.reliability
-    if more is not None and more != stated:
-        why = next(each.why for each in tried if each.specification.ocs.layout == stated)
-        told.append(f"Layout: {more}, {WHEELS[more]} wheels. With two: {why}")
+    specified, more, less = (
+        specification.ocs.layout,
+        asked.ocs.layout,
+        asked.requirement.reliability,
+    )
+    if more is not None and more != specified:
+        why = next(each.why for each in tried if each.specification.ocs.layout == specified)
+        assumptions.append(f"Layout: {more}, {WHEELS[more]} wheels. With two: {why}")
         if specification.motor.name not in {None, AUTO}:
             few.append(f"{WHEELS[more]} wheels are used. With two: {why}")
     criterion = specification.ocs.alpha_criterion
     if asked.ocs.alpha_criterion != criterion:
         at_alpha = replace(asked.ocs, alpha_criterion=criterion)
         refused = (each.why for each in tried if each.specification.ocs == at_alpha)
-        told.append(f"Incidence: the lightest. At alpha*: {next(refused, tried[-1].why)}")
+        assumptions.append(f"Incidence: the lightest. At alpha*: {next(refused, tried[-1].why)}")
     if less is not None and less != specification.requirement.reliability:
         why = next(each.why for each in tried if each.specification.ocs == asked.ocs)
-        told.append(f"Reliability: {less:.0%} of robots. For {RELIABILITY:.0%}: {why}")
+        assumptions.append(f"Reliability: {less:.0%} of robots. For {RELIABILITY:.0%}: {why}")
         few.append(f"sized for {less:.0%} of robots: no device is feasible for {RELIABILITY:.0%}")
-    return tuple(told), tuple(few)
+    return tuple(assumptions), tuple(few)
 
 
 def closest_refusal(tried: Sequence[Attempt], robot_mass: float) -> Refused:

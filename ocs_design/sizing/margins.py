@@ -323,7 +323,7 @@ def _electric_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin
     Continuous ratings are for hours and a maneuver lasts a second: exceeding one is not a fault,
     but requires a pause until the mean of i^2 is back at the rating's.
     """
-    supply = wheel.supply.told
+    supply = wheel.supply.explicit
     current_max = finite_or_none(supply.power / supply.voltage)
     power_max = finite_or_none(supply.power)
     for name, power in (("", taken.power_drawn), (FED_BACK, taken.power_fed_back)):

@@ -240,7 +240,7 @@ def placement_warnings(
     device: Device,
     envelope: Envelope,
     *,
-    stated: bool,
+    specified: bool,
     strict: bool = False,
 ) -> tuple[str, ...]:
     """Collisions at the modules' place, one sentence each; joint limits are not considered.
@@ -249,7 +249,7 @@ def placement_warnings(
         mounting: of the device on the robot.
         robot, device: see `mounting_of`.
         envelope: limits of the rims.
-        stated: whether the user chose the position.
+        specified: whether the user chose the position.
         strict: whether collisions are errors.
 
     Raises:
@@ -259,7 +259,7 @@ def placement_warnings(
     if not hit:
         return ()
     layout, hint = device.layout, "no free place was found"
-    if not stated:
+    if not specified:
         hint += f": give one with {_position_option(layout)}"
     elif layout != PAIR:
         hint = f"give another place with {_position_option(layout)}"

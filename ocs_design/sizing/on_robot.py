@@ -99,8 +99,10 @@ class OnRobot:
 
     def footing(self, device: Device, problem: SelectionProblem) -> Footing | None:
         """Footing of a device, placed as the problem specifies; None: no known support."""
-        stated, formed = problem.place.stated, problem.formed
-        return footing_under(device, self.robot, stated=stated, formed=formed, failed=self.failed)
+        specified, formed = problem.place.specified, problem.formed
+        return footing_under(
+            device, self.robot, specified=specified, formed=formed, failed=self.failed
+        )
 
     def with_plate(self, candidate: Candidate, problem: SelectionProblem) -> Candidate:
         """A selected device with its plate or pedestals, where it needs any."""
@@ -247,7 +249,7 @@ class OnRobot:
             feet = least
         footing = self.footing(device, problem) or Footing(problem.place, None)
         carried = footing.carried(self.robot.mass_properties)
-        place = problem.place if problem.place.stated else footing.place
+        place = problem.place if problem.place.specified else footing.place
         return replace(problem, robot=carried, place=place, foot_plate=feet)
 
     def in_rings(

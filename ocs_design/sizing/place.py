@@ -75,7 +75,7 @@ class Place:
     upright: bool = False
 
     @property
-    def stated(self) -> bool:
+    def specified(self) -> bool:
         """Whether it is the same for modules of any size, as a specified one is (`place_at`)."""
         return not (any(map(any, self.outward)) or self.upright)
 

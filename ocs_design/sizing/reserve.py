@@ -243,7 +243,7 @@ class Reality:
     """Sampled errors of a robot and its device, as far as the closed forms depend on them.
 
     Attributes:
-        stated: section `[reality]`; missing values come from its file or the package.
+        specified: section `[reality]`; missing values come from its file or the package.
         height: standing height of the robot [m].
         trunk: second moments of the trunk's mass along x, y and z [kg m^2], shape (3,).
         pushes_off: whether jumps start on the ground.
@@ -251,7 +251,7 @@ class Reality:
         known: keys that are measured, so always at their mean.
     """
 
-    stated: UncertaintySection
+    specified: UncertaintySection
     height: float
     trunk: FloatArray
     pushes_off: bool
@@ -260,7 +260,7 @@ class Reality:
 
     @classmethod
     def of(
-        cls, stated: UncertaintySection, robot: Robot, height: float, *, ballistic: bool
+        cls, specified: UncertaintySection, robot: Robot, height: float, *, ballistic: bool
     ) -> "Reality":
         """Errors of a robot that stands at this height [m]; `ballistic`: it never pushes off."""
         index = robot.tree.body_of_link[robot.trunk]
@@ -268,7 +268,7 @@ class Reality:
         inertia = placed @ robot.tree.bodies[index].mass_properties.inertia @ placed.T
         moments = np.trace(inertia) / 2.0 - np.diag(inertia)
         legs = 0 if ballistic else len(robot.legs)
-        return cls(stated, height, moments, legs > 0, FLIGHT if legs > 3 else 1.0)
+        return cls(specified, height, moments, legs > 0, FLIGHT if legs > 3 else 1.0)
 
     def knowing(self, key: str) -> "Reality":
         """Reality in which this quantity is always at its mean."""
@@ -277,7 +277,7 @@ class Reality:
     def drawn(self, problem: SelectionProblem, device: Candidate) -> Mapping[str, FloatArray]:
         """Sampled values of each key, strata in random order, shape (robots, parts)."""
         motor = Drive.of(device.motor, device.gear, problem.bus_voltage)
-        spreads = complete_uncertainty(self.stated, self.height, motor)
+        spreads = complete_uncertainty(self.specified, self.height, motor)
         random = np.random.Generator(np.random.Philox(key=_SEED))
         strata, found = (np.arange(DRAWN) + 0.5) / DRAWN, {}
         for key in _FELT:

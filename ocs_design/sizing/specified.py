@@ -49,9 +49,9 @@ def selection_problem(task: Task) -> SelectionProblem | None:
     choice = resolved.choice
     if choice is None:
         return None
-    stated, layout = specification.ocs, specified_layout(specification)
-    footing = footing_of(robot, resolved.envelope, stated.position, layout)
-    angle = layout.angle if stated.alpha is None else stated.alpha
+    specified, layout = specification.ocs, specified_layout(specification)
+    footing = footing_of(robot, resolved.envelope, specified.position, layout)
+    angle = layout.angle if specified.alpha is None else specified.alpha
     problem = SelectionProblem(
         robot=footing.carried(robot.mass_properties),
         requirement=specified_requirement(task),
@@ -71,13 +71,13 @@ def selection_problem(task: Task) -> SelectionProblem | None:
         else None,
         lightenings=specified_lightenings(specification.flywheel),
     )
-    return on_bells(problem, choice) if stated.wheel == RING else problem
+    return on_bells(problem, choice) if specified.wheel == RING else problem
 
 
 def specified_requirement(task: Task) -> Requirement:
     """Requirement of a task; turns are direct where the layout spans all three axes."""
-    stated, layout = task.specification.ocs, specified_layout(task.specification)
-    angle = layout.angle if stated.alpha is None else stated.alpha
+    specified, layout = task.specification.ocs, specified_layout(task.specification)
+    angle = layout.angle if specified.alpha is None else specified.alpha
     direct = angle is not None and bool(np.linalg.matrix_rank(layout.axes(angle), _SPANS) == 3)
     return task.resolved.requirement.changed(lambda each: each.with_wheels(direct=direct))
 
@@ -144,8 +144,10 @@ def _held(
     All of them where none can, whose open points then say why. Where a brake stops the wheels, each
     motor is limited to the speed that its joint withstands.
     """
-    stated, motors = specification.motor, choice.motors
-    if not (stated.any or stated.name not in {None, AUTO} or any(g.room for g in choice.gears)):
+    specified, motors = specification.motor, choice.motors
+    if not (
+        specified.any or specified.name not in {None, AUTO} or any(g.room for g in choice.gears)
+    ):
 
         def holds_wheel(motor: Motor) -> bool:
             """Whether the joint of hub and motor carries its peak torque with margin."""
@@ -185,30 +187,30 @@ def _carried(motor: Motor, room: Envelope) -> float | None:
     return hub_joint(mounting, length)
 
 
-def specified_lightenings(stated: FlywheelSection) -> tuple[int, ...]:
+def specified_lightenings(specified: FlywheelSection) -> tuple[int, ...]:
     """Numbers of lightening holes to choose from, 0 for a solid web, as under shrunk-on rims.
 
     A small wheel of a fast motor has no room for holes and may still be the lightest.
     """
-    holes = LIGHTENING if stated.lightening is None else stated.lightening
-    return (0, holes) if holes and stated.web not in {NO_WEB, ALUMINIUM_WEB} else (0,)
+    holes = LIGHTENING if specified.lightening is None else specified.lightening
+    return (0, holes) if holes and specified.web not in {NO_WEB, ALUMINIUM_WEB} else (0,)
 
 
-def specified_cuts(stated: FlywheelSection, room: Envelope) -> RimCuts:
+def specified_cuts(specified: FlywheelSection, room: Envelope) -> RimCuts:
     """Chamfers and balancing holes of wheels with a web.
 
     Raises:
         SpecificationError: no rim within the envelope is large enough for them.
     """
-    if stated.web == NO_WEB:
+    if specified.web == NO_WEB:
         return NO_CUTS
-    cuts = RimCuts(CHAMFER if stated.chamfer is None else stated.chamfer)
-    if stated.balancing_holes:
+    cuts = RimCuts(CHAMFER if specified.chamfer is None else specified.chamfer)
+    if specified.balancing_holes:
         cuts = replace(
             cuts,
-            holes=stated.balancing_holes,
-            hole_radius=(stated.balancing_hole_diameter or BALANCING_DIAMETER) / 2.0,
-            hole_depth=stated.balancing_hole_depth or BALANCING_DEPTH,
+            holes=specified.balancing_holes,
+            hole_radius=(specified.balancing_hole_diameter or BALANCING_DIAMETER) / 2.0,
+            hole_depth=specified.balancing_hole_depth or BALANCING_DEPTH,
         )
     name, faults = "balancing_holes" if cuts.holes else "chamfer", []
     bore = max(room.inner_radius_min, cuts.inner_radius_min)
@@ -234,8 +236,8 @@ def specified_cuts(stated: FlywheelSection, room: Envelope) -> RimCuts:
 
 def specified_layout(specification: Specification) -> Layout:
     """Layout of the wheels' axes; by default a pair."""
-    stated = specification.ocs.layout
-    if stated == ALL_LAYOUTS:
+    specified = specification.ocs.layout
+    if specified == ALL_LAYOUTS:
         raise UsageError(
             f"ocs.layout: {ALL_LAYOUTS!r} is not the layout of a single device",
             hint="`size --layout all` compares all layouts; name one of them here.",
@@ -244,13 +246,13 @@ def specified_layout(specification: Specification) -> Layout:
         axes = np.reshape(specification.ocs.axes, (-1, 3))
         axes = axes / np.linalg.norm(axes, axis=1, keepdims=True)
         return Layout(LayoutName.BY_HAND, tuple(vector(axis) for axis in axes))
-    return PAIR if stated is None else Layout(LayoutName(stated))
+    return PAIR if specified is None else Layout(LayoutName(specified))
 
 
 def specified_criterion(specification: Specification) -> Criterion | None:
     """Criterion for a pair's incidence; None: whatever makes the device lightest."""
-    stated = specification.ocs.alpha_criterion or EQUAL_RATE
-    return None if stated == LIGHTEST else Criterion(stated)
+    specified = specification.ocs.alpha_criterion or EQUAL_RATE
+    return None if specified == LIGHTEST else Criterion(specified)
 
 
 class CannotSurvive(Infeasible):

@@ -182,8 +182,8 @@ def import_failures(modules: Sequence[str]) -> Mapping[str, str]:
     except subprocess.TimeoutExpired as error:
         said = (error.stdout or b"").decode() if isinstance(error.stdout, bytes) else ""
         ended = f"not done within {TIME_LIMIT:g} s"
-    told = dict(json.loads(line) for line in said.splitlines())
-    return {name: told.get(name, ended) for name in modules if told.get(name, ended)}
+    answers = dict(json.loads(line) for line in said.splitlines())
+    return {name: answers.get(name, ended) for name in modules if answers.get(name, ended)}
 
 
 def python() -> Finding:

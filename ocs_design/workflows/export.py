@@ -136,11 +136,11 @@ def export_design(
             new.add(REPORT_FILE)
         made = {name: value for name, value in file_hashes(staging).items() if name in new}
         (staging / DESIGN_FILE).write_bytes(to_json(again))
-    told = known.robot.warnings
+    recorded = known.robot.warnings
     return Exported(
         folder=str(folder),
         files=made,
-        warnings=(*warnings, *(remark for remark in remarks if remark not in told)),
+        warnings=(*warnings, *(remark for remark in remarks if remark not in recorded)),
         notes=notes,
     )
 

@@ -97,13 +97,13 @@ class PlannedFlights(Flights):
         return found
 
     def campaign(
-        self, runs: Iterable[Run | ValidationRecord], stated: UncertaintySection, seed: int
+        self, runs: Iterable[Run | ValidationRecord], specified: UncertaintySection, seed: int
     ) -> Campaign:
         """Everything that determines the samples.
 
         Args:
             runs: as designed, which show what the legs can take.
-            stated: specified deviations from the design.
+            specified: specified deviations from the design.
             seed: of all samples.
 
         Raises:
@@ -112,7 +112,7 @@ class PlannedFlights(Flights):
         if unclear := refusal(self.robot):
             hint = "name a link of the trunk whose z axis points up with --trunk"
             raise OcsError(unclear, hint=hint)
-        uncertainty = Uncertainty.of(stated, self.robot, self.device, self.detection)
+        uncertainty = Uncertainty.of(specified, self.robot, self.device, self.detection)
         can_stand = [run.can_stand for run in runs if run.ocs]
         return make_campaign(self, can_stand=can_stand, uncertainty=uncertainty, seed=seed)
 
@@ -140,7 +140,7 @@ class DesignFlights(PlannedFlights):
 
 def read_flights(
     path: AnyPath,
-    stated: Specification,
+    specified: Specification,
     *,
     robot_file: AnyPath | None = None,
     package_paths: Mapping[str, AnyPath] | None = None,
@@ -150,7 +150,7 @@ def read_flights(
 
     Args:
         path: of a `design.json`, or of its folder.
-        stated: `[validation]` and `[reality]`, which override those of the design; its other
+        specified: `[validation]` and `[reality]`, which override those of the design; its other
             sections are not used.
         robot_file: of the robot, in place of the one that the design names.
         package_paths: folders of packages, in addition to those that the design names.
@@ -162,9 +162,9 @@ def read_flights(
     """
     path = design_file(path)
     design, device = read_designed(path)
-    if stated.reality.file is not None:
+    if specified.reality.file is not None:
         # An unreadable file is reported even if nothing is sampled.
-        entries(Path(stated.reality.file))
+        entries(Path(specified.reality.file))
     maneuvers = tuple(each.maneuver() for each in design.requirement.maneuvers)
     if not maneuvers:
         raise OcsError(
@@ -174,7 +174,7 @@ def read_flights(
     where = Whereabouts(path, robot_file, package_paths or {}, "say where it is with --robot FILE")
     robot, warnings = read_recorded_robot(design.robot, where, strict=strict)
     control = overridden(
-        design.control or control_of(ValidationSection(), robot), stated.validation
+        design.control or control_of(ValidationSection(), robot), specified.validation
     )
     references: Mapping[str, Trajectory] = {}
     if design.selection is not None:
@@ -197,14 +197,14 @@ def read_flights(
         control=control,
         options=Options.under(control),
         # A file replaces all distributions of the design.
-        uncertainty=stated.reality
-        if stated.reality.file is not None
-        else merge_section(uncertainty_of_texts(design.reality, str(path)), stated.reality),
+        uncertainty=specified.reality
+        if specified.reality.file is not None
+        else merge_section(uncertainty_of_texts(design.reality, str(path)), specified.reality),
         references=references,
         jumps=jumps,
         warnings=warnings,
-        detection=stated.requirement.notices
-        if stated.requirement.survives is not None
+        detection=specified.requirement.notices
+        if specified.requirement.survives is not None
         else design.requirement.detection,
     )
 

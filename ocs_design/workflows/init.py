@@ -32,13 +32,13 @@ class Start:
     """The robot and the defaults from which a specification starts.
 
     Attributes:
-        stated: what is already specified.
+        specified: what is already specified.
         robot: to specify for; None: not known yet.
         default: the defaults; Solo12's if the robot is not known.
         examples: maneuvers that are not defaults, scaled in the same way.
     """
 
-    stated: Specification
+    specified: Specification
     robot: Robot | None
     default: Specification
     examples: tuple[Maneuver, ...]
@@ -50,7 +50,7 @@ class Start:
 
 
 def read_start(
-    stated: Specification,
+    specified: Specification,
     *,
     package_paths: Mapping[str, Path] | None = None,
     strict: bool = False,
@@ -60,10 +60,10 @@ def read_start(
     Raises:
         OcsError: see `read_specified_robot`.
     """
-    own = stated.robot
+    own = specified.robot
     given = (own.file, own.mass, own.inertia, own.human)
     robot = (
-        read_specified_robot(stated, package_paths=package_paths, strict=strict)
+        read_specified_robot(specified, package_paths=package_paths, strict=strict)
         if any(item is not None for item in given)
         else None
     )
@@ -75,11 +75,11 @@ def read_start(
         inertia = (roll, pitch, trace - roll - pitch)
         scaled_to = robot_by_hand(SOLO12_MASS, inertia, name="Solo12")
     gains = wheel_gains(scaled_to)
-    gravity = stated.requirement.gravity or STANDARD_GRAVITY
+    gravity = specified.requirement.gravity or STANDARD_GRAVITY
     default = default_specification(
         scaled_to, kp=gains.stiffness, kd=gains.damping, gravity=gravity
     )
-    return Start(stated, robot, default, example_maneuvers(scaled_to, gravity))
+    return Start(specified, robot, default, example_maneuvers(scaled_to, gravity))
 
 
 def write_start(
@@ -106,7 +106,7 @@ def write_start(
     command = shlex.join(["ocs-design", "size", *named, "--spec", str(file), *packages])
     whose = "a device" if start.robot is None else f"the device of {start.robot.name}"
     text = commented_toml(
-        with_files_from(start.stated, file.parent),
+        with_files_from(start.specified, file.parent),
         start.default,
         title=f"What {whose} must do and may be.\n\n  {command}",
         chosen=chosen,

@@ -37,11 +37,11 @@ def compare_layouts(
     Raises:
         OcsError: the robot cannot be read, or the specification does not fit it.
     """
-    steps, stated = Steps.of(progress), specification_of(design_for)
-    robot = read_specified_robot(stated, package_paths=package_paths, strict=strict)
+    steps, specified = Steps.of(progress), specification_of(design_for)
+    robot = read_specified_robot(specified, package_paths=package_paths, strict=strict)
     answers = []
     for layout in LAYOUTS:
-        asked = replace(stated, ocs=replace(stated.ocs, layout=layout))
+        asked = replace(specified, ocs=replace(specified.ocs, layout=layout))
         with steps.step(f"size {layout}") as step:
             task = Task.of(asked, robot)
             try:

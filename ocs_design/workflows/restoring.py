@@ -83,11 +83,11 @@ def robot_of(record: RobotRecord, path: AnyPath, package_paths: Mapping[str, Any
         )
     values = robot.tree.complete(record.posture)
     # Warnings about the file's zero do not apply to the posture used for sizing.
-    told = (each for each in robot.warnings if not each.startswith(OUTSIDE))
+    inside = (each for each in robot.warnings if not each.startswith(OUTSIDE))
     beyond = (each for each in record.warnings if each.startswith(OUTSIDE))
     return replace(
         robot,
-        warnings=(*told, *beyond),
+        warnings=(*inside, *beyond),
         posture=values,
         posture_name=record.posture_name,
         standing_height=record.standing_height,

@@ -134,8 +134,8 @@ def size_on_robot(
     task = Task.of(specification, robot)
     resolved = task.resolved.estimated(factors)
     require_trot(resolved.requirement.maneuvers, robot)
-    stated, jumping = specification.validation, None
-    if stated.enabled is not False and not control_of(stated, robot).ballistic:
+    specified, jumping = specification.validation, None
+    if specified.enabled is not False and not control_of(specified, robot).ballistic:
         # CasADi takes a third of a second to import, and flights from lift-off do not need it.
         from ocs_design.jumping.planning import JumpPlanning  # noqa: PLC0415
 
@@ -176,7 +176,7 @@ def warnings_of(placed: Placed, *, strict: bool) -> tuple[str, ...]:
         robot,
         device,
         placed.resolved.envelope,
-        stated=placed.specification.ocs.position is not None,
+        specified=placed.specification.ocs.position is not None,
         strict=strict,
     )
 
@@ -336,17 +336,17 @@ class Proof:
     certificate: Certificate | None = None
 
 
-def prove(placed: Placed, stated: ValidationSection, steps: Steps) -> Proof:
+def prove(placed: Placed, specified: ValidationSection, steps: Steps) -> Proof:
     """Plan the maneuvers and, if validation is enabled, fly them."""
     requirement, jumps = placed.resolved.requirement, dict[str, JumpPlans]()
     with steps.step("plan the maneuvers"):
         references = references_of(placed, requirement.maneuvers)
-    if stated.enabled is not False:
+    if specified.enabled is not False:
         with steps.step("plan the jumps") as step:
             jumps = {} if placed.jumping is None else dict(placed.jumping.plans())
             others = [name for name, jump in jumps.items() if jump.carrying.legs is None]
             step.note = f"starting at lift-off: {', '.join(others)}" if others else ""
-    control = control_of(stated, placed.robot)
+    control = control_of(specified, placed.robot)
     flights = PlannedFlights(
         placed.robot,
         placed.designed.device,
@@ -357,7 +357,7 @@ def prove(placed: Placed, stated: ValidationSection, steps: Steps) -> Proof:
         jumps=jumps,
         detection=requirement.detection,
     )
-    if stated.enabled is False:
+    if specified.enabled is False:
         return Proof(references, flights)
     runs = flights.fly(steps, pose_rate=POSE_RATE)
     return Proof(references, flights, runs, flights.fly_stopped(steps))
@@ -377,16 +377,16 @@ def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tupl
         UsageError: there is no maneuver to fly.
     """
     specification = placed.specification
-    stated = specification.validation
+    specified = specification.validation
     if not proof.runs:
         raise UsageError(
             "--certify repeats maneuvers, but none is specified",
             hint="leave it out, or add a maneuver, as in --fall 1m",
         )
     test = SequentialTest(placed.resolved.reliability or RELIABILITY)
-    told: list[str] = []
+    rounds: list[str] = []
     for number in range(1, ROUNDS + 1):
-        campaign = proof.flights.campaign(proof.runs, specification.reality, stated.seed or 0)
+        campaign = proof.flights.campaign(proof.runs, specification.reality, specified.seed or 0)
         with steps.step(f"fly the certificate, round {number}") as step:
             flown = run_campaign(
                 campaign,
@@ -399,9 +399,9 @@ def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tupl
         reserve, learnt = placed.designed.reserve, None
         if found.verdict == Conclusion.SHORT and number < ROUNDS and reserve is not None:
             learnt = lesson(test, campaign, flown)
-            told.append(f"round {number}: {step.note}; {learnt.told}")
+            rounds.append(f"round {number}: {step.note}; {learnt.observation}")
         outcomes = flown.take(slice(found.samples))
-        found = replace(found, rounds=tuple(told))
+        found = replace(found, rounds=tuple(rounds))
         record = replace(summarised(campaign, outcomes, test.most), certificate=found)
         proof = replace(proof, certificate=Certificate(campaign, outcomes, record))
         if reserve is None or learnt is None or learnt.factor == 1.0:
@@ -420,5 +420,5 @@ def certify(placed: Placed, proof: Proof, steps: Steps, *, strict: bool) -> tupl
                 break
             step.note = again.combinations
         placed = again.telling(placed.taken)
-        proof = prove(placed, stated, steps)
+        proof = prove(placed, specified, steps)
     return placed, proof

@@ -117,10 +117,10 @@ def design_ocs(
         OcsError: see `exceptions`; nothing is written then.
     """
     specification = specification_of(design_for)
-    stated = specification.validation
-    flying = {"--video films the": stated.video, "--certify repeats the": stated.certify}
+    specified = specification.validation
+    flying = {"--video films the": specified.video, "--certify repeats the": specified.certify}
     for what, wanted in flying.items():
-        if wanted and stated.enabled is False:
+        if wanted and specified.enabled is False:
             raise UsageError(
                 f"{what} flights, but --no-validate flies none", hint="leave one of them out"
             )
@@ -137,9 +137,9 @@ def design_ocs(
     placed = size_or_advise(specification, robot, steps, strict=strict)
     placed = size_for_turns(placed, steps, strict=strict)
     look = partial(lighter_otherwise, call=(beside or Beside()).call)
-    otherwise = None if stated.certify else look(placed.task, placed.designed.choice)
-    proof = prove(placed, stated, steps)
-    if stated.certify:
+    otherwise = None if specified.certify else look(placed.task, placed.designed.choice)
+    proof = prove(placed, specified, steps)
+    if specified.certify:
         placed, proof = certify(placed, proof, steps, strict=strict)
     otherwise = otherwise or look(placed.task, placed.designed.choice)
     device, runs = placed.designed.device, proof.runs
@@ -159,7 +159,7 @@ def design_ocs(
             lighter, owed = otherwise()
         conceded = _lighter_changes(placed, owed, steps)
         forget_collision_model()
-        control = control_of(stated, robot)
+        control = control_of(specified, robot)
         design = replace(
             record_design(
                 robot,
@@ -169,7 +169,7 @@ def design_ocs(
                 built=built,
                 mounting=placed.mounting,
                 warnings=(*turns_not_made(placed, proof.references), *placed.warnings, *unfilmed),
-                seed=stated.seed or 0,
+                seed=specified.seed or 0,
                 package_paths=package_paths,
             ),
             validation=tuple(map(record_run, runs)),
@@ -194,9 +194,9 @@ def design_ocs(
             )
         with steps.step("write the report"):
             # Bill of materials and assembly, which also report on the flights.
-            told = Subject.of(robot, device, safe_name(robot.name)).recorded(design)
-            export_formats(told, [each for each in USUAL_FORMATS if each.needs_margins], staging)
-            design = _write_report(design, told, runs, staging, command)
+            subject = Subject.of(robot, device, safe_name(robot.name)).recorded(design)
+            export_formats(subject, [each for each in USUAL_FORMATS if each.needs_margins], staging)
+            design = _write_report(design, subject, runs, staging, command)
         (staging / DESIGN_FILE).write_bytes(to_json(design))
     return Outcome(design, folder, robot, device, runs)
 

@@ -48,7 +48,7 @@ SAMPLES_VERSION = 2
 class _Request:
     """Request to `validate_design`: what to fly, and where to keep it."""
 
-    stated: Specification
+    specified: Specification
     samples: int | None
     until_width: float | None
     scheduler: str | None
@@ -69,7 +69,7 @@ class _Request:
         """
         wanted = {"--samples": self.samples, "--sample": self.sample, "--replay": self.replay}
         given = [name for name, value in wanted.items() if value is not None]
-        certifies, engine = self.stated.validation.certify is True, f"--engine {self.engine}"
+        certifies, engine = self.specified.validation.certify is True, f"--engine {self.engine}"
         elsewhere, width = self.engine != EngineName.MUJOCO, self.until_width
         refused = {
             f"{' and '.join(given)} exclude each other": (len(given) > 1, "give one"),
@@ -122,7 +122,7 @@ class _Request:
     @property
     def many(self) -> bool:
         """Whether samples are flown, in addition to the flights as designed."""
-        return self.samples is not None or self.stated.validation.certify is True
+        return self.samples is not None or self.specified.validation.certify is True
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,10 +196,10 @@ def validate_design(
         OcsError: options exclude each other, the design or its robot cannot be read, the folder
             cannot be written, or the engine or the display is missing.
     """
-    steps, stated = Steps.of(progress), specification or Specification()
+    steps, specified = Steps.of(progress), specification or Specification()
     asked = ValidationSection(certify=certify or None, seed=seed)
     request = _Request(
-        stated=replace(stated, validation=merge_section(stated.validation, asked)),
+        specified=replace(specified, validation=merge_section(specified.validation, asked)),
         samples=samples,
         until_width=until_width,
         scheduler=scheduler,
@@ -219,7 +219,7 @@ def validate_design(
     with steps.step("read the design, plan its flights") as step:
         flights = read_flights(
             design,
-            request.stated,
+            request.specified,
             robot_file=robot_file,
             package_paths=package_paths,
             strict=strict,
@@ -236,14 +236,14 @@ def validate_design(
     found = Validated(
         design=str(flights.path),
         robot=flights.robot.name,
-        warnings=(*flights.warnings, *_unused(request.stated)),
+        warnings=(*flights.warnings, *_unused(request.specified)),
         validation=tuple(map(record_run, runs)),
     )
     if request.many:
         record, files = _fly_samples(request, flights, runs, steps, physics)
         return Validation(replace(found, monte_carlo=record), request.out, files, flights, runs)
     if request.alone:
-        campaign = campaign_of(flights, runs, request.stated.validation.seed)
+        campaign = campaign_of(flights, runs, request.specified.validation.seed)
         drawn = campaign.sample(sample or 0)
         if case is not None:
             drawn = case.drawn(flights.device.layout, flights.detection)
@@ -283,15 +283,15 @@ _NOT_OF_FLIGHTS = ("validation.enabled", "validation.video")
 _ALSO_OF_FLIGHTS = ("requirement.survives", "requirement.detection")
 
 
-def _unused(stated: Specification) -> tuple[str, ...]:
+def _unused(specified: Specification) -> tuple[str, ...]:
     """A sentence on the keys of a specification that do not apply to a finished design."""
     names = [
         path
-        for path in stated.stated
+        for path in specified.specified
         if path in _NOT_OF_FLIGHTS
         or not (path.partition(".")[0] in _OF_FLIGHTS or path in _ALSO_OF_FLIGHTS)
     ]
-    names += [f"maneuver {each.name!r}" for each in stated.maneuvers]
+    names += [f"maneuver {each.name!r}" for each in specified.maneuvers]
     if not names:
         return ()
     return (
@@ -327,10 +327,10 @@ def _fly_samples(
 ) -> tuple[MonteCarloRecord, tuple[str, ...]]:
     """Fly samples of the design; returns the record and the files."""
     test = None
-    if request.stated.validation.certify:
+    if request.specified.validation.certify:
         test = SequentialTest(flights.design.requirement.reliability or RELIABILITY)
     asked, folder = request.samples or (0 if test is None else test.most), request.out
-    campaign = replace(campaign_of(flights, runs, request.stated.validation.seed), engine=engine)
+    campaign = replace(campaign_of(flights, runs, request.specified.validation.seed), engine=engine)
     enough = None if request.until_width is None else narrow(request.until_width)
     enough = enough if test is None else test.decided
     flown, storage = flights.flown_hash, None

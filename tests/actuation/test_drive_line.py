@@ -238,8 +238,8 @@ def test_published_figures_per_kv():
         (TorqueConstantConvention.FOC, 8.270),
         (TorqueConstantConvention.FOC_RMS, 11.695),
     ]:
-        stated = figure / kv
-        assert six_step_torque_constant(stated, convention) == pytest.approx(six_step, rel=1e-4)
+        specified = figure / kv
+        assert six_step_torque_constant(specified, convention) == pytest.approx(six_step, rel=1e-4)
 
 
 def test_power_torque_and_heat_are_those_of_three_sine_phases():

@@ -222,8 +222,8 @@ MASSES = {
 @pytest.mark.parametrize(("name", "length"), MASSES)
 def test_screws_weigh_what_a_maker_says(name, length):
     """Heads are of their largest size here, so that light ones come out heavier by 30 mg."""
-    stated = MASSES[name, length] * 1e-3
-    assert screw(name).mass(1e-3 * length) == pytest.approx(stated, rel=0.1, abs=5e-5)
+    specified = MASSES[name, length] * 1e-3
+    assert screw(name).mass(1e-3 * length) == pytest.approx(specified, rel=0.1, abs=5e-5)
 
 
 def test_every_screw_passes_its_clearance_hole_and_is_cut_into_the_other():

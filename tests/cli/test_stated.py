@@ -17,19 +17,19 @@ from ocs_design.common.errors import UsageError
 from ocs_design.requirement.choices import unknown_names
 
 
-def stated(**parameters):
+def specified(**parameters):
     return specified_by_command(SimpleNamespace(params={"spec": None, **parameters}))
 
 
 def test_nothing_stated_is_an_empty_specification():
-    specification = stated(robot=None, motor=None, joint=(), co_design=False)
+    specification = specified(robot=None, motor=None, joint=(), co_design=False)
     assert specification.motor.name is None
     assert specification.ocs.co_design is None
     assert specification.robot.joints is None
 
 
 def test_options_are_keys_by_their_names():
-    specification = stated(
+    specification = specified(
         robot="dog.urdf", motor="none", r_max="40 mm", co_design=True, joint=("knee=90 deg",)
     )
     assert specification.robot.file == "dog.urdf"
@@ -40,13 +40,13 @@ def test_options_are_keys_by_their_names():
 
 
 def test_zero_is_something_that_is_stated():
-    assert stated(seed=0).validation.seed == 0
-    assert stated(seed=None).validation.seed is None
+    assert specified(seed=0).validation.seed == 0
+    assert specified(seed=None).validation.seed is None
 
 
 def test_a_robot_without_a_name_is_told_as_the_argument_that_it_is():
     with pytest.raises(UsageError, match=r"^ROBOT: "):
-        stated(robot="")
+        specified(robot="")
 
 
 def test_the_command_to_fly_a_sample_again_has_all_that_makes_it_the_same_robot():
@@ -66,16 +66,16 @@ def test_the_command_to_fly_a_sample_again_has_all_that_makes_it_the_same_robot(
 
 
 def test_what_is_declined_is_false():
-    assert stated(no_validate=True).validation.enabled is False
-    assert stated(no_validate=False).validation.enabled is None
-    assert stated(video=True).validation.video is True
-    assert stated(video=False).validation.video is None
+    assert specified(no_validate=True).validation.enabled is False
+    assert specified(no_validate=False).validation.enabled is None
+    assert specified(video=True).validation.video is True
+    assert specified(video=False).validation.video is None
 
 
 def test_an_option_goes_over_the_file_and_leaves_the_rest(tmp_path):
     file = tmp_path / "spec.toml"
     file.write_text('[motor]\nname = "MN4010 KV580"\nbus_voltage = "48 V"\n')
-    specification = stated(spec=str(file), motor="none")
+    specification = specified(spec=str(file), motor="none")
     assert (specification.motor.name, specification.supply.voltage) == ("none", 48.0)
 
 

@@ -109,8 +109,8 @@ def test_every_part_weighs_its_volume(sized):
 
 def test_a_controller_weighs_by_its_current(sized):
     """Of a phase's amplitude: of six-step current through two lines, 2 / sqrt(3)."""
-    stated = r"Controllers: ([\d.]+) g each, plus ([\d.]+) g per"
-    base, rate = re.search(stated, sized.said).groups()
+    specified = r"Controllers: ([\d.]+) g each, plus ([\d.]+) g per"
+    base, rate = re.search(specified, sized.said).groups()
     peak = float(sized.motor["peak_current_a"]) * 2.0 / math.sqrt(3.0)
     assert grams(sized, "motor controller") == pytest.approx(
         float(base) + float(rate) * peak, abs=0.05

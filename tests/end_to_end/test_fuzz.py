@@ -154,7 +154,7 @@ def toml(value):
 
 @FUZZ
 @given(
-    stated=st.dictionaries(st.sampled_from([*all_keys(), "ocs.beta"]), VALUES, max_size=4),
+    specified=st.dictionaries(st.sampled_from([*all_keys(), "ocs.beta"]), VALUES, max_size=4),
     maneuver=st.dictionaries(
         st.sampled_from(sorted({name for kind in MANEUVER_KINDS.values() for name in kind.values})),
         VALUES,
@@ -163,8 +163,8 @@ def toml(value):
     kind=st.sampled_from([*MANEUVER_KINDS, "salto", None]),
     drive=DRIVES,
 )
-def test_specifications(folder, stated, maneuver, kind, drive):
-    lines = [f"{path} = {toml(value)}" for path, value in stated.items()]
+def test_specifications(folder, specified, maneuver, kind, drive):
+    lines = [f"{path} = {toml(value)}" for path, value in specified.items()]
     if kind is not None:
         lines += ["[[maneuver]]", f"kind = {toml(kind)}"]
         lines += [f"{name} = {toml(value)}" for name, value in maneuver.items()]

@@ -116,9 +116,9 @@ def test_doubts_are_told_before_the_search_and_assumptions_after_it(odd):
     assert said.stdout == ""
     front = run("pareto", odd, *WEAK, "--points", "2").stderr
     assert front.index("warning") < front.index("choose a device")
-    stated = run("size", SOLO12, *WEAK, "--fall", "1m", "--tilt", "30deg", "--json")
-    assert stated.document["error"]["warnings"] == []
-    assert "defaults" not in stated.document["error"]["hint"]
+    specified = run("size", SOLO12, *WEAK, "--fall", "1m", "--tilt", "30deg", "--json")
+    assert specified.document["error"]["warnings"] == []
+    assert "defaults" not in specified.document["error"]["hint"]
 
 
 @pytest.mark.slow

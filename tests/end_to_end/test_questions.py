@@ -68,9 +68,9 @@ def answers_alone():
     """A robot is read once, and no report is written: the terminal answers."""
     robots, read = {}, size.read_specified_robot
 
-    def read_once(stated, **options):
-        key = str(stated.robot)
-        robots[key] = robots.get(key) or read(stated, **options)
+    def read_once(specified, **options):
+        key = str(specified.robot)
+        robots[key] = robots.get(key) or read(specified, **options)
         return robots[key]
 
     with pytest.MonkeyPatch.context() as patch:
@@ -91,11 +91,11 @@ def test_a_question_has_its_answer(question, tmp_path, monkeypatch):
         monkeypatch.setattr(alternatives, "owed_to", lambda *_: None)
     monkeypatch.setenv("COLUMNS", "200")
     (tmp_path / "examples").symlink_to(ROOT / "examples")
-    stated = re.search(r"[Ee]xit code (\d)", question["prose"] + question["after"])
+    specified = re.search(r"[Ee]xit code (\d)", question["prose"] + question["after"])
     said, code = "", 0
     for command in question["command"].replace("$GO2", str(GO2)).split("&&"):
         result = run(*shlex.split(command)[1:])
         said, code = f"{said} {result.said}", result.code
-    assert code == (int(stated[1]) if stated else 0), said
+    assert code == (int(specified[1]) if specified else 0), said
     missing = [line for line in question["answer"].splitlines() if not told(line, said)]
     assert not missing, said

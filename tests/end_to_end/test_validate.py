@@ -198,8 +198,8 @@ def test_what_too_few_flights_say_is_undecided(by_hand):
     assert (record["samples"], record["asked"]) == (40, 40)
 
 
-def certified(stated, *options):
-    Path("drop.toml").write_text(stated)
+def certified(specified, *options):
+    Path("drop.toml").write_text(specified)
     return run("size", *options, "--spec", "drop.toml", "--certify", "--json", "-o", "ocs")
 
 

@@ -38,15 +38,15 @@ def specification(name):
 
 @pytest.mark.parametrize("name", standing.MACHINES)
 def test_a_specification_has_the_machine_without_its_wheels(name):
-    stated, machine = specification(name), standing.MACHINES[name]
-    robot = read_specified_robot(stated)
+    specified, machine = specification(name), standing.MACHINES[name]
+    robot = read_specified_robot(specified)
     assert robot.mass == pytest.approx(machine.body.mass, abs=1e-4)
     largest = np.abs(machine.body.inertia).max()
     np.testing.assert_allclose(robot.inertia, machine.body.inertia, atol=5e-4 * largest)
     # Of a pair only the left wheel's place is stated.
-    stated_at = np.reshape(stated.ocs.position, (-1, 3))
+    stated_at = np.reshape(specified.ocs.position, (-1, 3))
     np.testing.assert_allclose(stated_at, machine.positions[: len(stated_at)], atol=6e-5)
-    for maneuver in stated.maneuvers:
+    for maneuver in specified.maneuvers:
         np.testing.assert_allclose(maneuver.pivot, machine.pivot, atol=6e-5)
 
 
@@ -114,21 +114,21 @@ def test_the_room_for_a_rim_is_that_of_the_wheel_as_built(name, mass, spin, acro
 @pytest.fixture(scope="module")
 def hopping():
     """REx Hopper's device."""
-    stated = specification("rex_hopper")
-    nominal = replace(stated, requirement=replace(stated.requirement, reliability=0.5))
-    return stated, design_device(read_task(nominal), ranked=False).device
+    specified = specification("rex_hopper")
+    nominal = replace(specified, requirement=replace(specified.requirement, reliability=0.5))
+    return specified, design_device(read_task(nominal), ranked=False).device
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("axis", ["roll", "pitch"])
 def test_rex_hopper_as_built_catches_itself_from_16_degrees(axis, hopping):
     """Planned with everything that its motors have, in the whole machine as published."""
-    stated, device = hopping
+    specified, device = hopping
     whole = standing.REX_HOPPER
     body = MassProperties(whole.mass, whole.com, whole.inertia)
     for degrees, catches in ((16.0, True), (17.0, False)):
         start = {"roll": 0.0, "pitch": 0.0, axis: np.radians(degrees)}
-        catch = replace(stated.maneuvers[0], pivot=(0.0, 0.0, 0.0), **start).on(body)
+        catch = replace(specified.maneuvers[0], pivot=(0.0, 0.0, 0.0), **start).on(body)
         built = Gyrostat(catch.inertia, device.axes, 6.60959e-3, 0.0, catch.pull, catch.axis)
         planned = gentlest(catch.boundary(0.0), built, drive_line_of(device))
         assert (not planned.failure) == catches
@@ -142,13 +142,13 @@ SLEWS = [(10.0, 20.0), (30.0, 30.0), (60.0, 60.0), (90.0, 60.0), (45.0, 10.0)]
 
 
 def test_the_satellite_is_the_tables_in_small_and_slews_as_the_table_has_it():
-    stated = specification("satellite")
-    robot = read_specified_robot(stated)
+    specified = specification("satellite")
+    robot = read_specified_robot(specified)
     mass, inertia = BUS
     np.testing.assert_allclose(
         np.diag(robot.inertia), inertia * (robot.mass / mass) ** (5.0 / 3.0), rtol=5e-4
     )
-    asked = resolve(stated, robot, 1.0).requirement.maneuvers
+    asked = resolve(specified, robot, 1.0).requirement.maneuvers
     angles = np.degrees([each.roll + each.pitch + each.yaw for each in asked])
     turned = set(zip(angles.round(6).tolist(), [each.duration for each in asked], strict=True))
     assert turned == {(90.0, 60.0), (45.0, 10.0)}

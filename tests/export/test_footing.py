@@ -30,7 +30,7 @@ def robot():
 
 @pytest.fixture(scope="module")
 def plated(robot):
-    return stand_on_trunk(driven_device(), robot, stated=False)
+    return stand_on_trunk(driven_device(), robot, specified=False)
 
 
 def test_the_holes_of_the_plate_are_told(robot, plated):

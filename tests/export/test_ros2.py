@@ -71,10 +71,10 @@ def test_every_moving_joint_is_in_ros2_control_and_in_a_controller(tmp_path):
     assert command.get("name") == "effort"
     assert [float(each.text) for each in command] == [-1.0, 1.0]
     controllers = yaml.safe_load((package / "config" / "controllers.yaml").read_text())
-    stated = {each: controllers[each]["ros__parameters"] for each in controllers}
-    moved = [*stated["joint_controller"]["joints"], *stated["ocs_controller"]["joints"]]
+    specified = {each: controllers[each]["ros__parameters"] for each in controllers}
+    moved = [*specified["joint_controller"]["joints"], *specified["ocs_controller"]["joints"]]
     assert moved == list(declared)
-    manager = stated["controller_manager"]
+    manager = specified["controller_manager"]
     assert set(manager) - {"update_rate", "joint_state_broadcaster"} == set(controllers) - {
         "controller_manager"
     }

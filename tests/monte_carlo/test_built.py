@@ -20,9 +20,9 @@ from ocs_design.simulation.wheel_law import Allocation, Gains, WheelLaw
 UP = (0.0, 0.0, 1.0)
 
 
-def drawn(robot, device=None, **stated):
+def drawn(robot, device=None, **specified):
     """World as designed, and as built with these errors and no others."""
-    given = {**NOTHING, **{name: Constant(value) for name, value in stated.items()}}
+    given = {**NOTHING, **{name: Constant(value) for name, value in specified.items()}}
     campaign = short_campaign(robot, UncertaintySection(**given), device=device, drop_only=True)
     world = campaign.flights[0].world
     return world, campaign.built(campaign.sample(0), 0)
@@ -67,8 +67,8 @@ def shift_trunk(scene):
 @pytest.mark.parametrize(
     ("stated", "change"), [({"mass_error": 0.1}, scale_all), ({"com_error": 0.01}, shift_trunk)]
 )
-def test_it_moves_as_one_that_is_compiled_so(solo12, stated, change):
-    world, robot = drawn(solo12, **stated)
+def test_it_moves_as_one_that_is_compiled_so(solo12, specified, change):
+    world, robot = drawn(solo12, **specified)
     assert_moves_as_compiled(solo12, robot, world, driven_device(), change, least=1e-3)
 
 

@@ -119,12 +119,14 @@ def test_the_reserve_is_raised_by_what_the_tilt_lacks(campaign, spread):
     outcomes.metrics[:, 0, METRICS.index("touchdown_roll")] = tilt
     learnt = lesson(SequentialTest(0.99), campaign, outcomes)
     assert learnt.factor == pytest.approx(min(2.576 * spread / np.radians(5.0), LARGEST), rel=0.1)
-    assert "off level in roll" in learnt.told
+    assert "off level in roll" in learnt.observation
     assert re.search(
-        r"; 99% stay within \d+\.\d deg \(5 deg is allowed\), and \d+% of the", learnt.told
+        r"; 99% stay within \d+\.\d deg \(5 deg is allowed\), and \d+% of the", learnt.observation
     )
-    assert learnt.told.endswith(f": the reserve is raised by a factor of {learnt.factor:.2f}")
-    assert "com error y" in learnt.told
+    assert learnt.observation.endswith(
+        f": the reserve is raised by a factor of {learnt.factor:.2f}"
+    )
+    assert "com error y" in learnt.observation
 
 
 @pytest.mark.parametrize(
@@ -145,7 +147,7 @@ def test_no_reserve_is_raised_where_it_does_not_help(solo12, metric, cause, word
     outcomes.metrics[:, 0, METRICS.index(metric)] = drawn
     learnt = lesson(SequentialTest(0.99), campaign, outcomes)
     assert learnt.factor == 1.0
-    assert words in learnt.told
+    assert words in learnt.observation
 
 
 @pytest.mark.parametrize(("asked", "free"), [({"pitch": np.pi}, 0.0), ({"roll": np.pi / 2}, 1.0)])
@@ -163,7 +165,7 @@ def test_what_ends_upside_down_or_on_its_side_teaches_by_where_the_vertical_is(
     for name, angle in (("roll", roll), ("pitch", pitch)):
         outcomes.metrics[:, 0, METRICS.index(f"touchdown_{name}")] = angle
     learnt = lesson(SequentialTest(0.99), campaign, outcomes)
-    assert learnt.told.startswith("every touchdown is level"), learnt.told
+    assert learnt.observation.startswith("every touchdown is level"), learnt.observation
 
 
 @pytest.mark.parametrize("change", ["one lands", "nothing varies"])
@@ -177,7 +179,7 @@ def test_landings_that_are_all_alike_teach_nothing_of_the_reserve(campaign, chan
         outcomes.values[:] = 1.0
     learnt = lesson(SequentialTest(0.9), campaign, outcomes)
     assert learnt.factor == 1.0
-    assert "land off level in pitch, all alike" in learnt.told
+    assert "land off level in pitch, all alike" in learnt.observation
 
 
 @pytest.mark.exhaustive  # Minutes of flights.

@@ -15,8 +15,8 @@ from ocs_design.requirement.uncertainty import Normal, UncertaintySection
 NAMES = quantities(PAIR)
 
 
-def uncertainty(robot, **stated):
-    return Uncertainty.of(UncertaintySection(**stated), robot, driven_device())
+def uncertainty(robot, **specified):
+    return Uncertainty.of(UncertaintySection(**specified), robot, driven_device())
 
 
 def test_every_key_has_a_default_and_its_own_place(solo12):

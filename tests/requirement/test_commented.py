@@ -182,20 +182,20 @@ STATED = {
 }
 
 
-def check_read_back(stated):
-    assert same(parse_specification(specification_to_toml(stated), "written"), stated)
+def check_read_back(specified):
+    assert same(parse_specification(specification_to_toml(specified), "written"), specified)
 
 
 @pytest.mark.parametrize("stated", STATED.values(), ids=STATED)
-def test_what_is_stated_is_read_back(stated):
-    check_read_back(stated)
+def test_what_is_stated_is_read_back(specified):
+    check_read_back(specified)
 
 
 def test_the_full_specification_states_every_key_but_the_ones_that_exclude_others():
     excluded = {"mass", "inertia", "human", "maneuvers", "axes"}
     for name, section in SECTIONS.items():
-        stated = getattr(FULL, name)
-        missing = {item.name for item in fields(section) if getattr(stated, item.name) is None}
+        specified = getattr(FULL, name)
+        missing = {item.name for item in fields(section) if getattr(specified, item.name) is None}
         assert missing <= excluded
     assert {type(maneuver) for maneuver in FULL.maneuvers} == {
         kind.maneuver for kind in MANEUVER_KINDS.values()
@@ -213,12 +213,12 @@ def test_a_comment_stands_at_the_top():
 )
 def test_any_number_and_any_text(angle, speed, text):
     text = text.encode(errors="ignore").decode().replace("\0", "") or "x"
-    stated = Specification(
+    specified = Specification(
         robot=RobotSection(name=text if text.strip() else "x"),
         requirement=RequirementSection(wheel_speed_max=speed),
         ocs=OcsSection(alpha=angle),
     )
-    check_read_back(stated)
+    check_read_back(specified)
 
 
 def test_files_are_found_from_any_folder(tmp_path, monkeypatch):

@@ -218,10 +218,10 @@ def test_a_supply_is_compared_with_what_makers_allow_beyond_the_rating(own):
         resolve(parse_specification("supply.voltage = 300", "x"), LIGHT, 1.0)
     with Path(own).open("a") as rows:
         rows.write("rated_voltage_v = 48\nvoltage_max_v = 400\n")
-    stated = parse_specification(
+    specified = parse_specification(
         f"supply.voltage = 300\nmotor.name = 'Own 1'\nmotor.motors = '{own}'", "x"
     )
-    choice = resolve(stated, LIGHT, 1.0).choice
+    choice = resolve(specified, LIGHT, 1.0).choice
     assert [each.voltage_max for each in choice.motors] == [400.0]
     assert choice.supply.voltage == 300.0
 
@@ -259,8 +259,8 @@ def test_what_cannot_be_meant_is_said(text, words):
 def test_controllers_weigh_what_the_rule_or_the_specification_says():
     auto = choice_of(name="R80 KV110").motors[0]
     assert auto.controller_mass == controller_mass_of(motors()["R80 KV110"]) > 0.008
-    for stated, mass in ((0.035, 0.035), ("none", 0.0), ("auto", auto.controller_mass)):
-        choice = choice_of(name="R80 KV110", supply={"controllers": stated})
+    for specified, mass in ((0.035, 0.035), ("none", 0.0), ("auto", auto.controller_mass)):
+        choice = choice_of(name="R80 KV110", supply={"controllers": specified})
         assert choice.motors[0].controller_mass == mass
 
 

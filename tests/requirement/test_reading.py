@@ -255,9 +255,9 @@ def test_example_of_solo12_states_the_paper_and_turns_its_modules_by_hand(solo12
     assert specification.requirement.spin_inertia == 7.11e-5
     assert (specification.flywheel.r_max, specification.flywheel.h_max) == (0.03, 0.01)
     assert specification.ocs.alpha == pytest.approx(np.radians(40.0))
-    stated = specification.maneuvers
-    assert [maneuver.incidence for maneuver in stated] == [None, None, 0.0]
-    for one, other in zip(stated, default_maneuvers(solo12), strict=True):
+    specified = specification.maneuvers
+    assert [maneuver.incidence for maneuver in specified] == [None, None, 0.0]
+    for one, other in zip(specified, default_maneuvers(solo12), strict=True):
         assert type(one) is type(other)
         assert {**vars(one), "incidence": None} == vars(other)
 

@@ -24,7 +24,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 SIZE = 0.45
 
 
-def stated(text: str) -> Specification:
+def specified(text: str) -> Specification:
     return parse_specification(text, "x")
 
 
@@ -150,7 +150,7 @@ def test_the_box_that_stands_for_the_trunk_of_a_robot_by_hand_is_told():
     ],
 )  # fmt: skip
 def test_what_cannot_be_meant_is_asked_about(solo12, text, problem):
-    assert any(problem in line for line in refused(stated(text), solo12, SIZE))
+    assert any(problem in line for line in refused(specified(text), solo12, SIZE))
 
 
 @pytest.mark.parametrize("key", ["rate_change = 2", "spin_inertia = 1e-4"])
@@ -165,7 +165,7 @@ def test_what_cannot_be_meant_is_asked_about(solo12, text, problem):
 def test_what_is_asked_for_is_the_requirement_and_nothing_is_added_unasked(
     solo12, key, maneuvers, names
 ):
-    resolved = resolve(stated(f"[requirement]\n{key}\n{maneuvers}"), solo12, SIZE)
+    resolved = resolve(specified(f"[requirement]\n{key}\n{maneuvers}"), solo12, SIZE)
     assert [item.name for item in resolved.requirement.maneuvers] == names
     assert ("the paper's three" in "\n".join(resolved.assumptions)) == bool(names)
 
@@ -254,10 +254,10 @@ def test_beside_what_asks_for_something_it_is_no_demand(solo12):
 )
 def test_figures_that_were_meant_in_another_unit_are_asked_about(kind, key, raw, told):
     if not told:
-        stated(f"{kind}\n{key} = {raw}")
+        specified(f"{kind}\n{key} = {raw}")
         return
     with pytest.raises(SpecificationError) as caught:
-        stated(f"{kind}\n{key} = {raw}")
+        specified(f"{kind}\n{key} = {raw}")
     assert any(f".{key}: " in line and told in line for line in caught.value.problems)
 
 
@@ -306,8 +306,8 @@ TOLD = "the parts' masses add up to 2.5"
 
 
 def warnings_of(weighed, **options):
-    stated = Specification(robot=RobotSection(file=SOLO12, weighed=weighed))
-    return read_specified_robot(stated, **options).warnings
+    specified = Specification(robot=RobotSection(file=SOLO12, weighed=weighed))
+    return read_specified_robot(specified, **options).warnings
 
 
 @pytest.mark.parametrize(

@@ -56,18 +56,18 @@ def varied(sweep, value, task):
 @pytest.mark.parametrize("text", ["", ROLLED])
 @pytest.mark.parametrize("ratio", [0.9, 1.0, 1.3])
 def test_the_value_asked_for_is_the_value_got(task, name, text, ratio):
-    sweep, stated = SWEEPS[name], task(text)
-    value = ratio * sweep.own(stated)
-    assert sweep.own(varied(sweep, value, stated)) == pytest.approx(value, rel=1e-14)
+    sweep, specified = SWEEPS[name], task(text)
+    value = ratio * sweep.own(specified)
+    assert sweep.own(varied(sweep, value, specified)) == pytest.approx(value, rel=1e-14)
 
 
 def test_own_values_of_solo12(task):
-    stated = task()
-    assert SWEEPS["time"].own(stated) == pytest.approx(0.385, abs=5e-4)
-    assert SWEEPS["angle"].own(stated) == pytest.approx(radians(30.0))
-    assert SWEEPS["radius"].own(stated) == 0.05
-    assert SWEEPS["height"].own(stated) == 0.01
-    assert SWEEPS["voltage"].own(stated) == 24.0
+    specified = task()
+    assert SWEEPS["time"].own(specified) == pytest.approx(0.385, abs=5e-4)
+    assert SWEEPS["angle"].own(specified) == pytest.approx(radians(30.0))
+    assert SWEEPS["radius"].own(specified) == 0.05
+    assert SWEEPS["height"].own(specified) == 0.01
+    assert SWEEPS["voltage"].own(specified) == 24.0
 
 
 def test_a_fall_that_takes_longer_starts_higher_and_the_jump_of_a_longer_turn_is_higher(task):
@@ -113,8 +113,8 @@ def test_what_else_moves_is_said(task):
 
 def test_the_paper_s_three_are_written_out(task):
     """They are no longer scaled from Solo12 then, and asking for them by name would contradict."""
-    stated = task('[requirement]\nmaneuvers = "paper"')
-    specification = SWEEPS["time"].at(0.4, stated)
+    specified = task('[requirement]\nmaneuvers = "paper"')
+    specification = SWEEPS["time"].at(0.4, specified)
     assert len(specification.maneuvers) == 3
     assert specification.requirement.maneuvers is None
 

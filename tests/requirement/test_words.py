@@ -181,8 +181,8 @@ def test_words_become_the_maneuvers_that_are_meant(solo12, words, names):
 def test_a_name_that_a_table_has_is_not_given_again(solo12):
     table = '[[maneuver]]\nkind = "drop"\nname = "{}"\nheight = 1.0\npitch = 0.3\n'
     tables = table.format("Fall") + table.format("fall-3") + table.format("fall_4")
-    stated = parse_specification(f"requirement.tilt = ['20deg', '10deg', '5deg']\n{tables}", "x")
-    resolved = resolve(stated, solo12, SIZE)
+    specified = parse_specification(f"requirement.tilt = ['20deg', '10deg', '5deg']\n{tables}", "x")
+    resolved = resolve(specified, solo12, SIZE)
     names = [each.name for each in resolved.requirement.maneuvers]
     # "fall 4" would have the files of "fall_4".
     assert names == ["Fall", "fall-3", "fall_4", "fall 2", "fall 3", "fall 5"]
@@ -357,8 +357,8 @@ def test_a_turn_in_orbit_has_no_jump_and_lasts_as_long_as_it_takes(solo12):
 def test_a_turn_longer_than_the_jump_that_is_stated_is_refused(solo12, turn, time):
     """By hand: a jump of 0.1 m lasts sqrt(8 x 0.1 / 9.81) s."""
     (name,) = turn
-    stated = Specification(requirement=asked(jump_height=["0.1m"], **turn))
-    assert refused(stated, solo12, SIZE) == (
+    specified = Specification(requirement=asked(jump_height=["0.1m"], **turn))
+    assert refused(specified, solo12, SIZE) == (
         f"maneuver.{name}: its turn ends {time} s after lift-off, but the flight lasts 0.286 s",
     )
 

@@ -93,11 +93,11 @@ def test_a_change_saves_what_designing_anew_saves(change, section, of):
 def test_rings_on_a_robot_are_weighed_on_feet_and_a_plate_of_their_own():
     """Solo12's rings would stand on a heavier plate than its discs."""
     motor = MotorSection(name="Antigravity MN5008 KV400")
-    stated = Specification(robot=RobotSection(file=SOLO12), motor=motor)
-    task = solo12().with_specification(stated)
+    specified = Specification(robot=RobotSection(file=SOLO12), motor=motor)
+    task = solo12().with_specification(specified)
     (told,) = built_otherwise(task, design_device(task, ranked=False).choice)
     assert told.change == "a ring bonded around each motor's bell in place of the disc"
-    ring = task.with_specification(replace(stated, ocs=OcsSection(wheel="ring")))
+    ring = task.with_specification(replace(specified, ocs=OcsSection(wheel="ring")))
     whole = design_device(ring, ranked=False).device
     assert told.mass_total == pytest.approx(whole.mass, rel=ABOUT)
 
@@ -110,13 +110,13 @@ def offered(specification):
 
 @pytest.mark.slow
 def test_nothing_that_is_stated_is_offered_again():
-    stated = Specification(
+    specified = Specification(
         motor=MotorSection(name=MOTORS),
         flywheel=FlywheelSection(material="auto"),
         ocs=OcsSection(alpha_criterion="lightest"),
         requirement=RequirementSection(fall=(1.0,)),
     )
-    found = offered(stated)
+    found = offered(specified)
     assert found
     assert not {"the incidence with which it is lightest", "any material"} & found
     assert not any("any motor" in change for change in found)

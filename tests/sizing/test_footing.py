@@ -105,7 +105,7 @@ def stood(robot, layout, base=DEVICE, angle=DEVICE.incidence):
     """The device in another layout, where it stands on a robot or hangs over it."""
     centers = place_on_top(robot, layout).centers(device_size(base))
     modules = tuple(map(Module, layout.names, layout.axes(angle).T, centers))
-    return stand_on_trunk(replace(base, modules=modules, layout=layout), robot, stated=False)
+    return stand_on_trunk(replace(base, modules=modules, layout=layout), robot, specified=False)
 
 
 def mounting_without_faults(robot, device):
@@ -174,7 +174,7 @@ def test_a_foot_in_the_trunk_is_told(boxed):
 
 def test_on_a_wide_trunk_there_is_no_plate(boxed):
     robot = boxed(0.6)
-    device = stand_on_trunk(standing(0.1, 0.02), robot, stated=False)
+    device = stand_on_trunk(standing(0.1, 0.02), robot, specified=False)
     assert device.plate is None
     assert device.modules[0].position[2] == pytest.approx(TOP + FOOT.wheel_height)
     assert all(contact.held for contact in contacts_of(robot, device))
@@ -184,7 +184,7 @@ def test_on_a_wide_trunk_there_is_no_plate(boxed):
 def test_on_a_narrow_trunk_a_plate_carries_both(boxed, width, heavier):
     robot, carrier = boxed(width), DEVICE.carrier
     asked = replace(standing(0.1), carrier=replace(carrier, mass=heavier * carrier.mass))
-    device = stand_on_trunk(asked, robot, stated=False)
+    device = stand_on_trunk(asked, robot, specified=False)
     plate = device.plate
     assert plate.position[2] == pytest.approx(TOP)
     assert device.modules[0].position[2] == pytest.approx(plate.top + FOOT.wheel_height)
@@ -236,10 +236,10 @@ def test_a_ring_of_modules_stands_on_one_plate(boxed, count):
 
 def test_a_bump_is_bridged_by_sleeves(boxed):
     robot = boxed(0.1, more=urdf.solid('<sphere radius="0.006"/>', "0 0 0.05"))
-    device = stand_on_trunk(standing(0.1), robot, stated=True)
+    device = stand_on_trunk(standing(0.1), robot, specified=True)
     # The feet are where they were stated to be: what is under them is in the way.
     assert device.plate is None
-    higher = stand_on_trunk(standing(0.1, 0.012), robot, stated=True)
+    higher = stand_on_trunk(standing(0.1, 0.012), robot, specified=True)
     assert max(higher.plate.sleeves) == pytest.approx(0.012 - higher.plate.thickness, abs=1e-4)
     assert all(contact.held for contact in contacts_of(robot, higher))
 
@@ -247,7 +247,7 @@ def test_a_bump_is_bridged_by_sleeves(boxed):
 @few_masts()
 def test_a_trunk_too_narrow_for_four_screws_carries_nothing(boxed):
     robot = boxed(0.012, length=0.3)
-    device = stand_on_trunk(standing(0.1), robot, stated=False)
+    device = stand_on_trunk(standing(0.1), robot, specified=False)
     assert device.plate is None
     (point,) = mounting_open_points(mounting_of(robot, device, (), robot.mass_properties))
     assert point.what.startswith("the feet hang in the air")
@@ -256,7 +256,7 @@ def test_a_trunk_too_narrow_for_four_screws_carries_nothing(boxed):
 
 def test_without_shapes_nothing_is_known():
     robot = robot_by_hand(2.5, (0.03, 0.05, 0.07))
-    device = stand_on_trunk(standing(0.1), robot, stated=False)
+    device = stand_on_trunk(standing(0.1), robot, specified=False)
     assert device is not None
     assert [contact.held for contact in contacts_of(robot, device)] == [None, None]
 
@@ -264,7 +264,7 @@ def test_without_shapes_nothing_is_known():
 def test_wheels_without_feet_stand_on_nothing(boxed):
     bare = replace(DEVICE, carrier=replace(DEVICE.carrier, mass=0.0))
     assert contacts_of(boxed(0.2), bare) == ()
-    assert stand_on_trunk(bare, boxed(0.2), stated=False) is bare
+    assert stand_on_trunk(bare, boxed(0.2), specified=False) is bare
 
 
 def test_the_selection_carries_the_plate_of_the_largest_modules(boxed):
@@ -296,7 +296,7 @@ def test_what_leans_stands_on_pedestals_that_the_design_counts(boxed, name):
         np.testing.assert_allclose(seat.rotation[:, 1:], module.frame[:, 1:], atol=1e-9)
         middle = module.position - FOOT.wheel_height * module.frame[:, 2]
         np.testing.assert_allclose(seat.position, middle, atol=1e-9)
-    again = stand_on_trunk(device, robot, stated=False)
+    again = stand_on_trunk(device, robot, specified=False)
     assert again.pedestals == device.pedestals
     assert all(contact.held for contact in contacts_of(robot, device))
     raised = tuple(
@@ -307,7 +307,7 @@ def test_what_leans_stands_on_pedestals_that_the_design_counts(boxed, name):
     assert not any(contact.held for contact in fallen)
     # Stated within the trunk, where there is no room for any pedestal.
     low = [replace(module, position=np.zeros(3)) for module in device.modules]
-    sunk = stand_on_trunk(replace(device, modules=tuple(low), pedestals=()), robot, stated=True)
+    sunk = stand_on_trunk(replace(device, modules=tuple(low), pedestals=()), robot, specified=True)
     assert sunk.pedestals == ()
     assert not any(contact.held for contact in contacts_of(robot, sunk))
     assert check_device(device) is None
@@ -589,12 +589,12 @@ def test_what_cannot_carry_its_mast_is_refused(column):
 def test_the_flat_spots_that_a_mast_would_need_are_told(column):
     """On a back too narrow for two screws side by side; just wide enough for them it has one."""
     narrow = column(0.01)
-    device = stand_on_trunk(DEVICE, narrow, stated=False)
+    device = stand_on_trunk(DEVICE, narrow, specified=False)
     assert device.plate is None
     mounting = mounting_of(narrow, device, (), narrow.mass_properties)
     pads, points = mounting.pads, mounting_open_points(mounting)
     assert any(f"for a mast's {pads.screw} screws" in point.cure for point in points)
     wide = column(pads.aside + pads.diameter + 2e-3)
-    held = stand_on_trunk(DEVICE, wide, stated=False)
+    held = stand_on_trunk(DEVICE, wide, specified=False)
     assert held.plate.mast is not None
     assert mounting_of(wide, held, (), wide.mass_properties).pads is None

@@ -45,7 +45,7 @@ def standing(folder, shape):
     path = folder / "round.urdf"
     path.write_bytes(topped(inertial(20, "0.3 0.3 0.1") + shape, HEAD, "0 0 0.2"))
     robot = read_robot(path, trunk="base")
-    return robot, stand_on_trunk(DEVICE, robot, stated=False, formed=True)
+    return robot, stand_on_trunk(DEVICE, robot, specified=False, formed=True)
 
 
 @pytest.fixture(scope="module")

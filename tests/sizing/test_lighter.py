@@ -74,8 +74,10 @@ def test_every_answer_is_light_enough_and_the_smallest_change_that_is():
         maneuvers = tuple(
             each.slower(1.0 + percent / 100.0, task.standing_height) for each in task.maneuvers
         )
-        stated = replace(task.specification, requirement=RequirementSection(), maneuvers=maneuvers)
-        return mass_of(task, stated)
+        specified = replace(
+            task.specification, requirement=RequirementSection(), maneuvers=maneuvers
+        )
+        return mass_of(task, specified)
 
     assert slower_by(percent) == pytest.approx(of_time.mass_total, rel=1e-3)
     assert slower_by(percent - 2) > target

@@ -65,11 +65,11 @@ def test_a_stated_position_that_is_hit_is_a_warning_with_a_free_one_and_strictly
     robot, device = solo12, device_at(0.0, 0.05, 0.03)
     mounting = mounting_of(robot, device, (), robot.mass_properties)
     arguments = (mounting, robot, device, default_envelope(robot))
-    (warning,) = placement_warnings(*arguments, stated=True)
+    (warning,) = placement_warnings(*arguments, specified=True)
     assert "overlaps 'base_link'" in warning
     assert "--position 0.0mm" in warning
     with pytest.raises(SpecificationError, match="--strict: a module overlaps 'base_link'"):
-        placement_warnings(*arguments, stated=True, strict=True)
+        placement_warnings(*arguments, specified=True, strict=True)
 
 
 @pytest.mark.parametrize(
@@ -81,15 +81,17 @@ def test_a_stated_position_that_is_hit_is_a_warning_with_a_free_one_and_strictly
     ],
 )
 @pytest.mark.parametrize("stated", some(2, [False, True]))
-def test_another_place_is_asked_for_as_its_layout_states_it(solo12, name, option, stated):
+def test_another_place_is_asked_for_as_its_layout_states_it(solo12, name, option, specified):
     """For none but a pair a free place is looked for where one is stated."""
     robot, device = solo12, layout_device(Layout(name))
     low = [replace(each, position=each.position * [1.0, 1.0, 0.0]) for each in device.modules]
     device = replace(device, modules=tuple(low))
     mounting = mounting_of(robot, device, (), robot.mass_properties)
-    (warning,) = placement_warnings(mounting, robot, device, default_envelope(robot), stated=stated)
+    (warning,) = placement_warnings(
+        mounting, robot, device, default_envelope(robot), specified=specified
+    )
     assert warning.endswith(f"with {option}")
-    assert ("no free place was found" in warning) is not stated
+    assert ("no free place was found" in warning) is not specified
     *_, hit = mounting_open_points(mounting)
     assert hit.cure == f"give another place with {option}"
 

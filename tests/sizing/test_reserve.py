@@ -72,9 +72,10 @@ pitch = "30deg"
 
 def specified(more):
     """Task for Solo12, its file read once."""
-    stated = parse_specification(SOLO12, "test")
-    stated = merge(stated, parse_specification(more, "test")) if more else stated
-    return designed.solo12().with_specification(stated)
+    specification = parse_specification(SOLO12, "test")
+    if more:
+        specification = merge(specification, parse_specification(more, "test"))
+    return designed.solo12().with_specification(specification)
 
 
 @cache
@@ -90,13 +91,13 @@ def flights(more):
     """
     more = f"{OF_THREE}{more}"
     found, task = solo12(more, 0.5), specified(more)
-    robot, stated = task.robot, task.specification
+    robot, specification = task.robot, task.specification
     (maneuver,) = found.choice.problem.requirement.maneuvers
     plans = plan(robot.mass_properties, found.device, [maneuver], standing_height(robot))
     references = {name: each.trajectory for name, each in plans.items()}
     campaign = make_campaign(
         Flights(robot, found.device, [maneuver], references=references),
-        can_stand=[True], uncertainty=Uncertainty.of(stated.reality, robot, found.device),
+        can_stand=[True], uncertainty=Uncertainty.of(specification.reality, robot, found.device),
         seed=11,
     )  # fmt: skip
     (flight,) = campaign.flights

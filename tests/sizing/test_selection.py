@@ -127,9 +127,9 @@ def test_a_stated_incidence_is_kept_and_no_lighter_than_the_best():
     problem = random_problem(9)
     best = select(problem).best
     for angle in (best.incidence, best.incidence + 0.1):
-        stated = select(replace(problem, incidence=angle)).best
-        assert stated.incidence == angle
-        assert stated.mass >= best.mass * (1.0 - MASS_DIGITS)
+        specified = select(replace(problem, incidence=angle)).best
+        assert specified.incidence == angle
+        assert specified.mass >= best.mass * (1.0 - MASS_DIGITS)
     same = select(replace(problem, incidence=best.incidence)).best
     assert same.mass == pytest.approx(best.mass, rel=MASS_DIGITS)
 

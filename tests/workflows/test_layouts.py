@@ -143,11 +143,11 @@ def test_fewer_robots_where_nothing_is_sure_for_99_of_100(tmp_path):
     """
     motor = "Antigravity MN5006 KV450"
     asked = asked_of_solo12(**DESIGNED, motor__name=motor, ocs__layout="pair", ocs__alpha="33deg")
-    stated = merge(asked, parse_specification(ROLLING, "test"))
-    sure = merge(stated, specification_from_options({"requirement.reliability": "0.99"}))
+    specified = merge(asked, parse_specification(ROLLING, "test"))
+    sure = merge(specified, specification_from_options({"requirement.reliability": "0.99"}))
     with pytest.raises(Infeasible, match="MN5006"):
         design_ocs(sure, out=tmp_path / "a")
-    design = design_ocs(stated, out=tmp_path / "b").design
+    design = design_ocs(specified, out=tmp_path / "b").design
     assert design.requirement.reliability == 0.9
     assert any(each.startswith("Reliability: 90%") for each in design.requirement.assumptions)
     assert any("no device is feasible for 99%" in each for each in design.ocs.warnings)

@@ -119,8 +119,8 @@ def test_heavy_motors_give_way_to_more_wheels_that_weigh_less(
         return weighing(placed, asked, mass, motor)
 
     monkeypatch.setattr(rounds, "size_on_robot", size_one)
-    stated = replace(placed.specification, ocs=replace(placed.specification.ocs, layout=None))
-    found = size_or_advise(stated, placed.robot, Steps(), strict=False)
+    specified = replace(placed.specification, ocs=replace(placed.specification.ocs, layout=None))
+    found = size_or_advise(specified, placed.robot, Steps(), strict=False)
     assert tried == taken
     lightest = min([3.0, *(mass for mass in weigh.values() if mass)])
     assert found.designed.device.mass == pytest.approx(lightest)
@@ -137,13 +137,13 @@ def test_strict_looks_at_the_device_that_is_taken(placed, monkeypatch):
 
     monkeypatch.setattr(rounds, "size_on_robot", size_one)
     monkeypatch.setattr(rounds, "placement_warnings", lambda *_, **__: ())
-    stated = replace(placed.specification, ocs=replace(placed.specification.ocs, layout=None))
+    specified = replace(placed.specification, ocs=replace(placed.specification.ocs, layout=None))
     lighter = True
-    found = size_or_advise(stated, placed.robot, Steps(), strict=True)
+    found = size_or_advise(specified, placed.robot, Steps(), strict=True)
     assert found.designed.device.mass == pytest.approx(0.5)
     lighter = False
     with pytest.raises(SpecificationError, match="120% of the robot"):
-        size_or_advise(stated, placed.robot, Steps(), strict=True)
+        size_or_advise(specified, placed.robot, Steps(), strict=True)
 
 
 QUARTER = Specification(

@@ -101,9 +101,9 @@ class ManeuverRecord:
         Raises:
             OcsError: its kind is unknown, or does not have these fields.
         """
-        kind, stated = MANEUVER_KINDS.get(self.kind), set(self.parameters)
+        kind, specified = MANEUVER_KINDS.get(self.kind), set(self.parameters)
         apart = {each.name for each in fields(Maneuver)}
-        if kind is None or not set(kind.required) - apart <= stated <= set(kind.values) - apart:
+        if kind is None or not set(kind.required) - apart <= specified <= set(kind.values) - apart:
             raise OcsError(f"maneuver {self.name!r}: no {self.kind} with these figures is known")
         for name, value in self.parameters.items():
             # A single figure, or the required number of them.

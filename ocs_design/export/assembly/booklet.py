@@ -396,8 +396,8 @@ def _motor_threads(assembly: Assembly) -> Iterator[str]:
     )
     motor, drawn = assembly.device.motor, ""
     model = drawn_threads(motor.name, motor.source)
-    stated = all(each.fastening.least > 0.0 for each in found)
-    if model is not None and not stated:
+    specified = all(each.fastening.least > 0.0 for each in found)
+    if model is not None and not specified:
         joints = (each.fastening.joint for each in found)
         at = [model.rotor if joint is BoltedJoint.WHEEL else model.stator for joint in joints]
         drawn = (
@@ -411,7 +411,7 @@ def _motor_threads(assembly: Assembly) -> Iterator[str]:
         )
         # Designs of older versions did not count them.
         drawn += " The screws fit it." if fits else " If it is right, these screws are too long."
-    known = "its maker's figures are in the table of screws" if stated else "no maker states it"
+    known = "its maker's figures are in the table of screws" if specified else "no maker states it"
     yield (
         "Measure the depth of the motor's threads before you put screws into them: "
         f"{known}. The screws of this design reach {reach} into it.{drawn} A screw that is too "

@@ -202,12 +202,12 @@ def _drive_steps(assembly: Assembly) -> Iterator[str]:
     joint = None
     if "drum" in assembly.numbers and not device.on_bell:
         joint = next((each for each in joints_of(device) if each.name == SHAFT_JOINT), None)
-    told = {BoltedJoint.MOTOR_IN_CAGE: " Its wires come out between two posts, tied to one."}
+    text = {BoltedJoint.MOTOR_IN_CAGE: " Its wires come out between two posts, tied to one."}
     if joint is not None and joint.capacity is not None:
-        told[BoltedJoint.WHEEL] = f" They carry the wheel by {joint.note}."
+        text[BoltedJoint.WHEEL] = f" They carry the wheel by {joint.note}."
     for each in assembly.screws_of(*of_motor, BoltedJoint.CAGE, BoltedJoint.WHEEL):
         held = each.fastening
-        yield f"{assembly.screwed(held)}{told.get(held.joint, '')}"
+        yield f"{assembly.screwed(held)}{text.get(held.joint, '')}"
     if joint is not None and joint.capacity is None:
         yield f"Mount the wheel on its drive by a joint of your own: {joint.note}."
     elif joint is not None and (strip := _height_strip(assembly)) is not None:
@@ -253,10 +253,10 @@ def robot_steps(assembly: Assembly) -> Iterator[str]:
         turns["counter-clockwise" if outward else "clockwise"].append(
             f"{joint_name(module)} (axis {axis})"
         )
-    told = "; ".join(f"{way}: {', '.join(names)}" for way, names in turns.items() if names)
+    text = "; ".join(f"{way}: {', '.join(names)}" for way, names in turns.items() if names)
     yield (
         "In the controllers and in your program, give the drives the names of their joints in the "
-        f"robot files. Seen from its lid, a positive torque turns the wheel {told}. "
+        f"robot files. Seen from its lid, a positive torque turns the wheel {text}. "
         "Axes are in the base frame, x forward, y left, z up, and the "
         "wheel turns about them by the right-hand rule. Test each at low torque, lid on; if it "
         "turns the wrong way, swap two of the motor's three wires and recalibrate its sensor."

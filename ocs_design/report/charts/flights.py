@@ -206,10 +206,10 @@ def drive_charts(motor: Drive, flights: Sequence[RecordedFlight]) -> Iterator[Ch
         marks.append(Rule(-fastest, upright=True, ink=Ink.PLAIN))
         marks.append(Rule(fastest, upright=True, label="top speed", ink=Ink.PLAIN))
     first, *others = (part_name("wheel", wheel) for wheel in driven[0].wheels)
-    told = f": solid {first}, dashed {others[0] if len(others) == 1 else 'others'}" * bool(others)
+    text = f": solid {first}, dashed {others[0] if len(others) == 1 else 'others'}" * bool(others)
     yield Chart(
         name="torque_speed",
-        title=f"Torque and speed of a wheel{told}",
+        title=f"Torque and speed of a wheel{text}",
         description="What the drive can give at each speed of the wheel, at full voltage and "
         f"current and at the {RESERVE:.0%} that the design may use, with the path of each maneuver "
         "up to where it is judged; solid for the first wheel, dashed for the others.",

@@ -93,7 +93,7 @@ def sizes_section(design: OcsDesign) -> Markup:
             rows.append(("hub, bore", fitted_bore(hub.bore_radius)))
         rows.append(("web, thickness", toleranced(wheel.web.thickness, WEB_GRADE)))
     inertia_note = (
-        "Within all tolerances together, ISO 2768-m where none is told, the wheel's spin inertia "
+        "Within all tolerances together, ISO 2768-m where none is given, the wheel's spin inertia "
         f"stays within ±{inertia_error(wheel):.1%} (to first order, without the rotor's)."
     )
     return section(

@@ -182,8 +182,8 @@ def print_summary(console: Console, design: OcsDesign, runs: Sequence[Run], fold
         _print_flights(console, design, runs)
     # Already said by the verdict.
     flown = (run for run in design.validation if run.ocs and run.scenario == line.flight)
-    told = {line.matter, *(flights.run_sentence(run, with_note=False) for run in flown)}
-    minded = [each for each in warnings.all_warnings(design) if each not in told]
+    shown = {line.matter, *(flights.run_sentence(run, with_note=False) for run in flown)}
+    minded = [each for each in warnings.all_warnings(design) if each not in shown]
     if minded:
         # The number of further warnings would not help; the most important ones are here.
         heading(console, "Warnings (-v: all)" if len(minded) > MOST_MINDED else "Warnings")

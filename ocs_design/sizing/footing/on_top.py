@@ -140,7 +140,7 @@ def _nearest_footing(
 
 
 def footing_on_pedestals(
-    robot: Robot, surface: HeightMap | None, device: Device, *, stated: bool
+    robot: Robot, surface: HeightMap | None, device: Device, *, specified: bool
 ) -> Footing | None:
     """The nearest place where the trunk holds the pedestals of tilted modules, and the other feet.
 
@@ -153,7 +153,7 @@ def footing_on_pedestals(
         surface = HeightMap(0.0, 0.0, _ENDLESS, np.array([[top]]))
     if any(leans(module) and module.frame[2, 1] < -OUT_OF_REACH for module in device.modules):
         return None
-    if stated:
+    if specified:
         held = _all_held(surface, device, fixed=True)
         place = place_at(tuple(np.ravel([each.position for each in device.modules])), layout)
         return None if held is None else Footing(place, None, held[1])

@@ -76,7 +76,9 @@ def footing_of(
     return Footing(place_free(robot, envelope, layout).place, None)
 
 
-def stand_on_trunk(device: Device, robot: Robot, *, stated: bool, formed: bool = False) -> Device:
+def stand_on_trunk(
+    device: Device, robot: Robot, *, specified: bool, formed: bool = False
+) -> Device:
     """The device with its feet on the trunk, and a plate under them where they are not held.
 
     Modules whose place is not specified move to the height of their support, and forward or back to
@@ -85,10 +87,10 @@ def stand_on_trunk(device: Device, robot: Robot, *, stated: bool, formed: bool =
 
     Args:
         device: as selected. robot: that carries it.
-        stated: whether the modules' positions are specified.
+        specified: whether the modules' positions are specified.
         formed: whether a mast may stand on a block shaped to the trunk.
     """
-    found = footing_under(device, robot, stated=stated, formed=formed)
+    found = footing_under(device, robot, specified=specified, formed=formed)
     return device if found is None else standing_on(device, found)
 
 
@@ -106,14 +108,14 @@ def footing_under(
     device: Device,
     robot: Robot,
     *,
-    stated: bool,
+    specified: bool,
     formed: bool = False,
     failed: FailedSearches | None = None,
 ) -> Footing | None:
     """Footing of a chosen device; see `stand_on_trunk`. None: no known support.
 
     Args:
-        device, robot, stated, formed: see there.
+        device, robot, specified, formed: see there.
         failed: searches on this robot that have failed; None: none yet.
     """
     failed = failed or FailedSearches()
@@ -122,10 +124,10 @@ def footing_under(
         return None
     feet, layout = feet_of(device), device.layout
     if not feet.slopes:
-        return footing_on_pedestals(robot, surface, device, stated=stated)
+        return footing_on_pedestals(robot, surface, device, specified=specified)
     if surface is None:
         return None
-    if stated:
+    if specified:
         places = [module.position for module in device.modules]
         if layout != PAIR:
             return Footing(place_at(tuple(np.concatenate(places).tolist()), layout), None)

@@ -256,10 +256,10 @@ def least_spin_inertias(
         axes = np.stack([problem.layout.hull(*cell) for cell in cells])
         by_rate = needed_by_rate(requirement.rate_change, drives, alone, axes)
         needed = np.maximum(needed, by_rate)
-    stated = requirement.spin_inertia
-    if stated is None:
+    specified = requirement.spin_inertia
+    if specified is None:
         return needed
-    return np.where(needed > stated * OFF_THE_EDGE, np.inf, stated)
+    return np.where(needed > specified * OFF_THE_EDGE, np.inf, specified)
 
 
 def bound_task(

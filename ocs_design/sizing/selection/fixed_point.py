@@ -188,10 +188,10 @@ def fixed_point(
         candidates: n of them.
         start: lower bounds of their spin inertias [kg m^2], shape (n,).
     """
-    stated = candidates.problem.requirement.spin_inertia
+    specified = candidates.problem.requirement.spin_inertia
     spin = start = np.maximum(start, candidates.least_spin_inertia)
-    if stated is not None:
-        spin = np.full_like(spin, stated)
+    if specified is not None:
+        spin = np.full_like(spin, specified)
     radius, narrow = design.radius, tolerance.width * design.width
     last_spin = last_asked = np.zeros_like(spin)
     best_spin, best_margin = spin, np.zeros_like(spin)
@@ -201,7 +201,7 @@ def fixed_point(
         shapes = candidates.shapes_at(spin, radius)
         step = _step(candidates, spin, shapes, design)
         design = design._replace(angle=step.angle, width=step.width)
-        asked = spin if stated is not None else step.asked
+        asked = spin if specified is not None else step.asked
         better = step.margin > best_margin
         best_spin = np.where(better, spin, best_spin)
         best_margin = np.where(better, step.margin, best_margin)

@@ -126,8 +126,8 @@ def lightest(programme: "Programme", start: FloatArray) -> Optimum:
             jac=lambda point: at(point).slopes[rows],
         )
 
-    stated = programme.candidates.problem.requirement.spin_inertia is not None
-    equal, unequal = slice(int(stated)), slice(int(stated), None)
+    specified = programme.candidates.problem.requirement.spin_inertia is not None
+    equal, unequal = slice(int(specified)), slice(int(specified), None)
     with _libraries().limit(limits=1, user_api="blas"), suppress(_StalledError):
         minimize(
             value,
@@ -135,7 +135,7 @@ def lightest(programme: "Programme", start: FloatArray) -> Optimum:
             jac=slope,
             method="SLSQP",
             bounds=Bounds(low, high),
-            constraints=[between(unequal, np.inf), *([between(equal, 0.0)] if stated else [])],
+            constraints=[between(unequal, np.inf), *([between(equal, 0.0)] if specified else [])],
             options={"maxiter": _ITERATIONS_MAX, "ftol": _DIGITS},
         )
     return best

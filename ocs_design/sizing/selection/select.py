@@ -138,13 +138,13 @@ def select_by(
 def lightest_by(problem: SelectionProblem, criterion: Criterion | None) -> Candidate | None:
     """The lightest device alone, unrefined; None: the full selection must decide."""
     problem.check()
-    stated = problem.incidence is not None
-    at = problem if stated or criterion is None else _at_robots(problem, criterion)
+    specified = problem.incidence is not None
+    at = problem if specified or criterion is None else _at_robots(problem, criterion)
     found = search(at, ranks=False)
     if not found.places:
         return None
     device = device_of(found.devices[0])
-    if stated or criterion is None:
+    if specified or criterion is None:
         return device
     return at_own_incidence(problem, device, criterion)[1]
 

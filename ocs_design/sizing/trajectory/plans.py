@@ -219,11 +219,11 @@ def reference(
     if gyrostat.stands:
         trajectory = _balanced(gyrostat, line, asked.duration, trajectory)
         if spun:
-            told = (
+            text = (
                 f"the wheels are stopped from {rpm(spun)} by brakes, which are neither "
                 "designed nor included in the mass"
             )
-            note = "; ".join(filter(None, (told, note)))
+            note = "; ".join(filter(None, (text, note)))
     elif asked.end != End.LEVEL:
         # The feedback that holds the trunk level does not correct the heading.
         trajectory = replace(trajectory, gains=tracking_gains(gyrostat, line, trajectory, share))
@@ -236,10 +236,10 @@ def _refused(
     """Why there is no plan, and what would do; `planned` is the last one that failed."""
     if maneuver.estimated and not gyrostat.stands:
         needed = quickest(asked, gyrostat, line)
-        told = f"not even in {LONGEST:g} times that"
+        text = f"not even in {LONGEST:g} times that"
         if needed is not None:
-            told = f"they need {needed * asked.duration:.3g} s"
-        note = f"the wheels cannot make this turn in {asked.duration:.3g} s: {told}"
+            text = f"they need {needed * asked.duration:.3g} s"
+        note = f"the wheels cannot make this turn in {asked.duration:.3g} s: {text}"
         return Reference(None, note, needed)
     if gyrostat.stands:
         # Largest fraction of the tilt from which it stands up in time, by bisection to 1/16.
@@ -258,8 +258,8 @@ def _refused(
             low, high = (low, part) if gentlest(tried, gyrostat, line).failure else (part, high)
         part, tilt = low, abs(float(asked.angle))
         all_of_it, less = (format_quantity(each, "deg") for each in (tilt, part * tilt))
-        told = f"from {less} they can" if part > 0.0 else "not even from a sixteenth of that"
-        note = f"the wheels cannot stand it up from {all_of_it} in {asked.duration:.3g} s: {told}"
+        text = f"from {less} they can" if part > 0.0 else "not even from a sixteenth of that"
+        note = f"the wheels cannot stand it up from {all_of_it} in {asked.duration:.3g} s: {text}"
         return Reference(None, note, part=part)
     return Reference(None, f"no optimal turn was found ({planned.failure})")
 

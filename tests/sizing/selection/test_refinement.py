@@ -111,8 +111,8 @@ def test_what_cannot_be_is_not_possible():
 def test_a_stated_incidence_and_spin_inertia_are_kept():
     problem, chosen = drawn(2)
     more = replace(problem.requirement, spin_inertia=1.1 * chosen.spin_inertia)
-    stated = replace(problem, incidence=chosen.incidence, requirement=more)
-    found = refine(candidates_of(stated, chosen), beside(chosen, (0.99, 1.0, 1.0), 0.0))
+    specified = replace(problem, incidence=chosen.incidence, requirement=more)
+    found = refine(candidates_of(specified, chosen), beside(chosen, (0.99, 1.0, 1.0), 0.0))
     assert found.feasible.all()
     assert found.angle[0] == chosen.incidence
     assert found.spin_inertia[0] == pytest.approx(1.1 * chosen.spin_inertia, rel=1e-9)

@@ -179,8 +179,8 @@ def test_a_stated_spin_inertia_is_kept(problem, times):
     best = chosen(problem).best
     # Of the same drive: another one may have less momentum in the same wheel.
     alone = replace(problem, motors=[best.motor], gears=[best.gear], materials=[best.material])
-    stated = times * best.spin_inertia
-    asking = replace(alone, requirement=replace(alone.requirement, spin_inertia=stated))
+    specified = times * best.spin_inertia
+    asking = replace(alone, requirement=replace(alone.requirement, spin_inertia=specified))
     kept = select(asking).best
-    assert kept.spin_inertia == pytest.approx(stated, rel=1e-9)
+    assert kept.spin_inertia == pytest.approx(specified, rel=1e-9)
     assert kept.mass >= best.mass * (1.0 - EXACT)

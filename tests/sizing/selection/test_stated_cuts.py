@@ -38,8 +38,8 @@ def test_holes_are_those_stated():
     [("", 6), ("lightening = 0", 0), ("lightening = 7", 7), ('web = "aluminium"', 0)],
 )
 def test_webs_of_one_piece_are_lightened_unless_it_is_stated(text, count):
-    stated = parse_specification(f"[flywheel]\n{text}", "x").flywheel
-    assert max(specified_lightenings(stated)) == count
+    specified = parse_specification(f"[flywheel]\n{text}", "x").flywheel
+    assert max(specified_lightenings(specified)) == count
 
 
 def refusal(text):

@@ -167,8 +167,8 @@ def test_a_change_of_rate_binds_as_in_the_closed_form():
 
 def test_a_stated_spin_inertia_is_kept():
     problem, selected = question(ROLL_AND_PITCH)
-    stated = replace(problem.requirement, spin_inertia=selected.spin_inertia)
-    found = co_design(replace(problem, requirement=stated), selected)
+    specified = replace(problem.requirement, spin_inertia=selected.spin_inertia)
+    found = co_design(replace(problem, requirement=specified), selected)
     assert not found.adopted
     assert found.device is selected
     assert "is specified" in found.note

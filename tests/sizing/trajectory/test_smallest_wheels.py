@@ -66,7 +66,7 @@ def test_about_pitch_it_is_the_closed_form(degrees, maneuver, costs):
     ],
 )
 def test_it_beats_the_figures_of_torques_that_are_held_for_a_step(
-    pitch, roll, degrees, free, stated
+    pitch, roll, degrees, free, specified
 ):
     """The theory's figures hold the torque for 40 steps and the body's inertia, wheels braked.
 
@@ -75,11 +75,11 @@ def test_it_beats_the_figures_of_torques_that_are_held_for_a_step(
     """
     incidence = np.radians(degrees)
     held = _held_for_a_step(np.radians([roll, pitch]), None if free else module_axes(incidence))
-    assert held == pytest.approx(stated, rel=1e-3)
+    assert held == pytest.approx(specified, rel=1e-3)
     guess = body(incidence, 1.2e-4, DIAGONAL)
     found = smallest_wheels(guess, asked(drop(pitch, roll)), free_incidence=free)
     assert found.solution.solved
-    assert 0.98 < found.gyrostat.spin_inertia / stated < 0.99
+    assert 0.98 < found.gyrostat.spin_inertia / specified < 0.99
     assert np.degrees(found.incidence) == pytest.approx(degrees, abs=0.1)
     assert found.violation < 1e-6
 
@@ -167,12 +167,12 @@ SINGLE, TRIAD, ORTHOGONAL, PYRAMID = (
         pytest.param(PYRAMID, 20.0, 20.0, 5.58e-5, marks=pytest.mark.slow),
     ],
 )
-def test_one_program_sizes_any_layout_of_wheels(axes, pitch, roll, stated):
+def test_one_program_sizes_any_layout_of_wheels(axes, pitch, roll, specified):
     """The theory's figures again, for one, three and four wheels."""
-    assert _held_for_a_step(np.radians([roll, pitch]), axes) == pytest.approx(stated, rel=1e-3)
+    assert _held_for_a_step(np.radians([roll, pitch]), axes) == pytest.approx(specified, rel=1e-3)
     wanted = asked(drop(pitch, roll))
     found = smallest_wheels(Gyrostat(DIAGONAL, axes, 1.2e-4), wanted)
-    assert 0.97 < found.gyrostat.spin_inertia / stated < 0.995
+    assert 0.97 < found.gyrostat.spin_inertia / specified < 0.995
     assert not found.failure
     assert missed(wanted, found.trajectory) < 1e-6
 
@@ -194,13 +194,13 @@ QUARTER = np.array([np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5)])
     ("axes", "stated"),
     [pytest.param(ORTHOGONAL, 8.6e-5, marks=pytest.mark.exhaustive), (PYRAMID, 3.7e-5)],
 )
-def test_wheels_about_the_vertical_turn_the_heading(axes, stated):
+def test_wheels_about_the_vertical_turn_the_heading(axes, specified):
     up = np.array([0.0, 0.0, 1.0])
     yaw = Boundary("yaw", UPRIGHT, QUARTER, up, np.pi / 2.0, 2.0, end="attitude")
     found = smallest_wheels(Gyrostat(DIAGONAL, axes, 1.2e-4), yaw)
     assert not found.failure
     assert missed(yaw, found.trajectory) < 1e-6
-    assert 0.975 < found.gyrostat.spin_inertia / stated < 0.995
+    assert 0.975 < found.gyrostat.spin_inertia / specified < 0.995
 
 
 @pytest.mark.slow
@@ -212,7 +212,7 @@ def test_wheels_about_the_vertical_turn_the_heading(axes, stated):
         pytest.param(3.0, 6.8e-5, marks=pytest.mark.exhaustive),
     ],
 )
-def test_two_wheels_turn_the_heading_by_a_loop_of_the_tilt(duration, stated):
+def test_two_wheels_turn_the_heading_by_a_loop_of_the_tilt(duration, specified):
     """Without momentum a pair's trunk never turns about its own vertical, and yet ends turned."""
     guess = Gyrostat(DIAGONAL, module_axes(np.radians(39.0)), 2e-4)
     up = np.array([0.0, 0.0, 1.0])
@@ -221,5 +221,5 @@ def test_two_wheels_turn_the_heading_by_a_loop_of_the_tilt(duration, stated):
     found = smallest_wheels(guess, yaw, start=loop.motion(guess, 16))
     assert not found.failure
     assert missed(yaw, found.trajectory) < 1e-5
-    assert found.gyrostat.spin_inertia == pytest.approx(stated, rel=0.02)
+    assert found.gyrostat.spin_inertia == pytest.approx(specified, rel=0.02)
     assert np.abs(found.trajectory.rate[:, 2]).max() < 1e-6
