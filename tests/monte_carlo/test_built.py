@@ -65,7 +65,7 @@ def shift_trunk(scene):
 
 
 @pytest.mark.parametrize(
-    ("stated", "change"), [({"mass_error": 0.1}, scale_all), ({"com_error": 0.01}, shift_trunk)]
+    ("specified", "change"), [({"mass_error": 0.1}, scale_all), ({"com_error": 0.01}, shift_trunk)]
 )
 def test_it_moves_as_one_that_is_compiled_so(solo12, specified, change):
     world, robot = drawn(solo12, **specified)

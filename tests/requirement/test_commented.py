@@ -186,7 +186,7 @@ def check_read_back(specified):
     assert same(parse_specification(specification_to_toml(specified), "written"), specified)
 
 
-@pytest.mark.parametrize("stated", STATED.values(), ids=STATED)
+@pytest.mark.parametrize("specified", STATED.values(), ids=STATED)
 def test_what_is_stated_is_read_back(specified):
     check_read_back(specified)
 

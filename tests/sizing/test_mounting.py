@@ -80,7 +80,7 @@ def test_a_stated_position_that_is_hit_is_a_warning_with_a_free_one_and_strictly
         (LayoutName.DOUBLE_PAIR, "--position, with x, y and z of every wheel"),
     ],
 )
-@pytest.mark.parametrize("stated", some(2, [False, True]))
+@pytest.mark.parametrize("specified", some(2, [False, True]))
 def test_another_place_is_asked_for_as_its_layout_states_it(solo12, name, option, specified):
     """For none but a pair a free place is looked for where one is stated."""
     robot, device = solo12, layout_device(Layout(name))

@@ -57,7 +57,7 @@ def test_about_pitch_it_is_the_closed_form(degrees, maneuver, costs):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("pitch", "roll", "degrees", "free", "stated"),
+    ("pitch", "roll", "degrees", "free", "specified"),
     [
         pytest.param(30.0, 0.0, 40.0, False, 9.11e-5, marks=pytest.mark.slow),
         pytest.param(30.0, 0.0, 30.0, False, 7.80e-5, marks=pytest.mark.exhaustive),
@@ -155,7 +155,7 @@ SINGLE, TRIAD, ORTHOGONAL, PYRAMID = (
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("axes", "pitch", "roll", "stated"),
+    ("axes", "pitch", "roll", "specified"),
     [
         (SINGLE, 30.0, 0.0, 1.773e-4),
         pytest.param(module_axes(0.0), 30.0, 0.0, 6.55e-5, marks=pytest.mark.exhaustive),
@@ -191,7 +191,7 @@ QUARTER = np.array([np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5)])
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("axes", "stated"),
+    ("axes", "specified"),
     [pytest.param(ORTHOGONAL, 8.6e-5, marks=pytest.mark.exhaustive), (PYRAMID, 3.7e-5)],
 )
 def test_wheels_about_the_vertical_turn_the_heading(axes, specified):
@@ -205,7 +205,7 @@ def test_wheels_about_the_vertical_turn_the_heading(axes, specified):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("duration", "stated"),
+    ("duration", "specified"),
     [
         pytest.param(1.5, 1.47e-4, marks=pytest.mark.exhaustive),
         (2.0, 1.05e-4),
