@@ -164,3 +164,8 @@ def test_an_endless_expression_is_stopped(tmp_path: Path, monkeypatch, expressio
     monkeypatch.setattr(xacro, "SECONDS", 0.3)
     with pytest.raises(RobotError, match="cannot expand"):
         link_named(f"${{{expression}}}", tmp_path)
+
+
+def test_a_slow_expression_is_waited_for(tmp_path: Path):
+    """Half a second or more of work, within the limit: its process lives as long as it may work."""
+    assert link_named("${'arm' if max(range(2*10**7)) > 0 else 'leg'}", tmp_path) == "arm"
