@@ -34,7 +34,7 @@ class Range(NamedTuple):
 
     Attributes:
         low, high: limits, both allowed.
-        absent: whether zero is allowed too, for a feature that there is not.
+        absent: whether zero is allowed too, for a feature that does not exist.
         words: for messages; empty: its limits.
     """
 

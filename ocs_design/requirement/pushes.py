@@ -99,7 +99,7 @@ class Unforeseen(Maneuver):
 
     @property
     def idle(self) -> str:
-        """Torque about roll and pitch, if it is zero."""
+        """Words for a torque without roll and pitch; empty: it has one of them."""
         return "" if any(self.torque[:2]) else "torque about roll and pitch is 0"
 
     @property

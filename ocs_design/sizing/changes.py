@@ -153,7 +153,7 @@ def levers(task: Task, owed: str) -> Iterator[Lever]:
 
 
 def _time(task: Task) -> Lever:
-    """The time of all maneuvers."""
+    """More time for all maneuvers."""
 
     def change(percent: int) -> Change:
         factor, height = 1.0 + percent / 100.0, task.standing_height
@@ -165,14 +165,14 @@ def _time(task: Task) -> Lever:
 
 
 def _room(task: Task) -> Lever:
-    """The largest radius of a rim."""
+    """A larger outer radius of the rims."""
     return _key(task, "flywheel", "r_max", task.resolved.envelope.outer_radius_max, "mm")
 
 
 def _key(
     task: Task, section: str, key: str, own: float, unit: str, *, upwards: bool = True
 ) -> Lever:
-    """A key of the file, rounded to three digits towards the looser side."""
+    """A looser value of one key, rounded to three digits towards the looser side."""
 
     def change(percent: int) -> Change:
         factor = 1.0 + percent / 100.0
