@@ -43,7 +43,7 @@ def no_alternatives():
     """`size` looks for nothing lighter: half of its time, where nothing is asked of it."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(
-            "ocs_design.workflows.size.lighter_otherwise", lambda *_, call: lambda: ((), None)
+            "ocs_design.workflows.size.start_alternatives", lambda *_, call: lambda: ((), None)
         )
         yield
 

@@ -16,7 +16,7 @@ from typing import Any
 from ocs_design.actuation.motor import build_gaps
 from ocs_design.common.errors import Infeasible, OcsError
 from ocs_design.common.wording import degrees
-from ocs_design.device.records.selection import SAVES_NOTHING, Alternative, Owed
+from ocs_design.device.records.selection import SAVES_NOTHING, Alternative, DrivingManeuver
 from ocs_design.requirement.sweep import Task
 from ocs_design.requirement.vocabulary import DISC, RING
 from ocs_design.sizing.changes import Change, Lever, changes, levers, options
@@ -36,19 +36,19 @@ from ocs_design.sizing.specified import (
     specified_requirement,
 )
 
-_GAPS_TOLD = 2
-"""Number of a motor's missing figures that fit on a line."""
+_GAPS_SHOWN = 2
+"""Number of a motor's missing figures that a note names."""
 
-_OVER = 1.05
-"""Ratio of the supply to a motor's rated voltage above which the note mentions it."""
+_OVERVOLTAGE_NOTED = 1.05
+"""Ratio of supply voltage to rated voltage above which a note mentions the rating."""
 
-_WORTH = 0.005
-"""Fraction of the mass below which a saving is not reported."""
+_LEAST_SAVING = 0.005
+"""Savings below this fraction of the device's mass are not reported."""
 
 
-def lighter_otherwise(
+def start_alternatives(
     task: Task, choice: DriveChoice | None, call: Callable[..., Callable[[], Any]] = partial
-) -> Callable[[], tuple[tuple[Alternative, ...], Owed | None]]:
+) -> Callable[[], tuple[tuple[Alternative, ...], DrivingManeuver | None]]:
     """Start computing what each change would save, and which maneuver drives the mass.
 
     Args:
@@ -62,19 +62,19 @@ def lighter_otherwise(
     if choice is None:
         return lambda: ((), None)
     # The other construction takes longest.
-    begun = [call(built_otherwise, task, choice)]
-    begun += [call(Variant.saved, variant) for variant in variants(task, choice)]
-    begun.append(call(owed_to, task, choice))
+    pending = [call(alternative_construction, task, choice)]
+    pending += [call(Variant.alternative, variant) for variant in variants(task, choice)]
+    pending.append(call(find_driving_maneuver, task, choice))
 
-    def answers() -> tuple[tuple[Alternative, ...], Owed | None]:
+    def answers() -> tuple[tuple[Alternative, ...], DrivingManeuver | None]:
         # Last one first: it is the least likely to have been started by another process.
-        built, *found, owed = [each() for each in reversed(begun)][::-1]
-        return (*found, *built), owed
+        construction, *changes, driving_maneuver = [wait() for wait in reversed(pending)][::-1]
+        return (*changes, *construction), driving_maneuver
 
     return answers
 
 
-def _answer(text: str, device: Candidate, note: str = "") -> Alternative:
+def _alternative(text: str, device: Candidate, note: str = "") -> Alternative:
     """The device after a change, with a note for or against it."""
     return Alternative(change=text, mass_total=device.mass, motor=device.motor.name, note=note)
 
@@ -105,8 +105,8 @@ class Variant:
         return variant if variant.problem.motors else None
 
     @property
-    def turns(self) -> bool:
-        """Whether the incidence is chosen again."""
+    def incidence_is_free(self) -> bool:
+        """Whether the change leaves the incidence to be chosen again."""
         return self.problem.incidence is None
 
     @cached_property
@@ -117,99 +117,102 @@ class Variant:
         present device has or was chosen from.
         """
         present, chosen = self.choice.problem, self.choice.chosen
-        specified, offered = self.task.specification, self.task.resolved.choice
-        assert offered is not None, "there are motors to choose from"
-        asked = specified_requirement(self.task)
-        turns = specified_criterion(specified) is None and present.incidence is not None
+        specified, parts = self.task.specification, self.task.resolved.choice
+        assert parts is not None, "there are motors to choose from"
+        requirement = specified_requirement(self.task)
+        incidence_is_free = specified_criterion(specified) is None and present.incidence is not None
         reserves = dict(present.requirement.reserves)
-        for each in asked.maneuvers:
-            if each.incidence == 0.0 and each.name in reserves:
+        for maneuver in requirement.maneuvers:
+            if maneuver.incidence == 0.0 and maneuver.name in reserves:
                 # At 0 deg no wheel takes up a rate of roll.
-                kept = reserves[each.name]
-                reserves[each.name] = replace(kept, rate=(0.0, kept.rate[1]), roll=0.0)
+                reserve = reserves[maneuver.name]
+                reserves[maneuver.name] = replace(reserve, rate=(0.0, reserve.rate[1]), roll=0.0)
         # A motor slowed below its maker's speed stays so (`specified`).
-        known = {motor.name: motor for motor in present.motors}
-        motors = (known.get(motor.name, motor) for motor in offered.motors)
-        same = tuple(offered.materials) == tuple(present.materials)
+        present_motors = {motor.name: motor for motor in present.motors}
+        motors = (present_motors.get(motor.name, motor) for motor in parts.motors)
+        same_materials = tuple(parts.materials) == tuple(present.materials)
         return replace(
             present,
-            requirement=replace(asked, reserves=reserves, free=turns),
+            requirement=replace(requirement, reserves=reserves, free=incidence_is_free),
             envelope=self.task.resolved.envelope,
-            supply=offered.supply,
-            motors=tuple(each for each in motors if specified.motor.any or each.name in known),
-            materials=(chosen.material,) if same else offered.materials,
-            incidence=None if turns else chosen.incidence,
+            supply=parts.supply,
+            motors=tuple(
+                motor for motor in motors if specified.motor.any or motor.name in present_motors
+            ),
+            materials=(chosen.material,) if same_materials else parts.materials,
+            incidence=None if incidence_is_free else chosen.incidence,
         )
 
-    def saved(self) -> Alternative:
-        """The device with this change; the present one where it would save next to nothing."""
-        chosen, hangs = self.choice.chosen, self.choice.hangs
+    def alternative(self) -> Alternative:
+        """Device with this change; the present one where the change saves next to nothing."""
+        chosen = self.choice.chosen
         # Searching for a mount takes longest where there is none, and sizing a device in full
         # repeats that search several times.
-        quick, most = hangs and not self.turns, (1.0 - _WORTH) * chosen.mass
-        found = self.selected(most) if quick else self.lighter(most)
-        if found is None:
-            return _answer(self.text, chosen, SAVES_NOTHING)
+        quick = self.choice.lacks_mount and not self.incidence_is_free
+        mass_max = (1.0 - _LEAST_SAVING) * chosen.mass
+        device = self.quick_selection(mass_max) if quick else self.full_design(mass_max)
+        if device is None:
+            return _alternative(self.text, chosen, SAVES_NOTHING)
         notes = ["by a quick look"] if quick else []
-        return _answer(self.text, found, "; ".join([*notes, *self.notes(found)]))
+        return _alternative(self.text, device, "; ".join([*notes, *self.notes(device)]))
 
-    def selected(self, most: float) -> Candidate | None:
-        """The lightest device on the present footing; None: it is heavier than `most` [kg]."""
-        found = lightest_below(self.problem, most)
-        if found is not None and not self.choice.hangs:
-            found = OnRobot(self.task.robot).with_plate(found, self.problem)
-        return found if found is not None and found.mass <= most else None
+    def quick_selection(self, mass_max: float) -> Candidate | None:
+        """The lightest device on the present footing; None: heavier than `mass_max` [kg]."""
+        device = lightest_below(self.problem, mass_max)
+        if device is not None and not self.choice.lacks_mount:
+            device = OnRobot(self.task.robot).with_plate(device, self.problem)
+        return device if device is not None and device.mass <= mass_max else None
 
-    def lighter(self, most: float) -> Candidate | None:
-        """The device in full, with the lightest drive; None: it is heavier than `most` [kg]."""
-        found, offered = self.selected(most), self.task.resolved.choice
+    def full_design(self, mass_max: float) -> Candidate | None:
+        """The device sized in full, with the lightest drive; None: heavier than `mass_max` [kg]."""
+        found, offered = self.quick_selection(mass_max), self.task.resolved.choice
         if found is None or offered is None:
             return None
         parts = replace(offered, motors=(found.motor,), gears=(found.gear,))
         if self.problem.materials != parts.materials:
             # Devices of different steels are much alike; trying all with every drive is slow.
-            each = [replace(found, material=material) for material in parts.materials]
-            built = devices_at(self.problem, each, found.incidence)
+            of_each_material = [replace(found, material=material) for material in parts.materials]
+            built = devices_at(self.problem, of_each_material, found.incidence)
             found = devices_by_mass([found, *filter(None, built)])[0]
         parts = replace(parts, materials=(found.material,))
-        asked = replace(self.task, resolved=replace(self.task.resolved, choice=parts))
-        # A lighter device may be wider, and so may its plate.
-        device = _whole(asked, near=found)
-        return device if device is not None and device.mass <= most else None
+        task = replace(self.task, resolved=replace(self.task.resolved, choice=parts))
+        # Place and plate are searched again: a lighter device may need more room.
+        device = _full_design(task, near=found)
+        return device if device is not None and device.mass <= mass_max else None
 
-    def notes(self, found: Candidate) -> Iterator[str]:
+    def notes(self, device: Candidate) -> Iterator[str]:
         """Notes on the device found, besides its mass and motor."""
-        if self.turns:
-            yield f"alpha {degrees(found.incidence)}"
-        if found.material != self.choice.chosen.material:
-            yield found.material.name
-        rated = found.motor.rated_voltage
-        if rated is not None and self.problem.bus_voltage > _OVER * rated:
+        if self.incidence_is_free:
+            yield f"alpha {degrees(device.incidence)}"
+        if device.material != self.choice.chosen.material:
+            yield device.material.name
+        rated = device.motor.rated_voltage
+        if rated is not None and self.problem.bus_voltage > _OVERVOLTAGE_NOTED * rated:
             yield f"the motor is rated for {rated:g} V"
-        gaps = build_gaps(found.motor)
-        if gaps:
-            yield f"not buildable: {', '.join(gaps[:_GAPS_TOLD])} not known"
-        elif found.motor.name not in {motor.name for motor in self.choice.problem.motors}:
+        missing = build_gaps(device.motor)
+        if missing:
+            yield f"not buildable: {', '.join(missing[:_GAPS_SHOWN])} not known"
+        elif device.motor.name not in {motor.name for motor in self.choice.problem.motors}:
             yield "not buildable: its threads or shaft do not hold the wheel or the motor"
 
 
-def _whole(task: Task, near: Candidate | None = None) -> Candidate | None:
+def _full_design(task: Task, near: Candidate | None = None) -> Candidate | None:
     """The lightest device, with its own footing and reserve; None: none is feasible."""
     try:
-        own = design_device(task, ranked=False, near=near)
+        designed = design_device(task, ranked=False, near=near)
     except Infeasible:
         return None
-    return None if own.choice is None else own.choice.chosen
+    return None if designed.choice is None else designed.choice.chosen
 
 
-def built_otherwise(task: Task, choice: DriveChoice | None) -> tuple[Alternative, ...]:
+def alternative_construction(task: Task, choice: DriveChoice | None) -> tuple[Alternative, ...]:
     """The device with rings in place of discs, or discs in place of rings; empty if infeasible.
 
     It is reported whether lighter or not, unless the device has no mount. All drives are tried:
     each stands higher or lower than with the present construction, on other feet and another plate,
     so a quick selection on the present footing says little.
     """
-    if choice is None or choice.hangs:
+    if choice is None or choice.lacks_mount:
         return ()
     other = other_construction(task, choice.problem)
     if other is None:
@@ -220,9 +223,9 @@ def built_otherwise(task: Task, choice: DriveChoice | None) -> tuple[Alternative
     wheel = RING if other.on_bell else DISC
     # The bell fixes the bore, which a co-design would change.
     specified = task.specification
-    built = replace(specified, ocs=replace(specified.ocs, wheel=wheel, co_design=None))
-    found = _whole(replace(task, specification=built))
-    return () if found is None else (_answer(text, found, f"--wheel {wheel}"),)
+    changed = replace(specified, ocs=replace(specified.ocs, wheel=wheel, co_design=None))
+    device = _full_design(replace(task, specification=changed))
+    return () if device is None else (_alternative(text, device, f"--wheel {wheel}"),)
 
 
 def variants(task: Task, choice: DriveChoice) -> Iterator[Variant]:
@@ -231,41 +234,48 @@ def variants(task: Task, choice: DriveChoice) -> Iterator[Variant]:
     return (variant for variant in found if variant is not None)
 
 
-def owed_to(task: Task, choice: DriveChoice | None) -> Owed | None:
-    """The maneuver without which the device would be lightest; None: there are no maneuvers."""
+def find_driving_maneuver(task: Task, choice: DriveChoice | None) -> DrivingManeuver | None:
+    """The maneuver without which the device would be lightest.
+
+    None without a motor or maneuvers.
+    """
     if choice is None:
         return None
-    chosen, asked = choice.chosen, choice.problem.requirement
+    chosen, requirement = choice.chosen, choice.problem.requirement
     problem = replace(choice.problem, incidence=chosen.incidence, materials=(chosen.material,))
-    best = (1.0 - _WORTH) * chosen.mass
-    owed = Owed(maneuver="", mass_without=chosen.mass) if asked.maneuvers else None
-    for maneuver in asked.maneuvers:
-        rest = tuple(each for each in asked.maneuvers if each is not maneuver)
-        if not rest and asked.rate_change is None and asked.spin_inertia is None:
-            return Owed(maneuver=maneuver.name, mass_without=None)
-        without = replace(problem, requirement=replace(asked, maneuvers=rest))
-        lighter = lightest_below(without, best)
-        if lighter is None:
+    mass_max = (1.0 - _LEAST_SAVING) * chosen.mass
+    driving = None
+    if requirement.maneuvers:
+        driving = DrivingManeuver(maneuver="", mass_without=chosen.mass)
+    for maneuver in requirement.maneuvers:
+        others = tuple(other for other in requirement.maneuvers if other is not maneuver)
+        if not others and requirement.rate_change is None and requirement.spin_inertia is None:
+            return DrivingManeuver(maneuver=maneuver.name, mass_without=None)
+        without = replace(problem, requirement=replace(requirement, maneuvers=others))
+        device = lightest_below(without, mass_max)
+        if device is None:
             continue
-        mass = (lighter if choice.hangs else OnRobot(task.robot).with_plate(lighter, problem)).mass
-        if mass < best:
-            best, owed = mass, Owed(maneuver=maneuver.name, mass_without=mass)
-    return owed
+        if not choice.lacks_mount:
+            device = OnRobot(task.robot).with_plate(device, problem)
+        if device.mass < mass_max:
+            mass_max = device.mass
+            driving = DrivingManeuver(maneuver=maneuver.name, mass_without=mass_max)
+    return driving
 
 
-MOST = 200
+LARGEST_CHANGE = 200
 """Largest change that is tried [%]."""
 
-_BEYOND = 1.5
-"""Largest factor beyond the change with which a selection is light enough until its full design is,
-too."""
+_FULL_OVER_QUICK = 1.5
+"""Largest ratio of the change with which a full design is light enough to that with which a quick
+selection is."""
 
-_SHARP = 0.005
-"""Relative precision of the search for a change in whole per cent."""
+_PRECISION = 0.005
+"""Relative precision of the smallest change, which is reported in whole per cent."""
 
 
 def lighter_by(
-    mass: float, task: Task, choice: DriveChoice, owed: str, progress: Progress = unseen
+    mass: float, task: Task, choice: DriveChoice, driving_maneuver: str, progress: Progress = unseen
 ) -> tuple[Alternative, ...]:
     """Changes of the specification, each of which saves the given mass.
 
@@ -273,7 +283,7 @@ def lighter_by(
         mass: mass to save [kg].
         task: task that the device was designed for. choice: the device, and what it was chosen
             from.
-        owed: maneuver that drives the mass, which may be relaxed alone; empty: none.
+        driving_maneuver: maneuver that drives the mass, which may be relaxed alone; empty: none.
         progress: called with the fraction done.
     """
     target = choice.chosen.mass - mass
@@ -284,45 +294,52 @@ def lighter_by(
         task, specification=replace(specified, ocs=replace(specified.ocs, co_design=None))
     )
 
-    def answer(change: Change) -> Alternative | None:
+    def with_change(change: Change) -> Alternative | None:
         variant = Variant.of(change, task, choice)
-        found = None if variant is None else variant.lighter(target)
-        return None if found is None else _answer(change.text, found)
+        device = None if variant is None else variant.full_design(target)
+        return None if device is None else _alternative(change.text, device)
 
-    def smallest(lever: Lever) -> Alternative | None:
+    def smallest_change(lever: Lever) -> Alternative | None:
         """The smallest sufficient change: the more is relaxed, the lighter the device."""
 
         @cache
         def is_light(percent: int) -> bool:
             """Whether a device on the present footing is light enough, which is quick to find."""
             variant = Variant.of(lever(percent), task, choice)
-            return variant is not None and variant.selected(target) is not None
+            return variant is not None and variant.quick_selection(target) is not None
 
         @cache
-        def at(percent: int) -> Alternative | None:
-            return answer(lever(percent)) if is_light(percent) else None
+        def alternative_at(percent: int) -> Alternative | None:
+            return with_change(lever(percent)) if is_light(percent) else None
 
-        if not is_light(MOST):
+        if not is_light(LARGEST_CHANGE):
             return None
-        most = 1.0 + MOST / 100.0
-        start, light = narrowed(lambda factor: is_light(_percent(factor)), 1.0, most, _SHARP)
-        far = min(_BEYOND * light, most)
-        found = smallest_factor(lambda factor: bool(at(_percent(factor))), start, far, _SHARP)
-        return None if found is None else at(_percent(found))
+        largest = 1.0 + LARGEST_CHANGE / 100.0
+        start, light = narrowed(lambda factor: is_light(_percent(factor)), 1.0, largest, _PRECISION)
+        largest = min(_FULL_OVER_QUICK * light, largest)
+        factor = smallest_factor(
+            lambda factor: bool(alternative_at(_percent(factor))), start, largest, _PRECISION
+        )
+        return None if factor is None else alternative_at(_percent(factor))
 
-    nothing, figures = Change("", task.specification), list(levers(task, owed))
+    unchanged, all_levers = Change("", task.specification), list(levers(task, driving_maneuver))
     open_choices = list(options(task))
-    found = [answer(each.on(nothing)) for each in open_choices]
-    vain = [each for each, alone in zip(open_choices, found, strict=True) if alone is None]
-    found += [answer(second.on(first.on(nothing))) for first, second in combinations(vain, 2)]
-    for index, lever in enumerate(figures):
-        found.append(smallest(lever))
-        progress((index + 1) / len(figures))
+    found = [with_change(option.added_to(unchanged)) for option in open_choices]
+    insufficient = [
+        option for option, alone in zip(open_choices, found, strict=True) if alone is None
+    ]
+    found += [
+        with_change(second.added_to(first.added_to(unchanged)))
+        for first, second in combinations(insufficient, 2)
+    ]
+    for index, lever in enumerate(all_levers):
+        found.append(smallest_change(lever))
+        progress((index + 1) / len(all_levers))
     if not any(found):
         # No single figure or choice saves enough: one of each together may.
-        for each, lever in product(open_choices, figures):
-            found.append(smallest(each.beside(lever)))
-    return tuple(answer for answer in found if answer is not None)
+        for option, lever in product(open_choices, all_levers):
+            found.append(smallest_change(option.with_lever(lever)))
+    return tuple(alternative for alternative in found if alternative is not None)
 
 
 def _percent(factor: float) -> int:

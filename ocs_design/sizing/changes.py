@@ -42,22 +42,22 @@ class Option:
 
     Attributes:
         text: in words. option: command line option, with its drawback.
-        specified: makes this choice in a specification.
+        apply: makes this choice in a specification.
     """
 
     text: str
     option: str
-    specified: Callable[[Specification], Specification]
+    apply: Callable[[Specification], Specification]
 
-    def on(self, change: Change) -> Change:
+    def added_to(self, change: Change) -> Change:
         """This choice in addition to another change."""
         text = f"{self.text} ({self.option})"
         joined = f"{change.text}, and {text}" if change.text else text
-        return Change(joined, self.specified(change.specification))
+        return Change(joined, self.apply(change.specification))
 
-    def beside(self, lever: Lever) -> Lever:
+    def with_lever(self, lever: Lever) -> Lever:
         """This choice in addition to the relaxation of a figure."""
-        return lambda percent: self.on(lever(percent))
+        return lambda percent: self.added_to(lever(percent))
 
 
 def options(task: Task) -> Iterator[Option]:
@@ -96,88 +96,95 @@ def changes(task: Task) -> Iterator[Change]:
     """Each choice that the specification leaves open, more power, more room and more time."""
     specified, offered = task.specification, task.resolved.choice
     assert offered is not None, "there are motors to choose from"
-    yield from (Change(each.text, each.specified(specified)) for each in options(task))
-    flips = [each for each in task.maneuvers if each.pitches_over]
+    yield from (Change(option.text, option.apply(specified)) for option in options(task))
+    flips = [flip for flip in task.maneuvers if flip.pitches_over]
     if specified_layout(specified).pairs and any(flip.incidence is None for flip in flips):
-        by_hand = task.with_maneuvers(
+        at_zero = task.with_maneuvers(
             lambda flip: replace(flip, incidence=flip.incidence or 0.0),
             [flip.name for flip in flips],
         )
-        yield Change("modules turned to 0 deg by hand for each flip", by_hand)
+        yield Change("modules turned to 0 deg by hand for each flip", at_zero)
     power = offered.supply.power
     if isfinite(power):
-        least = format_quantity(power, "kW" if power >= 1e3 else "W", 3)
-        endless = replace(specified.supply, power_max=inf, current_max=inf)
-        yield Change(f"a supply of more than {least}", replace(specified, supply=endless))
-    yield _room(task)(MORE_ROOM)
+        present = format_quantity(power, "kW" if power >= 1e3 else "W", 3)
+        unlimited = replace(specified.supply, power_max=inf, current_max=inf)
+        yield Change(f"a supply of more than {present}", replace(specified, supply=unlimited))
+    yield _radius_lever(task)(MORE_ROOM)
     if task.maneuvers:
-        yield _time(task)(MORE_TIME)
+        yield _time_lever(task)(MORE_TIME)
 
 
-def levers(task: Task, owed: str) -> Iterator[Lever]:
+def levers(task: Task, driving_maneuver: str) -> Iterator[Lever]:
     """Figures that can be relaxed: time, room, supply, and the requirement.
 
-    For the maneuver that drives the mass (`owed`), its own time where there are several, and its
+    Of the maneuver that drives the mass, its own time where there are several maneuvers, and its
     tilt or push; a flip cannot be made smaller.
     """
     if task.maneuvers:
-        yield _time(task)
-    alone = next((each for each in task.maneuvers if each.name == owed), None)
-    if alone is not None:
+        yield _time_lever(task)
+    driving = next(
+        (maneuver for maneuver in task.maneuvers if maneuver.name == driving_maneuver), None
+    )
+    if driving is not None:
 
         def longer(percent: int) -> Change:
-            later = alone.slower(1.0 + percent / 100.0, task.standing_height)
-            text = f"{percent}% more time for one: {change_text(alone, later)}"
-            return Change(text, task.with_maneuvers(lambda _: later, [owed]))
+            slower = driving.slower(1.0 + percent / 100.0, task.standing_height)
+            text = f"{percent}% more time for one: {change_text(driving, slower)}"
+            return Change(text, task.with_maneuvers(lambda _: slower, [driving_maneuver]))
 
         def gentler(percent: int) -> Change:
             share = round_outwards(1.0 / (1.0 + percent / 100.0), upwards=False, digits=2)
-            text = f"{share:.0%} of the {alone.reducible} of {owed}"
-            return Change(text, task.with_maneuvers(lambda each: each.milder(share), [owed]))
+            text = f"{share:.0%} of the {driving.reducible} of {driving_maneuver}"
+            return Change(
+                text,
+                task.with_maneuvers(lambda maneuver: maneuver.milder(share), [driving_maneuver]),
+            )
 
         if len(task.maneuvers) > 1:
             yield longer
-        if alone.reducible:
+        if driving.reducible:
             yield gentler
     resolved = task.resolved
-    yield _room(task)
-    yield _key(task, "flywheel", "h_max", resolved.envelope.height_max, "mm")
+    yield _radius_lever(task)
+    yield _key_lever(task, "flywheel", "h_max", resolved.envelope.height_max, "mm")
     rate = resolved.requirement.rate_change
     if rate is not None:
-        yield _key(task, "requirement", "rate_change", rate, "rad/s", upwards=False)
+        yield _key_lever(task, "requirement", "rate_change", rate, "rad/s", upwards=False)
     if resolved.choice is not None:
         supply = resolved.choice.supply
-        yield _key(task, "supply", "voltage", supply.voltage, "V")
+        yield _key_lever(task, "supply", "voltage", supply.voltage, "V")
         if isfinite(supply.power_max):
-            yield _key(task, "supply", "power_max", supply.power_max, "W")
+            yield _key_lever(task, "supply", "power_max", supply.power_max, "W")
 
 
-def _time(task: Task) -> Lever:
+def _time_lever(task: Task) -> Lever:
     """More time for all maneuvers."""
 
     def change(percent: int) -> Change:
         factor, height = 1.0 + percent / 100.0, task.standing_height
-        names = [each.name for each in task.maneuvers]
-        longer = task.with_maneuvers(lambda each: each.slower(factor, height), names)
+        names = [maneuver.name for maneuver in task.maneuvers]
+        longer = task.with_maneuvers(lambda maneuver: maneuver.slower(factor, height), names)
         return Change(f"{percent}% more time for every maneuver", longer)
 
     return change
 
 
-def _room(task: Task) -> Lever:
+def _radius_lever(task: Task) -> Lever:
     """A larger outer radius of the rims."""
-    return _key(task, "flywheel", "r_max", task.resolved.envelope.outer_radius_max, "mm")
+    return _key_lever(task, "flywheel", "r_max", task.resolved.envelope.outer_radius_max, "mm")
 
 
-def _key(
-    task: Task, section: str, key: str, own: float, unit: str, *, upwards: bool = True
+def _key_lever(
+    task: Task, section: str, key: str, present: float, unit: str, *, upwards: bool = True
 ) -> Lever:
     """A looser value of one key, rounded to three digits towards the looser side."""
 
     def change(percent: int) -> Change:
         factor = 1.0 + percent / 100.0
-        value = round_outwards(own * factor if upwards else own / factor, upwards=upwards)
-        text = f"{key} {format_quantity(value, unit)} in place of {format_quantity(own, unit, 3)}"
+        value = round_outwards(present * factor if upwards else present / factor, upwards=upwards)
+        text = (
+            f"{key} {format_quantity(value, unit)} in place of {format_quantity(present, unit, 3)}"
+        )
         return Change(text, task.with_key(section, key, value))
 
     return change

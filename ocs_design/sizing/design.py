@@ -130,7 +130,7 @@ def _designed(
         if (
             device.layout.pairs
             and choice is not None
-            and choice.hangs
+            and choice.lacks_mount
             and search.footing(device, formed) is not None
         ):
             with suppress(Infeasible):
@@ -242,7 +242,7 @@ def _by_selection(
     # A co-design makes the selected device smaller, and its plate with it.
     device = assemble_selected(chosen)
     footing = search.footing(device, problem)
-    hangs = footing is None and trunk_surface(robot) is not None
+    lacks_mount = footing is None and trunk_surface(robot) is not None
     device = device if footing is None else standing_on(device, footing)
     carried, bodies = device.plated(robot.mass_properties), (chosen.wheel, chosen.carrier)
     centers = np.stack([module.position for module in device.modules])
@@ -251,7 +251,7 @@ def _by_selection(
         device=device,
         sized=replace(sized_selection(problem, chosen, robot.mass_properties), total=total),
         criterion=BY_HAND if specified else name,
-        choice=DriveChoice(problem, selection, chosen, co_designed, hangs),
+        choice=DriveChoice(problem, selection, chosen, co_designed, lacks_mount),
         reserve=reserve,
         account=lambda: account(reserve, reality, problem, chosen, resized, nominal=least()),
     )

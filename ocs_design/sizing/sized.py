@@ -157,14 +157,15 @@ class DriveChoice:
         problem: candidates and requirement. selection: its solution.
         chosen: the lightest device, or the co-design based on it.
         co_design: the co-design; None: not required.
-        hangs: whether nothing on the trunk can hold it; False where the trunk's shapes are unknown.
+        lacks_mount: whether nothing on the trunk can hold it; False where the trunk's shapes are
+            unknown.
     """
 
     problem: SelectionProblem
     selection: Selection
     chosen: Candidate
     co_design: CoDesignRecord | None
-    hangs: bool
+    lacks_mount: bool
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,7 +14,7 @@ from ocs_design.device.bodies import require_no_device
 from ocs_design.device.device import Device
 from ocs_design.device.records.design import DESIGN_FILE, OcsDesign
 from ocs_design.device.records.flights import falls_short
-from ocs_design.device.records.selection import Lighter, Owed
+from ocs_design.device.records.selection import DrivingManeuver, Lighter
 from ocs_design.export.assembly.content import assembly_of
 from ocs_design.export.folder import check_target, recorded_hashes, staged_folder
 from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats, refusal
@@ -36,7 +36,7 @@ from ocs_design.robot.robot import Robot
 from ocs_design.simulation.margins import record_margins
 from ocs_design.simulation.run import Run
 from ocs_design.simulation.world_builder import control_of
-from ocs_design.sizing.alternatives import lighter_by, lighter_otherwise
+from ocs_design.sizing.alternatives import lighter_by, start_alternatives
 from ocs_design.sizing.bound.rim_program import load_solver
 from ocs_design.sizing.buildable import buildable_of
 from ocs_design.sizing.design import mass_without_survival
@@ -136,12 +136,14 @@ def design_ocs(
     steps.doubt(robot.warnings)
     placed = size_or_advise(specification, robot, steps, strict=strict)
     placed = size_for_turns(placed, steps, strict=strict)
-    look = partial(lighter_otherwise, call=(beside or Beside()).call)
-    otherwise = None if specified.certify else look(placed.task, placed.designed.choice)
+    start = partial(start_alternatives, call=(beside or Beside()).call)
+    wait_for_alternatives = (
+        None if specified.certify else start(placed.task, placed.designed.choice)
+    )
     proof = prove(placed, specified, steps)
     if specified.certify:
         placed, proof = certify(placed, proof, steps, strict=strict)
-    otherwise = otherwise or look(placed.task, placed.designed.choice)
+    wait_for_alternatives = wait_for_alternatives or start(placed.task, placed.designed.choice)
     device, runs = placed.designed.device, proof.runs
     with staged_folder(folder, force=force) as staging:
         with steps.step("export parts and robot files"):
@@ -156,8 +158,8 @@ def design_ocs(
             robot = replace(robot, warnings=(*robot.warnings, *remarks))
         unfilmed = _write_flights(placed, proof, staging, steps)
         with steps.step("search lighter alternatives"):
-            lighter, owed = otherwise()
-        conceded = _lighter_changes(placed, owed, steps)
+            lighter, driving_maneuver = wait_for_alternatives()
+        conceded = _lighter_changes(placed, driving_maneuver, steps)
         forget_collision_model()
         control = control_of(specified, robot)
         design = replace(
@@ -180,7 +182,7 @@ def design_ocs(
                 )
             ),
             alternatives=lighter,
-            owed=owed,
+            owed=driving_maneuver,
             lighter=conceded,
         )
         if proof.survival is not None:
@@ -226,7 +228,9 @@ def _write_flights(placed: Placed, proof: Proof, folder: Path, steps: Steps) -> 
         )
 
 
-def _lighter_changes(placed: Placed, owed: Owed | None, steps: Steps) -> Lighter | None:
+def _lighter_changes(
+    placed: Placed, driving_maneuver: DrivingManeuver | None, steps: Steps
+) -> Lighter | None:
     """Changes that would make the device lighter, if requested."""
     by, choice = placed.specification.ocs.lighter_by, placed.designed.choice
     if by is None or choice is None:
@@ -234,7 +238,13 @@ def _lighter_changes(placed: Placed, owed: Owed | None, steps: Steps) -> Lighter
     with steps.step("search changes that make it lighter") as step:
         return Lighter(
             by=by,
-            changes=lighter_by(by, placed.task, choice, owed.maneuver if owed else "", step.update),
+            changes=lighter_by(
+                by,
+                placed.task,
+                choice,
+                driving_maneuver.maneuver if driving_maneuver else "",
+                step.update,
+            ),
         )
 
 

@@ -86,9 +86,9 @@ def test_a_question_has_its_answer(question, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     # What one change would save is asked by none.
     monkeypatch.setattr(alternatives, "variants", lambda *_: ())
-    monkeypatch.setattr(alternatives, "built_otherwise", lambda *_: ())
+    monkeypatch.setattr(alternatives, "alternative_construction", lambda *_: ())
     if not re.search("driven by|Trade-offs to save", question["answer"]):
-        monkeypatch.setattr(alternatives, "owed_to", lambda *_: None)
+        monkeypatch.setattr(alternatives, "find_driving_maneuver", lambda *_: None)
     monkeypatch.setenv("COLUMNS", "200")
     (tmp_path / "examples").symlink_to(ROOT / "examples")
     specified = re.search(r"[Ee]xit code (\d)", question["prose"] + question["after"])

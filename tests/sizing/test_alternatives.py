@@ -17,9 +17,9 @@ from ocs_design.requirement.sections import RequirementSection, RobotSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.turns import Flip
 from ocs_design.sizing.alternatives import (
-    built_otherwise,
-    lighter_otherwise,
-    owed_to,
+    alternative_construction,
+    find_driving_maneuver,
+    start_alternatives,
     variants,
 )
 from ocs_design.sizing.changes import MORE_TIME
@@ -44,7 +44,7 @@ def compared(specification, change):
 def saved(task, choice, text):
     """What the change with this text would save."""
     (variant,) = [each for each in variants(task, choice) if each.text == text]
-    return variant.saved()
+    return variant.alternative()
 
 
 def by_hand(task):
@@ -95,7 +95,7 @@ def test_rings_on_a_robot_are_weighed_on_feet_and_a_plate_of_their_own():
     motor = MotorSection(name="Antigravity MN5008 KV400")
     specified = Specification(robot=RobotSection(file=SOLO12), motor=motor)
     task = solo12().with_specification(specified)
-    (told,) = built_otherwise(task, design_device(task, ranked=False).choice)
+    (told,) = alternative_construction(task, design_device(task, ranked=False).choice)
     assert told.change == "a ring bonded around each motor's bell in place of the disc"
     ring = task.with_specification(replace(specified, ocs=OcsSection(wheel="ring")))
     whole = design_device(ring, ranked=False).device
@@ -131,7 +131,7 @@ def test_without_maneuvers_nobody_offers_more_time_for_them():
 
 def test_without_a_motor_there_is_nothing_to_choose():
     task, designed = design_of(Specification(motor=MotorSection(name="none")))
-    assert lighter_otherwise(task, designed.choice)() == ((), None)
+    assert start_alternatives(task, designed.choice)() == ((), None)
 
 
 @pytest.mark.slow
@@ -146,12 +146,12 @@ def test_where_nothing_holds_a_device_a_quick_look_is_told_and_says_so():
     """The look leaves out only the reserve of its own and what a mast asks of the wheels."""
     change = "modules turned to 0 deg by hand for each flip"
     task, designed, whole = compared(STATED, change)
-    hanging = replace(designed.choice, hangs=True)
+    hanging = replace(designed.choice, lacks_mount=True)
     quick = saved(task, hanging, change)
     assert "by a quick look" in quick.note
     assert "by a quick look" not in whole.note
     assert quick.mass_total == pytest.approx(whole.mass_total, rel=0.02)
-    assert built_otherwise(task, hanging) == ()
+    assert alternative_construction(task, hanging) == ()
 
 
 def test_calls_are_begun_at_once_and_their_answers_told_in_order():
@@ -162,13 +162,15 @@ def test_calls_are_begun_at_once_and_their_answers_told_in_order():
     def call(function, *args):
         number = len(begun)
         begun.append(function.__qualname__)
-        is_last = function is owed_to
-        answer = "owed" if is_last else ("rings",) if function is built_otherwise else number
+        is_last = function is find_driving_maneuver
+        answer = (
+            "driving" if is_last else ("rings",) if function is alternative_construction else number
+        )
         return lambda: (asked.append(number), answer)[1]
 
-    answers = lighter_otherwise(task, designed.choice, call)
+    answers = start_alternatives(task, designed.choice, call)
     assert not asked
-    found, owed = answers()
+    found, driving = answers()
     assert asked == list(range(len(begun)))[::-1]
     assert found == (*range(1, len(begun) - 1), "rings")
-    assert owed == "owed"
+    assert driving == "driving"

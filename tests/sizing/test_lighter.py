@@ -9,7 +9,7 @@ from designed import design_of
 from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.sections import RequirementSection
 from ocs_design.requirement.specification import Specification
-from ocs_design.sizing.alternatives import Variant, lighter_by, owed_to
+from ocs_design.sizing.alternatives import Variant, find_driving_maneuver, lighter_by
 from ocs_design.sizing.changes import Change
 from ocs_design.sizing.design import design_device
 
@@ -19,11 +19,11 @@ LESS = 0.02
 
 
 @cache
-def made(**asked):
+def designed_with(**asked):
     """The task for Solo12's figures, its device, and what its mass is owed to."""
     specification = Specification(motor=MOTORS, requirement=RequirementSection(**asked))
     task, designed = design_of(specification)
-    return task, designed, owed_to(task, designed.choice)
+    return task, designed, find_driving_maneuver(task, designed.choice)
 
 
 def mass_of(task, specification):
@@ -33,7 +33,7 @@ def mass_of(task, specification):
 
 @pytest.mark.slow
 def test_the_mass_is_owed_to_the_maneuver_without_which_it_is_lightest():
-    task, designed, owed = made()
+    task, designed, driving = designed_with()
     without = {
         maneuver.name: mass_of(
             task,
@@ -44,25 +44,25 @@ def test_the_mass_is_owed_to_the_maneuver_without_which_it_is_lightest():
         )
         for maneuver in task.maneuvers
     }
-    assert owed.maneuver == min(without, key=without.get)
-    assert owed.mass_without == pytest.approx(without[owed.maneuver], rel=0.01)
-    assert owed.mass_without < designed.device.mass
+    assert driving.maneuver == min(without, key=without.get)
+    assert driving.mass_without == pytest.approx(without[driving.maneuver], rel=0.01)
+    assert driving.mass_without < designed.device.mass
 
 
 @pytest.mark.slow
 def test_the_mass_is_owed_to_the_only_maneuver():
-    _, _, owed = made(fall=(1.0,))
-    assert (owed.maneuver, owed.mass_without) == ("fall", None)
+    _, _, driving = designed_with(fall=(1.0,))
+    assert (driving.maneuver, driving.mass_without) == ("fall", None)
 
 
 def test_a_rate_change_alone_owes_nothing_to_a_maneuver():
-    assert made(rate_change=1.0)[2] is None
+    assert designed_with(rate_change=1.0)[2] is None
 
 
 @pytest.mark.slow
 def test_every_answer_is_light_enough_and_the_smallest_change_that_is():
-    task, designed, owed = made(fall=(1.0,))
-    answers = lighter_by(LESS, task, designed.choice, owed.maneuver)
+    task, designed, driving = designed_with(fall=(1.0,))
+    answers = lighter_by(LESS, task, designed.choice, driving.maneuver)
     target = designed.choice.chosen.mass - LESS
     assert answers
     assert all(each.mass_total <= target for each in answers)
@@ -84,13 +84,13 @@ def test_every_answer_is_light_enough_and_the_smallest_change_that_is():
 
 
 def test_nothing_makes_it_lighter_than_nothing():
-    task, designed, _ = made()
+    task, designed, _ = designed_with()
     assert lighter_by(10.0, task, designed.choice, "") == ()
 
 
 def test_no_motor_is_told_at_a_voltage_that_it_is_not_rated_for():
     """MN4014 KV400 is rated for 33.6 V; others of the catalogue for more."""
-    task, designed, _ = made()
+    task, designed, _ = designed_with()
     task = task.with_specification(replace(task.specification, motor=MotorSection()))
 
     def offered(voltage):
@@ -103,14 +103,14 @@ def test_no_motor_is_told_at_a_voltage_that_it_is_not_rated_for():
 
 @pytest.mark.slow
 def test_where_neither_does_alone_a_figure_is_tried_with_a_choice(monkeypatch):
-    task, designed, _ = made(fall=(1.0,))
+    task, designed, _ = designed_with(fall=(1.0,))
     asked = {}
 
     def too_heavy(variant, _most):
         asked[variant.text] = variant.task.specification
 
-    monkeypatch.setattr(Variant, "selected", lambda *_: designed.choice.chosen)
-    monkeypatch.setattr(Variant, "lighter", too_heavy)
+    monkeypatch.setattr(Variant, "quick_selection", lambda *_: designed.choice.chosen)
+    monkeypatch.setattr(Variant, "full_design", too_heavy)
     assert lighter_by(LESS, task, designed.choice, "") == ()
     both = next(each for text, each in asked.items() if "r_max" in text and "incidence" in text)
     assert both.ocs.alpha_criterion == "lightest"

@@ -26,7 +26,7 @@ from ocs_design.requirement.device_sections import FlywheelSection, MotorSection
 from ocs_design.requirement.specification import Specification
 from ocs_design.requirement.sweep import Task
 from ocs_design.robot.mass import MassProperties, combine
-from ocs_design.sizing.alternatives import built_otherwise
+from ocs_design.sizing.alternatives import alternative_construction
 from ocs_design.sizing.lightest_module import lightest_module
 from ocs_design.sizing.limits import TIME
 from ocs_design.sizing.selection.candidates import Candidates, drives_of
@@ -179,7 +179,7 @@ def test_each_construction_tells_of_the_other():
     sides, alone = {}, {"alpha": 0.6}
     for wheel in ("disc", "ring"):
         task, designed = made(wheel, **alone)
-        (sides[wheel],) = built_otherwise(task, designed.choice)
+        (sides[wheel],) = alternative_construction(task, designed.choice)
     for wheel, other in (("disc", "ring"), ("ring", "disc")):
         assert sides[wheel].note == f"--wheel {other}"
         mass = made(other, **alone)[1].device.mass

@@ -26,8 +26,8 @@ from ocs_design.device.records.flights import (
 from ocs_design.device.records.requirement import RequirementRecord, RobotRecord
 from ocs_design.device.records.selection import (
     Alternative,
+    DrivingManeuver,
     Lighter,
-    Owed,
     SelectionRecord,
     SizingRecord,
 )
@@ -69,7 +69,7 @@ class OcsDesign:
     margins: tuple[Margin, ...]
     supply: Supply | None = None
     alternatives: tuple[Alternative, ...] = ()
-    owed: Owed | None = None
+    owed: DrivingManeuver | None = None
     lighter: Lighter | None = None
     buildable: Buildable = field(default_factory=lambda: Buildable(yes=None))
     validation: tuple[ValidationRecord, ...]

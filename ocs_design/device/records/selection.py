@@ -244,7 +244,7 @@ class Alternative:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Owed:
+class DrivingManeuver:
     """The maneuver that drives the mass.
 
     Attributes:
