@@ -252,7 +252,7 @@ WORDS = {
     "negative moment of inertia": "negative inertia",
     "not a finite number": "broken number",
     "XML is broken": "broken XML",
-    "at best for ": "motors too slow",
+    " at best, ": "motors too slow",
     "needs a wheel of": "no wheel fits",
     "thinner than air": "thinner than air",
     "over 120 s": "over 120 s",

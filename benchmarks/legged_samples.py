@@ -53,7 +53,7 @@ OTHERS = (
 
 NOTHING_SAID = ("_description", "_simple", "_data")
 """Endings of the names of packages."""
-WOULD_DO = re.compile(r"A motor of about (.+?),? would do")
+WOULD_DO = re.compile(r"A motor with about (.+?),? would do")
 """In the hint of a refusal."""
 
 
@@ -290,9 +290,10 @@ def refusal(robot: Found) -> tuple[str, str, str]:
     error = robot.sized["error"]
     if error["kind"] != "infeasible":
         return f"not asked: {error['message'].split(': ', 1)[-1].splitlines()[0]}", "-", "-"
-    closest = error["message"].splitlines()[0].split("; ")[-1].removesuffix(" (direct).")
+    closest = error["message"].splitlines()[0].split("; ")[-1].removesuffix(".")
     closest = closest.replace(" comes closest:", ",")
-    would_do, turned = WOULD_DO.search(error["hint"]), "At another incidence" in error["hint"]
+    would_do = WOULD_DO.search(error["hint"])
+    turned = "Other incidences are feasible" in error["hint"]
     return closest, would_do[1] if would_do else "-", "yes" if turned else "-"
 
 

@@ -223,8 +223,8 @@ def advice_on(
                 if field.with_requirement(replace(asked, maneuvers=(each,))).possible
             ]
             if fine:
-                how = " as it is" if len(fine) == 1 else ", each by itself"
-                hints.append(f"{some_of(fine)} can be done{how}.")
+                alone = "by itself" if len(fine) == 1 else "one at a time"
+                hints.append(f"Feasible {alone}: {some_of(fine)}.")
         hints += [
             *_caught(field),
             *([] if needed is None else [needed.text]),

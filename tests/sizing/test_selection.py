@@ -178,7 +178,7 @@ def test_rejections_name_what_is_in_the_way():
     selection = select(replace(problem, motors=(*fleet, *twins), materials=many))
     found = {rejection.motor: rejection for rejection in selection.rejections}
     assert found["weak"].reason is Reason.TORQUE
-    assert " s at best for " in found["weak"].detail
+    assert " s at best, " in found["weak"].detail
     assert found["slow"].reason in {Reason.ENVELOPE, Reason.MASS, Reason.SPEED}
     assert found["heavy"].reason is Reason.HEAVIER
     assert " g at least" in found["heavy"].detail

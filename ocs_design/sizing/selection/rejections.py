@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ocs_design.actuation.drive import missing_figures
+from ocs_design.actuation.motor import DIRECT
 from ocs_design.actuation.spin_root import capability
 from ocs_design.actuation.wheel_load import (
     SlewReason,
@@ -119,7 +120,15 @@ def rejections(found: PairBounds, ranked: Collection[int]) -> tuple[Rejection, .
 
 def _at_least(found: PairBounds, motor: int) -> str:
     gear = int(np.argmin(found.least[motor]))
-    return f"{1e3 * found.least[motor, gear]:.0f} g at least ({found.problem.gears[gear].name})"
+    return f"{1e3 * found.least[motor, gear]:.0f} g at least{_with_gear(found.problem, gear)}"
+
+
+def _with_gear(problem: SelectionProblem, gear: int) -> str:
+    """Ending of a reason that names its gear; empty where the problem has only one."""
+    if len(problem.gears) == 1:
+        return ""
+    chosen = problem.gears[gear]
+    return " (without a gear)" if chosen == DIRECT else f" ({chosen.name})"
 
 
 def _lightest_gear(found: PairBounds, motor: int) -> int:
@@ -195,7 +204,7 @@ def _unable(found: PairBounds, motors: Sequence[int]) -> dict[int, Rejection]:
         fits = float(largest[row]) if largest[row] > drives.beside_rim[row] else 0.0
         drive = drives.take(np.array([row]))
         reason, detail = _reason(problem, drive, part, (fits, float(weighty[row])))
-        detail = f"{detail} ({problem.gears[drives.gear[row]].name})"
+        detail += _with_gear(problem, drives.gear[row])
         if np.isfinite(found.least[motor]).any():
             detail = f"{detail}; {_at_least(found, motor)}"
         beyond = float(needed[row, angle] / max(largest[row], _NOTHING))
@@ -276,7 +285,10 @@ def _reason(
         place = f"at {at:.4g} deg" if problem.layout.pairs else f"of {problem.layout.text}"
         if not problem.layout.pairs:
             place += ", whatever the motor"
-        return Reason.INCIDENCE, f"{part.name} requires an axis out of reach {place}"
+        return (
+            Reason.INCIDENCE,
+            f"{part.name} requires momentum about an axis out of reach {place}",
+        )
     if not part.late > 1.0:
         # A wheel would fit except for its hoop stress, or for what it adds to the robot's inertia.
         limits = Candidates.of_each_material(problem, drive).limits
@@ -305,15 +317,16 @@ def _reason(
     weak = part.reason == SlewReason.TORQUE
     if np.isfinite(part.needed) and not weak:
         reason = Reason.ENVELOPE if part.needed > weighty else Reason.MASS
-        which = f"{fits:.3g} fits" if fits > 0.0 else "and no rim fits at all"
+        which = f"at most {fits:.3g} fits" if fits > 0.0 else "and no rim fits at all"
         return reason, f"{wheel}, {which}"
     asked = next((each for each in problem.requirement.maneuvers if each.name == part.name), None)
-    best, given = f"{part.late * part.time:.3g} s at best", f"{part.time:.3g} s"
+    best, given = f"takes {part.late * part.time:.3g} s at best", f"{part.time:.3g} s"
     if asked is not None and asked.upset:
-        best, given = f"{asked.milder(float(1.0 / part.late)).upset} at best", asked.upset
+        milder = asked.milder(float(1.0 / part.late)).upset
+        best, given = f"recovers from {milder} at best", asked.upset
     elif np.isinf(part.late):
-        best = "never in time"
-    detail = f"{best} for {part.name}, {given} given"
+        best = "is never completed"
+    detail = f"{part.name} {best}, {given} given"
     return Reason.TORQUE if weak else Reason.SPEED, detail
 
 

@@ -2,9 +2,12 @@
 
 import re
 from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scripts import script_at
 from selections import random_problem
 
 from ocs_design.actuation.motor import DIRECT
@@ -14,6 +17,7 @@ from ocs_design.sizing.advice import NeededMotor, advice_on, needed_motor
 from ocs_design.sizing.selection.rejections import Refused
 from ocs_design.sizing.selection.select import select
 
+BENCHMARKS = Path(__file__).parents[3] / "benchmarks"
 SEEDS = (0, 3, *(pytest.param(seed, marks=pytest.mark.exhaustive) for seed in (9, 12, 17, 21)))
 
 
@@ -122,6 +126,21 @@ def test_words():
     )
 
 
+def test_the_benchmark_of_legged_robots_finds_it_in_a_refusal(monkeypatch):
+    """Its table splits the printed message, which must not change without it."""
+    monkeypatch.syspath_prepend(BENCHMARKS)
+    refusal = script_at(BENCHMARKS / "legged_samples.py").refusal
+    problem, _ = too_weak(0)
+    with pytest.raises(Refused) as caught:
+        select(problem)
+    refused = advice_on(caught.value)
+    error = {"kind": "infeasible", "message": str(refused), "hint": refused.hint}
+    closest, would_do, lightest = refusal(SimpleNamespace(sized={"error": error}))
+    assert closest == f"{refused.nearest.motor}, {refused.nearest.detail}"
+    assert re.fullmatch(r"[\d.]+ N m peak torque .* weighing at most [\d.]+ kg", would_do)
+    assert lightest == "-"
+
+
 @pytest.mark.slow
 def test_a_balance_that_no_motor_catches_says_what_they_catch():
     """The told tilt is caught, and one more than the precision beyond it is not."""
@@ -135,7 +154,8 @@ def test_a_balance_that_no_motor_catches_says_what_they_catch():
 
     with pytest.raises(Refused) as caught:
         select(tilted(1.0))
-    assert re.search(r"pitch [0-9.]+ deg at best for held, pitch 5.73 deg given", str(caught.value))
+    recovers = r"held recovers from pitch [0-9.]+ deg at best, pitch 5.73 deg given"
+    assert re.search(recovers, str(caught.value))
     hint = advice_on(caught.value).hint
     told = re.search(r"A device exists with pitch ([0-9.]+) deg for held", hint).group(1)
     share = np.radians(float(told)) / held.pitch
