@@ -14,7 +14,7 @@ from ocs_design.requirement.uncertainty import Constant, UncertaintySection, spr
 from ocs_design.simulation.run import Metrics
 from ocs_design.simulation.scenario import Flights
 
-NOTHING = {name: Constant(1.0 if name == "contact_friction" else 0.0) for name in spreads()}
+NO_UNCERTAINTY = {name: Constant(1.0 if name == "contact_friction" else 0.0) for name in spreads()}
 """A world that is as designed."""
 
 NAMES = quantities(PAIR)
@@ -35,7 +35,7 @@ def short_campaign(robot, specified=None, *, device=None, seed=7, until=0.6, dro
     return replace(campaign, flights=tuple(flights))
 
 
-def calm_metrics(**told):
+def zero_metrics(**told):
     """What is measured of a flight that nothing happens in.
 
     Every figure is 0 and the robot ends upright, but for what is told.
@@ -44,7 +44,7 @@ def calm_metrics(**told):
     return Metrics(**nothing | {"upright_at_end": True} | told)
 
 
-def made_outcomes(samples, scenarios=1, *, fail_from=2.0, seed=0):
+def synthetic_outcomes(samples, scenarios=1, *, fail_from=2.0, seed=0):
     """Each sample by itself: the trunk is off level by what its first quantity says, in radians.
 
     One that is off by more than `fail_from` fails.

@@ -35,7 +35,7 @@ height = 1.0
 pitch = "20deg"
 """
 """The quickest maneuver to fly, as a specification."""
-MADE = ("cad", "robot", "snippets")
+EXPORT_FOLDERS = ("cad", "robot", "snippets")
 """Folders of a design that `export` answers for."""
 
 COMMAND_OF = cache(typer.main.get_command)
@@ -56,7 +56,7 @@ class Result:
         return json.loads(self.stdout)
 
     @property
-    def said(self):
+    def output(self):
         """Both streams as one line, panels' frames taken off and their words joined again."""
         return re.sub(r"[│╭╮╰╯─\s]+", " ", f"{self.stderr}\n{self.stdout}")
 
@@ -86,12 +86,12 @@ def run(*arguments, stdin=b"", piped=False):
 def failure(code, *arguments):
     """What a command says that ends with this exit code."""
     result = run(*arguments)
-    assert result.code == code, result.said
-    return result.said
+    assert result.code == code, result.output
+    return result.output
 
 
 @contextmanager
-def writing(*names):
+def writing_only(*names):
     """`size` writes files of these formats beside its design, and no report."""
     usual = tuple(each for each in FORMATS if each.name in names)
     with (
@@ -125,7 +125,7 @@ def run_measured(*arguments, **options):
     return Result(process.returncode, *said), peak
 
 
-def on_a_terminal(*arguments, answers=(), **variables):
+def run_in_terminal(*arguments, answers=(), **variables):
     """Exit code of a command that is typed at, and all that its terminal gets to see."""
     child, terminal = pty.fork()
     if child == 0:
@@ -150,7 +150,7 @@ def environment(**changes):
     return {**kept, "TERM": "xterm-256color", **changes}
 
 
-def everything_in(folder):
+def all_paths_in(folder):
     """Relative path of every file and folder, hidden ones too."""
     return sorted(str(path.relative_to(folder)) for path in Path(folder).rglob("*"))
 
@@ -161,19 +161,23 @@ def files_in(folder):
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in paths}
 
 
-def made_in(folder):
+def exported_files(folder):
     """What `export` answers for."""
-    return {name: content for name, content in files_in(folder).items() if name.startswith(MADE)}
+    return {
+        name: content
+        for name, content in files_in(folder).items()
+        if name.startswith(EXPORT_FOLDERS)
+    }
 
 
-def sized(*arguments, stdin=b""):
+def size_to_bound(*arguments, stdin=b""):
     """A design in the folder `ocs` of the working directory, by the bound alone and not flown."""
     result = run("size", *arguments, *BOUND, "--no-validate", "-q", "-o", "ocs", stdin=stdin)
     assert result.code == 0, result.stderr
     return Path("ocs")
 
 
-def changed(document, key, value):
+def with_value(document, key, value):
     """A JSON document with another value at a key; a callable makes it of the one before."""
     *path, last = (int(step) if step.isdigit() else step for step in key.split("."))
     place = document

@@ -12,7 +12,7 @@ from ocs_design.simulation.world import World
 
 
 @dataclass(frozen=True, eq=False)
-class Balance:
+class EnergyBalance:
     """At each control instant.
 
     Attributes:
@@ -29,9 +29,9 @@ class Balance:
         return float(np.ptp(self.unexplained[flown]) / self.turned_over[flown][-1])
 
 
-def balance(
+def energy_balance(
     world: World, recording: Recording, index: int, *, period: float, until: float
-) -> Balance:
+) -> EnergyBalance:
     """Of one world: its recorded wheel torques and push acting on it again.
 
     Args:
@@ -55,7 +55,7 @@ def balance(
             data.ctrl[motors] = recording.wheel_torque[k, index]
             work += _step(model, data, middle)
     unexplained, turned_over, height = np.array(rows).T
-    return Balance(unexplained, turned_over, height)
+    return EnergyBalance(unexplained, turned_over, height)
 
 
 def _step(model, data, middle) -> FloatArray:

@@ -6,9 +6,13 @@ import mujoco
 import numpy as np
 import pinocchio as pin
 import pytest
+from mass_oracles import (
+    assert_same_mass_properties,
+    mujoco_mass_properties,
+    pinocchio_mass_properties,
+)
 from pinocchio_robots import configuration
 from robots import ROBOTS
-from weighed import assert_same, by_mujoco, by_pinocchio
 from wheels import braked_inertia
 
 from ocs_design.export.mjcf import export_robot_mjcf
@@ -116,7 +120,7 @@ def check_wheels_in_mujoco(model, device, trunk):
         np.testing.assert_allclose(position, module.position, rtol=0.0, atol=1e-12)
 
 
-def held_in_mujoco(model, posture):
+def data_in_posture(model, posture):
     """Its data with the joints held so."""
     data = mujoco.MjData(model)
     for name, value in posture.items():
@@ -125,19 +129,19 @@ def held_in_mujoco(model, posture):
     return data
 
 
-def seen_by_mujoco(model, robot):
+def total_by_mujoco(model, robot):
     """Mass properties of the whole model in the robot's posture, in the frame of its trunk."""
-    return by_mujoco(model, held_in_mujoco(model, robot.posture), robot.trunk)
+    return mujoco_mass_properties(model, data_in_posture(model, robot.posture), robot.trunk)
 
 
-def seen_by_pinocchio(text, robot):
+def total_by_pinocchio(text, robot):
     """The same of a URDF, its wheels at rest."""
     model = pinocchio_model(text)
-    return by_pinocchio(model, configuration(model, robot.posture), robot.trunk)
+    return pinocchio_mass_properties(model, configuration(model, robot.posture), robot.trunk)
 
 
-def check_whole(seen, robot, device):
+def check_total(seen, robot, device):
     """It is the robot with the braked device."""
     expected = braked_inertia(robot, device)
     assert expected.mass == pytest.approx(robot.mass + device.mass, rel=1e-12)
-    assert_same(seen, expected, 1e-9)
+    assert_same_mass_properties(seen, expected, 1e-9)

@@ -13,14 +13,14 @@ import numpy as np
 CATALOGUE = Path(__file__).parents[1] / "ocs_design" / "catalogue"
 
 
-def row_of(file, name):
+def catalogue_row(file, name):
     """A row of a catalogue, as text."""
     with (CATALOGUE / file).open(newline="", encoding="utf-8") as stream:
         return next(row for row in csv.DictReader(stream) if row["name"] == name)
 
 
 @dataclass
-class Flown:
+class FlownMargins:
     """Largest values over the time series of all flights with the device."""
 
     folder: Path
@@ -118,7 +118,7 @@ class Flown:
     def hoop_stress(self):
         """rho w^2 / 4 ((3 + nu) R^2 + (1 - nu) r^2) at 1.2 times the drive's top speed [Pa]."""
         wheel, motor = self.design["ocs"]["flywheel"], self.motor
-        steel = row_of("materials.csv", wheel["material"])
+        steel = catalogue_row("materials.csv", wheel["material"])
         density, poisson = float(steel["density_kg_m3"]), float(steel["poisson_ratio"])
         top = 1.2 * min(motor["no_load_speed"], motor["speed_max"])
         outer, inner = wheel["outer_radius"], wheel["inner_radius"]

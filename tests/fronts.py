@@ -10,7 +10,7 @@ from ocs_design.sizing.comparison import draw_front
 from ocs_design.workflows.pareto import read_task
 
 
-def by_hand():
+def task_by_hand():
     """Solo12's figures without its file."""
     inertia = (SOLO12_ROLL_INERTIA, SOLO12_PITCH_INERTIA, 0.07)
     return read_task(Specification(robot=RobotSection(mass=2.5, inertia=inertia)))
@@ -27,7 +27,7 @@ def infeasible(reason="the wheels would have to be larger"):
     )
 
 
-def made_up(task):
+def made_up_device(task):
     """Lighter with more time; no device below 0.33 s."""
     time = sweep_of("time").own(task)
     if time < 0.33:
@@ -48,7 +48,7 @@ def made_up(task):
     )
 
 
-def make_front(task, against="time", choose=made_up, **values):
+def make_front(task, against="time", choose=made_up_device, **values):
     """A front over nine points, or over those of `values`."""
     sweep = sweep_of(against)
     wanted = {"low": None, "high": None, "points": 9, **values}

@@ -41,19 +41,21 @@ def drop(pitch, roll=0.0):
     return Drop(name="drop", height=height, pitch=np.radians(pitch), roll=np.radians(roll))
 
 
-def asked(maneuver):
+def boundary_of(maneuver):
     return maneuver.boundary(STANDING)
 
 
-def missed(asked, path):
-    """Angle of the end to the attitude asked for [rad], or of the verticals if the heading is free.
+def attitude_error(boundary, path):
+    """Angle from the final attitude to that of the boundary [rad], computed with SciPy.
 
-    By SciPy's rotations, the scalar first.
+    If the heading is free, the angle between the verticals.
     """
-    ended, wanted = Rotation.from_quat([path.attitude[-1], asked.final_attitude], scalar_first=True)
-    if asked.end == End.ATTITUDE:
-        return (wanted.inv() * ended).magnitude()
-    up, level = (each.inv().apply([0.0, 0.0, 1.0]) for each in (ended, wanted))
+    final, wanted = Rotation.from_quat(
+        [path.attitude[-1], boundary.final_attitude], scalar_first=True
+    )
+    if boundary.end == End.ATTITUDE:
+        return (wanted.inv() * final).magnitude()
+    up, level = (each.inv().apply([0.0, 0.0, 1.0]) for each in (final, wanted))
     return np.arctan2(np.linalg.norm(np.cross(up, level)), up @ level)
 
 
@@ -64,14 +66,14 @@ def end_rate(gyrostat, path):
 
 @dataclass(frozen=True, eq=False)
 class SmallestWheels(Flight):
-    """The program's answer, and the gyrostat with the wheels that it found, flown."""
+    """The solution of the program, and the flight of the gyrostat with the wheels found."""
 
     gyrostat: Gyrostat
     incidence: float
     solution: Solution
 
 
-def smallest_wheels(guess, asked, *, free_incidence=False, start=None, passes=(16, 48)):
+def smallest_wheels(guess, boundary, *, free_incidence=False, start=None, passes=(16, 48)):
     """The least spin inertia, and the incidence of a pair if it is free, with all else as guessed.
 
     The inertia of the whole with its wheels braked stays as it is.
@@ -88,7 +90,7 @@ def smallest_wheels(guess, asked, *, free_incidence=False, start=None, passes=(1
             axes = ca.vertcat(ca.horzcat(sine, -sine), ca.horzcat(cosine, cosine), ca.MX(1, 2))
         return fixed._replace(spin_inertia=factor * guess.spin_inertia, axes=axes)
 
-    turn = Phase(asked, guess, plant, start)
+    turn = Phase(boundary, guess, plant, start)
     lower, upper = np.array([1e-2, low]), np.array([1e2, high])
     free = Dimensions(np.array([1.0, incidence]), lower, upper, lambda dimensions: dimensions[0])
     solution = solve([turn], EC_45_FLAT, passes, free)

@@ -11,19 +11,19 @@ from dataclasses import replace
 from math import inf, sqrt
 
 import numpy as np
+from carrier_parts import drive_parts
 from naive_module import (
     body_of,
-    least_bore,
-    least_outer,
+    bore_min,
+    height_max,
     mount_of,
+    outer_radius_min,
     printed,
-    room_taken,
-    round_thing,
+    revolved_body,
     screws_around,
-    tallest,
+    swept_size,
 )
 from naive_wheel import hub_body, spokes
-from standing_parts import driving_parts
 
 from ocs_design.actuation.fasteners import LIGAMENT
 from ocs_design.parts.motor_mount import hub_of
@@ -48,9 +48,9 @@ class Drive:
         self.thick = problem.foot_plate
         self.motor, self.gear, self.mount = motor, gear, mount_of(motor, gear, self.thick)
         # Posts of a cage are shorter behind a taller rim: no integral is beyond the third power.
-        driving = (driving_parts(motor, gear, height, self.thick) for height in HEIGHTS)
+        driving = (drive_parts(motor, gear, height, self.thick) for height in HEIGHTS)
         self.driving = [body_of(parts) for parts in driving]
-        self.height_max = tallest(motor, gear, self.thick)
+        self.height_max = height_max(motor, gear, self.thick)
         self.webbed, self.hub, self.hub_radius = problem.web, np.zeros(3), 0.0
         self.chamfer, self.web_material = chamfer_of(problem), problem.web_material
         if problem.web:
@@ -68,7 +68,7 @@ class Drive:
             # The lid is 2 mm off the rim, and 0.5 mm off the heads of the hub's screws.
             self.heads = hub.height + 2.0 * (hub.bolt_head - 1.5e-3) if hub.bolts else 0.0
             self.hub = hub_body(hub, 1.0)
-            widest = max(hub.radius, least_bore(motor, gear, self.thick))
+            widest = max(hub.radius, bore_min(motor, gear, self.thick))
             self.hub_radius = widest + LIGAMENT
         # The rotor turns at N W, the other way round if the gear reverses.
         self.rotor_momentum = gear.ratio * rotor * (-1.0 if gear.reverses else 1.0)
@@ -168,7 +168,7 @@ def speed_of(motor):
     return motor.rated_voltage / motor.torque_constant
 
 
-def usable(motor, gear):
+def is_complete(motor, gear):
     """Whether all figures are known; a rotor may be unknown where it can only help."""
     figures = [motor.mass, motor.torque_constant, motor.resistance, motor.peak_torque]
     if gear.ratio > 1.0 or gear.reverses:
@@ -203,7 +203,7 @@ def holds(problem, drive, rims, material, slack=0.0):
     seated = (rims.inner * more >= drive.hub_radius) & (
         rims.height * more >= drive.seat(material.density)
     )
-    seated &= rims.outer * more >= least_outer(drive.mount)
+    seated &= rims.outer * more >= outer_radius_min(drive.mount)
     seated &= rims.height <= drive.height_max * more
     if drive.webbed:
         seated &= spokes(rims.inner * more, drive.in_web)
@@ -219,7 +219,7 @@ def holds(problem, drive, rims, material, slack=0.0):
     return seated & (stress * safety <= material.yield_strength * more)
 
 
-def asked(maneuver, inertia, coupling, standing):
+def demand_of(maneuver, inertia, coupling, standing):
     """Momentum through the wheels over time, momentum left at the end, and the time."""
     if isinstance(maneuver, Drop):
         time = sqrt(2.0 * (maneuver.height - standing) / maneuver.gravity)
@@ -276,8 +276,10 @@ def _maneuver_margin(problem, drive, rims, maneuver, spin, angle):
     inertia = inertia_on(problem, drive, rims, angle)
     coupling = coupling_on(problem, drive, rims, angle)
     shares = np.stack([np.sin(angle), np.cos(angle)])
-    inertia, coupling = let_go(inertia, coupling, shares, chord_of(maneuver))
-    through, left, time = asked(maneuver, inertia, coupling, problem.requirement.standing_height)
+    inertia, coupling = release_unreached(inertia, coupling, shares, chord_of(maneuver))
+    through, left, time = demand_of(
+        maneuver, inertia, coupling, problem.requirement.standing_height
+    )
     # A cosine of 1e-17 is no lever.
     levers = np.where(shares > 1e-9, 2.0 * shares * spin, np.where(through != 0.0, 1e-30, 1.0))
     # Roll is half the difference of both wheels' angles, pitch half their sum.
@@ -325,11 +327,11 @@ def coupling_on(problem, drive, rims, angle):
 
 def _tensor(problem, drive, rims, angle):
     """Of robot and both modules about their common centre, braked, shape (3, 3, n)."""
-    module = round_thing(*drive.wheel(rims)) + drive.standing(rims)
+    module = revolved_body(*drive.wheel(rims)) + drive.standing(rims)
     mass, along, up, across, axis, upright, aslant = module
     robot, place = problem.robot, problem.place
     size = rims.outer, rims.height, drive.motor, drive.gear, drive.thick
-    reach, standing = room_taken(*size)
+    reach, standing = swept_size(*size)
     x, y, z = (o + d * reach for o, d in zip(place.origins[0], place.outward[0], strict=True))
     z = z + standing if place.upright else z
     sine, cosine = np.sin(angle), np.cos(angle)
@@ -356,7 +358,7 @@ def _tensor(problem, drive, rims, angle):
     return np.trace(moments) * np.eye(3)[:, :, None] - moments
 
 
-def let_go(inertia, coupling, shares, chord):
+def release_unreached(inertia, coupling, shares, chord):
     """An axis that the wheels do not reach follows the other one, if it ends level in a degree."""
     follows = np.abs(coupling) / inertia * chord <= np.radians(1.0)
     free = (shares <= 1e-9) & follows

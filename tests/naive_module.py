@@ -11,8 +11,8 @@ from functools import lru_cache
 from math import pi
 
 import numpy as np
+from carrier_parts import standard_length
 from naive_outline import green
-from standing_parts import standard
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.parts import motor_mount
@@ -48,7 +48,7 @@ def lifted(body, up):
     return np.stack([mass, y, z + mass * up, xx, yy, moved, yz + up * y])
 
 
-def round_thing(mass, axial, across):
+def revolved_body(mass, axial, across):
     """A body of revolution about the axis, its middle at the wheel's."""
     zero = 0.0 * mass
     return np.stack([mass, zero, zero, axial / 2.0, across - axial / 2.0, axial / 2.0, zero])
@@ -95,7 +95,7 @@ def foot_of(outer, height, mount, half, thick):
         flat = count * length * 0.8e-3 + 0.0 * edge
         body = body - layer(flat, (ring, ring), low - 0.4e-3, low, "z")
     body = lifted(body, -tall)
-    least = np.maximum(outer, least_outer(mount) + 1e-9)
+    least = np.maximum(outer, outer_radius_min(mount) + 1e-9)
     area, first_z, in_x, in_z = per_value(lambda r: _plate(r, mount), least)
     plate = layer(area, (in_x, in_z), -back, -half, "y")
     plate[2] += PETG.density * thick * first_z
@@ -105,7 +105,7 @@ def foot_of(outer, height, mount, half, thick):
 
 def bases(outer, height, mount, thick):
     """Radius of each foot's base, and how high it holds the wheel; see `holds` for small ones."""
-    outer = np.maximum(outer, least_outer(mount) + 1e-9)
+    outer = np.maximum(outer, outer_radius_min(mount) + 1e-9)
     sizes, where = np.unique(np.stack([outer, height], axis=1), axis=0, return_inverse=True)
     feet = [Foot(Housing(r, h, mount, LID_SCREW), thick) for r, h in sizes.tolist()]
     return np.array([(foot.base_radius, foot.wheel_height) for foot in feet])[where.ravel()].T
@@ -159,7 +159,7 @@ def mount_of(motor, gear, thick):
 def screws_around(outer, height, thick):
     """Four M2 x 6 on the lid, two M3 on the base, as points; one by one in `standing_parts`."""
     m2, m3, half = screw("M2"), screw("M3"), height / 2.0 + DEEP
-    long = standard(base_of(thick) + m3.diameter)
+    long = standard_length(base_of(thick) + m3.diameter)
     lid, trunk = 4.0 * m2.mass(6e-3), 2.0 * m3.mass(long)
     along, up = half - m2.centre(6e-3), -(outer + GAP + CLEARANCE) - m3.centre(long)
     ears = lid * (outer + GAP + m2.clearance_hole / 2.0) ** 2 / 2.0
@@ -180,7 +180,7 @@ def body_of(pieces):
     return total
 
 
-def room_taken(outer, height, motor, gear, thick):
+def swept_size(outer, height, motor, gear, thick):
     """Radius that housing, drive and base stay within, and the wheel's height on its foot."""
     mount = motor_mount.mount_of(motor, gear.room, thick)
     half, (depth, radius, least) = height / 2.0 + DEEP, astuple(mount.behind(motor))
@@ -190,14 +190,14 @@ def room_taken(outer, height, motor, gear, thick):
     return np.maximum(swept, edge), outer + GAP + CLEARANCE + base_of(thick)
 
 
-def least_bore(motor, gear, thick):
+def bore_min(motor, gear, thick):
     """Beside the heads of the screws in the housing."""
     mount = motor_mount.mount_of(motor, gear.room, thick)
     circle = mount.holes.screws
     return 0.0 if circle is None else circle.radius + screw(circle.thread).head_diameter / 2.0
 
 
-def tallest(motor, gear, thick):
+def height_max(motor, gear, thick):
     """Rim that leaves 6 mm of post between the plate and the motor's back."""
     cage = motor_mount.mount_of(motor, gear.room, thick).cage
     if cage is None:
@@ -205,6 +205,6 @@ def tallest(motor, gear, thick):
     return 2.0 * (cage.front + motor.length - 0.006 - thick - DEEP)
 
 
-def least_outer(mount):
+def outer_radius_min(mount):
     """With a wall between the mount's holes and the housing's band."""
     return mount.reach + WALL - CLEARANCE if mount.reach > 0.0 else 0.0

@@ -11,9 +11,9 @@ from naive_device import (
     device_mass,
     fits,
     holds,
+    is_complete,
     least_wall,
     margin,
-    usable,
 )
 from naive_wheel import Rims
 
@@ -50,7 +50,7 @@ def search(problem):
 def _coarse(problem):
     lightest = inf
     for motor, gear in product(problem.motors, problem.gears):
-        if not usable(motor, gear):
+        if not is_complete(motor, gear):
             continue
         drive = Drive(problem, motor, gear)
         for material in problem.materials:

@@ -9,7 +9,7 @@ from commands import Result
 
 from ocs_design.parts.carrier_plate import CarrierPlate
 
-OF_MANEUVERS = ("tilt", "rates", "wheel_speed", "wheel_torque")
+MANEUVER_CHARTS = ("tilt", "rates", "wheel_speed", "wheel_torque")
 FIGURES = [
     "bound_pitch",
     "bound_roll",
@@ -18,7 +18,11 @@ FIGURES = [
     "inertia_ellipsoid",
     "momentum",
     "torque_speed",
-    *(f"{kind}_{name}" for kind in OF_MANEUVERS for name in ("disturbance", "drop", "back-flip")),
+    *(
+        f"{kind}_{name}"
+        for kind in MANEUVER_CHARTS
+        for name in ("disturbance", "drop", "back-flip")
+    ),
 ]
 
 FILES = [
@@ -93,7 +97,7 @@ class Product:
     """What a command said and the folder that it wrote; of a cold one its memory [KiB] too."""
 
     case: Case
-    said: Result
+    result: Result
     folder: Path
     peak: int | None = None
 
@@ -110,7 +114,7 @@ def device_of(document):
     return SimpleNamespace(modules=modules, plate=plate, **parts)
 
 
-def shifted(mass, offset):
+def parallel_axis(mass, offset):
     """Of the parallel axis theorem."""
     return mass * (offset @ offset * np.eye(3) - np.outer(offset, offset))
 
@@ -142,7 +146,7 @@ def with_modules(document, device, incidence):
         parts.append((own.mass, own.com + np.array(device.plate.position), own.inertia))
     mass = sum(part[0] for part in parts)
     com = sum(part[0] * part[1] for part in parts) / mass
-    return mass, com, sum(own + shifted(m, c - com) for m, c, own in parts)
+    return mass, com, sum(own + parallel_axis(m, c - com) for m, c, own in parts)
 
 
 def coupling(inertia):

@@ -13,7 +13,7 @@ STEEL = Material("steel", 7850.0, 250e6, 400e6, 0.3, "for tests")
 UNLIMITED = float("inf")
 
 
-def room(outer_radius_max, height_max, **others):
+def envelope_with(outer_radius_max, height_max, **others):
     """An envelope without any other limits than those named."""
     limits = {
         "inner_radius_min": 0.0,
@@ -25,7 +25,7 @@ def room(outer_radius_max, height_max, **others):
     return Envelope(outer_radius_max, height_max=height_max, **(limits | others))
 
 
-def used(problem, inner, outer, height, mass):
+def utilization(problem, inner, outer, height, mass):
     """What a rim uses of each limit, by its name: at most 1 where it is within all of them."""
     limits, material = problem.envelope, problem.material
     nu, speed = material.poisson_ratio, problem.wheel_speed
@@ -43,7 +43,7 @@ def used(problem, inner, outer, height, mass):
 
 def paper_problem(spin_inertia, outer_radius_max, height_max):
     """One of the cases of docs/theory.md, The rim."""
-    return RimProblem(spin_inertia, room(outer_radius_max, height_max), PAPER_STEEL, 754.0)
+    return RimProblem(spin_inertia, envelope_with(outer_radius_max, height_max), PAPER_STEEL, 754.0)
 
 
 def scaled_problem(*, size, slim, fill, bore, flat, wall, mass, stress):

@@ -20,7 +20,7 @@ LARGE = {
 """Folders of robots with so many joints or so fine meshes that to read one takes a while."""
 
 
-def marked(robots, *, each=True):
+def robot_parameters(robots, *, each=True):
     """Paths or names of robots as parameters, large ones slow.
 
     `each`: all of them count; else the first of each folder does, and the rest is exhaustive.
@@ -37,6 +37,6 @@ def marked(robots, *, each=True):
     return found
 
 
-def one_of_each(robots):
+def one_per_folder(robots):
     """Paths or names of robots as parameters: the first of each maker's, the rest exhaustive."""
-    return marked(robots, each=False)
+    return robot_parameters(robots, each=False)

@@ -21,7 +21,7 @@ class TrunkOnly:
     mount: Mount | None = None
 
 
-def expanded(folder, call):
+def expand_macro(folder, call):
     """A robot of one link that calls the macro in `folder`."""
     (folder / "robot.urdf.xacro").write_text(_CALLER.replace("CALL", call))
     return xacro.process_file(str(folder / "robot.urdf.xacro")).toxml()

@@ -87,7 +87,7 @@ def random_problem(seed, motors=3, *, mounted=True):
     return with_mounts(problem, seed) if mounted else problem
 
 
-def lopsided(problem, seed):
+def with_offset_load(problem, seed):
     """The same with a robot that has something on one side."""
     rng, robot = np.random.default_rng(1000 + seed), problem.robot
     size = np.sqrt(np.trace(robot.inertia) / robot.mass)

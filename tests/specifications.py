@@ -65,7 +65,7 @@ MANEUVERS = (
     Catch(name="catch", jump_height=0.5, duration=0.6, rate=(0.4, 0.8, -0.1), end="at rest"),
 )
 
-FULL = Specification(
+FULL_SPECIFICATION = Specification(
     robot=RobotSection(
         file='a "quoted" \\ path/ä\x7f.urdf',
         name="r",
@@ -153,13 +153,13 @@ FULL = Specification(
 )
 
 
-def same(one, other):
+def same_specification(one, other):
     """Maneuvers compare by identity."""
     plain = replace(one, maneuvers=()) == replace(other, maneuvers=())
     return plain and [vars(m) for m in one.maneuvers] == [vars(m) for m in other.maneuvers]
 
 
-def refused(specification, robot, size):
+def problems_of(specification, robot, size):
     """What is wrong with it for a robot of that size, each with its key."""
     with pytest.raises(SpecificationError) as caught:
         resolve(specification, robot, size)

@@ -4,7 +4,7 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
-from designed import MOTOR, as_recorded, designed
+from designed_devices import MOTOR, design_with_motor, record_of
 
 from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.report.story import RecordedFlight, Story
@@ -20,8 +20,8 @@ def design(motor=MOTOR, layout=None):
 
 @cache
 def _recorded(motor, layout):
-    task, made = designed(motor, layout=layout)
-    return as_recorded(task, made, seed=7, files={"a.stl": "0"})
+    task, made = design_with_motor(motor, layout=layout)
+    return record_of(task, made, seed=7, files={"a.stl": "0"})
 
 
 def flight(scenario="drop", *, ocs=True, limits=True):

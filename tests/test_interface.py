@@ -9,7 +9,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from fronts import by_hand, make_front
+from fronts import make_front, task_by_hand
 from stories import design, story
 
 import ocs_design
@@ -47,7 +47,7 @@ def test_a_design_is_read_from_its_folder_or_file(folder, form):
 
 
 def test_an_outcome_is_the_path_of_its_folder(folder):
-    outcome = Outcome(design(), folder, by_hand().robot, None, ())
+    outcome = Outcome(design(), folder, task_by_hand().robot, None, ())
     assert read_design(outcome) == design()
     assert export_design(outcome, "bom", out=str(folder / "again")).files
 
@@ -100,8 +100,8 @@ def test_every_fault_of_what_is_specified_is_told():
 
 @cache
 def results():
-    made, front = design(), make_front(by_hand())
-    outcome = Outcome(made, Path("solo12-ocs"), by_hand().robot, None, ())
+    made, front = design(), make_front(task_by_hand())
+    outcome = Outcome(made, Path("solo12-ocs"), task_by_hand().robot, None, ())
     return {
         "OcsDesign for": made,
         "Outcome in solo12-ocs": outcome,

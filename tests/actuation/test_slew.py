@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from sampled import some
 from scipy.integrate import solve_ivp
 from scipy.optimize import linprog
 from scipy.sparse import coo_array, vstack
+from subsets import fast_subset
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.actuation.slew import in_units, slew_profile, slew_time
@@ -377,7 +377,7 @@ def test_the_wheel_takes_all_that_the_supply_leaves(share, lam):
 
 @pytest.mark.parametrize(
     ("share", "lam", "speed_max", "slew"),
-    some(
+    fast_subset(
         5,
         product(
             (0.02, 0.1), (0.07, 0.3), (INF, 700.0), ((30.0, 0.0), (150.0, 100.0), (400.0, 0.0))

@@ -39,7 +39,7 @@ def test_json_is_in_si_and_says_what_is_missing():
 def test_people_read_figures_marks_and_what_is_missing():
     """Each motor in one line, as for grep."""
     result = run("catalogue", "motors")
-    said = result.said
+    said = result.output
     assert re.search(r"^  MN5212 KV340 .* -$", result.stdout, re.MULTILINE)
     assert "U8 Lite KV100 238 50.4 5,040 2.8+ 95.5 - " in said
     assert "R80 KV110 354 48 5,250 4 86.8 stator" in said
@@ -51,7 +51,7 @@ def test_people_read_figures_marks_and_what_is_missing():
 
 
 def test_gears_in_words():
-    said = run("catalogue", "gears").said
+    said = run("catalogue", "gears").output
     assert "GP 32 C 166936 23.04:1 23.040 160 424.7 3.75 8,000 -" in said
     assert "GP 42 C 203115: no inertia_kg_m2" in said
 
@@ -80,12 +80,12 @@ def test_a_users_file_joins_the_table(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(MINE)
     result = run("catalogue", "motors", "--motors", path)
-    assert "my motor 20 16.8 16,800 0.115+ 9.55 kind +6" in result.said
-    assert "MN4012 KV480" in result.said
-    assert "Also list the motors" in run("catalogue", "--help").said
-    assert "my motor: my bench" in result.said
-    assert "wound by hand" not in result.said
-    assert "wound by hand" in run("catalogue", "motors", "--motors", path, "-v").said
+    assert "my motor 20 16.8 16,800 0.115+ 9.55 kind +6" in result.output
+    assert "MN4012 KV480" in result.output
+    assert "Also list the motors" in run("catalogue", "--help").output
+    assert "my motor: my bench" in result.output
+    assert "wound by hand" not in result.output
+    assert "wound by hand" in run("catalogue", "motors", "--motors", path, "-v").output
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from built import DEVICES, housed, on_a_plate
+from built_devices import DEVICES, housed_device, with_plate
 from manifold3d import Manifold, Mesh64
 from scipy.integrate import quad
 
@@ -34,7 +34,7 @@ def weighing(mass, plated=True):
     device = DEVICES["caged"]
     carrier = replace(device.carrier, mass=mass - device.flywheel.mass)
     device = replace(device, carrier=carrier)
-    return on_a_plate(device) if plated else device
+    return with_plate(device) if plated else device
 
 
 def beside_a_slot(across):
@@ -143,7 +143,7 @@ def test_a_foot_that_its_wheel_would_turn_is_pinned(share):
 def test_a_screw_under_the_cage_has_a_key_that_goes_there():
     """What is told is clear above its head, for a key of 2.5 mm across the flats."""
     mounting = DEVICES["caged"].motor.mounting
-    device = housed(mounting, outer_radius=0.05)
+    device = housed_device(mounting, outer_radius=0.05)
     steps = " ".join(text for each in chapters(Assembly("s", device)) for text in each.texts)
     found = re.search(r"under the motor, with (\d+) mm above its head: .* cut to (\d+) mm", steps)
     assert found

@@ -4,7 +4,7 @@ from dataclasses import replace
 from math import pi
 
 import pytest
-from built import DEVICES
+from built_devices import DEVICES
 from wheels import EC45, PAPER_WHEEL, driven_device
 
 from ocs_design.actuation.fasteners import screw

@@ -6,7 +6,7 @@ from math import pi
 
 import numpy as np
 import pytest
-from built import DEVICES
+from built_devices import DEVICES
 
 from ocs_design.device.device import Device, Module
 from ocs_design.device.resonances import foot_frequency, resonances_of

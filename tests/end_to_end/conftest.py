@@ -17,7 +17,7 @@ from commands import (
     environment,
     run,
     run_measured,
-    sized,
+    size_to_bound,
 )
 from exported import pinocchio_model
 from products import CASES, Product, device_of
@@ -89,7 +89,7 @@ def sized_solo12(tmp_path_factory):
         patch.chdir(tmp_path_factory.mktemp("sized"))
         patch.setitem(sys.modules, "xacro", None)
         shutil.copy(SOLO12, "solo12.urdf")
-        return sized("solo12.urdf").absolute().parent
+        return size_to_bound("solo12.urdf").absolute().parent
 
 
 @pytest.fixture

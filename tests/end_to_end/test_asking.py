@@ -120,7 +120,7 @@ def test_a_picture_that_cannot_be_written_whole_leaves_the_one_before(tmp_path, 
     monkeypatch.setattr(Path, "replace", full)
     result = run("inspect", SOLO12, "--picture", path)
     assert (result.code, path.read_text()) == (3, "before")
-    assert "free some space" in result.said
+    assert "free some space" in result.output
     assert [each.name for each in tmp_path.iterdir()] == [path.name]
 
 

@@ -4,7 +4,7 @@ import re
 
 import pytest
 from bad_input import CASES
-from commands import BOUND, environment, everything_in, failure, run, run_process
+from commands import BOUND, all_paths_in, environment, failure, run, run_process
 from urdf_text import inertial, link, robot
 
 
@@ -13,13 +13,13 @@ def test_bad_input_is_explained(folder, files, typed, expected, words):
     for name, content in files.items():
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).write_bytes(content)
-    before = everything_in(folder)
+    before = all_paths_in(folder)
     said = run(*typed.split())
     assert (said.code, said.stdout) == (expected[0], "")
     for word in words.split("|"):
-        assert re.search(word, said.said), said.stderr
+        assert re.search(word, said.output), said.stderr
     check_json(run(*typed.split(), "--json"), expected, words)
-    assert everything_in(folder) == before
+    assert all_paths_in(folder) == before
 
 
 def check_json(result, expected, words):
@@ -40,7 +40,7 @@ def test_a_xacro_that_cannot_be_expanded(tmp_path, monkeypatch):
         '<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro"><link name="${n}"/></robot>'
     )
     assert "x.xacro: xacro cannot expand the file" in failure(3, "size", "x.xacro")
-    assert everything_in(tmp_path) == ["x.xacro"]
+    assert all_paths_in(tmp_path) == ["x.xacro"]
 
 
 SHAPED = robot(
@@ -60,7 +60,7 @@ def test_what_is_only_odd_works_with_a_warning(folder, content, warning):
     (folder / "rover.urdf").write_bytes(content)
     result = run("size", "rover.urdf", *BOUND, "--no-validate")
     assert result.code == 0
-    assert re.search(rf"Warnings.* - .*{warning}", result.said)
+    assert re.search(rf"Warnings.* - .*{warning}", result.output)
     strict = run(
         "size", "rover.urdf", *BOUND, "--no-validate", "--strict", "-o", "strict", "--json"
     )
@@ -76,9 +76,9 @@ def test_a_process_of_its_own_says_the_same(folder, typed):
     """All else here runs inside the tests' own process."""
     own = run_process(*typed.split(), env=environment(COLUMNS="80"))
     here = run(*typed.split())
-    assert (own.code, without_times(own.said)) == (here.code, without_times(here.said))
+    assert (own.code, without_times(own.output)) == (here.code, without_times(here.output))
     assert own.stdout == here.stdout
-    assert everything_in(folder) == []
+    assert all_paths_in(folder) == []
 
 
 def without_times(said):

@@ -14,10 +14,10 @@ import mujoco
 import numpy as np
 import pytest
 import trimesh
-from commands import run, writing
-from flown_margins import row_of
+from commands import run, writing_only
+from flown_margins import catalogue_row
 from robots import ROBOTS, SOLO12
-from sampled import every
+from subsets import slow_subset
 
 PETG, ALUMINIUM, STEEL = 1270.0, 2710.0, 7850.0
 ISO_4762 = {
@@ -35,14 +35,14 @@ SIZED = {
 }
 
 
-@pytest.fixture(scope="module", params=every(2, SIZED))
+@pytest.fixture(scope="module", params=slow_subset(2, SIZED))
 def sized(request, tmp_path_factory, no_alternatives):
     """What `size` said, its design and its parts as meshes [m]."""
     out = tmp_path_factory.mktemp("bill") / "out"
     asked = (*SIZED[request.param], "--gear", "direct", "--no-validate", "-v", "-o", out)
-    with writing("stl", "printed", "bom", "mjcf"):
+    with writing_only("stl", "printed", "bom", "mjcf"):
         said = run("size", *asked)
-    assert said.code in {0, 1}, said.said
+    assert said.code in {0, 1}, said.output
     with (out / "cad" / "bill_of_materials.csv").open(encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
     meshes = {path.stem: trimesh.load(path) for path in (out / "cad").glob("*.stl")}
@@ -50,8 +50,8 @@ def sized(request, tmp_path_factory, no_alternatives):
         mesh.apply_scale(1e-3)
     design = json.loads((out / "design.json").read_text())
     return SimpleNamespace(
-        said=said.said, out=out, rows=rows, meshes=meshes, design=design, ocs=design["ocs"],
-        motor=row_of("motors.csv", design["ocs"]["motor"]["name"]),
+        said=said.output, out=out, rows=rows, meshes=meshes, design=design, ocs=design["ocs"],
+        motor=catalogue_row("motors.csv", design["ocs"]["motor"]["name"]),
     )  # fmt: skip
 
 
@@ -85,7 +85,7 @@ def screw_mass(name, length):
 
 def test_every_part_weighs_its_volume(sized):
     wheel = sized.ocs["flywheel"]
-    density = float(row_of("materials.csv", wheel["material"])["density_kg_m3"])
+    density = float(catalogue_row("materials.csv", wheel["material"])["density_kg_m3"])
     for start, expected in (
         ("flywheel", weighed(sized, density, "flywheel")),
         ("housing", weighed(sized, PETG, "housing_drum", "housing_lid")),
@@ -110,7 +110,7 @@ def test_every_part_weighs_its_volume(sized):
 def test_a_controller_weighs_by_its_current(sized):
     """Of a phase's amplitude: of six-step current through two lines, 2 / sqrt(3)."""
     specified = r"Controllers: ([\d.]+) g each, plus ([\d.]+) g per"
-    base, rate = re.search(specified, sized.said).groups()
+    base, rate = re.search(specified, sized.output).groups()
     peak = float(sized.motor["peak_current_a"]) * 2.0 / math.sqrt(3.0)
     assert grams(sized, "motor controller") == pytest.approx(
         float(base) + float(rate) * peak, abs=0.05
@@ -179,7 +179,7 @@ def test_sums_are_those_of_design_and_screen(sized):
     whole = sum(float(each["mass [g]"]) for each in parts)
     assert float(total["mass [g]"]) == pytest.approx(whole, abs=0.01)
     assert 1e-3 * whole == pytest.approx(sized.ocs["mass_total"], abs=2e-5)
-    shown = sized.said
+    shown = sized.output
     assert re.search(r"carrier plate ([\d.]+) g", shown)[1] == f"{_plate(sized):.1f}"
     wheel, density = sized.ocs["flywheel"], sized.ocs["flywheel"]["density"]
     outer, inner, tall = (wheel[k] for k in ("outer_radius", "inner_radius", "height"))
@@ -212,7 +212,7 @@ def test_inertia_places_and_centre_of_mass(sized):
     spin = mesh.moment_inertia[2, 2] + rotor
     assert sized.ocs["spin_inertia"] == pytest.approx(spin, rel=5e-4)
     shown = re.search(
-        r"spin inertia ([\d.]+) kg mm2 each, of which its rotor ([\d.]+) kg mm2", sized.said
+        r"spin inertia ([\d.]+) kg mm2 each, of which its rotor ([\d.]+) kg mm2", sized.output
     )
     assert [1e-6 * float(each) for each in shown.groups()] == pytest.approx([spin, rotor], rel=1e-3)
     (path,) = (sized.out / "robot").glob("*_ocs.xml")

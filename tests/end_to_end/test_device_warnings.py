@@ -3,7 +3,7 @@
 import csv
 
 import pytest
-from commands import SOLO12, everything_in, failure, run, writing
+from commands import SOLO12, all_paths_in, failure, run, writing_only
 
 from ocs_design.catalogue.motors import motors
 
@@ -19,7 +19,7 @@ def test_a_heavy_device_is_refused_where_warnings_are_errors(folder):
     error = result.document["error"]
     assert (result.code, error["kind"]) == (3, "specification")
     assert "of the robot" in error["message"]
-    assert everything_in(folder) == []
+    assert all_paths_in(folder) == []
 
 
 @pytest.mark.slow
@@ -34,9 +34,9 @@ def test_a_motor_fed_beyond_its_rating_is_remarked(folder, voltage, remarked):
     given = ("--motor", name, "--bus-voltage", voltage, *ONE_KIND, "--no-validate")
     asked = ("--layout", "pair", "--fall", "1m", "-o", "out")
     result = run("size", "--mass", "1.2", "--inertia", "0.02,0.03,0.035", *given, *asked)
-    assert result.code == 0, result.said
+    assert result.code == 0, result.output
     words = f"{name} is rated for 16.8 V but runs at 24 V: ask the makers"
-    assert (words in result.said) is remarked
+    assert (words in result.output) is remarked
 
 
 TOLD = (
@@ -51,7 +51,7 @@ def test_files_of_a_device_that_cannot_be_built_say_so(folder):
     """As `size` writes them, and `export` again."""
     high = ("--position", "0,0.09,0.25", "--layout", "pair", "--fall", "2m", "--tilt", "10deg")
     drive = ("--motor", "MN5212 KV340", "--gear", "direct", "--material", "stainless-304")
-    with writing("bom", "drawing", "assembly", "mjcf"):
+    with writing_only("bom", "drawing", "assembly", "mjcf"):
         said = failure(1, "size", SOLO12, *high, *drive, "--no-validate", "-o", "out")
     assert "NOT buildable" in said
     page = (folder / "out/robot/README.md").read_text()
@@ -63,6 +63,6 @@ def test_files_of_a_device_that_cannot_be_built_say_so(folder):
     sheet = (folder / "out/cad/wheel.svg").read_text()
     assert sheet.count("NOT buildable as it stands") == 2
     again = run("export", "out", "--formats", "bom,drawing,assembly,mjcf", "-o", "again")
-    assert again.code == 0, again.said
+    assert again.code == 0, again.output
     for name in TOLD:
         assert (folder / "again" / name).read_bytes() == (folder / "out" / name).read_bytes()

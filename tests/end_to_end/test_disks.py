@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from commands import BOUND, SOLO12, everything_in, failure, run
+from commands import BOUND, SOLO12, all_paths_in, failure, run
 
 
 @contextmanager
@@ -35,8 +35,8 @@ def test_a_full_disk(folder):
     with small_disk(folder / "disk", kib=256):
         result = run("size", SOLO12, *BOUND, "--no-validate", "-o", "disk/out")
         assert (result.code, result.stdout) == (3, "")
-        assert re.search("No space left on device.*free some space", result.said)
-        assert everything_in(folder) == ["disk"]
+        assert re.search("No space left on device.*free some space", result.output)
+        assert all_paths_in(folder) == ["disk"]
 
 
 def test_a_disk_that_fills_up_anywhere(folder, monkeypatch):
@@ -53,7 +53,7 @@ def test_a_disk_that_fills_up_anywhere(folder, monkeypatch):
     assert result.code == 3
     assert result.document["error"]["kind"] == "output"
     assert str(written[-1]) in result.document["error"]["message"]
-    assert everything_in(folder) == []
+    assert all_paths_in(folder) == []
 
 
 def test_a_place_that_takes_nothing_is_said_before_the_search(folder):
@@ -61,8 +61,8 @@ def test_a_place_that_takes_nothing_is_said_before_the_search(folder):
         pytest.skip("there is no such place")
     result = run("size", SOLO12, "-o", "/proc/x")
     assert (result.code, result.stdout) == (3, "")
-    assert "/proc: cannot be written to" in result.said
-    assert "size the device" not in result.said
+    assert "/proc: cannot be written to" in result.output
+    assert "size the device" not in result.output
 
 
 def test_a_parent_that_is_read_only(folder):
@@ -76,4 +76,4 @@ def test_a_parent_that_is_read_only(folder):
         parent.chmod(0o555)
         said = failure(3, "size", SOLO12, *BOUND, "-o", "locked/out")
     assert re.search("cannot be written to: .* choose a folder .* with -o", said)
-    assert everything_in(folder) == ["locked"]
+    assert all_paths_in(folder) == ["locked"]

@@ -13,15 +13,15 @@ import pytest
 import trimesh
 from commands import (
     BY_HAND,
-    MADE,
+    EXPORT_FOLDERS,
     ROOT,
     SOLO12,
-    everything_in,
+    all_paths_in,
+    exported_files,
     failure,
     files_in,
-    made_in,
     run,
-    sized,
+    size_to_bound,
 )
 from exported import MJCF, pinocchio_model
 from robots import ROBOTS
@@ -51,24 +51,24 @@ def test_every_file_is_what_size_wrote(product, folder):
     result = run("export", product.folder, "-o", "again")
     assert result.code == 0
     again = files_in("again")
-    made = {name for name in product.case.files if name.startswith(MADE)}
+    made = {name for name in product.case.files if name.startswith(EXPORT_FOLDERS)}
     assert set(again) == {"design.json", *made}
-    assert made_in("again") == made_in(product.folder)
-    assert list(json.loads(again["design.json"])["files"]) == sorted(made_in("again"))
+    assert exported_files("again") == exported_files(product.folder)
+    assert list(json.loads(again["design.json"])["files"]) == sorted(exported_files("again"))
 
 
 def robot_by_hand():
-    return sized(*BY_HAND, "--rate-change", "6rad/s", "--wheel-speed-max", "7200rpm")
+    return size_to_bound(*BY_HAND, "--rate-change", "6rad/s", "--wheel-speed-max", "7200rpm")
 
 
 def robot_in_mjcf():
     Path("in.xml").write_text(MJCF)
-    return sized("in.xml", "--rate-change", "1rad/s", "--trunk", "trunk")
+    return size_to_bound("in.xml", "--rate-change", "1rad/s", "--trunk", "trunk")
 
 
 def robot_gzipped():
     Path("solo.urdf.gz").write_bytes(gzip.compress(Path(SOLO12).read_bytes()))
-    return sized("solo.urdf.gz", "--posture", "zero", "--joint", "FL_KFE=-0.5")
+    return size_to_bound("solo.urdf.gz", "--posture", "zero", "--joint", "FL_KFE=-0.5")
 
 
 def robot_with_meshes_elsewhere():
@@ -76,7 +76,7 @@ def robot_with_meshes_elsewhere():
     (Path("hidden") / "p").mkdir(parents=True)
     trimesh.creation.box((0.1, 0.1, 0.1)).export("hidden/p/cube.stl")
     Path("r.urdf").write_text(MESHED)
-    return sized("r.urdf", "--rate-change", "1rad/s", "--package-path", "parts=hidden/p")
+    return size_to_bound("r.urdf", "--rate-change", "1rad/s", "--package-path", "parts=hidden/p")
 
 
 @pytest.mark.slow
@@ -87,7 +87,7 @@ def robot_with_meshes_elsewhere():
 def test_it_is_the_same_for_a(folder, make):
     source = make()
     assert run("export", source, "-o", "again", "-q").code == 0
-    assert made_in("again") == made_in(source)
+    assert exported_files("again") == exported_files(source)
 
 
 def test_the_robot_is_found_from_anywhere(solo12, folder, monkeypatch):
@@ -95,7 +95,7 @@ def test_the_robot_is_found_from_anywhere(solo12, folder, monkeypatch):
     (folder / "elsewhere").mkdir()
     monkeypatch.chdir(folder / "elsewhere")
     assert run("export", folder / "ocs", "-o", "again", "-q").code == 0
-    assert made_in("again") == made_in(folder / "ocs")
+    assert exported_files("again") == exported_files(folder / "ocs")
 
 
 def test_parts_and_snippets_need_no_robot(solo12):
@@ -104,20 +104,20 @@ def test_parts_and_snippets_need_no_robot(solo12):
     cure = "--formats stl,bom,drawing,printed,assembly,snippets"
     assert cure in said
     assert run("export", solo12, "-o", "again", "-q", *cure.split()).code == 0
-    original, again = made_in(solo12), made_in("again")
+    original, again = exported_files(solo12), exported_files("again")
     assert again == {name: original[name] for name in original if not name.startswith("robot")}
 
 
 @pytest.mark.slow
 def test_the_seat_of_a_robot_with_y_up_is_in_the_design(folder):
     shutil.copy(HUMAN, "h.urdf")
-    source = sized("h.urdf")
+    source = size_to_bound("h.urdf")
     assert run("export", source, "-o", "whole", "-q").code == 0
-    assert made_in("whole") == made_in(source)
+    assert exported_files("whole") == exported_files(source)
     Path("h.urdf").unlink()
     assert run("export", source, "-o", "again", "-q", "--formats", "snippets").code == 0
-    for name, content in made_in("again").items():
-        assert content == made_in(source)[name]
+    for name, content in exported_files("again").items():
+        assert content == exported_files(source)[name]
 
 
 def test_a_robot_that_has_moved_is_named(solo12):
@@ -125,7 +125,7 @@ def test_a_robot_that_has_moved_is_named(solo12):
     result = run("export", solo12, "-o", "again", "--robot", "moved.urdf", "--json")
     assert result.code == 0
     assert result.document["warnings"] == []
-    assert made_in("again") == made_in(solo12)
+    assert exported_files("again") == exported_files(solo12)
 
 
 @pytest.mark.slow
@@ -151,10 +151,10 @@ def test_a_robot_without_the_designs_trunk_is_refused(solo12):
 
 @pytest.mark.slow
 def test_a_robot_from_standard_input_is_asked_for(folder):
-    source = sized("-", stdin=Path(SOLO12).read_bytes())
+    source = size_to_bound("-", stdin=Path(SOLO12).read_bytes())
     refused(3, "--robot FILE", source)
     assert run("export", source, "-o", "again", "-q", "--robot", SOLO12).code == 0
-    assert made_in("again") == made_in(source)
+    assert exported_files("again") == exported_files(source)
 
 
 @pytest.mark.slow
@@ -199,7 +199,7 @@ def test_one_format_renewed_in_place_leaves_the_others(solo12):
 def test_the_default_folder_is_named_after_the_robot(solo12):
     result = run("export", solo12)
     assert result.code == 0
-    assert "Written to solo12-ocs-export/" in result.said
+    assert "Written to solo12-ocs-export/" in result.output
     assert Path("solo12-ocs-export/design.json").is_file()
 
 
@@ -207,7 +207,7 @@ def test_the_default_folder_is_named_after_the_robot(solo12):
 def test_meshes_that_the_urdf_names_by_relative_paths_are_told_of_once(folder):
     trimesh.creation.box((0.1, 0.1, 0.1)).export("cube.stl")
     Path("r.urdf").write_text(MESHED.replace("package://parts/", ""))
-    source = sized("r.urdf", "--rate-change", "1rad/s")
+    source = size_to_bound("r.urdf", "--rate-change", "1rad/s")
     warnings = json.loads((source / "design.json").read_text())["robot"]["warnings"]
     assert [w for w in warnings if "names 1 of its meshes relative" in w]
     assert run("export", source, "-o", "again", "--json").document["warnings"] == []
@@ -223,7 +223,7 @@ def test_the_json_document_names_what_was_made(solo12):
     result = run("export", solo12, "-o", "again", "--json")
     assert (result.code, result.stderr) == (0, "")
     assert set(result.document) == {"schema_version", "folder", "files", "warnings", "notes"}
-    assert set(result.document["files"]) == set(made_in("again"))
+    assert set(result.document["files"]) == set(exported_files("again"))
 
 
 NO_DESIGN = (None, b"", b"{}", b"[1, 2]", b"not json", b"\xff\xfe")
@@ -237,7 +237,7 @@ def test_what_is_no_design_is_an_error_with_nothing_written(folder, content):
     result = run("export", "design.json", "-o", "again", "--json")
     assert result.code == 3
     assert "design.json" in result.document["error"]["message"]
-    assert everything_in(".") == ([] if content is None else ["design.json"])
+    assert all_paths_in(".") == ([] if content is None else ["design.json"])
 
 
 def test_a_folder_without_a_design_is_an_error(folder):
@@ -251,7 +251,7 @@ def test_the_folder_can_be_moved(solo12, folder):
     moved.parent.mkdir()
     shutil.move("again", moved)
     shutil.rmtree(solo12)
-    for name, content in made_in(moved).items():
+    for name, content in exported_files(moved).items():
         assert str(folder).encode() not in content, name
         assert str(ROOT).encode() not in content, name
     assert mujoco.MjModel.from_xml_path(str(moved / "robot" / "solo12_ocs.xml")).nu >= 2
@@ -266,9 +266,9 @@ def test_the_folder_can_be_moved(solo12, folder):
 def test_one_format_alone(solo12, each):
     source = solo12 / "design.json"
     assert run("export", source, "-o", "again", "-q", "--formats", each.name).code == 0
-    again = made_in("again")
+    again = exported_files("again")
     assert again
-    assert again.items() <= made_in(solo12).items()
+    assert again.items() <= exported_files(solo12).items()
 
 
 @pytest.mark.slow
@@ -277,7 +277,7 @@ def test_what_is_written_on_request_alone(product, folder):
     """For the printer and for CAD."""
     asked = ("--formats", "3mf,step,printed")
     result = run("export", product.folder, "-o", "again", *asked)
-    assert result.code == 0, result.said
+    assert result.code == 0, result.output
     again = files_in("again")
     printed = [f"housing_{part}" for part in ("drum", "lid", "foot", "cage")]
     named = [f"{part}.stl" for part in printed]

@@ -9,9 +9,9 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from commands import SOLO12, run
+from mass_oracles import pinocchio_mass_properties
 from pinocchio_robots import configuration, free_model
 from products import equal_rate
-from weighed import by_pinocchio
 
 # Stated, so that nothing hangs on what only one of the formats knows.
 ROOM = ("--r-max", "50mm", "--r-min", "5mm", "--h-max", "10mm", "--h-min", "2mm")
@@ -184,7 +184,7 @@ def test_by_hand_the_same_inertia_gives_the_same_design(folder, no_files):
 
 
 def check_inertia(document, solo12, joints, link="base_link"):
-    held = by_pinocchio(solo12.model, configuration(solo12.model, joints), link)
+    held = pinocchio_mass_properties(solo12.model, configuration(solo12.model, joints), link)
     robot = document["robot"]
     np.testing.assert_allclose(robot["com"], held.com, rtol=0.0, atol=1e-12)
     np.testing.assert_allclose(robot["inertia"], held.inertia, rtol=1e-9, atol=1e-13)
@@ -236,4 +236,4 @@ def test_an_srdf_state_by_name(folder, no_files, solo12):
     found = design("solo12.urdf", "--posture", "kneel")
     check_inertia(found, solo12, {"FL_HFE": 0.7, "HR_KFE": 1.5})
     wrong = run("size", "solo12.urdf", "--posture", "kneal", "-o", "wrong")
-    assert (wrong.code, "available: kneel" in wrong.said) == (3, True)
+    assert (wrong.code, "available: kneel" in wrong.output) == (3, True)

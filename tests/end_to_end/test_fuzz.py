@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import everything_in, run
+from commands import all_paths_in, run
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 from scripts import script_at
@@ -73,13 +73,13 @@ def folder(monkeypatch):
 
 def check_exit(folder, *arguments):
     """A known exit code, and a folder only where it says so."""
-    before = everything_in(folder)
+    before = all_paths_in(folder)
     result = run(*arguments)
     assert result.code in {0, 1, 2, 3, 4}
     assert bool(result.stderr) == (result.code > 1)
     if result.code in {0, 1}:
         shutil.rmtree(folder / "out")
-    assert everything_in(folder) == before
+    assert all_paths_in(folder) == before
 
 
 def extreme(test):

@@ -90,5 +90,5 @@ def test_without_maneuvers_there_is_no_controller(product, document, tmp_path):
     (tmp_path / "design.json").write_text(json.dumps(document))
     asked = run("export", tmp_path, "-o", tmp_path / "fly", "--formats", "controller")
     assert asked.code != 0
-    assert "without a maneuver" in asked.said
+    assert "without a maneuver" in asked.output
     assert not (tmp_path / "fly").exists()

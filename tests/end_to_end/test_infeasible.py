@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
-from commands import BY_HAND, SOLO12, everything_in, run
+from commands import BY_HAND, SOLO12, all_paths_in, run
 
 TOO_TIGHT = {
     "radius": ("--r-max", "20mm"),
@@ -34,7 +34,7 @@ def refused(*typed):
     result = run("size", *typed, "--json")
     error = result.document["error"]
     assert (result.code, result.stderr, error["kind"]) == (4, "", "infeasible")
-    assert everything_in(".") == []
+    assert all_paths_in(".") == []
     return error
 
 
@@ -63,7 +63,7 @@ def test_what_the_hint_proposes_works_as_it_is_printed(folder, no_files, limits,
     for key, match in proposed.items():
         typed = (f"--{key.replace('_', '-')}", f"{match['figure']}{match['unit'] or ''}")
         mended = run("size", *robot_given, *limits, *typed, *WHEELS_ALONE, "-o", key)
-        assert mended.code == 0, (typed, mended.said)
+        assert mended.code == 0, (typed, mended.output)
     assert sorted(path.name for path in folder.iterdir()) == sorted(proposed)
 
 

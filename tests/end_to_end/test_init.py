@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from commands import BY_HAND, SOLO12, on_a_terminal, run
+from commands import BY_HAND, SOLO12, run, run_in_terminal
 
 from ocs_design.requirement.reading import read_specification
 from ocs_design.requirement.sections import RobotSection
@@ -57,7 +57,7 @@ def test_a_file_stays_without_force(folder):
 
 def asked(*arguments, answers=()):
     """What a command shows that is typed at; it ends well."""
-    code, shown = on_a_terminal(*arguments, answers=answers, COLUMNS="200")
+    code, shown = run_in_terminal(*arguments, answers=answers, COLUMNS="200")
     assert code == 0, shown
     return shown
 

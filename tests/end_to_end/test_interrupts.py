@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 
 import pytest
-from commands import BOUND, PROGRAM, SOLO12, everything_in
+from commands import BOUND, PROGRAM, SOLO12, all_paths_in
 
 
 @pytest.mark.slow
@@ -24,7 +24,7 @@ def test_the_reader_of_the_output_may_leave(folder, typed):
     complaint = process.communicate()[1]
     assert not complaint
     assert process.returncode == 141
-    assert everything_in(folder) == []
+    assert all_paths_in(folder) == []
 
 
 def started(process, folder, said):
@@ -96,7 +96,7 @@ def test_an_interrupt_leaves_nothing(folder, interrupted, moment, signals):
     assert "Traceback" not in said
     assert code == 130, said
     assert said.endswith("interrupted; no unfinished files are left\n")
-    assert everything_in(folder) == []
+    assert all_paths_in(folder) == []
 
 
 @pytest.mark.slow
@@ -107,7 +107,7 @@ def test_an_interrupt_keeps_what_was_to_be_replaced(folder, interrupted):
     assert "Traceback" not in said
     assert code == 130, said
     assert said.endswith("interrupted; no unfinished files are left\n")
-    assert everything_in(folder) == ["solo12-ocs", "solo12-ocs/design.json"]
+    assert all_paths_in(folder) == ["solo12-ocs", "solo12-ocs/design.json"]
 
 
 @pytest.mark.slow
@@ -124,4 +124,4 @@ def test_a_terminal_that_closes_interrupts(folder):
     os.close(terminal)
     process.send_signal(signal.SIGHUP)
     assert process.wait() == 130
-    assert everything_in(folder) == []
+    assert all_paths_in(folder) == []

@@ -5,9 +5,9 @@ import math
 import re
 
 import pytest
-from commands import SOLO12, changed, run
-from flown_margins import Flown, row_of
-from sampled import some
+from commands import SOLO12, run, with_value
+from flown_margins import FlownMargins, catalogue_row
+from subsets import fast_subset
 
 from ocs_design.common.errors import OcsError
 from ocs_design.workflows.restoring import read_designed
@@ -37,8 +37,8 @@ def sized(tmp_path_factory, no_alternatives):
     (folder / "push.toml").write_text(UNPLANNED)
     out = folder / "out"
     said = run("size", SOLO12, "--spec", folder / "push.toml", "-o", out)
-    assert said.code in {0, 1}, said.said
-    return said, Flown(out)
+    assert said.code in {0, 1}, said.output
+    return said, FlownMargins(out)
 
 
 def margins_of(flown):
@@ -46,7 +46,7 @@ def margins_of(flown):
 
 
 def test_the_motor_is_its_row_in_the_catalogue(sized):
-    motor, row = sized[1].motor, row_of("motors.csv", MOTOR)
+    motor, row = sized[1].motor, catalogue_row("motors.csv", MOTOR)
     assert motor["torque_constant"] == pytest.approx(30.0 / math.pi / float(row["kv_rpm_per_v"]))
     assert motor["resistance"] == float(row["resistance_ohm"])
     assert motor["no_load_current"] == float(row["no_load_current_a"])
@@ -99,7 +99,7 @@ def test_energies_are_the_integral_of_the_power(sized):
 
 def test_every_capacity_is_that_of_its_part(sized):
     flown = sized[1]
-    margins, motor, row = margins_of(flown), flown.motor, row_of("motors.csv", MOTOR)
+    margins, motor, row = margins_of(flown), flown.motor, catalogue_row("motors.csv", MOTOR)
     watts = 400.0 * flown.design["robot"]["mass"]
     assert flown.design["supply"]["power_max"] == pytest.approx(watts)
     for name in ("bus power", "bus power, fed back"):
@@ -143,7 +143,7 @@ def test_the_first_screen_shows_these_figures(sized):
     """Each number of the device's block, from the files."""
     said, flown = sized
     ocs, wheel, motor = flown.design["ocs"], flown.design["ocs"]["flywheel"], flown.motor
-    shown = said.said
+    shown = said.output
     share = ocs["mass_total"] / flown.design["robot"]["mass"]
     assert f"{1e3 * ocs['mass_total']:.1f} g, {share:.1%} of the robot" in shown
     parts = re.search(r" module (.*?) (?:plate|incidence)", shown)[1]
@@ -184,7 +184,7 @@ def test_the_first_screen_shows_these_figures(sized):
 def test_a_limit_that_was_changed_by_hand_is_refused_with_its_key(sized, key, said, tmp_path):
     """Flights would keep to it, and be judged by another."""
     document = json.loads((sized[1].folder / "design.json").read_text())
-    changed(document, key, lambda figure: 1.01 * figure)
+    with_value(document, key, lambda figure: 1.01 * figure)
     (tmp_path / "design.json").write_text(json.dumps(document))
     with pytest.raises(OcsError, match=f"{key} is .*{said}"):
         read_designed(tmp_path)
@@ -193,7 +193,7 @@ def test_a_limit_that_was_changed_by_hand_is_refused_with_its_key(sized, key, sa
 @pytest.mark.parametrize("product", ["motor"], indirect=True)
 def test_no_flight_asks_for_more_than_is_stated(product):
     """With plans, which may ask for more than was flown."""
-    flown = Flown(product.folder)
+    flown = FlownMargins(product.folder)
     margins = margins_of(flown)
     for name, recorded in flown.demands().items():
         assert recorded <= margins[name]["demand"] * (1.0 + 2e-5), name
@@ -208,12 +208,14 @@ DRAWN = (
 
 
 @pytest.mark.usefixtures("no_alternatives", "no_files")
-@pytest.mark.parametrize("options", some(3, [(each,) for each in DRAWN], pytest.mark.exhaustive))
+@pytest.mark.parametrize(
+    "options", fast_subset(3, [(each,) for each in DRAWN], pytest.mark.exhaustive)
+)
 def test_no_flight_of_other_designs_asks_for_more_than_is_stated(options, tmp_path):
     asked = (*options, "--gear", "direct", "--ballistic", "-q", "-o", tmp_path / "out")
     said = run("size", *asked)
-    assert said.code in {0, 1}, said.said
-    flown = Flown(tmp_path / "out")
+    assert said.code in {0, 1}, said.output
+    flown = FlownMargins(tmp_path / "out")
     margins, supply = margins_of(flown), flown.design["supply"]
     for name, recorded in flown.demands().items():
         assert recorded <= margins[name]["demand"] * (1.0 + 5e-4), name

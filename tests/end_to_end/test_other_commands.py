@@ -40,8 +40,8 @@ def test_the_curve_of_a_bound_passes_through_it():
 def test_bound_in_words_names_both_forms():
     result = run(*PAPER)
     assert (result.code, result.stderr) == (0, "")
-    assert "137.701 kg mm2" in result.said
-    assert "136.968 kg mm2" in result.said
+    assert "137.701 kg mm2" in result.output
+    assert "136.968 kg mm2" in result.output
 
 
 @pytest.mark.parametrize(
@@ -67,12 +67,12 @@ def test_inspect_says_what_size_goes_by():
     assert found["incidence_by_criterion"]["equal-rate"] == pytest.approx(alpha, rel=1e-12)
     nominal = found["incidence_by_posture"][0]
     assert nominal["incidence"] == pytest.approx(alpha, rel=1e-12)
-    text = run("inspect", SOLO12).said
+    text = run("inspect", SOLO12).output
     assert "stand, trunk 272 mm over the feet" in text
     assert "FL_FOOT, FR_FOOT, HL_FOOT, HR_FOOT" in text
     assert f"equal-rate {np.degrees(alpha):.3f}" in text
     assert "Joints at stand" not in text
-    assert "FL_HFE 0.6435 36.9" in run("inspect", SOLO12, "-v").said
+    assert "FL_HFE 0.6435 36.9" in run("inspect", SOLO12, "-v").output
 
 
 def test_the_bound_alone_names_the_extra_that_it_needs(monkeypatch, tmp_path):
@@ -125,7 +125,7 @@ def test_the_report_is_opened_if_that_is_asked_for(asked, no_files, tmp_path, mo
     monkeypatch.setenv("DISPLAY", ":7")
     flags = ("--open",) if asked else ()
     done = run("size", *BY_HAND, *BOUND, "--no-validate", "-q", "-o", tmp_path / "o", *flags)
-    assert (done.code, done.said.strip()) == (0, "")
+    assert (done.code, done.output.strip()) == (0, "")
     assert opened == ([(tmp_path / "o" / "report.html").as_uri()] if asked else [])
 
 
@@ -147,4 +147,4 @@ def test_a_film_of_each_maneuver_or_the_reason_why_not(tmp_path):
     done = run("size", SOLO12, "--spec", tmp_path / "fall.toml", "-o", tmp_path / "out")
     films = [path.name for path in (tmp_path / "out" / "validation").glob("fall.*")]
     assert done.code in {0, 1}
-    assert films in (["fall.mp4"], ["fall.gif"]) or "no video, because" in done.said
+    assert films in (["fall.mp4"], ["fall.gif"]) or "no video, because" in done.output

@@ -5,7 +5,7 @@ import json
 import sys
 
 import pytest
-from commands import SOLO12, everything_in, failure, run
+from commands import SOLO12, all_paths_in, failure, run
 
 from ocs_design.requirement.reading import read_specification
 from ocs_design.sizing.design import lightest_device
@@ -33,7 +33,7 @@ def test_the_document_and_the_folder_say_the_same(written):
     result, folder = written
     assert (result.code, result.stderr) == (0, "")
     assert json.loads((folder / "front.json").read_text()) == result.document
-    assert everything_in(folder) == [
+    assert all_paths_in(folder) == [
         "front.csv",
         "front.json",
         "front.png",
@@ -54,7 +54,7 @@ def test_a_tool_that_is_missing_is_no_doubt(folder, monkeypatch):
     result = run("pareto", SOLO12, *ONE_MOTOR, *short, "-o", "front")
     assert result.code == 0
     assert "warning" not in result.stderr
-    assert "write the front figures are not written as PNG, because resvg-py" in result.said
+    assert "write the front figures are not written as PNG, because resvg-py" in result.output
 
 
 def test_a_point_s_specification_makes_that_very_device(written):

@@ -95,7 +95,7 @@ def test_a_question_has_its_answer(question, tmp_path, monkeypatch):
     said, code = "", 0
     for command in question["command"].replace("$GO2", str(GO2)).split("&&"):
         result = run(*shlex.split(command)[1:])
-        said, code = f"{said} {result.said}", result.code
+        said, code = f"{said} {result.output}", result.code
     assert code == (int(specified[1]) if specified else 0), said
     missing = [line for line in question["answer"].splitlines() if not told(line, said)]
     assert not missing, said

@@ -37,7 +37,7 @@ def design(product, tmp_path, monkeypatch):
 def test_the_commands_of_the_page_work(design, capsys):
     for line in "".join(shown("sh")).splitlines():
         result = run(*line.replace("--samples 200", "--samples 8").split()[1:])
-        assert result.code == 0, result.said
+        assert result.code == 0, result.output
     exec(shown("python")[0], {})
     assert float(capsys.readouterr().out) == read_design(design / "design.json").ocs.incidence
     pictures = {Path(name).suffix for name in files_in("figures-as-png/figures")}

@@ -5,7 +5,7 @@ import re
 from io import StringIO
 
 import pytest
-from commands import SOLO12, on_a_terminal, run
+from commands import SOLO12, run, run_in_terminal
 from products import FILES, Product
 from rich.console import Console
 from threadpoolctl import threadpool_limits
@@ -55,7 +55,7 @@ def test_the_same_run_writes_the_same_bytes_on_any_number_of_threads(product, wi
     indirect=["product"],
 )
 def test_the_report_fits_its_terminal(request, width, which, product):
-    said, case = request.getfixturevalue(which).said, product.case
+    said, case = request.getfixturevalue(which).output, product.case
     assert "\x1b" not in said.stdout + said.stderr
     assert max(map(len, said.stderr.splitlines())) <= width
     lines = said.stdout.splitlines()
@@ -63,7 +63,7 @@ def test_the_report_fits_its_terminal(request, width, which, product):
     headings = [line for line in lines if re.match(r"[A-Z]", line)]
     assert len(headings) == len(set(headings)) == case.headings
     for word in ("2.5 kg", "Assumed", "r_max", "back-flip", *case.words):
-        assert word in said.said
+        assert word in said.output
     # The verdict comes first and last.
     assert re.search(r"  ·  level 3 of 3  ·  stands 3 of 3", lines[0])
     last = lines[-1] if said.code == 0 else "".join(lines[-6:])
@@ -72,7 +72,7 @@ def test_the_report_fits_its_terminal(request, width, which, product):
 
 def test_the_story_takes_little_more_than_one_screen(product):
     """Of 45 lines, on a terminal of 80 columns."""
-    assert len(product.said.stdout.splitlines()) <= 58
+    assert len(product.result.stdout.splitlines()) <= 58
 
 
 @pytest.mark.parametrize("width", [60, 80, 120])
@@ -96,7 +96,7 @@ def test_the_whole_report_fits_its_terminal(width, product):
 @pytest.mark.slow
 @SIZED_AGAIN
 def test_a_wider_terminal_breaks_no_more_lines(product, wide):
-    assert len(wide.said.stdout.splitlines()) <= len(product.said.stdout.splitlines())
+    assert len(wide.output.stdout.splitlines()) <= len(product.result.stdout.splitlines())
 
 
 @pytest.mark.slow
@@ -123,7 +123,7 @@ WORDS, ERROR = ("inspect", SOLO12), ("inspect", "nowhere.urdf")
     ],
 )
 def test_a_terminal_gets_colour_unless_it_is_declined(arguments, option, variables):
-    code, plain = on_a_terminal(*arguments)
+    code, plain = run_in_terminal(*arguments)
     assert SGR.search(plain)
-    declined = on_a_terminal(*arguments, *option, **variables)
+    declined = run_in_terminal(*arguments, *option, **variables)
     assert declined == (code, SGR.sub("", plain))

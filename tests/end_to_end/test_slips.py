@@ -5,7 +5,7 @@ import shlex
 from pathlib import Path
 
 import pytest
-from commands import ROOT, SOLO12, everything_in, run
+from commands import ROOT, SOLO12, all_paths_in, run
 
 ROWS = re.findall(
     r"^\| `ocs-design (.+?)` \| (\d) \| (.+) \|$", (ROOT / "docs/hostile.md").read_text(), re.M
@@ -59,14 +59,14 @@ def bench(tmp_path, monkeypatch):
 def test_what_is_said_of_a_slip(bench, typed, code, words):
     if ".xacro" in typed:
         pytest.importorskip("xacro")
-    before = everything_in(bench)
+    before = all_paths_in(bench)
     result = run(*shlex.split(typed), "--json")
     error = result.document["error"]
     said = " ".join([error["message"], *error.get("problems", ()), error["hint"]]).split()
     assert result.code == int(code)
     for words_together in words.split(" ... "):
         assert words_together in " ".join(said)
-    assert everything_in(bench) == before
+    assert all_paths_in(bench) == before
 
 
 def test_the_table_is_read():

@@ -13,8 +13,8 @@ from commands import (
     BY_HAND,
     PROGRAM,
     SOLO12,
+    all_paths_in,
     environment,
-    everything_in,
     run,
     run_process,
 )
@@ -55,7 +55,7 @@ def test_a_full_standard_output_is_told(folder):
 @has_full_device
 def test_a_full_standard_error_is_an_error(folder):
     assert shell(f'"$@" 2> {FULL}', *UNSIZED).returncode == 3
-    assert everything_in(folder) == []
+    assert all_paths_in(folder) == []
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="names are text there")
@@ -121,7 +121,7 @@ def test_answers_go_to_standard_output_and_all_else_beside_it(folder, by_hand, a
     """In a pipe without frames, colours or broken lines; one document with --json."""
     typed = [str(by_hand) if each == "DESIGN" else each for each in arguments]
     piped = in_a_pipe(*typed)
-    assert piped.code == 0, piped.said
+    assert piped.code == 0, piped.output
     assert word in piped.stdout
     assert not FRAMES.search(piped.stdout + piped.stderr)
     assert not [line for line in piped.stdout.splitlines() if line != line.rstrip()]

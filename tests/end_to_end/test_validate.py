@@ -20,7 +20,7 @@ from ocs_design.requirement.uncertainty import spreads
 def test_the_flights_are_those_of_size_to_the_last_bit(product, folder):
     result = run("validate", product.folder, "-o", "again", "--json")
     recorded = json.loads((product.folder / "design.json").read_text())
-    assert result.code == product.said.code
+    assert result.code == product.result.code
     assert result.document["validation"] == recorded["validation"]
     again = json.loads(Path("again/design.json").read_text())
     assert again["ocs"] == recorded["ocs"]
@@ -52,7 +52,7 @@ def test_samples_go_on_where_they_were_left_and_can_be_flown_again(by_hand, fold
 
 
 def test_samples_are_told_in_words(by_hand, folder):
-    said = run("validate", by_hand, "--samples", "2").said
+    said = run("validate", by_hand, "--samples", "2").output
     for words in (
         "touches down at pitch",
         "level 1 of 1",
@@ -113,13 +113,13 @@ def test_keys_that_do_not_apply_to_a_finished_design_are_named(by_hand, folder):
 def test_what_makes_no_sense_is_refused(by_hand, folder, options, words):
     result = run("validate", by_hand, *options)
     assert result.code in {2, 3}
-    assert words in result.said
+    assert words in result.output
 
 
 def test_a_case_that_is_not_there_is_told_before_anything_is_flown(by_hand, folder):
     result = run("validate", by_hand, "--replay", "nothing.json")
-    assert "cannot read the case" in result.said
-    assert "plan its flights" not in result.said
+    assert "cannot read the case" in result.output
+    assert "plan its flights" not in result.output
 
 
 def test_a_failure_in_quiet_is_one_line_with_the_verdict(by_hand, folder):
@@ -161,7 +161,7 @@ def test_flights_by_another_law_are_recorded_with_it(by_hand, folder):
     run("validate", by_hand, *law, "--samples", "1", "-o", "mc", "-q")
     case = next(Path("mc/worst").iterdir())
     assert run("validate", "first", "--replay", case, "-q").code in {0, 1}
-    assert "belongs to another design" in run("validate", by_hand, "--replay", case).said
+    assert "belongs to another design" in run("validate", by_hand, "--replay", case).output
 
 
 @pytest.mark.slow

@@ -8,8 +8,8 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
+from mass_oracles import mujoco_mass_properties
 from scripts import script_at
-from weighed import by_mujoco
 
 from ocs_design.parts.rim import cylinder_spin_inertia, cylinder_transverse_inertia
 from ocs_design.requirement.reading import read_specification
@@ -86,7 +86,7 @@ def test_rex_hopper_is_the_sum_of_its_links():
     model = mujoco.MjModel.from_xml_string(REX_HOPPER_LINKS)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    links, whole = by_mujoco(model, data), standing.REX_HOPPER
+    links, whole = mujoco_mass_properties(model, data), standing.REX_HOPPER
     assert whole.mass == pytest.approx(links.mass, abs=5e-5)
     np.testing.assert_allclose(whole.inertia, links.inertia, atol=1e-6)
     np.testing.assert_allclose(whole.com - [0.0, 0.0, 0.45], links.com, atol=2e-3)

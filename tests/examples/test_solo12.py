@@ -6,9 +6,9 @@ from xml.etree import ElementTree
 import numpy as np
 import pinocchio
 import pytest
+from mass_oracles import assert_same_mass_properties, pinocchio_mass_properties
 from pinocchio_robots import configuration
 from robots import SOLO12
-from weighed import assert_same, by_pinocchio
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "solo12.urdf"
 TOLERANCE = 1e-9
@@ -39,13 +39,13 @@ def public():
 def composite(model, angle_of):
     """With the joints held, trunk at the origin."""
     angles = {name: angle_of(*name.split("_")) for name in model.names[2:]}
-    return by_pinocchio(model, configuration(model, angles))
+    return pinocchio_mass_properties(model, configuration(model, angles))
 
 
 @pytest.mark.parametrize("posture", POSTURES)
 def test_composite_inertia_is_that_of_the_public_robot(example, public, posture):
     found, expected = (composite(model, POSTURES[posture]) for model in (example, public))
-    assert_same(found, expected, TOLERANCE)
+    assert_same_mass_properties(found, expected, TOLERANCE)
 
 
 def test_figures_of_the_theory(example):

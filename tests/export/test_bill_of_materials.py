@@ -4,7 +4,7 @@ import csv
 from dataclasses import replace
 
 import pytest
-from built import DEVICES
+from built_devices import DEVICES
 from wheels import EC45, EC45_BODY, PAPER_WHEEL, driven_device, geared, paper_device
 
 from ocs_design.actuation.motor import GearRoom

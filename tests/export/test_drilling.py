@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from built import CAGED_DEVICE, DEVICES, around
+from built_devices import CAGED_DEVICE, DEVICES, device_in_layout
 from wheels import paper_device
 
 from ocs_design.device.layout import Layout, LayoutName
@@ -22,7 +22,7 @@ def subject(device, refused="", com=None):
     return Subject("dog", device, base=seat, refused=refused)
 
 
-TRIAD = around(Layout(LayoutName.TRIAD))
+TRIAD = device_in_layout(Layout(LayoutName.TRIAD))
 
 
 @pytest.fixture(params=["caged", "on a plate", "triad"])
@@ -151,7 +151,7 @@ def test_one_sheet_is_enough_where_it_has_room_for_the_holes():
 
 
 def test_wheels_alone_and_modules_that_do_not_stand_have_no_holes_in_the_trunk():
-    leaning = around(Layout(LayoutName.PYRAMID))
+    leaning = device_in_layout(Layout(LayoutName.PYRAMID))
     assert foot_holes(leaning) == {}
     for device in (paper_device(), leaning):
         assert drilling_of(subject(device)) is None

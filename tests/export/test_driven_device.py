@@ -9,16 +9,16 @@ import pytest
 from exported import (
     LEGGED,
     LEGGED_PATHS,
-    check_whole,
+    check_total,
     mujoco_model,
     pinocchio_model,
     robot_at,
-    seen_by_mujoco,
-    seen_by_pinocchio,
+    total_by_mujoco,
+    total_by_pinocchio,
 )
 from robots import SOLO12
-from sampled import some
-from seats import TRUNK, TrunkOnly, expanded
+from seats import TRUNK, TrunkOnly, expand_macro
+from subsets import fast_subset
 from wheels import EC45, EC45_BODY, driven_device, geared, layout_device
 
 from ocs_design.device.bodies import carrier_inertial, flywheel_inertial
@@ -49,13 +49,13 @@ ROBOTS_AND_DEVICES = {name: (SOLO12, device) for name, device in DEVICES.items()
 }
 
 
-@pytest.mark.parametrize("case", some(3, ROBOTS_AND_DEVICES))
+@pytest.mark.parametrize("case", fast_subset(3, ROBOTS_AND_DEVICES))
 def test_mujoco_and_pinocchio_see_the_whole_robot(case, tmp_path):
     path, device = ROBOTS_AND_DEVICES[case]
     robot = robot_at(path)
     text = robot_urdf(robot, device).decode()
-    check_whole(seen_by_pinocchio(text, robot), robot, device)
-    check_whole(seen_by_mujoco(mujoco_model(robot, device, tmp_path), robot), robot, device)
+    check_total(total_by_pinocchio(text, robot), robot, device)
+    check_total(total_by_mujoco(mujoco_model(robot, device, tmp_path), robot), robot, device)
 
 
 def test_the_wheel_has_its_momentum_and_the_joint_its_armature(device, tmp_path):
@@ -100,10 +100,10 @@ MACROS |= {"by another name at another angle": (driven_device(), TURNED, driven_
 @pytest.mark.parametrize(("written", "arguments", "made"), MACROS.values(), ids=MACROS)
 def test_the_xacro_macro_makes_every_layout_at_any_angle(written, arguments, made, tmp_path):
     (tmp_path / "ocs.urdf.xacro").write_text(snippet_xacro(written, TrunkOnly()))
-    text = expanded(tmp_path, f'<xacro:ocs parent="{TRUNK}"{arguments}/>')
+    text = expand_macro(tmp_path, f'<xacro:ocs parent="{TRUNK}"{arguments}/>')
     assert ('link name="front_ocs_left_motor"' in text) == bool(arguments)
     seat = replace(robot_by_hand(1.0, (1.0, 1.0, 1.0)), trunk=TRUNK)
-    check_whole(seen_by_pinocchio(text, seat), seat, made)
+    check_total(total_by_pinocchio(text, seat), seat, made)
 
 
 def test_the_mjcf_snippet_has_them(device, tmp_path):
@@ -115,7 +115,7 @@ def test_the_mjcf_snippet_has_them(device, tmp_path):
         '<attach model="ocs" body="mount" prefix="ocs_"/></body></worldbody></mujoco>'
     )
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "robot.xml"))
-    check_whole(seen_by_mujoco(model, replace(BLOCK, trunk="base")), BLOCK, device)
+    check_total(total_by_mujoco(model, replace(BLOCK, trunk="base")), BLOCK, device)
     for module in device.modules:
         assert model.joint(f"ocs_{module.name}").armature[0] == device.motor.armature
         assert model.body(f"ocs_{module.name}_motor").name

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from made_parts import ONE_PIECE, RIM_ALONE, TWO_PIECES, WEB
+from sample_parts import ONE_PIECE, RIM_ALONE, TWO_PIECES, WEB
 
 from ocs_design.common.units import MILLIMETRES
 from ocs_design.export.meshes import part_mesh
@@ -114,7 +114,7 @@ def test_the_outline_has_the_diameters_of_the_rim_and_stands_beside_the_section(
 def test_bytes_are_the_same_in_every_process():
     """Whatever the order of sets there."""
     code = (
-        "import hashlib; from made_parts import TWO_PIECES; from ocs_design.export.dxf import "
+        "import hashlib; from sample_parts import TWO_PIECES; from ocs_design.export.dxf import "
         "dxf_text; from ocs_design.parts.wheel import wheel_parts; "
         "print(hashlib.sha256(dxf_text(wheel_parts(TWO_PIECES)[0]).encode()).hexdigest())"
     )

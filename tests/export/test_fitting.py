@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from built import DEVICES, FLAT, around
+from built_devices import DEVICES, FLAT, device_in_layout
 from hypothesis import given
 from hypothesis import strategies as st
 from wheels import EC45, PAPER_WHEEL, driven_device, geared, paper_device
@@ -130,7 +130,7 @@ def test_feet_in_each_other_s_way():
 
 @pytest.mark.parametrize("name", ["single", "triad", "orthogonal", "pyramid"])
 def test_modules_without_a_mirror_image_stand_in_no_way_of_one(name):
-    device = around(Layout(LayoutName(name)))
+    device = device_in_layout(Layout(LayoutName(name)))
     assert "in each other's way" not in said(device)
 
 

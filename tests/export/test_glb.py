@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 import trimesh
-from exported import LEGGED, LEGGED_PATHS, held_in_mujoco, robot_at
+from exported import LEGGED, LEGGED_PATHS, data_in_posture, robot_at
 from robots import SOLO12
 from wheels import driven_device
 
@@ -44,7 +44,7 @@ def document(path):
 
 def seen_by_mujoco(model, posture):
     """Bounds of everything visible [m] in the trunk's frame, as MuJoCo has it."""
-    data = held_in_mujoco(model, posture)
+    data = data_in_posture(model, posture)
     base, points = data.site("ocs_imu"), []
     for geom in np.flatnonzero((model.geom_group < 3) & (model.geom_type == 7)):
         mesh = model.geom_dataid[geom]
@@ -70,7 +70,7 @@ def test_real_robots_stand_as_mujoco_has_them(path, tmp_path):
 def test_a_node_for_each_body_where_the_body_is(tmp_path):
     robot = robot_at(SOLO12)
     model, scene = drawn(robot, tmp_path)
-    data = held_in_mujoco(model, robot.posture)
+    data = data_in_posture(model, robot.posture)
     for index in range(1, model.nbody):
         body = data.body(index)
         place, _ = scene.graph.get(body.name)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import trimesh
-from made_parts import PARTS
+from sample_parts import PARTS
 
 from ocs_design.export.meshes import Mesh, part_mesh
 from ocs_design.parts.solids import Part

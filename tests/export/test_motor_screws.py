@@ -4,7 +4,7 @@ from dataclasses import replace
 from math import pi
 
 import pytest
-from built import CAGED, FLAT, housed
+from built_devices import CAGED, FLAT, housed_device
 from wheels import PAPER_WHEEL
 
 from ocs_design.actuation.motor import BoltCircle, Mounting
@@ -18,7 +18,7 @@ from ocs_design.parts.solids import Carrier
 
 def device_on(mounting):
     """The paper's rim on such a motor, with nothing printed."""
-    device = housed(mounting)
+    device = housed_device(mounting)
     rim = replace(device.flywheel, outer_radius=PAPER_WHEEL.outer_radius)
     return replace(device, flywheel=rim, carrier=Carrier(CAGED.mass, 1e-4, 1e-4))
 
@@ -30,7 +30,7 @@ def screws(device):
 
 
 def test_a_design_that_counts_no_screws_is_told_from_one_that_does():
-    device = housed(None)
+    device = housed_device(None)
     old = replace(device, carrier=replace(device.carrier, mass=device.carrier.mass - 0.0025))
     total = bill_csv(old).splitlines()[-1]
     assert total.startswith(f"total,,,,,{1e3 * device.mass:.3f},")
@@ -48,15 +48,15 @@ LIDS_AND_FEET = {
     ("device", "held"),
     [
         (device_on(None), {}),
-        (housed(None), LIDS_AND_FEET),
+        (housed_device(None), LIDS_AND_FEET),
         # Through floor and foot, 1.6 mm and 5 mm, and 3 mm of thread: 9.6 mm.
         (
-            housed(FLAT),
+            housed_device(FLAT),
             LIDS_AND_FEET | {"motor on housing and foot": ("screw ISO 4762 M3 x 10", 8)},
         ),
         # M2 through 1.6 and 5 mm with 4 mm of thread in the print, M3 through 3 mm of floor.
         (
-            housed(CAGED.mounting),
+            housed_device(CAGED.mounting),
             LIDS_AND_FEET
             | {
                 "housing and foot on cage, which is tapped": ("screw ISO 4762 M2 x 12", 8),

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from built import DEVICES
+from built_devices import DEVICES
 from exported import LEGGED_PATHS, MJCF, check_wheels_in_pinocchio, pinocchio_model, robot_at
-from robots import SOLO12, marked
+from robots import SOLO12, robot_parameters
 from wheels import driven_device, paper_device
 
 from ocs_design.common.errors import RobotError
@@ -20,7 +20,7 @@ def exported_text(robot: Robot, device=None) -> str:
     return robot_urdf(robot, device or paper_device()).decode()
 
 
-@pytest.mark.parametrize("path", marked(LEGGED_PATHS))
+@pytest.mark.parametrize("path", robot_parameters(LEGGED_PATHS))
 def test_the_users_file_stays_byte_for_byte(path):
     robot = robot_at(path)
     content = robot.content

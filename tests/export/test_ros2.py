@@ -9,7 +9,7 @@ import xacro
 import yaml
 from catkin_pkg.package import parse_package
 from exported import LEGGED_PATHS, MJCF, check_wheels_in_pinocchio, pinocchio_model
-from robots import SOLO12, marked
+from robots import SOLO12, robot_parameters
 from wheels import driven_device
 
 from ocs_design.export.formats import Subject
@@ -28,7 +28,7 @@ def exported(path, folder):
     return robot, package, text
 
 
-@pytest.mark.parametrize("path", marked(LEGGED_PATHS))
+@pytest.mark.parametrize("path", robot_parameters(LEGGED_PATHS))
 def test_an_independent_reader_finds_mass_inertia_axes_limits_and_meshes(path, tmp_path):
     robot, package, text = exported(path, tmp_path)
     device, model = driven_device(), pinocchio_model(text)

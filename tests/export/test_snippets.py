@@ -10,19 +10,19 @@ import numpy as np
 import pytest
 import xacro
 from exported import (
+    check_total,
     check_wheels_in_mujoco,
     check_wheels_in_pinocchio,
-    check_whole,
     mujoco_model,
     pinocchio_model,
     robot_at,
-    seen_by_mujoco,
-    seen_by_pinocchio,
+    total_by_mujoco,
+    total_by_pinocchio,
 )
 from hypothesis import given
 from hypothesis import strategies as st
 from robots import ROBOTS
-from seats import TRUNK, TrunkOnly, expanded
+from seats import TRUNK, TrunkOnly, expand_macro
 from wheels import driven_device, geared, motor, paper_device
 
 from ocs_design.export.mjcf import precise_xml
@@ -115,7 +115,7 @@ FORMS = {
 @pytest.mark.parametrize("form", FORMS)
 def test_urdf_and_macro_go_into_any_robot(third, tmp_path, form):
     text = FORMS[form](third, tmp_path)
-    check_whole(seen_by_pinocchio(text, third), third, DEVICE)
+    check_total(total_by_pinocchio(text, third), third, DEVICE)
     model = pinocchio_model(text)
     check_wheels_in_pinocchio(model, DEVICE, third.trunk)
     wheel = model.idx_vs[model.getJointId("ocs_left")]
@@ -127,7 +127,7 @@ def test_urdf_and_macro_go_into_any_robot(third, tmp_path, form):
 
 def test_the_model_attached(third, tmp_path):
     model = with_attachment(third, tmp_path)
-    check_whole(seen_by_mujoco(model, third), third, DEVICE)
+    check_total(total_by_mujoco(model, third), third, DEVICE)
     check_wheels_in_mujoco(model, DEVICE, third.trunk)
     limit = DEVICE.motor.torque_limit
     for module in DEVICE.modules:
@@ -231,7 +231,7 @@ def bounds(system):
 def test_the_macro_declares_both_motors_when_asked(tmp_path):
     device = driven_device()
     (tmp_path / "ocs.urdf.xacro").write_text(snippet_xacro(device, TrunkOnly()))
-    text = expanded(tmp_path, CALL)
+    text = expand_macro(tmp_path, CALL)
     (system,) = systems(text)
     check_system(system, device, "front_", "a/B")
     joints = {joint.get("name") for joint in ET.fromstring(text).findall("joint")}

@@ -7,7 +7,7 @@ import sys
 import textwrap
 
 import pytest
-from commands import everything_in
+from commands import all_paths_in
 
 from ocs_design.common.errors import OutputError
 from ocs_design.device.records.design import DESIGN_FILE
@@ -74,7 +74,7 @@ def killed_at_each(folder, *how):
             status = int(process.stdout.readline())
             at_once = texts(folder / "out") if (folder / "out").exists() else None
             clear_leftovers(folder / "out")
-            yield at_once, texts(folder / "out"), everything_in(folder)
+            yield at_once, texts(folder / "out"), all_paths_in(folder)
             if status == 0:
                 return
             for path in (folder / "out").iterdir():
@@ -153,7 +153,7 @@ def test_interrupted_at_any_instruction_it_is_the_old_folder_or_the_new(tmp_path
         done = replaced(target, InterruptedAt(moment))
         remove_unfinished()
         assert texts(target) in (OLD, NEW), moment
-        assert everything_in(tmp_path) == WHOLE, moment
+        assert all_paths_in(tmp_path) == WHOLE, moment
         for path in target.iterdir():
             path.write_text("old")
     assert moment > 500
@@ -177,7 +177,7 @@ def test_of_two_runs_with_force_the_last_one_stays(tmp_path):
         assert texts(target) == {DESIGN_FILE: "quick"}
         (slow / DESIGN_FILE).write_text("slow")
     assert texts(target) == {DESIGN_FILE: "slow"}
-    assert everything_in(tmp_path) == ["out", f"out/{DESIGN_FILE}"]
+    assert all_paths_in(tmp_path) == ["out", f"out/{DESIGN_FILE}"]
 
 
 def test_of_two_runs_without_force_the_first_one_stays(tmp_path):
@@ -190,7 +190,7 @@ def test_of_two_runs_without_force_the_first_one_stays(tmp_path):
             (quick / DESIGN_FILE).write_text("quick")
         (slow / DESIGN_FILE).write_text("slow")
     assert texts(target) == {DESIGN_FILE: "quick"}
-    assert everything_in(tmp_path) == ["out", f"out/{DESIGN_FILE}"]
+    assert all_paths_in(tmp_path) == ["out", f"out/{DESIGN_FILE}"]
 
 
 def test_hidden_folders_of_others_stay(tmp_path):
@@ -199,7 +199,7 @@ def test_hidden_folders_of_others_stay(tmp_path):
         (tmp_path / name).mkdir()
     (tmp_path / ".out.ocs-design-abcd1234").mkdir()
     clear_leftovers(tmp_path / "out")
-    assert everything_in(tmp_path) == sorted(names)
+    assert all_paths_in(tmp_path) == sorted(names)
 
 
 @pytest.mark.parametrize("there", [False, True], ids=["new", "with force"])
@@ -216,7 +216,7 @@ def test_a_block_that_fails_leaves_all_as_it_was_and_a_full_disk_has_a_cure(tmp_
     ):
         (folder / DESIGN_FILE).write_text("half")
         raise error
-    assert everything_in(tmp_path) == (WHOLE if there else [])
+    assert all_paths_in(tmp_path) == (WHOLE if there else [])
     assert not there or texts(target) == OLD
     if isinstance(caught.value, OutputError):
         assert "No space left" in caught.value.message
@@ -250,10 +250,10 @@ def test_force_never_replaces_what_is_no_output(tmp_path, name, why):
     (tmp_path / "photographs" / "one.png").write_text("precious")
     (tmp_path / "file").write_text("a file")
     (tmp_path / "link").symlink_to(tmp_path / "real")
-    before = everything_in(tmp_path)
+    before = all_paths_in(tmp_path)
     with pytest.raises(OutputError, match=why):
         check_target(tmp_path / name, force=True)
-    assert everything_in(tmp_path) == before
+    assert all_paths_in(tmp_path) == before
 
 
 def test_a_file_is_written_whole_and_replaced_with_force_alone(tmp_path):
@@ -268,7 +268,7 @@ def test_a_file_is_written_whole_and_replaced_with_force_alone(tmp_path):
     assert file.read_bytes() == "ä\n".encode()
     write_whole(file, "new", force=True)
     assert file.read_text() == "new"
-    assert everything_in(tmp_path) == ["a.toml"]
+    assert all_paths_in(tmp_path) == ["a.toml"]
 
 
 @pytest.mark.parametrize(

@@ -8,11 +8,11 @@ import numpy as np
 import pinocchio as pin
 import pytest
 import trimesh
-from built import FLAT
+from built_devices import FLAT
 from robots import ROBOTS, SOLO12
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
-from seats import TRUNK, TrunkOnly, expanded
+from seats import TRUNK, TrunkOnly, expand_macro
 from wheels import EC45, driven_device, geared, paper_device
 
 from ocs_design.device.solids import foot_of
@@ -218,7 +218,7 @@ def test_snippets_have_boxes_and_cylinders_in_their_places(module, tmp_path):
     text = snippet_urdf(DEVICE, seat)
     check_equal(placed_by_urdf(text, module.name), expected)
     (tmp_path / "ocs.urdf.xacro").write_text(snippet_xacro(DEVICE, seat))
-    text = expanded(tmp_path, f'<xacro:ocs parent="{TRUNK}"/>')
+    text = expand_macro(tmp_path, f'<xacro:ocs parent="{TRUNK}"/>')
     check_equal(placed_by_urdf(text, module.name), expected)
     check_equal(placed_by_sdf(snippet_sdf(DEVICE, seat), module.name), expected)
     model = mujoco.MjModel.from_xml_string(snippet_mjcf(DEVICE, seat))

@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from built import CAGED_DEVICE, DEVICES, ON_A_MAST
-from made_parts import PARTS, TUBE
+from built_devices import CAGED_DEVICE, DEVICES, MAST_PLATE
+from sample_parts import PARTS, TUBE
 
 from ocs_design.common.arrays import FloatArray
 
@@ -190,7 +190,7 @@ TWO_PLATES = replace(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("plate", [TWO_PLATES, replace(ON_A_MAST, sleeves=ON_A_PLATE.sleeves)])
+@pytest.mark.parametrize("plate", [TWO_PLATES, replace(MAST_PLATE, sleeves=ON_A_PLATE.sleeves)])
 def test_the_device_has_every_module_in_its_place_and_its_plates(tmp_path, plate):
     device = replace(DEVICES["on a plate"], plate=plate)
     (tmp_path / "device.step").write_bytes(device_bytes(device))

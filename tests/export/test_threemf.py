@@ -4,7 +4,7 @@ import lib3mf
 import numpy as np
 import pytest
 import trimesh
-from made_parts import PARTS, SLOTTED, TUBE
+from sample_parts import PARTS, SLOTTED, TUBE
 
 from ocs_design.export.meshes import Mesh, part_mesh
 from ocs_design.export.threemf import threemf_bytes

@@ -35,8 +35,8 @@ def no_display(monkeypatch):
 def test_without_a_display_it_is_said_before_anything_is_flown(no_display):
     result = run("validate", "nowhere", "--view")
     assert result.code == 5
-    assert "needs a display" in result.said
-    assert "apt install xvfb" in result.said
+    assert "needs a display" in result.output
+    assert "apt install xvfb" in result.output
 
 
 @pytest.mark.slow

@@ -6,7 +6,7 @@ import sys
 import gymnasium
 import numpy as np
 import pytest
-from designed import MOTOR
+from designed_devices import MOTOR
 from gymnasium.utils.env_checker import check_env
 from stories import design
 

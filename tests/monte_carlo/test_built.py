@@ -5,7 +5,7 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 import pytest
-from campaigns import NOTHING, short_campaign
+from campaigns import NO_UNCERTAINTY, short_campaign
 from scipy.spatial.transform import Rotation
 from wheels import driven_device, layout_device, paper_device
 
@@ -22,7 +22,7 @@ UP = (0.0, 0.0, 1.0)
 
 def drawn(robot, device=None, **specified):
     """World as designed, and as built with these errors and no others."""
-    given = {**NOTHING, **{name: Constant(value) for name, value in specified.items()}}
+    given = {**NO_UNCERTAINTY, **{name: Constant(value) for name, value in specified.items()}}
     campaign = short_campaign(robot, UncertaintySection(**given), device=device, drop_only=True)
     world = campaign.flights[0].world
     return world, campaign.built(campaign.sample(0), 0)
@@ -169,7 +169,7 @@ def test_friction_takes_its_part_of_the_torque_once(solo12):
 @pytest.mark.parametrize("period", [1e-3, 5e-3, 2e-2])
 def test_a_push_off_leaves_the_rate_that_is_drawn(solo12, period):
     """By an impulse that the momentum balance knows; a drop has no push-off."""
-    given = UncertaintySection(**{**NOTHING, "takeoff_rate": Constant(0.1)})
+    given = UncertaintySection(**{**NO_UNCERTAINTY, "takeoff_rate": Constant(0.1)})
     campaign = replace(short_campaign(solo12, given, until=0.09), hold=round(period / 1e-3))
     jump, drop = campaign.worlds(campaign.sample(0))
     assert len(drop.pushes) == 1

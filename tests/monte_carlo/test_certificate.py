@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from campaigns import NAMES, made_outcomes, short_campaign
+from campaigns import NAMES, short_campaign, synthetic_outcomes
 from commands import SOLO12
 from scipy import stats
 from wheels import layout_device
@@ -98,7 +98,7 @@ def campaign(solo12):
 
 
 def test_flights_after_the_verdict_are_not_counted(campaign):
-    outcomes = made_outcomes(range(64))
+    outcomes = synthetic_outcomes(range(64))
     outcomes.codes[:] = 0
     outcomes.codes[[3, 4, 5, 6, 40]] = 3
     found = certificate(SequentialTest(0.9), campaign, outcomes)
@@ -112,7 +112,7 @@ def test_flights_after_the_verdict_are_not_counted(campaign):
 @pytest.mark.parametrize("spread", [0.04, 0.05])
 def test_the_reserve_is_raised_by_what_the_tilt_lacks(campaign, spread):
     """99 of 100 are within 2.576 deviations; 5 deg are allowed."""
-    outcomes = made_outcomes(range(400))
+    outcomes = synthetic_outcomes(range(400))
     drawn = NAMES.index("com_error.y")
     tilt = spread * (0.9 * outcomes.values[:, drawn] + np.sqrt(0.19) * outcomes.values[:, 3])
     outcomes.metrics[:, 0, METRICS.index("touchdown_pitch")] = 0.0
@@ -141,7 +141,7 @@ def test_no_reserve_is_raised_where_it_does_not_help(solo12, metric, cause, word
     """One wheel turns a robot in pitch alone."""
     device = layout_device(Layout(LayoutName.SINGLE))
     campaign = short_campaign(solo12, device=device, drop_only=True)
-    outcomes = made_outcomes(range(64))
+    outcomes = synthetic_outcomes(range(64))
     drawn = 0.1 * outcomes.values[:, NAMES.index(cause)]
     outcomes.metrics[:] = 0.0
     outcomes.metrics[:, 0, METRICS.index(metric)] = drawn
@@ -158,7 +158,7 @@ def test_what_ends_upside_down_or_on_its_side_teaches_by_where_the_vertical_is(
     (flight,) = campaign.flights
     turn = TurnTo(name="turn", duration=1.0, jump_height=0.5, **asked)
     campaign = replace(campaign, flights=(replace(flight, maneuver=turn),))
-    outcomes = made_outcomes(range(64))
+    outcomes = synthetic_outcomes(range(64))
     off = 0.02 * outcomes.values[:, 0]
     roll, pitch = asked.get("roll", 0.0) + off, asked.get("pitch", 0.0) + off
     pitch = np.where(np.arange(64) % 2, pitch, -pitch) if not free else free * outcomes.values[:, 1]
@@ -170,7 +170,7 @@ def test_what_ends_upside_down_or_on_its_side_teaches_by_where_the_vertical_is(
 
 @pytest.mark.parametrize("change", ["one lands", "nothing varies"])
 def test_landings_that_are_all_alike_teach_nothing_of_the_reserve(campaign, change):
-    outcomes = made_outcomes(range(8))
+    outcomes = synthetic_outcomes(range(8))
     tilt = outcomes.metrics[:, 0, METRICS.index("touchdown_pitch")]
     tilt[:] = 0.3
     if change == "one lands":

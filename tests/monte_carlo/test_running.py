@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 import pyarrow.parquet
 import pytest
-from campaigns import assert_same, made_outcomes, short_campaign
+from campaigns import assert_same, short_campaign, synthetic_outcomes
 
 from ocs_design.common.errors import MissingToolError, OcsError, OutputError
 from ocs_design.monte_carlo.campaign import fly_samples
@@ -45,7 +45,7 @@ class Made:
                 raise KeyboardInterrupt
             self.flown.append(block)
             progress((done + 1) / len(blocks))
-            yield block, made_outcomes(block, 2, fail_from=1.5)
+            yield block, synthetic_outcomes(block, 2, fail_from=1.5)
 
 
 def test_the_order_of_arrival_does_not_matter():
@@ -99,7 +99,7 @@ def test_a_spoilt_block_is_flown_again(tmp_path, stored, spoil):
 
 
 def test_another_campaign_is_not_mixed_in(tmp_path, stored):
-    stored().keep(BLOCKS[0], made_outcomes(range(8)))
+    stored().keep(BLOCKS[0], synthetic_outcomes(range(8)))
     other = replace(IDENTITY, seed=1)
     with pytest.raises(OutputError, match="these differ: seed"):
         Storage(tmp_path / "mc", other, force=False)
@@ -117,7 +117,7 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path):
 
 
 def test_csv_and_parquet_hold_the_same_rows(tmp_path):
-    outcomes = made_outcomes(range(20), 2)
+    outcomes = synthetic_outcomes(range(20), 2)
     outcomes.metrics[0, 0, 0] = np.nan
     text, parquet = write_tables(outcomes, ["a drop, tilted", "flip"], tmp_path)
     with text.open(newline="") as stream:

@@ -5,7 +5,7 @@ from math import pi
 
 import numpy as np
 import pytest
-from campaigns import NAMES, made_outcomes
+from campaigns import NAMES, synthetic_outcomes
 from scipy import stats
 
 from ocs_design.device.layout import module_axes
@@ -18,7 +18,7 @@ IN_LINE = Flip(name="flip", jump_height=1.0, angle=-3.0, duration=1.0, incidence
 
 
 def test_what_decides_is_found_and_nothing_else():
-    outcomes = made_outcomes(range(400))
+    outcomes = synthetic_outcomes(range(400))
     found = causes(outcomes, order(outcomes, DROP, 0))
     assert [(cause.quantity, cause.either_way) for cause in found] == [(NAMES[0], True)]
     distance = np.abs(outcomes.values[:, 0] - np.median(outcomes.values[:, 0]))
@@ -27,7 +27,7 @@ def test_what_decides_is_found_and_nothing_else():
 
 
 def test_one_sided_causes_have_their_sign():
-    outcomes = made_outcomes(range(200))
+    outcomes = synthetic_outcomes(range(200))
     outcomes.metrics[:] = 0.0
     outcomes.codes[:] = 0
     outcomes.metrics[:, 0, 1] = 5.0 - outcomes.values[:, 3]
@@ -37,7 +37,7 @@ def test_one_sided_causes_have_their_sign():
 
 
 def test_failures_are_worse_than_any_pass_and_what_was_not_judged_is_the_worst():
-    outcomes = made_outcomes(range(50))
+    outcomes = synthetic_outcomes(range(50))
     outcomes.codes[:] = 0
     outcomes.codes[7] = 4
     assert order(outcomes, DROP, 0)[-1] == 7
@@ -47,7 +47,7 @@ def test_failures_are_worse_than_any_pass_and_what_was_not_judged_is_the_worst()
 
 def test_a_turn_is_off_by_the_angle_to_the_vertical_that_is_asked_for():
     """And one that shall only stop turning is off by nothing that is known."""
-    outcomes = made_outcomes(range(3))
+    outcomes = synthetic_outcomes(range(3))
     asked = TurnTo(name="lean", pitch=0.5, duration=1.0, gravity=1.62, jump_height=1.0)
     tilts = outcomes.metric("touchdown_pitch"), outcomes.metric("touchdown_roll")
     tilts[0][:, 0], tilts[1][:, 0] = (0.5, 0.6, 0.0), 0.0
@@ -58,19 +58,19 @@ def test_a_turn_is_off_by_the_angle_to_the_vertical_that_is_asked_for():
 
 
 def test_a_flip_is_off_by_what_it_lacks():
-    outcomes = made_outcomes(range(3))
+    outcomes = synthetic_outcomes(range(3))
     np.testing.assert_array_equal(attitude_error(outcomes, IN_LINE, 0), [3.0, 3.0, 3.0])
 
 
 def test_what_never_varies_is_no_cause():
-    outcomes = made_outcomes(range(100))
+    outcomes = synthetic_outcomes(range(100))
     outcomes.values[:] = 1.0
     assert causes(outcomes, order(outcomes, DROP, 0)) == ()
 
 
 def landing_off(axis, samples=60):
     """Some of the samples land off level about one axis, and fail for it alone."""
-    outcomes = made_outcomes(range(samples), fail_from=1.5)
+    outcomes = synthetic_outcomes(range(samples), fail_from=1.5)
     error = outcomes.metric("touchdown_pitch").copy()
     outcomes.metrics[:] = 0.0
     outcomes.metrics[:, :, METRICS.index(f"touchdown_{axis}")] = error

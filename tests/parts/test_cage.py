@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from made_parts import CAGE
 from part_gaps import overlap_volume, turning_clearance
+from sample_parts import CAGE
 from scipy.integrate import solve_bvp
 
 from ocs_design.actuation.fasteners import screw

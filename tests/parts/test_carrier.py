@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from sampled import some
-from standing_parts import UPRIGHT, made_foot, standing_parts
+from carrier_parts import UPRIGHT, carrier_parts, foot_for
+from subsets import fast_subset
 
 from ocs_design.actuation.motor import DIRECT, BoltCircle, Face, Motor, Mounting
 from ocs_design.export.meshes import part_mesh
@@ -43,19 +43,19 @@ def test_a_motor_is_a_solid_cylinder_of_what_is_known_of_its_size(diameter, leng
     assert (body.transverse_inertia, body.vertical_inertia) == pytest.approx((across, across))
 
 
-@pytest.mark.parametrize("thick", some(2, [0.0084, 0.005]))
+@pytest.mark.parametrize("thick", fast_subset(2, [0.0084, 0.005]))
 @pytest.mark.parametrize("mounting", [None, AT_THE_OUTPUT, AT_THE_BACK])
 def test_it_is_what_the_meshes_weigh(mounting, thick):
     """Meshes have exact masses, and inertias that are out by what polygons are off circles."""
     weightless = replace(MOTOR, mass=0.0, mounting=mounting)
-    foot = made_foot(weightless, DIRECT, 0.034, 0.004, thick)
+    foot = foot_for(weightless, DIRECT, 0.034, 0.004, thick)
     pieces = [(part, UPRIGHT, np.zeros(3)) for part in housing_parts(foot.housing)]
     pieces.append((foot_part(foot), np.eye(3), np.array([0.0, 0.0, -foot.wheel_height])))
     cage = mount_of(weightless, None, thick).around(0.004).cage
     if cage is not None:
         pieces.append((cage_part(cage), UPRIGHT, np.array([0.0, -cage.back, 0.0])))
     expected = combine([weighed(*piece) for piece in pieces])
-    parts = standing_parts(weightless, DIRECT, 0.034, 0.004, thick)
+    parts = carrier_parts(weightless, DIRECT, 0.034, 0.004, thick)
     screws = [each for each in parts if not each.inertia.any()]
     found = standing(weightless, DIRECT, 0.034, 0.004, foot_plate=thick).mass_properties()
     whole = combine([expected, *screws])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from made_parts import FOOT, HOUSING
+from sample_parts import FOOT, HOUSING
 
 from ocs_design.export.meshes import part_manifold
 from ocs_design.parts.foot import (

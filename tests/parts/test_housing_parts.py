@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from made_parts import HOUSING, TWO_PIECES
 from part_gaps import overlap_volume, turning_clearance
-from sampled import some
+from sample_parts import HOUSING, TWO_PIECES
+from subsets import fast_subset
 
 from ocs_design.actuation.motor import BoltCircle
 from ocs_design.common.errors import PartError
@@ -41,7 +41,7 @@ def test_without_ears_and_holes_it_is_a_plain_drum(radius, height):
     np.testing.assert_allclose(body.com, 0.0, atol=1e-15)
 
 
-@pytest.mark.parametrize("still", some(2, housing_parts(HOUSING)[::-1]), ids=["lid", "drum"])
+@pytest.mark.parametrize("still", fast_subset(2, housing_parts(HOUSING)[::-1]), ids=["lid", "drum"])
 def test_wheel_turns_with_its_clearance(still):
     wheel = wheel_parts(TWO_PIECES)
     assert turning_clearance(wheel, [still], 0.01) == pytest.approx(CLEARANCE, abs=POLYGONS)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from made_parts import ALUMINIUM, CAGE, FOOT, HOUSING, STEEL
 from part_gaps import overlap_volume, thinnest_wall, turning_clearance
+from sample_parts import ALUMINIUM, CAGE, FOOT, HOUSING, STEEL
 
 from ocs_design.actuation.fasteners import SCREWS
 from ocs_design.actuation.motor import BoltCircle

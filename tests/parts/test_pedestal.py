@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from made_parts import FOOT, HOUSING
-from sampled import some
+from sample_parts import FOOT, HOUSING
+from subsets import fast_subset
 
 from ocs_design.export.meshes import part_manifold, part_mesh
 from ocs_design.parts.foot import foot_part
@@ -77,7 +77,7 @@ def test_mass_is_that_of_what_is_printed_and_of_its_screws_in_its_place(lean):
     assert np.linalg.norm(whole.com - printed.com) < bound
 
 
-@pytest.mark.parametrize("lean", some(2, LEANS))
+@pytest.mark.parametrize("lean", fast_subset(2, LEANS))
 def test_foot_lies_on_the_seat_housing_is_clear_and_a_driver_reaches_every_screw(lean):
     """Before the foot is on: a cylinder as wide as a screw's head, straight up."""
     made, radius = pedestal(lean), TRUNK_SCREW.head_diameter / 2.0

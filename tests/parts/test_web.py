@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from rims import STEEL, room
+from rims import STEEL, envelope_with
 
 from ocs_design.actuation.fasteners import LIGAMENT
 from ocs_design.parts.rim import (
@@ -148,7 +148,7 @@ def test_what_a_web_with_holes_stands_is_counted_in_its_rims_speed(count):
 
 
 def test_where_holes_yield_first_less_stress_is_allowed():
-    alone = RimProblem(1e-4, room(0.05, 0.02), STEEL, 1000.0).limits
+    alone = RimProblem(1e-4, envelope_with(0.05, 0.02), STEEL, 1000.0).limits
     share = stretch_beside_holes(6.5, 2.0)
     assert share == pytest.approx(2.0 / 6.5)
     assert (stretch_beside_holes(6.5, 8.0), stretch_beside_holes(0.0, 2.0)) == (1.0, 1.0)
@@ -180,7 +180,9 @@ def test_slopes_of_what_is_cut_off_are_those_of_its_figures():
 
 @pytest.mark.parametrize("density", [1200.0, 2710.0, 7850.0, 17000.0])
 def test_a_rim_is_one_piece_with_a_web_around_its_hub_or_shrunk_on_one_of_aluminium(density):
-    alone = RimProblem(1e-4, room(0.05, 0.02), replace(STEEL, density=density), 1000.0).limits
+    alone = RimProblem(
+        1e-4, envelope_with(0.05, 0.02), replace(STEEL, density=density), 1000.0
+    ).limits
     whole = limits_with_web(alone, 0.012, RimCuts(chamfer=0.3e-3))
     assert whole.inner_radius_min == pytest.approx(0.012 + LIGAMENT)
     assert whole.height_min == pytest.approx(WEB_THICKNESS + 0.6e-3 + STEP)
@@ -195,7 +197,7 @@ def test_a_rim_is_one_piece_with_a_web_around_its_hub_or_shrunk_on_one_of_alumin
 
 
 def test_wider_limits_than_the_webs_stay():
-    alone = RimProblem(1e-4, room(0.05, 0.02), STEEL, 1000.0).limits
+    alone = RimProblem(1e-4, envelope_with(0.05, 0.02), STEEL, 1000.0).limits
     wide = replace(alone, inner_radius_min=0.03, height_min=0.01)
     seated = limits_with_web(wide, 0.012)
     assert (seated.inner_radius_min, seated.height_min) == (0.03, 0.01)

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from made_parts import ONE_PIECE, RIM, WEB
+from sample_parts import ONE_PIECE, RIM, WEB
 
 from ocs_design.common.errors import PartError
 from ocs_design.parts.rim import HoleRing, RimCuts

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from fronts import by_hand, infeasible, make_front
+from fronts import infeasible, make_front, task_by_hand
 from rich.console import Console
 from stories import design
 
@@ -173,7 +173,7 @@ def test_a_robot_on_a_pivot_touches_nothing_down():
 
 @pytest.fixture(scope="module")
 def front():
-    return make_front(by_hand())
+    return make_front(task_by_hand())
 
 
 def printed(front, width=80, encoding="utf-8"):
@@ -219,7 +219,7 @@ def test_a_front_without_any_device_says_why():
     def never(task):
         raise infeasible("not even [red] wheels")
 
-    text = printed(make_front(by_hand(), choose=never, points=2))
+    text = printed(make_front(task_by_hand(), choose=never, points=2))
     assert text.count("not even [red] wheels") == 2
 
 

@@ -7,7 +7,7 @@ from math import radians
 from pathlib import Path
 
 import pytest
-from designed import MOTOR
+from designed_devices import MOTOR
 from rich.console import Console
 from stories import design
 

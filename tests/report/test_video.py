@@ -9,7 +9,7 @@ import imageio_ffmpeg
 import mujoco
 import numpy as np
 import pytest
-from built import DEVICES
+from built_devices import DEVICES
 from PIL import Image
 from wheels import EC45, driven_device
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from designed import MOTOR
+from designed_devices import MOTOR
 from rich.console import Console
 from stories import design
 

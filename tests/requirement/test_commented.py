@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from specifications import FULL, same
+from specifications import FULL_SPECIFICATION, same_specification
 
 from ocs_design.common.units import Dimension
 from ocs_design.requirement.device_sections import OcsSection
@@ -139,8 +139,8 @@ def near(value, rel):
 
 def test_everything_that_is_stated_is_read_back(default):
     """A degree is no finite number of radians."""
-    found = leaves(read(commented_toml(FULL, default, title="x")))
-    assert found == near(FULL, 1e-12)
+    found = leaves(read(commented_toml(FULL_SPECIFICATION, default, title="x")))
+    assert found == near(FULL_SPECIFICATION, 1e-12)
     assert len(found) > len(all_keys())
 
 
@@ -160,7 +160,7 @@ def test_rounded_for_people(default):
 
 
 STATED = {
-    "everything": FULL,
+    "everything": FULL_SPECIFICATION,
     # A bare number so large would be taken for degrees.
     "a joint beyond a turn": Specification(
         robot=RobotSection(joints={"wheel": 4.0 * np.pi, "knee": 1.5})
@@ -183,7 +183,9 @@ STATED = {
 
 
 def check_read_back(specified):
-    assert same(parse_specification(specification_to_toml(specified), "written"), specified)
+    assert same_specification(
+        parse_specification(specification_to_toml(specified), "written"), specified
+    )
 
 
 @pytest.mark.parametrize("specified", STATED.values(), ids=STATED)
@@ -194,18 +196,18 @@ def test_what_is_stated_is_read_back(specified):
 def test_the_full_specification_states_every_key_but_the_ones_that_exclude_others():
     excluded = {"mass", "inertia", "human", "maneuvers", "axes"}
     for name, section in SECTIONS.items():
-        specified = getattr(FULL, name)
+        specified = getattr(FULL_SPECIFICATION, name)
         missing = {item.name for item in fields(section) if getattr(specified, item.name) is None}
         assert missing <= excluded
-    assert {type(maneuver) for maneuver in FULL.maneuvers} == {
+    assert {type(maneuver) for maneuver in FULL_SPECIFICATION.maneuvers} == {
         kind.maneuver for kind in MANEUVER_KINDS.values()
     }
 
 
 def test_a_comment_stands_at_the_top():
-    text = specification_to_toml(FULL, "one\n\ntwo")
+    text = specification_to_toml(FULL_SPECIFICATION, "one\n\ntwo")
     assert text.startswith("# one\n#\n# two\n\n[robot]\n")
-    assert same(parse_specification(text, "written"), FULL)
+    assert same_specification(parse_specification(text, "written"), FULL_SPECIFICATION)
 
 
 @given(
@@ -223,13 +225,13 @@ def test_any_number_and_any_text(angle, speed, text):
 
 def test_files_are_found_from_any_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    absolute = with_absolute_files(FULL)
-    assert absolute.robot.file == str(tmp_path / FULL.robot.file)
+    absolute = with_absolute_files(FULL_SPECIFICATION)
+    assert absolute.robot.file == str(tmp_path / FULL_SPECIFICATION.robot.file)
     assert absolute.motor.motors == str(tmp_path / "m.csv")
     elsewhere = tmp_path / "points"
     elsewhere.mkdir()
     (elsewhere / "01.toml").write_text(specification_to_toml(absolute))
-    assert same(read_specification(elsewhere / "01.toml"), absolute)
+    assert same_specification(read_specification(elsewhere / "01.toml"), absolute)
 
 
 @pytest.mark.parametrize("file", [None, "-"])

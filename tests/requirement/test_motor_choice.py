@@ -5,7 +5,7 @@ from math import inf
 from pathlib import Path
 
 import pytest
-from specifications import refused
+from specifications import problems_of
 
 from ocs_design.actuation.controllers import controller_mass_of
 from ocs_design.actuation.motor import DIRECT, build_gaps
@@ -207,7 +207,7 @@ def test_own_motors_stand_instead_of_the_catalogue_or_beside_it(own):
 def test_a_file_without_a_motor_to_build_with_is_at_fault_under_its_own_key(tmp_path, rows, fault):
     own = tmp_path / "own.toml"
     own.write_text(rows)
-    (problem,) = refused(parse_specification(f"motor.motors = '{own}'", "x"), LIGHT, 1.0)
+    (problem,) = problems_of(parse_specification(f"motor.motors = '{own}'", "x"), LIGHT, 1.0)
     assert problem.startswith("motor.motors: ")
     assert fault in problem
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from commands import SOLO12
-from specifications import refused
+from specifications import problems_of
 from urdf_text import LIMIT, inertial, joint, link, robot
 
 from ocs_design.common.errors import RobotError, SpecificationError, UsageError
@@ -33,7 +33,7 @@ def test_options_that_contradict_each_other_are_refused_as_in_a_file(solo12, ask
     keys = {f"requirement.{key}": value for key, value in asked.items()}
     options = specification_from_options({"requirement.gravity": "orbit", **keys})
     key = next(iter(asked), "maneuvers")
-    problem, *_ = refused(options, solo12, SIZE)
+    problem, *_ = problems_of(options, solo12, SIZE)
     assert problem.startswith(f"requirement.{key}: nothing jumps or falls")
 
 
@@ -150,7 +150,7 @@ def test_the_box_that_stands_for_the_trunk_of_a_robot_by_hand_is_told():
     ],
 )  # fmt: skip
 def test_what_cannot_be_meant_is_asked_about(solo12, text, problem):
-    assert any(problem in line for line in refused(specified(text), solo12, SIZE))
+    assert any(problem in line for line in problems_of(specified(text), solo12, SIZE))
 
 
 @pytest.mark.parametrize("key", ["rate_change = 2", "spin_inertia = 1e-4"])
@@ -190,7 +190,7 @@ IDLE = [
 @pytest.mark.parametrize("beside", [{}, {"tilt": "20deg"}])
 def test_what_asks_nothing_of_the_device_is_told_by_its_name_and_its_keys(solo12, beside):
     """Beside another maneuver it was sized for, and ended in "needs a wheel of 0 kg m^2"."""
-    problems = refused(specify(maneuver=IDLE, requirement=beside), solo12, SIZE)
+    problems = problems_of(specify(maneuver=IDLE, requirement=beside), solo12, SIZE)
     for name, keys in (
         ("level", "roll and pitch are 0"),
         ("hop", "angle is 0"),
@@ -212,14 +212,14 @@ def test_what_asks_nothing_of_the_device_is_told_by_its_name_and_its_keys(solo12
 def test_a_yaw_that_the_wheels_cannot_stop_is_refused(solo12, others, rates, told):
     """A catch of yaw passed with two wheels, as it passes without a device."""
     asked = {"catch": rates, **others}
-    assert any(told in each for each in refused(specify(requirement=asked), solo12, SIZE))
+    assert any(told in each for each in problems_of(specify(requirement=asked), solo12, SIZE))
     for ocs in ({"layout": "orthogonal"}, {"axes": [1, 0, 1, 0, 1, 1, 1, 1, 0]}):
         resolve(specify(requirement=asked, ocs=ocs), solo12, SIZE)
 
 
 def test_a_flip_that_does_not_end_level_is_refused_with_what_to_use(solo12):
     flip = specify(requirement={"flip": "90deg", "gravity": "moon"})
-    (told,) = refused(flip, solo12, SIZE)
+    (told,) = problems_of(flip, solo12, SIZE)
     assert "after 90 deg the trunk is 90 deg off level, but a flip must land level" in told
     turn = re.search(r"'(pitch 90deg in .*)'", told).group(1)
     resolve(specify(requirement={"turn": turn, "gravity": "moon"}), solo12, SIZE)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from specifications import refused
+from specifications import problems_of
 from wheels import braked_inertia, paper_device
 
 from ocs_design.common.errors import OcsError, SpecificationError
@@ -331,7 +331,7 @@ def test_more_time_for_a_kicked_jump_is_that_much_more(real, gained):
 
 def test_a_kick_in_millimetres_without_their_unit_is_off_the_robot(solo12):
     kicked = Specification(requirement=asked(kick=["1 N s at 100,0,80"]))
-    assert "off the robot (0.45 m)" in refused(kicked, solo12, SIZE)[0]
+    assert "off the robot (0.45 m)" in problems_of(kicked, solo12, SIZE)[0]
 
 
 def test_a_turn_of_a_stated_time_gets_the_jump_that_it_needs(solo12):
@@ -358,7 +358,7 @@ def test_a_turn_longer_than_the_jump_that_is_stated_is_refused(solo12, turn, tim
     """By hand: a jump of 0.1 m lasts sqrt(8 x 0.1 / 9.81) s."""
     (name,) = turn
     specified = Specification(requirement=asked(jump_height=["0.1m"], **turn))
-    assert refused(specified, solo12, SIZE) == (
+    assert problems_of(specified, solo12, SIZE) == (
         f"maneuver.{name}: its turn ends {time} s after lift-off, but the flight lasts 0.286 s",
     )
 

@@ -222,7 +222,7 @@ def test_strict_makes_a_warning_fatal(tmp_path):
     assert run(*typed).code == 0
     refused = run(*typed, "--strict")
     assert refused.code == 3
-    assert "round about their joint" in refused.said
+    assert "round about their joint" in refused.output
 
 
 def test_solo12_is_sound_but_for_its_efforts_and_judged_in_no_time():

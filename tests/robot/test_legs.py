@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from anatomy import ANATOMY, LEGGED, legs_of, reading_of, tree_of
 from pinocchio_robots import free_model
-from robots import ALL_URDFS, ROBOTS, marked
+from robots import ALL_URDFS, ROBOTS, robot_parameters
 
 from ocs_design.robot.reader import read_robot
 
@@ -17,7 +17,7 @@ def test_anatomy_covers_every_robot_that_can_be_read():
     assert names - set(ANATOMY) == {"ur_description/urdf/ur3"}
 
 
-@pytest.mark.parametrize("name", marked(ANATOMY))
+@pytest.mark.parametrize("name", robot_parameters(ANATOMY))
 def test_trunk_and_legs_are_found_and_nothing_else(name):
     trunk, count = ANATOMY[name]
     legs = legs_of(name)
@@ -25,7 +25,7 @@ def test_trunk_and_legs_are_found_and_nothing_else(name):
     assert len({leg.name for leg in legs}) == len(legs) == count
 
 
-@pytest.mark.parametrize("name", marked(LEGGED))
+@pytest.mark.parametrize("name", robot_parameters(LEGGED))
 def test_the_trunk_is_the_free_flyer_and_legs_are_alike(name):
     legs, root = legs_of(name), tree_of(name).bodies[0]
     assert reading_of(name).trunk == root.name
@@ -35,7 +35,7 @@ def test_the_trunk_is_the_free_flyer_and_legs_are_alike(name):
     assert np.ptp([leg.foot_radius for leg in legs]) < 1e-3
 
 
-@pytest.mark.parametrize("name", marked(LEGGED))
+@pytest.mark.parametrize("name", robot_parameters(LEGGED))
 def test_leg_joints_lead_from_trunk_to_foot_in_pinocchio(name):
     model = free_model(ROBOTS / f"{name}.urdf")
     for leg in legs_of(name):

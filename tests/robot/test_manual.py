@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from weighed import assert_same, by_mujoco
+from mass_oracles import assert_same_mass_properties, mujoco_mass_properties
 
 from ocs_design.common.errors import RobotError, UsageError
 from ocs_design.common.frames import rotation_from_rpy
@@ -43,7 +43,7 @@ def boxed_by_mujoco(robot):
     model = spec.compile()
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
-    return by_mujoco(model, data)
+    return mujoco_mass_properties(model, data)
 
 
 def test_the_box_of_solo12():
@@ -68,7 +68,7 @@ def test_the_box_has_the_mass_properties_that_were_given(density, sides, angles)
     upper = inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
     robot = robot_by_hand(mass, upper, com=(0.1, -0.2, 0.3))
     given = MassProperties(mass, [0.1, -0.2, 0.3], inertia)
-    assert_same(boxed_by_mujoco(robot), given, 1e-9)
+    assert_same_mass_properties(boxed_by_mujoco(robot), given, 1e-9)
     assert sorted(robot.tree.bodies[0].shapes[0].size) == pytest.approx(
         np.sort(sides) / 2, rel=1e-6
     )

@@ -3,7 +3,7 @@ import pinocchio as pin
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from weighed import assert_same
+from mass_oracles import assert_same_mass_properties
 
 from ocs_design.common.frames import rotation_about, rotation_from_rpy
 from ocs_design.common.quaternions import rotation_from_quaternion
@@ -39,7 +39,7 @@ def test_transport_and_sum_agree_with_pinocchio(seed):
     theirs = pin.Inertia(first.mass, first.com, first.inertia) + pin.SE3(turn, shift).act(
         pin.Inertia(second.mass, second.com, second.inertia)
     )
-    assert_same(ours, MassProperties(theirs.mass, theirs.lever, theirs.inertia))
+    assert_same_mass_properties(ours, MassProperties(theirs.mass, theirs.lever, theirs.inertia))
 
 
 @given(seeds)

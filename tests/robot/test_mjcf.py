@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 import trimesh
-from weighed import assert_same, by_mujoco
+from mass_oracles import assert_same_mass_properties, mujoco_mass_properties
 
 from ocs_design.common.errors import RobotError
 from ocs_design.robot import mjcf_spec
@@ -77,8 +77,8 @@ def test_mass_com_and_inertia_are_those_of_mujoco(seed):
         data.joint(name).qpos = value
     mujoco.mj_kinematics(model, data)
     bodies = np.flatnonzero(model.body_rootid == model.body("trunk").id)
-    theirs = by_mujoco(model, data, "trunk", bodies)
-    assert_same(tree.locked_mass_properties(posture, "trunk"), theirs)
+    theirs = mujoco_mass_properties(model, data, "trunk", bodies)
+    assert_same_mass_properties(tree.locked_mass_properties(posture, "trunk"), theirs)
 
 
 def test_bodies_and_joints_of_the_zoo():

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 import trimesh
 from anatomy import tree_of
-from robots import ALL_URDFS, ROBOTS, SOLO12, one_of_each
+from mass_oracles import assert_same_mass_properties, mujoco_mass_properties
+from robots import ALL_URDFS, ROBOTS, SOLO12, one_per_folder
 from urdf_text import inertial, link
 from urdf_text import robot as urdf
-from weighed import assert_same, by_mujoco
 
 from ocs_design.common.errors import RobotError
 from ocs_design.robot.manual import robot_by_hand
@@ -106,18 +106,18 @@ def write(folder: Path, text: str) -> Path:
     return path
 
 
-@pytest.mark.parametrize("path", one_of_each(READABLE))
+@pytest.mark.parametrize("path", one_per_folder(READABLE))
 def test_mass_and_inertia_are_the_trees(path):
     robot = unposed_robot(path)
     built = build_spec(robot, visuals=False)
     model, data = posed(robot, built)
-    found = by_mujoco(model, data, 1)
+    found = mujoco_mass_properties(model, data, 1)
     if path.stem in MENDED:
         assert built.warnings
         assert found.mass == pytest.approx(robot.mass, rel=1e-7)
         return
     assert built.warnings == ()
-    assert_same(found, robot.mass_properties, 1e-9)
+    assert_same_mass_properties(found, robot.mass_properties, 1e-9)
     assert found.mass == pytest.approx(robot.mass, rel=1e-12)
     np.testing.assert_allclose(found.com, robot.com, atol=1e-12)
 

@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 import pinocchio as pin
 import pytest
+from mass_oracles import pinocchio_mass_properties
 from pinocchio_robots import configuration, free_model
-from robots import ALL_URDFS, ROBOTS, one_of_each
-from weighed import by_pinocchio
+from robots import ALL_URDFS, ROBOTS, one_per_folder
 
 from ocs_design.robot.tree import JointKind, Tree
 from ocs_design.robot.urdf import read_urdf
@@ -30,7 +30,7 @@ def random_posture(tree: Tree, rng: np.random.Generator) -> dict[str, float]:
 
 def worst_difference(model: pin.Model, tree: Tree, posture: dict[str, float]) -> float:
     """Largest of the relative differences of mass, centre of mass and locked inertia."""
-    theirs = by_pinocchio(model, configuration(model, posture))
+    theirs = pinocchio_mass_properties(model, configuration(model, posture))
     ours = tree.locked_mass_properties(posture, tree.bodies[0].name)
     return max(
         abs(ours.mass - theirs.mass) / theirs.mass,
@@ -39,7 +39,7 @@ def worst_difference(model: pin.Model, tree: Tree, posture: dict[str, float]) ->
     )
 
 
-@pytest.mark.parametrize("path", one_of_each(LOADED))
+@pytest.mark.parametrize("path", one_per_folder(LOADED))
 def test_mass_com_and_inertia_agree(path: Path, record_property):
     model = free_model(path)
     tree = read_urdf(path.read_bytes(), find_mesh=lambda _: None)

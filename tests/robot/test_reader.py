@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from anatomy import ANATOMY, tree_of
-from robots import ROBOTS, SOLO12, one_of_each
+from robots import ROBOTS, SOLO12, one_per_folder
 from urdf_text import TWO_LINKS
 
 from ocs_design.common.errors import RobotError
@@ -64,7 +64,7 @@ def test_sideways_and_upright_conventions_are_told():
     assert "--trunk" in lying
 
 
-@pytest.mark.parametrize("name", one_of_each(ANATOMY))
+@pytest.mark.parametrize("name", one_per_folder(ANATOMY))
 def test_no_warning_is_told_twice_and_few_are_of_the_frame(name):
     warnings = read_robot(ROBOTS / f"{name}.urdf").warnings
     assert len(set(warnings)) == len(warnings)

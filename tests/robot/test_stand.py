@@ -5,7 +5,7 @@ import pinocchio as pin
 import pytest
 from anatomy import ANATOMY, LEGGED, legs_of, stand_of, tree_of
 from pinocchio_robots import configuration, free_model
-from robots import ROBOTS, marked
+from robots import ROBOTS, robot_parameters
 
 from ocs_design.robot.leg_geometry import leg_geometries, sole_depths
 from ocs_design.robot.reader import read_robot
@@ -62,7 +62,7 @@ def soles(name, posture, tree, legs, up):
         yield place.act(leg.foot) - leg.foot_radius * up, place.rotation
 
 
-@pytest.mark.parametrize("name", marked(LEGGED))
+@pytest.mark.parametrize("name", robot_parameters(LEGGED))
 def test_all_feet_are_in_place_on_one_plane_below_the_trunk_within_the_limits(name):
     tree, legs, found = standing(name)
     assert (len(legs[0].joints) < 5) == (name in BARE_FEET)
@@ -87,7 +87,7 @@ def test_bare_feet_are_below_the_hinges_that_swing_them(name):
         assert swing @ (sole - data.oMi[index].translation) == pytest.approx(0.0, abs=1e-3)
 
 
-@pytest.mark.parametrize("name", marked(SOLED))
+@pytest.mark.parametrize("name", robot_parameters(SOLED))
 def test_soles_stay_as_level_as_they_are_at_zero(name):
     tree, legs, found = standing(name)
     up = up_of(name)

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pinocchio as pin
 import pytest
+from mass_oracles import assert_same_mass_properties, pinocchio_mass_properties
 from urdf_text import LIMIT, TWO_LINKS, inertial, joint, link, robot
-from weighed import assert_same, by_pinocchio
 
 from ocs_design.common.errors import RobotError
 from ocs_design.robot.tree import JointKind, ShapeKind, Tree
@@ -116,7 +116,10 @@ TURNED = (
 def test_quaternions_of_origins_turn_as_in_pinocchio(version):
     content = robot(*TURNED).replace(b"<robot", f'<robot version="{version}"'.encode())
     tree, model = read(content), pin.buildModelFromXML(content.decode(), pin.JointModelFreeFlyer())
-    assert_same(tree.locked_mass_properties({}, "trunk"), by_pinocchio(model, pin.neutral(model)))
+    assert_same_mass_properties(
+        tree.locked_mass_properties({}, "trunk"),
+        pinocchio_mass_properties(model, pin.neutral(model)),
+    )
     assert bool(tree.warnings) == (version == "1.0")
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 import pytest
-from energy import balance
+from energy import energy_balance
 from wheels import paper_device
 
 from ocs_design.export.physics import STEP
@@ -90,7 +90,7 @@ def test_a_jump_leaves_no_energy_unexplained(world):
     """By a loop that is written anew, which meets the batch's own centre of mass."""
     recording = simulate([world])
     metrics = measure(recording, 0, world)
-    found = balance(world, recording, 0, period=5e-3, until=metrics.touchdown_time)
+    found = energy_balance(world, recording, 0, period=5e-3, until=metrics.touchdown_time)
     instants = len(found.height)
     assert found.height == pytest.approx(recording.com[:instants, 0, 2], abs=1e-9)
     assert found.missing(slice(round(metrics.lift_off_time / 5e-3), instants)) < 1e-4

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from campaigns import calm_metrics
-from designed import MOTOR, designed
+from campaigns import zero_metrics
+from designed_devices import MOTOR, design_with_motor
 
 from ocs_design.catalogue.materials import material
 from ocs_design.requirement.pivoted import StandUp
@@ -29,12 +29,12 @@ def run(scenario, *, speed=500.0, torque=0.2, ocs=True, knock=1.0):
         wheel_speed=speed * wild * [1.0, -0.5], wheel_torque=torque * wild * [-1.0, 0.5],
         torque_lowest=None, torque_highest=None, contact=AFTER, wheels=("left", "right"),
     )  # fmt: skip
-    metrics = calm_metrics(touchdown_time=LANDED, peak_wheel_speed=speed, peak_wheel_torque=torque)
+    metrics = zero_metrics(touchdown_time=LANDED, peak_wheel_speed=speed, peak_wheel_torque=torque)
     return Run(scenario, ocs, True, "", metrics, series, "", True)
 
 
 def recorded(runs=(), plans=None, motor=MOTOR):
-    task, found = designed(motor)
+    task, found = design_with_motor(motor)
     margins = record_margins(task.resolved, found, runs, plans or {})
     return {margin.name: margin for margin in margins}
 
@@ -97,7 +97,7 @@ def test_without_flight_or_plan_there_is_still_the_room():
 def test_wheels_without_a_motor_say_what_they_can():
     found = recorded([run("drop", speed=900.0), run("disturbance", torque=0.3)], motor="none")
     speed, torque = found["wheel speed"], found["motor torque"]
-    task, device = designed("none")
+    task, device = design_with_motor("none")
     assert (speed.demand, torque.demand, torque.capacity) == (900.0, 0.3, None)
     assert speed.capacity == task.resolved.requirement.wheel_speed_max
     assert speed.margin == pytest.approx(speed.capacity / 900.0)
@@ -108,7 +108,7 @@ def test_wheels_without_a_motor_say_what_they_can():
 
 def braked(found):
     """A stand-up by a brake from 400 rad/s, and margins of a design of Solo12's that makes it."""
-    task, _ = designed()
+    task, _ = design_with_motor()
     edge = {"pivot": (0.0, 0.0, -0.24), "edge": (0.0, 1.0, 0.0)}
     up = StandUp(name="up", **edge, pitch=0.5, duration=1.0, actuation="brake")
     up = up.on(found.sized.total)
@@ -120,7 +120,7 @@ def braked(found):
 
 def test_a_brake_is_asked_of_the_wheel_and_of_what_holds_its_rotor():
     """J W / t of the wheel, 1.5 J_r W / t of the rotor; the wheel turns fastest before it."""
-    _, found = designed()
+    _, found = design_with_motor()
     up, rows = braked(found)
     wheel, drive = found.device.flywheel, found.device.motor
     assert rows["wheel speed"].demand == 400.0
@@ -135,7 +135,7 @@ def test_a_brake_is_asked_of_the_wheel_and_of_what_holds_its_rotor():
 
 def test_a_brake_is_asked_of_a_shrink_fit_too():
     """1.5 J W / t of the wheel, should the brake grip the web: more than its fit is made for."""
-    task, found = designed()
+    task, found = design_with_motor()
     wheel, aluminium = found.device.flywheel, material("aluminium-6061-t6")
     web = replace(wheel.web, material=aluminium.name, density=aluminium.density)
     shrunk = replace(found.device, flywheel=replace(wheel, web=web))

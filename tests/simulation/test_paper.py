@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from robots import ROBOTS
-from sampled import every
+from subsets import slow_subset
 from wheels import motor, paper_device, paper_maneuvers, scaled_device
 
 from ocs_design.robot.reader import read_robot
@@ -86,7 +86,7 @@ def fly(path):
     return run_scenarios(Flights(robot, scaled_device(robot), paper_maneuvers(robot)))
 
 
-@pytest.mark.parametrize("path", every(3, [*QUADRUPEDS, *BIPEDS]))
+@pytest.mark.parametrize("path", slow_subset(3, [*QUADRUPEDS, *BIPEDS]))
 def test_flights_keep_their_momentum_and_land_level_with_the_device(path):
     runs = fly(path)
     if path in QUADRUPEDS:

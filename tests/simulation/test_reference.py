@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from sampled import some
+from subsets import fast_subset
 from trajectories import from_rest
 from wheels import EC45, driven_device, geared, paper_maneuvers
 
@@ -233,7 +233,7 @@ def test_each_maneuver_tracks_its_own_reference_and_a_push_none(solo12):
 
 @pytest.mark.parametrize(
     ("speed_max", "tracked"),
-    some(2, [(1047.2, True), (1047.2, False), (300.0, False), (300.0, True)]),
+    fast_subset(2, [(1047.2, True), (1047.2, False), (300.0, False), (300.0, True)]),
 )
 def test_a_real_motor_never_does_what_it_cannot(solo12, speed_max, tracked):
     """The paper's drop, which takes all that the EC 45 has, and more with a slower wheel."""

@@ -2,13 +2,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from campaigns import calm_metrics
+from campaigns import zero_metrics
 
 from ocs_design.requirement.pushes import Shove
 from ocs_design.requirement.turns import Drop, Flip, TurnTo
 from ocs_design.simulation.verdict import comes_down_well, judge, landing_attitude, stands
 
-GOOD = calm_metrics(
+GOOD = zero_metrics(
     touchdown_time=0.39,
     touchdown_pitch=np.radians(1.0),
     touchdown_rate=0.05,

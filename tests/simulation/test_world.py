@@ -5,7 +5,7 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 import pytest
-from built import DEVICES
+from built_devices import DEVICES
 from robots import ROBOTS, SOLO12
 from wheels import EC45_BODY, braked_inertia, driven_device, geared, paper_device, paper_maneuvers
 

@@ -5,7 +5,7 @@ from functools import cache
 
 import pytest
 from commands import SOLO12
-from designed import design_of, solo12
+from designed_devices import design_of, solo12
 
 from ocs_design.requirement.device_sections import (
     FlywheelSection,

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from designed import MOTOR, designed, on_solo12, solo12
+from designed_devices import MOTOR, design_with_motor, solo12, solo12_task
 from fronts import infeasible
 from products import equal_rate
 from wheels import braked_inertia
@@ -34,7 +34,7 @@ from ocs_design.workflows.pareto import read_task
 
 @pytest.mark.parametrize("motor", ["none", MOTOR])
 def test_the_total_is_robot_and_device_braked(motor):
-    task, found = designed(motor)
+    task, found = design_with_motor(motor)
     expected = braked_inertia(task.robot, found.device)
     assert found.sized.total.mass == pytest.approx(expected.mass, rel=1e-12)
     np.testing.assert_allclose(found.sized.total.com, expected.com, rtol=0.0, atol=1e-12)
@@ -43,7 +43,7 @@ def test_the_total_is_robot_and_device_braked(motor):
 
 @pytest.mark.slow
 def test_the_incidence_of_the_robot_alone_does_not_count_the_plate():
-    task = on_solo12(motor__name="Antigravity MN5006 KV450")
+    task = solo12_task(motor__name="Antigravity MN5006 KV450")
     found = design_device(task)
     assert found.device.plate is not None
     alone = found.sized.incidence_by_criterion_robot[Criterion.EQUAL_RATE]
@@ -53,7 +53,7 @@ def test_the_incidence_of_the_robot_alone_does_not_count_the_plate():
 @pytest.mark.slow
 def test_wheels_that_a_brake_stops_turn_no_faster_than_their_joint_takes():
     """J W / t of the rotor goes through it; the motor alone would turn faster than that."""
-    task = on_solo12(
+    task = solo12_task(
         motor__name="XING2 2207 KV1855",
         requirement__pivot="0,0,-0.272 along left",
         requirement__stand_up="pitch 20deg by brake",
@@ -68,10 +68,10 @@ def test_wheels_that_a_brake_stops_turn_no_faster_than_their_joint_takes():
 
 
 def test_what_was_minimised_is_the_device_or_one_rim():
-    _, bound = designed("none")
+    _, bound = design_with_motor("none")
     assert bound.choice is None
     assert bound.sized.optimum.objective == bound.device.flywheel.mass
-    _, chosen = designed()
+    _, chosen = design_with_motor()
     assert chosen.choice.chosen is chosen.choice.selection.best
     assert chosen.sized.optimum.objective == pytest.approx(chosen.device.mass, rel=1e-12)
     assert chosen.device.motor.name == MOTOR
@@ -79,14 +79,14 @@ def test_what_was_minimised_is_the_device_or_one_rim():
 
 @pytest.mark.parametrize("motor", ["none", pytest.param(MOTOR, marks=pytest.mark.slow)])
 def test_an_incidence_by_hand_is_kept(motor):
-    _, found = designed(motor, alpha=0.4)
+    _, found = design_with_motor(motor, alpha=0.4)
     assert (found.criterion, found.device.incidence) == ("by hand", 0.4)
 
 
 @pytest.mark.parametrize("motor", ["none", MOTOR])
 def test_equal_rate_is_that_of_robot_and_device(motor):
     """tan(alpha) = I_roll / I_pitch; it is the default."""
-    task, found = designed(motor)
+    task, found = design_with_motor(motor)
     roll, pitch, _ = np.diag(braked_inertia(task.robot, found.device).inertia)
     assert found.criterion == "equal-rate"
     assert found.device.incidence == pytest.approx(np.arctan(roll / pitch), abs=1e-8)
@@ -95,8 +95,8 @@ def test_equal_rate_is_that_of_robot_and_device(motor):
 @pytest.mark.slow
 def test_a_motor_weighs_more_than_wheels_alone():
     """And what it weighs, the wheels have to turn too."""
-    _, bound = designed("none", alpha=0.4)
-    _, chosen = designed(alpha=0.4)
+    _, bound = design_with_motor("none", alpha=0.4)
+    _, chosen = design_with_motor(alpha=0.4)
     assert chosen.device.mass > bound.device.mass + chosen.device.motor.mass
     assert chosen.sized.total.inertia[1, 1] > bound.sized.total.inertia[1, 1]
 
@@ -118,11 +118,13 @@ def test_feet_of_a_heavy_device_are_as_thick_as_its_shock_asks_for():
 @pytest.mark.parametrize("motor", ["none", MOTOR])
 @pytest.mark.exhaustive
 def test_a_device_may_weigh_as_much_as_the_lightest_and_no_less(motor):
-    _, free = designed(motor)
+    _, free = design_with_motor(motor)
     mass = free.device.mass
-    assert designed(motor, mass_max=mass * 1.001)[1].device.mass == pytest.approx(mass, rel=1e-12)
+    assert design_with_motor(motor, mass_max=mass * 1.001)[1].device.mass == pytest.approx(
+        mass, rel=1e-12
+    )
     with pytest.raises(Infeasible, match="mass_max allows") as caught:
-        designed(motor, mass_max=0.99 * mass)
+        design_with_motor(motor, mass_max=0.99 * mass)
     assert caught.value.binding == ("mass_max",)
     assert caught.value.relaxations == {"mass_max": pytest.approx(mass, rel=1e-12)}
     assert "would do" in caught.value.hint
@@ -131,8 +133,8 @@ def test_a_device_may_weigh_as_much_as_the_lightest_and_no_less(motor):
 @pytest.mark.slow
 def test_guard_rings_hold_the_wheel_that_they_were_sized_with():
     """Device, bill and burst go together: the ring is weighed, and thick enough for this wheel."""
-    _, free = designed()
-    task, found = designed(guard="containing")
+    _, free = design_with_motor()
+    task, found = design_with_motor(guard="containing")
     device, wall = found.device, burst_of(found.device).steel
     assert wall <= device.guard_wall <= wall + 2e-4
     rows = {row.part: row for row in bill_rows(device)}
@@ -168,7 +170,7 @@ def test_a_device_that_is_held_another_way_each_time_is_refused(monkeypatch, kil
 
     The heavier footing is told, of 20 g more than what changes.
     """
-    task, found = designed(alpha=0.4)
+    task, found = design_with_motor(alpha=0.4)
     place, device = found.choice.problem.place, found.device.mass
     assert (kilograms > 0.05 * device) is not stays
     masses = [

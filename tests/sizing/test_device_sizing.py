@@ -7,7 +7,7 @@ import numpy as np
 import pinocchio
 import pytest
 from gyrostats import PUSH
-from rims import STEEL, room
+from rims import STEEL, envelope_with
 
 from ocs_design.common.errors import Infeasible, UsageError
 from ocs_design.device.layout import Criterion, incidence_by_criterion, module_axes
@@ -24,7 +24,7 @@ SOLO12 = MassProperties(
     [0.002, 0.0, -0.024],
     [[0.0300, 0.0001, 0.0004], [0.0001, 0.0515, -0.0002], [0.0004, -0.0002, 0.0680]],
 )
-ROOM = room(
+ROOM = envelope_with(
     0.05, 0.01, inner_radius_min=0.005, height_min=0.002, wall_min=0.002, mass_max=0.25,
     stress_safety=2.0,
 )  # fmt: skip

@@ -9,10 +9,10 @@ import msgspec
 import numpy as np
 import pytest
 import urdf_text as urdf
-from designed import designed
-from masts import few_masts
+from coarse_masts import coarse_mast_search
+from designed_devices import design_with_motor
 from robots import ROBOTS
-from sampled import some
+from subsets import fast_subset
 from wheels import driven_device
 
 from ocs_design.actuation.tilt_inertia import TiltInertia
@@ -244,7 +244,7 @@ def test_a_bump_is_bridged_by_sleeves(boxed):
     assert all(contact.held for contact in contacts_of(robot, higher))
 
 
-@few_masts()
+@coarse_mast_search()
 def test_a_trunk_too_narrow_for_four_screws_carries_nothing(boxed):
     robot = boxed(0.012, length=0.3)
     device = stand_on_trunk(standing(0.1), robot, specified=False)
@@ -318,7 +318,7 @@ def test_what_leans_stands_on_pedestals_that_the_design_counts(boxed, name):
 
 @pytest.mark.parametrize(
     ("name", "layout"),
-    some(3, zip(REAL, cycle((LayoutName.PAIR, LayoutName.TRIAD)), strict=False)),
+    fast_subset(3, zip(REAL, cycle((LayoutName.PAIR, LayoutName.TRIAD)), strict=False)),
 )
 def test_nothing_hangs_and_nothing_collides_over_a_full_turn(name, layout):
     """A wheel is within its housing whatever its angle: cylinders are all that they sweep."""
@@ -340,7 +340,7 @@ def test_nothing_hangs_and_nothing_collides_over_a_full_turn(name, layout):
 
 def with_motor():
     """A device as it is sized, with one motor."""
-    _, sized = designed("Antigravity MN5006 KV450", alpha_criterion="lightest")
+    _, sized = design_with_motor("Antigravity MN5006 KV450", alpha_criterion="lightest")
     return sized.device
 
 
@@ -520,7 +520,7 @@ def column(read):
     return so_wide
 
 
-@pytest.mark.parametrize("name", some(2, [LayoutName.DOUBLE_PAIR, LayoutName.PAIR]))
+@pytest.mark.parametrize("name", fast_subset(2, [LayoutName.DOUBLE_PAIR, LayoutName.PAIR]))
 def test_where_nothing_stands_on_top_a_mast_carries_it(column, name):
     robot, layout = column(), Layout(name)
     device = stood(robot, layout, angle=0.5)
@@ -585,7 +585,7 @@ def test_what_cannot_carry_its_mast_is_refused(column):
 
 
 @pytest.mark.slow
-@few_masts()
+@coarse_mast_search()
 def test_the_flat_spots_that_a_mast_would_need_are_told(column):
     """On a back too narrow for two screws side by side; just wide enough for them it has one."""
     narrow = column(0.01)

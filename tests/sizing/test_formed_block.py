@@ -7,8 +7,8 @@ import msgspec
 import numpy as np
 import pytest
 import trimesh
+from coarse_masts import coarse_mast_search
 from manifold3d import Manifold, Mesh64, OpType
-from masts import few_masts
 from urdf_text import inertial, solid, topped
 from wheels import driven_device
 
@@ -39,7 +39,7 @@ RIDGE = solid('<box size="0.12 0.12 0.16"/>', rpy="0 0 0.785")
 HEAD = inertial(2, "0.01 0.01 0.01") + solid('<box size="0.2 0.3 0.2"/>')
 
 
-@few_masts()
+@coarse_mast_search()
 def standing(folder, shape):
     """A trunk of that shape with a head on top, where nothing else has room, and its device."""
     path = folder / "round.urdf"

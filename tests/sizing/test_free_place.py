@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from anatomy import LEGGED
 from robots import ROBOTS
-from sampled import every
+from subsets import slow_subset
 from urdf_text import inertial, solid, topped
 
 from ocs_design.parts.foot import Foot
@@ -76,7 +76,7 @@ def test_a_stated_position_is_kept(masted):
     assert specified_place(None, robot, envelope) == place_free(robot, envelope).place
 
 
-@pytest.mark.parametrize("name", every(20, LEGGED))
+@pytest.mark.parametrize("name", slow_subset(20, LEGGED))
 def test_every_legged_robot_has_a_free_place(name):
     robot = read_robot(ROBOTS / f"{name}.urdf")
     envelope = default_envelope(robot)

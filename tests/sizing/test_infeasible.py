@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
-from rims import PAPER_STEEL, STEEL, paper_problem, rim_problems, room
+from rims import PAPER_STEEL, STEEL, envelope_with, paper_problem, rim_problems
 
 from ocs_design.common.errors import Infeasible
 from ocs_design.sizing.bound.infeasible import (
@@ -47,7 +47,9 @@ def test_theory_case():
 
 
 def test_bore_and_wall_that_leave_no_room():
-    problem = RimProblem(1e-5, room(0.03, 0.01, inner_radius_min=0.029, wall_min=0.002), STEEL, 100)
+    problem = RimProblem(
+        1e-5, envelope_with(0.03, 0.01, inner_radius_min=0.029, wall_min=0.002), STEEL, 100
+    )
     error = failure(problem)
     assert set(error.binding) == {"r_max", "r_min", "wall_min"}
     assert error.largest_spin_inertia == 0.0
@@ -57,7 +59,7 @@ def test_bore_and_wall_that_leave_no_room():
 
 
 def test_too_little_asked_for():
-    limits = room(0.03, 0.01, inner_radius_min=0.02, wall_min=0.002, height_min=0.002)
+    limits = envelope_with(0.03, 0.01, inner_radius_min=0.02, wall_min=0.002, height_min=0.002)
     error = failure(RimProblem(1e-7, limits, STEEL, 100.0))
     assert set(error.binding) == {"r_min", "h_min", "wall_min"}
     smallest = np.pi * STEEL.density * 0.002 * (0.022**4 - 0.020**4) / 2.0
@@ -66,7 +68,7 @@ def test_too_little_asked_for():
 
 
 def test_hoop_stress_names_safety_and_strength():
-    limits = room(0.03, 0.01, inner_radius_min=0.005, stress_safety=4.0)
+    limits = envelope_with(0.03, 0.01, inner_radius_min=0.005, stress_safety=4.0)
     error = failure(RimProblem(7.11e-5, limits, STEEL, 4500.0))
     assert "hoop_stress" in error.binding
     allowed = error.relaxations["hoop_stress"]
@@ -77,13 +79,15 @@ def test_hoop_stress_names_safety_and_strength():
 
 
 def test_hoop_stress_beyond_the_material_asks_for_another():
-    error = failure(RimProblem(7.11e-5, room(0.03, 0.01, stress_safety=1.2), STEEL, 9000.0))
+    error = failure(
+        RimProblem(7.11e-5, envelope_with(0.03, 0.01, stress_safety=1.2), STEEL, 9000.0)
+    )
     assert "stress_safety" not in error.hint
     assert "a material that yields at" in error.hint
 
 
 def test_nothing_alone_would_do():
-    error = failure(RimProblem(1e3, room(0.03, 0.01, mass_max=0.1), STEEL, 100.0))
+    error = failure(RimProblem(1e3, envelope_with(0.03, 0.01, mass_max=0.1), STEEL, 100.0))
     assert error.relaxations == {}
     assert "No single change within reason would do: loosen" in error.hint
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 from functools import cache
 
 import pytest
-from designed import design_of
+from designed_devices import design_of
 
 from ocs_design.requirement.device_sections import MotorSection
 from ocs_design.requirement.sections import RequirementSection

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from mounted import MEASURED, contacts, flown_postures, mounted
-from sampled import every, some
+from subsets import fast_subset, slow_subset
 from wheels import layout_device, paper_device
 
 from ocs_design.common.errors import SpecificationError
@@ -80,7 +80,7 @@ def test_a_stated_position_that_is_hit_is_a_warning_with_a_free_one_and_strictly
         (LayoutName.DOUBLE_PAIR, "--position, with x, y and z of every wheel"),
     ],
 )
-@pytest.mark.parametrize("specified", some(2, [False, True]))
+@pytest.mark.parametrize("specified", fast_subset(2, [False, True]))
 def test_another_place_is_asked_for_as_its_layout_states_it(solo12, name, option, specified):
     """For none but a pair a free place is looked for where one is stated."""
     robot, device = solo12, layout_device(Layout(name))
@@ -96,7 +96,7 @@ def test_another_place_is_asked_for_as_its_layout_states_it(solo12, name, option
     assert hit.cure == f"give another place with {option}"
 
 
-@pytest.mark.parametrize("name", some(4, MEASURED[::2]))
+@pytest.mark.parametrize("name", fast_subset(4, MEASURED[::2]))
 def test_mujoco_sees_no_contact_of_device_and_robot(name):
     """In the nominal posture and in postures of the landing ranges that were not drawn before."""
     robot, device, mounting = mounted(name)
@@ -117,7 +117,7 @@ def test_mujoco_sees_contact_where_a_limb_is_said_to_hit():
         assert any(reach.part in bodies for bodies in touched)
 
 
-@pytest.mark.parametrize("name", every(6, MEASURED))
+@pytest.mark.parametrize("name", slow_subset(6, MEASURED))
 def test_mujoco_sees_no_contact_in_the_flights(name):
     """Postures of the legs as simulated, from lift-off to the end of a flight that passes."""
     robot, device, _ = mounted(name)

@@ -4,7 +4,7 @@ from dataclasses import replace
 from functools import cache
 from statistics import NormalDist
 
-import designed
+import designed_devices
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -75,7 +75,7 @@ def specified(more):
     specification = parse_specification(SOLO12, "test")
     if more:
         specification = merge(specification, parse_specification(more, "test"))
-    return designed.solo12().with_specification(specification)
+    return designed_devices.solo12().with_specification(specification)
 
 
 @cache

@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
-from rims import PAPER_STEEL, paper_problem, random_problem, rim_problems, room, used
+from rims import (
+    PAPER_STEEL,
+    envelope_with,
+    paper_problem,
+    random_problem,
+    rim_problems,
+    utilization,
+)
 
 from ocs_design.common.errors import UsageError
 from ocs_design.sizing.bound.rim_problem import RimProblem, check_limits, lightest_rim
@@ -122,10 +129,14 @@ def test_binding_limits_are_those_that_hold_the_mass_up(problem):
 @pytest.mark.parametrize(
     "problem",
     [
-        replace(paper_problem(7.11e-5, 0.03, 0.01), envelope=room(0.03, 0.01, height_min=0.01)),
+        replace(
+            paper_problem(7.11e-5, 0.03, 0.01), envelope=envelope_with(0.03, 0.01, height_min=0.01)
+        ),
         replace(
             paper_problem(7e-5, 0.03, 0.01),
-            envelope=room(0.03, 0.01, inner_radius_min=0.02, wall_min=0.01, height_min=0.002),
+            envelope=envelope_with(
+                0.03, 0.01, inner_radius_min=0.02, wall_min=0.01, height_min=0.002
+            ),
         ),
         paper_problem(1.00006e-4, 0.03, 0.01),
         paper_problem(1e-12, 0.03, 0.01),
@@ -143,16 +154,16 @@ def test_extreme_limits_are_solved(problem):
     ("change", "message"),
     [
         ({"wheel_speed": -1.0}, "wheel_speed_max"),
-        ({"envelope": room(0.0, 0.01)}, "outer_radius_max"),
-        ({"envelope": room(0.03, float("nan"))}, "height_max"),
-        ({"envelope": room(0.03, 0.01, wall_min=-1e-3)}, "wall_min"),
-        ({"envelope": room(0.03, 0.01, mass_max=float("nan"))}, "mass_max"),
-        ({"envelope": room(0.03, 0.01, stress_safety=0.0)}, "stress_safety"),
+        ({"envelope": envelope_with(0.0, 0.01)}, "outer_radius_max"),
+        ({"envelope": envelope_with(0.03, float("nan"))}, "height_max"),
+        ({"envelope": envelope_with(0.03, 0.01, wall_min=-1e-3)}, "wall_min"),
+        ({"envelope": envelope_with(0.03, 0.01, mass_max=float("nan"))}, "mass_max"),
+        ({"envelope": envelope_with(0.03, 0.01, stress_safety=0.0)}, "stress_safety"),
     ],
 )
 def test_figures_that_are_no_limits_are_refused(change, message):
     asked = {
-        "envelope": room(0.03, 0.01),
+        "envelope": envelope_with(0.03, 0.01),
         "material": PAPER_STEEL,
         "wheel_speed": 754.0,
     }
@@ -173,7 +184,7 @@ def test_each_limit_is_overstepped_where_the_rim_itself_oversteps_it(problem, sh
     assume(outer > limits.wall_min)
     mass = 2.0 * problem.spin_inertia / (outer**2 + inner**2)
     height = mass / (np.pi * problem.material.density * (outer**2 - inner**2))
-    over = used(problem, inner, outer, height, mass)
+    over = utilization(problem, inner, outer, height, mass)
     scale = limits.outer_radius_max
     constraints = RimConstraints(problem, scale)
     constraints.touch((outer / scale) ** 2, (inner / scale) ** 2)

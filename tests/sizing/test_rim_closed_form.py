@@ -7,7 +7,7 @@ from functools import reduce
 import numpy as np
 import pytest
 from naive_wheel import Rims, solid
-from rims import STEEL, paper_problem, random_problem, used
+from rims import STEEL, paper_problem, random_problem, utilization
 
 from ocs_design.parts.moments import cylinder_mass
 from ocs_design.parts.rim import RimCuts, cylinder_spin_inertia
@@ -37,7 +37,7 @@ def violations(problem, outer, inner):
     mass = 2.0 * problem.spin_inertia / (outer**2 + inner**2)
     with np.errstate(divide="ignore", invalid="ignore"):
         height = mass / (np.pi * problem.material.density * (outer**2 - inner**2))
-        most = reduce(np.maximum, used(problem, inner, outer, height, mass).values())
+        most = reduce(np.maximum, utilization(problem, inner, outer, height, mass).values())
     return np.where(outer > inner, most - 1.0, np.inf), mass
 
 
@@ -66,7 +66,7 @@ def brute_force(problem):
 
 def touching(problem, shape):
     """Names of the limits that a rim lies on."""
-    ratios = used(problem, *map(float, shape))
+    ratios = utilization(problem, *map(float, shape))
     return {name for name, ratio in ratios.items() if abs(ratio - 1.0) < 1e-9 and name != "r_min"}
 
 

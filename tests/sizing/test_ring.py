@@ -5,8 +5,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from designed import design_of
-from fronts import by_hand
+from designed_devices import design_of
+from fronts import task_by_hand
 from part_gaps import overlap_volume, turning_clearance
 
 from ocs_design.catalogue.materials import material
@@ -72,7 +72,7 @@ def test_it_is_around_the_bell_within_its_straight_part_and_its_joints_hold():
 def test_a_specified_torque_limit_holds_for_rings_as_for_discs():
     for wheel in ("ring", "disc"):
         specified = Specification(motor=MotorSection(torque_max=0.01), ocs=OcsSection(wheel=wheel))
-        problem = selection_problem(Task.of(specified, by_hand().robot))
+        problem = selection_problem(Task.of(specified, task_by_hand().robot))
         assert {gear.torque_max for gear in problem.gears} == {0.01}
 
 

@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pinocchio
 import pytest
+from carrier_parts import carrier_parts
 from commands import SOLO12
 from naive_wheel import wheel_of
 from selections import has_device, lightest, random_problem
-from standing_parts import standing_parts
 
 from ocs_design.actuation.drive import armature, drive_line, rotor_share
 from ocs_design.actuation.motor import DIRECT
@@ -64,7 +64,7 @@ def by_pinocchio(problem, found, incidence):
 
 def pieces(found):
     """All that is made and bought around its wheel."""
-    return standing_parts(found.motor, found.gear, found.outer_radius, found.height)
+    return carrier_parts(found.motor, found.gear, found.outer_radius, found.height)
 
 
 def test_the_winner_from_scratch(solved):

@@ -6,8 +6,8 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from commands import changed, run
-from designed import MOTOR, as_recorded, design_of
+from commands import run, with_value
+from designed_devices import MOTOR, design_of, record_of
 
 from ocs_design.common.errors import OcsError
 from ocs_design.common.files import to_json
@@ -38,7 +38,7 @@ KINDS = {
 @cache
 def written(kind):
     task, made = design_of(KINDS[kind])
-    return to_json(as_recorded(task, made))
+    return to_json(record_of(task, made))
 
 
 @pytest.mark.slow
@@ -58,7 +58,7 @@ def test_what_older_versions_wrote_is_read(name, tmp_path):
 
 def edited(folder, key, value, kind="disc"):
     """A design with another value at a key."""
-    document = changed(json.loads(written(kind)), key, value)
+    document = with_value(json.loads(written(kind)), key, value)
     (folder / "design.json").write_text(json.dumps(document))
     return folder
 
@@ -105,6 +105,6 @@ def test_a_wheel_without_a_motor_is_weighed_too(tmp_path):
 def test_commands_refuse_it_before_anything_is_made(command, tmp_path):
     said = run(command, edited(tmp_path, "ocs.mass_total", 5.0), "-o", tmp_path / "out")
     assert said.code == 3
-    assert "ocs.mass_total is 5000 g" in said.said
-    assert "change the specification" in said.said
+    assert "ocs.mass_total is 5000 g" in said.output
+    assert "change the specification" in said.output
     assert not (tmp_path / "out").exists()

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 from commands import SOLO12, run
-from designed import asked_of_solo12, on_solo12
+from designed_devices import solo12_specification, solo12_task
 
 from ocs_design.actuation.wheel_load import reach, reach_without_one
 from ocs_design.common.errors import Constraint, Infeasible, UsageError
@@ -104,10 +104,10 @@ def test_four_wheels_where_no_motor_is_strong_enough_for_two(tmp_path):
     """One motor to choose from: four share what two cannot; a pair that is stated is refused."""
     asked = {**DESIGNED, "motor__name": "XING 2806.5 KV1800", "requirement__reliability": "0.5"}
     with pytest.raises(Infeasible, match="XING"):
-        design_ocs(asked_of_solo12(**asked, ocs__layout="pair"), out=tmp_path / "a")
+        design_ocs(solo12_specification(**asked, ocs__layout="pair"), out=tmp_path / "a")
     told = []
     outcome = design_ocs(
-        asked_of_solo12(**asked),
+        solo12_specification(**asked),
         out=tmp_path / "b",
         progress=lambda label, share: told.append(label),
     )
@@ -142,7 +142,9 @@ def test_fewer_robots_where_nothing_is_sure_for_99_of_100(tmp_path):
     Of a normal rate 90 % stay below 1.645 deviations, 99 % below 2.576.
     """
     motor = "Antigravity MN5006 KV450"
-    asked = asked_of_solo12(**DESIGNED, motor__name=motor, ocs__layout="pair", ocs__alpha="33deg")
+    asked = solo12_specification(
+        **DESIGNED, motor__name=motor, ocs__layout="pair", ocs__alpha="33deg"
+    )
     specified = merge(asked, parse_specification(ROLLING, "test"))
     sure = merge(specified, specification_from_options({"requirement.reliability": "0.99"}))
     with pytest.raises(Infeasible, match="MN5006"):
@@ -157,7 +159,7 @@ def test_fewer_robots_where_nothing_is_sure_for_99_of_100(tmp_path):
 
 @pytest.mark.slow
 def test_the_lightest_is_the_same_without_the_plates_of_the_others():
-    task = on_solo12(motor__gear="direct")
+    task = solo12_task(motor__gear="direct")
     whole, alone = (design_device(task, ranked=ranked) for ranked in (True, False))
     assert alone.device.mass == whole.device.mass
     assert alone.device.motor == whole.device.motor
@@ -173,7 +175,7 @@ def test_layouts_of_one_robot_compared(monkeypatch):
     some = ("single", "pair", "orthogonal", "pyramid")
     monkeypatch.setattr(layouts, "LAYOUTS", some)
     asked = {"requirement__flip": "back", "requirement__gravity": "1.62", "motor__gear": "direct"}
-    answer = compare_layouts(asked_of_solo12(**asked))
+    answer = compare_layouts(solo12_specification(**asked))
     by_name = {each.layout: each for each in answer.layouts}
     assert tuple(by_name) == some
     assert by_name["single"].mass < by_name["pair"].mass < by_name["orthogonal"].mass
@@ -215,7 +217,7 @@ def test_layouts_that_cannot_do_without_any_one_wheel_are_refused(layout):
     with pytest.raises(
         CannotSurvive, match=f"'{layout}' cannot tolerate the failure of a drive: without wheel"
     ):
-        design_device(on_solo12(**SURVIVES, ocs__layout=layout))
+        design_device(solo12_task(**SURVIVES, ocs__layout=layout))
 
 
 @pytest.mark.parametrize(
@@ -234,7 +236,7 @@ def test_what_does_not_go_with_a_stopped_drive(option):
 def test_wheels_share_the_supply_when_sized_as_when_planned(layout):
     """Four wheels that were promised the half of it each found no plan of the drop."""
     drop = {"requirement__fall": "1m", "requirement__tilt": "30deg", "supply__power_max": "600 W"}
-    task = on_solo12(**drop, ocs__layout=layout)
+    task = solo12_task(**drop, ocs__layout=layout)
     designed = design_device(task)
     promised = designed.choice.chosen.line.power_max
     assert drive_line_of(designed.device).power_max == pytest.approx(promised, rel=1e-9)
@@ -249,7 +251,7 @@ def test_wheels_share_the_supply_when_sized_as_when_planned(layout):
 def test_wheels_that_reach_yaw_are_sized_for_it_without_a_loop(layout, direct):
     """The wheels are what the closed form asks for, and a plan for them leaves something."""
     turning = {"requirement__turn": "yaw 90deg in 2s", "requirement__gravity": "1.62"}
-    task = on_solo12(**turning, ocs__layout=layout)
+    task = solo12_task(**turning, ocs__layout=layout)
     problem = selection_problem(task)
     (turn,) = problem.requirement.maneuvers
     assert turn.headed == direct
@@ -289,7 +291,7 @@ def test_what_needs_less_than_the_smallest_rim_gets_a_larger_one():
 @pytest.mark.slow
 def test_a_triad_for_solo12_can_be_built(tmp_path):
     """On one plate, whose mass is a part of the device's; read again it is the same."""
-    asked = asked_of_solo12(**DESIGNED, ocs__layout="triad", motor__gear="direct")
+    asked = solo12_specification(**DESIGNED, ocs__layout="triad", motor__gear="direct")
     design = design_ocs(asked, out=tmp_path / "a").design
     assert design.buildable.yes is True
     assert design.buildable.open == ()
@@ -304,7 +306,7 @@ def test_a_triad_for_solo12_can_be_built(tmp_path):
 @pytest.mark.parametrize("layout", ["triad", pytest.param("pyramid", marks=pytest.mark.exhaustive)])
 def test_what_survives_lands_whichever_drive_stops(layout, tmp_path):
     """Every drive at every instant; what costs mass is told, and the table has each flight."""
-    outcome = design_ocs(asked_of_solo12(**SURVIVES, ocs__layout=layout), out=tmp_path / "a")
+    outcome = design_ocs(solo12_specification(**SURVIVES, ocs__layout=layout), out=tmp_path / "a")
     survival = outcome.design.survival
     assert not survival.lost
     assert outcome.device.mass > survival.mass_without
@@ -318,6 +320,6 @@ def test_what_survives_lands_whichever_drive_stops(layout, tmp_path):
 def test_a_refusal_names_what_would_survive_with_its_mass(tmp_path, monkeypatch):
     monkeypatch.setattr("ocs_design.sizing.design.SURVIVORS", ("triad",))
     with pytest.raises(CannotSurvive) as refused:
-        design_ocs(asked_of_solo12(**SURVIVES), out=tmp_path / "a")
+        design_ocs(solo12_specification(**SURVIVES), out=tmp_path / "a")
     assert re.search(r"`--layout triad` \d+ g", refused.value.hint)
     assert not (tmp_path / "a").exists()

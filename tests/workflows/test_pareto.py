@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from fronts import by_hand, made_up, make_front
+from fronts import made_up_device, make_front, task_by_hand
 
 from ocs_design.common.errors import QuantityError, SpecificationError, UsageError
 from ocs_design.requirement.sections import RequirementSection
@@ -15,7 +15,7 @@ from ocs_design.workflows.pareto import read_task
 
 @pytest.fixture(scope="module")
 def task():
-    return by_hand()
+    return task_by_hand()
 
 
 @pytest.mark.parametrize("name", SWEEPS)
@@ -61,7 +61,9 @@ def test_a_point_without_a_device_says_why_and_the_others_stand(task):
     first, second = front.points[:2]
     assert first.device is None
     assert first.reason == "the wheels would have to be larger"
-    assert second.device == made_up(task.with_specification(SWEEPS["time"].at(second.value, task)))
+    assert second.device == made_up_device(
+        task.with_specification(SWEEPS["time"].at(second.value, task))
+    )
     assert second.reason == ""
     assert len(front.points) == 9
     assert len(front.feasible) == 8
@@ -81,7 +83,7 @@ def test_motors_above_their_rating_are_told_once_a_voltage(task):
     def fed(varied):
         volts = varied.specification.supply.voltage
         told = f"fed with {volts:g} V" if volts > 25.2 else ""
-        return replace(made_up(task), overvoltage=told)
+        return replace(made_up_device(task), overvoltage=told)
 
     front = draw_front(task, SWEEPS["voltage"], (12.0, 36.0, 36.0, 60.0), fed, lambda _: None)
     assert front.remarks[-2:] == ("fed with 36 V", "fed with 60 V")
@@ -89,7 +91,7 @@ def test_motors_above_their_rating_are_told_once_a_voltage(task):
 
 def test_progress_is_told(task):
     told = []
-    draw_front(task, SWEEPS["radius"], (0.04, 0.05), made_up, told.append)
+    draw_front(task, SWEEPS["radius"], (0.04, 0.05), made_up_device, told.append)
     assert told == [0.5, 1.0]
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from designed import MOTOR, as_recorded, designed
+from designed_devices import MOTOR, design_with_motor, record_of
 
 from ocs_design.device.layout import heading_drift
 from ocs_design.workflows.recording import HOUSING_ASSUMED, record_selection
@@ -10,8 +10,8 @@ from ocs_design.workflows.recording import HOUSING_ASSUMED, record_selection
 
 @pytest.fixture(scope="module", params=["none", MOTOR])
 def recorded(request):
-    task, found = designed(request.param)
-    return task, found, as_recorded(task, found)
+    task, found = design_with_motor(request.param)
+    return task, found, record_of(task, found)
 
 
 def test_the_required_inertia_is_the_largest_momentum_at_the_highest_speed(recorded):
@@ -49,7 +49,7 @@ def test_yaw_drifts_as_the_products_of_inertia_say(recorded):
 
 @pytest.fixture(scope="module")
 def chosen():
-    return designed()[1]
+    return design_with_motor()[1]
 
 
 @pytest.fixture(scope="module")

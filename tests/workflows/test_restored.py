@@ -7,9 +7,9 @@ from pathlib import Path
 import msgspec
 import numpy as np
 import pytest
-from designed import MOTOR, as_recorded, designed
+from designed_devices import MOTOR, design_with_motor, record_of
 from exported import LEGGED_PATHS
-from robots import ROBOTS, marked
+from robots import ROBOTS, robot_parameters
 
 from ocs_design.common.errors import OcsError, RobotError
 from ocs_design.common.files import to_json
@@ -49,7 +49,7 @@ def check_same(again, robot):
     np.testing.assert_array_equal(again.inertia, robot.inertia)
 
 
-@pytest.mark.parametrize("path", marked([*LEGGED_PATHS, HUMAN]))
+@pytest.mark.parametrize("path", robot_parameters([*LEGGED_PATHS, HUMAN]))
 def test_a_robot_read_again_stands_as_it_did(path):
     robot = read_robot(path)
     again = robot_of(through_json(RobotRecord.of(robot)), path, {})
@@ -111,8 +111,8 @@ def test_a_robot_whose_included_file_has_changed_is_refused(tmp_path):
 
 @pytest.mark.parametrize("motor", [MOTOR, "none"])
 def test_a_device_comes_back_to_the_last_digit(tmp_path, motor):
-    task, made = designed(motor)
-    design = as_recorded(task, made)
+    task, made = design_with_motor(motor)
+    design = record_of(task, made)
     (tmp_path / "design.json").write_bytes(to_json(design))
     read, device = read_design(tmp_path / "design.json"), made.device
     again = read.ocs.device(read.supply)

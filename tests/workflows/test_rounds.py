@@ -4,7 +4,7 @@ from dataclasses import replace
 from math import pi
 
 import pytest
-from designed import designed
+from designed_devices import design_with_motor
 from robots import SOLO12
 
 from ocs_design.common.errors import SpecificationError
@@ -35,7 +35,7 @@ class Reference:
 
 @pytest.fixture
 def placed():
-    task, found = designed()
+    task, found = design_with_motor()
     requirement = replace(task.resolved.requirement, maneuvers=(TURN,))
     resolved = replace(task.resolved, requirement=requirement, assumptions=("assumed",))
     return Placed(task.specification, task.robot, resolved, found, None, ("near",), None)

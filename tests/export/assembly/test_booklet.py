@@ -6,11 +6,11 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from built import DEVICES, ON_A_MAST, around, housed
-from drawn_wheels import box_of, check_words
-from drawn_wheels import texts as texts_of
+from built_devices import DEVICES, MAST_PLATE, device_in_layout, housed_device
 from hypothesis import given
 from hypothesis import strategies as st
+from wheel_drawings import box_of, check_words
+from wheel_drawings import texts as texts_of
 from wheels import paper_device
 
 from ocs_design.actuation.supply import Supply
@@ -35,7 +35,10 @@ from ocs_design.parts.printed import WALL
 
 BOTTOM = FRAME_BOX[3]
 
-AT_30_DEGREES, TRIAD = DEVICES["caged"].at_incidence(np.pi / 6.0), around(Layout(LayoutName.TRIAD))
+AT_30_DEGREES, TRIAD = (
+    DEVICES["caged"].at_incidence(np.pi / 6.0),
+    device_in_layout(Layout(LayoutName.TRIAD)),
+)
 
 
 @pytest.fixture(params=DEVICES, ids=str, scope="module")
@@ -143,7 +146,7 @@ def test_every_screw_of_the_bill_is_numbered_and_has_a_torque(assembly):
 
 def test_what_stands_on_a_mast_is_made_as_it_is_drawn():
     """Holes for the trunk's screws are in the mast, and the table of pieces is on its sheet."""
-    device = replace(DEVICES["in a guard ring"], plate=ON_A_MAST)
+    device = replace(DEVICES["in a guard ring"], plate=MAST_PLATE)
     assembly = Assembly("dog", device, (), (), "NOT buildable as it stands. It hangs in the air.")
     first = assembly_pages(assembly)[0]
     check_words(first)
@@ -316,7 +319,7 @@ def test_the_heavy_side_is_opposite_the_point_of_the_four_runs():
 )
 def test_tools_are_those_that_the_design_needs(name, cutter, sizes):
     """Drills with their taps, strips for the gaps of bonds, and what cuts a key to its length."""
-    wide = housed(DEVICES["caged"].motor.mounting, outer_radius=0.05)
+    wide = housed_device(DEVICES["caged"].motor.mounting, outer_radius=0.05)
     assembly = Assembly("dog", (DEVICES | {"wide": wide})[name])
     told = texts(assembly, "Before")
     told = told[told.index("Tools: ") :]

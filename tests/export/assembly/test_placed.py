@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from built import DEVICES, around
+from built_devices import DEVICES, device_in_layout
 from manifold3d import Manifold, Mesh64
 
 from ocs_design.device.layout import Layout, LayoutName
@@ -40,7 +40,7 @@ def test_pieces_and_screws_weigh_what_stands_still(name):
 
 def test_wheels_that_lean_on_nothing_have_the_screws_of_their_feet():
     """No drilling sheet has holes for them, and the booklet is written all the same."""
-    device = around(Layout(LayoutName.PYRAMID))
+    device = device_in_layout(Layout(LayoutName.PYRAMID))
     assert not foot_holes(device)
     (feet,) = (
         each for each in module_pieces(device) if each.fastening == trunk_screws(device.foot_plate)

@@ -6,8 +6,8 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from built import DEVICES, ON_A_MAST
-from drawn_wheels import REFUSED, assert_refused, box_of, check_words, covers, texts
+from built_devices import DEVICES, MAST_PLATE
+from wheel_drawings import REFUSED, assert_refused, box_of, check_words, covers, texts
 
 from ocs_design.export.drawing.plate_sheet import plate_sheets
 from ocs_design.export.drawing.sheet import OUTLINE, Circle, Line, Polyline
@@ -15,7 +15,7 @@ from ocs_design.export.meshes import part_manifold
 from ocs_design.parts.carrier_plate import plate_part
 
 PLATE = DEVICES["on a plate"].plate
-PLATES = {"on the trunk": PLATE, "on a mast": ON_A_MAST}
+PLATES = {"on the trunk": PLATE, "on a mast": MAST_PLATE}
 
 
 @pytest.fixture(params=PLATES, ids=str)
@@ -131,10 +131,10 @@ def test_the_sheet_rounds_the_sizes_as_the_bill_does(plate):
 
 
 def test_a_mast_has_the_lengths_that_it_is_cut_to():
-    said = " ".join(item.text for item in texts(sheets_of(ON_A_MAST)[1]))
-    mast = ON_A_MAST.mast
+    said = " ".join(item.text for item in texts(sheets_of(MAST_PLATE)[1]))
+    mast = MAST_PLATE.mast
     assert f"An upright of {1e3 * (mast.high + mast.below):.4g} and 2 arms" in said
-    assert f"arms of {1e3 * (mast.face - mast.side + ON_A_MAST.neck):.5g}" in said
+    assert f"arms of {1e3 * (mast.face - mast.side + MAST_PLATE.neck):.5g}" in said
     for z in (mast.high, -mast.below, -0.0689, -0.0889, 0.0):
         assert f"z = {1e3 * z:.2f}" in said
 

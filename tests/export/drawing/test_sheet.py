@@ -6,10 +6,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from drawn_wheels import FLAT
 from hypothesis import given
 from hypothesis import strategies as st
-from made_parts import RIM_ALONE, TWO_PIECES
+from sample_parts import RIM_ALONE, TWO_PIECES
+from wheel_drawings import FLAT
 
 from ocs_design.device.joints import permissible_eccentricity
 from ocs_design.export.drawing.sheet import (

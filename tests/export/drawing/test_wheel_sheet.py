@@ -8,8 +8,10 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
-from built import DEVICES
-from drawn_wheels import (
+from built_devices import DEVICES
+from hypothesis import HealthCheck, example, given, settings
+from scipy.integrate import quad
+from wheel_drawings import (
     CROWDED,
     FLAT,
     HOLED,
@@ -22,8 +24,6 @@ from drawn_wheels import (
     overlap,
     texts,
 )
-from hypothesis import HealthCheck, example, given, settings
-from scipy.integrate import quad
 from wheels import paper_device
 
 from ocs_design.actuation.supply import Supply

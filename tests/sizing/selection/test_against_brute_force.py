@@ -10,11 +10,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from drawn_selections import draw
 from naive_device import Drive, coupling_on, device_mass, fits, holds, inertia_on, margin
 from naive_search import Device, refine, search
 from naive_wheel import Rims
-from selections import lopsided, random_problem
+from random_cases import random_case
+from selections import random_problem, with_offset_load
 
 from ocs_design.common.errors import Infeasible
 from ocs_design.robot.mass import MassProperties
@@ -91,12 +91,12 @@ def check_neighbours(problem, chosen):
 
 
 def drawn(seed, **changes):
-    return replace(draw(seed).problem, **changes)
+    return replace(random_case(seed).problem, **changes)
 
 
 def uneven(seed):
     """Roll and pitch are coupled by percents to tenths of what they take."""
-    return lopsided(random_problem(seed), seed)
+    return with_offset_load(random_problem(seed), seed)
 
 
 MORE = [

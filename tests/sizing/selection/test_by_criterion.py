@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from drawn_selections import draw
+from random_cases import random_case
 
 from ocs_design.common.errors import Infeasible
 from ocs_design.device.layout import Criterion
@@ -14,7 +14,7 @@ from ocs_design.sizing.selection.select import select, select_by
 
 def test_what_no_motor_can_do_there_is_said_of_all_of_them():
     """At the incidence that its lightest device leads to, not even that one can do it."""
-    problem = replace(draw(15).problem, incidence=None)
+    problem = replace(random_case(15).problem, incidence=None)
     with pytest.raises(Infeasible, match=f"None of {len(problem.motors)} motors"):
         select_by(problem, Criterion.WEIGHTED)
 
@@ -22,7 +22,7 @@ def test_what_no_motor_can_do_there_is_said_of_all_of_them():
 @pytest.mark.slow
 def test_where_none_wins_at_its_own_incidence_the_lightest_at_its_own_leads(monkeypatch):
     """Two devices, each of which wins at the other's incidence only: heavy at its own."""
-    problem = replace(draw(4).problem, incidence=None)
+    problem = replace(random_case(4).problem, incidence=None)
     base = select(replace(problem, incidence=0.5)).best
     angles, masses = {"a": 0.4, "b": 0.6}, {"a": 0.10, "b": 0.12}
 

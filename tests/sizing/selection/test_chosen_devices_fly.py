@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from drawn_selections import draw
-from sampled import every
+from random_cases import random_case
+from subsets import slow_subset
 
 from ocs_design.simulation.scenario import Flights, run_scenarios
 from ocs_design.sizing.assembly import assemble_selected
@@ -13,9 +13,9 @@ from ocs_design.sizing.trajectory.plans import plan
 POSSIBLE = (1, 2, 3, 4, 5, 6, 7, 8, 10, 16)
 
 
-@pytest.mark.parametrize("seed", every(10, POSSIBLE))
+@pytest.mark.parametrize("seed", slow_subset(10, POSSIBLE))
 def test_a_chosen_device_passes_with_its_motors_limits(seed):
-    drawn = draw(seed)
+    drawn = random_case(seed)
     problem, requirement = drawn.problem, drawn.problem.requirement
     chosen = select(problem).best
     device = assemble_selected(chosen)

@@ -4,7 +4,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
-from designed import on_solo12
+from designed_devices import solo12_task
 from selections import ALUMINIUM, random_problem
 
 from ocs_design.catalogue.materials import Material, material
@@ -58,7 +58,7 @@ def test_it_is_found_where_only_the_lightest_is_looked_for(steels):
 @pytest.mark.slow
 def test_at_its_own_incidence_the_winner_is_as_light_as_its_twins():
     """Solo12's device can only just carry itself: a step too far takes a smaller radius."""
-    solo = design_device(on_solo12(motor__name="Antigravity MN5006 KV450"), ranked=False)
+    solo = design_device(solo12_task(motor__name="Antigravity MN5006 KV450"), ranked=False)
     strong, weak = material("steel-4140-normalized"), material("steel-1045-cold-worked")
     for heavier in (-ROUNDING, ROUNDING):
         steels = replace(weak, density=weak.density * (1.0 + heavier)), strong

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from drawn_selections import draw
+from random_cases import random_case
 
 from ocs_design.common.errors import Infeasible
 from ocs_design.parts.solids import total
@@ -18,7 +18,7 @@ SEEDS = (4, 16)
 
 
 def problem_of(seed: int) -> SelectionProblem:
-    return replace(draw(seed).problem, incidence=0.6, lightenings=(0, 6))
+    return replace(random_case(seed).problem, incidence=0.6, lightenings=(0, 6))
 
 
 @pytest.mark.slow

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from drawn_selections import draw
+from random_cases import random_case
 
 from ocs_design.sizing.limits import BUS_VOLTAGE, LIMITS, TIME
 from ocs_design.sizing.selection.problem import with_limit
@@ -19,7 +19,7 @@ LOOKED_AT = {"r_max", "h_max", "bus_voltage", "time"}
 @pytest.fixture(scope="module")
 def priced():
     """The problem of the lightest drive alone, its device, and what each limit is worth."""
-    problem = draw(SEED).problem
+    problem = random_case(SEED).problem
     best = select(problem).best
     alone = replace(problem, motors=(best.motor,), gears=(best.gear,), materials=(best.material,))
     return alone, best, tuple(mass_prices(problem, best))

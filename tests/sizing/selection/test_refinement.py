@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from drawn_selections import draw
+from random_cases import random_case
 from threadpoolctl import threadpool_limits
 
 from ocs_design.sizing.lightest_module import ModuleShape
@@ -18,7 +18,7 @@ from ocs_design.sizing.selection.select import select
 @cache
 def drawn(seed):
     """A problem that is drawn, and its lightest device."""
-    problem = draw(seed).problem
+    problem = random_case(seed).problem
     return problem, select(problem).best
 
 

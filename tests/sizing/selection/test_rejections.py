@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from naive_wheel import Rims
-from rims import STEEL, UNLIMITED, room
+from rims import STEEL, UNLIMITED, envelope_with
 from selections import ALUMINIUM, random_problem
 
 from ocs_design.sizing.bound.rim_problem import BORE_SHARE
@@ -45,7 +45,7 @@ def largest_of_all(limits, web):
     ids=["nothing but room", "a bore", "a mass", "a mass and a wall"],
 )
 def test_largest_wheel_is_the_largest_of_all(mass, bore, wall, web):
-    limits = room(RADIUS, HEIGHT, mass_max=mass, inner_radius_min=bore, wall_min=wall)
+    limits = envelope_with(RADIUS, HEIGHT, mass_max=mass, inner_radius_min=bore, wall_min=wall)
     problem = replace(random_problem(9), web=web)
     largest = largest_of_all(limits, web)
     # Between two bores of the grid it may be larger by a step of it.
@@ -53,7 +53,7 @@ def test_largest_wheel_is_the_largest_of_all(mass, bore, wall, web):
 
 
 def test_where_bore_and_wall_leave_no_room_there_is_none():
-    limits = room(RADIUS, HEIGHT, inner_radius_min=0.6 * RADIUS, wall_min=0.5 * RADIUS)
+    limits = envelope_with(RADIUS, HEIGHT, inner_radius_min=0.6 * RADIUS, wall_min=0.5 * RADIUS)
     assert largest_wheel(random_problem(9), limits) == 0.0
 
 

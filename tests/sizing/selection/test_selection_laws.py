@@ -6,8 +6,8 @@ from math import inf, pi
 
 import numpy as np
 import pytest
-from drawn_selections import draw
-from sampled import some
+from random_cases import random_case
+from subsets import fast_subset
 
 from ocs_design.actuation.supply import Supply
 from ocs_design.common.errors import Infeasible
@@ -27,7 +27,7 @@ EXACT = 1e-9
     scope="module", params=[POSSIBLE[0], pytest.param(POSSIBLE[1], marks=pytest.mark.exhaustive)]
 )
 def problem(request):
-    return draw(request.param).problem
+    return random_case(request.param).problem
 
 
 chosen = cache(select)
@@ -102,7 +102,7 @@ def test_looser_limits_are_no_heavier(problem, name, factors):
     assert no_heavier(problem, *(replace(problem, envelope=each) for each in rooms))
 
 
-@pytest.mark.parametrize("name", some(3, ["motors", "gears", "materials"]))
+@pytest.mark.parametrize("name", fast_subset(3, ["motors", "gears", "materials"]))
 def test_more_to_choose_from_is_no_heavier(problem, name):
     choices = getattr(problem, name)
     fewer = [replace(problem, **{name: choices[:count]}) for count in range(1, len(choices) + 1)]
@@ -116,7 +116,7 @@ def test_the_lightest_is_that_of_each_combination_by_itself(problem):
 
 @pytest.mark.exhaustive
 def test_so_it_is_on_the_edge_of_the_possible():
-    check_each_by_itself(draw(ON_THE_EDGE).problem)
+    check_each_by_itself(random_case(ON_THE_EDGE).problem)
 
 
 def check_each_by_itself(problem):

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from drawn_selections import draw
-from naive_device import Drive, asked, chamfer_of, coupling_on, inertia_on, let_go
+from naive_device import Drive, chamfer_of, coupling_on, demand_of, inertia_on, release_unreached
 from naive_wheel import Rims
+from random_cases import random_case
 from rims import STEEL
 from scipy.optimize import minimize
 from selections import lightest
@@ -31,10 +31,10 @@ def stressed(problem, safety):
 
 
 PROBLEMS = {
-    "wide and tall": draw(2).problem,
-    "thin": draw(4).problem,
-    "stressed": stressed(draw(1).problem, 8.0),
-    "crowded": stressed(draw(4).problem, 15.0),
+    "wide and tall": random_case(2).problem,
+    "thin": random_case(4).problem,
+    "stressed": stressed(random_case(1).problem, 8.0),
+    "crowded": stressed(random_case(4).problem, 15.0),
 }
 
 
@@ -156,9 +156,9 @@ def test_demands_are_those_of_the_inertia_with_the_device(answer):
         shares = np.array([[np.sin(angle)], [np.cos(angle)]])
         inertia, coupling = worked_out(problem, device, angle)
         # Whole turns and small ones may be left to themselves where the wheels do not reach.
-        inertia, coupling = let_go(inertia, coupling, shares, 0.0)
+        inertia, coupling = release_unreached(inertia, coupling, shares, 0.0)
         height = problem.requirement.standing_height
-        swept, _, time = asked(turn, inertia, coupling, height)
+        swept, _, time = demand_of(turn, inertia, coupling, height)
         momentum = 2.0 * np.abs(swept[:, 0]) / time
         np.testing.assert_allclose(demands[turn.name].momentum, momentum, rtol=1e-9, atol=1e-15)
         torque = (2.0 * momentum / time / levers).sum()

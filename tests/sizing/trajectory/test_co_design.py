@@ -6,7 +6,7 @@ from functools import cache
 import casadi as ca
 import numpy as np
 import pytest
-from gyrostats import end_rate, missed
+from gyrostats import attitude_error, end_rate
 from naive_wheel import wheel_of
 from selections import lightest, random_problem
 
@@ -113,7 +113,7 @@ def test_its_maneuvers_hold_on_the_fine_grid(answered):
         own = found.device.incidence if maneuver.incidence is None else maneuver.incidence
         wheels = Gyrostat(np.eye(3), module_axes(own), 1.0)
         assert flight.violation < 1e-6
-        assert missed(maneuver.boundary(standing), flight.trajectory) < 1e-4
+        assert attitude_error(maneuver.boundary(standing), flight.trajectory) < 1e-4
         assert end_rate(wheels, flight.trajectory) < 1e-4
         assert flight.defect < 1e-4
         assert np.abs(flight.trajectory.wheel_torque).max() <= line.torque_limit * (1.0 + 1e-6)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from gyrostats import BACK_FLIP, DIAGONAL, EC_45_FLAT, FULL, asked, body, drop
+from gyrostats import BACK_FLIP, DIAGONAL, EC_45_FLAT, FULL, body, boundary_of, drop
 
 from ocs_design.device.layout import Layout, LayoutName
 from ocs_design.requirement.turns import Catch, TurnTo
@@ -45,7 +45,7 @@ def test_a_plan_ends_there_too(maneuver, gyrostat):
     sought = [PYTHON, "-c", "import Basilisk"]
     if subprocess.run(sought, check=False, capture_output=True).returncode:
         pytest.skip("no Basilisk (pip install bsk) in this environment or in BASILISK_PYTHON")
-    start = asked(maneuver)
+    start = boundary_of(maneuver)
     planned = gentlest(start, gyrostat, EC_45_FLAT)
     assert not planned.failure
     trajectory, count = planned.trajectory, FINER * STEPS

@@ -12,14 +12,14 @@ from gyrostats import (
     FALL,
     FULL,
     PUSH,
-    asked,
+    attitude_error,
     body,
+    boundary_of,
     drop,
-    missed,
     smallest_wheels,
 )
-from sampled import some
 from scipy.integrate import solve_ivp
+from subsets import fast_subset
 
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.errors import SpecificationError
@@ -67,13 +67,13 @@ def solved(request):
     gyrostat, maneuver = CASES[name]
     if wheels == "least":
         # Even intervals, on which the means at jumps of the torque cancel.
-        found = smallest_wheels(gyrostat, asked(maneuver), passes=(24,))
-        return found.gyrostat, asked(maneuver), found
-    return gyrostat, asked(maneuver), _planned(gyrostat, maneuver)
+        found = smallest_wheels(gyrostat, boundary_of(maneuver), passes=(24,))
+        return found.gyrostat, boundary_of(maneuver), found
+    return gyrostat, boundary_of(maneuver), _planned(gyrostat, maneuver)
 
 
 def _planned(gyrostat, maneuver, line=EC_45_FLAT, **options):
-    return gentlest(asked(maneuver), gyrostat, line, **options)
+    return gentlest(boundary_of(maneuver), gyrostat, line, **options)
 
 
 def _momentum(gyrostat, path):
@@ -217,7 +217,7 @@ def test_an_axis_out_of_reach_is_left_alone():
     found = _planned(body(0.0, inertia=FULL), drop(20.0, 15.0))
     assert not found.failure
     assert found.trajectory.vertical[-1, 0] == pytest.approx(0.0, abs=1e-6)
-    assert np.degrees(missed(asked(drop(20.0, 15.0)), found.trajectory)) > 10.0
+    assert np.degrees(attitude_error(boundary_of(drop(20.0, 15.0)), found.trajectory)) > 10.0
 
 
 def test_level_from_the_start_asks_for_nothing():
@@ -231,7 +231,7 @@ def test_a_push_that_outlasts_the_flight_is_refused():
         name="late", takeoff_velocity=(0.0, 1.0), torque=(0.0, 1.0, 0.0), onset=0.2, duration=0.1
     )
     with pytest.raises(SpecificationError, match="late"):
-        asked(late)
+        boundary_of(late)
 
 
 def test_a_push_leaves_what_eulers_equation_says():
@@ -246,7 +246,7 @@ def test_a_push_leaves_what_eulers_equation_says():
 
     start = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
     end = solve_ivp(slope, (0.0, PUSH.duration), start, "DOP853", rtol=1e-10, atol=1e-12).y[:, -1]
-    attitude, rate = (np.asarray(each).ravel() for each in after_push(asked(PUSH))(inertia))
+    attitude, rate = (np.asarray(each).ravel() for each in after_push(boundary_of(PUSH))(inertia))
     np.testing.assert_allclose(scaled_vertical(attitude), end[:3], rtol=0, atol=1e-8)
     np.testing.assert_allclose(rate, end[3:], rtol=1e-8)
 
@@ -268,7 +268,7 @@ def test_tumbling_with_wheels_that_spin_it_comes_to_rest():
     found = gentlest(start, gyrostat, EC_45_FLAT)
     assert not found.failure
     path = found.trajectory
-    assert missed(start, path) < 1e-5
+    assert attitude_error(start, path) < 1e-5
     np.testing.assert_allclose(path.rate[0], start.rate, rtol=1e-12)
     np.testing.assert_allclose(path.wheel_speed[0], start.wheel_speed, rtol=1e-12)
     np.testing.assert_allclose(path.rate[-1], 0.0, rtol=0, atol=1e-5)
@@ -282,7 +282,7 @@ def _power(path, line=EC_45_FLAT):
     return (torque * (slope * torque + path.wheel_speed)).sum(axis=1)
 
 
-@pytest.mark.parametrize("name", some(3, ["pitch and roll", "pitch", "half a flip"]))
+@pytest.mark.parametrize("name", fast_subset(3, ["pitch and roll", "pitch", "half a flip"]))
 def test_the_peak_power_is_less_than_that_of_least_effort_both_ways(name):
     gyrostat, maneuver = CASES[name]
     before = np.abs(_power(_planned(gyrostat, maneuver).trajectory)).max()
@@ -316,7 +316,7 @@ def test_a_kept_program_remembers_nothing_of_other_turns():
 @pytest.mark.parametrize("name", ["pair", "triad", "orthogonal", "pyramid"])
 def test_an_uneven_guess_moves_the_trunk_no_further_in_the_end(name):
     gyrostat = Gyrostat(FULL, np.asarray(Layout(LayoutName(name)).axes(0.6)), 1e-4, 2e-5)
-    even = Phase(asked(drop(30.0)), gyrostat).outline.motion(gyrostat, 12)
+    even = Phase(boundary_of(drop(30.0)), gyrostat).outline.motion(gyrostat, 12)
     uneven = even.uneven(gyrostat)
     change = uneven.states[4:] - even.states[4:]
     assert np.abs(change).max() > 0.01 * np.abs(even.states[4:]).max()
@@ -342,11 +342,11 @@ def test_where_four_wheels_find_no_plan_two_of_their_strength_make_it(monkeypatc
         stall_torque=EC_45_FLAT.stall_torque / 2.0,
         torque_limit=EC_45_FLAT.torque_limit / 2.0,
     )
-    turn = asked(drop(20.0, 10.0))
+    turn = boundary_of(drop(20.0, 10.0))
     found, expected = gentlest(turn, four, weak), gentlest(turn, pair, EC_45_FLAT)
     assert not found.failure
     flown = found.trajectory
-    assert missed(turn, flown) == pytest.approx(missed(turn, expected.trajectory))
+    assert attitude_error(turn, flown) == pytest.approx(attitude_error(turn, expected.trajectory))
     np.testing.assert_array_equal(flown.wheel_speed, np.tile(expected.trajectory.wheel_speed, 2))
     held = flown.rate @ four.inertia + four.spin_inertia * flown.wheel_speed @ four.axes.T
     np.testing.assert_allclose(held, 0.0, atol=1e-6)

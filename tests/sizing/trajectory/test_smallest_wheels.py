@@ -9,11 +9,11 @@ from gyrostats import (
     EC_45_FLAT,
     FALL,
     PUSH,
-    asked,
+    attitude_error,
     body,
+    boundary_of,
     drop,
     end_rate,
-    missed,
     smallest_wheels,
 )
 
@@ -48,7 +48,7 @@ def _closed_form(roll, pitch, incidence, duration=FALL):
 )
 def test_about_pitch_it_is_the_closed_form(degrees, maneuver, costs):
     """Which no plan can beat; the mesh costs 0.03 % at most."""
-    incidence, turn = np.radians(degrees), asked(maneuver)
+    incidence, turn = np.radians(degrees), boundary_of(maneuver)
     found = smallest_wheels(body(incidence, 1.2e-4, DIAGONAL), turn)
     best = _closed_form(0.0, np.degrees(abs(turn.angle)), incidence, turn.duration)
     assert found.solution.solved
@@ -77,7 +77,7 @@ def test_it_beats_the_figures_of_torques_that_are_held_for_a_step(
     held = _held_for_a_step(np.radians([roll, pitch]), None if free else module_axes(incidence))
     assert held == pytest.approx(specified, rel=1e-3)
     guess = body(incidence, 1.2e-4, DIAGONAL)
-    found = smallest_wheels(guess, asked(drop(pitch, roll)), free_incidence=free)
+    found = smallest_wheels(guess, boundary_of(drop(pitch, roll)), free_incidence=free)
     assert found.solution.solved
     assert 0.98 < found.gyrostat.spin_inertia / specified < 0.99
     assert np.degrees(found.incidence) == pytest.approx(degrees, abs=0.1)
@@ -138,7 +138,7 @@ def _held_for_a_step(tilt, axes, steps=40):
 
 @pytest.mark.slow
 def test_a_push_needs_what_holds_its_momentum_and_turns_back():
-    found = smallest_wheels(body(np.radians(35.0), 1.2e-4, DIAGONAL), asked(PUSH))
+    found = smallest_wheels(body(np.radians(35.0), 1.2e-4, DIAGONAL), boundary_of(PUSH))
     assert found.solution.solved
     roll, pitch, _ = np.array(PUSH.torque) * PUSH.duration
     shares = np.sin(np.radians(35.0)), np.cos(np.radians(35.0))
@@ -170,17 +170,17 @@ SINGLE, TRIAD, ORTHOGONAL, PYRAMID = (
 def test_one_program_sizes_any_layout_of_wheels(axes, pitch, roll, specified):
     """The theory's figures again, for one, three and four wheels."""
     assert _held_for_a_step(np.radians([roll, pitch]), axes) == pytest.approx(specified, rel=1e-3)
-    wanted = asked(drop(pitch, roll))
+    wanted = boundary_of(drop(pitch, roll))
     found = smallest_wheels(Gyrostat(DIAGONAL, axes, 1.2e-4), wanted)
     assert 0.97 < found.gyrostat.spin_inertia / specified < 0.995
     assert not found.failure
-    assert missed(wanted, found.trajectory) < 1e-6
+    assert attitude_error(wanted, found.trajectory) < 1e-6
 
 
 @pytest.mark.slow
 def test_a_single_wheel_flips_the_robot():
     """The theory's figure, with torques that are held for a step, is within 1 %."""
-    found = smallest_wheels(Gyrostat(DIAGONAL, SINGLE, 2e-4), asked(BACK_FLIP))
+    found = smallest_wheels(Gyrostat(DIAGONAL, SINGLE, 2e-4), boundary_of(BACK_FLIP))
     assert not found.failure
     assert 0.99 < found.gyrostat.spin_inertia / 2.95e-4 < 1.0
 
@@ -199,7 +199,7 @@ def test_wheels_about_the_vertical_turn_the_heading(axes, specified):
     yaw = Boundary("yaw", UPRIGHT, QUARTER, up, np.pi / 2.0, 2.0, end="attitude")
     found = smallest_wheels(Gyrostat(DIAGONAL, axes, 1.2e-4), yaw)
     assert not found.failure
-    assert missed(yaw, found.trajectory) < 1e-6
+    assert attitude_error(yaw, found.trajectory) < 1e-6
     assert 0.975 < found.gyrostat.spin_inertia / specified < 0.995
 
 
@@ -220,6 +220,6 @@ def test_two_wheels_turn_the_heading_by_a_loop_of_the_tilt(duration, specified):
     loop = HeadingLoop(UPRIGHT, np.zeros(3), np.pi / 2.0, 0.0, duration)
     found = smallest_wheels(guess, yaw, start=loop.motion(guess, 16))
     assert not found.failure
-    assert missed(yaw, found.trajectory) < 1e-5
+    assert attitude_error(yaw, found.trajectory) < 1e-5
     assert found.gyrostat.spin_inertia == pytest.approx(specified, rel=0.02)
     assert np.abs(found.trajectory.rate[:, 2]).max() < 1e-6

@@ -31,7 +31,7 @@ MATERIALS = (STEEL, ALUMINIUM, BRASS, PAPER_STEEL)
 
 
 @dataclass(frozen=True)
-class Drawn:
+class RandomCase:
     """A robot and what is asked for it."""
 
     robot: Robot
@@ -39,7 +39,7 @@ class Drawn:
 
 
 @dataclass(frozen=True)
-class Scale:
+class WheelScale:
     """About what a wheel of this robot must do: torque, momentum, speed; and its size [m]."""
 
     torque: float
@@ -48,7 +48,7 @@ class Scale:
     radius: float
 
 
-def draw(seed):
+def random_case(seed):
     """The problem of this number."""
     rng = np.random.default_rng(seed)
     mass = float(np.exp(rng.uniform(0.0, np.log(80.0))))
@@ -81,7 +81,7 @@ def draw(seed):
         cuts=RimCuts(0.3e-3) if seed % 4 == 0 else NO_CUTS,
         web_material=ALUMINIUM if seed % 6 == 2 else None,
     )
-    return Drawn(robot, with_mounts(problem, seed))
+    return RandomCase(robot, with_mounts(problem, seed))
 
 
 def standing_height(robot):
@@ -149,7 +149,7 @@ def _scale(rng, robot, maneuvers, standing):
     momentum = max(pitch * angle / time for angle, time in turns)
     radius = 0.045 * (pitch / 0.055) ** 0.2 * rng.uniform(0.85, 1.3)
     disc = pi * 7850.0 * 0.3 * radius**5 / 2.0
-    return Scale(torque, momentum, momentum / (0.3 * disc), radius)
+    return WheelScale(torque, momentum, momentum / (0.3 * disc), radius)
 
 
 def _envelope(rng, radius, mass):

@@ -20,41 +20,41 @@ UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 """From the frame of the left wheel, its y axis down, to that of its module."""
 
 
-def made_foot(motor, gear, outer, height, thick=PLATE_THICKNESS):
+def foot_for(motor, gear, outer, height, thick=PLATE_THICKNESS):
     """With the housing that it carries."""
     holes = mount_of(motor, gear.room, thick).holes
     return Foot(Housing(outer, height, holes, LID_SCREW), thick)
 
 
-def standing_parts(motor, gear, outer, height, thick=PLATE_THICKNESS):
+def carrier_parts(motor, gear, outer, height, thick=PLATE_THICKNESS):
     """About the wheel's centre."""
-    foot = made_foot(motor, gear, outer, height, thick)
+    foot = foot_for(motor, gear, outer, height, thick)
     for part in housing_parts(foot.housing):
         yield part.mass_properties().moved(UPRIGHT, np.zeros(3))
     yield foot_part(foot).mass_properties().moved(np.eye(3), [0.0, 0.0, -foot.wheel_height])
-    yield from shell_screws(foot)
-    yield from driving_parts(motor, gear, height, thick)
+    yield from housing_screws(foot)
+    yield from drive_parts(motor, gear, height, thick)
 
 
-def shell_screws(foot):
+def housing_screws(foot):
     """M2 x 6 through the lid, M3 through the foot's base, with a thread of 3 mm at least."""
     housing, each = foot.housing, screw("M2")
     radius = housing.radius + each.clearance_hole / 2.0
     along = housing.half_height - each.centre(6e-3)
     for k in range(4):
         angle = pi / 4.0 + k * pi / 2.0
-        yield point(each.mass(6e-3), radius * cos(angle), along, radius * sin(angle))
+        yield point_mass(each.mass(6e-3), radius * cos(angle), along, radius * sin(angle))
     each, base = screw("M3"), max(3e-3, 0.6 * foot.thickness)
-    long = standard(base + 3e-3)
+    long = standard_length(base + 3e-3)
     up = base - each.centre(long) - foot.wheel_height
     # Two on the left foot, two on the right one that mirror them: on average half of one each.
     for k in range(4):
         angle = pi / 4.0 + k * pi / 2.0
         x, y = foot.slot_radius * cos(angle), foot.slot_radius * sin(angle)
-        yield point(each.mass(long) / 2.0, x, y, up)
+        yield point_mass(each.mass(long) / 2.0, x, y, up)
 
 
-def driving_parts(motor, gear, height, thick=PLATE_THICKNESS):
+def drive_parts(motor, gear, height, thick=PLATE_THICKNESS):
     """Motor, gear, cage and their screws, behind a foot's plate of that thickness."""
     room, mounting = gear.room, motor.mounting
     floor = -(height / 2.0 + 0.002 + PANEL)
@@ -69,41 +69,45 @@ def driving_parts(motor, gear, height, thick=PLATE_THICKNESS):
     on_shaft = max(0.005, (mounting and mounting.shaft_diameter) or 0.0)
     front = plate - deep if cage is None else -0.0015 if on_rotor else -(on_shaft / 2.0 + 0.001)
     yield MassProperties(motor.mass, [0.0, front - length / 2.0, up], own)
-    yield point(gear.mass, 0.0, plate - deep / 2.0, gear_up)
+    yield point_mass(gear.mass, 0.0, plate - deep / 2.0, gear_up)
     if room is not None or mounting is None:
         return
     if on_rotor:
-        yield from screws_on(mounting.rotor, 3e-3 + metric(mounting.rotor), 0.0015, -1.0)
+        yield from circle_screws(
+            mounting.rotor, 3e-3 + thread_diameter(mounting.rotor), 0.0015, -1.0
+        )
     if mounting.stator_face is Face.OUTPUT and mounting.stator is not None:
-        through = PANEL + thick + metric(mounting.stator)
-        yield from screws_on(mounting.stator, through, floor + PANEL, -1.0)
+        through = PANEL + thick + thread_diameter(mounting.stator)
+        yield from circle_screws(mounting.stator, through, floor + PANEL, -1.0)
     if cage is not None:
         bottom = max(3e-3, 0.42 * thick)
         back = front - length - bottom
         yield cage_part(cage).mass_properties().moved(UPRIGHT, [0.0, back, 0.0])
-        yield from screws_on(cage.passage.screws, thick + 5.2e-3, floor + PANEL, -1.0)
-        yield from screws_on(mounting.stator, bottom + metric(mounting.stator), back, 1.0)
+        yield from circle_screws(cage.passage.screws, thick + 5.2e-3, floor + PANEL, -1.0)
+        yield from circle_screws(
+            mounting.stator, bottom + thread_diameter(mounting.stator), back, 1.0
+        )
 
 
-def metric(circle):
+def thread_diameter(circle):
     """Diameter of its threads."""
     return screw(circle.thread).diameter
 
 
-def standard(at_least):
+def standard_length(at_least):
     """The next length of a screw that there is."""
     return next(n * 1e-3 for n in (4, 5, 6, 8, 10, 12, 16) if n * 1e-3 >= at_least - 1e-12)
 
 
-def screws_on(circle, at_least, along, towards):
+def circle_screws(circle, at_least, along, towards):
     """The first straight up, the next length that there is, their tips `towards`."""
     each = screw(circle.thread)
-    length = standard(at_least)
+    length = standard_length(at_least)
     for k in range(circle.bolts):
         angle = 2.0 * pi * k / circle.bolts
         up, forward = circle.diameter / 2.0 * cos(angle), circle.diameter / 2.0 * sin(angle)
-        yield point(each.mass(length), forward, along + towards * each.centre(length), up)
+        yield point_mass(each.mass(length), forward, along + towards * each.centre(length), up)
 
 
-def point(mass, x, y, z):
+def point_mass(mass, x, y, z):
     return MassProperties(mass, [x, y, z], np.zeros((3, 3)))

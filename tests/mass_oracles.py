@@ -7,7 +7,7 @@ import pytest
 from ocs_design.robot.mass import MassProperties, combine
 
 
-def by_mujoco(model, data, base=None, bodies=slice(1, None)):
+def mujoco_mass_properties(model, data, base=None, bodies=slice(1, None)):
     """Of these bodies where they are, in the frame of one of them or in the world's."""
     axes = data.ximat[bodies].reshape(-1, 3, 3)
     own = axes @ (model.body_inertia[bodies, :, None] * axes.transpose(0, 2, 1))
@@ -18,7 +18,7 @@ def by_mujoco(model, data, base=None, bodies=slice(1, None)):
     return whole.moved(turn, -turn @ data.body(base).xpos)
 
 
-def by_pinocchio(model, q, base=None):
+def pinocchio_mass_properties(model, q, base=None):
     """Of the whole in a configuration, in the frame of a link or in the world's."""
     data = model.createData()
     pin.ccrba(model, data, q, np.zeros(model.nv))
@@ -30,7 +30,7 @@ def by_pinocchio(model, q, base=None):
     return whole.moved(frame.rotation, frame.translation)
 
 
-def assert_same(one, other, relative=1e-12):
+def assert_same_mass_properties(one, other, relative=1e-12):
     """Lengths relative to the other's radius of gyration, moments to its largest one."""
     assert one.mass == pytest.approx(other.mass, rel=relative)
     size = np.sqrt(np.trace(other.inertia) / other.mass)

@@ -3,7 +3,7 @@
 import pytest
 
 
-def every(step, cases):
+def slow_subset(step, cases):
     """Each `step`-th case is slow, the others are exhaustive."""
     return [
         pytest.param(case, marks=pytest.mark.exhaustive if index % step else pytest.mark.slow)
@@ -11,7 +11,7 @@ def every(step, cases):
     ]
 
 
-def some(step, cases, rest=pytest.mark.slow):
+def fast_subset(step, cases, rest=pytest.mark.slow):
     """Each `step`-th case is quick, the others have this mark; a case of several is a tuple."""
     return [
         pytest.param(*(case if isinstance(case, tuple) else (case,)), marks=[rest] * bool(i % step))

@@ -8,7 +8,7 @@ from ocs_design.sizing.footing import mast
 
 
 @contextmanager
-def few_masts():
+def coarse_mast_search():
     """Masts are looked for with the thinnest blocks and in the coarser steps alone.
 
     A search takes longest where it finds none.

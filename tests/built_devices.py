@@ -20,7 +20,7 @@ CAGED = motor("MN5212 KV340")
 FLAT = Mounting(0.004, stator=BoltCircle(0.02, 4, "M3"), stator_face=Face.OUTPUT)
 
 
-def housed(
+def housed_device(
     mounting: Mounting | None, outer_radius: float = 0.04, guard_wall: float = 0.0
 ) -> Device:
     """The paper's rim on a web, in a housing, on a motor with that mounting."""
@@ -40,7 +40,7 @@ def housed(
     return replace(device, flywheel=wheel, guard_wall=guard_wall)
 
 
-def behind_a_gear() -> Device:
+def geared_device() -> Device:
     drive = replace(
         geared(4.0), gear_mass=0.02, gear_room=GearRoom(0.01, 0.03, 0.01, 0.01), diameter=0.04,
         length=0.03,
@@ -48,7 +48,7 @@ def behind_a_gear() -> Device:
     return driven_device(drive=drive, carrier=Carrier(0.3, 1e-4, 1e-4))
 
 
-def on_a_plate(device: Device) -> Device:
+def with_plate(device: Device) -> Device:
     """The device on a plate, three of whose screws have sleeves, two of them of one length."""
     (x, y, z), foot = device.modules[0].position.tolist(), foot_of(device)
     radius, screws = foot.slot_radius + 0.0045, foot.slot_radius / 2**0.5
@@ -62,21 +62,21 @@ def on_a_plate(device: Device) -> Device:
     return replace(device, plate=plate)
 
 
-CAGED_DEVICE = housed(CAGED.mounting)
+CAGED_DEVICE = housed_device(CAGED.mounting)
 
 DEVICES = {
     "caged": CAGED_DEVICE,
-    "by its face": housed(FLAT),
-    "unknown threads": housed(None),
-    "gear": behind_a_gear(),
-    "in a guard ring": housed(CAGED.mounting, guard_wall=0.0015),
-    "on a plate": on_a_plate(CAGED_DEVICE),
+    "by its face": housed_device(FLAT),
+    "unknown threads": housed_device(None),
+    "gear": geared_device(),
+    "in a guard ring": housed_device(CAGED.mounting, guard_wall=0.0015),
+    "on a plate": with_plate(CAGED_DEVICE),
     "wheels alone": paper_device(),
 }
 
 
 MAST = Mast(side=0.04, wall=0.003, face=0.14, below=0.0988, high=0.04, overhang=0.09, spacer=0.01)
-ON_A_MAST = replace(
+MAST_PLATE = replace(
     DEVICES["on a plate"].plate,
     thread="M6",
     trunk=tuple((y, z) for z in (-0.0689, -0.0889) for y in (0.0115, -0.0115)),
@@ -89,7 +89,7 @@ ON_A_MAST = replace(
 """Plate of a device on two arms of a mast."""
 
 
-def around(layout):
+def device_in_layout(layout):
     """Modules of that layout around the middle of the trunk, all on the trunk."""
     places = 0.04 * np.array(layout.ring) + [0.0, 0.0, CAGED_DEVICE.modules[0].position[2]]
     modules = map(Module, layout.names, layout.axes(layout.angle).T, places)

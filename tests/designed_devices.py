@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import cache
 
 from commands import SOLO12
-from fronts import by_hand
+from fronts import task_by_hand
 
 from ocs_design.requirement.device_sections import FlywheelSection, MotorSection, OcsSection
 from ocs_design.requirement.sections import RobotSection
@@ -21,7 +21,7 @@ from ocs_design.workflows.recording import record_design
 MOTOR = "EC 45 flat 70 W 411812"
 
 
-def designed(motor=MOTOR, **ocs):
+def design_with_motor(motor=MOTOR, **ocs):
     """The task and what came of it; the incidence is that of equal rates, the default."""
     return design_of(
         Specification(
@@ -35,7 +35,7 @@ def designed(motor=MOTOR, **ocs):
 @cache
 def design_of(specification):
     """The same for a specification of all but the robot."""
-    task = by_hand()
+    task = task_by_hand()
     task = task.with_specification(replace(specification, robot=task.specification.robot))
     return task, design_device(task)
 
@@ -46,18 +46,18 @@ def solo12():
     return read_task(Specification(robot=RobotSection(file=SOLO12)))
 
 
-def asked_of_solo12(**options):
+def solo12_specification(**options):
     """The specification for it of these options of the command; `motor__name` is `motor.name`."""
     named = {name.replace("__", "."): value for name, value in options.items()}
     return specification_from_options({"robot.file": SOLO12, **named})
 
 
-def on_solo12(**options):
+def solo12_task(**options):
     """The task of the same."""
-    return solo12().with_specification(asked_of_solo12(**options))
+    return solo12().with_specification(solo12_specification(**options))
 
 
-def as_recorded(task, made, *, seed=0, files=None):
+def record_of(task, made, *, seed=0, files=None):
     """The record of a design that is neither flown nor mounted."""
     margins = record_margins(task.resolved, made, (), {})
     built = buildable_of(task.robot, made, margins, None)
