@@ -128,7 +128,9 @@ def size(
     ] = None,
     verbose: Annotated[
         bool,
-        typer.Option("-v", "--verbose", help="Print all figures, not the summary on one screen."),
+        typer.Option(
+            "-v", "--verbose", help="Print all figures instead of the one-screen summary."
+        ),
     ] = False,
     *,
     output: Output,
@@ -279,9 +281,10 @@ def inspect(
     ] = False,
     no_color: opt.NoColor = False,
 ) -> None:
-    """Show what is read from a robot, with warnings.
+    """Show a robot as the program reads it, with warnings.
 
-    Mass, inertia, posture, legs, incidence angles, warnings.
+    Prints mass, inertia, posture, legs, and the incidence angle by each criterion and over
+    postures. Writes nothing but --picture.
     """
     from ocs_design.report.text.robot import print_inspection
     from ocs_design.workflows.inspect import inspect_robot
@@ -341,7 +344,7 @@ def catalogue(
         typer.Argument(
             autocompletion=completion.one_of("motors", "gears", "materials"),
             metavar="motors|gears|materials",
-            help="What to list.",
+            help="Catalogue to list.",
         ),
     ],
     motors: Annotated[

@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 def doctor(as_json: opt.AsJson = False, no_color: opt.NoColor = False) -> None:
     """Show what is installed, and how to get the rest.
 
-    Lists what each package is for. Imports every package and renders pictures as a test. Exit
-    codes: 0 everything required works, 5 something required does not.
+    Imports every package, says what each is for, and renders pictures as a test. Exit codes: 0
+    everything required works, 5 something required does not.
     """
     from ocs_design.report.text.answers import print_examination
     from ocs_design.workflows.doctor import examination_to_json, examine
@@ -230,12 +230,15 @@ def pareto(
             completion.one_of("time", "angle", "radius", "height", "voltage"),
         ),
     ] = "time",
-    low: Annotated[str | None, opt.option("--from", "VALUE", "Lowest value, e.g. 300ms.")] = None,
-    high: Annotated[
+    low: Annotated[
         str | None,
         opt.option(
-            "--to", "VALUE", "Highest value. Default of both: around the specification's own."
+            "--from", "VALUE", "Lowest value, e.g. 300ms. Default: below the specified one."
         ),
+    ] = None,
+    high: Annotated[
+        str | None,
+        opt.option("--to", "VALUE", "Highest value, e.g. 600ms. Default: above the specified one."),
     ] = None,
     points: Annotated[int, opt.option("--points", "N", "Number of values.")] = 9,
     maneuver: Annotated[
@@ -258,10 +261,10 @@ def pareto(
     *,
     output: Output,
 ) -> None:
-    """Show the lightest device against time, angle, envelope or voltage.
+    """Show mass against time, angle, radius, height or voltage.
 
-    Every value gives a complete design, not yet flown. To make, export and fly one:
-    `ocs-design size --spec DIR/points/NN.toml`. Exit code 4: no value has a device.
+    Each point is the lightest device at that value, sized but not flown. To make, export and fly
+    one: `ocs-design size --spec DIR/points/NN.toml`. Exit code 4: no value has a device.
     """
     from ocs_design.report.text.front import print_front
     from ocs_design.workflows.pareto import pareto_front
@@ -294,7 +297,7 @@ def validate(
         opt.option(
             "--until-width",
             "SHARE",
-            "Stop early, once each success rate is known to within this width, e.g. 5%.",
+            "Stop once the 95 % interval of each success rate is no wider than this, e.g. 5%.",
         ),
     ] = None,
     certify: opt.Certify = False,
@@ -314,7 +317,8 @@ def validate(
         ),
     ] = "mujoco",
     sample: Annotated[
-        int | None, opt.option("--sample", "K", "Fly only sample K of --seed.")
+        int | None,
+        opt.option("--sample", "K", "Fly only sample K of --seed."),
     ] = None,
     replay: Annotated[
         Path | None,
@@ -333,7 +337,9 @@ def validate(
     ] = False,
     view: Annotated[
         bool,
-        typer.Option("--view", help="Show the runs in MuJoCo's viewer, each until it is closed."),
+        typer.Option(
+            "--view", help="Show the flights in MuJoCo's viewer; closing it shows the next."
+        ),
     ] = False,
     out: Annotated[
         Path | None,
@@ -351,13 +357,12 @@ def validate(
 ) -> None:
     """Fly the maneuvers of a design.json again.
 
-    Each is flown with and without the device. With --samples also many times with real-world
-    errors: sensors, delay, friction, and a robot, device and motors that deviate from the design,
-    sampled from [reality] of the specification. The same seed gives the same samples on any
-    machine. With --certify it flies only as many as it takes to decide on the specified
-    reliability. With --survives one a drive fails in flight. Exit code 1: a scenario fails as
-    designed, a landing with a failed drive is not within tolerance, or the reliability is
-    not certified.
+    Each is flown with and without the device. --samples N also flies N robots with real-world
+    errors, sampled from [reality] of the specification: sensors, delay, friction, and a robot,
+    device and motors that deviate from the design. The same seed gives the same samples on any
+    machine. --certify flies as many as it takes to decide on the specified reliability; with
+    --survives one a drive fails in flight. Exit code 1: a scenario fails as designed, a landing
+    with a failed drive is out of tolerance, or the reliability is not certified.
     """
     with output.steps.step("load the simulator"):
         from ocs_design.common.units import Dimension, parse_quantity

@@ -108,7 +108,12 @@ Detection: TypeAlias = Annotated[
 ]
 GearsFile: TypeAlias = Annotated[
     Text,
-    option("--gears", "FILE", "Gears of your own, CSV or TOML.", completion.files(".csv", ".toml")),
+    option(
+        "--gears",
+        "FILE",
+        "Your own gears, in addition to the catalogue; CSV or TOML.",
+        completion.files(".csv", ".toml"),
+    ),
 ]
 Ballistic: TypeAlias = Annotated[
     bool, typer.Option("--ballistic", help="Start jumps at lift-off: no push-off by the legs.")
@@ -118,7 +123,7 @@ Reality: TypeAlias = Annotated[
     option(
         "--reality",
         "FILE",
-        "Sample from the distributions in [reality] of this TOML file instead.",
+        "TOML file whose [reality] table replaces the default distributions.",
         completion.files(".toml"),
     ),
 ]
@@ -136,9 +141,11 @@ Force: TypeAlias = Annotated[
 AsJson: TypeAlias = Annotated[
     bool, typer.Option("--json", help="Print one JSON document on standard output.")
 ]
-Strict: TypeAlias = Annotated[bool, typer.Option("--strict", help="Warnings are errors.")]
+Strict: TypeAlias = Annotated[bool, typer.Option("--strict", help="Treat warnings as errors.")]
 Quiet: TypeAlias = Annotated[bool, typer.Option("-q", "--quiet", help="Print only errors.")]
-NoColor: TypeAlias = Annotated[bool, typer.Option("--no-color", help="No colour, as NO_COLOR.")]
+NoColor: TypeAlias = Annotated[
+    bool, typer.Option("--no-color", help="No colour, as where NO_COLOR is set.")
+]
 
 ROBOT_OPTIONS: Mapping[str, object] = {
     "robot": RobotFile,
@@ -152,23 +159,29 @@ ROBOT_OPTIONS: Mapping[str, object] = {
     ),
     "weighed": _text("MASS", "Mass of the robot as weighed, to check its file."),
     "spec": Spec,
-    "trunk": _text("LINK", "Link that carries the device. Default: found."),
-    "legs": _text("LINK,...", "A link of each foot; none: the robot has no legs. Default: found."),
+    "trunk": _text("LINK", "Link that carries the device. Default: detected."),
+    "legs": _text(
+        "LINK,...", "Feet, one link per leg; none: the robot has no legs. Default: detected."
+    ),
     "posture": _text(
         "NAME",
         "zero, stand, or a keyframe or SRDF state. Default: stand if legs are found.",
         completion.one_of("stand", "zero"),
     ),
-    "joint": _texts("NAME=VALUE", "Value of one joint; repeatable."),
+    "joint": _texts(
+        "NAME=VALUE", "Angle or travel of one joint, on top of the posture; repeatable."
+    ),
     "package_path": PackagePaths,
 }
 """Options that define a robot, by name of the parameter."""
 
 TASK_OPTIONS: Mapping[str, object] = {
     **ROBOT_OPTIONS,
-    "rate_change": _text("RATE", "Change of the trunk's rate that the device must manage."),
+    "rate_change": _text(
+        "RATE", "Change of the trunk's rate that the wheels must make, e.g. 2rad/s."
+    ),
     "reliability": _text(
-        "SHARE", "Share of sampled robots that must pass; 0.99 by default, 0.5: nominal."
+        "SHARE", "Share of sampled robots that must pass. Default: 0.99; 0.5: no reserve."
     ),
     "survives": Survives,
     "detection": Detection,
@@ -230,53 +243,58 @@ TASK_OPTIONS: Mapping[str, object] = {
     "alpha": _text("ANGLE", "Incidence angle, e.g. 40deg; elevation of a pyramid."),
     "alpha_criterion": _text(
         "NAME",
-        "equal-rate (default), lightest, weighted, simultaneous, pitch-only, roll-only.",
+        "How the incidence is chosen: equal-rate (default), lightest, weighted, simultaneous, "
+        "pitch-only, roll-only.",
         completion.of_key("ocs.alpha_criterion"),
     ),
     "position": _text("X,Y,Z", "Centre of the left wheel in the trunk's frame."),
     "mass_max": _text("MASS", "Largest mass of the device, all modules."),
-    "r_max": _text("LENGTH", "Largest outer radius, e.g. 30mm."),
-    "r_min": _text("LENGTH", "Smallest bore radius."),
-    "h_max": _text("LENGTH", "Largest height of the rim."),
+    "r_max": _text("LENGTH", "Largest outer radius of the rim, e.g. 30mm."),
+    "r_min": _text("LENGTH", "Smallest inner radius of the rim."),
+    "h_max": _text("LENGTH", "Largest height of the rim, along its axis."),
     "h_min": _text("LENGTH", "Smallest height of the rim."),
-    "wall_min": _text("LENGTH", "Smallest wall of the rim."),
+    "wall_min": _text("LENGTH", "Smallest wall of the rim, outer less inner radius."),
     "wheel_mass_max": _text("MASS", "Largest mass of one rim."),
     "web": _text(
         "disc|aluminium|none",
-        "What joins a rim to its motor: a thin disc with a hub in one piece (default), an "
-        "aluminium one that the rim is shrunk on, or massless spokes.",
+        "What joins a rim to its motor. disc (default): a thin disc in one piece with rim and hub; "
+        "aluminium: a disc that the rim is shrunk on; none: massless spokes.",
         completion.of_key("flywheel.web"),
     ),
     "guard": _text(
         "fingers|containing",
-        "Printed housings (default), or also a steel ring in each to contain a bursting wheel.",
+        "fingers (default): printed housings; containing: also a steel ring in each that holds a "
+        "bursting wheel.",
         completion.of_key("ocs.guard"),
     ),
     "wheel": _text(
         "disc|ring",
-        "A rim on a disc that sits on the motor (default), or a ring bonded around the motor's "
-        "bell.",
+        "disc (default): a rim on a disc that sits on the motor; ring: a ring bonded around the "
+        "motor's bell.",
         completion.of_key("ocs.wheel"),
     ),
     "material": _text(
         "NAME",
-        "See `ocs-design catalogue materials`; steel (default): any steel; auto: any.",
+        "Material of `ocs-design catalogue materials`. steel (default): the best steel; auto: the "
+        "best of all.",
         completion.any_of(completion.materials),
     ),
     "motor": _texts(
         "NAME",
-        "See `ocs-design catalogue motors`; may be repeated; auto (default): the lightest "
-        "device; none: size the wheels by the bound alone.",
+        "Motor of `ocs-design catalogue motors`; repeatable: the best of several. auto (default): "
+        "the lightest device; none: the wheels alone, by the paper's bound.",
         completion.any_of(completion.motors),
     ),
     "bus_voltage": _text(
         "VOLTAGE", "Supply of the motors. Default: 24V, above 20 kg 48V, above 60 kg 72V."
     ),
     "bus_current": _text(
-        "CURRENT", "Most that all motors draw or feed back. Default: limited by power only."
+        "CURRENT",
+        "Largest current of all motors together, drawn or fed back. Default: no limit but power.",
     ),
     "bus_power": _text(
-        "POWER", "Most that all motors draw or feed back. Default: 400 W per kg of robot."
+        "POWER",
+        "Largest power of all motors together, drawn or fed back. Default: 400 W per kg of robot.",
     ),
     "controllers": _text(
         "MASS",
@@ -285,7 +303,8 @@ TASK_OPTIONS: Mapping[str, object] = {
     ),
     "gear": _text(
         "NAME",
-        "See `ocs-design catalogue gears`; direct (default): none; auto: the lightest device.",
+        "Gear of `ocs-design catalogue gears`. direct (default): no gear; auto: the lightest "
+        "device.",
         completion.any_of(completion.gears),
     ),
     "motors_any": _flag(
@@ -294,12 +313,10 @@ TASK_OPTIONS: Mapping[str, object] = {
     ),
     "motors": _text(
         "FILE",
-        "Choose from the motors in this file instead, CSV or TOML.",
+        "Choose from the motors in this file, CSV or TOML, instead of the catalogue.",
         completion.files(".csv", ".toml"),
     ),
-    "with_catalogue": _flag(
-        "--with-catalogue", "With --motors: choose from the catalogue's motors, too."
-    ),
+    "with_catalogue": _flag("--with-catalogue", "With --motors: choose from the catalogue too."),
     "gears": GearsFile,
     "reality": Reality,
 }
@@ -308,9 +325,11 @@ TASK_OPTIONS: Mapping[str, object] = {
 
 SIZE_OPTIONS: Mapping[str, object] = {
     **TASK_OPTIONS,
-    "lighter_by": _text("MASS", "Also report what to change to save this mass, e.g. 90g."),
-    "co_design": _flag("--co-design", "Refine all dimensions together with the maneuvers, in 3-D."),
-    "no_validate": _flag("--no-validate", "Do not simulate the maneuvers."),
+    "lighter_by": _text("MASS", "Also report which changes would save this mass, e.g. 90g."),
+    "co_design": _flag(
+        "--co-design", "Optimize all dimensions together with the maneuvers, in 3-D."
+    ),
+    "no_validate": _flag("--no-validate", "Do not simulate the maneuvers; halves the time."),
     "ballistic": Ballistic,
     "certify": Certify,
     "video": _flag("--video", "Film the flights with and without the device: MP4 or GIF."),
