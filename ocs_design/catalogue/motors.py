@@ -330,13 +330,13 @@ def _bolt_circle_faults(sheet: MotorSheet, side: str, circle: BoltCircle | None)
     columns = [f"{side}_{end}" for end in ("bolt_circle_m", "bolts", "thread")]
     depths = [getattr(sheet, f"{side}_{end}") for end in ("depth_m", "depth_max_m")]
     if depths.count(None) == 1 or (circle is None and depths != [None, None]):
-        yield f"{side}_depth_m and {side}_depth_max_m belong to each other and to {columns[0]}"
+        yield f"give {side}_depth_m and {side}_depth_max_m together, and only with {columns[0]}"
     elif None not in depths and depths[0] > depths[1]:
         yield f"{side}_depth_m is {depths[0]:g}, above {side}_depth_max_m, {depths[1]:g}"
     if circle is None:
         missing = [column for column in columns if getattr(sheet, column) is None]
         if len(missing) < len(columns):
-            yield f"{', '.join(columns)} belong together: no {', '.join(missing)}"
+            yield f"give all of {', '.join(columns)} or none: {', '.join(missing)} missing"
         return
     where = f"{columns[0]} is {circle.diameter:g}"
     if circle.bolts < LEAST_BOLTS[side]:
@@ -482,7 +482,7 @@ def _faults(sheet: MotorSheet) -> Iterator[str]:
     if sheet.rotor_screws is not None and sheet.rotor_screws not in CLASSES:
         yield f"rotor_screws is {sheet.rotor_screws!r}, which is not one of {', '.join(CLASSES)}"
     if (sheet.stator is None) != (sheet.stator_face is None):
-        yield "stator_face and the stator's bolt circle need each other"
+        yield "give stator_face and the stator's bolt circle together"
     if not sheet.remark:
         yield from (f"{doubt}; explain it in `remark`" for doubt in _contradictions(sheet))
 

@@ -58,7 +58,7 @@ def read_rows(path: Path, kind: str, faults: list[str]) -> tuple[Row, ...]:
     suffix = path.suffix.lower()
     if suffix not in {".csv", ".toml"}:
         raise SpecificationError(
-            f"{path}: is neither .csv nor .toml", hint="A catalogue is one of these two."
+            f"{path}: is neither .csv nor .toml", hint="Save the catalogue as .csv or .toml."
         )
     text = _FILE.read(path)
     if suffix == ".csv":

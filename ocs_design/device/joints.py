@@ -352,7 +352,7 @@ def _shaft_joints(device: Device, web: Web) -> Iterator[Margin]:
         note = "the shaft and the rotor's threads are not in the catalogue"
     yield Margin(SHAFT_JOINT, torque, carried, "N m", note=note)
     if reserve is not None:
-        note = "if the faces slip: a reserve that is not relied upon"
+        note = "only if the faces slip; the design does not rely on it"
         yield Margin("shaft joint, screws in shear", torque, reserve, "N m", note=note)
 
 
@@ -430,7 +430,7 @@ def balance_of(device: Device) -> WheelBalance:
     rim = wheel.inner_radius, wheel.outer_radius, wheel.height, wheel.density
     mounting = device.motor.mounting
     off_centre: float | None = None
-    by, shifted = "nothing that is known", False
+    by, shifted = "a seat that is not designed", False
     if device.on_bell:
         off_centre, by = GLUE_GAP, "its glue gap, which the fixture evens out"
     elif mounting is not None and mounting.shaft_diameter is not None:

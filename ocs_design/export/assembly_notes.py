@@ -265,7 +265,7 @@ def trunk_notes(device: Device, robot: Robot) -> tuple[str, ...]:
     sides = " x ".join(f"{2e3 * half:.0f}" for half in box.size)
     return (
         trunk_threads(device),
-        f"{where}; the trunk's shape is not known, and a box of {sides} mm stands for it: its top "
+        f"{where}; the trunk's shape is not known and taken as a box of {sides} mm: its top "
         f"is at z = {1e3 * top:.1f} mm, and the feet stand {stand}. Compare it with the robot",
     )
 

@@ -150,7 +150,7 @@ class FlywheelSection:
     r_max: float | None = keyed(
         LENGTH,
         "largest outer radius of a rim",
-        why="Of the rim: its housing adds 3.6 mm all round. The wider the rim, the lighter.",
+        why="Of the rim alone: its housing adds 3.6 mm all round. A wider rim needs less mass.",
     )
     r_min: float | None = keyed(
         LENGTH,
@@ -160,7 +160,7 @@ class FlywheelSection:
     h_max: float | None = keyed(
         LENGTH,
         "largest height of a rim",
-        why="The space along the spin axis.",
+        why="Room along the spin axis.",
     )
     h_min: float | None = keyed(
         LENGTH,
@@ -170,7 +170,7 @@ class FlywheelSection:
     wall_min: float | None = keyed(
         LENGTH,
         "smallest wall, outer less bore radius",
-        why="The same, across the rim.",
+        why="The thinnest wall that your lathe or printer makes well.",
     )
     wheel_mass_max: float | None = keyed(
         MASS,
@@ -283,7 +283,7 @@ class MotorSection:
         true_or_false,
         "whether motors may lack data needed to build",
         option="motors-any",
-        why="true: also motors with missing data, such as threads, which cannot be built.",
+        why="true: also motors that lack data, such as threads; nothing can be built with them.",
         assumed=False,
     )
     motors: str | None = keyed(

@@ -251,10 +251,9 @@ def _assumptions(
     if (box := assumed_trunk(robot)) is not None:
         sides = " x ".join(f"{2e3 * half:.0f}" for half in box.size)
         yield (
-            f"Trunk {robot.trunk!r}: a box of {sides} mm (long, wide, high) around the centre of "
-            "mass, the solid one of this mass and inertia. The modules stand on it, and are kept "
-            "clear of it. State where they stand with --position, or the trunk's own shape in a "
-            "robot file."
+            f"Trunk {robot.trunk!r}: a solid box of {sides} mm (long, wide, high) around the "
+            "centre of mass, with this mass and inertia. The modules stand on it. Give their place "
+            "with --position, or the trunk's own shape in a robot file."
         )
     if specification.takes_default_maneuvers:
         ratio = f"lengths x {scale.length:.3g}"
@@ -282,10 +281,11 @@ def _assumptions(
         yield from _assumed_supply(specification.supply, choice.supply)
         if motor.name in {None, AUTO}:
             which = "with enough data" if motor.any else "that can be built with"
+            count = len(choice.motors)
             yield (
                 f"Motor: {choice.motors[0].name}, the only one {which}."
-                if len(choice.motors) == 1
-                else f"Motor: the one that gives the lightest device, of all {which}."
+                if count == 1
+                else f"Motor: that of the lightest device, of {count} {which}."
             )
         if motor.gear in {None, AUTO}:
             stages = len(choice.gears) - 1

@@ -67,7 +67,7 @@ def options(task: Task) -> Iterator[Option]:
     specified, pairs = specification.ocs, specified_layout(specification).pairs
     if pairs and specified.alpha is None and specified.alpha_criterion != LIGHTEST:
         yield Option(
-            "the incidence with which it is lightest",
+            "the incidence of the lightest device",
             "--alpha-criterion lightest",
             lambda s: replace(s, ocs=replace(s.ocs, alpha_criterion=LIGHTEST)),
         )

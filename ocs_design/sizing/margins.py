@@ -291,7 +291,7 @@ def _drive_margins(motion: SampledMotion, wheel: DrivenWheel) -> Iterator[Margin
     of_motor = speed_limit(wheel.motor) or np.inf
     capacity, note = min(of_motor, gear.motor_speed_max), ""
     if gear.motor_speed_max < of_motor:
-        note = "the highest that the gear stands"
+        note = "the gear's limit"
     elif wheel.motor.speed_max is None:
         note = "no limit stated: no-load speed at rated voltage"
     yield Margin(MOTOR_SPEED, gear.ratio * speed, finite_or_none(capacity), "rad/s", note=note)

@@ -95,7 +95,7 @@ class _Request:
                 elsewhere and self.scheduler is not None,
                 "",
             ),
-            f"{engine} and --certify exclude each other: its precision is single": (
+            f"{engine} and --certify exclude each other: it computes in single precision": (
                 elsewhere and certifies,
                 "leave --engine out to certify",
             ),

@@ -154,17 +154,17 @@ def matches(message, error):
 
 
 UNMOUNTABLE = {
-    "no thread": ({"rotor_thread": None}, "rotor_bolt_circle_m.* belong together: no rotor_thread"),
+    "no thread": ({"rotor_thread": None}, "rotor_bolt_circle_m, .* or none: rotor_thread missing"),
     "only a number": (
         {"stator_bolt_circle_m": None, "stator_thread": None, "stator_face": None},
-        "no stator_bolt_circle_m, stator_thread",
+        "or none: stator_bolt_circle_m, stator_thread missing",
     ),
     "two bolts": ({"rotor_bolts": 2}, "rotor_bolts is 2; it must be 3 or more"),
     "one bolt": ({"stator_bolts": 1}, "stator_bolts is 1; it must be 2 or more"),
     "half a bolt": ({"rotor_bolts": 3.5}, "rotor_bolts: 3.5 is not a whole number"),
     "no bolts": ({"rotor_bolts": 0}, "rotor_bolts: 0 is not positive"),
     "no class": ({"rotor_screws": "9.9"}, "rotor_screws is '9.9', which is not one of 8.8, 10.9"),
-    "half a depth": ({"rotor_depth_m": 0.01}, "rotor_depth_m and rotor_depth_max_m belong to"),
+    "half a depth": ({"rotor_depth_m": 0.01}, "give rotor_depth_m and rotor_depth_max_m together"),
     "depth of nothing": (
         {
             "stator_bolt_circle_m": None,
@@ -174,7 +174,7 @@ UNMOUNTABLE = {
             "stator_depth_m": 0.01,
             "stator_depth_max_m": 0.02,
         },
-        "belong to each other and to stator_bolt_circle_m",
+        "together, and only with stator_bolt_circle_m",
     ),
     "depths": ({"rotor_depth_m": 0.02, "rotor_depth_max_m": 0.01}, "0.02, above rotor_depth_max_m"),
     "inch thread": (

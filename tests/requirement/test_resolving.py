@@ -50,7 +50,7 @@ def test_nothing_stated_is_everything_assumed(solo12):
         resolved,
         "the paper's three",
         "Supply: 24 V, at most 1 kW (400 W per kg of robot).",
-        "gives the lightest device, of all that can be built with",
+        "Motor: that of the lightest device, of 58 that can be built with.",
         "Gear: none, because gear mountings are not designed.",
         "Incidence: alpha* = atan(Ixx/Iyy) of robot and device (equal-rate).",
         "Material: one of 5 steels.",
@@ -119,7 +119,7 @@ def test_the_box_that_stands_for_the_trunk_of_a_robot_by_hand_is_told():
     """The solid box of mass m with the sides a, b, c has I_xx = m (b^2 + c^2) / 12, and so on."""
     assumed = resolve(Specification(), robot_by_hand(12.0, (0.13, 0.37, 0.4)), 0.8).assumptions
     (told,) = (each for each in assumed if each.startswith("Trunk"))
-    assert "a box of 566 x 283 x 224 mm" in told
+    assert "a solid box of 566 x 283 x 224 mm" in told
     assert "--position" in told
     assert not any(
         each.startswith("Trunk")
