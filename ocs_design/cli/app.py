@@ -210,12 +210,12 @@ def _design(
         )
         output.give(answer, print_layouts)
         raise typer.Exit(answer.exit_code)
-    from ocs_design.common.beside import Beside
+    from ocs_design.common.workers import WorkerPool
     from ocs_design.requirement.vocabulary import NO_MOTOR
 
     chosen = specification.motor.name != NO_MOTOR
     # They import while this process does; more processes would have nothing to do.
-    with Beside("ocs_design.sizing.alternatives" if chosen else None, most=3) as beside:
+    with WorkerPool("ocs_design.sizing.alternatives" if chosen else None, most=3) as workers:
         with steps.step("load the solver and the simulator"):
             # Nothing is rendered; without this setting, MuJoCo starts processes to look for a
             # window library.
@@ -244,7 +244,7 @@ def _design(
             strict=output.strict,
             progress=steps,
             command=typed_command(),
-            beside=beside,
+            workers=workers,
         )
 
     def show(console: "Console", design: "OcsDesign") -> None:

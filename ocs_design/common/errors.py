@@ -2,8 +2,8 @@
 
 Every error has its data as attributes, a message that says what is wrong and where, and a hint on
 what to do. The command line prints them as one panel; any other exception that escapes is a bug and
-keeps its traceback. What hints are made of stands here too: install commands of missing packages,
-and names that a mistyped one may mean.
+keeps its traceback. Also what hints are composed of: install commands of missing packages, and
+names that a mistyped one may mean.
 """
 
 import shlex
@@ -98,7 +98,7 @@ class PartError(OcsError):
 
 
 class Constraint(StrEnum):
-    """What may stand in the way of a design.
+    """Constraints that may rule out a design.
 
     Attributes:
         R_MAX, R_MIN, H_MAX, H_MIN, WALL_MIN, WHEEL_MASS_MAX, WHEEL_SPEED_MAX, MASS_MAX: the limit
@@ -106,7 +106,7 @@ class Constraint(StrEnum):
         HOOP_STRESS: strength of the rim's material over `stress_safety`.
         ENVELOPE: all limits of a wheel's dimensions together.
         BUS_VOLTAGE, BUS_POWER: of the supply. TIME: for the maneuvers.
-        TORQUE: of the motor, whatever the wheel. SPEED: of the motor, likewise.
+        TORQUE, SPEED: of the motor, whatever the wheel.
         FIGURES: data of the motor that its source lacks.
         INCIDENCE: leaves an axis of the robot out of the wheels' reach.
         OWN_WEIGHT: what the device adds to the robot's inertia, or to another device's mass.
@@ -196,7 +196,7 @@ DISTRIBUTION = "ocs-design"
 
 def install_command(*requirements: str, options: str = "") -> str:
     """Install command of the tool that made this environment: pip, pipx or uv."""
-    what = " ".join([*options.split(), *(f"'{each}'" for each in requirements)])
+    what = " ".join([*options.split(), *(f"'{requirement}'" for requirement in requirements)])
     environment = Path(sys.prefix)
     if (environment / "pipx_metadata.json").is_file():
         return f"pipx runpip {environment.name} install {what}"
@@ -217,6 +217,6 @@ def closest(word: str, known: Iterable[str], *, most: int = 1, cutoff: float = 0
         word: as typed. known: all names.
         most: largest number of names. cutoff: least similarity, 0..1 (`difflib`).
     """
-    folded = {each.casefold(): each for each in known}
-    found = get_close_matches(word.casefold(), folded, n=most, cutoff=cutoff)
-    return [folded[match] for match in found]
+    folded = {name.casefold(): name for name in known}
+    matches = get_close_matches(word.casefold(), folded, n=most, cutoff=cutoff)
+    return [folded[match] for match in matches]

@@ -42,8 +42,8 @@ def rotation_vector(quaternion: FloatArray) -> FloatArray:
     shorter = np.where(quaternion[..., :1] < 0.0, -quaternion, quaternion)
     sine = np.linalg.norm(shorter[..., 1:], axis=-1, keepdims=True)
     angle = 2.0 * np.arctan2(sine, shorter[..., :1])
-    found: FloatArray = shorter[..., 1:] * angle / (sine + 1e-30)
-    return found
+    vector: FloatArray = shorter[..., 1:] * angle / (sine + 1e-30)
+    return vector
 
 
 def matrix(quaternion: FloatArray) -> FloatArray:
@@ -66,11 +66,11 @@ def rotation_from_quaternion(wxyz: ArrayLike) -> FloatArray:
 def vertical(quaternion: FloatArray) -> FloatArray:
     """The world's upward direction in the rotated frame, unit vectors (..., 3)."""
     w, x, y, z = (quaternion[..., i] for i in range(4))
-    found = np.empty_like(quaternion[..., :3])
-    found[..., 0] = 2.0 * (x * z - w * y)
-    found[..., 1] = 2.0 * (y * z + w * x)
-    found[..., 2] = 1.0 - 2.0 * (x * x + y * y)
-    return found
+    upward = np.empty_like(quaternion[..., :3])
+    upward[..., 0] = 2.0 * (x * z - w * y)
+    upward[..., 1] = 2.0 * (y * z + w * x)
+    upward[..., 2] = 1.0 - 2.0 * (x * x + y * y)
+    return upward
 
 
 def scaled_vertical(attitude: FloatArray) -> FloatArray:
@@ -81,15 +81,15 @@ def scaled_vertical(attitude: FloatArray) -> FloatArray:
     )
 
 
-def turned_into_world(attitude: FloatArray, vectors: FloatArray) -> FloatArray:
+def rotated_to_world(attitude: FloatArray, vectors: FloatArray) -> FloatArray:
     """Vectors of B in the world, shape (..., 3), for attitudes (..., 4)."""
-    seen = np.concatenate([np.zeros_like(vectors[..., :1]), vectors], axis=-1)
-    return product(product(attitude, seen), conjugate(attitude))[..., 1:]
+    pure = np.concatenate([np.zeros_like(vectors[..., :1]), vectors], axis=-1)
+    return product(product(attitude, pure), conjugate(attitude))[..., 1:]
 
 
-def upright(above: FloatArray) -> FloatArray:
+def upright(direction: FloatArray) -> FloatArray:
     """Attitude in which a direction of B points up, the nearest to level, shape (4,)."""
-    x, y, z = above / np.linalg.norm(above)
+    x, y, z = direction / np.linalg.norm(direction)
     half = np.array([1.0 + z, y, -x, 0.0])
     return np.asarray(half / np.linalg.norm(half))
 

@@ -1,7 +1,7 @@
-"""Ranges of the figures of a design, stated with each field of its records: `height: Length`.
+"""Ranges of the figures of a design, declared by the type of each field: `height: Length`.
 
-They are wide: what is outside cannot exist, whatever is designed. `device.checks` refuses it. A
-field that is a column of a catalogue's file states its unit there, too.
+They are wide: no device has a figure outside. `device.checks` refuses such figures. A field that is
+a column of a catalogue's file declares its unit, too.
 """
 
 from collections.abc import Collection, Mapping
@@ -90,14 +90,14 @@ def ranges_of(record: type) -> Mapping[str, Range | OneOf]:
     Raises:
         TypeError: a number's field states none.
     """
-    hints, found = get_type_hints(record, include_extras=True), {}
+    hints, ranges = get_type_hints(record, include_extras=True), {}
     for name in (field.name for field in fields(record)):
         rule = _rule_of(hints[name])
         if rule is not None:
-            found[name] = rule
+            ranges[name] = rule
         elif float in _options(hints[name]):
             raise TypeError(f"{record.__name__}.{name} states no range")
-    return found
+    return ranges
 
 
 def _rule_of(hint: object) -> Range | OneOf | None:

@@ -14,5 +14,5 @@ def recorded(kind: type[Record], live: object, /, **other: object) -> Record:
             renamed in one of the two must not become the default in the file.
     """
     record: Any = kind
-    names = {each.name for each in fields(record) if each.init} - set(other)
+    names = {field.name for field in fields(record) if field.init} - set(other)
     return kind(**{name: getattr(live, name) for name in names}, **other)

@@ -11,7 +11,7 @@ from ocs_design.common.units import rpm, significant, to_unit
 Amount = TypeVar("Amount", float, FloatArray)
 
 
-_OF_WHEELS = 0.01
+_WHEEL_INERTIA_MAX = 0.01
 """Moment of inertia [kg m^2] below which it is shown in kg mm^2."""
 
 
@@ -52,7 +52,7 @@ def signed(ratio: float) -> str:
 
 def inertia(value: float, digits: int = 4) -> str:
     """Moment of inertia [kg m^2]: that of a wheel in kg mm^2."""
-    if value < _OF_WHEELS:
+    if value < _WHEEL_INERTIA_MAX:
         return f"{inertia_number(value, digits)} kg mm2"
     return f"{significant(value, digits)} kg m2"
 

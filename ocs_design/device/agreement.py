@@ -1,9 +1,9 @@
 """Check that the figures of a design agree with each other.
 
-`size` computes masses from dimensions and writes both. Files made from a `design.json` use the ones
-or the others, so that after an edit of a single key a wheel would have different masses on its
-drawing and in the bill of materials. So all masses, inertias and limits of a design are computed
-again, by the functions with which it was sized.
+`size` computes masses from dimensions and writes both. Files made from a `design.json` use one or
+the other: after an edit of a single key, a wheel would have different masses on its drawing and in
+the bill of materials. So all masses, inertias and limits of a design are computed again, by the
+functions with which it was sized.
 """
 
 from collections.abc import Iterator
@@ -30,11 +30,11 @@ ROUNDING = 1e-8
 """Difference, relative to the largest of the figures compared, that counts as rounding; files have
 full precision."""
 
-_LEAST = {"m": 1e-2}
-"""Least size, by unit, relative to which the rounding of a figure is measured [m]."""
+_LEAST_SIZE = {"m": 1e-2}
+"""Smallest magnitude, by unit, relative to which rounding is measured [m]."""
 
-_NAMED = 2
-"""Number of contradictions that a message names."""
+_MOST_LISTED = 2
+"""Largest number of contradictions in a message."""
 
 
 class _Figure(NamedTuple):
@@ -43,30 +43,32 @@ class _Figure(NamedTuple):
     Attributes:
         key: in `design.json`. stated: value there. found: value from the others.
         unit: of both; empty: words or plain numbers.
-        others: text on the figures from which `found` follows.
+        basis: text on the figures from which `computed` follows.
     """
 
     key: str
-    stated: object
-    found: object
+    recorded: object
+    computed: object
     unit: str
-    others: str
+    basis: str
 
     @property
     def agrees(self) -> bool:
         """Whether both are equal except for rounding."""
-        if isinstance(self.found, str):
-            return self.stated == self.found
-        stated, found = (np.ravel(np.asarray(each, float)) for each in (self.stated, self.found))
-        if stated.shape != found.shape:
+        if isinstance(self.computed, str):
+            return self.recorded == self.computed
+        recorded, computed = (
+            np.ravel(np.asarray(value, float)) for value in (self.recorded, self.computed)
+        )
+        if recorded.shape != computed.shape:
             return False
-        size = max(np.abs(found).max(initial=0.0), _LEAST.get(self.unit, 0.0))
-        return bool((np.abs(stated - found) <= ROUNDING * size).all())
+        size = max(np.abs(computed).max(initial=0.0), _LEAST_SIZE.get(self.unit, 0.0))
+        return bool((np.abs(recorded - computed) <= ROUNDING * size).all())
 
     def __str__(self) -> str:
-        """Text on the stated value and the one that it should be."""
-        stated, found = (_text(each, self.unit) for each in (self.stated, self.found))
-        return f"{self.key} is {stated}, but {self.others} {found}"
+        """Text on the recorded value and the one that it should be."""
+        recorded, computed = (_text(value, self.unit) for value in (self.recorded, self.computed))
+        return f"{self.key} is {recorded}, but {self.basis} {computed}"
 
 
 def _text(value: object, unit: str) -> str:
@@ -76,7 +78,7 @@ def _text(value: object, unit: str) -> str:
     figures = np.ravel(np.asarray(value, float)).tolist()
     if unit == "kg":
         return format_quantity(figures[0], "g")
-    text = ", ".join(f"{each:.4g}" for each in figures)
+    text = ", ".join(f"{figure:.4g}" for figure in figures)
     return f"{text if len(figures) == 1 else f'({text})'} {unit}".rstrip()
 
 
@@ -92,14 +94,14 @@ def check_agreement(design: OcsDesign, device: Device) -> None:
     faults: list[str] = []
     try:
         with np.errstate(all="ignore"):
-            faults.extend(str(each) for each in _figures(design, device) if not each.agrees)
+            faults.extend(str(figure) for figure in _figures(design, device) if not figure.agrees)
     except (ArithmeticError, ValueError):
         faults.append("with these dimensions the rest cannot be computed")
     if faults:
-        rest = len(faults) - _NAMED
+        rest = len(faults) - _MOST_LISTED
         more = f"; and {rest} more" if rest > 0 else ""
         raise OcsError(
-            f"the design contradicts itself: {'; '.join(faults[:_NAMED])}{more}",
+            f"the design contradicts itself: {'; '.join(faults[:_MOST_LISTED])}{more}",
             hint="design.json is an output of `ocs-design size`, not an input: change the "
             "specification, and run `ocs-design size` again",
         )
@@ -107,14 +109,14 @@ def check_agreement(design: OcsDesign, device: Device) -> None:
 
 def _figures(design: OcsDesign, device: Device) -> Iterator[_Figure]:
     """Figures that follow from others of the design, the smallest part first."""
-    yield from _of_choice(design)
-    yield from _of_drive(device)
-    yield from _of_limits(design, device)
-    yield from _of_wheel(device)
+    yield from _selection_figures(design)
+    yield from _drive_figures(device)
+    yield from _limit_figures(design, device)
+    yield from _wheel_figures(device)
     # Another version may build the stationary parts differently; the bill of materials reports the
     # difference.
     if design.tool.version == __version__ and design.ocs.center_of_mass is not None:
-        yield from _of_carrier(device)
+        yield from _carrier_figures(device)
     ocs, angle = design.ocs, "ocs.incidence gives"
     for module, axis in zip(device.modules, device.layout.axes(device.incidence).T, strict=True):
         yield _Figure(f"the axis of module {module.name}", module.axis, axis, "", angle)
@@ -123,38 +125,36 @@ def _figures(design: OcsDesign, device: Device) -> Iterator[_Figure]:
                   "ocs.flywheel's is")  # fmt: skip
     yield _Figure("ocs.mass_total", ocs.mass_total, device.mass, "kg", parts)
     robot = design.robot
-    alone = MassProperties(robot.mass, np.array(robot.com), np.array(robot.inertia))
-    added = _braked(device)
-    whole, places = (
-        combine([alone, added]),
-        "positions and masses of ocs.modules and their supports give",
-    )
+    bare_robot = MassProperties(robot.mass, np.array(robot.com), np.array(robot.inertia))
+    added = _braked_device(device)
+    total = combine([bare_robot, added])
+    places = "positions and masses of ocs.modules and their supports give"
     if ocs.center_of_mass is not None:
         yield _Figure("ocs.center_of_mass", ocs.center_of_mass, added.com, "m", places)
-    yield _Figure("ocs.total_mass", ocs.total_mass, whole.mass, "kg", "robot and device weigh")
-    yield _Figure("ocs.total_com", ocs.total_com, whole.com, "m", places)
-    yield _Figure("ocs.total_inertia", ocs.total_inertia, whole.inertia, "kg m^2", places)
+    yield _Figure("ocs.total_mass", ocs.total_mass, total.mass, "kg", "robot and device weigh")
+    yield _Figure("ocs.total_com", ocs.total_com, total.com, "m", places)
+    yield _Figure("ocs.total_inertia", ocs.total_inertia, total.inertia, "kg m^2", places)
 
 
-def _of_choice(design: OcsDesign) -> Iterator[_Figure]:
+def _selection_figures(design: OcsDesign) -> Iterator[_Figure]:
     """Names and voltage, which the record of the selection repeats."""
-    motor, chosen = design.ocs.motor, design.selection
-    if chosen is None:
+    motor, selection = design.ocs.motor, design.selection
+    if selection is None:
         return
-    best, first = chosen.ranking[0], "the first entry of selection.ranking has"
+    best, first = selection.ranking[0], "the first entry of selection.ranking has"
     yield _Figure("ocs.motor.name", motor.name, best.motor, "", first)
     yield _Figure("ocs.motor.gear", motor.gear, best.gear, "", first)
     yield _Figure("ocs.motor.gear_ratio", motor.gear_ratio, best.gear_ratio, "", first)
     yield _Figure("ocs.flywheel.material", design.ocs.flywheel.material, best.material, "", first)
     voltage = "selection.bus_voltage is"
     yield _Figure(
-        "ocs.motor.bus_voltage", motor.bus_voltage or 0.0, chosen.bus_voltage, "V", voltage
+        "ocs.motor.bus_voltage", motor.bus_voltage or 0.0, selection.bus_voltage, "V", voltage
     )
     if design.supply is not None:
-        yield _Figure("supply.voltage", design.supply.voltage, chosen.bus_voltage, "V", voltage)
+        yield _Figure("supply.voltage", design.supply.voltage, selection.bus_voltage, "V", voltage)
 
 
-def _of_drive(device: Device) -> Iterator[_Figure]:
+def _drive_figures(device: Device) -> Iterator[_Figure]:
     """Figures of the voltage line (`actuation.drive`)."""
     motor = device.motor
     voltage, k_t, resistance = motor.bus_voltage, motor.torque_constant, motor.resistance
@@ -167,13 +167,13 @@ def _of_drive(device: Device) -> Iterator[_Figure]:
         yield _Figure("ocs.motor.stall_torque", motor.stall_torque, torque, "N m", line)
 
 
-def _of_limits(design: OcsDesign, device: Device) -> Iterator[_Figure]:
+def _limit_figures(design: OcsDesign, device: Device) -> Iterator[_Figure]:
     """Limits of drive and supply, which are also the capacities of margins, where there are any.
 
     Flights obey the former, and are judged by the latter.
     """
     motor, supply = device.motor, design.supply
-    allowed = {each.name: each.capacity for each in design.margins}
+    capacities = {margin.name: margin.capacity for margin in design.margins}
     limits = {
         "ocs.motor.torque_limit": ("motor torque", motor.torque_limit, motor.friction, "N m"),
         "ocs.motor.speed_max": ("wheel speed", motor.speed_max, 0.0, "rad/s"),
@@ -183,58 +183,60 @@ def _of_limits(design: OcsDesign, device: Device) -> Iterator[_Figure]:
             f"supply.{key}": (f"bus {name}", getattr(supply, key), 0.0, unit)
             for key, name, unit in (("current_max", "current", "A"), ("power_max", "power", "W"))
         }
-    for key, (name, stated, friction, unit) in limits.items():
-        capacity = allowed.get(name)
-        if capacity is not None and stated is not None and motor.bus_voltage is not None:
-            others = f"the capacity of {name} in margins gives"
-            yield _Figure(key, stated, capacity - friction, unit, others)
+    for key, (name, limit, friction, unit) in limits.items():
+        capacity = capacities.get(name)
+        if capacity is not None and limit is not None and motor.bus_voltage is not None:
+            basis = f"the capacity of {name} in margins gives"
+            yield _Figure(key, limit, capacity - friction, unit, basis)
 
 
-def _of_wheel(device: Device) -> Iterator[_Figure]:
+def _wheel_figures(device: Device) -> Iterator[_Figure]:
     """Masses, inertias, energy and stress of the wheel."""
     wheel, motor, sizes = device.flywheel, device.motor, "its dimensions give"
-    web, hub, of = wheel.web, None, wheel.density
+    web, hub, web_density = wheel.web, None, wheel.density
     if web is not None:
         # Version 1 stored the thickness only beside the hub.
-        hub, of = replace(web.hub, web_thickness=web.thickness), web.density
-        mass = hub.mass_with_web(wheel.inner_radius, of)
+        hub, web_density = replace(web.hub, web_thickness=web.thickness), web.density
+        mass = hub.mass_with_web(wheel.inner_radius, web_density)
         yield _Figure("ocs.flywheel.web.mass", web.mass, mass, "kg", sizes)
-        holes = _sizes(web.holes), _sizes(hub.holes(wheel.inner_radius))
+        holes = _hole_sizes(web.holes), _hole_sizes(hub.holes(wheel.inner_radius))
         yield _Figure("ocs.flywheel.web.holes", *holes, "", sizes)
     rim = wheel.inner_radius, wheel.outer_radius, wheel.height, wheel.density
-    body = wheel_body(*rim, hub, cuts=wheel.cuts, web_density=of)
-    across, unit = body.transverse_inertia, "kg m^2"
+    body = wheel_body(*rim, hub, cuts=wheel.cuts, web_density=web_density)
+    transverse, unit = body.transverse_inertia, "kg m^2"
     spin = body.axial_inertia + motor.rotor_inertia
     yield _Figure("ocs.flywheel.mass", wheel.mass, body.mass, "kg", sizes)
     yield _Figure("ocs.flywheel.spin_inertia", wheel.spin_inertia, spin, unit, sizes)
-    yield _Figure("ocs.flywheel.transverse_inertia", wheel.transverse_inertia, across, unit, sizes)
+    yield _Figure(
+        "ocs.flywheel.transverse_inertia", wheel.transverse_inertia, transverse, unit, sizes
+    )
     energy, speed = stored_energy(spin, motor.top_speed), "inertia and top speed give"
     yield _Figure("ocs.flywheel.stored_energy", wheel.stored_energy, energy, "J", speed)
-    found = materials().get(wheel.material)
-    if wheel.hoop_stress is None or found is None or found.poisson_ratio is None:
+    material = materials().get(wheel.material)
+    if wheel.hoop_stress is None or material is None or material.poisson_ratio is None:
         return
     stress = hoop_stress(
         wheel.inner_radius,
         wheel.outer_radius,
         density=wheel.density,
-        poisson_ratio=found.poisson_ratio,
+        poisson_ratio=material.poisson_ratio,
         wheel_speed=motor.top_speed,
     )
-    made = "dimensions, material and top speed give"
-    yield _Figure("ocs.flywheel.hoop_stress", wheel.hoop_stress, stress, "Pa", made)
-    if wheel.stress_margin is not None and found.yield_strength is not None:
-        margin = found.yield_strength / stress
-        yield _Figure("ocs.flywheel.stress_margin", wheel.stress_margin, margin, "", made)
+    basis = "dimensions, material and top speed give"
+    yield _Figure("ocs.flywheel.hoop_stress", wheel.hoop_stress, stress, "Pa", basis)
+    if wheel.stress_margin is not None and material.yield_strength is not None:
+        margin = material.yield_strength / stress
+        yield _Figure("ocs.flywheel.stress_margin", wheel.stress_margin, margin, "", basis)
 
 
-def _sizes(holes: HoleRing | None) -> tuple[float, ...]:
+def _hole_sizes(holes: HoleRing | None) -> tuple[float, ...]:
     """Number and radii of holes [m]; empty without any."""
     return () if holes is None else (holes.count, holes.circle_radius, holes.hole_radius)
 
 
-def _of_carrier(device: Device) -> Iterator[_Figure]:
+def _carrier_figures(device: Device) -> Iterator[_Figure]:
     """Figures of the stationary parts around each wheel, and of the hub on the motor."""
-    motor, wheel, stated = device.motor, device.flywheel, device.carrier
+    motor, wheel, recorded = device.motor, device.flywheel, device.carrier
     web = wheel.web
     if web is not None:
         hub = hub_of(
@@ -244,13 +246,13 @@ def _of_carrier(device: Device) -> Iterator[_Figure]:
             web_thickness=web.thickness,
             lightening=web.hub.lightening,
         )
-        for name, found in vars(hub).items():
+        for name, value in vars(hub).items():
             key = f"ocs.flywheel.web.hub.{name}"
-            yield _Figure(key, getattr(web.hub, name), found, "", "the motor's mounting gives")
-    if stated.mass == 0.0:
+            yield _Figure(key, getattr(web.hub, name), value, "", "the motor's mounting gives")
+    if recorded.mass == 0.0:
         return
     gear = replace(DIRECT, mass=motor.gear_mass, room=motor.gear_room)
-    found = standing(
+    computed = standing(
         motor,
         gear,
         wheel.outer_radius,
@@ -260,26 +262,26 @@ def _of_carrier(device: Device) -> Iterator[_Figure]:
         on_bell=device.on_bell,
     )
     parts = "motor, gear, housing and foot give"
-    yield _Figure("ocs.carrier.mass", stated.mass, found.mass, "kg", parts)
+    yield _Figure("ocs.carrier.mass", recorded.mass, computed.mass, "kg", parts)
     foot = foot_of(device)
     for pedestal in device.pedestals:
         sizes = pedestal.base_radius, pedestal.slot_radius, pedestal.wheel_height
-        own = foot.base_radius, foot.slot_radius, foot.wheel_height
+        foot_sizes = foot.base_radius, foot.slot_radius, foot.wheel_height
         key = f"base_radius, slot_radius and wheel_height of ocs.pedestals {pedestal.module}"
-        yield _Figure(key, sizes, own, "m", "the foot on it gives")
-    places = (stated.along, stated.up), (found.along, found.up)
+        yield _Figure(key, sizes, foot_sizes, "m", "the foot on it gives")
+    places = (recorded.along, recorded.up), (computed.along, computed.up)
     yield _Figure("ocs.carrier.along and up", *places, "m", parts)
-    yield _Figure("the inertia of ocs.carrier", stated.inertia, found.inertia, "kg m^2", parts)
+    yield _Figure("the inertia of ocs.carrier", recorded.inertia, computed.inertia, "kg m^2", parts)
 
 
-def _braked(device: Device) -> MassProperties:
+def _braked_device(device: Device) -> MassProperties:
     """The device alone, its wheels braked, in B."""
     wheel, motor = device.flywheel, device.motor
-    turning = wheel.spin_inertia - motor.rotor_inertia
-    still = Carrier(wheel.mass, turning, wheel.transverse_inertia)
+    axial = wheel.spin_inertia - motor.rotor_inertia
+    braked_wheel = Carrier(wheel.mass, axial, wheel.transverse_inertia)
     modules = (
         body.mass_properties().moved(module.frame, module.position)
         for module in device.modules
-        for body in (still, device.carrier)
+        for body in (braked_wheel, device.carrier)
     )
-    return combine([*modules, *(each.mass_properties() for each in device.under)])
+    return combine([*modules, *(support.mass_properties() for support in device.supports)])

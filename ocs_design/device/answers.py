@@ -85,7 +85,7 @@ class LayoutsAnswer:
     @property
     def exit_code(self) -> int:
         """0, or 4 if no layout has a device."""
-        return Infeasible.exit_code if all(each.without for each in self.layouts) else 0
+        return Infeasible.exit_code if all(layout.without for layout in self.layouts) else 0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,10 +102,10 @@ def posture_lines(robot: Robot) -> tuple[PostureLine, ...]:
     return tuple(
         PostureLine(
             posture=posture,
-            inertia_diagonal=vector(np.diag(found.inertia)),
-            incidence=incidence_by_criterion(found.inertia)[Criterion.EQUAL_RATE],
+            inertia_diagonal=vector(np.diag(posed.inertia)),
+            incidence=incidence_by_criterion(posed.inertia)[Criterion.EQUAL_RATE],
         )
-        for posture, found in posture_sensitivity(robot).items()
+        for posture, posed in posture_sensitivity(robot).items()
     )
 
 
@@ -160,7 +160,7 @@ class RecognitionRecord:
         if recognition is None:
             return None
         reading = recognition.reading
-        turn = np.eye(3) if robot.mount is None else robot.mount.placement.rotation
+        rotation = np.eye(3) if robot.mount is None else robot.mount.placement.rotation
         up = up_axis(robot.tree, robot.trunk, robot.legs) if robot.legs else np.eye(3)[2]
         legs = []
         for leg in robot.legs:
@@ -174,9 +174,9 @@ class RecognitionRecord:
         return cls(
             trunk=robot.trunk if robot.mount is None else robot.mount.link,
             legs=tuple(legs),
-            forward=axis_name(turn[:, 0]),
-            left=axis_name(turn[:, 1]),
-            up=axis_name(turn @ up),
+            forward=axis_name(rotation[:, 0]),
+            left=axis_name(rotation[:, 1]),
+            up=axis_name(rotation @ up),
             stated=tuple(sorted(recognition.stated)),
             confidence=reading.confidence,
             speaks_for=tuple(sign.what for sign in reading.signs if sign.holds),
@@ -186,11 +186,11 @@ class RecognitionRecord:
             ),
             likely=tuple(
                 ReadingLine(
-                    trunk=each.trunk,
-                    legs=tuple(leg.name for leg in each.legs),
-                    confidence=each.confidence,
+                    trunk=reading.trunk,
+                    legs=tuple(leg.name for leg in reading.legs),
+                    confidence=reading.confidence,
                 )
-                for each in recognition.likely
+                for reading in recognition.likely
             ),
         )
 
@@ -299,8 +299,10 @@ class Front:
 
     def __repr__(self) -> str:
         masses = [1e3 * point.device.mass for point in self.feasible if point.device is not None]
-        found = f"{min(masses):.4g} to {max(masses):.4g} g" if masses else "no device"
-        return f"<Front of {self.robot} against {self.label}: {len(self.points)} points, {found}>"
+        mass_range = f"{min(masses):.4g} to {max(masses):.4g} g" if masses else "no device"
+        return (
+            f"<Front of {self.robot} against {self.label}: {len(self.points)} points, {mass_range}>"
+        )
 
     def _repr_html_(self) -> str:
         from ocs_design import as_html  # noqa: PLC0415 - the report stands above
@@ -498,8 +500,8 @@ class Validated:
         if self.survival is not None:
             text += f", {len(self.survival.lost)} of {len(self.survival.flights)} lost by a drive"
         if self.monte_carlo is not None:
-            found = self.monte_carlo.success
-            text += f"; {found.passed:,} of {found.flown:,} sampled robots"
+            success = self.monte_carlo.success
+            text += f"; {success.passed:,} of {success.flown:,} sampled robots"
             if self.monte_carlo.certificate is not None:
                 text += f", {self.monte_carlo.certificate.verdict}"
         return f"<Validated {self.robot}: {text}>"

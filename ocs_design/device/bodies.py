@@ -40,7 +40,7 @@ WHEEL_CONTACT_BIT = 1 << 16
 """`conaffinity` of the wheels in MJCF: a floor with this bit in its `contype` collides with
 them."""
 
-_MOST = 0.99
+_LARGEST_SHARE = 0.99
 """Largest fraction of a carrier's axial inertia to take off: the rest must be physically possible.
 
 Beyond that, with a light motor and a high gear ratio, the files have more inertia than the module.
@@ -93,7 +93,7 @@ def require_free(kind: str, taken: Iterable[str], wanted: Iterable[str]) -> None
 
 def require_no_device(joints: Iterable[str]) -> None:
     """Refuse a robot that already has a device, judged by its joints, before another is sized."""
-    names = (name for each in LayoutName for name in Layout(each).names)
+    names = (name for layout in LayoutName for name in Layout(layout).names)
     require_free("joint", joints, (f"{PREFIX}{name}" for name in names))
 
 
@@ -148,8 +148,8 @@ def flywheel_inertial(device: Device) -> MassProperties:
     body can have, and simulators would refuse it.
     """
     wheel, rotor = device.flywheel, device.motor.rotor_inertia
-    across = wheel.transverse_inertia + 0.5 * rotor
-    inertia = np.diag([across, across, wheel.spin_inertia])
+    transverse = wheel.transverse_inertia + 0.5 * rotor
+    inertia = np.diag([transverse, transverse, wheel.spin_inertia])
     return MassProperties(wheel.mass, np.zeros(3), inertia)
 
 
@@ -167,8 +167,8 @@ def carrier_inertial(device: Device, module: Module) -> MassProperties | None:
     second[1, 1] = max(second[1, 1], 0.0)
     # Inertia of the largest rotor that may be taken off.
     tilt = second[1, 2] ** 2 / second[1, 1] if second[1, 1] > 0.0 else 0.0
-    spare = float(2.0 * min(second[0, 0], second[2, 2] - tilt))
-    second -= min(device.motor.rotor_inertia, _MOST * spare) / 2.0 * _DISC
+    largest_rotor = float(2.0 * min(second[0, 0], second[2, 2] - tilt))
+    second -= min(device.motor.rotor_inertia, _LARGEST_SHARE * largest_rotor) / 2.0 * _DISC
     inertia = np.trace(second) * np.eye(3) - second
     left = MassProperties(carrier.mass, carrier.mass_properties().com, inertia)
     turn = carrier_placement(module).rotation @ _FROM_MODULE
@@ -188,7 +188,7 @@ class DeviceBody:
     """
 
     name: str
-    own: MassProperties
+    mass_properties: MassProperties
     position: FloatArray
     rpy: tuple[float, float, float]
     module: Module | None
@@ -209,10 +209,10 @@ def device_bodies(device: Device) -> Iterator[DeviceBody]:
         carrier = carrier_inertial(device, module)
         if carrier is not None:
             yield DeviceBody(f"{joint_name(module)}_motor", carrier, at, turn, module)
-    under, level = device.plate, (0.0, 0.0, 0.0)
-    if under is not None:
-        at = np.array(under.position)
-        yield DeviceBody(PLATE, under.own_mass_properties(), at, level, None)
+    plate, level = device.plate, (0.0, 0.0, 0.0)
+    if plate is not None:
+        at = np.array(plate.position)
+        yield DeviceBody(PLATE, plate.own_mass_properties(), at, level, None)
     elif device.pedestals:
-        own = combine(each.mass_properties() for each in device.pedestals)
-        yield DeviceBody(PLATE, own, np.zeros(3), level, None)
+        combined = combine(pedestal.mass_properties() for pedestal in device.pedestals)
+        yield DeviceBody(PLATE, combined, np.zeros(3), level, None)

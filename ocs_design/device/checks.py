@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 _UNIT_TOLERANCE = 1e-6
 
-_ROUNDED = 1e-4
+_THICKNESS_TOLERANCE = 1e-4
 """Difference of two thicknesses that count as equal [m]: they are milled to a tenth of a
 millimetre."""
 
@@ -96,7 +96,7 @@ def _form_faults(mast: Mast) -> Iterator[str]:
     thin, thick = min(map(min, mast.formed)), max(map(max, mast.formed))
     if not SMALLEST_LENGTH <= thin <= thick <= LARGEST_LENGTH:
         yield "plate.mast.formed has a thickness out of range"
-    elif abs(thin - mast.spacer) > _ROUNDED:
+    elif abs(thin - mast.spacer) > _THICKNESS_TOLERANCE:
         yield "plate.mast.spacer is not the least of plate.mast.formed"
 
 
@@ -144,10 +144,12 @@ def device_warnings(
     share = device.mass / robot.mass
     if share <= HEAVY:
         return ()
-    heavy = (
+    warning = (
         f"the device weighs {device.mass:.3g} kg, {share:.0%} of the robot: more than {HEAVY:.0%} "
         "is unusual; whether the robot can carry it is not checked"
     )
     if strict:
-        raise SpecificationError(f"--strict: {heavy}", hint="Require less, or allow larger wheels.")
-    return (heavy,)
+        raise SpecificationError(
+            f"--strict: {warning}", hint="Require less, or allow larger wheels."
+        )
+    return (warning,)

@@ -16,7 +16,7 @@ from ocs_design.common.ranges import (
     Signed,
 )
 from ocs_design.common.units import format_quantity
-from ocs_design.device.layout import PAIR, Layout, sense, standing_frames
+from ocs_design.device.layout import PAIR, Layout, outward_sign, standing_frames
 from ocs_design.parts.carrier_plate import CarrierPlate
 from ocs_design.parts.pedestal import Pedestal
 from ocs_design.parts.printed import PLATE_THICKNESS
@@ -96,7 +96,7 @@ class Module:
     @property
     def frame(self) -> FloatArray:
         """Attitude in B, with y along the wheel's axis away from the motor, shape (3, 3)."""
-        return standing_frames(sense(self.name) * self.axis)
+        return standing_frames(outward_sign(self.name) * self.axis)
 
 
 def braked(
@@ -106,7 +106,7 @@ def braked(
     incidence: float,
     layout: Layout = PAIR,
 ) -> MassProperties:
-    """Robot and all modules as one rigid body in B.
+    """Robot and all modules as one rigid body in B, wheels braked.
 
     Args:
         robot: without the modules.
@@ -156,8 +156,8 @@ class Device:
 
     @property
     def mass(self) -> float:
-        """Mass of all modules (wheels, motors, gears, housings and feet) and of `under` [kg]."""
-        return len(self.modules) * self.module_mass + sum(each.mass for each in self.under)
+        """Mass of all modules (wheels, motors, gears, housings and feet) and of `supports` [kg]."""
+        return len(self.modules) * self.module_mass + sum(support.mass for support in self.supports)
 
     @property
     def module_mass(self) -> float:
@@ -170,14 +170,14 @@ class Device:
         return self.carrier.mass == 0.0
 
     @property
-    def under(self) -> tuple[CarrierPlate | Pedestal, ...]:
+    def supports(self) -> tuple[CarrierPlate | Pedestal, ...]:
         """Parts between the feet and the trunk: plate and pedestals."""
         return (*(() if self.plate is None else (self.plate,)), *self.pedestals)
 
-    def plated(self, robot: MassProperties) -> MassProperties:
+    def with_supports(self, robot: MassProperties) -> MassProperties:
         """Mass properties of a robot with plate or pedestals on it, in B."""
-        under = [each.mass_properties() for each in self.under]
-        return combine([robot, *under]) if under else robot
+        supports = [support.mass_properties() for support in self.supports]
+        return combine([robot, *supports]) if supports else robot
 
     def on(self, robot: MassProperties, *, free: bool = False) -> MassProperties:
         """A robot with this device as one rigid body in B, wheels braked.
@@ -191,10 +191,10 @@ class Device:
             free: whether the wheels spin freely.
         """
         wheel = self.flywheel
-        turning = (0.0 if free else wheel.spin_inertia) - self.motor.rotor_inertia
-        bodies = Carrier(wheel.mass, turning, wheel.transverse_inertia), self.carrier
+        axial = (0.0 if free else wheel.spin_inertia) - self.motor.rotor_inertia
+        bodies = Carrier(wheel.mass, axial, wheel.transverse_inertia), self.carrier
         centers = np.stack([module.position for module in self.modules])
-        return braked(self.plated(robot), bodies, centers, self.incidence, self.layout)
+        return braked(self.with_supports(robot), bodies, centers, self.incidence, self.layout)
 
     @property
     def axes(self) -> FloatArray:

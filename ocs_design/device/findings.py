@@ -42,7 +42,7 @@ class Finding:
     reason: str = ""
 
     @property
-    def stands_in_the_way(self) -> bool:
+    def is_blocking(self) -> bool:
         """Whether nothing works until it is fixed."""
         return self.required and self.state is not State.WORKS
 
@@ -68,5 +68,5 @@ class Examination:
     @property
     def exit_code(self) -> int:
         """0, or that of a missing tool if nothing works until something is fixed."""
-        broken = any(finding.stands_in_the_way for finding in self.findings)
+        broken = any(finding.is_blocking for finding in self.findings)
         return MissingToolError.exit_code if broken else 0

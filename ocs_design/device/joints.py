@@ -90,21 +90,21 @@ def foot_screws(device: Device, module: Module) -> Fastening:
     Those in a plate end above its underside, for the trunk may be there and would hold their heads
     off: the next shorter ones, or cut ones where these have too little thread.
     """
-    held, plate = counted_foot_screws(device, module), device.plate
+    screws, plate = counted_foot_screws(device, module), device.plate
     if foot_hold(device).washers:
-        held = replace(held, thickness=held.thickness + WASHER_HEIGHT)
+        screws = replace(screws, thickness=screws.thickness + WASHER_HEIGHT)
     if plate is None:
-        return held
-    through = held.thickness + plate.thickness
+        return screws
+    through = screws.thickness + plate.thickness
     # Lengths are made to js15: ISO 4762.
-    longer = tolerance_width(held.length, Grade.IT15) / 2.0
-    if held.length + longer <= through:
-        return held
-    thread = longest_within(through - longer) - held.thickness
-    if thread >= held.screw.least_thread:
-        return replace(held, depth=thread / held.screw.diameter)
+    longer = tolerance_width(screws.length, Grade.IT15) / 2.0
+    if screws.length + longer <= through:
+        return screws
+    thread = longest_within(through - longer) - screws.thickness
+    if thread >= screws.screw.least_thread:
+        return replace(screws, depth=thread / screws.screw.diameter)
     cut = 1e-4 * floor(1e4 * (through - longer) + 1e-6)
-    return replace(held, most=cut - held.thickness)
+    return replace(screws, most=cut - screws.thickness)
 
 
 def counted_foot_screws(device: Device, module: Module) -> Fastening:
@@ -112,10 +112,10 @@ def counted_foot_screws(device: Device, module: Module) -> Fastening:
 
     Washers, which depend on the module's mass, are not counted.
     """
-    if any(each.module == module.name for each in device.pedestals):
+    if any(pedestal.module == module.name for pedestal in device.pedestals):
         return device.pedestals[0].seat_screws
-    held = trunk_screws(device.foot_plate)
-    return held if device.plate is None else replace(held, joint=BoltedJoint.FOOT_ON_PLATE)
+    screws = trunk_screws(device.foot_plate)
+    return screws if device.plate is None else replace(screws, joint=BoltedJoint.FOOT_ON_PLATE)
 
 
 def unheld_moment(device: Device, margins: Sequence[Margin]) -> float:
@@ -127,8 +127,10 @@ def unheld_moment(device: Device, margins: Sequence[Margin]) -> float:
     Args:
         device: device whose feet are held (`foot_hold`). margins: of its motion.
     """
-    asked = max((each.demand for each in margins if each.name == BEARING_MOMENT), default=0.0)
-    return asked if asked > foot_hold(device).turning else 0.0
+    demand = max(
+        (margin.demand for margin in margins if margin.name == BEARING_MOMENT), default=0.0
+    )
+    return demand if demand > foot_hold(device).turning else 0.0
 
 
 def joints_of(device: Device) -> tuple[Margin, ...]:
@@ -146,19 +148,24 @@ def joints_of(device: Device) -> tuple[Margin, ...]:
 
 def _shocks(device: Device) -> Iterator[Margin]:
     """Accelerations at which the module's mount breaks."""
-    module = device.module_mass
-    held = format_quantity(module, "kg" if module >= 1.0 else "g", digits=3)
+    module_mass = device.module_mass
+    mass_text = format_quantity(module_mass, "kg" if module_mass >= 1.0 else "g", digits=3)
     shock = f"{SHOCK / STANDARD_GRAVITY:.0f} g"
     hold = foot_hold(device)
-    along = f"{shock} on {held} along the wheel's axis, until the foot, printed of PETG, breaks"
+    foot_note = (
+        f"{shock} on {mass_text} along the wheel's axis, until the foot, printed of PETG, breaks"
+    )
     if hold.heads_bear < hold.prints_bear:
-        under = "washers" if hold.washers else "heads"
-        along = f"{shock} on {held} along the wheel's axis, until the {under} of its screws sink in"
-    bears = min(hold.prints_bear, hold.heads_bear)
-    yield Margin(FOOT_SHOCK, SHOCK, bears, "m/s2", note=along)
+        bearing_part = "washers" if hold.washers else "heads"
+        foot_note = (
+            f"{shock} on {mass_text} along the wheel's axis, until the {bearing_part} of its "
+            "screws sink in"
+        )
+    capacity = min(hold.prints_bear, hold.heads_bear)
+    yield Margin(FOOT_SHOCK, SHOCK, capacity, "m/s2", note=foot_note)
     plate = device.plate
     if plate is not None:
-        use = plate_screws_use(plate, module, foot_of(device).wheel_height)
+        use = plate_screws_use(plate, module_mass, foot_of(device).wheel_height)
         count = len(plate.trunk)
         note = f"{shock} on all modules, until one of {count} {plate.thread} of class 8.8 breaks"
         if max(plate.sleeves) > 0.0:
@@ -167,15 +174,15 @@ def _shocks(device: Device) -> Iterator[Margin]:
     cage = motor_mount(device).cage
     if cage is not None:
         drive, wheel = device.motor.mass or 0.0, device.flywheel.mass
-        breaks = floor_at_shock(cage, drive, wheel)
-        if breaks > 0.0:
-            bears = SHOCK * (cage.floor / breaks) ** 2
+        breaking_floor = floor_at_shock(cage, drive, wheel)
+        if breaking_floor > 0.0:
+            capacity = SHOCK * (cage.floor / breaking_floor) ** 2
             note = f"{shock} on motor and wheel, which tilt the cage's floor, until it breaks"
-            sunk = heads_at_shock(cage, drive, wheel)
-            if sunk < bears:
-                bears = sunk
+            heads_capacity = heads_at_shock(cage, drive, wheel)
+            if heads_capacity < capacity:
+                capacity = heads_capacity
                 note = f"{shock} on motor and wheel, until the heads of the cage's screws sink in"
-            yield Margin(FLOOR_SHOCK, SHOCK, bears, "m/s2", note=note)
+            yield Margin(FLOOR_SHOCK, SHOCK, capacity, "m/s2", note=note)
 
 
 def wheel_rings(wheel: Flywheel) -> tuple[Ring, ...] | None:
@@ -184,14 +191,15 @@ def wheel_rings(wheel: Flywheel) -> tuple[Ring, ...] | None:
     if web is None:
         return None
     known = materials()
-    inside, around = _elastic(known.get(web.material)), _elastic(known.get(wheel.material))
-    if inside is None or around is None:
+    web_elastic = _elastic(known.get(web.material))
+    rim_elastic = _elastic(known.get(wheel.material))
+    if web_elastic is None or rim_elastic is None:
         return None
     hub = web.hub
     return (
-        Ring(hub.bore_radius, hub.radius, hub.height, web.density, *inside),
-        Ring(hub.radius, wheel.inner_radius, web.thickness, web.density, *inside),
-        Ring(wheel.inner_radius, wheel.outer_radius, wheel.height, wheel.density, *around),
+        Ring(hub.bore_radius, hub.radius, hub.height, web.density, *web_elastic),
+        Ring(hub.radius, wheel.inner_radius, web.thickness, web.density, *web_elastic),
+        Ring(wheel.inner_radius, wheel.outer_radius, wheel.height, wheel.density, *rim_elastic),
     )
 
 
@@ -223,7 +231,8 @@ def _rim_joints(device: Device, web: Web) -> Iterator[Margin]:
         yield Margin(RIM_JOINT, 0.0, None, "N m", note="thermal expansions are not known")
     else:
         least, most = (
-            format_quantity(2.0 * each, "um", digits=3) for each in (fit.least, fit.most)
+            format_quantity(2.0 * interference, "um", digits=3)
+            for interference in (fit.least, fit.most)
         )
         note = (
             f"shrunk on, {least} to {most} interference on diameter, less "
@@ -279,12 +288,12 @@ def yield_margin(device: Device, speed: float) -> tuple[str, float] | None:
         peaks.append(("the rim", fit.stress_rim, wheel.material))
     elif web.material == wheel.material:
         peaks.append((*_peak(web, rings, speed), wheel.material))
-    found = [
+    margins = [
         (where, strength / stress)
         for where, stress, material in peaks
         if (strength := known[material].yield_strength) is not None
     ]
-    return min(found, key=lambda each: each[1], default=None)
+    return min(margins, key=lambda margin: margin[1], default=None)
 
 
 def rim_fit(device: Device) -> ShrinkFit | None:
@@ -293,13 +302,15 @@ def rim_fit(device: Device) -> ShrinkFit | None:
     rings = wheel_rings(wheel)
     if wheel.web is None or rings is None or wheel.web.material == wheel.material:
         return None
-    inside, around = (materials()[name] for name in (wheel.web.material, wheel.material))
+    web_material, rim_material = (
+        materials()[name] for name in (wheel.web.material, wheel.material)
+    )
     hub = wheel.web.hub
-    if inside.thermal_expansion is None or around.thermal_expansion is None:
+    if web_material.thermal_expansion is None or rim_material.thermal_expansion is None:
         return None
     return shrink_fit(
         rings,
-        (inside.thermal_expansion, around.thermal_expansion),
+        (web_material.thermal_expansion, rim_material.thermal_expansion),
         OVERSPEED * device.motor.top_speed,
         SERVICE * (device.motor.torque_limit or 0.0),
         holes=hub.bolt_circle_radius if hub.bolts else None,
@@ -319,29 +330,29 @@ def _shaft_joints(device: Device, web: Web) -> Iterator[Margin]:
     drive, mounting = device.motor, device.motor.mounting
     torque = SERVICE * (drive.torque_limit or 0.0)
     against = f"against {SERVICE:g} x peak torque"
-    carried: float | None = None
+    capacity: float | None = None
     reserve: float | None = None
     if drive.gear != DIRECT.name:
         note = "how a wheel is mounted on this gear is not in the catalogue"
     elif mounting is not None and mounting.rotor is not None:
-        circle, carried = mounting.rotor, hub_joint(mounting, 0.0)
-        held = screw(circle.thread)
+        circle, capacity = mounting.rotor, hub_joint(mounting, 0.0)
+        bolt = screw(circle.thread)
         share = circle.preload_share
-        tight = format_quantity(share * tightening_torque(held, circle.screws), "N m", digits=2)
+        tight = format_quantity(share * tightening_torque(bolt, circle.screws), "N m", digits=2)
         note = (
             f"friction under {circle}, class {circle.screws}, tightened with {tight} to "
-            f"{share * joint_preload(held, circle.screws):,.0f} N, {against}"
+            f"{share * joint_preload(bolt, circle.screws):,.0f} N, {against}"
         )
         if share < 1.0:
-            deep = format_quantity(circle.deepest, "mm", digits=2)
+            depth = format_quantity(circle.deepest, "mm", digits=2)
             note += (
-                f"; {share:.0%} of their usual preload, as they reach only {deep} into the rotor"
+                f"; {share:.0%} of their usual preload, as they reach only {depth} into the rotor"
             )
-        reserve = shear_torque(held, circle.bolts, circle.radius, circle.screws)
+        reserve = shear_torque(bolt, circle.bolts, circle.radius, circle.screws)
     elif mounting is not None and mounting.shaft_diameter is not None:
         front = motor_front(motor_mount(device), device.flywheel.height)
         length = bond_length(mounting, web.hub.height, web.hub.chamfer, front)
-        carried = hub_joint(mounting, length)
+        capacity = hub_joint(mounting, length)
         across = format_quantity(mounting.shaft_diameter, "mm")
         note = (
             f"bonded with a retaining compound on the {across} shaft, over "
@@ -350,7 +361,7 @@ def _shaft_joints(device: Device, web: Web) -> Iterator[Margin]:
         )
     else:
         note = "the shaft and the rotor's threads are not in the catalogue"
-    yield Margin(SHAFT_JOINT, torque, carried, "N m", note=note)
+    yield Margin(SHAFT_JOINT, torque, capacity, "N m", note=note)
     if reserve is not None:
         note = "only if the faces slip; the design does not rely on it"
         yield Margin("shaft joint, screws in shear", torque, reserve, "N m", note=note)
@@ -359,29 +370,29 @@ def _shaft_joints(device: Device, web: Web) -> Iterator[Margin]:
 def _bell_joints(device: Device) -> Iterator[Margin]:
     """Margins of a ring around its motor's bell: stress, and bond under torque and speed."""
     wheel, speed = device.flywheel, OVERSPEED * device.motor.top_speed
-    kind, held = materials().get(wheel.material), BOND_SHARE * EPOXY_STRENGTH
-    elastic = _elastic(kind)
-    if kind is None or elastic is None or kind.thermal_expansion is None:
+    material, bond_strength = materials().get(wheel.material), BOND_SHARE * EPOXY_STRENGTH
+    elastic = _elastic(material)
+    if material is None or elastic is None or material.thermal_expansion is None:
         unknown = f"elastic figures or expansion of {wheel.material} are not known"
         yield Margin(WHEEL_STRESS, 0.0, None, "Pa", note=unknown)
     else:
         ring = Ring(wheel.inner_radius, wheel.outer_radius, wheel.height, wheel.density, *elastic)
-        alone = TurningRings.of((ring,), speed).peak(0)
+        stress = TurningRings.of((ring,), speed).peak(0)
         note = f"a ring by itself at {OVERSPEED:g} x top speed, against yield"
-        yield Margin(WHEEL_STRESS, alone, kind.yield_strength, "Pa", note=note)
-        pulled = bell_bond_tension(
+        yield Margin(WHEEL_STRESS, stress, material.yield_strength, "Pa", note=note)
+        tension = bell_bond_tension(
             ring.inner,
             ring.outer,
             density=ring.density,
             elastic_modulus=ring.elastic_modulus,
             poisson_ratio=ring.poisson_ratio,
-            expansion=kind.thermal_expansion,
+            expansion=material.thermal_expansion,
             speed=speed,
         )
         yield Margin(
             "rim joint, pull on the bond",
-            float(pulled),
-            held,
+            float(tension),
+            bond_strength,
             "Pa",
             note=f"bonded around the bell with {EPOXY}; the ring would grow off a rigid bell at "
             f"{OVERSPEED:g} x top speed, {COLDEST:g} to {HOTTEST:g} deg C, against "
@@ -390,7 +401,9 @@ def _bell_joints(device: Device) -> Iterator[Margin]:
     yield Margin(
         SHAFT_JOINT,
         SERVICE * (device.motor.torque_limit or 0.0),
-        cylinder_torque(2.0 * wheel.inner_radius, wheel.height - 2.0 * wheel.cuts.chamfer, held),
+        cylinder_torque(
+            2.0 * wheel.inner_radius, wheel.height - 2.0 * wheel.cuts.chamfer, bond_strength
+        ),
         "N m",
         note=f"bonded around the bell with {EPOXY}, at {BOND_SHARE:.0%} of its "
         f"{1e-6 * EPOXY_STRENGTH:g} MPa at {HOTTEST:g} deg C, against {SERVICE:g} x peak torque",
@@ -430,21 +443,21 @@ def balance_of(device: Device) -> WheelBalance:
     rim = wheel.inner_radius, wheel.outer_radius, wheel.height, wheel.density
     mounting = device.motor.mounting
     off_centre: float | None = None
-    by, shifted = "a seat that is not designed", False
+    centred_by, shifted = "a seat that is not designed", False
     if device.on_bell:
-        off_centre, by = GLUE_GAP, "its glue gap, which the fixture evens out"
+        off_centre, centred_by = GLUE_GAP, "its glue gap, which the fixture evens out"
     elif mounting is not None and mounting.shaft_diameter is not None:
         off_centre = slip_fit_eccentricity(mounting.shaft_diameter)
-        by = "its bore on the shaft, H7/h6"
+        centred_by = "its bore on the shaft, H7/h6"
     elif mounting is not None and mounting.rotor is not None:
         # In clearance holes it may initially be farther off centre.
         off_centre, shifted = RUN_OUT / 2.0, True
-        by = f"its screws, once it is shifted until it runs true to {2e3 * RUN_OUT:g} mm"
+        centred_by = f"its screws, once it is shifted until it runs true to {2e3 * RUN_OUT:g} mm"
     return WheelBalance(
         eccentricity=eccentricity,
         unbalance=eccentricity * wheel.mass,
         off_centre=None if off_centre is None else RUN_OUT / 2.0 + off_centre,
-        centred_by=by,
+        centred_by=centred_by,
         shifted=shifted,
         correction=correction(*rim, chamfer=wheel.cuts.chamfer, ligament=LIGAMENT),
     )

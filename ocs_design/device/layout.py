@@ -119,24 +119,26 @@ class Layout:
             angle: for pairs, between an axis and the lateral direction y, 0..pi/2; for the pyramid,
                 between an axis and the horizontal plane; ignored for others [rad], shape (...).
         """
-        at = np.asarray(angle, dtype=np.float64)[..., None]
-        sine, cosine = np.sin(at), np.cos(at)
+        angles = np.asarray(angle, dtype=np.float64)[..., None]
+        sine, cosine = np.sin(angles), np.cos(angles)
         if self.pairs:
             left_right = np.tile([1.0, -1.0], self.pairs)
             x, y, z = sine * left_right, cosine * left_right**2, 0.0 * sine * left_right**2
             return frozen(np.stack([x, y, z], axis=-2))
         if self.name in {LayoutName.ORTHOGONAL, LayoutName.BY_HAND}:
             rows = np.eye(3) if self.name is LayoutName.ORTHOGONAL else np.array(self.specified).T
-            return frozen(np.broadcast_to(rows, (*at.shape[:-1], *rows.shape)))
+            return frozen(np.broadcast_to(rows, (*angles.shape[:-1], *rows.shape)))
         rise = 1.0 if self.name is LayoutName.PYRAMID else 0.0
-        level, up = np.where(rise, cosine, 1.0), rise * sine
-        around = np.radians(_AZIMUTHS[self.name])
+        horizontal, vertical = np.where(rise, cosine, 1.0), rise * sine
+        azimuths = np.radians(_AZIMUTHS[self.name])
         # Keep rounding errors of cos(90 deg) out of the files.
         x, y = (
-            np.where(np.abs(each) > OUT_OF_REACH, each, 0.0)
-            for each in (np.cos(around), np.sin(around))
+            np.where(np.abs(component) > OUT_OF_REACH, component, 0.0)
+            for component in (np.cos(azimuths), np.sin(azimuths))
         )
-        return frozen(np.stack([level * x, level * y, up * np.ones_like(x)], axis=-2))
+        return frozen(
+            np.stack([horizontal * x, horizontal * y, vertical * np.ones_like(x)], axis=-2)
+        )
 
     def frames(self, angle: ArrayLike) -> FloatArray:
         """Attitudes of the modules, which are identical, in B, shape (..., n, 3, 3).
@@ -145,7 +147,7 @@ class Layout:
         module is the left one turned about the vertical, and also its mirror image.
         """
         outward = np.swapaxes(self.axes(angle), -1, -2)
-        return standing_frames(outward * np.array([*map(sense, self.names)])[:, None])
+        return standing_frames(outward * np.array([*map(outward_sign, self.names)])[:, None])
 
     def feet(self, axes: FloatArray) -> FloatArray:
         """Directions about which modules turn on their feet, shape (3, n).
@@ -158,7 +160,7 @@ class Layout:
         """
         # As incidence grows, a pair's right wheel turns to the left as seen from above, and the
         # left one to the right, like all other modules.
-        return standing_frames(axes.T)[..., 2].T * [-sense(name) for name in self.names]
+        return standing_frames(axes.T)[..., 2].T * [-outward_sign(name) for name in self.names]
 
     @property
     def ring(self) -> tuple[Direction, ...]:
@@ -200,7 +202,7 @@ PAIR = Layout()
 """The paper's two wheels."""
 
 
-def sense(name: str) -> float:
+def outward_sign(name: str) -> float:
     """Sign of a module's outward direction along its wheel's axis; negative for a right module."""
     return -1.0 if name.startswith(SIDES[1]) else 1.0
 
@@ -215,8 +217,8 @@ def standing_frames(outward: FloatArray) -> FloatArray:
     """
     up = np.array([0.0, 0.0, 1.0]) - outward[..., 2:] * outward
     size = np.linalg.norm(up, axis=-1, keepdims=True)
-    lies = size < OUT_OF_REACH
-    upward = np.where(lies, [1.0, 0.0, 0.0], up / np.where(lies, 1.0, size))
+    points_up = size < OUT_OF_REACH
+    upward = np.where(points_up, [1.0, 0.0, 0.0], up / np.where(points_up, 1.0, size))
     return frozen(np.stack([np.cross(outward, upward), outward, upward], axis=-1))
 
 
@@ -258,8 +260,8 @@ def incidence_by_criterion(
     # c. Where the coupling exceeds either inertia, both rates load the same axis most, and the
     # incidence of the uncoupled robot is as good as any.
     tilt = TiltInertia.of(inertia)
-    less = tilt.diagonal - np.abs(tilt.product)
-    equal_rate = less if (less > 0.0).all() else tilt.diagonal
+    decoupled = tilt.diagonal - np.abs(tilt.product)
+    equal_rate = decoupled if (decoupled > 0.0).all() else tilt.diagonal
     same_rate = np.diag(inertia)[:2]
     roll, pitch = np.abs(momenta) if momenta is not None and np.any(momenta) else same_rate
     return {

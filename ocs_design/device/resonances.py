@@ -47,9 +47,11 @@ class Resonance:
         The amplitude due to an unbalance is r^2 / sqrt((1 - r^2)^2 + (2 zeta r)^2) U / m, r = w /
         w_0.
         """
-        square = (speed / (2.0 * pi * self.frequency)) ** 2
-        grown = square / sqrt((1.0 - square) ** 2 + 4.0 * DAMPING**2 * square)
-        return speed**2 * 2.0 * DAMPING * self.amplitude * grown
+        ratio_squared = (speed / (2.0 * pi * self.frequency)) ** 2
+        amplification = ratio_squared / sqrt(
+            (1.0 - ratio_squared) ** 2 + 4.0 * DAMPING**2 * ratio_squared
+        )
+        return speed**2 * 2.0 * DAMPING * self.amplitude * amplification
 
 
 def resonances_of(device: Device) -> tuple[Resonance, ...]:
@@ -67,8 +69,8 @@ def resonances_of(device: Device) -> tuple[Resonance, ...]:
     lever = 1.5 * (foot.back - device.foot_plate / 2.0) / (foot.wheel_height - foot.base)
     modes = [("foot", foot_frequency(device), lever)]
     if device.pedestals:
-        square = max(seat_compliance(each)[0] for each in device.pedestals)
-        modes.insert(0, ("pedestal", 1.0 / (2.0 * pi * sqrt(square * mass)), 1.0))
+        compliance = max(seat_compliance(pedestal)[0] for pedestal in device.pedestals)
+        modes.insert(0, ("pedestal", 1.0 / (2.0 * pi * sqrt(compliance * mass)), 1.0))
     if device.plate is not None:
         modes.insert(0, ("plate", plate_frequency(device.plate, mass), 1.0))
         modes.append(("twisted plate", _twisted_frequency(device, device.plate), 1.0))
@@ -100,15 +102,15 @@ def foot_frequency(device: Device, modulus: float = PETG.modulus) -> float:
     foot, carrier = foot_of(device), device.carrier
     mass = device.module_mass
     inertia = device.flywheel.transverse_inertia + float(carrier.inertia[0, 0])
-    softness = stem_frequency(foot, mass, inertia, modulus) ** -2
+    inverse_square = stem_frequency(foot, mass, inertia, modulus) ** -2
     if device.pedestals:
-        along = max(seat_compliance(each)[1] for each in device.pedestals)
-        softness += (2.0 * pi) ** 2 * along * mass
+        along = max(seat_compliance(pedestal)[1] for pedestal in device.pedestals)
+        inverse_square += (2.0 * pi) ** 2 * along * mass
     if device.plate is not None:
-        tilt, _ = _tilts(device, device.plate)
+        tilt, _ = _foot_compliances(device, device.plate)
         arm = foot.wheel_height + device.plate.thickness / 2.0
-        softness += (2.0 * pi) ** 2 * tilt * (mass * arm**2 + inertia)
-    return 1.0 / sqrt(softness)
+        inverse_square += (2.0 * pi) ** 2 * tilt * (mass * arm**2 + inertia)
+    return 1.0 / sqrt(inverse_square)
 
 
 def _twisted_frequency(device: Device, plate: CarrierPlate) -> float:
@@ -118,24 +120,24 @@ def _twisted_frequency(device: Device, plate: CarrierPlate) -> float:
     """
     foot, carrier = foot_of(device), device.carrier
     mass, inertia = device.module_mass, float(carrier.inertia[1, 1])
-    _, tilt = _tilts(device, plate)
+    _, tilt = _foot_compliances(device, plate)
     arm = foot.wheel_height + plate.thickness / 2.0
     stem = stem_frequency(foot, mass, inertia, in_plane=True)
     return 1.0 / sqrt(stem**-2 + (2.0 * pi) ** 2 * tilt * (mass * arm**2 + inertia))
 
 
-def _tilts(device: Device, plate: CarrierPlate) -> tuple[float, float]:
-    """Largest rotation of a foot on its plate per moment [rad/(N m)].
+def _foot_compliances(device: Device, plate: CarrierPlate) -> tuple[float, float]:
+    """Largest rotation of a foot on its plate per moment [rad/(N m)], about two axes.
 
     About the horizontal across its wheel's axis, as for a push along the axis, and about the axis
     itself; a moment partly bends and partly twists an arm.
     """
-    bends, twists = plate_tilt(plate)
+    bending, torsion = plate_tilt(plate)
     arms = np.resize(directions(plate.arms), (len(device.modules), 2))
     axes = np.array([module.axis[:2] for module in device.modules])
     along = (axes * arms).sum(axis=1) ** 2 / (axes**2).sum(axis=1)
-    pushed, turned = bends * along, twists * along
+    across, about_axis = bending * along, torsion * along
     return (
-        float((pushed + twists * (1.0 - along)).max()),
-        float((turned + bends * (1.0 - along)).max()),
+        float((across + torsion * (1.0 - along)).max()),
+        float((about_axis + bending * (1.0 - along)).max()),
     )

@@ -23,7 +23,7 @@ from ocs_design.parts.pedestal import Pedestal, strengthened
 from ocs_design.parts.printed import CLEARANCE, LID_SCREW, PANEL, TRUNK_SCREW, WALL
 from ocs_design.robot.probe import Drum
 
-PLATE_DISCS = 0.5
+DISC_SPACING = 0.5
 """Spacing of the discs that represent a plate's neck, relative to half its width."""
 
 _LEFT, _UP = np.eye(3)[1:]
@@ -34,8 +34,8 @@ def motor_mount(device: Device) -> MotorMount:
     motor = device.motor
     wheel, plate = device.flywheel, device.foot_plate
     mount = mount_of(motor, motor.gear_room, plate, on_bell=device.on_bell).around(wheel.height)
-    floor = housing_outer_radius(wheel.outer_radius) - 2.0 * WALL
-    return mount if mount.holes.reach <= floor else MotorMount(foot_plate=plate)
+    floor_radius = housing_outer_radius(wheel.outer_radius) - 2.0 * WALL
+    return mount if mount.holes.reach <= floor_radius else MotorMount(foot_plate=plate)
 
 
 def housing_of(device: Device) -> Housing:
@@ -53,10 +53,10 @@ def foot_of(device: Device) -> Foot:
 def drive_solids(device: Device) -> tuple[DriveSolid, ...]:
     """Gear, motor and cage as far as their sizes are known, behind the foot's plate."""
     motor, mount = device.motor, motor_mount(device)
-    found = drive_cylinders(motor, motor.gear_room, mount, housing_of(device).rim_height)
+    solids = drive_cylinders(motor, motor.gear_room, mount, housing_of(device).rim_height)
     # Files of older versions lack the motor's position behind a gear.
     unknown = motor.gear != DIRECT.name and motor.gear_room is None
-    return tuple(solid for solid in found if not (unknown and solid.name == "motor"))
+    return tuple(solid for solid in solids if not (unknown and solid.name == "motor"))
 
 
 def shaft_cut(device: Device) -> tuple[float, float]:
@@ -72,9 +72,11 @@ def shaft_cut(device: Device) -> tuple[float, float]:
         return length, 0.0
     housing = housing_of(device)
     front = motor_front(motor_mount(device), housing.rim_height)
-    hub = web.hub.height / 2.0 - front
-    clear = housing.half_height - PANEL - CLEARANCE - front
-    return (length, 0.0) if length <= max(hub, clear) else (hub, length - hub)
+    hub_length = web.hub.height / 2.0 - front
+    clear_length = housing.half_height - PANEL - CLEARANCE - front
+    if length <= max(hub_length, clear_length):
+        return length, 0.0
+    return hub_length, length - hub_length
 
 
 def pedestal_of(device: Device, module: Module, plane: float | None = None) -> Pedestal:
@@ -108,27 +110,27 @@ def pedestal_of(device: Device, module: Module, plane: float | None = None) -> P
         heading=atan2(along[1], along[0]),
     )
     above = None if plane is None else float(module.position[2]) - plane
-    found = strengthened(low, device.module_mass, above)
-    x, y, z = (module.position - found.placement.rotation @ found.wheel).tolist()
-    return replace(found, position=(x, y, z))
+    pedestal = strengthened(low, device.module_mass, above)
+    x, y, z = (module.position - pedestal.placement.rotation @ pedestal.wheel).tolist()
+    return replace(pedestal, position=(x, y, z))
 
 
 def pedestal_solids(pedestal: Pedestal) -> tuple[Drum, ...]:
     """Space occupied by a pedestal: cylinders side by side around base, seat and brace."""
-    thick, place = max(pedestal.base, pedestal.thickness), pedestal.placement
+    thickness, place = max(pedestal.base, pedestal.thickness), pedestal.placement
     end, far = pedestal.length, pedestal.seat.rotation[:, 1] * pedestal.length
     floor, up = np.array([0.0, 0.0, pedestal.base / 2.0]), np.array([0.0, 0.0, pedestal.base])
     along = np.array([0.0, 1.0, 0.0])
     bars = [(floor - pedestal.flange * along, floor + (end + pedestal.flange) * along)]
     bars += [(up, up + far), (up + end * along, up + far)]
-    found = []
+    drums = []
     for start, stop in bars:
         # Close enough that they cover each bar to half its thickness on either side.
-        count = 1 + ceil(float(np.linalg.norm(stop - start)) / (sqrt(3.0) * thick))
+        count = 1 + ceil(float(np.linalg.norm(stop - start)) / (sqrt(3.0) * thickness))
         for share in np.linspace(0.0, 1.0, count):
             middle = place.point(start + share * (stop - start))
-            found.append(Drum(middle, place.rotation[:, 0], thick, pedestal.width))
-    return tuple(found)
+            drums.append(Drum(middle, place.rotation[:, 0], thickness, pedestal.width))
+    return tuple(drums)
 
 
 @dataclass(frozen=True)
@@ -161,7 +163,7 @@ def module_solids(device: Device, module: Module) -> ModuleSolids:
     base = Drum(module.position - down * up, up, foot.base_radius, foot.base)
     drum = Drum(module.position, module.axis, housing.radius, tall)
     # The drive stands behind the foot's plate; the other modules are behind both.
-    driving = [
+    drive = [
         Drum(
             module.position + (solid.low + solid.high) / 2.0 * outward + solid.up * up,
             module.axis,
@@ -170,7 +172,7 @@ def module_solids(device: Device, module: Module) -> ModuleSolids:
         )
         for solid in drive_solids(device)
     ]
-    return ModuleSolids((drum, *driving), (base,))
+    return ModuleSolids((drum, *drive), (base,))
 
 
 def plate_solids(plate: CarrierPlate | None) -> tuple[Drum, ...]:
@@ -183,7 +185,7 @@ def plate_solids(plate: CarrierPlate | None) -> tuple[Drum, ...]:
     if plate is None:
         return ()
     middle, up = np.array(plate.position), plate.thickness / 2.0 * _UP
-    count = int(np.ceil(plate.across / (PLATE_DISCS * plate.neck)))
+    count = int(np.ceil(plate.across / (DISC_SPACING * plate.neck)))
     along_neck = [(share / count * plate.across, plate.neck) for share in range(count)]
     discs = [
         Drum(middle + up + [row + out * x, out * y, level], _UP, radius, plate.thickness)
@@ -242,14 +244,14 @@ def plate_heads(plate: CarrierPlate | None) -> tuple[Drum, ...]:
     """Heads of the screws that hold the plate on the trunk."""
     if plate is None:
         return ()
-    held, middle = plate.screw, np.array(plate.position)
-    off = plate.clamped + held.head_height / 2.0
+    screw, middle = plate.screw, np.array(plate.position)
+    off = plate.clamped + screw.head_height / 2.0
     return tuple(
         Drum(
             middle + place.position + off * place.rotation[:, 2],
             place.rotation[:, 2],
-            held.head_diameter / 2.0,
-            held.head_height,
+            screw.head_diameter / 2.0,
+            screw.head_height,
         )
         for place in plate.screw_places
     )

@@ -34,7 +34,7 @@ def attach_device(spec: mujoco.MjSpec, robot: Robot, device: Device) -> None:
     frame = attached.worldbody.add_frame()
     limit = bodies.largest_torque(device.motor)
     for each in made:
-        body = inertial(each.own)
+        body = inertial(each.mass_properties)
         place = base @ each.place
         # Attaching prepends the prefix to the names.
         added = attached.worldbody.add_body(

@@ -205,7 +205,7 @@ def snippet_mjcf(device: Device, base: Base) -> str:
 
 def _body_mjcf(device: Device, body: bodies.DeviceBody) -> str:
     values = {
-        **inertial_values(body.own),
+        **inertial_values(body.mass_properties),
         "body": body.name.removeprefix(bodies.PREFIX),
         "position": numbers(body.position),
         "quaternion": numbers(quaternion(body.place.rotation)),
@@ -250,7 +250,7 @@ def snippet_sdf(device: Device, base: Base) -> str:
 def _body_sdf(device: Device, body: bodies.DeviceBody, place: dict[str, str]) -> str:
     values = {
         **place,
-        **inertial_values(body.own),
+        **inertial_values(body.mass_properties),
         "link": body.name,
         # Unlike in URDF, a link and a joint of a model may not share a name.
         "joint": body.joint or f"{body.name}_fixed",

@@ -168,7 +168,7 @@ def device_urdf(device: Device, parent: str, *, mesh: str | None = None) -> str:
 def body_values(body: DeviceBody, parent: str) -> dict[str, str]:
     """Names, place and mass properties of a body, for templates."""
     return {
-        **inertial_values(body.own),
+        **inertial_values(body.mass_properties),
         "link": body.name,
         "joint": body.joint,
         "parent": parent,
@@ -291,10 +291,10 @@ def tree_urdf(tree: Tree) -> str:
     # A body is named after its own link unless the link's frame differs from the body's.
     names = [
         body.name
-        if np.array_equal(own.rotation, np.eye(3)) and not own.position.any()
+        if np.array_equal(frame.rotation, np.eye(3)) and not frame.position.any()
         else unused_name(body.name, "_at_joint", tree.body_of_link)
         for body in tree.bodies
-        for own in (body.links[body.name],)
+        for frame in (body.links[body.name],)
     ]
     for name, body in zip(names, tree.bodies, strict=True):
         link = ET.SubElement(root, "link", name=name)

@@ -244,7 +244,7 @@ def _by_selection(
     footing = search.footing(device, problem)
     lacks_mount = footing is None and trunk_surface(robot) is not None
     device = device if footing is None else standing_on(device, footing)
-    carried, bodies = device.plated(robot.mass_properties), (chosen.wheel, chosen.carrier)
+    carried, bodies = device.with_supports(robot.mass_properties), (chosen.wheel, chosen.carrier)
     centers = np.stack([module.position for module in device.modules])
     total = braked(carried, bodies, centers, device.incidence, device.layout)
     return Designed(

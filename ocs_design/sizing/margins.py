@@ -208,7 +208,7 @@ def worst(by_scenario: Iterable[tuple[str, Iterable[Margin]]]) -> tuple[Margin, 
     for name, margins in by_scenario:
         for margin in margins:
             kept = found.get(margin.name)
-            if kept is None or margin.strain > kept.strain:
+            if kept is None or margin.sort_key > kept.sort_key:
                 # A rim's stress is that at the drive's highest speed in every scenario.
                 scenario = "" if margin.name == HOOP_STRESS else name
                 found[margin.name] = replace(margin, scenario=scenario)

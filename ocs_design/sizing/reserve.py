@@ -19,7 +19,11 @@ from ocs_design.actuation.tilt_inertia import OUT_OF_REACH, TiltInertia
 from ocs_design.actuation.unit_drive import UnitDrive
 from ocs_design.actuation.wheel_load import WheelTask, held_by_each, spin_demand
 from ocs_design.common.arrays import FloatArray
-from ocs_design.device.records.selection import KeptRecord, ReserveRecord, UncertaintyCost
+from ocs_design.device.records.selection import (
+    ManeuverReserveRecord,
+    ReserveRecord,
+    UncertaintyCost,
+)
 from ocs_design.requirement.bound import turned_roll
 from ocs_design.requirement.maneuver import Maneuver
 from ocs_design.requirement.requirement import ManeuverReserve, Requirement
@@ -217,7 +221,7 @@ def account(
         scale=reserve.scale,
         nominal=min(nominal, curve[NOMINAL] or nominal),
         maneuvers=tuple(
-            KeptRecord(
+            ManeuverReserveRecord(
                 maneuver=name,
                 demand=reserve.maneuvers.get(name, ManeuverReserve()).demand,
                 needed=factor,

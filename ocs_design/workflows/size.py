@@ -6,15 +6,15 @@ from functools import partial
 from importlib import import_module
 from pathlib import Path
 
-from ocs_design.common.beside import Beside
 from ocs_design.common.errors import UsageError
 from ocs_design.common.files import AnyPath, safe_name, to_json
+from ocs_design.common.workers import WorkerPool
 from ocs_design.device.answers import posture_lines
 from ocs_design.device.bodies import require_no_device
 from ocs_design.device.device import Device
 from ocs_design.device.records.design import DESIGN_FILE, OcsDesign
 from ocs_design.device.records.flights import falls_short
-from ocs_design.device.records.selection import DrivingManeuver, Lighter
+from ocs_design.device.records.selection import DrivingManeuver, TradeOffs
 from ocs_design.export.assembly.content import assembly_of
 from ocs_design.export.folder import check_target, recorded_hashes, staged_folder
 from ocs_design.export.formats import USUAL_FORMATS, Subject, export_formats, refusal
@@ -96,7 +96,7 @@ def design_ocs(
     strict: bool = False,
     progress: Steps | Tell | None = None,
     command: str = "",
-    beside: Beside | None = None,
+    workers: WorkerPool | None = None,
 ) -> Outcome:
     """Size a device for a robot, write it, fly it, and record everything in one folder.
 
@@ -110,7 +110,7 @@ def design_ocs(
         progress: function that receives the name of the current step and the part of it that is
             done, 0..1; None: a notebook shows it below the cell, and a script is silent.
         command: as typed, for the report.
-        beside: processes that search lighter alternatives while the device is planned and flown;
+        workers: processes that search lighter alternatives while the device is planned and flown;
             None: this process does so afterwards.
 
     Raises:
@@ -136,7 +136,7 @@ def design_ocs(
     steps.doubt(robot.warnings)
     placed = size_or_advise(specification, robot, steps, strict=strict)
     placed = size_for_turns(placed, steps, strict=strict)
-    start = partial(start_alternatives, call=(beside or Beside()).call)
+    start = partial(start_alternatives, call=(workers or WorkerPool()).call)
     wait_for_alternatives = (
         None if specified.certify else start(placed.task, placed.designed.choice)
     )
@@ -230,13 +230,13 @@ def _write_flights(placed: Placed, proof: Proof, folder: Path, steps: Steps) -> 
 
 def _lighter_changes(
     placed: Placed, driving_maneuver: DrivingManeuver | None, steps: Steps
-) -> Lighter | None:
+) -> TradeOffs | None:
     """Changes that would make the device lighter, if requested."""
     by, choice = placed.specification.ocs.lighter_by, placed.designed.choice
     if by is None or choice is None:
         return None
     with steps.step("search changes that make it lighter") as step:
-        return Lighter(
+        return TradeOffs(
             by=by,
             changes=lighter_by(
                 by,

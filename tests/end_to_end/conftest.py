@@ -60,7 +60,7 @@ def exported(product):
 def one_process():
     """Tests run on all processors already; commands in processes of their own use a second one."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("ocs_design.common.beside.processors", lambda: 1)
+        patch.setattr("ocs_design.common.workers.processors", lambda: 1)
         yield
 
 

@@ -107,7 +107,7 @@ def test_a_folder_that_can_be_written_to_stays_as_it_was(tmp_path):
 
 def test_a_folder_that_cannot(tmp_path):
     found = working_folder(tmp_path / "none")
-    assert found.stands_in_the_way
+    assert found.is_blocking
     assert found.cure
     assert "No such file" in found.reason
 
@@ -141,7 +141,7 @@ def test_where_no_way_draws_the_reason_and_the_cure_are_told(monkeypatch):
     assert only.state is State.MISSING
     assert "none such" in only.reason
     assert "apt install" in only.cure
-    assert not only.stands_in_the_way
+    assert not only.is_blocking
 
 
 @pytest.mark.parametrize("name", ["cc", "clang", None])

@@ -68,7 +68,7 @@ def test_what_is_found_of_a_package(found, name, state, cure, reason, in_the_way
     """An extra is not required, and its cure names it."""
     package = found[name]
     assert (package.state, package.cure, package.reason) == (state, cure, reason)
-    assert package.stands_in_the_way is in_the_way
+    assert package.is_blocking is in_the_way
 
 
 def test_a_module_that_ends_the_process_is_only_told(tmp_path, monkeypatch):

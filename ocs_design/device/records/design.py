@@ -27,9 +27,9 @@ from ocs_design.device.records.requirement import RequirementRecord, RobotRecord
 from ocs_design.device.records.selection import (
     Alternative,
     DrivingManeuver,
-    Lighter,
     SelectionRecord,
     SizingRecord,
+    TradeOffs,
 )
 
 DESIGN_FILE = "design.json"
@@ -70,7 +70,7 @@ class OcsDesign:
     supply: Supply | None = None
     alternatives: tuple[Alternative, ...] = ()
     owed: DrivingManeuver | None = None
-    lighter: Lighter | None = None
+    lighter: TradeOffs | None = None
     buildable: Buildable = field(default_factory=lambda: Buildable(yes=None))
     validation: tuple[ValidationRecord, ...]
     survival: SurvivalRecord | None = None
@@ -151,7 +151,7 @@ def read_design(path: AnyPath) -> OcsDesign:
 def _objects(entries: object) -> list[dict[str, Any]]:
     """Objects in a list of any document; other entries are refused on conversion."""
     found = entries if isinstance(entries, list) else []
-    return [each for each in found if isinstance(each, dict)]
+    return [entry for entry in found if isinstance(entry, dict)]
 
 
 class _Version(msgspec.Struct):

@@ -97,14 +97,15 @@ class OcsRecord:
     def device(self, supply: Supply | None = None) -> Device:
         """The device exactly as designed; `supply` is its supply."""
         modules = (
-            Module(each.name, np.array(each.axis), np.array(each.position)) for each in self.modules
+            Module(module.name, np.array(module.axis), np.array(module.position))
+            for module in self.modules
         )
         return recorded(Device, self, modules=tuple(modules), supply=supply, layout=self.axes)
 
     @property
     def axes(self) -> Layout:
         """Layout of the modules' axes."""
-        axes = (each.axis for each in self.modules)
+        axes = (module.axis for module in self.modules)
         return Layout(self.layout, tuple(axes) if self.layout is LayoutName.BY_HAND else ())
 
 
@@ -131,13 +132,13 @@ class Margin:
     note: str = ""
 
     def __post_init__(self) -> None:
-        capacity, asked = self.capacity, self.demand
+        capacity, demand = self.capacity, self.demand
         # A field that is set is written to the file, even if None.
-        margin = None if capacity is None or asked == 0.0 else capacity / asked
+        margin = None if capacity is None or demand == 0.0 else capacity / demand
         object.__setattr__(self, "margin", margin)
 
     @property
-    def strain(self) -> tuple[float, float]:
+    def sort_key(self) -> tuple[float, float]:
         """Sort key: demand as a fraction of the capacity, then demand."""
         return (0.0 if self.margin is None else 1.0 / self.margin, self.demand)
 

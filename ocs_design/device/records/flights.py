@@ -109,14 +109,14 @@ class SurvivalRecord:
     @property
     def lost(self) -> tuple[StoppedRecord, ...]:
         """Flights that do not land within tolerance, or are not judged."""
-        return tuple(each for each in self.flights if each.lands is not True)
+        return tuple(flight for flight in self.flights if flight.lands is not True)
 
     @property
     def worst(self) -> StoppedRecord:
         """The flight with the largest tilt, among the lost ones if there are any."""
         return max(
             self.lost or self.flights,
-            key=lambda each: float("inf") if each.tilt is None else each.tilt,
+            key=lambda flight: float("inf") if flight.tilt is None else flight.tilt,
         )
 
 
@@ -163,9 +163,9 @@ def falls_short(
     survival: SurvivalRecord | None,
     certificate: ReliabilityRecord | None,
 ) -> bool:
-    """Whether a flight with the device fails, or survival or reliability was asked for in vain.
+    """Whether a flight with the device fails, or required survival or reliability is not shown.
 
-    An undecided certificate is not the one that was asked for.
+    An undecided certificate does not show it.
     """
     return (
         any(run.ocs and run.passed is not True for run in runs)

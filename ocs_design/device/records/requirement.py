@@ -87,7 +87,7 @@ class ManeuverRecord:
     def of(cls, maneuver: Maneuver) -> "ManeuverRecord":
         """The record of a required maneuver."""
         word, kind = kind_of(maneuver)
-        common = {each.name for each in fields(Maneuver)}
+        common = {field.name for field in fields(Maneuver)}
         parameters = {
             name: value
             for name, value in asdict(maneuver).items()
@@ -102,8 +102,11 @@ class ManeuverRecord:
             OcsError: its kind is unknown, or does not have these fields.
         """
         kind, specified = MANEUVER_KINDS.get(self.kind), set(self.parameters)
-        apart = {each.name for each in fields(Maneuver)}
-        if kind is None or not set(kind.required) - apart <= specified <= set(kind.values) - apart:
+        common = {field.name for field in fields(Maneuver)}
+        if (
+            kind is None
+            or not set(kind.required) - common <= specified <= set(kind.values) - common
+        ):
             raise OcsError(f"maneuver {self.name!r}: no {self.kind} with these figures is known")
         for name, value in self.parameters.items():
             # A single figure, or the required number of them.

@@ -108,7 +108,7 @@ class PriceRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
-class KeptRecord:
+class ManeuverReserveRecord:
     """Reserve kept for a maneuver.
 
     Attributes:
@@ -153,7 +153,7 @@ class ReserveRecord:
             forms.
         scale: factor on every deviation; above 1 where simulated flights need more.
         nominal: mass of the lightest device without a reserve [kg].
-        maneuvers: see `KeptRecord`. costs: the largest share first.
+        maneuvers: see `ManeuverReserveRecord`. costs: the largest share first.
         curve: reliability and mass of the device of the same parts [kg], where there is one.
     """
 
@@ -161,14 +161,14 @@ class ReserveRecord:
     predicted: float
     scale: float
     nominal: float
-    maneuvers: tuple[KeptRecord, ...]
+    maneuvers: tuple[ManeuverReserveRecord, ...]
     costs: tuple[UncertaintyCost, ...]
     curve: tuple[tuple[float, float], ...]
 
     @property
     def demands(self) -> Mapping[str, float]:
         """Factor on the demand of each maneuver, by name."""
-        return {each.maneuver: each.demand for each in self.maneuvers}
+        return {kept.maneuver: kept.demand for kept in self.maneuvers}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -258,7 +258,7 @@ class DrivingManeuver:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Lighter:
+class TradeOffs:
     """Trade-offs for a lighter device.
 
     Attributes:

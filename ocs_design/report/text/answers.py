@@ -97,7 +97,7 @@ def print_examination(console: Console, examination: Examination) -> None:
     if len(extras) > 1:
         items(console, [f"all of these: {extra_command(*extras)}"], style="")
     console.print()
-    broken = [each.name for each in examination.findings if each.stands_in_the_way]
+    broken = [each.name for each in examination.findings if each.is_blocking]
     verdict = f"does not work without {listed(broken)}" if broken else "works here"
     console.print(Text(f"ocs-design {examination.version} {verdict}", style="bold"))
 

@@ -11,7 +11,7 @@ import numpy as np
 from ocs_design.actuation.drive import DriveLine
 from ocs_design.common.arrays import FloatArray
 from ocs_design.common.frames import cross
-from ocs_design.common.quaternions import conjugate, product, scaled_vertical, turned_into_world
+from ocs_design.common.quaternions import conjugate, product, rotated_to_world, scaled_vertical
 from ocs_design.sizing.trajectory.motion import Motion, Trajectory
 from ocs_design.sizing.trajectory.transcription import Phase
 
@@ -97,11 +97,11 @@ def fly(flown: Phase, line: DriveLine, motion: Motion) -> Flight:
         attitude=passed[:, :4],
     )
     claimed = motion.state_at(trajectory.time)
-    held = turned_into_world(turn.attitude, mass_matrix[:3] @ np.append(rate, speed))
+    held = rotated_to_world(turn.attitude, mass_matrix[:3] @ np.append(rate, speed))
     if gyrostat.stands:
         held = claimed[4 + wheels :].T
     attitude = claimed[:4].T
-    seen = turned_into_world(conjugate(attitude), np.broadcast_to(held, (len(attitude), 3)))
+    seen = rotated_to_world(conjugate(attitude), np.broadcast_to(held, (len(attitude), 3)))
     left = seen.T - gyrostat.spin_inertia * gyrostat.axes @ claimed[4 : 4 + wheels]
     claimed_rate = (gyrostat.mobility @ left).T
     largest = float(np.abs(claimed_rate).max())

@@ -10,8 +10,8 @@ from ocs_design.common.quaternions import (
     conjugate,
     from_axis_angle,
     product,
+    rotated_to_world,
     scaled_vertical,
-    turned_into_world,
 )
 from ocs_design.requirement.boundary import Boundary
 from ocs_design.requirement.turns import loop_length
@@ -235,7 +235,7 @@ class FixedAxisTurn:
         if gyrostat.stands:
             # The initial guess is a motion without gravity.
             whole = np.outer(momentum, rate) + gyrostat.spin_inertia * gyrostat.axes @ speeds
-            states.append(turned_into_world(attitudes, whole.T).T)
+            states.append(rotated_to_world(attitudes, whole.T).T)
         return Motion(lengths, np.vstack(states), torques)
 
     def _profile(self, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

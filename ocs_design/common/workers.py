@@ -18,10 +18,10 @@ from typing import IO, ParamSpec, TypeVar
 from ocs_design.common.files import processors
 
 Arguments = ParamSpec("Arguments")
-Found = TypeVar("Found")
+Answer = TypeVar("Answer")
 
 
-class Beside:
+class WorkerPool:
     """Processes that import a module and then answer calls; as a context they end with it.
 
     Calls are started in the order in which they are made. A call that no process has started when
@@ -29,8 +29,8 @@ class Beside:
     if there is one processor, no module, or no process can be started.
 
     Args:
-        module: that each process imports at the start, as in "package.module"; None: no process.
-        most: largest number of processes; fewer than processors, as this process works, too.
+        module: imported by each process at its start, as in "package.module"; None: no processes.
+        most: largest number of processes; one processor is left for this process.
     """
 
     def __init__(self, module: str | None = None, most: int = 1) -> None:
@@ -40,7 +40,7 @@ class Beside:
         self._idle: SimpleQueue[tuple[pickle.Pickler, IO[bytes], IO[bytes]]] = SimpleQueue()
         # Each thread waits for one process.
         self._threads = ThreadPoolExecutor(count) if count else None
-        warnings = [word for each in sys.warnoptions for word in ("-W", each)]
+        warnings = [word for option in sys.warnoptions for word in ("-W", option)]
         with suppress(OSError):
             for _ in range(count):
                 process = subprocess.Popen(
@@ -51,12 +51,12 @@ class Beside:
                     # Interrupts at the terminal go to the calling process only.
                     start_new_session=True,
                 )
-                asked, answers = process.stdin, process.stdout
-                assert asked is not None and answers is not None, "they are pipes"
+                requests, answers = process.stdin, process.stdout
+                assert requests is not None and answers is not None, "they are pipes"
                 self._processes.append(process)
-                self._idle.put((pickle.Pickler(asked), asked, answers))
+                self._idle.put((pickle.Pickler(requests), requests, answers))
 
-    def __enter__(self) -> "Beside":
+    def __enter__(self) -> "WorkerPool":
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -69,39 +69,39 @@ class Beside:
 
     def call(
         self,
-        function: Callable[Arguments, Found],
+        function: Callable[Arguments, Answer],
         *args: Arguments.args,
         **kwargs: Arguments.kwargs,
-    ) -> Callable[[], Found]:
+    ) -> Callable[[], Answer]:
         """Start a call; the returned function waits for its answer, or raises its error.
 
         Args:
             function: importable from a module; arguments and answer are pickled.
         """
-        here = partial(function, *args, **kwargs)
+        compute = partial(function, *args, **kwargs)
         if self._threads is None:
-            return here
-        begun = self._threads.submit(self._answered, here)
+            return compute
+        future = self._threads.submit(self._answered, compute)
 
-        def answer() -> Found:
+        def answer() -> Answer:
             """Answer of a process; computed here if none has started the call, or if it failed."""
-            if begun.cancel():
-                return here()
+            if future.cancel():
+                return compute()
             try:
-                return begun.result()
+                return future.result()
             except (Empty, EOFError, OSError, pickle.UnpicklingError):
-                return here()
+                return compute()
 
         return answer
 
-    def _answered(self, call: Callable[[], Found]) -> Found:
+    def _answered(self, call: Callable[[], Answer]) -> Answer:
         """Answer of an idle process; a process that ends without an answer is not used again."""
-        pickler, asked, answers = idle = self._idle.get_nowait()
+        pickler, requests, answers = idle = self._idle.get_nowait()
         pickler.dump(call)
-        asked.flush()
-        found: Found = pickle.load(answers)
+        requests.flush()
+        answer: Answer = pickle.load(answers)
         self._idle.put(idle)
-        return found
+        return answer
 
 
 if __name__ == "__main__":

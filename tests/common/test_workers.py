@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
-from ocs_design.common import beside, errors
+from ocs_design.common import errors, workers
 from ocs_design.common.arrays import FloatArray, Table
-from ocs_design.common.beside import Beside
 from ocs_design.common.errors import extra_command
 from ocs_design.common.files import read_plain_file, safe_name
+from ocs_design.common.workers import WorkerPool
 
 
 def own_process(asked):
@@ -27,21 +27,21 @@ def own_process(asked):
 
 @pytest.fixture(autouse=True)
 def two_processors(monkeypatch):
-    monkeypatch.setattr(beside, "processors", lambda: 2)
+    monkeypatch.setattr(workers, "processors", lambda: 2)
 
 
 def test_another_process_answers():
-    with Beside("os") as other:
+    with WorkerPool("os") as other:
         assert other.call(os.getpid)() != os.getpid()
 
 
 def test_more_than_a_pipe_holds_goes_both_ways():
-    with Beside("ocs_design.common.files") as other:
+    with WorkerPool("ocs_design.common.files") as other:
         assert len(other.call(safe_name, "a" * 1_000_000)()) == 1_000_000
 
 
 def test_what_it_raises_is_raised_here():
-    with Beside("math") as other, pytest.raises(ValueError, match="math domain error"):
+    with WorkerPool("math") as other, pytest.raises(ValueError, match="math domain error"):
         other.call(math.sqrt, -1.0)()
 
 
@@ -56,26 +56,26 @@ def test_what_it_raises_is_raised_here():
     ids=["no module", "none of that name", "one processor", "no process can be started"],
 )
 def test_without_another_process_this_one_answers(monkeypatch, module, processors, python):
-    monkeypatch.setattr(beside, "processors", lambda: processors)
-    monkeypatch.setattr(beside.sys, "executable", python)
-    with Beside(module) as other:
+    monkeypatch.setattr(workers, "processors", lambda: processors)
+    monkeypatch.setattr(workers.sys, "executable", python)
+    with WorkerPool(module) as other:
         assert other.call(os.getpid)() == os.getpid()
 
 
 def test_a_process_that_fails_is_made_up_for():
-    with Beside("os") as other:
+    with WorkerPool("os") as other:
         assert other.call(own_process, os.getpid())() == os.getpid()
 
 
 def test_nothing_runs_on_when_nobody_waits_for_it():
-    with Beside("time") as other:
+    with WorkerPool("time") as other:
         other.call(time.sleep, 600.0)
         (process,) = other._processes
     assert process.returncode == -signal.SIGKILL
 
 
 def test_one_process_answers_calls_in_turn():
-    with Beside("os") as other:
+    with WorkerPool("os") as other:
         answers = [other.call(os.getpid) for _ in range(3)]
         (first,) = other._processes
         assert answers[0]() == first.pid
@@ -83,15 +83,15 @@ def test_one_process_answers_calls_in_turn():
 
 
 def test_what_no_process_has_begun_is_worked_out_here():
-    with Beside("time") as other:
+    with WorkerPool("time") as other:
         other.call(time.sleep, 600.0)
         assert other.call(os.getpid)() == os.getpid()
 
 
 @pytest.mark.parametrize(("usable", "most", "started"), [(2, 3, 1), (4, 2, 2), (8, 3, 3)])
 def test_one_processor_is_left_for_this_process(monkeypatch, usable, most, started):
-    monkeypatch.setattr(beside, "processors", lambda: usable)
-    with Beside("math", most) as other:
+    monkeypatch.setattr(workers, "processors", lambda: usable)
+    with WorkerPool("math", most) as other:
         answers = [other.call(math.sqrt, float(each)) for each in range(6)]
         assert [answer() for answer in answers] == [math.sqrt(each) for each in range(6)]
         assert len(other._processes) == started
