@@ -185,8 +185,8 @@ class WheelTask:
         inertia: of the whole, wheels braked.
         axes: of the wheels about roll and pitch, as columns, shape (..., 2, n).
         one_stops: whether the others must do it with any one of the wheels missing.
-        upright: I_zz of the whole [kg m^2], shape (...), where a heading is required too and the
-            wheels control it; swept, momentum and axes then have a third component. None: the
+        yaw_inertia: I_zz of the whole [kg m^2], shape (...), where a heading is required too and
+            the wheels control it; swept, momentum and axes then have a third component. None: the
             heading is free.
         begins: speed of all wheels at the start, in their direction for swept and momentum [rad/s],
             shape (...).
@@ -199,7 +199,7 @@ class WheelTask:
     inertia: TiltInertia
     axes: FloatArray
     one_stops: bool = False
-    upright: FloatArray | None = None
+    yaw_inertia: FloatArray | None = None
     begins: ArrayLike = 0.0
     one_way: ArrayLike = False
 
@@ -232,14 +232,14 @@ class WheelTask:
         roll, pitch, *up = _wheels_first(self.axes, most.ndim)
         own = roll**2 * y + pitch**2 * x - 2.0 * (roll * pitch) * product
         own = own / determinant
-        if self.upright is not None:
-            own = own + up[0] ** 2 / self.upright
+        if self.yaw_inertia is not None:
+            own = own + up[0] ** 2 / self.yaw_inertia
         alone = own.max(axis=0)
         usable = (most > 0.0) & np.isfinite(most)
         sense = np.moveaxis(sense, -1, 0)
         parts = rates[0] / determinant * roll + rates[1] / determinant * pitch
-        if self.upright is not None:
-            parts = parts + yawed[0] / self.upright * up[0]
+        if self.yaw_inertia is not None:
+            parts = parts + yawed[0] / self.yaw_inertia * up[0]
         parts = sense * parts / np.where(usable, most, 1.0)
         least = np.where(sense == 0.0, np.inf, parts).min(axis=0)
         # Treat opposing trunk motion as no help.

@@ -113,7 +113,7 @@ def spin_bound(
     )
 
 
-def turned_roll(roll: ArrayLike, upright: ArrayLike) -> FloatArray:
+def turned_roll(roll: ArrayLike, yaw_inertia: ArrayLike) -> FloatArray:
     """Momentum about roll per roll rate at the start of a flip, `I_xx (1 + I_xx / I_zz)`.
 
     The momentum `I_xx p` is fixed in space. After a quarter turn it lies along the trunk's z axis,
@@ -121,13 +121,13 @@ def turned_roll(roll: ArrayLike, upright: ArrayLike) -> FloatArray:
     (docs/theory.md, A roll at lift-off).
 
     Args:
-        roll, upright: I_xx and I_zz of robot and device [kg m^2].
+        roll, yaw_inertia: I_xx and I_zz of robot and device [kg m^2].
 
     Returns:
         [kg m^2], of the arguments' shape.
     """
     about_roll = np.asarray(roll)
-    return np.asarray(about_roll * (1.0 + about_roll / np.asarray(upright)))
+    return np.asarray(about_roll * (1.0 + about_roll / np.asarray(yaw_inertia)))
 
 
 def bound_curve(rate_changes: ArrayLike, wheel_speeds: ArrayLike) -> FloatArray:

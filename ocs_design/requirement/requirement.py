@@ -18,14 +18,15 @@ class ManeuverReserve:
     Attributes:
         demand: factor on the demand on the wheels, at least 1.
         rate: initial roll and pitch rates of the trunk to allow for [rad/s].
-        begun: factor on the demand that includes this rate; below 1 where the margin is ample.
+        demand_with_rate: factor on the demand that includes this rate; below 1 where the margin is
+            ample.
         roll: roll rate at lift-off that a flip must cancel [rad/s], see `turned_roll`.
         short: whether a device without this reserve falls short of it.
     """
 
     demand: float = 1.0
     rate: tuple[float, float] = (0.0, 0.0)
-    begun: float = 1.0
+    demand_with_rate: float = 1.0
     roll: float = 0.0
     short: bool = False
 
@@ -44,7 +45,7 @@ class Requirement:
         spin_inertia: required of one wheel, in place of all else [kg m^2]; None: to be found.
         standing_height: of the trunk above the ground, for maneuvers that end there [m].
         reserves: reserve of each maneuver, by name; maneuvers that are not listed have none.
-        free: whether the incidence is still to be chosen.
+        incidence_is_free: whether the incidence is still to be chosen.
         detection: time until a failed drive is detected [s], where the wheels must do everything
             with any one of them failed; None: no drive fails.
     """
@@ -55,7 +56,7 @@ class Requirement:
     spin_inertia: float | None
     standing_height: float
     reserves: Mapping[str, ManeuverReserve] = field(default_factory=dict)
-    free: bool = False
+    incidence_is_free: bool = False
     detection: float | None = None
 
     def changed(self, change: Callable[[Maneuver], Maneuver]) -> "Requirement":
@@ -64,7 +65,7 @@ class Requirement:
 
     def on(self, body: MassProperties) -> "Requirement":
         """Requirement for a body, on which kicks and pivots depend (`Maneuver.on`)."""
-        return self.changed(lambda each: each.on(body))
+        return self.changed(lambda maneuver: maneuver.on(body))
 
     @property
     def kicks(self) -> FloatArray:
@@ -72,26 +73,26 @@ class Requirement:
 
         They are the angular impulses of forces, and the wheels' momenta about a pivot.
         """
-        found = (each.momentum_of_body for each in self.maneuvers)
-        return np.reshape([each for each in found if each is not None], (-1, 2))
+        momenta = (maneuver.momentum_of_body for maneuver in self.maneuvers)
+        return np.reshape([momentum for momentum in momenta if momentum is not None], (-1, 2))
 
     def reserve(self, maneuver: Maneuver) -> ManeuverReserve:
         """Reserve for a maneuver; a neutral one if there is none."""
         return self.reserves.get(maneuver.name, _NO_RESERVE)
 
-    def slew(self, maneuver: Maneuver, inertia: TiltInertia, *, begun: bool = False) -> Slew:
+    def slew(self, maneuver: Maneuver, inertia: TiltInertia, *, with_rate: bool = False) -> Slew:
         """Slew that the motors must make for a maneuver, with its reserve (`Maneuver.slew`).
 
         Args:
             maneuver: of this requirement. inertia: see there.
-            begun: whether the trunk starts at the reserve's rate, whose momentum the wheels hold to
-                the end, in the direction of the momentum they hold anyway.
+            with_rate: whether the trunk starts at the reserve's rate, whose momentum the wheels
+                hold to the end, in the direction of the momentum they hold anyway.
         """
-        slew, kept = maneuver.slew(inertia, self.standing_height), self.reserve(maneuver)
-        factor, momentum = kept.demand, slew.momentum
-        if begun:
-            factor = kept.begun
-            momentum = momentum + np.copysign(inertia.diagonal * np.array(kept.rate), momentum)
+        slew, reserve = maneuver.slew(inertia, self.standing_height), self.reserve(maneuver)
+        factor, momentum = reserve.demand, slew.momentum
+        if with_rate:
+            factor = reserve.demand_with_rate
+            momentum = momentum + np.copysign(inertia.diagonal * np.array(reserve.rate), momentum)
         return replace(
             slew,
             swept=factor * slew.swept,

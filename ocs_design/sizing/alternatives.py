@@ -133,7 +133,9 @@ class Variant:
         same_materials = tuple(parts.materials) == tuple(present.materials)
         return replace(
             present,
-            requirement=replace(requirement, reserves=reserves, free=incidence_is_free),
+            requirement=replace(
+                requirement, reserves=reserves, incidence_is_free=incidence_is_free
+            ),
             envelope=self.task.resolved.envelope,
             supply=parts.supply,
             motors=tuple(

@@ -27,7 +27,7 @@ from ocs_design.sizing.footing.standing import standing_on
 from ocs_design.sizing.free_place import specified_place
 from ocs_design.sizing.limits import DEVICE_MASS, Progress
 from ocs_design.sizing.on_robot import OnRobot
-from ocs_design.sizing.reserve import Reality, Reserve, account
+from ocs_design.sizing.reserve import Reserve, SampledErrors, reserve_record
 from ocs_design.sizing.selection.device import with_demands
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem
 from ocs_design.sizing.selection.select import device_at
@@ -185,14 +185,14 @@ def _by_selection(
 ) -> Designed:
     """Modules, each with a motor of the catalogue, co-designed where that is specified."""
     specification, robot, criterion = task.specification, task.robot, search.criterion
-    reality = Reality.of(
+    errors = SampledErrors.of(
         specification.reality,
         robot,
         problem.requirement.standing_height,
         ballistic=specification.validation.ballistic is True,
     )
     asked, ringed = problem.requirement, None
-    found = search.mounted(problem, reality, reserve, ranked=ranked)
+    found = search.mounted(problem, errors, reserve, ranked=ranked)
     problem, selection, reserve = found.problem, found.selection, found.reserve
     if specification.ocs.guard == CONTAINING:
         problem, selection = search.in_rings(problem, selection.best)
@@ -228,7 +228,9 @@ def _by_selection(
 
     def resized(other: Reserve) -> float | None:
         """Mass of the selected parts and the plate, sized with another reserve [kg]."""
-        keeping = replace(problem, requirement=other.kept(problem.requirement, free=False))
+        keeping = replace(
+            problem, requirement=other.applied_to(problem.requirement, incidence_is_free=False)
+        )
         device = device_at(keeping, selection.best, chosen.incidence)
         return None if device is None else device.modules_mass + chosen.plate_mass
 
@@ -253,7 +255,7 @@ def _by_selection(
         criterion=BY_HAND if specified else name,
         choice=DriveChoice(problem, selection, chosen, co_designed, lacks_mount),
         reserve=reserve,
-        account=lambda: account(reserve, reality, problem, chosen, resized, nominal=least()),
+        account=lambda: reserve_record(reserve, errors, problem, chosen, resized, nominal=least()),
     )
 
 

@@ -18,7 +18,7 @@ from ocs_design.robot.robot import Robot
 from ocs_design.sizing.assembly import assemble_selected
 from ocs_design.sizing.footing.feet import FailedSearches, Footing
 from ocs_design.sizing.footing.standing import footing_under
-from ocs_design.sizing.reserve import Reality, Reserve
+from ocs_design.sizing.reserve import Reserve, SampledErrors
 from ocs_design.sizing.selection.problem import (
     Candidate,
     Selection,
@@ -171,7 +171,7 @@ class OnRobot:
         return at, best
 
     def mounted(
-        self, problem: SelectionProblem, reality: Reality, reserve: Reserve, *, ranked: bool
+        self, problem: SelectionProblem, errors: SampledErrors, reserve: Reserve, *, ranked: bool
     ) -> Mounted:
         """The selection on the footing of its best device.
 
@@ -195,10 +195,10 @@ class OnRobot:
         if first is not None:
             problem, first = self._settled(problem, first)
         nominal = select_by(problem, criterion).best if first is None else first
-        reserve = reserve.settled(reality, problem, nominal)
+        reserve = reserve.computed_for(errors, problem, nominal)
         free, plain = problem.incidence is None and criterion is None, problem
         problem, widest = (
-            replace(each, requirement=reserve.kept(each.requirement, free=free))
+            replace(each, requirement=reserve.applied_to(each.requirement, incidence_is_free=free))
             for each in (problem, widest)
         )
         first = device_at(problem, nominal, nominal.incidence)
@@ -210,11 +210,13 @@ class OnRobot:
         # The first reserve was computed for a device without one, at that device's incidence:
         # where this device needs a larger one, it keeps that.
         for _ in range(_RESERVES_MAX if free else 0):
-            needed = reality.needed(plain, selection.best, reserve)
-            if needed.reliability >= reserve.reliability:
+            needs = errors.needs(plain, selection.best, reserve)
+            if needs.reliability >= reserve.reliability:
                 break
-            more = reserve.of(needed)
-            surer = replace(problem, requirement=more.kept(plain.requirement, free=True))
+            more = reserve.covering(needs)
+            surer = replace(
+                problem, requirement=more.applied_to(plain.requirement, incidence_is_free=True)
+            )
             try:
                 selection = self._selected(surer, selection.best)
             except Infeasible:

@@ -34,16 +34,16 @@ from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.sizing.selection.demand import held_in_roll, wheel_task
 from ocs_design.sizing.selection.problem import Candidate, SelectionProblem, inertia_at
 
-PUSH_OFF = 0.08
+PUSH_OFF_REMAINDER = 0.08
 """Fraction of m v d, the momentum about roll or pitch of a push-off at speed v with the centre of
 mass off by d, that remains at lift-off: legs that track their plan absorb the rest."""
 
-FLIGHT = 1.03
+FLIGHT_RATIO = 1.03
 """Flight time of a robot that pushes off with four legs, relative to a rigid one's: its feet leave
 slightly faster and higher than they land. Solo12 1.058 as designed and 1.042 in the mean of 128
 samples, A1 1.038, Go1 1.039, Go2 1.031; the smallest is used."""
 
-ARRIVES = 0.4
+TILT_LEFT = 0.4
 """Tilt at touchdown of a robot whose wheels are too weak, relative to the tilt if it stopped
 turning in time. The control law lets it keep turning at up to 1 rad/s, so it lands closer to level.
 In simulation: 0.3 in drops that would be up to 9 deg off (Solo12, Romeo), 0.45 beyond, 0.3 to 0.4
@@ -61,7 +61,7 @@ _SEED = 0x5EED0F5E
 certify it."""
 
 _KNOTS = np.linspace(0.0, 1.0, 257)
-_LEAST, _MOST = 0.25, 4.0
+_FACTOR_MIN, _FACTOR_MAX = 0.25, 4.0
 """Range of factors on the demand that is searched."""
 
 
@@ -72,7 +72,7 @@ class Reserve:
     Attributes:
         reliability: fraction of robots that must pass every maneuver.
         scale: factor on every deviation from the mean; above 1 where simulated flights need more.
-        maneuvers: the resulting reserve of each, by name; empty until it is `settled`.
+        maneuvers: the resulting reserve of each, by name; empty until computed (`computed_for`).
     """
 
     reliability: float
@@ -80,37 +80,37 @@ class Reserve:
     maneuvers: Mapping[str, ManeuverReserve] = field(default_factory=dict)
 
     def raised(self, factor: float) -> "Reserve":
-        """A reserve for deviations larger by this factor, not settled yet."""
+        """A reserve for deviations larger by this factor, not computed yet."""
         return replace(self, scale=self.scale * factor, maneuvers={})
 
-    def kept(self, requirement: Requirement, *, free: bool) -> Requirement:
-        """The requirement with this reserve; `free`: the incidence is still to be chosen."""
-        return replace(requirement, reserves=self.maneuvers, free=free)
+    def applied_to(self, requirement: Requirement, *, incidence_is_free: bool) -> Requirement:
+        """The requirement with this reserve (`Requirement.incidence_is_free`)."""
+        return replace(requirement, reserves=self.maneuvers, incidence_is_free=incidence_is_free)
 
-    def settled(
-        self, reality: "Reality", problem: SelectionProblem, device: Candidate
+    def computed_for(
+        self, errors: "SampledErrors", problem: SelectionProblem, device: Candidate
     ) -> "Reserve":
         """The reserve computed for a device that does the nominal maneuvers.
 
         Args:
-            reality: sampled errors.
+            errors: sampled errors.
             problem: without a reserve. device: device that solves it.
         """
         if self.reliability <= NOMINAL or not problem.requirement.maneuvers:
             return self
-        return self.of(reality.needed(problem, device, self))
+        return self.covering(errors.needs(problem, device, self))
 
-    def of(self, needed: "Needed") -> "Reserve":
+    def covering(self, needs: "ReserveNeeds") -> "Reserve":
         """The reserve with which enough of these robots pass."""
-        factors, rolls = needed.for_all(self.reliability)
-        short = (factors > 1.0) | (rolls > needed.room)
+        factors, roll_rates = needs.at_reliability(self.reliability)
+        short = (factors > 1.0) | (roll_rates > needs.roll_rate_max)
         kept = {
-            name: ManeuverReserve(max(factor, 1.0), rate, begun, roll, lacks)
-            for (name, rate), factor, begun, roll, lacks in zip(
-                needed.rates.items(),
+            name: ManeuverReserve(max(factor, 1.0), rate, demand_with_rate, roll_rate, is_short)
+            for (name, rate), factor, demand_with_rate, roll_rate, is_short in zip(
+                needs.rates.items(),
                 factors.tolist(),
-                (factors * needed.left).tolist(),
-                rolls.tolist(),
+                (factors * needs.remaining).tolist(),
+                roll_rates.tolist(),
                 short.tolist(),
                 strict=True,
             )
@@ -119,63 +119,69 @@ class Reserve:
 
 
 @dataclass(frozen=True, eq=False)
-class Needed:
+class ReserveNeeds:
     """What sampled robots need.
 
     Attributes:
         factors: on the nominal maneuver's demand, shape (robots, maneuvers).
         rates: roll and pitch rates that the reserve covers [rad/s], by name.
-        has: factor that the device achieves, shape (maneuvers,).
-        left: fraction of `has` that is left with these rates, shape (maneuvers,).
-        blind: whether a robot ends off level about an axis that the wheels cannot control, shape
-            (robots, maneuvers).
-        rolls: roll rates at lift-off that flips must cancel [rad/s], shape (robots, maneuvers).
-        room: largest roll rate that the device can cancel [rad/s], shape (maneuvers,); inf: none is
-            required.
+        achieved: factor that the device achieves, shape (maneuvers,).
+        remaining: fraction of `achieved` that remains with these rates, shape (maneuvers,).
+        drifts_off: whether a robot ends off level about an axis that the wheels cannot control,
+            shape (robots, maneuvers).
+        roll_rates: at lift-off that flips must cancel [rad/s], shape (robots, maneuvers).
+        roll_rate_max: largest roll rate that the device can cancel [rad/s], shape (maneuvers,);
+            inf: none is required.
     """
 
     factors: FloatArray
     rates: Mapping[str, tuple[float, float]]
-    has: FloatArray
-    left: FloatArray
-    blind: NDArray[np.bool_]
-    rolls: FloatArray
-    room: FloatArray
+    achieved: FloatArray
+    remaining: FloatArray
+    drifts_off: NDArray[np.bool_]
+    roll_rates: FloatArray
+    roll_rate_max: FloatArray
 
     @property
     def reliability(self) -> float:
         """Fraction of the robots that pass every maneuver."""
-        passes = (self.factors <= self.has) & (self.rolls <= self.room) & ~self.blind
+        passes = (
+            (self.factors <= self.achieved)
+            & (self.roll_rates <= self.roll_rate_max)
+            & ~self.drifts_off
+        )
         return float(passes.all(axis=1).mean())
 
-    def for_all(self, reliability: float) -> tuple[FloatArray, FloatArray]:
-        """Factors and rolls with which this fraction passes all maneuvers, each equally reliable.
+    def at_reliability(self, reliability: float) -> tuple[FloatArray, FloatArray]:
+        """Factors and roll rates with which this fraction passes all, each maneuver equally likely.
 
         The nominal demand is always met, even where a factor below 1 would do, and the device's own
         capacity for roll is always used. Both have the shape (maneuvers,).
         """
-        both = np.hstack([self.factors, self.rolls])
-        met = np.hstack([np.maximum(self.factors, 1.0), np.maximum(self.rolls, self.room)])
+        both = np.hstack([self.factors, self.roll_rates])
+        met = np.hstack(
+            [np.maximum(self.factors, 1.0), np.maximum(self.roll_rates, self.roll_rate_max)]
+        )
         low, high = reliability, 1.0
         for _ in range(20):
             chance = (low + high) / 2.0
             passes = met <= np.quantile(met, chance, axis=0, method="higher")
             enough = passes.all(axis=1).mean() >= reliability
             low, high = (low, chance) if enough else (chance, high)
-        factors, rolls = np.split(np.quantile(both, high, axis=0, method="higher"), 2)
-        return factors, rolls
+        factors, roll_rates = np.split(np.quantile(both, high, axis=0, method="higher"), 2)
+        return factors, roll_rates
 
-    def worst(self, reliability: float) -> float:
+    def log_factor(self, reliability: float) -> float:
         """Logarithm of the factor, relative to the device's, that suffices at this reliability."""
-        most = np.maximum(self.factors / self.has, self.rolls / self.room)
-        # Of maneuvers that ask for nothing it is zero.
-        least = np.finfo(np.float64).tiny
-        return float(np.quantile(np.log(np.maximum(most.max(axis=1), least)), reliability))
+        ratio = np.maximum(self.factors / self.achieved, self.roll_rates / self.roll_rate_max)
+        # It is zero for maneuvers that demand nothing.
+        tiny = np.finfo(np.float64).tiny
+        return float(np.quantile(np.log(np.maximum(ratio.max(axis=1), tiny)), reliability))
 
 
-def account(
+def reserve_record(
     reserve: Reserve,
-    reality: "Reality",
+    errors: "SampledErrors",
     problem: SelectionProblem,
     device: Candidate,
     resized: Callable[[Reserve], float | None],
@@ -185,39 +191,42 @@ def account(
     """The reserve and its cost; None without maneuvers.
 
     Args:
-        reserve: with which the device was selected. reality: sampled errors.
+        reserve: with which the device was selected. errors: sampled errors.
         problem: the problem solved. device: its solution.
         resized: mass of the device of the same parts with another reserve [kg]; None: infeasible.
         nominal: mass of the lightest device without a reserve, before refinement [kg].
     """
     if not problem.requirement.maneuvers:
         return None
-    needed = reality.needed(problem, device, reserve)
+    needs = errors.needs(problem, device, reserve)
     curve = {
-        level: resized(replace(reserve, reliability=level).of(needed)) for level in RELIABILITIES
+        level: resized(replace(reserve, reliability=level).covering(needs))
+        for level in RELIABILITIES
     }
-    own = reserve.reliability
-    before = curve[own] if own in curve else resized(reserve.of(needed))
-    known = {key: reality.knowing(key).needed(problem, device, reserve) for key in _FELT}
-    sure = max(reserve.reliability, RELIABILITY)
-    falls = {
-        key: max(needed.worst(sure) - without.worst(sure), 0.0) for key, without in known.items()
+    reliability = reserve.reliability
+    present_mass = curve[reliability] if reliability in curve else resized(reserve.covering(needs))
+    known = {key: errors.with_known(key).needs(problem, device, reserve) for key in _RELEVANT_KEYS}
+    level = max(reserve.reliability, RELIABILITY)
+    reductions = {
+        key: max(needs.log_factor(level) - without.log_factor(level), 0.0)
+        for key, without in known.items()
     }
-    whole = sum(falls.values()) or 1.0
+    total = sum(reductions.values()) or 1.0
 
     def saved(key: str) -> float:
-        if before is None or not spends:
+        if present_mass is None or not has_cost:
             return 0.0
-        lighter = resized(reserve.of(known[key]))
-        return 0.0 if lighter is None else max(before - lighter, 0.0)
+        lighter = resized(reserve.covering(known[key]))
+        return 0.0 if lighter is None else max(present_mass - lighter, 0.0)
 
-    spends = any(kept.short for kept in reserve.maneuvers.values())
+    has_cost = any(kept.short for kept in reserve.maneuvers.values())
     costs = [
-        UncertaintyCost(key=key, share=fall / whole, mass=saved(key)) for key, fall in falls.items()
+        UncertaintyCost(key=key, share=reduction / total, mass=saved(key))
+        for key, reduction in reductions.items()
     ]
     return ReserveRecord(
         reliability=reserve.reliability,
-        predicted=needed.reliability,
+        predicted=needs.reliability,
         scale=reserve.scale,
         nominal=min(nominal, curve[NOMINAL] or nominal),
         maneuvers=tuple(
@@ -228,12 +237,12 @@ def account(
                 roll_rate=roll,
                 pitch_rate=pitch,
                 undone=undone,
-                lost=lost,
+                lost=drifting,
             )
-            for (name, (roll, pitch)), factor, undone, lost in zip(
-                needed.rates.items(),
-                *(each.tolist() for each in needed.for_all(reserve.reliability)),
-                needed.blind.mean(axis=0).tolist(),
+            for (name, (roll, pitch)), factor, undone, drifting in zip(
+                needs.rates.items(),
+                *(each.tolist() for each in needs.at_reliability(reserve.reliability)),
+                needs.drifts_off.mean(axis=0).tolist(),
                 strict=True,
             )
         ),
@@ -243,7 +252,7 @@ def account(
 
 
 @dataclass(frozen=True, eq=False)
-class Reality:
+class SampledErrors:
     """Sampled errors of a robot and its device, as far as the closed forms depend on them.
 
     Attributes:
@@ -265,17 +274,17 @@ class Reality:
     @classmethod
     def of(
         cls, specified: UncertaintySection, robot: Robot, height: float, *, ballistic: bool
-    ) -> "Reality":
+    ) -> "SampledErrors":
         """Errors of a robot that stands at this height [m]; `ballistic`: it never pushes off."""
         index = robot.tree.body_of_link[robot.trunk]
         placed = robot.tree.placements_from(robot.trunk, robot.posture)[index].rotation
         inertia = placed @ robot.tree.bodies[index].mass_properties.inertia @ placed.T
         moments = np.trace(inertia) / 2.0 - np.diag(inertia)
         legs = 0 if ballistic else len(robot.legs)
-        return cls(specified, height, moments, legs > 0, FLIGHT if legs > 3 else 1.0)
+        return cls(specified, height, moments, legs > 0, FLIGHT_RATIO if legs > 3 else 1.0)
 
-    def knowing(self, key: str) -> "Reality":
-        """Reality in which this quantity is always at its mean."""
+    def with_known(self, key: str) -> "SampledErrors":
+        """Errors of robots of which this quantity is known, so always at its mean."""
         return replace(self, known=self.known | {key})
 
     def drawn(self, problem: SelectionProblem, device: Candidate) -> Mapping[str, FloatArray]:
@@ -283,16 +292,18 @@ class Reality:
         motor = Drive.of(device.motor, device.gear, problem.bus_voltage)
         spreads = complete_uncertainty(self.specified, self.height, motor)
         random = np.random.Generator(np.random.Philox(key=_SEED))
-        strata, found = (np.arange(DRAWN) + 0.5) / DRAWN, {}
-        for key in _FELT:
+        strata, values_by_key = (np.arange(DRAWN) + 0.5) / DRAWN, {}
+        for key in _RELEVANT_KEYS:
             knots = [getattr(spreads, key).at(knot) for knot in _KNOTS]
             parts = parts_of(key, device.layout.names)
             scores = np.stack([random.permutation(strata) for _ in parts], axis=1)
             values = np.interp(scores, _KNOTS, knots)
-            found[key] = np.full_like(values, values.mean()) if key in self.known else values
-        return found
+            values_by_key[key] = (
+                np.full_like(values, values.mean()) if key in self.known else values
+            )
+        return values_by_key
 
-    def needed(self, problem: SelectionProblem, device: Candidate, reserve: Reserve) -> Needed:
+    def needs(self, problem: SelectionProblem, device: Candidate, reserve: Reserve) -> ReserveNeeds:
         """What the robots need of a device, and what it can do.
 
         Args:
@@ -309,48 +320,52 @@ class Reality:
         # includes mean friction.
         constant = 1.0 + drawn["torque_constant_error"]
         voltage, resistance = 1.0 + drawn["bus_voltage_error"], 1.0 + drawn["resistance_error"]
-        nominal, left = device.line, np.minimum(voltage / resistance, 1.0)
+        nominal, current_ratio = device.line, np.minimum(voltage / resistance, 1.0)
         drag = drawn["coulomb_friction"] + 0.5 * nominal.no_load_speed * drawn["viscous_friction"]
-        more = drag - drag.mean(axis=0)
+        extra_drag = drag - drag.mean(axis=0)
         line = DriveLine(
-            stall_torque=nominal.stall_torque * constant * left - more,
+            stall_torque=nominal.stall_torque * constant * current_ratio - extra_drag,
             no_load_speed=nominal.no_load_speed * np.minimum(voltage / constant, 1.0),
-            torque_limit=nominal.torque_limit * constant - more,
+            torque_limit=nominal.torque_limit * constant - extra_drag,
             speed_max=nominal.speed_max,
             power_max=nominal.power_max * np.minimum(constant, 1.0),
         )
-        sure = NormalDist().inv_cdf(reserve.reliability)
+        deviations = NormalDist().inv_cdf(reserve.reliability)
         maneuvers = problem.requirement.maneuvers
-        flown = [_Flown.of(self, problem, device, maneuver, drawn) for maneuver in maneuvers]
-        rates = [one.rate_kept(sure) for one in flown]
-        has = np.array([one.has((0.0, 0.0)) for one in flown])
-        begun = [one.has(rate) for one, rate in zip(flown, rates, strict=True)]
-        factors = [
-            one.factors(one.wheels(line, reserve.reliability), own)
-            for one, own in zip(flown, has, strict=True)
+        sampled = [
+            _SampledManeuver.of(self, problem, device, maneuver, drawn) for maneuver in maneuvers
         ]
-        asked = np.stack(factors, axis=1)
+        rates = [each.covered_rates(deviations) for each in sampled]
+        achieved = np.array([each.achieved((0.0, 0.0)) for each in sampled])
+        with_rate = [each.achieved(rate) for each, rate in zip(sampled, rates, strict=True)]
+        factors = np.stack(
+            [
+                each.factors(each.sweeps(line, reserve.reliability), factor)
+                for each, factor in zip(sampled, achieved, strict=True)
+            ],
+            axis=1,
+        )
         if reserve.scale > 1.0:
             # Simulated flights needed more than computed here, so factors below 1 are no margin.
-            once = self.needed(problem, device, replace(reserve, scale=1.0))
-            asked = asked / np.minimum(once.for_all(reserve.reliability)[0], 1.0)
-        return Needed(
-            factors=asked,
+            unscaled = self.needs(problem, device, replace(reserve, scale=1.0))
+            factors = factors / np.minimum(unscaled.at_reliability(reserve.reliability)[0], 1.0)
+        return ReserveNeeds(
+            factors=factors,
             rates=dict(zip((maneuver.name for maneuver in maneuvers), rates, strict=True)),
-            has=has,
-            left=np.array(
+            achieved=achieved,
+            remaining=np.array(
                 [
-                    own / full if own > 0.0 and np.isfinite(full) else 1.0
-                    for own, full in zip(begun, has, strict=True)
+                    reduced / full if reduced > 0.0 and np.isfinite(full) else 1.0
+                    for reduced, full in zip(with_rate, achieved, strict=True)
                 ]
             ),
-            blind=np.stack([one.lost for one in flown], axis=1),
-            rolls=np.stack([one.rolls for one in flown], axis=1),
-            room=np.array([one.room for one in flown]),
+            drifts_off=np.stack([each.drifts_off for each in sampled], axis=1),
+            roll_rates=np.stack([each.roll_rates for each in sampled], axis=1),
+            roll_rate_max=np.array([each.roll_rate_max for each in sampled]),
         )
 
 
-_FELT = (
+_RELEVANT_KEYS = (
     "mass_error",
     "inertia_error",
     "com_error",
@@ -364,23 +379,24 @@ _FELT = (
     "attitude_bias",
     "takeoff_rate",
 )
-"""Keys on which the closed forms depend."""
+"""Keys of `[reality]` on which the closed forms depend."""
 
 
 @dataclass(frozen=True, eq=False)
-class _Flown:
+class _SampledManeuver:
     """One maneuver of the sampled robots.
 
     Attributes:
         maneuver, requirement, device: what is flown.
-        designed: axes of the wheels as designed, shape (3, n).
+        designed_axes: axes of the wheels as designed, shape (3, n).
         nominal: inertia of robot and device as designed.
         inertia: about roll and pitch as built [kg m^2], shape (robots, 2).
         swept, momentum: about roll and pitch, that the wheels must absorb, shape (robots, 2).
         rates: of roll and pitch at lift-off [rad/s], shape (robots, 2).
         duration: in which it must be done [s], shape (robots, 1).
         share: fraction of the drives' capability that is used.
-        tilted: fraction of what the wheels miss that remains as tilt at touchdown, see `ARRIVES`.
+        tilt_left: fraction of what the wheels miss that remains as tilt at touchdown, see
+            `TILT_LEFT`.
         axes: of the wheels as built, shape (robots, 2, n).
         bias: error of measured roll and pitch [rad], shape (robots, 2).
     """
@@ -388,7 +404,7 @@ class _Flown:
     maneuver: Maneuver
     requirement: Requirement
     device: Candidate
-    designed: FloatArray
+    designed_axes: FloatArray
     nominal: TiltInertia
     inertia: FloatArray
     swept: FloatArray
@@ -396,62 +412,62 @@ class _Flown:
     rates: FloatArray
     duration: FloatArray
     share: float
-    tilted: float
+    tilt_left: float
     axes: FloatArray
     bias: FloatArray
 
     @classmethod
     def of(
         cls,
-        reality: Reality,
+        errors: SampledErrors,
         problem: SelectionProblem,
         device: Candidate,
         maneuver: Maneuver,
         drawn: Mapping[str, FloatArray],
-    ) -> "_Flown":
+    ) -> "_SampledManeuver":
         """The maneuver of the sampled robots."""
         at = device.incidence if maneuver.incidence is None else maneuver.incidence
         reached = np.abs(device.layout.axes(at)[:2]).max(axis=1)
         nominal = inertia_at(problem, device, at).within_reach(reached, maneuver.stray)
         # I_xx = S_y + S_z and I_yy = S_x + S_z, of the trunk's second moments S.
-        moments = reality.trunk * drawn["inertia_error"]
-        added = moments[:, 2:] + moments[:, 1::-1]
-        heavier = drawn["mass_error"] * np.diag(problem.robot.inertia)[:2]
-        diagonal = nominal.diagonal + added + heavier
+        moments = errors.trunk * drawn["inertia_error"]
+        from_inertia = moments[:, 2:] + moments[:, 1::-1]
+        from_mass = drawn["mass_error"] * np.diag(problem.robot.inertia)[:2]
+        diagonal = nominal.diagonal + from_inertia + from_mass
         inertia = TiltInertia(diagonal, np.broadcast_to(nominal.product, len(diagonal)))
         slew = maneuver.slew(inertia, problem.requirement.standing_height)
         speed = maneuver.lift_off
         # A centre of mass off forward pitches the robot in push-off; one off to the left rolls it.
-        off = drawn["com_error"][:, 1::-1] if reality.pushes_off else 0.0
-        rates = PUSH_OFF * device.total.mass * speed * off / diagonal
+        off = drawn["com_error"][:, 1::-1] if errors.pushes_off else 0.0
+        rates = PUSH_OFF_REMAINDER * device.total.mass * speed * off / diagonal
         rates = rates + (drawn["takeoff_rate"] if speed else 0.0)
         time, share = slew.duration, 1.0
         # Measured for falls and pushes, where feedback turns the trunk to level until touchdown.
-        arrives = not maneuver.estimated and not maneuver.on_pivot
+        reaches_level = not maneuver.estimated and not maneuver.on_pivot
         if maneuver.counts_turns:
             # A robot behind its plan may use the whole flight, but then brakes late, and finishes
             # in time only if the supply absorbs the wheels' energy in the part of the flight after
             # the planned turn.
             energy = 0.5 * device.spin_inertia * device.line.top_speed**2
-            whole = reality.flight * maneuver.flight_time
-            late = energy <= device.line.power_max * (whole - time)
-            arrives = bool(late) and reality.flight > 1.0
-            time, share = (whole, 1.0) if late else (time, PLANNED)
+            flight_time = errors.flight * maneuver.flight_time
+            late = energy <= device.line.power_max * (flight_time - time)
+            reaches_level = bool(late) and errors.flight > 1.0
+            time, share = (flight_time, 1.0) if late else (time, PLANNED)
         # Each module is turned by hand on its foot; shape (robots, 2, n).
         built, off = device.layout.axes(at), drawn["incidence_error"][:, None]
         across = np.cross(device.layout.feet(built), built, axis=0)
         axes = (np.cos(off) * built + np.sin(off) * across)[:, :2]
         if problem.requirement.detection is not None:
             # Each robot in turn loses another wheel, from the start.
-            lost = np.arange(len(axes)) % len(device.layout)
-            axes = axes * (np.arange(len(device.layout)) != lost[:, None])[:, None]
+            failed = np.arange(len(axes)) % len(device.layout)
+            axes = axes * (np.arange(len(device.layout)) != failed[:, None])[:, None]
             time -= problem.requirement.detection
-            arrives = False
+            reaches_level = False
         return cls(
             maneuver=maneuver,
             requirement=problem.requirement,
             device=device,
-            designed=device.layout.axes(at),
+            designed_axes=device.layout.axes(at),
             nominal=nominal,
             inertia=diagonal,
             # A turn cancels a tilt of the opposite sense.
@@ -460,76 +476,78 @@ class _Flown:
             rates=rates,
             duration=time - drawn["torque_delay"],
             share=share,
-            tilted=ARRIVES if arrives else 1.0,
+            tilt_left=TILT_LEFT if reaches_level else 1.0,
             axes=axes,
             bias=drawn["attitude_bias"],
         )
 
     @property
-    def upright(self) -> float:
+    def yaw_inertia(self) -> float:
         """I_zz of robot and device as designed [kg m^2]."""
         return float(self.device.total.inertia[2, 2])
 
     @property
     def _turns_over(self) -> bool:
         """Whether roll turns with the trunk (a flip) and the wheels cannot control yaw."""
-        blind = bool((np.abs(self.designed[2]) <= OUT_OF_REACH).all())
-        return self.maneuver.pitches_over and blind
+        without_yaw = bool((np.abs(self.designed_axes[2]) <= OUT_OF_REACH).all())
+        return self.maneuver.pitches_over and without_yaw
 
     @property
-    def _undoes_roll(self) -> bool:
+    def _cancels_roll(self) -> bool:
         """Whether wheels must cancel roll at lift-off; a flip at its own incidence may leave it."""
-        return self._turns_over and bool(self._reached[0] or self.maneuver.incidence is None)
+        return self._turns_over and bool(self._controlled[0] or self.maneuver.incidence is None)
 
     @property
-    def _reached(self) -> NDArray[np.bool_]:
+    def _controlled(self) -> NDArray[np.bool_]:
         """Whether the wheels control roll and pitch, shape (2,)."""
-        return np.asarray(np.abs(self.designed[:2]).max(axis=1) > OUT_OF_REACH)
+        return np.asarray(np.abs(self.designed_axes[:2]).max(axis=1) > OUT_OF_REACH)
 
-    def rate_kept(self, sure: float) -> tuple[float, float]:
-        """Roll and pitch rates covered [rad/s]: `sure` standard deviations; 0 if out of reach."""
-        kept = self._reached | (self.maneuver.incidence is None)
-        kept[0] &= not self._turns_over
-        roll, pitch = np.where(kept, sure * self.rates.std(axis=0), 0.0).tolist()
+    def covered_rates(self, deviations: float) -> tuple[float, float]:
+        """Roll and pitch rates covered [rad/s]: this many `deviations`; 0 if out of reach."""
+        covered = self._controlled | (self.maneuver.incidence is None)
+        covered[0] &= not self._turns_over
+        roll, pitch = np.where(covered, deviations * self.rates.std(axis=0), 0.0).tolist()
         return roll, pitch
 
     def _task(self, rate: tuple[float, float]) -> WheelTask:
         """The maneuver as designed, with these rates at its start."""
         reserves = {self.maneuver.name: ManeuverReserve(1.0, rate)}
         requirement = replace(self.requirement, reserves=reserves)
-        upright, axes = np.array([[self.upright]]), self.designed[None, None]
-        return wheel_task([self.maneuver], requirement, self.nominal, upright, axes, begun=[True])
+        yaw_inertia, axes = np.array([[self.yaw_inertia]]), self.designed_axes[None, None]
+        return wheel_task(
+            [self.maneuver], requirement, self.nominal, yaw_inertia, axes, with_rate=[True]
+        )
 
-    def has(self, rate: tuple[float, float]) -> float:
+    def achieved(self, rate: tuple[float, float]) -> float:
         """What the device can do, relative to the demand, by the selection's own formula."""
         demand = spin_demand(
             self._task(rate), self.device.line.reserved(), self.device.drive.armature
         )
-        can = capability(demand, np.asarray(self.device.spin_inertia))
+        capacity = capability(demand, np.asarray(self.device.spin_inertia))
         # Beside a change of rate, a maneuver may ask for nothing.
-        return (can.sweep / demand.sweep).item() if demand.sweep.any() else np.inf
+        return (capacity.sweep / demand.sweep).item() if demand.sweep.any() else np.inf
 
-    def _each(self, asked: FloatArray) -> FloatArray:
+    def _momentum_per_wheel(self, momentum: FloatArray) -> FloatArray:
         """Momentum of each wheel for a given momentum about roll and pitch, shape (robots, n).
 
         Axes that the wheels cannot control are ignored.
         """
-        reached = self._reached
-        return held_by_each(self.axes * reached[:, None], asked * reached)
+        controlled = self._controlled
+        return held_by_each(self.axes * controlled[:, None], momentum * controlled)
 
-    def wheels(self, line: DriveLine, reliability: float) -> tuple[FloatArray, FloatArray]:
+    def sweeps(self, line: DriveLine, reliability: float) -> tuple[FloatArray, FloatArray]:
         """Sweep required of each wheel and possible [N m s^2], signed, shape (robots, n)."""
         momentum = self.momentum
-        if np.quantile(self.rolls, reliability) > self.room:
+        if np.quantile(self.roll_rates, reliability) > self.roll_rate_max:
             # Larger wheels would not cancel the roll; that takes other wheels or another incidence.
             momentum = momentum - self.inertia * self.rates * [1.0, 0.0]
-        held, load = self._each(momentum), self._task((0.0, 0.0)).load()
+        held, load = self._momentum_per_wheel(momentum), self._task((0.0, 0.0)).load()
         load = replace(
             load, begins=np.asarray(load.begins.item()), one_way=bool(np.all(load.one_way))
         )
-        asked = self._each(self.swept + momentum * self.duration)
+        required = self._momentum_per_wheel(self.swept + momentum * self.duration)
         demand = SweepDemand(
-            sweep=np.abs(asked),
+            sweep=np.abs(required),
             momentum=np.abs(held),
             duration=self.duration,
             coupling=np.asarray(load.coupling.item()),
@@ -537,44 +555,46 @@ class _Flown:
             least=np.zeros(1),
             drive=UnitDrive.of(*load.started(line.reserved(self.share))),
         )
-        can = capability(demand, np.asarray(self.device.spin_inertia)).sweep
-        return asked, np.copysign(can, asked)
+        possible = capability(demand, np.asarray(self.device.spin_inertia)).sweep
+        return required, np.copysign(possible, required)
 
-    def factors(self, wheels: tuple[FloatArray, FloatArray], has: float) -> FloatArray:
+    def factors(self, sweeps: tuple[FloatArray, FloatArray], achieved: float) -> FloatArray:
         """Factor on the nominal demand with which each robot lands level, shape (robots,).
 
         Args:
-            wheels: required and possible sweep, from `wheels`.
-            has: factor that the device achieves.
+            sweeps: required and possible, of each wheel.
+            achieved: factor that the device achieves.
         """
-        asked, can = wheels
-        low, high = np.full(len(asked), _LEAST), np.full(len(asked), _MOST)
+        required, possible = sweeps
+        low, high = np.full(len(required), _FACTOR_MIN), np.full(len(required), _FACTOR_MAX)
         for _ in range(18):
             factor = np.sqrt(low * high)
-            missing = asked - can * (factor / has)[:, None]
-            missing = np.where(missing * np.sign(asked) > 0.0, missing, 0.0)
+            missing = required - possible * (factor / achieved)[:, None]
+            missing = np.where(missing * np.sign(required) > 0.0, missing, 0.0)
             short = (self.axes * missing[:, None]).sum(axis=2)
-            off = self.tilted * short / self.inertia * self._reached - self.bias
+            off = self.tilt_left * short / self.inertia * self._controlled - self.bias
             level = (np.abs(off) <= LANDING_TOLERANCE).all(axis=1)
             low, high = np.where(level, low, factor), np.where(level, factor, high)
         return high
 
     @property
-    def rolls(self) -> FloatArray:
+    def roll_rates(self) -> FloatArray:
         """Roll rates at lift-off that a flip must cancel [rad/s], shape (robots,)."""
-        undone = np.abs(self.rates[:, 0]) * turned_roll(self.inertia[:, 0], self.upright)
-        alike = turned_roll(self.nominal.diagonal[..., 0], self.upright)
-        return undone / alike if self._undoes_roll else np.zeros(len(undone))
+        momentum = np.abs(self.rates[:, 0]) * turned_roll(self.inertia[:, 0], self.yaw_inertia)
+        nominal = turned_roll(self.nominal.diagonal[..., 0], self.yaw_inertia)
+        return momentum / nominal if self._cancels_roll else np.zeros(len(momentum))
 
     @property
-    def room(self) -> float:
+    def roll_rate_max(self) -> float:
         """The largest roll rate at lift-off that the device can cancel in a flip [rad/s]."""
-        per_rate = held_in_roll(1.0, self.nominal, self.upright, self.designed, self.requirement)
-        most = self.device.spin_inertia * float(self.device.line.reserved().top_speed)
-        return most / float(per_rate) if self._undoes_roll and per_rate > 0.0 else np.inf
+        per_rate = held_in_roll(
+            1.0, self.nominal, self.yaw_inertia, self.designed_axes, self.requirement
+        )
+        capacity = self.device.spin_inertia * float(self.device.line.reserved().top_speed)
+        return capacity / float(per_rate) if self._cancels_roll and per_rate > 0.0 else np.inf
 
     @property
-    def lost(self) -> NDArray[np.bool_]:
+    def drifts_off(self) -> NDArray[np.bool_]:
         """Whether a robot drifts off level about an uncontrolled axis, shape (robots,)."""
         drift = self.rates * self.duration - self.bias
-        return np.asarray(((np.abs(drift) > LANDING_TOLERANCE) & ~self._reached).any(axis=1))
+        return np.asarray(((np.abs(drift) > LANDING_TOLERANCE) & ~self._controlled).any(axis=1))

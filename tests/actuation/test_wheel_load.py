@@ -441,9 +441,9 @@ def test_wheels_that_reach_yaw_turn_it_directly(name, elevation, published):
     The published wheels are those of torques held for a fortieth of the time each, 1.3 and 1.9 %
     larger than where all that the motor has speeds the wheel up and then its torque limit stops it.
     """
-    wheels, upright = Layout(name).axes(np.radians(elevation)), np.array(0.068)
-    swept = np.array([0.0, 0.0, upright * np.pi / 2.0])
-    turn = WheelTask(swept, np.zeros(3), 2.0, axes(ROLL, BODY), wheels, upright=upright)
+    wheels, yaw_inertia = Layout(name).axes(np.radians(elevation)), np.array(0.068)
+    swept = np.array([0.0, 0.0, yaw_inertia * np.pi / 2.0])
+    turn = WheelTask(swept, np.zeros(3), 2.0, axes(ROLL, BODY), wheels, yaw_inertia=yaw_inertia)
     smallest, gain = float(smallest_spin_inertia(turn, EC45)), np.abs(wheels[2]).sum()
     asked = np.pi / 2.0 * 0.068 / gain
     reduced = smallest - smallest**2 * gain * np.abs(wheels[2]).max() / 0.068

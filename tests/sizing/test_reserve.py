@@ -24,7 +24,7 @@ from ocs_design.requirement.uncertainty import Constant
 from ocs_design.robot.stance import LANDING_TOLERANCE
 from ocs_design.simulation.scenario import Flights
 from ocs_design.sizing.design import design_device
-from ocs_design.sizing.reserve import Needed, Reserve
+from ocs_design.sizing.reserve import Reserve, ReserveNeeds
 from ocs_design.sizing.selection.demand import UNDOES, held_in_roll
 from ocs_design.sizing.trajectory.plans import plan
 
@@ -105,18 +105,24 @@ def flights(more):
     return found, maneuver, replace(campaign, flights=(replace(flight, world=world),))
 
 
-def needed(factors, **more):
+def needs(factors, **more):
     count = factors.shape[1]
-    given = {"has": np.ones(count), "left": np.ones(count), **more}
-    given = {"rolls": np.zeros(factors.shape), "room": np.full(count, np.inf), **given}
+    given = {"achieved": np.ones(count), "remaining": np.ones(count), **more}
+    given = {
+        "roll_rates": np.zeros(factors.shape),
+        "roll_rate_max": np.full(count, np.inf),
+        **given,
+    }
     names = {f"m{index}": (0.0, 0.0) for index in range(count)}
-    return Needed(factors=factors, rates=names, blind=np.zeros(factors.shape, bool), **given)
+    return ReserveNeeds(
+        factors=factors, rates=names, drifts_off=np.zeros(factors.shape, bool), **given
+    )
 
 
 def test_two_maneuvers_apart_must_each_be_surer_than_both():
     """0.95 each is 0.9025 together: factors of exp(1.645 sigma)."""
     scores = np.random.default_rng(0).standard_normal((200_000, 2))
-    found, _ = needed(np.exp(scores * [0.05, 0.1])).for_all(0.95**2)
+    found, _ = needs(np.exp(scores * [0.05, 0.1])).at_reliability(0.95**2)
     expected = np.exp(NormalDist().inv_cdf(0.95) * np.array([0.05, 0.1]))
     np.testing.assert_allclose(found, expected, rtol=2e-3)
 
@@ -124,31 +130,31 @@ def test_two_maneuvers_apart_must_each_be_surer_than_both():
 def test_a_flip_and_its_roll_at_lift_off_must_each_be_surer_than_both():
     """The same with |p| of a normal rate: 0.95 lies at 1.960 sigma."""
     scores = np.random.default_rng(2).standard_normal((200_000, 2))
-    factors, rolls = np.exp(0.1 * scores[:, :1]), 0.03 * np.abs(scores[:, 1:])
-    found = needed(factors, rolls=rolls, room=np.array([0.0]))
-    kept, undone = found.for_all(0.95**2)
+    factors, roll_rates = np.exp(0.1 * scores[:, :1]), 0.03 * np.abs(scores[:, 1:])
+    found = needs(factors, roll_rates=roll_rates, roll_rate_max=np.array([0.0]))
+    kept, undone = found.at_reliability(0.95**2)
     np.testing.assert_allclose(kept, np.exp(0.1 * NormalDist().inv_cdf(0.95)), rtol=2e-3)
     np.testing.assert_allclose(undone, 0.03 * NormalDist().inv_cdf(0.975), rtol=0.01)
-    roomy = replace(found, room=np.array([1.0]))
-    kept, _ = roomy.for_all(0.95)
+    roomy = replace(found, roll_rate_max=np.array([1.0]))
+    kept, _ = roomy.at_reliability(0.95)
     np.testing.assert_allclose(kept, np.exp(0.1 * NormalDist().inv_cdf(0.95)), rtol=2e-3)
-    passes = replace(roomy, has=kept, room=undone)
+    passes = replace(roomy, achieved=kept, roll_rate_max=undone)
     assert passes.reliability == pytest.approx(0.95**2, abs=2e-3)
 
 
 def test_the_worst_maneuver_is_what_robots_need_most():
     """Half of the larger of two equal normal scores is below 0.545: Phi(0.545) is sqrt(0.5)."""
     scores = np.random.default_rng(1).standard_normal((200_000, 2))
-    found = needed(2.0 * np.exp(0.1 * scores), has=2.0 * np.ones(2)).worst(0.5)
+    found = needs(2.0 * np.exp(0.1 * scores), achieved=2.0 * np.ones(2)).log_factor(0.5)
     assert found == pytest.approx(0.1 * NormalDist().inv_cdf(0.5**0.5), rel=0.02)
 
 
 def test_a_maneuver_that_asks_for_nothing_is_not_the_worst():
     """Beside a change of rate; NumPy warned of the logarithm of zero."""
-    found = needed(np.array([[0.0], [0.0]]), has=np.array([np.inf]))
-    assert np.isfinite(found.worst(0.9))
-    both = needed(np.array([[2.0, 0.0], [2.0, 0.0]]), has=np.array([1.0, np.inf]))
-    assert both.worst(0.9) == pytest.approx(np.log(2.0))
+    found = needs(np.array([[0.0], [0.0]]), achieved=np.array([np.inf]))
+    assert np.isfinite(found.log_factor(0.9))
+    both = needs(np.array([[2.0, 0.0], [2.0, 0.0]]), achieved=np.array([1.0, np.inf]))
+    assert both.log_factor(0.9) == pytest.approx(np.log(2.0))
 
 
 def test_a_rate_at_the_start_is_momentum_till_the_end():
@@ -156,10 +162,11 @@ def test_a_rate_at_the_start_is_momentum_till_the_end():
     kept = {"flip": ManeuverReserve(1.1, (0.1, 0.02), 0.9)}
     requirement = Requirement((FLIP,), None, 1.0, None, 0.27, kept)
     inertia = TiltInertia.uncoupled([0.03, 0.055])
-    plain, begun = (requirement.slew(FLIP, inertia, begun=begun) for begun in (False, True))
+    plain = requirement.slew(FLIP, inertia)
+    with_rate = requirement.slew(FLIP, inertia, with_rate=True)
     np.testing.assert_allclose(plain.swept, [0.0, -1.1 * 0.055 * 2.0 * np.pi], rtol=1e-12)
     np.testing.assert_allclose(plain.momentum, 0.0)
-    np.testing.assert_allclose(begun.momentum, [0.9 * 0.003, 0.9 * 0.0011], rtol=1e-12)
+    np.testing.assert_allclose(with_rate.momentum, [0.9 * 0.003, 0.9 * 0.0011], rtol=1e-12)
 
 
 @pytest.mark.slow
@@ -247,7 +254,10 @@ def test_wheels_that_reach_yaw_or_leave_roll_alone_hold_no_roll_of_a_flip():
     asked = Requirement((FLIP,), None, 1.0, None, 0.27)
     assert held_in_roll(0.1, inertia, 0.04, axes, asked) == 0.0
     assert held_in_roll(0.1, inertia, 0.04, axes[:, 1:2], asked) == 0.0
-    assert held_in_roll(0.1, inertia, 0.04, axes[:, 1:2], replace(asked, free=True)) == np.inf
+    assert (
+        held_in_roll(0.1, inertia, 0.04, axes[:, 1:2], replace(asked, incidence_is_free=True))
+        == np.inf
+    )
     along = np.array([[0.6, -0.6], [0.8, 0.8], [0.0, 0.0]])
     expected = 0.03 * (1.0 + 0.03 / 0.04) * 0.1 / UNDOES / 1.2
     assert held_in_roll(0.1, inertia, 0.04, along, asked) == pytest.approx(expected, rel=1e-12)

@@ -58,17 +58,19 @@ def margins_of(
         Margins of the parts at the design's angle, shape (n, k), and of those at an incidence of
         their own, shape (n, 1).
     """
-    spin, begun = spin_inertia[:, None], bool(requirement.reserves)
+    spin, with_rate = spin_inertia[:, None], bool(requirement.reserves)
 
-    def tried(maneuvers: Sequence[Maneuver], at: FloatArray, *, begun: bool) -> list[Margins]:
-        """Margins of each maneuver, and with `begun` also of each starting with a rate."""
+    def tried(maneuvers: Sequence[Maneuver], at: FloatArray, *, with_rate: bool) -> list[Margins]:
+        """Margins of each maneuver, and with `with_rate` also of each starting with a rate."""
         if not maneuvers:
             return []
         # All at once: for few candidates, a NumPy call costs more than its work.
-        starts = [False] * len(maneuvers) + [True] * (len(maneuvers) * begun)
-        every = [*maneuvers, *maneuvers] if begun else maneuvers
-        inertia, upright = whole.at(at)
-        task = wheel_task(every, requirement, inertia, upright, whole.layout.axes(at), begun=starts)
+        starts = [False] * len(maneuvers) + [True] * (len(maneuvers) * with_rate)
+        every = [*maneuvers, *maneuvers] if with_rate else maneuvers
+        inertia, yaw_inertia = whole.at(at)
+        task = wheel_task(
+            every, requirement, inertia, yaw_inertia, whole.layout.axes(at), with_rate=starts
+        )
         demand = spin_demand(task, columns(drives.line), drives.armature[:, None])
         can = capability(demand, spin)
         following = newton_step(demand, spin, can)
@@ -80,7 +82,7 @@ def margins_of(
     free = [maneuver for maneuver in requirement.maneuvers if maneuver.incidence is None]
     for headed in (False, True):
         some = [maneuver for maneuver in free if maneuver.headed == headed]
-        by_design += tried(some, angle, begun=requirement.free and begun)
+        by_design += tried(some, angle, with_rate=requirement.incidence_is_free and with_rate)
     if requirement.rate_change is not None:
         axes, one_stops = whole.layout.axes(angle)[..., :2, :], requirement.detection is not None
         inertia, _ = whole.at(angle)
@@ -90,11 +92,13 @@ def margins_of(
         own = angle
         if maneuver.incidence is not None:
             own = np.full((len(drives), 1), maneuver.incidence)
-            turned += tried([maneuver], own, begun=begun)
+            turned += tried([maneuver], own, with_rate=with_rate)
         kept = requirement.reserve(maneuver)
         if kept.roll > 0.0:
-            inertia, upright = whole.at(own)
-            most = held_in_roll(kept.roll, inertia, upright, whole.layout.axes(own), requirement)
+            inertia, yaw_inertia = whole.at(own)
+            most = held_in_roll(
+                kept.roll, inertia, yaw_inertia, whole.layout.axes(own), requirement
+            )
             needed = most / drives.top_speed[:, None]
             with np.errstate(divide="ignore"):
                 part = Margins(spin / needed, needed)
@@ -115,10 +119,10 @@ def wheel_task(
     maneuvers: Sequence[Maneuver],
     requirement: Requirement,
     inertia: TiltInertia,
-    upright: ArrayLike,
+    yaw_inertia: ArrayLike,
     axes: FloatArray,
     *,
-    begun: Sequence[bool] | None = None,
+    with_rate: Sequence[bool] | None = None,
 ) -> WheelTask:
     """Wheel tasks of maneuvers, fields of shape (m, n, k, ...).
 
@@ -126,7 +130,7 @@ def wheel_task(
         maneuvers: m of them, all headed or none.
         requirement: of which they are part.
         inertia: of robot and device, shapes that broadcast against (n, k, 2) and (n, k).
-        upright: I_zz of robot and device, broadcasting against (n, k) [kg m^2]; used only if
+        yaw_inertia: I_zz of robot and device, broadcasting against (n, k) [kg m^2]; used only if
             headed.
         axes: of the wheels, shape (n, k, 3, w).
         begun: see `Requirement.slew`, for each; None: False for all.
@@ -135,18 +139,22 @@ def wheel_task(
     axes = axes if headed else axes[..., :2, :]
     inertia, reach = inertia.times(axes.shape[:-2]), np.abs(axes[..., :2, :]).max(axis=-1)
     each = [maneuver.turned(inertia).within_reach(reach, maneuver.stray) for maneuver in maneuvers]
-    starts = [False] * len(maneuvers) if begun is None else begun
+    starts = [False] * len(maneuvers) if with_rate is None else with_rate
     slews = [
-        requirement.slew(maneuver, own, begun=start)
+        requirement.slew(maneuver, own, with_rate=start)
         for maneuver, own, start in zip(maneuvers, each, starts, strict=True)
     ]
     swept = np.stack([slew.swept for slew in slews])
     momentum = np.stack([slew.momentum for slew in slews])
     if headed:
-        about, whole = [], np.broadcast_to(upright, axes.shape[:-2])
+        about, whole = [], np.broadcast_to(yaw_inertia, axes.shape[:-2])
         for maneuver, start in zip(maneuvers, starts, strict=True):
             kept = requirement.reserve(maneuver)
-            about.append(np.multiply(maneuver.heading(whole), kept.begun if start else kept.demand))
+            about.append(
+                np.multiply(
+                    maneuver.heading(whole), kept.demand_with_rate if start else kept.demand
+                )
+            )
         turned, held_up = np.stack(about, axis=1)[..., None]
         swept = np.concatenate([swept, turned], axis=-1)
         momentum = np.concatenate([momentum, held_up], axis=-1)
@@ -157,7 +165,7 @@ def wheel_task(
         inertia=TiltInertia(*(np.stack(parts) for parts in zip(*each, strict=True))),
         axes=axes,
         one_stops=requirement.detection is not None,
-        upright=np.asarray(upright) if headed else None,
+        yaw_inertia=np.asarray(yaw_inertia) if headed else None,
         begins=np.array([slew.begins for slew in slews])[:, None, None],
         one_way=np.array([slew.one_way for slew in slews])[:, None, None],
     )
@@ -213,7 +221,7 @@ def rate_demands(
 def held_in_roll(
     rate: float,
     inertia: TiltInertia,
-    upright: ArrayLike,
+    yaw_inertia: ArrayLike,
     axes: FloatArray,
     requirement: Requirement,
 ) -> FloatArray:
@@ -224,19 +232,19 @@ def held_in_roll(
 
     Args:
         rate: of roll at lift-off [rad/s].
-        inertia, upright: of robot and device, and its I_zz [kg m^2], shapes (..., 2) and (...).
+        inertia, yaw_inertia: of robot and device, and its I_zz [kg m^2], shapes (..., 2) and (...).
         axes: of the wheels, shape (..., 3, n).
         requirement: of which the flip is a part.
 
     Returns:
         Momentum of each wheel [N m s], shape (...).
     """
-    rolled = turned_roll(inertia.diagonal[..., 0], upright) * rate / UNDOES
+    rolled = turned_roll(inertia.diagonal[..., 0], yaw_inertia) * rate / UNDOES
     left = (axes,) if requirement.detection is None else without_each(axes)
     roll, _, yaw = np.moveaxis(np.min([np.abs(each).sum(axis=-1) for each in left], axis=0), -1, 0)
     reached = roll > OUT_OF_REACH
     most = np.where(reached, rolled / np.where(reached, roll, 1.0), np.inf)
-    left_alone = (yaw > OUT_OF_REACH) | ~(reached | requirement.free)
+    left_alone = (yaw > OUT_OF_REACH) | ~(reached | requirement.incidence_is_free)
     return np.where(left_alone | (rolled == 0.0), 0.0, most)
 
 

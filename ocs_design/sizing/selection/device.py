@@ -66,8 +66,8 @@ def with_demands(problem: SelectionProblem, device: Candidate) -> Candidate:
         inertia = inertia_at(problem, device, at)
         task = _task_of(maneuver, requirement, device, inertia, at)
         least = smallest_spin_inertia(task, line, device.drive.armature).item()
-        roll, upright = requirement.reserve(maneuver).roll, device.total.inertia[2, 2]
-        held = held_in_roll(roll, inertia, upright, device.layout.axes(at), requirement)
+        roll, yaw_inertia = requirement.reserve(maneuver).roll, device.total.inertia[2, 2]
+        held = held_in_roll(roll, inertia, yaw_inertia, device.layout.axes(at), requirement)
         least = max(least, float(held) / top_speed)
         load = task.load()
         reduced = load.reduced_inertia(spin, device.drive.armature)

@@ -230,11 +230,11 @@ def _parts(
     angles = np.array([(cell.low + cell.high) / 2.0 for cell in cells])
     inertia = column(least_inertia(problem, drives, np.zeros(len(drives))).inertia)
     line, armature, wheels = columns(drives.line), drives.armature[:, None], len(problem.layout)
-    shape, upright = (len(drives), len(cells)), problem.robot.inertia[2:, 2]
+    shape, yaw_inertia = (len(drives), len(cells)), problem.robot.inertia[2:, 2]
     for maneuver in requirement.maneuvers:
         at = angles if maneuver.incidence is None else np.full(angles.shape, maneuver.incidence)
         axes = np.broadcast_to(problem.layout.axes(at), (*shape, 3, wheels))
-        task = wheel_task([maneuver], requirement, inertia, upright, axes)
+        task = wheel_task([maneuver], requirement, inertia, yaw_inertia, axes)
         time = float(np.asarray(task.duration).item())
         needed = smallest_spin_inertia(task, line, armature)[0]
         taken = wheel_slew_time(task, largest[:, None], line, armature)[0]
@@ -253,7 +253,7 @@ def _parts(
         kept = requirement.reserve(maneuver)
         if kept.roll > 0.0:
             axes = problem.layout.axes(at)
-            most = held_in_roll(kept.roll, inertia, upright, axes, requirement)
+            most = held_in_roll(kept.roll, inertia, yaw_inertia, axes, requirement)
             needed = most / drives.top_speed[:, None]
             late, reason = needed / largest[:, None], np.full(shape, SlewReason.SPEED)
             yield RequirementPart(
