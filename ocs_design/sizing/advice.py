@@ -32,7 +32,11 @@ from ocs_design.sizing.limits import (
     smallest_changes,
     unseen,
 )
-from ocs_design.sizing.selection.bounds import cells_of, initial_guess, least_spin_inertias
+from ocs_design.sizing.selection.bounds import (
+    incidence_intervals,
+    initial_guess,
+    least_spin_inertias,
+)
 from ocs_design.sizing.selection.candidates import (
     Candidates,
     Guess,
@@ -69,7 +73,7 @@ _STATE_FIGURES = (
 )
 
 
-_CELLS = 6
+_INTERVALS = 6
 """Number of intervals of the incidence, fewer than in `bounds`, for all drives at once."""
 
 _FIRST, _BLOCK = 32, 512
@@ -104,8 +108,11 @@ class Field:
         if drives is None:
             pairs = np.argwhere(known_pairs(problem))
             drives = drives_of(problem, pairs)
-        cells, nothing = cells_of(problem.incidence, _CELLS), np.zeros(len(drives))
-        needed = least_spin_inertias(problem, drives, cells, nothing)
+        intervals, nothing = (
+            incidence_intervals(problem.incidence, _INTERVALS),
+            np.zeros(len(drives)),
+        )
+        needed = least_spin_inertias(problem, drives, intervals, nothing)
         return cls(problem, drives, needed.min(axis=1))
 
     def changed(self, problem: SelectionProblem) -> "Field":

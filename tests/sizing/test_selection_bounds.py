@@ -18,10 +18,10 @@ from ocs_design.requirement.requirement import ManeuverReserve
 from ocs_design.robot.mass import MassProperties
 from ocs_design.sizing.place import Place, Size, around
 from ocs_design.sizing.selection.bounds import (
-    Cell,
+    Interval,
     RimFloor,
     bound_task,
-    cells_of,
+    incidence_intervals,
     least_masses,
     least_spin_inertias,
 )
@@ -128,13 +128,20 @@ def test_more_inertia_and_smaller_shares_ask_for_no_less(layout, kept, seed, cou
     if kept is not None:
         names = (maneuver.name for maneuver in required.maneuvers)
         required = replace(required, reserves=dict.fromkeys(names, kept))
-    cells = (Cell(0.0, 0.1), Cell(0.1, 0.2), Cell(0.5, 0.7), Cell(1.4, np.pi / 2.0))
+    intervals = (
+        Interval(0.0, 0.1),
+        Interval(0.1, 0.2),
+        Interval(0.5, 0.7),
+        Interval(1.4, np.pi / 2.0),
+    )
     robot = np.diag(problem.robot.inertia)[:2] * rng.uniform(1.0, 1.5, (n, 2))
     center = coupled * np.sqrt(robot.prod(axis=1))
     least = LeastInertia(TiltInertia(robot, center), 0.3 * center)
-    angle = np.stack([rng.uniform(cell.low, cell.high, (n, 40)) for cell in cells], axis=1)
+    angle = np.stack(
+        [rng.uniform(interval.low, interval.high, (n, 40)) for interval in intervals], axis=1
+    )
     angle[:, 0, 0], angle[:, -1, 0] = 0.0, np.pi / 2.0
-    shape = (n, len(cells), 40)
+    shape = (n, len(intervals), 40)
     whole = TiltInertia(
         robot[:, None, None, :] * rng.uniform(1.0, 1.1, (*shape, 2)),
         center[:, None, None] * rng.uniform(0.7, 1.3, shape),
@@ -143,7 +150,7 @@ def test_more_inertia_and_smaller_shares_ask_for_no_less(layout, kept, seed, cou
     for maneuver in problem.requirement.maneuvers:
         # Wheels that turn beforehand, with or against what is asked.
         begins = 30.0 * (seed - 1)
-        tasks = replace(bound_task(maneuver, required, least, cells, layout), begins=begins)
+        tasks = replace(bound_task(maneuver, required, least, intervals, layout), begins=begins)
         bound = smallest_spin_inertia(tasks, columns(drives.line), drives.armature[:, None])
         task = wheel_task([maneuver], required, whole, 0.0, layout.axes(angle))
         task = replace(task, begins=begins)
@@ -156,12 +163,12 @@ def test_more_inertia_and_smaller_shares_ask_for_no_less(layout, kept, seed, cou
 
 
 def test_axes_longer_than_one_bound_those_of_a_range():
-    problem, cell = random_problem(0), Cell(np.arccos(0.9), np.arcsin(0.8))
+    problem, interval = random_problem(0), Interval(np.arccos(0.9), np.arcsin(0.8))
     drives, shares = drives_of(problem, np.array([[0, 0]])), np.array([0.8, 0.9])
     maneuver = problem.requirement.maneuvers[0]
     inertia = TiltInertia.uncoupled([[0.05, 0.05]])
     least = LeastInertia(inertia, np.zeros(1))
-    task = bound_task(maneuver, problem.requirement, least, [cell], PAIR)
+    task = bound_task(maneuver, problem.requirement, least, [interval], PAIR)
     load = task.load()
     slew = maneuver.slew(inertia, problem.requirement.standing_height)
     roll, pitch = (np.abs(slew.swept) / shares)[0]
@@ -190,8 +197,8 @@ def test_no_device_falls_below_its_bound(seed, layout):
     drives = drives_of(problem, pairs)
     spin = np.zeros(len(drives))
     for count in (1, 18, 18):
-        cells = cells_of(problem.incidence, count)
-        needed = least_spin_inertias(problem, drives, cells, spin)
+        intervals = incidence_intervals(problem.incidence, count)
+        needed = least_spin_inertias(problem, drives, intervals, spin)
         spin = needed.min(axis=1)
     masses = least_masses(floor, drives, spin)
 
@@ -212,5 +219,5 @@ def test_no_device_falls_below_its_bound(seed, layout):
     mass = len(layout) * (candidates.drives.mass + point.shapes.mass)
     assert (point.spin_inertia[can] >= spin[rows][can] * (1.0 - 1e-9)).all()
     assert (mass[can] >= masses[material, rows][can] * (1.0 - 1e-9)).all()
-    cell = np.searchsorted([c.high for c in cells], angle).clip(max=len(cells) - 1)
-    assert (point.spin_inertia[can] >= needed[rows, cell][can] * (1.0 - 1e-9)).all()
+    interval = np.searchsorted([c.high for c in intervals], angle).clip(max=len(intervals) - 1)
+    assert (point.spin_inertia[can] >= needed[rows, interval][can] * (1.0 - 1e-9)).all()

@@ -45,7 +45,7 @@ from ocs_design.sizing.selection.demand import column, columns, needed_by_rate
 from ocs_design.sizing.selection.drives import Drives
 from ocs_design.sizing.selection.problem import SelectionProblem
 
-CELLS = 18
+INTERVALS = 18
 """Number of intervals of the incidence that are bounded separately: 5 deg each."""
 
 _RIMS = 96
@@ -53,19 +53,19 @@ _DIGITS, _SURELY = 4, 1.0 - 1e-4
 """Digits of the lightest rims, and the factor on their mass that makes it a safe bound."""
 
 
-class Cell(NamedTuple):
+class Interval(NamedTuple):
     """An interval of a layout's angle [rad]; a single angle if both ends are equal."""
 
     low: float
     high: float
 
 
-def cells_of(incidence: float | None, count: int = CELLS) -> tuple[Cell, ...]:
+def incidence_intervals(incidence: float | None, count: int = INTERVALS) -> tuple[Interval, ...]:
     """All incidences in `count` equal intervals; a specified one by itself."""
     if incidence is not None:
-        return (Cell(incidence, incidence),)
+        return (Interval(incidence, incidence),)
     edges = np.linspace(0.0, np.pi / 2.0, count + 1)
-    return tuple(Cell(float(a), float(b)) for a, b in pairwise(edges))
+    return tuple(Interval(float(a), float(b)) for a, b in pairwise(edges))
 
 
 _UNFELT = {
@@ -228,32 +228,32 @@ def least_masses(floor: RimFloor, drives: Drives, spin_inertia: FloatArray) -> F
 def least_spin_inertias(
     problem: SelectionProblem,
     drives: Drives,
-    cells: Sequence[Cell],
+    intervals: Sequence[Interval],
     below: FloatArray,
     limits: RimLimits | None = None,
 ) -> FloatArray:
-    """Improved lower bounds of the spin inertia of each drive in each cell [kg m^2], shape (n, k).
+    """Lower bounds of the spin inertia of each drive, improved per interval [kg m^2], shape (n, k).
 
     Args:
         problem: robot, requirement, envelope, place.
-        drives: n of them. cells: k of them.
-        below: the best lower bound known over all cells [kg m^2], shape (n,).
+        drives: n of them. intervals: k of them.
+        below: the best lower bound known over all intervals [kg m^2], shape (n,).
         limits: of their rims; None: those of the problem as a whole.
     """
     requirement, least = problem.requirement, least_inertia(problem, drives, below, limits)
     line, armature = columns(drives.line), drives.armature[:, None]
-    needed = np.broadcast_to(below[:, None], (len(drives), len(cells)))
+    needed = np.broadcast_to(below[:, None], (len(drives), len(intervals)))
     demands = []
     for maneuver in requirement.maneuvers:
         own = maneuver.incidence
-        at = cells if own is None else [Cell(own, own)]
+        at = intervals if own is None else [Interval(own, own)]
         task = bound_task(maneuver, requirement, least, at, problem.layout)
         demands.append(spin_demand(task, line, armature, below[:, None]))
     for asked in smallest_roots(demands) if demands else ():
         needed = np.maximum(needed, asked)
     if requirement.rate_change is not None:
         alone = column(TiltInertia.uncoupled(least.inertia.diagonal))
-        axes = np.stack([problem.layout.hull(*cell) for cell in cells])
+        axes = np.stack([problem.layout.hull(*interval) for interval in intervals])
         by_rate = needed_by_rate(requirement.rate_change, drives, alone, axes)
         needed = np.maximum(needed, by_rate)
     specified = requirement.spin_inertia
@@ -266,24 +266,24 @@ def bound_task(
     maneuver: Maneuver,
     requirement: Requirement,
     least: LeastInertia,
-    cells: Sequence[Cell],
+    intervals: Sequence[Interval],
     layout: Layout,
 ) -> WheelBound:
     """The least that a maneuver requires of the wheels, fields of shape (n, k, ...).
 
     Args:
         least: lower bound of the inertia that they turn, n of them.
-        cells: of the layout's angle, k of them.
+        intervals: of the layout's angle, k of them.
     """
     inertia = column(least.inertia)
     slew = requirement.slew(maneuver, TiltInertia.uncoupled(inertia.diagonal))
-    ends = np.abs(layout.axes(np.array(cells)))[..., :2, :]
+    ends = np.abs(layout.axes(np.array(intervals)))[..., :2, :]
     return WheelBound(
         swept=slew.swept,
         momentum=slew.momentum,
         duration=slew.duration,
         inertia=inertia,
-        axes=np.stack([layout.hull(*cell) for cell in cells]),
+        axes=np.stack([layout.hull(*interval) for interval in intervals]),
         turn=np.asarray(maneuver.turn),
         spread=least.spread[:, None],
         # Over an interval, each axis is least at one of the ends.
@@ -351,13 +351,15 @@ def initial_guess(candidates: Candidates, spin_inertia: FloatArray) -> Guess:
         candidates: n of them.
         spin_inertia: a lower bound of their wheels' [kg m^2], shape (n,).
     """
-    cells = cells_of(candidates.problem.incidence)
+    intervals = incidence_intervals(candidates.problem.incidence)
     needed = least_spin_inertias(
-        candidates.problem, candidates.drives, cells, spin_inertia, candidates.limits
+        candidates.problem, candidates.drives, intervals, spin_inertia, candidates.limits
     )
     # The uncertainty extends beyond the best interval, as that of the bound need not contain the
     # best incidence.
-    low, high = np.array([(cell.low, cell.high) for cell in cells])[needed.argmin(axis=1)].T
+    low, high = np.array([(interval.low, interval.high) for interval in intervals])[
+        needed.argmin(axis=1)
+    ].T
     spin = needed.min(axis=1)
     known = np.isfinite(spin)
     least = smallest_rim_inertia(candidates.limits) * OFF_THE_EDGE

@@ -26,7 +26,7 @@ from ocs_design.parts.rim import cylinder_spin_inertia
 from ocs_design.requirement.device_sections import Envelope
 from ocs_design.sizing.bound.rim_problem import BORE_SHARE, RimLimits, smallest_rim_inertia
 from ocs_design.sizing.lightest_module import lightest_module
-from ocs_design.sizing.selection.bounds import PairBounds, cells_of, least_inertia
+from ocs_design.sizing.selection.bounds import PairBounds, incidence_intervals, least_inertia
 from ocs_design.sizing.selection.candidates import Candidates, drives_of
 from ocs_design.sizing.selection.demand import (
     column,
@@ -226,11 +226,11 @@ def _parts(
     problem: SelectionProblem, drives: Drives, largest: FloatArray
 ) -> Iterator[RequirementPart]:
     """Parts of the requirement with the largest wheels that fit, their spin inertias [kg m^2]."""
-    requirement, cells = problem.requirement, cells_of(problem.incidence)
-    angles = np.array([(cell.low + cell.high) / 2.0 for cell in cells])
+    requirement, intervals = problem.requirement, incidence_intervals(problem.incidence)
+    angles = np.array([(interval.low + interval.high) / 2.0 for interval in intervals])
     inertia = column(least_inertia(problem, drives, np.zeros(len(drives))).inertia)
     line, armature, wheels = columns(drives.line), drives.armature[:, None], len(problem.layout)
-    shape, yaw_inertia = (len(drives), len(cells)), problem.robot.inertia[2:, 2]
+    shape, yaw_inertia = (len(drives), len(intervals)), problem.robot.inertia[2:, 2]
     for maneuver in requirement.maneuvers:
         at = angles if maneuver.incidence is None else np.full(angles.shape, maneuver.incidence)
         axes = np.broadcast_to(problem.layout.axes(at), (*shape, 3, wheels))

@@ -9,7 +9,7 @@ import numpy as np
 
 from ocs_design.device.layout import Criterion, incidence_by_criterion
 from ocs_design.sizing.bound.device_problem import design_momenta
-from ocs_design.sizing.selection.bounds import cells_of
+from ocs_design.sizing.selection.bounds import incidence_intervals
 from ocs_design.sizing.selection.candidates import Candidates, Guess, drives_of
 from ocs_design.sizing.selection.device import device_of
 from ocs_design.sizing.selection.fixed_point import FINE, Design, Solved, fixed_point
@@ -24,14 +24,14 @@ from ocs_design.sizing.selection.problem import (
 )
 from ocs_design.sizing.selection.refinement import refine
 from ocs_design.sizing.selection.rejections import Refused, rejections
-from ocs_design.sizing.selection.search import Found, search
+from ocs_design.sizing.selection.search import SearchState, search
 
 _CONVERGED = 1e-7
 """Error of an incidence [rad] at which the mass is accurate to nine digits."""
 _ITERATIONS_MAX = 50
 _WINNERS_MAX = 8
-_ABOUT = 1e-4
-"""Relative difference of masses that a nearly converged incidence may cause."""
+_NEARLY_EQUAL = 1e-4
+"""Relative difference of masses that an incidence not quite converged may cause."""
 
 
 def select(problem: SelectionProblem) -> Selection:
@@ -44,25 +44,25 @@ def select(problem: SelectionProblem) -> Selection:
         Refused: no motor can do it; says what is missing.
         UsageError: there is nothing to choose from or nothing to do, or a limit is invalid.
     """
-    found = _found(problem, refined=True)
+    state = _search(problem, refined=True)
     return Selection(
-        ranking=tuple(map(device_of, found.devices)),
-        candidates=int(found.known.sum())
+        ranking=tuple(map(device_of, state.devices)),
+        candidates=int(state.known.sum())
         * len(problem.materials)
-        * len(cells_of(problem.incidence)),
-        reasons=partial(rejections, found, {rank.motor for rank in found.places}),
+        * len(incidence_intervals(problem.incidence)),
+        reasons=partial(rejections, state, {rank.motor for rank in state.ranking}),
     )
 
 
-def _found(problem: SelectionProblem, *, refined: bool) -> Found:
-    """Devices that a search finds, at least one (`select`); unrefined, only the lightest."""
+def _search(problem: SelectionProblem, *, refined: bool) -> SearchState:
+    """The search with at least one device found (`select`); unrefined, only the lightest."""
     problem.check()
-    found = search(problem, ranks=refined)
+    state = search(problem, ranked=refined)
     if refined:
-        found.refine(refine)
-    if not found.places:
-        raise Refused(problem, rejections(found, ()))
-    return found
+        state.refine(refine)
+    if not state.ranking:
+        raise Refused(problem, rejections(state, ()))
+    return state
 
 
 def select_by(
@@ -92,8 +92,8 @@ def select_by(
         return select(problem)
     if winner is None:
         # Only its winner is used, and refining it would not correct its incidence.
-        found = _found(_at_robots(problem, criterion), refined=False)
-        winner = device_of(found.devices[0])
+        state = _search(_at_incidence_of_robot(problem, criterion), refined=False)
+        winner = device_of(state.devices[0])
     winners: list[Candidate] = []
     own: list[Candidate] = []
     while not any(same_parts(winner, earlier) for earlier in winners):
@@ -104,11 +104,13 @@ def select_by(
             if exact is None:
                 return selection
             # Devices that are about as light are compared at exactly this incidence.
-            about, others = exact.mass * (1.0 + _ABOUT), selection.ranking[1:]
-            near = [entry for entry in others if entry.mass < about]
-            turned = devices_at(problem, near, exact.incidence) if near else ()
-            moved = [device or entry for device, entry in zip(turned, near, strict=True)]
-            ranking = (*devices_by_mass((exact, *moved)), *others[len(near) :])
+            mass_max, others = exact.mass * (1.0 + _NEARLY_EQUAL), selection.ranking[1:]
+            comparable = [entry for entry in others if entry.mass < mass_max]
+            turned = devices_at(problem, comparable, exact.incidence) if comparable else ()
+            at_exact_angle = [
+                device or entry for device, entry in zip(turned, comparable, strict=True)
+            ]
+            ranking = (*devices_by_mass((exact, *at_exact_angle)), *others[len(comparable) :])
             return replace(selection, ranking=ranking)
         winners.append(winner)
         own += [] if settled is None else [settled]
@@ -124,46 +126,52 @@ def select_by(
     ranking = (lightest, *(entry for entry in heavier if not same_parts(entry, lightest)))
     listed = {entry.motor.name for entry in ranking}
     lighter = {entry.motor.name: entry.mass for entry in reversed(there.ranking)}
-    fallen = [
+    only_lighter_here = [
         Rejection(
             name, Reason.INCIDENCE, f"{1e3 * mass:.0f} g, only at another device's incidence", 0.0
         )
         for name, mass in lighter.items()
         if name not in listed
     ]
-    rest = [rejection for rejection in there.rejections if rejection.motor not in listed]
-    return replace(there, ranking=ranking, reasons=partial(tuple, (*fallen, *rest)))
+    other_rejections = [
+        rejection for rejection in there.rejections if rejection.motor not in listed
+    ]
+    return replace(
+        there, ranking=ranking, reasons=partial(tuple, (*only_lighter_here, *other_rejections))
+    )
 
 
 def lightest_by(problem: SelectionProblem, criterion: Criterion | None) -> Candidate | None:
     """The lightest device alone, unrefined; None: the full selection must decide."""
     problem.check()
-    specified = problem.incidence is not None
-    at = problem if specified or criterion is None else _at_robots(problem, criterion)
-    found = search(at, ranks=False)
-    if not found.places:
+    is_specified = problem.incidence is not None
+    at_angle = (
+        problem if is_specified or criterion is None else _at_incidence_of_robot(problem, criterion)
+    )
+    state = search(at_angle, ranked=False)
+    if not state.ranking:
         return None
-    device = device_of(found.devices[0])
-    if specified or criterion is None:
+    device = device_of(state.devices[0])
+    if is_specified or criterion is None:
         return device
     return at_own_incidence(problem, device, criterion)[1]
 
 
-def lightest_below(problem: SelectionProblem, below: float) -> Candidate | None:
+def lightest_below(problem: SelectionProblem, mass_max: float) -> Candidate | None:
     """The lightest device, if it is lighter than this [kg]."""
-    found = search(problem, below, ranks=False)
-    if not found.places:
+    state = search(problem, mass_max, ranked=False)
+    if not state.ranking:
         return None
-    solved = found.devices[0]
+    solved = state.devices[0]
     if problem.incidence is None:
         # With free incidence, a search is up to 3 % too heavy.
         point = refine(solved.candidates, solved.point)
-        better = replace(solved, point=point)
-        solved = better if better.mass[0] < solved.mass[0] else solved
-    return device_of(solved) if solved.mass[0] < below else None
+        refined = replace(solved, point=point)
+        solved = refined if refined.mass[0] < solved.mass[0] else solved
+    return device_of(solved) if solved.mass[0] < mass_max else None
 
 
-def _at_robots(problem: SelectionProblem, criterion: Criterion) -> SelectionProblem:
+def _at_incidence_of_robot(problem: SelectionProblem, criterion: Criterion) -> SelectionProblem:
     """The problem at the incidence that the criterion sets for the robot alone."""
     return replace(problem, incidence=incidence_by_criterion(problem.robot.inertia)[criterion])
 
@@ -176,14 +184,14 @@ def at_own_incidence(
     It keeps its radius, which hardly depends on the incidence, as far as possible. Where these
     parts become infeasible on the way, the result is the first such incidence and None.
     """
-    found, angle, last = winner, winner.incidence, None
+    device, angle, previous = winner, winner.incidence, None
     for _ in range(_ITERATIONS_MAX):
-        momenta = design_momenta(problem.requirement, found.total.inertia)
-        change = incidence_by_criterion(found.total.inertia, momenta)[criterion] - angle
+        momenta = design_momenta(problem.requirement, device.total.inertia)
+        change = incidence_by_criterion(device.total.inertia, momenta)[criterion] - angle
         if abs(change) < _CONVERGED:
             break
-        slope = 0.0 if last is None else (change - last[1]) / (angle - last[0])
-        last = angle, change
+        slope = 0.0 if previous is None else (change - previous[1]) / (angle - previous[0])
+        previous = angle, change
         # The device's inertia hardly changes with the incidence: the slope is about -1.
         angle -= change / (slope if -2.0 < slope < -0.5 else -1.0)
         # Start from its own radius each time: a radius changed at one incidence would not return.
@@ -191,8 +199,8 @@ def at_own_incidence(
         if turned is None:
             # Infeasible with these parts; the full selection decides about others.
             return angle, None
-        found = turned
-    return angle, found
+        device = turned
+    return angle, device
 
 
 def lightest_near(
@@ -205,16 +213,16 @@ def lightest_near(
     Args:
         device: start of the search. criterion: see `select_by`.
     """
-    free = problem.incidence is None and criterion is None
-    solved = _solved_at(problem, [device], None if free else device.incidence)
-    better = replace(solved, point=refine(solved.candidates, solved.point))
-    lightest = better if better.mass[0] < solved.mass[0] else solved
+    incidence_is_free = problem.incidence is None and criterion is None
+    solved = _solved_at(problem, [device], None if incidence_is_free else device.incidence)
+    refined = replace(solved, point=refine(solved.candidates, solved.point))
+    lightest = refined if refined.mass[0] < solved.mass[0] else solved
     if not lightest.point.feasible[0]:
         return None
-    found = device_of(lightest)
+    lightest_device = device_of(lightest)
     if problem.incidence is not None or criterion is None:
-        return found
-    return at_own_incidence(problem, found, criterion)[1] or found
+        return lightest_device
+    return at_own_incidence(problem, lightest_device, criterion)[1] or lightest_device
 
 
 def device_at(problem: SelectionProblem, device: Candidate, incidence: float) -> Candidate | None:
@@ -232,11 +240,11 @@ def devices_at(
     """Each of these devices for another problem; see `device_at`."""
     solved = _solved_at(problem, devices, incidence)
     for row in range(len(devices)):
-        one = solved.take(np.array([row]))
-        if not one.point.feasible[0]:
+        entry = solved.take(np.array([row]))
+        if not entry.point.feasible[0]:
             # Fixed-point iteration diverges for marginal devices; the nonlinear programme does not.
-            one = replace(one, point=refine(one.candidates, one.point))
-        yield device_of(one) if one.point.feasible[0] else None
+            entry = replace(entry, point=refine(entry.candidates, entry.point))
+        yield device_of(entry) if entry.point.feasible[0] else None
 
 
 def _solved_at(
@@ -254,6 +262,6 @@ def _solved_at(
     return Solved(candidates, Guess(start, nothing, angle, nothing), point)
 
 
-def same_parts(one: Candidate, other: Candidate) -> bool:
+def same_parts(first: Candidate, second: Candidate) -> bool:
     """Whether motor, gear and material are the same."""
-    return (one.motor, one.gear, one.material) == (other.motor, other.gear, other.material)
+    return (first.motor, first.gear, first.material) == (second.motor, second.gear, second.material)

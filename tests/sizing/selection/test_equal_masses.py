@@ -51,8 +51,8 @@ def test_it_leads_at_the_incidence_of_a_criterion(steels):
 
 
 def test_it_is_found_where_only_the_lightest_is_looked_for(steels):
-    found = search(problem_of(steels, incidence=0.6), ranks=False)
-    assert steels[found.places[0].parts[2]].name == "strong"
+    found = search(problem_of(steels, incidence=0.6), ranked=False)
+    assert steels[found.ranking[0].parts[2]].name == "strong"
 
 
 @pytest.mark.slow

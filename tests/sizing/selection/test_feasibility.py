@@ -100,9 +100,9 @@ def test_no_device_is_lighter_than_its_own_bound(seed):
 def test_the_lightest_alone_is_the_first_of_the_ranking(seed):
     """To 0.1 % at a stated incidence; what is heavier than asked for is not looked for."""
     problem = replace(random_problem(seed), incidence=0.6)
-    ranked, found = search(problem), search(problem, ranks=False)
-    assert bool(found.places) == bool(ranked.places)
+    ranked, found = search(problem), search(problem, ranked=False)
+    assert bool(found.ranking) == bool(ranked.ranking)
     assert found.lightest == pytest.approx(ranked.lightest, rel=1e-3)
-    assert not search(problem, 0.5 * found.lightest, ranks=False).places
-    near = search(problem, 1.01 * found.lightest, ranks=False)
+    assert not search(problem, 0.5 * found.lightest, ranked=False).ranking
+    near = search(problem, 1.01 * found.lightest, ranked=False)
     assert near.lightest == pytest.approx(found.lightest, rel=1e-9)
