@@ -1,4 +1,4 @@
-"""What a person sees in each robot of example-robot-data: its trunk, and how many legs it has."""
+"""Trunk and number of legs of each robot in example-robot-data, as judged by eye."""
 
 from functools import cache
 
@@ -80,31 +80,31 @@ ANATOMY = {
     "xarm_description/urdf/xarm7": ("link1", 0),
     "z1_description/urdf/z1": ("link02", 0),
 }
-"""Trunk link and number of legs; a robot without legs has its heaviest body for a trunk."""
+"""Trunk link and number of legs; without legs the trunk is the heaviest body."""
 
 LEGGED = [name for name, (_, legs) in ANATOMY.items() if legs]
 
 
 @cache
 def tree_of(name: str) -> Tree:
-    """A robot of `ANATOMY`, read once in each process."""
+    """Tree of a robot of `ANATOMY`, read once per process."""
     return load(ROBOTS / f"{name}.urdf").tree
 
 
 @cache
 def reading_of(name: str) -> Reading:
-    """Its trunk and legs, found once in each process."""
+    """Trunk and legs of a robot of `ANATOMY`, recognised once per process."""
     return recognise(tree_of(name)).reading
 
 
 def legs_of(name: str) -> tuple[Leg, ...]:
-    """Its legs."""
+    """Legs of a robot of `ANATOMY`."""
     return reading_of(name).legs
 
 
 @cache
 def stand_of(name: str) -> Stand:
-    """How it stands, computed once in each process."""
-    found = stand(tree_of(name), ANATOMY[name][0], legs_of(name))
-    assert found is not None
-    return found
+    """Stance of a robot of `ANATOMY`, computed once per process."""
+    stance = stand(tree_of(name), ANATOMY[name][0], legs_of(name))
+    assert stance is not None
+    return stance

@@ -1,4 +1,4 @@
-"""Bad input of every kind and what must be said of it; slips of the hand are in docs/hostile.md."""
+"""Bad input of every kind and the message it must give; typing errors are in docs/hostile.md."""
 
 import gzip
 from pathlib import Path
@@ -20,7 +20,7 @@ other,me,bench,0.1,0.02,six-step,413.5,24
 EXIT_2, EXIT_3 = (2, "usage"), (3, "robot")
 SPECIFICATION, OUTPUT, INFEASIBLE = (3, "specification"), (3, "output"), (4, "infeasible")
 
-# What is wrong: files to write, what to type, exit code and kind, and what must be said.
+# Fault: files to write, command line, exit code and kind, and patterns of the message.
 CASES = {
     "missing file": ({}, "size rover.urdf", EXIT_3, "rover.urdf does not exist|check the path"),
     "broken XML": (
@@ -53,7 +53,7 @@ CASES = {
         EXIT_3,
         "x.urdf.gz is a broken gzip|fetch it again",
     ),
-    "nothing on standard input": ({}, "size -", EXIT_3, "standard input is empty"),
+    "empty standard input": ({}, "size -", EXIT_3, "standard input is empty"),
     "millivolts": ({}, f"size {SOLO12} --bus-voltage 24000", EXIT_2, "above 1000 V|24000mV"),
     "unknown key": (
         {"s.toml": b"[flywheel]\nrmax = '30mm'\n[ocs]\nalhpa = 1"},
@@ -61,8 +61,8 @@ CASES = {
         SPECIFICATION,
         "s.toml has 2 faults|flywheel.rmax: unknown key|'r_max'|ocs.alhpa|'alpha'",
     ),
-    "no robot named": ({}, "size", EXIT_2, "no robot is given|--mass and --inertia"),
-    "its robot is missing": (
+    "no robot given": ({}, "size", EXIT_2, "no robot is given|--mass and --inertia"),
+    "missing robot of a specification": (
         {"deep/s.toml": b"robot.file = 'rover.urdf'"},
         "size --spec deep/s.toml",
         EXIT_3,
@@ -81,14 +81,19 @@ CASES = {
         EXIT_2,
         "--package-path solo|NAME=DIR",
     ),
-    "an output that is there": (
+    "existing output": (
         {"out/design.json": b"{}"},
         f"size {SOLO12} -o out",
         OUTPUT,
         "out: exists already|-o.*--force",
     ),
-    "an output in a file": ({"a": b""}, f"size {SOLO12} -o a/b", OUTPUT, "a: .*|is a file"),
-    "an output nowhere": ({}, f"size {SOLO12} -o no/where", OUTPUT, "no such folder|create"),
+    "output below a file": ({"a": b""}, f"size {SOLO12} -o a/b", OUTPUT, "a: .*|is a file"),
+    "output in a missing folder": (
+        {},
+        f"size {SOLO12} -o no/where",
+        OUTPUT,
+        "no such folder|create",
+    ),
     "unknown motor, gear and material": (
         {},
         f"{QUAD} --motor maxon --gear planet --material wood",
@@ -114,7 +119,7 @@ CASES = {
         SPECIFICATION,
         "motor.gear: has no effect|supply.voltage: has no effect|ocs.co_design: needs a motor",
     ),
-    "a motor whose figures are missing": (
+    "a motor with missing figures": (
         {
             "s.toml": b"robot.mass = 2.5\nrobot.inertia = [0.032, 0.055, 0.07]\n"
             b"motor.name = 'ILM70x10'"

@@ -1,4 +1,4 @@
-"""A real browser without a screen: Chromium, spoken to by its DevTools protocol over a pipe."""
+"""A headless Chromium, driven by its DevTools protocol over a pipe."""
 
 import json
 import os
@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 TIME_LIMIT = 60.0
-"""Of one answer [s]; a machine that is busy draws slowly."""
+"""Longest wait for an answer [s]; a busy machine renders slowly."""
 
 _OPTIONS = (
     "--headless",
@@ -28,7 +28,7 @@ _OPTIONS = (
 
 
 def chromium() -> str:
-    """Its program; the test is skipped where there is none."""
+    """Path of Chromium; without one the test is skipped."""
     for name in ("chromium", "chromium-browser", "google-chrome", "chrome"):
         if path := shutil.which(name):
             return path
@@ -36,7 +36,7 @@ def chromium() -> str:
 
 
 class Page:
-    """One tab. `events` are those that came so far, oldest first."""
+    """One tab. `events` holds those received so far, oldest first."""
 
     def __init__(self, read: int, write: int) -> None:
         self._read, self._write, self._rest, self._number = read, write, b"", 0
@@ -48,7 +48,7 @@ class Page:
             self.call(f"{domain}.enable")
 
     def call(self, method: str, **parameters: object) -> dict:
-        """Ask, and wait for the answer."""
+        """Send a command and wait for its answer."""
         return self._call(method, parameters, session=self._session)
 
     def open(self, path: Path, *, width: int = 1280, height: int = 900, dark: bool = False) -> None:
@@ -60,7 +60,7 @@ class Page:
         self.wait("document.readyState === 'complete'")
 
     def size(self, width: int, height: int) -> None:
-        """Of the window [CSS pixels]; narrow ones count as telephones."""
+        """Resize the window [CSS pixels]; narrow ones count as telephones."""
         self.call(
             "Emulation.setDeviceMetricsOverride",
             width=width,
@@ -70,22 +70,22 @@ class Page:
         )
 
     def value(self, expression: str) -> object:
-        """Of an expression in the page, promises awaited."""
-        found = self.call(
+        """Value of an expression in the page, promises awaited."""
+        answer = self.call(
             "Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True
         )
-        assert "exceptionDetails" not in found, found["exceptionDetails"]
-        return found["result"].get("value")
+        assert "exceptionDetails" not in answer, answer["exceptionDetails"]
+        return answer["result"].get("value")
 
     def wait(self, expression: str) -> None:
-        """Until it is true."""
+        """Wait until an expression is true."""
         end = time.monotonic() + TIME_LIMIT
         while not self.value(expression):
             assert time.monotonic() < end, f"never: {expression}"
             time.sleep(0.05)
 
     def of_kind(self, *methods: str) -> list[dict]:
-        """Parameters of the events of these kinds."""
+        """Parameters of the events with these methods."""
         return [event["params"] for event in self.events if event["method"] in methods]
 
     def _call(self, method: str, parameters: dict, session: str | None) -> dict:
@@ -110,17 +110,17 @@ class Page:
 
 @contextmanager
 def browser(*options: str) -> Iterator[Page]:
-    """A tab of a Chromium of its own, started with further options."""
+    """A tab of a new Chromium, started with further options."""
     program = chromium()
     to_browser, write = os.pipe()
     read, from_browser = os.pipe()
 
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
-        # It reads commands from 3 and answers on 4.
-        ends = f"3</dev/fd/{to_browser} 4>/dev/fd/{from_browser}"
+        # Chromium reads commands from descriptor 3 and answers on 4.
+        redirections = f"3</dev/fd/{to_browser} 4>/dev/fd/{from_browser}"
         command = [program, *_OPTIONS, *options, f"--user-data-dir={profile}"]
         process = subprocess.Popen(
-            ["sh", "-c", f'exec "$@" {ends}', "sh", *command],
+            ["sh", "-c", f'exec "$@" {redirections}', "sh", *command],
             pass_fds=(to_browser, from_browser),
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,

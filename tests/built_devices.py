@@ -1,4 +1,4 @@
-"""Whole devices on the paper's wheel, with all that holds them, for tests of what is built."""
+"""Complete devices on the paper's wheel, with all that holds them."""
 
 from dataclasses import replace
 
@@ -23,19 +23,19 @@ FLAT = Mounting(0.004, stator=BoltCircle(0.02, 4, "M3"), stator_face=Face.OUTPUT
 def housed_device(
     mounting: Mounting | None, outer_radius: float = 0.04, guard_wall: float = 0.0
 ) -> Device:
-    """The paper's rim on a web, in a housing, on a motor with that mounting."""
-    held = replace(CAGED, mounting=mounting)
-    hub = hub_of(mounting, held.diameter)
-    of = PAPER_WHEEL.density
-    disc = cylinder_mass(0.0, PAPER_WHEEL.inner_radius, WEB_THICKNESS, of)
-    mass = disc + hub.beyond_web(of).mass
-    web = Web(PAPER_WHEEL.material, of, WEB_THICKNESS, mass, hub)
+    """Device with the paper's rim on a web, in a housing, on a motor with this mounting."""
+    caged_motor = replace(CAGED, mounting=mounting)
+    hub = hub_of(mounting, caged_motor.diameter)
+    density = PAPER_WHEEL.density
+    disc = cylinder_mass(0.0, PAPER_WHEEL.inner_radius, WEB_THICKNESS, density)
+    mass = disc + hub.beyond_web(density).mass
+    web = Web(PAPER_WHEEL.material, density, WEB_THICKNESS, mass, hub)
     wheel = replace(PAPER_WHEEL, mass=PAPER_WHEEL.mass + mass, web=web, outer_radius=outer_radius)
     drive = replace(
-        EC45, mounting=mounting, mass=held.mass, diameter=held.diameter, length=held.length,
-        torque_constant=0.028,
+        EC45, mounting=mounting, mass=caged_motor.mass, diameter=caged_motor.diameter,
+        length=caged_motor.length, torque_constant=0.028,
     )  # fmt: skip
-    carrier = standing(held, DIRECT, wheel.outer_radius, wheel.height, guard_wall)
+    carrier = standing(caged_motor, DIRECT, wheel.outer_radius, wheel.height, guard_wall)
     device = driven_device(drive=drive, carrier=carrier)
     return replace(device, flywheel=wheel, guard_wall=guard_wall)
 
@@ -49,7 +49,7 @@ def geared_device() -> Device:
 
 
 def with_plate(device: Device) -> Device:
-    """The device on a plate, three of whose screws have sleeves, two of them of one length."""
+    """The device on a plate; three of its screws have sleeves, two of them of equal length."""
     (x, y, z), foot = device.modules[0].position.tolist(), foot_of(device)
     radius, screws = foot.slot_radius + 0.0045, foot.slot_radius / 2**0.5
     plate = CarrierPlate(
@@ -86,11 +86,11 @@ MAST_PLATE = replace(
     feet=DEVICES["on a plate"].plate.feet * 2,
     mast=replace(MAST, high=0.09),
 )
-"""Plate of a device on two arms of a mast."""
+"""Plate of a device on the two arms of a mast."""
 
 
 def device_in_layout(layout):
-    """Modules of that layout around the middle of the trunk, all on the trunk."""
+    """The caged device with modules in this layout around the middle of the trunk, on the trunk."""
     places = 0.04 * np.array(layout.ring) + [0.0, 0.0, CAGED_DEVICE.modules[0].position[2]]
     modules = map(Module, layout.names, layout.axes(layout.angle).T, places)
     return replace(CAGED_DEVICE, modules=tuple(modules), layout=layout, incidence=layout.angle)

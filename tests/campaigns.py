@@ -1,4 +1,4 @@
-"""Campaigns of short flights, and what comes of flights, made up."""
+"""Campaigns of short flights, and synthetic outcomes of flights."""
 
 from dataclasses import fields, replace
 
@@ -15,13 +15,13 @@ from ocs_design.simulation.run import Metrics
 from ocs_design.simulation.scenario import Flights
 
 NO_UNCERTAINTY = {name: Constant(1.0 if name == "contact_friction" else 0.0) for name in spreads()}
-"""A world that is as designed."""
+"""Every quantity is as designed."""
 
 NAMES = quantities(PAIR)
 
 
 def short_campaign(robot, specified=None, *, device=None, seed=7, until=0.6, drop_only=False):
-    """Jump and drop of the paper's wheels on a real motor, cut off soon after touchdown."""
+    """Jump and drop with the paper's wheels on a real motor, cut off soon after touchdown."""
     device, maneuvers = device or driven_device(), default_maneuvers(robot)[:2]
     campaign = make_campaign(
         Flights(robot, device, maneuvers[1:] if drop_only else maneuvers),
@@ -35,19 +35,16 @@ def short_campaign(robot, specified=None, *, device=None, seed=7, until=0.6, dro
     return replace(campaign, flights=tuple(flights))
 
 
-def zero_metrics(**told):
-    """What is measured of a flight that nothing happens in.
-
-    Every figure is 0 and the robot ends upright, but for what is told.
-    """
-    nothing = {field.name: 0.0 for field in fields(Metrics)}
-    return Metrics(**nothing | {"upright_at_end": True} | told)
+def zero_metrics(**values):
+    """Metrics that are all 0 but for `values`, of a robot that ends upright."""
+    zeros = {field.name: 0.0 for field in fields(Metrics)}
+    return Metrics(**zeros | {"upright_at_end": True} | values)
 
 
 def synthetic_outcomes(samples, scenarios=1, *, fail_from=2.0, seed=0):
-    """Each sample by itself: the trunk is off level by what its first quantity says, in radians.
+    """Outcomes whose pitch at touchdown is the first quantity of the sample [rad].
 
-    One that is off by more than `fail_from` fails.
+    Samples off level by more than `fail_from` fail. Each depends on its own number only.
     """
     values = np.array([np.random.default_rng([seed, n]).normal(size=len(NAMES)) for n in samples])
     metrics = np.zeros((len(values), scenarios, len(METRICS)))

@@ -1,4 +1,4 @@
-"""Everything that stands still of a module, piece by piece, as it is made and bought.
+"""All parts of a module's carrier, one by one, as they are made and bought.
 
 Bodies in the module's frame: x forward, y along the wheel's axis away from the other module, z up.
 """
@@ -17,17 +17,17 @@ from ocs_design.parts.printed import LID_SCREW, PANEL
 from ocs_design.robot.mass import MassProperties
 
 UPRIGHT = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
-"""From the frame of the left wheel, its y axis down, to that of its module."""
+"""Rotation from the frame of the left wheel, its y axis down, to that of its module."""
 
 
 def foot_for(motor, gear, outer, height, thick=PLATE_THICKNESS):
-    """With the housing that it carries."""
+    """Foot with its housing for a motor, a gear and a rim."""
     holes = mount_of(motor, gear.room, thick).holes
     return Foot(Housing(outer, height, holes, LID_SCREW), thick)
 
 
 def carrier_parts(motor, gear, outer, height, thick=PLATE_THICKNESS):
-    """About the wheel's centre."""
+    """All parts of the carrier about the wheel's centre."""
     foot = foot_for(motor, gear, outer, height, thick)
     for part in housing_parts(foot.housing):
         yield part.mass_properties().moved(UPRIGHT, np.zeros(3))
@@ -37,21 +37,21 @@ def carrier_parts(motor, gear, outer, height, thick=PLATE_THICKNESS):
 
 
 def housing_screws(foot):
-    """M2 x 6 through the lid, M3 through the foot's base, with a thread of 3 mm at least."""
-    housing, each = foot.housing, screw("M2")
-    radius = housing.radius + each.clearance_hole / 2.0
-    along = housing.half_height - each.centre(6e-3)
+    """M2 x 6 in the lid, M3 through the foot's base with at least 3 mm of thread."""
+    housing, m2 = foot.housing, screw("M2")
+    radius = housing.radius + m2.clearance_hole / 2.0
+    along = housing.half_height - m2.centre(6e-3)
     for k in range(4):
         angle = pi / 4.0 + k * pi / 2.0
-        yield point_mass(each.mass(6e-3), radius * cos(angle), along, radius * sin(angle))
-    each, base = screw("M3"), max(3e-3, 0.6 * foot.thickness)
-    long = standard_length(base + 3e-3)
-    up = base - each.centre(long) - foot.wheel_height
-    # Two on the left foot, two on the right one that mirror them: on average half of one each.
+        yield point_mass(m2.mass(6e-3), radius * cos(angle), along, radius * sin(angle))
+    m3, base = screw("M3"), max(3e-3, 0.6 * foot.thickness)
+    length = standard_length(base + 3e-3)
+    up = base - m3.centre(length) - foot.wheel_height
+    # Two screws on the left foot, two mirrored ones on the right: half a screw at each place.
     for k in range(4):
         angle = pi / 4.0 + k * pi / 2.0
         x, y = foot.slot_radius * cos(angle), foot.slot_radius * sin(angle)
-        yield point_mass(each.mass(long) / 2.0, x, y, up)
+        yield point_mass(m3.mass(length) / 2.0, x, y, up)
 
 
 def drive_parts(motor, gear, height, thick=PLATE_THICKNESS):
@@ -64,7 +64,7 @@ def drive_parts(motor, gear, height, thick=PLATE_THICKNESS):
     length, radius = motor.length or 0.0, (motor.diameter or 0.0) / 2.0
     across = motor.mass * (3.0 * radius**2 + length**2) / 12.0
     own = np.diag([across, motor.mass * radius**2 / 2.0, across])
-    # In a cage it reaches up to the hub: 3 mm high on a rotor, 5 mm on a shaft and 1 mm to turn in.
+    # A caged motor reaches the hub: 3 mm high on a rotor, 5 mm plus 1 mm of clearance on a shaft.
     on_rotor = mounting is not None and mounting.rotor is not None
     on_shaft = max(0.005, (mounting and mounting.shaft_diameter) or 0.0)
     front = plate - deep if cage is None else -0.0015 if on_rotor else -(on_shaft / 2.0 + 0.001)
@@ -90,23 +90,23 @@ def drive_parts(motor, gear, height, thick=PLATE_THICKNESS):
 
 
 def thread_diameter(circle):
-    """Diameter of its threads."""
+    """Diameter of a circle's threads [m]."""
     return screw(circle.thread).diameter
 
 
 def standard_length(at_least):
-    """The next length of a screw that there is."""
+    """The shortest standard length of a screw [m]."""
     return next(n * 1e-3 for n in (4, 5, 6, 8, 10, 12, 16) if n * 1e-3 >= at_least - 1e-12)
 
 
 def circle_screws(circle, at_least, along, towards):
-    """The first straight up, the next length that there is, their tips `towards`."""
-    each = screw(circle.thread)
+    """Screws of a circle as points, the first straight up, their tips `towards` along the axis."""
+    bolt = screw(circle.thread)
     length = standard_length(at_least)
     for k in range(circle.bolts):
         angle = 2.0 * pi * k / circle.bolts
         up, forward = circle.diameter / 2.0 * cos(angle), circle.diameter / 2.0 * sin(angle)
-        yield point_mass(each.mass(length), forward, along + towards * each.centre(length), up)
+        yield point_mass(bolt.mass(length), forward, along + towards * bolt.centre(length), up)
 
 
 def point_mass(mass, x, y, z):

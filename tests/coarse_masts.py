@@ -1,4 +1,4 @@
-"""Searches of masts that take less time."""
+"""A faster search for masts."""
 
 from contextlib import contextmanager
 
@@ -9,9 +9,9 @@ from ocs_design.sizing.footing import mast
 
 @contextmanager
 def coarse_mast_search():
-    """Masts are looked for with the thinnest blocks and in the coarser steps alone.
+    """Search masts with the thinnest blocks and the coarsest steps only.
 
-    A search takes longest where it finds none.
+    A search takes longest where it finds no mast.
     """
     with pytest.MonkeyPatch.context() as patch:
         for name in ("SPACERS", "FORMED_SPACERS", "_STEPS"):

@@ -1,6 +1,6 @@
-"""The same test run gives the same answer; `HYPOTHESIS_PROFILE=explore pytest` seeks new cases.
+"""Test runs are reproducible; `HYPOTHESIS_PROFILE=explore pytest` searches for new cases.
 
-Laws that are drawn for are smooth: thirty cases find what is wrong with one, `explore` has 500.
+The laws tested by random cases are smooth: 30 cases find a fault, `explore` tries 500.
 """
 
 import os
@@ -9,9 +9,9 @@ import pytest
 from hypothesis import settings
 
 LONGEST = "test_the_commands_that_the_docs_show_still_print_that", "test_the_notebook_runs"
-OPENED_BY_MANY = "test_product.py"
+PRODUCT_TESTS = "test_product.py"
 
-# Workers whose small matrices have threads of their own wait for each other. NumPy reads it once.
+# With threaded BLAS, workers wait for each other on small matrices. NumPy reads this once.
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 settings.register_profile("reproducible", derandomize=True, deadline=None, max_examples=30)
@@ -20,17 +20,16 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "reproducible"))
 
 
 def pytest_collection_modifyitems(items):
-    """The longest tests go first, so that one worker is not left with them when all others end.
+    """Run the longest tests first, so that no worker is left with them at the end.
 
-    Next comes the file that makes the products of `size`: a worker that comes to another file that
-    opens them would wait till they are there.
+    Next comes the file that makes the products of `size`: workers that open them would wait.
     """
-    items.sort(key=lambda item: (item.name not in LONGEST, item.path.name != OPENED_BY_MANY))
+    items.sort(key=lambda item: (item.name not in LONGEST, item.path.name != PRODUCT_TESTS))
 
 
 @pytest.fixture(scope="session")
 def solo12():
-    """Solo12 of example-robot-data, read once in a process that asks for it."""
+    """Solo12 of example-robot-data, read once per process."""
     from robots import SOLO12
 
     from ocs_design.robot.reader import read_robot
@@ -40,7 +39,7 @@ def solo12():
 
 @pytest.fixture(scope="module")
 def no_alternatives():
-    """`size` looks for nothing lighter: half of its time, where nothing is asked of it."""
+    """`size` skips the search for lighter alternatives, which takes half of its time."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(
             "ocs_design.workflows.size.start_alternatives", lambda *_, call: lambda: ((), None)
@@ -50,5 +49,5 @@ def no_alternatives():
 
 @pytest.fixture
 def no_files(monkeypatch):
-    """`size` writes its design and its report alone, where no part or robot is opened."""
+    """`size` writes its design and report only, for tests that open no other file."""
     monkeypatch.setattr("ocs_design.workflows.size.USUAL_FORMATS", ())

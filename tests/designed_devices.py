@@ -1,6 +1,6 @@
-"""Devices for Solo12's figures, designed with one motor or with none, of any material.
+"""Devices for Solo12's mass and inertia, designed with one motor or none, of any material.
 
-Each is made once in a process, however it is asked for.
+Each is designed once per process.
 """
 
 from dataclasses import replace
@@ -22,7 +22,7 @@ MOTOR = "EC 45 flat 70 W 411812"
 
 
 def design_with_motor(motor=MOTOR, **ocs):
-    """The task and what came of it; the incidence is that of equal rates, the default."""
+    """Task and design; the incidence is that of equal rates, the default."""
     return design_of(
         Specification(
             motor=MotorSection(name=motor, gear=None if motor == "none" else "direct"),
@@ -34,7 +34,7 @@ def design_with_motor(motor=MOTOR, **ocs):
 
 @cache
 def design_of(specification):
-    """The same for a specification of all but the robot."""
+    """Task and design for a specification; its robot is replaced by Solo12's figures."""
     task = task_by_hand()
     task = task.with_specification(replace(specification, robot=task.specification.robot))
     return task, design_device(task)
@@ -42,26 +42,26 @@ def design_of(specification):
 
 @cache
 def solo12():
-    """What is asked by default of Solo12's own file, which is read once."""
+    """Default task for Solo12's own file, which is read once."""
     return read_task(Specification(robot=RobotSection(file=SOLO12)))
 
 
 def solo12_specification(**options):
-    """The specification for it of these options of the command; `motor__name` is `motor.name`."""
-    named = {name.replace("__", "."): value for name, value in options.items()}
-    return specification_from_options({"robot.file": SOLO12, **named})
+    """Specification for Solo12 from options of the command; `motor__name` is `motor.name`."""
+    keys = {name.replace("__", "."): value for name, value in options.items()}
+    return specification_from_options({"robot.file": SOLO12, **keys})
 
 
 def solo12_task(**options):
-    """The task of the same."""
+    """Task of that specification."""
     return solo12().with_specification(solo12_specification(**options))
 
 
-def record_of(task, made, *, seed=0, files=None):
-    """The record of a design that is neither flown nor mounted."""
-    margins = record_margins(task.resolved, made, (), {})
-    built = buildable_of(task.robot, made, margins, None)
-    found = record_design(
-        task.robot, task.resolved, made, margins=margins, built=built, mounting=None, seed=seed
+def record_of(task, design, *, seed=0, files=None):
+    """Record of a design without flights and mounting."""
+    margins = record_margins(task.resolved, design, (), {})
+    built = buildable_of(task.robot, design, margins, None)
+    record = record_design(
+        task.robot, task.resolved, design, margins=margins, built=built, mounting=None, seed=seed
     )
-    return replace(found, files=files or {})
+    return replace(record, files=files or {})

@@ -1,4 +1,4 @@
-"""Motors, gears and wheels for tests; figures of no real product but where said."""
+"""Motors, gears and wheels for tests; only the EC 45 is a real product."""
 
 from ocs_design.actuation.drive import drive_line
 from ocs_design.actuation.motor import DIRECT, Gear, Motor
@@ -42,7 +42,7 @@ BELT = Gear(
 
 
 def driven_wheel(motor=EC45, gear=DIRECT, *, bus_voltage=24.0, material=STEEL):
-    """The rim of the paper, driven."""
+    """The paper's rim with a motor and gear."""
     return DrivenWheel(
         inner_radius=0.022,
         outer_radius=0.030,

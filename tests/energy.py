@@ -1,4 +1,4 @@
-"""A run flown once more by a plain loop over MuJoCo's steps, which balances its energy."""
+"""Energy balance of a recorded run, replayed by a plain loop over MuJoCo's steps."""
 
 from dataclasses import dataclass
 
@@ -13,30 +13,34 @@ from ocs_design.simulation.world import World
 
 @dataclass(frozen=True, eq=False)
 class EnergyBalance:
-    """At each control instant.
+    """Energies at each control instant.
 
     Attributes:
-        unexplained: energy that no work explains [J]. turned_over: by drives, motors and push,
-            whichever way it went, since the start [J]. height: of the centre of mass [m].
+        residual: change of energy that no work accounts for [J].
+        work: sum of the magnitudes of all work by drives, motors and push since the start [J].
+        height: of the centre of mass [m].
     """
 
-    unexplained: FloatArray
-    turned_over: FloatArray
+    residual: FloatArray
+    work: FloatArray
     height: FloatArray
 
-    def missing(self, flown: slice) -> float:
-        """What is unexplained in a part of the run, over what was turned over by its end."""
-        return float(np.ptp(self.unexplained[flown]) / self.turned_over[flown][-1])
+    def relative_residual(self, interval: slice) -> float:
+        """Range of the residual in an interval of the run, over the work done by its end."""
+        return float(np.ptp(self.residual[interval]) / self.work[interval][-1])
 
 
 def energy_balance(
     world: World, recording: Recording, index: int, *, period: float, until: float
 ) -> EnergyBalance:
-    """Of one world: its recorded wheel torques and push acting on it again.
+    """Energy balance of one world, with its recorded wheel torques and push applied again.
 
     Args:
-        world, index: of the recording. period: from one torque to the next [s].
-        until: where to stop [s].
+        world: the world of the recording with number `index`.
+        recording: of all worlds.
+        index: number of the world in the recording.
+        period: time between torques [s].
+        until: end of the replay [s].
     """
     model, data, middle = world.model, *(mujoco.MjData(world.model) for _ in range(2))
     model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_ENERGY)
@@ -54,12 +58,12 @@ def energy_balance(
             data.ctrl[:] = row
             data.ctrl[motors] = recording.wheel_torque[k, index]
             work += _step(model, data, middle)
-    unexplained, turned_over, height = np.array(rows).T
-    return EnergyBalance(unexplained, turned_over, height)
+    residual, total_work, height = np.array(rows).T
+    return EnergyBalance(residual, total_work, height)
 
 
 def _step(model, data, middle) -> FloatArray:
-    """Advance; work done by all but gravity, and all of it as gain [J], by Simpson's rule."""
+    """Advance by a step; integrals of `_powers` over it [J], by Simpson's rule."""
     step = model.opt.timestep
     mujoco.mj_copyData(middle, model, data)
     try:
@@ -73,12 +77,12 @@ def _step(model, data, middle) -> FloatArray:
 
 
 def _powers(model, data) -> FloatArray:
-    """Of everything but gravity; of drives, motors and push alone, all as gain [W]."""
+    """Power of all but gravity; sum of magnitudes for drives, motors and push [W]."""
     mujoco.mj_forward(model, data)
     pushed = np.zeros(model.nv)
     for body in np.flatnonzero(data.xfrc_applied.any(axis=1)):
         force, torque = np.split(data.xfrc_applied[body], 2)
         mujoco.mj_applyFT(model, data, force, torque, data.xipos[body], int(body), pushed)
-    given = data.qfrc_actuator + data.qfrc_passive + data.qfrc_constraint + pushed
+    generalized_force = data.qfrc_actuator + data.qfrc_passive + data.qfrc_constraint + pushed
     driven = np.abs(data.qfrc_actuator * data.qvel).sum() + abs(pushed @ data.qvel)
-    return np.array([given @ data.qvel, driven])
+    return np.array([generalized_force @ data.qvel, driven])

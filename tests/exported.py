@@ -1,4 +1,4 @@
-"""What the tests of exported robots share: robots of every kind, and two readers' views of them."""
+"""Robots of every kind for tests of exports, and checks of them by MuJoCo and Pinocchio."""
 
 from functools import cache
 
@@ -65,40 +65,40 @@ MJCF = """<mujoco model="walker">
 
 @cache
 def robot_at(path, posture=None):
-    """A real robot, read once in each process."""
+    """A real robot, read once per process."""
     return read_robot(path, posture=posture)
 
 
 def mujoco_model(robot, device, folder):
-    """The whole robot, written as MJCF and read again by MuJoCo."""
+    """Robot with its device, written as MJCF and read back by MuJoCo."""
     path = export_robot_mjcf(robot_model(robot, device), folder / "robot.xml")
     return mujoco.MjModel.from_xml_path(str(path))
 
 
 def pinocchio_model(text):
-    """The URDF with a free base."""
+    """Pinocchio model of a URDF, with a free base."""
     return pin.buildModelFromXML(text, pin.JointModelFreeFlyer())
 
 
 def check_wheels_in_pinocchio(model, device, trunk, prefix=""):
-    """Mass, inertia, axis and position of each wheel in the trunk link's frame, to 1e-9."""
+    """Check mass, inertia, axis and position of each wheel in the trunk link's frame, to 1e-9."""
     data = model.createData()
     pin.framesForwardKinematics(model, data, pin.neutral(model))
     base = data.oMf[model.getFrameId(trunk, pin.FrameType.BODY)]
     for module in device.modules:
         index = model.getJointId(f"{prefix}ocs_{module.name}")
         assert model.joints[index].shortname() == "JointModelRUBZ"
-        place = base.actInv(data.oMi[index])
-        np.testing.assert_allclose(place.rotation[:, 2], module.axis, rtol=0.0, atol=1e-9)
+        placement = base.actInv(data.oMi[index])
+        np.testing.assert_allclose(placement.rotation[:, 2], module.axis, rtol=0.0, atol=1e-9)
         wheel = model.inertias[index]
-        centre = place.act(wheel.lever)
+        centre = placement.act(wheel.lever)
         np.testing.assert_allclose(centre, module.position, rtol=0.0, atol=1e-9)
         check_moments(wheel.inertia, device)
         assert abs(wheel.mass / device.flywheel.mass - 1.0) < 1e-12
 
 
 def check_moments(inertia, device):
-    """Of a wheel in its own frame, z along its spin axis, with its rotor as a flat disc."""
+    """Check a wheel's inertia in its own frame, z along the spin axis, its rotor a flat disc."""
     wheel = device.flywheel
     across = wheel.transverse_inertia + device.motor.rotor_inertia / 2.0
     expected = np.diag([across, across, wheel.spin_inertia])
@@ -106,7 +106,7 @@ def check_moments(inertia, device):
 
 
 def check_wheels_in_mujoco(model, device, trunk):
-    """Mass, inertia, axis and position of each wheel in the trunk body's frame, to 1e-12."""
+    """Check mass, inertia, axis and position of each wheel in the trunk body's frame, to 1e-12."""
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     rotation = data.body(trunk).xmat.reshape(3, 3)
@@ -121,7 +121,7 @@ def check_wheels_in_mujoco(model, device, trunk):
 
 
 def data_in_posture(model, posture):
-    """Its data with the joints held so."""
+    """MuJoCo's data with the joints in this posture."""
     data = mujoco.MjData(model)
     for name, value in posture.items():
         data.joint(name).qpos = value
@@ -130,18 +130,18 @@ def data_in_posture(model, posture):
 
 
 def total_by_mujoco(model, robot):
-    """Mass properties of the whole model in the robot's posture, in the frame of its trunk."""
+    """Mass properties of the whole model in the robot's posture, in the trunk's frame."""
     return mujoco_mass_properties(model, data_in_posture(model, robot.posture), robot.trunk)
 
 
 def total_by_pinocchio(text, robot):
-    """The same of a URDF, its wheels at rest."""
+    """Mass properties of a URDF in the robot's posture, its wheels at rest."""
     model = pinocchio_model(text)
     return pinocchio_mass_properties(model, configuration(model, robot.posture), robot.trunk)
 
 
-def check_total(seen, robot, device):
-    """It is the robot with the braked device."""
+def check_total(total, robot, device):
+    """Check that mass properties are those of the robot with the braked device."""
     expected = braked_inertia(robot, device)
     assert expected.mass == pytest.approx(robot.mass + device.mass, rel=1e-12)
-    assert_same_mass_properties(seen, expected, 1e-9)
+    assert_same_mass_properties(total, expected, 1e-9)

@@ -10,24 +10,24 @@ STRICT = ("-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror")
 
 
 def compiler():
-    """The C compiler; without one the test is skipped."""
-    found = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
-    if found is None:
+    """Path of the C compiler; without one the test is skipped."""
+    program = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
+    if program is None:
         pytest.skip("no C compiler")
-    return found
+    return program
 
 
 def compiled(folder, *options, out="harness", sources=("harness.c",)):
-    """A program or a library of the controller in a folder."""
-    (own,) = folder.glob("*_ocs_controller.c")
+    """Compile the controller in a folder to a program or a library."""
+    (controller,) = folder.glob("*_ocs_controller.c")
     command = [compiler(), *STRICT, "-O2", *options, "-o", str(folder / out)]
-    names = [str(folder / each) for each in sources]
-    subprocess.run([*command, *names, str(own), "-lm"], check=True)
+    paths = [str(folder / name) for name in sources]
+    subprocess.run([*command, *paths, str(controller), "-lm"], check=True)
     return folder / out
 
 
 def bound(folder):
-    """The controller by its own Python binding, and that module."""
+    """The controller by its Python binding, and the module of the binding."""
     (path,) = folder.glob("*_ocs_controller.py")
     module = script_at(path)
     with pytest.raises(FileNotFoundError, match="make"):

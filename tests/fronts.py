@@ -1,4 +1,4 @@
-"""Fronts of made-up devices, for what is printed and written of them."""
+"""Pareto fronts of made-up devices, for tests of how they are printed and written."""
 
 from ocs_design.common.errors import Infeasible
 from ocs_design.device.answers import FrontDevice
@@ -11,13 +11,13 @@ from ocs_design.workflows.pareto import read_task
 
 
 def task_by_hand():
-    """Solo12's figures without its file."""
+    """Task with Solo12's mass and inertia, without its file."""
     inertia = (SOLO12_ROLL_INERTIA, SOLO12_PITCH_INERTIA, 0.07)
     return read_task(Specification(robot=RobotSection(mass=2.5, inertia=inertia)))
 
 
 def infeasible(reason="the wheels would have to be larger"):
-    """As the selection raises it."""
+    """The error that the selection raises."""
     return Infeasible(
         reason,
         binding=("r_max",),
@@ -28,7 +28,7 @@ def infeasible(reason="the wheels would have to be larger"):
 
 
 def made_up_device(task):
-    """Lighter with more time; no device below 0.33 s."""
+    """A device that is lighter with more time; infeasible below 0.33 s."""
     time = sweep_of("time").own(task)
     if time < 0.33:
         raise infeasible()
@@ -49,7 +49,7 @@ def made_up_device(task):
 
 
 def make_front(task, against="time", choose=made_up_device, **values):
-    """A front over nine points, or over those of `values`."""
+    """A front over nine points, or over those that `values` specifies."""
     sweep = sweep_of(against)
-    wanted = {"low": None, "high": None, "points": 9, **values}
-    return draw_front(task, sweep, sweep.values(task, **wanted), choose)
+    spacing = {"low": None, "high": None, "points": 9, **values}
+    return draw_front(task, sweep, sweep.values(task, **spacing), choose)

@@ -1,4 +1,4 @@
-"""The worked example of the theory's optimal control problems, and bodies like it."""
+"""The worked example of the theory's optimal control problems, and similar bodies."""
 
 from dataclasses import dataclass, replace
 
@@ -19,10 +19,10 @@ from ocs_design.sizing.trajectory.transcription import Phase, Plant
 DIAGONAL = np.diag([0.030, 0.0535, 0.068])
 FULL = np.array([[0.030, 0.001, 0.003], [0.001, 0.0535, -0.002], [0.003, -0.002, 0.068]])
 EC_45_FLAT = DriveLine(stall_torque=1.4566, no_load_speed=650.4, torque_limit=1.0, speed_max=np.inf)
-"""70 W at 24 V, its drive limited to 1.0 N m."""
+"""Torque-speed line of the 70 W motor at 24 V, its drive limited to 1.0 N m."""
 
 FALL = 0.385
-"""[s]."""
+"""Time of the fall [s]."""
 
 STANDING = 0.3
 
@@ -60,7 +60,7 @@ def attitude_error(boundary, path):
 
 
 def end_rate(gyrostat, path):
-    """Rate at the end about the axes that the wheels reach [rad/s]."""
+    """Final rate about the axes that the wheels control [rad/s]."""
     return np.linalg.norm(gyrostat.turns_about @ path.rate[-1])
 
 
@@ -74,29 +74,30 @@ class SmallestWheels(Flight):
 
 
 def smallest_wheels(guess, boundary, *, free_incidence=False, start=None, passes=(16, 48)):
-    """The least spin inertia, and the incidence of a pair if it is free, with all else as guessed.
+    """Minimize the spin inertia, and optionally the incidence of a pair; all else as in `guess`.
 
-    The inertia of the whole with its wheels braked stays as it is.
+    The total inertia with braked wheels stays constant.
     """
     incidence = float(np.arctan2(guess.axes[0, 0], guess.axes[1, 0]))
     low, high = (1e-3, np.pi / 2.0 - 1e-3) if free_incidence else (incidence, incidence)
 
     def plant(dimensions):
         factor, angle = dimensions[0], dimensions[1]
-        fixed = Plant.of(guess)
-        axes = fixed.axes
+        base = Plant.of(guess)
+        axes = base.axes
         if free_incidence:
             sine, cosine = ca.sin(angle), ca.cos(angle)
             axes = ca.vertcat(ca.horzcat(sine, -sine), ca.horzcat(cosine, cosine), ca.MX(1, 2))
-        return fixed._replace(spin_inertia=factor * guess.spin_inertia, axes=axes)
+        return base._replace(spin_inertia=factor * guess.spin_inertia, axes=axes)
 
     turn = Phase(boundary, guess, plant, start)
     lower, upper = np.array([1e-2, low]), np.array([1e2, high])
-    free = Dimensions(np.array([1.0, incidence]), lower, upper, lambda dimensions: dimensions[0])
-    solution = solve([turn], EC_45_FLAT, passes, free)
+    variables = Dimensions(
+        np.array([1.0, incidence]), lower, upper, lambda dimensions: dimensions[0]
+    )
+    solution = solve([turn], EC_45_FLAT, passes, variables)
     factor, incidence = solution.dimensions
     axes = module_axes(incidence) if free_incidence else guess.axes
-    found = replace(guess, spin_inertia=guess.spin_inertia * factor, axes=axes)
-    flown = replace(turn, gyrostat=found)
-    flight = fly(flown, EC_45_FLAT, solution.motions[0])
-    return SmallestWheels(**vars(flight), gyrostat=found, incidence=incidence, solution=solution)
+    gyrostat = replace(guess, spin_inertia=guess.spin_inertia * factor, axes=axes)
+    flight = fly(replace(turn, gyrostat=gyrostat), EC_45_FLAT, solution.motions[0])
+    return SmallestWheels(**vars(flight), gyrostat=gyrostat, incidence=incidence, solution=solution)

@@ -1,4 +1,4 @@
-"""Every reader of users' files as one call, and files for them that are changed at random."""
+"""Every reader of user files as one call, and random mutations of files for them."""
 
 import struct
 from collections.abc import Callable
@@ -170,13 +170,13 @@ def read_and_restore(path: Path) -> object:
 
 
 def read_mesh_bounds(path: Path) -> object:
-    """How large a mesh is; one that cannot be read has no bounds."""
+    """Bounds of a mesh; None if it cannot be read."""
     own_bounds.cache_clear()
     return mesh_bounds(path, (1.0, 1.0, 1.0))
 
 
 def build_with_mesh(path: Path) -> object:
-    """A robot whose trunk is that mesh, in MuJoCo."""
+    """Compile a robot whose trunk is this mesh in MuJoCo."""
     urdf = path.with_name("mesh.urdf")
     shape = f'<collision><geometry><mesh filename="{path.name}"/></geometry></collision>'
     urdf.write_bytes(robot(link("trunk", inertial(2.0, "0.01 0.02 0.03"), shape)))
@@ -185,7 +185,7 @@ def build_with_mesh(path: Path) -> object:
 
 
 def size_device(path: Path) -> None:
-    """The whole chain, at its cheapest; every exit code but those for usage and tools may come."""
+    """Run `size` at its fastest; any exit code but those for usage and missing tools may occur."""
     out = path.with_name("out")
     code = run("size", path, *BOUND, "--ballistic", "--force", "-q", "-o", out).code
     assert code in {0, 1, 3, 4}, f"exit code {code}"
@@ -243,7 +243,7 @@ READERS = {
 }
 
 SLOW_READERS = {"size": Reader("x.urdf", size_device, (URDF, SOLO12_TEXT), XML_WORDS)}
-"""Seconds for each file: a search asks for them by name."""
+"""Readers that take seconds per file: run only when named."""
 
 SPLIT = (b"\n", b"<", b" ", b'"', b",", b"{")
 NUMBERS = tuple(
@@ -255,7 +255,7 @@ TEXTS = (
 
 
 def mutated(seeds, words, draw):
-    """Some seed with a few changes: of bytes, of words and numbers, of whole pieces."""
+    """A random seed with a few changes of bytes, words, numbers or whole pieces."""
     content = draw.choice(seeds)
     for _ in range(draw.choice((1, 1, 1, 2, 3, 8))):
         content = draw.choice((_bytes, _word, _number, _number, _piece, _piece, _cut))(

@@ -1,7 +1,7 @@
-"""Torques of a plan on a spacecraft with reaction wheels in Basilisk: JSON in, JSON out.
+"""Applies the torques of a plan to a spacecraft with reaction wheels in Basilisk: JSON in and out.
 
-Run by the interpreter of an environment that has `bsk`, which asks for an older Matplotlib than the
-tests. Nothing of the package is imported.
+Run by the interpreter of an environment with `bsk`, which needs an older Matplotlib than the tests.
+The package is not imported.
 """
 
 import json
@@ -14,22 +14,22 @@ from Basilisk.utilities import RigidBodyKinematics, SimulationBaseClass, macros,
 
 
 def main():
-    """Wheel speeds [rad/s] and attitudes (w, x, y, z) at the end of every step."""
-    asked = json.load(sys.stdin)
-    step = macros.sec2nano(asked["step"])
+    """Write wheel speeds [rad/s] and attitudes (w, x, y, z) at the end of every step."""
+    problem = json.load(sys.stdin)
+    step = macros.sec2nano(problem["step"])
     sim = SimulationBaseClass.SimBaseClass()
     sim.CreateNewProcess("process").addTask(sim.CreateNewTask("physics", step))
     body = spacecraft.Spacecraft()
-    body.hub.mHub, body.hub.IHubPntBc_B = 1.0, asked["inertia"]
-    body.hub.sigma_BNInit = RigidBodyKinematics.EP2MRP(np.array(asked["attitude"]))[:, None]
-    body.hub.omega_BN_BInit = np.array(asked["rate"])[:, None]
+    body.hub.mHub, body.hub.IHubPntBc_B = 1.0, problem["inertia"]
+    body.hub.sigma_BNInit = RigidBodyKinematics.EP2MRP(np.array(problem["attitude"]))[:, None]
+    body.hub.omega_BN_BInit = np.array(problem["rate"])[:, None]
     wheels = reactionWheelStateEffector.ReactionWheelStateEffector()
     factory = simIncludeRW.rwFactory()
-    for axis, speed in zip(np.transpose(asked["axes"]).tolist(), asked["speed"], strict=True):
+    for axis, speed in zip(np.transpose(problem["axes"]).tolist(), problem["speed"], strict=True):
         factory.create(
             "custom",
             axis,
-            Js=asked["spin_inertia"],
+            Js=problem["spin_inertia"],
             useMaxTorque=False,
             Omega_max=1e6,
             Omega=speed / macros.RPM,
@@ -37,11 +37,11 @@ def main():
     factory.addToSpacecraft("wheels", wheels, body)
     command = messaging.ArrayMotorTorqueMsg()
     wheels.rwMotorCmdInMsg.subscribeTo(command)
-    # The wheels read their command before the body is moved on.
+    # The wheels read their command before the body is propagated.
     for model in (wheels, body):
         sim.AddModelToTask("physics", model)
     attitudes, speeds = [], []
-    torques = asked["torques"]
+    torques = problem["torques"]
     command.write(messaging.ArrayMotorTorqueMsgPayload(motorTorque=torques[0]))
     sim.InitializeSimulation()
     for k, torque in enumerate(torques):

@@ -1,4 +1,4 @@
-"""Mass, centre of mass and inertia with all joints held, as MuJoCo and Pinocchio have them."""
+"""Mass, centre of mass and inertia with all joints locked, by MuJoCo and Pinocchio."""
 
 import numpy as np
 import pinocchio as pin
@@ -8,30 +8,30 @@ from ocs_design.robot.mass import MassProperties, combine
 
 
 def mujoco_mass_properties(model, data, base=None, bodies=slice(1, None)):
-    """Of these bodies where they are, in the frame of one of them or in the world's."""
+    """Total of some bodies in the frame of the body `base`, or of the world."""
     axes = data.ximat[bodies].reshape(-1, 3, 3)
     own = axes @ (model.body_inertia[bodies, :, None] * axes.transpose(0, 2, 1))
-    whole = combine(map(MassProperties, model.body_mass[bodies], data.xipos[bodies], own))
+    total = combine(map(MassProperties, model.body_mass[bodies], data.xipos[bodies], own))
     if base is None:
-        return whole
-    turn = data.body(base).xmat.reshape(3, 3).T
-    return whole.moved(turn, -turn @ data.body(base).xpos)
+        return total
+    rotation = data.body(base).xmat.reshape(3, 3).T
+    return total.moved(rotation, -rotation @ data.body(base).xpos)
 
 
 def pinocchio_mass_properties(model, q, base=None):
-    """Of the whole in a configuration, in the frame of a link or in the world's."""
+    """Total of a model in a configuration, in the frame of a link or of the world."""
     data = model.createData()
     pin.ccrba(model, data, q, np.zeros(model.nv))
     pin.updateFramePlacements(model, data)
-    whole = MassProperties(data.Ig.mass, data.com[0], data.Ig.inertia)
+    total = MassProperties(data.Ig.mass, data.com[0], data.Ig.inertia)
     if base is None:
-        return whole
+        return total
     frame = data.oMf[model.getFrameId(base, pin.BODY)].inverse()
-    return whole.moved(frame.rotation, frame.translation)
+    return total.moved(frame.rotation, frame.translation)
 
 
 def assert_same_mass_properties(one, other, relative=1e-12):
-    """Lengths relative to the other's radius of gyration, moments to its largest one."""
+    """Compare lengths relative to the radius of gyration, moments relative to the largest."""
     assert one.mass == pytest.approx(other.mass, rel=relative)
     size = np.sqrt(np.trace(other.inertia) / other.mass)
     np.testing.assert_allclose(one.com, other.com, rtol=0.0, atol=relative * size)

@@ -1,4 +1,4 @@
-"""Devices of real robots, and where MuJoCo sees them touched."""
+"""Devices on real robots, and their contacts in MuJoCo."""
 
 from contextlib import contextmanager
 from functools import cache
@@ -29,7 +29,7 @@ MEASURED = [name for name in LEGGED if "romeo" not in name]
 
 @cache
 def designed(name):
-    """Robot, what was resolved, and the device without a motor for its default maneuvers."""
+    """Robot, resolved requirement, and design without a motor for the default maneuvers."""
     specification = Specification(
         robot=RobotSection(file=str(ROBOTS / f"{name}.urdf")), motor=MotorSection(name=NO_MOTOR)
     )
@@ -41,22 +41,22 @@ def designed(name):
 @cache
 def mounted(name):
     """Robot, device and mounting."""
-    robot, resolved, found = designed(name)
+    robot, resolved, design = designed(name)
     maneuvers = resolved.requirement.maneuvers
-    return robot, found.device, mounting_of(robot, found.device, maneuvers, found.sized.total)
+    return robot, design.device, mounting_of(robot, design.device, maneuvers, design.sized.total)
 
 
 def contacts(robot, device, postures):
-    """Bodies of the robot that touch a wheel in any of the postures, by MuJoCo's contacts."""
+    """Bodies of the robot that touch a wheel in any of the postures, from MuJoCo's contacts."""
     spec = build_spec(robot, visuals=False).spec
     attach_device(spec, robot, device)
-    # All geoms meet the wheels, and nothing else; as delivered wheels meet no link.
+    # Geoms collide with the wheels only; in the exported model wheels collide with no link.
     for geom in spec.geoms:
         is_wheel = geom.name in flywheel_names(device)
         geom.contype, geom.conaffinity = (0, 1) if is_wheel else (1, 0)
     model = spec.compile()
     wheels = [model.geom(name).id for name in flywheel_names(device)]
-    data, found = mujoco.MjData(model), []
+    data, bodies = mujoco.MjData(model), []
     for posture in postures:
         data.qpos[:] = posture_qpos(model, robot)
         for joint, value in robot.tree.complete({**robot.posture, **posture}).items():
@@ -65,14 +65,14 @@ def contacts(robot, device, postures):
         mujoco.mj_comPos(model, data)
         mujoco.mj_collision(model, data)
         touching = set(data.contact.geom.ravel().tolist()) - set(wheels)
-        found += [model.body(int(model.geom_bodyid[geom])).name for geom in touching]
-    return found
+        bodies += [model.body(int(model.geom_bodyid[geom])).name for geom in touching]
+    return bodies
 
 
 def flown_postures(name):
     """Values of the legs' joints at each control step of the flights with the device."""
-    robot, resolved, found = designed(name)
-    builder = WorldBuilder(robot, found.device)
+    robot, resolved, design = designed(name)
+    builder = WorldBuilder(robot, design.device)
     joints = [joint for leg in robot.legs for joint in leg.joints]
     postures = []
     for maneuver in resolved.requirement.maneuvers:
@@ -86,13 +86,13 @@ def flown_postures(name):
 
 @contextmanager
 def recorded_coordinates():
-    """The coordinates of the one world that flies meanwhile; a recording has no joints."""
+    """Coordinates of the one world simulated within this context; recordings lack the joints."""
     coordinates, attitude = [], TrunkChain.attitude
 
-    def listening(self, qpos):
+    def recording_attitude(self, qpos):
         coordinates.append(qpos[0].copy())
         return attitude(self, qpos)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(TrunkChain, "attitude", listening)
+        patch.setattr(TrunkChain, "attitude", recording_attitude)
         yield coordinates

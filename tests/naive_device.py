@@ -1,10 +1,9 @@
-"""What a device can do, worked out the long way: for checks of the selection.
+"""Capability of a device, derived independently of the package: an oracle for the selection.
 
-Written from the physics, not from the package: bodies are solid cylinders less their cavities,
-moments are taken about B's origin and moved to the common centre of mass, both wheels and the trunk
-are three coupled equations, and the quickest turn accelerates as long as it can still be braked in
-time. Only the figures of web and hub, the outlines of what is printed (`naive_module`) and the data
-types come from the package.
+Bodies are solid cylinders less their cavities, moments are taken about B's origin and moved to the
+common centre of mass, both wheels and the trunk are three coupled equations, and the fastest turn
+accelerates as long as it can still be braked in time. Only the dimensions of web and hub, the
+outlines of printed parts (`naive_module`) and the data types come from the package.
 """
 
 from dataclasses import replace
@@ -13,17 +12,17 @@ from math import inf, sqrt
 import numpy as np
 from carrier_parts import drive_parts
 from naive_module import (
-    body_of,
     bore_min,
     height_max,
     mount_of,
     outer_radius_min,
-    printed,
+    printed_parts,
     revolved_body,
-    screws_around,
+    screw_bodies,
     swept_size,
+    total_body,
 )
-from naive_wheel import hub_body, spokes
+from naive_wheel import has_room_for_holes, hub_body
 
 from ocs_design.actuation.fasteners import LIGAMENT
 from ocs_design.parts.motor_mount import hub_of
@@ -32,24 +31,25 @@ from ocs_design.requirement.pushes import Disturbance
 from ocs_design.requirement.turns import Drop, Flip
 
 USABLE = 0.95
-"""Of voltage, current and speed."""
+"""Usable fraction of voltage, current and speed."""
 PROOF_SPEED = 1.2
-"""At which a rim must hold, over the highest that its drive reaches."""
+"""Speed that a rim must withstand, over the highest speed of its drive."""
 LEAST_BORE = 0.01
+"""Smallest bore over the outer radius."""
 HEIGHTS = (0.0, 0.005, 0.01, 0.02)
-"""Of rims between which polynomials of the third degree are exact [m]."""
+"""Heights of rims [m] between which cubic polynomials are exact."""
 
 
 class Drive:
-    """A motor behind a gear at a supply, seen at the wheel; None of its figures is missing."""
+    """A motor behind a gear at a supply, seen at the wheel; no figure is missing."""
 
     def __init__(self, problem, motor, gear, points=3000):
         rotor = motor.rotor_inertia or 0.0
         self.thick = problem.foot_plate
         self.motor, self.gear, self.mount = motor, gear, mount_of(motor, gear, self.thick)
-        # Posts of a cage are shorter behind a taller rim: no integral is beyond the third power.
-        driving = (drive_parts(motor, gear, height, self.thick) for height in HEIGHTS)
-        self.driving = [body_of(parts) for parts in driving]
+        # Posts of a cage are shorter behind a taller rim: integrals are at most cubic in height.
+        drive_bodies = (drive_parts(motor, gear, height, self.thick) for height in HEIGHTS)
+        self.drive_bodies = [total_body(parts) for parts in drive_bodies]
         self.height_max = height_max(motor, gear, self.thick)
         self.webbed, self.hub, self.hub_radius = problem.web, np.zeros(3), 0.0
         self.chamfer, self.web_material = chamfer_of(problem), problem.web_material
@@ -61,16 +61,16 @@ class Drive:
                 chamfer=problem.cuts.chamfer,
                 web_thickness=self.web,
             )
-            # Its own figures are those of a hub in a solid web; holes where the widest has room.
+            # This hub belongs to a solid web; it has holes if the widest web has room for them.
             widest = np.array([problem.envelope.outer_radius_max - least_wall(problem)])
-            holed = replace(hub, lightening=problem.lightenings[0])
-            self.in_web = holed if spokes(widest, holed)[0] else hub
-            # The lid is 2 mm off the rim, and 0.5 mm off the heads of the hub's screws.
+            lightened = replace(hub, lightening=problem.lightenings[0])
+            self.in_web = lightened if has_room_for_holes(widest, lightened)[0] else hub
+            # The lid clears the rim by 2 mm and the heads of the hub's screws by 0.5 mm.
             self.heads = hub.height + 2.0 * (hub.bolt_head - 1.5e-3) if hub.bolts else 0.0
             self.hub = hub_body(hub, 1.0)
             widest = max(hub.radius, bore_min(motor, gear, self.thick))
             self.hub_radius = widest + LIGAMENT
-        # The rotor turns at N W, the other way round if the gear reverses.
+        # The rotor turns at N W, in the opposite direction if the gear reverses.
         self.rotor_momentum = gear.ratio * rotor * (-1.0 if gear.reverses else 1.0)
         self.rotor_load = gear.ratio**2 * rotor + gear.inertia
         voltage, k_t = problem.bus_voltage, motor.torque_constant
@@ -89,24 +89,25 @@ class Drive:
         self._tabulate(points)
 
     def _tabulate(self, points):
-        """Time up to a peak speed and down to rest, and the angle, both per inertia."""
+        """Tabulate time and angle per inertia up to a peak speed and down to rest."""
         peak = self.free * (1.0 - np.exp(-(np.linspace(0.0, 16.0, points) ** 2) / 8.0))
         peak = np.append(peak[peak < self.top], min(self.top, self.free * (1.0 - 1e-14)))
         up, down = self._up(peak), self._down(peak)
         self.time, self.angle, self.peak = up[0] + down[0], up[1] + down[1], peak
 
     def _up(self, speed):
-        """Time and angle per inertia from rest, min(limit, stall (1 - w / free))."""
-        flat = min(self.limit, self.stall)
-        bend = self.free * (1.0 - flat / self.stall)
+        """Time and angle per inertia from rest, at a torque of min(limit, stall (1 - w / free))."""
+        constant_torque = min(self.limit, self.stall)
+        bend = self.free * (1.0 - constant_torque / self.stall)
         first = np.minimum(speed, bend)
         lag = self.free / self.stall
         later = lag * np.log((self.free - first) / (self.free - np.maximum(speed, first)))
         on_line = self.free * later - lag * (speed - first)
-        return first / flat + later, first**2 / (2.0 * flat) + on_line
+        time = first / constant_torque + later
+        return time, first**2 / (2.0 * constant_torque) + on_line
 
     def _down(self, speed):
-        """Time and angle per inertia to rest, min(limit, stall (1 + w / free))."""
+        """Time and angle per inertia to rest, at a torque of min(limit, stall (1 + w / free))."""
         bend = self.free * max(self.limit / self.stall - 1.0, 0.0)
         last = np.minimum(speed, bend)
         lag = self.free / self.stall
@@ -117,13 +118,13 @@ class Drive:
         )
 
     def standing(self, rims):
-        """Motor, gear, housing and foot, see `naive_module`, shape (7, n)."""
+        """Integrals of motor, gear, housing and foot, see `naive_module`, shape (7, n)."""
         drive = sum(
             body[:, None] * np.prod([(rims.height - o) / (own - o) for o in HEIGHTS if o != own], 0)
-            for own, body in zip(HEIGHTS, self.driving, strict=True)
+            for own, body in zip(HEIGHTS, self.drive_bodies, strict=True)
         )
-        shell = printed(rims.outer, rims.height, self.mount, self.thick)
-        return drive + shell + screws_around(rims.outer, rims.height, self.thick)
+        shell = printed_parts(rims.outer, rims.height, self.mount, self.thick)
+        return drive + shell + screw_bodies(rims.outer, rims.height, self.thick)
 
     def wheel(self, rims):
         """Rim, web and hub: mass, inertia about the axis and across it, shape (3, n)."""
@@ -134,11 +135,11 @@ class Drive:
         return rims.body + web + density * self.hub[:, None]
 
     def web_density(self, density):
-        """Of web and hub of a rim of that density [kg/m^3]."""
+        """Density of web and hub for a rim of this density [kg/m^3]."""
         return density if self.web_material is None else self.web_material.density
 
     def seat(self, density):
-        """Of a rim of that density the least height, for its web [m]."""
+        """Least height of a rim of this density, given by its web [m]."""
         if not self.webbed:
             return 0.0
         band = max(self.web + 2.0 * self.chamfer + STEP, 4.0 * self.chamfer, self.heads)
@@ -148,7 +149,7 @@ class Drive:
         return max(seated, band)
 
     def turn(self, time, inertia, final):
-        """Largest angle of wheels within a time, ending at a speed, less that speed times time."""
+        """Largest angle of the wheels in a time, ending at a speed, less that speed times it."""
         end_time, end_angle = self._down(final)
         units = time / inertia + end_time
         peak = np.interp(units, self.time, self.peak)
@@ -158,7 +159,7 @@ class Drive:
 
 
 def speed_of(motor):
-    """That a motor may reach [rad/s]; None if nothing is known."""
+    """Highest permitted speed of a motor [rad/s]; None if unknown."""
     if motor.speed_max is not None:
         return motor.speed_max
     if motor.no_load_speed is not None:
@@ -169,7 +170,7 @@ def speed_of(motor):
 
 
 def is_complete(motor, gear):
-    """Whether all figures are known; a rotor may be unknown where it can only help."""
+    """Whether all figures are known; the rotor may be unknown where it can only help."""
     figures = [motor.mass, motor.torque_constant, motor.resistance, motor.peak_torque]
     if gear.ratio > 1.0 or gear.reverses:
         figures.append(motor.rotor_inertia)
@@ -177,36 +178,38 @@ def is_complete(motor, gear):
 
 
 def chamfer_of(problem):
-    """Wheels without a web have none [m]."""
+    """Chamfer of the wheels, 0 without a web [m]."""
     return problem.cuts.chamfer if problem.web else 0.0
 
 
 def least_wall(problem):
-    """As specified, and so that half of each face stays between its chamfers [m]."""
+    """Least wall: as specified, and at least four chamfers, so that half of a face is left [m]."""
     return max(problem.envelope.wall_min, 4.0 * chamfer_of(problem))
 
 
-def fits(problem, rims, slack=0.0):
-    """Whether rims are within the envelope and hold at the proof speed."""
-    room, more = problem.envelope, 1.0 + slack
-    inside = (rims.outer <= room.outer_radius_max * more) & (
-        rims.inner * more >= np.maximum(room.inner_radius_min, LEAST_BORE * rims.outer)
+def fits_envelope(problem, rims, slack=0.0):
+    """Whether rims are within the envelope."""
+    limits, factor = problem.envelope, 1.0 + slack
+    inside = (rims.outer <= limits.outer_radius_max * factor) & (
+        rims.inner * factor >= np.maximum(limits.inner_radius_min, LEAST_BORE * rims.outer)
     )
-    inside &= (rims.height <= room.height_max * more) & (rims.height * more >= room.height_min)
-    inside &= (rims.outer - rims.inner) * more >= least_wall(problem)
-    return inside & (rims.body[0] <= room.mass_max * more)
+    inside &= (rims.height <= limits.height_max * factor) & (
+        rims.height * factor >= limits.height_min
+    )
+    inside &= (rims.outer - rims.inner) * factor >= least_wall(problem)
+    return inside & (rims.body[0] <= limits.mass_max * factor)
 
 
-def holds(problem, drive, rims, material, slack=0.0):
-    """Whether a rim leaves room for web and hub, and stands the stress at its bore if known."""
-    more = 1.0 + slack
-    seated = (rims.inner * more >= drive.hub_radius) & (
-        rims.height * more >= drive.seat(material.density)
+def is_buildable(problem, drive, rims, material, slack=0.0):
+    """Whether rims have room for web and hub, and withstand the stress at the bore if known."""
+    factor = 1.0 + slack
+    seated = (rims.inner * factor >= drive.hub_radius) & (
+        rims.height * factor >= drive.seat(material.density)
     )
-    seated &= rims.outer * more >= outer_radius_min(drive.mount)
-    seated &= rims.height <= drive.height_max * more
+    seated &= rims.outer * factor >= outer_radius_min(drive.mount)
+    seated &= rims.height <= drive.height_max * factor
     if drive.webbed:
-        seated &= spokes(rims.inner * more, drive.in_web)
+        seated &= has_room_for_holes(rims.inner * factor, drive.in_web)
     if material.yield_strength is None or material.poisson_ratio is None:
         return seated
     nu = material.poisson_ratio
@@ -214,13 +217,13 @@ def holds(problem, drive, rims, material, slack=0.0):
     stress = material.density * drive.proof_speed**2 / 4.0 * squares
     safety = problem.envelope.stress_safety
     if drive.webbed and drive.in_web.lightening and safety:
-        # At the edge of a hole there is so much more.
+        # Stress concentration at the edge of a hole.
         safety = max(safety, {5: 6.5, 6: 6.5, 7: 8.0, 8: 8.0}[drive.in_web.lightening])
-    return seated & (stress * safety <= material.yield_strength * more)
+    return seated & (stress * safety <= material.yield_strength * factor)
 
 
 def demand_of(maneuver, inertia, coupling, standing):
-    """Momentum through the wheels over time, momentum left at the end, and the time."""
+    """Integral of the wheels' momentum, momentum at the end, and the time of a maneuver."""
     if isinstance(maneuver, Drop):
         time = sqrt(2.0 * (maneuver.height - standing) / maneuver.gravity)
         angles, left = _off_level(maneuver.roll, maneuver.pitch), np.zeros((2, 1))
@@ -232,13 +235,13 @@ def demand_of(maneuver, inertia, coupling, standing):
         flight = 2.0 * maneuver.takeoff_velocity[1] / maneuver.gravity
         time = flight - maneuver.onset - maneuver.duration
         left = np.array(maneuver.torque)[:2, None] * maneuver.duration
-        # The momentum rises evenly while the torque acts.
+        # The momentum rises linearly while the torque acts.
         return left * maneuver.duration / 2.0 + 0.0 * inertia, left + 0.0 * inertia, time
     return inertia * angles + coupling * angles[::-1], left + 0.0 * inertia, time
 
 
 def _off_level(roll, pitch):
-    """The smallest turn about roll and pitch that levels a trunk, whatever its heading, (2, 1)."""
+    """Rotation vector in roll and pitch that levels a trunk, for any heading, shape (2, 1)."""
     about_x = np.array(
         [[1.0, 0.0, 0.0], [0.0, np.cos(roll), -np.sin(roll)], [0.0, np.sin(roll), np.cos(roll)]]
     )
@@ -252,23 +255,22 @@ def _off_level(roll, pitch):
 
 
 def margin(problem, drive, rims, angle):
-    """What wheels can do over what they must, of the worst maneuver; at least 1 if they can."""
+    """Capability over demand for the worst maneuver; at least 1 if feasible."""
     spin = drive.wheel(rims)[1] + drive.rotor_momentum
     worst = np.where(spin > 0.0, inf, 0.0)
     spin = np.maximum(spin, 1e-12)
     for maneuver in problem.requirement.maneuvers:
         at = angle if maneuver.incidence is None else np.full_like(angle, maneuver.incidence)
-        can = _maneuver_margin(problem, drive, rims, maneuver, spin, at)
-        worst = np.minimum(worst, can)
+        worst = np.minimum(worst, _maneuver_margin(problem, drive, rims, maneuver, spin, at))
     if problem.requirement.rate_change is not None:
-        own, other = (
-            inertia_on(problem, drive, rims, angle),
-            coupling_on(problem, drive, rims, angle),
-        )
-        # Next to no lever takes next to any momentum.
+        inertia = inertia_on(problem, drive, rims, angle)
+        coupling = coupling_on(problem, drive, rims, angle)
+        # Avoid a division by zero where the wheels have no share in an axis.
         shares = np.maximum([np.sin(angle), np.cos(angle)], 1e-12)
-        held = (own / shares + np.abs(other) / shares[::-1]) * problem.requirement.rate_change
-        worst = np.minimum(worst, (2.0 * spin * drive.top / held).min(axis=0))
+        demand = (
+            inertia / shares + np.abs(coupling) / shares[::-1]
+        ) * problem.requirement.rate_change
+        worst = np.minimum(worst, (2.0 * spin * drive.top / demand).min(axis=0))
     return worst
 
 
@@ -280,26 +282,26 @@ def _maneuver_margin(problem, drive, rims, maneuver, spin, angle):
     through, left, time = demand_of(
         maneuver, inertia, coupling, problem.requirement.standing_height
     )
-    # A cosine of 1e-17 is no lever.
+    # A cosine of 1e-17 counts as zero.
     levers = np.where(shares > 1e-9, 2.0 * shares * spin, np.where(through != 0.0, 1e-30, 1.0))
     # Roll is half the difference of both wheels' angles, pitch half their sum.
     turns = wheels_of(through / levers)
     row = np.abs(turns).argmax(axis=0)
-    busy, idle = (np.take_along_axis(turns, k[None], 0)[0] for k in (row, 1 - row))
-    ratio = np.divide(idle, busy, out=np.ones_like(busy), where=busy != 0.0)
+    busy, other = (np.take_along_axis(turns, k[None], 0)[0] for k in (row, 1 - row))
+    ratio = np.divide(other, busy, out=np.ones_like(busy), where=busy != 0.0)
     # Of  tau = ((I_rim + load) 1 - h^2 A' J^-1 A) dW  the row of the busier wheel.
     compliance = compliance_of(inertia, coupling, shares)
     own = compliance[0, 0] * (row == 0) + compliance[1, 1] * (row == 1)
     load = drive.wheel(rims)[1] + drive.rotor_load - spin**2 * (own + ratio * compliance[0, 1])
     final = np.abs(wheels_of(left / levers)).max(axis=0)
-    moved = drive.turn(time, np.maximum(load, 1e-15), final)
+    possible = drive.turn(time, np.maximum(load, 1e-15), final)
     busy = np.abs(busy)
-    enough = np.divide(moved, busy, out=np.where(moved >= 0.0, inf, 0.0), where=busy > 0.0)
-    return np.where(load > 0.0, enough, 0.0)
+    ratio = np.divide(possible, busy, out=np.where(possible >= 0.0, inf, 0.0), where=busy > 0.0)
+    return np.where(load > 0.0, ratio, 0.0)
 
 
 def chord_of(maneuver):
-    """How far a turn leads off level."""
+    """Largest chord of a turn away from level."""
     if isinstance(maneuver, Disturbance):
         return 0.0
     if isinstance(maneuver, Flip):
@@ -308,25 +310,25 @@ def chord_of(maneuver):
 
 
 def device_mass(drive, rims):
-    """Of both modules [kg]."""
+    """Mass of both modules [kg]."""
     return 2.0 * (drive.wheel(rims)[0] + drive.standing(rims)[0])
 
 
 def inertia_on(problem, drive, rims, angle):
-    """Of robot and both modules about roll and pitch through the common centre, braked."""
-    whole = _tensor(problem, drive, rims, angle)
-    return np.stack([whole[0, 0], whole[1, 1]])
+    """Braked inertia of robot and modules about roll and pitch at the common centre of mass."""
+    total = _tensor(problem, drive, rims, angle)
+    return np.stack([total[0, 0], total[1, 1]])
 
 
 def coupling_on(problem, drive, rims, angle):
-    """Roll momentum per pitch rate, and the reverse, of what has no momentum of yaw."""
-    whole = _tensor(problem, drive, rims, angle)
-    yaw_rate = -whole[2, 1] / whole[2, 2]
-    return whole[0, 1] + whole[0, 2] * yaw_rate
+    """Roll momentum per pitch rate, and the reverse, without momentum about yaw."""
+    total = _tensor(problem, drive, rims, angle)
+    yaw_rate = -total[2, 1] / total[2, 2]
+    return total[0, 1] + total[0, 2] * yaw_rate
 
 
 def _tensor(problem, drive, rims, angle):
-    """Of robot and both modules about their common centre, braked, shape (3, 3, n)."""
+    """Braked inertia of robot and modules about the common centre of mass, shape (3, 3, n)."""
     module = revolved_body(*drive.wheel(rims)) + drive.standing(rims)
     mass, along, up, across, axis, upright, aslant = module
     robot, place = problem.robot, problem.place
@@ -336,7 +338,7 @@ def _tensor(problem, drive, rims, angle):
     z = z + standing if place.upright else z
     sine, cosine = np.sin(angle), np.cos(angle)
     zero = np.zeros_like(sine + mass)
-    # Of the left module, and of the right one, about B's origin: masses times coordinates.
+    # First and second moments of the left and the right module about B's origin.
     first, second = np.zeros((3, *zero.shape)), np.zeros((3, 3, *zero.shape))
     for side in (1.0, -1.0):
         first += np.stack(
@@ -350,16 +352,17 @@ def _tensor(problem, drive, rims, angle):
         yz = mass * y * z + y * up + z * along * cosine + aslant * cosine
         rows = [[xx, side * xy, xz], [side * xy, yy, side * yz], [xz, side * yz, zz]]
         second += np.array([[entry + zero for entry in row] for row in rows])
-    whole = robot.mass + 2.0 * mass
-    center = (robot.mass * np.asarray(robot.com)[:, None] + first) / whole
-    held = np.asarray(robot.inertia)
-    held = np.trace(held) / 2.0 * np.eye(3) - held + robot.mass * np.outer(robot.com, robot.com)
-    moments = held[:, :, None] + second - whole * center[:, None] * center[None]
+    total = robot.mass + 2.0 * mass
+    center = (robot.mass * np.asarray(robot.com)[:, None] + first) / total
+    inertia = np.asarray(robot.inertia)
+    own = np.trace(inertia) / 2.0 * np.eye(3) - inertia
+    own += robot.mass * np.outer(robot.com, robot.com)
+    moments = own[:, :, None] + second - total * center[:, None] * center[None]
     return np.trace(moments) * np.eye(3)[:, :, None] - moments
 
 
 def release_unreached(inertia, coupling, shares, chord):
-    """An axis that the wheels do not reach follows the other one, if it ends level in a degree."""
+    """Let an axis that the wheels do not control follow the other, if it ends within 1 degree."""
     follows = np.abs(coupling) / inertia * chord <= np.radians(1.0)
     free = (shares <= 1e-9) & follows
     less = np.where(free, coupling**2 / inertia, 0.0)[::-1]
@@ -367,7 +370,7 @@ def release_unreached(inertia, coupling, shares, chord):
 
 
 def wheels_of(half):
-    """Of the left and the right wheel, from half the difference and half the sum."""
+    """Values of the left and the right wheel, from half the difference and half the sum."""
     return np.stack([half[1] + half[0], half[1] - half[0]])
 
 

@@ -1,4 +1,4 @@
-"""The lightest device by trying them all: every combination on a grid, then ever finer ones."""
+"""The lightest device by brute force: every combination on a grid, then on finer grids."""
 
 from dataclasses import dataclass
 from itertools import product
@@ -9,8 +9,8 @@ from naive_device import (
     Drive,
     chamfer_of,
     device_mass,
-    fits,
-    holds,
+    fits_envelope,
+    is_buildable,
     is_complete,
     least_wall,
     margin,
@@ -19,9 +19,11 @@ from naive_wheel import Rims
 
 COARSE = (31, 12, 8, 26)
 FINE = (7, 13, 7, 81)
-"""Points of incidence, outer radius, height and wall."""
+"""Number of grid points of incidence, outer radius, height and wall."""
 BLOCK = 30_000
+"""Candidates evaluated together."""
 NARROW = 2e-4
+"""Relative width of the grid at which refinement stops."""
 
 
 @dataclass(frozen=True)
@@ -36,11 +38,11 @@ class Device:
 
 
 def search(problem):
-    """The lightest device of all combinations; None if no grid has any."""
-    found = sorted(_coarse(problem), key=lambda device: device.mass)
+    """The lightest device of all combinations; None if no grid has a feasible one."""
+    candidates = sorted(_coarse(problem), key=lambda device: device.mass)
     best = None
-    for device in found:
-        # A coarse grid is rarely a third off; what is more is not worth a finer one.
+    for device in candidates:
+        # A coarse grid is rarely off by a third; heavier candidates are not refined.
         if best is None or device.mass < 1.35 * best.mass:
             fine = refine(problem, device)
             best = fine if best is None or fine.mass < best.mass else best
@@ -63,7 +65,7 @@ def _coarse(problem):
 
 
 def _axes(problem, seat):
-    """Incidences, outer radii, heights and walls over all that the envelope leaves."""
+    """Grids of incidence, outer radius, height and wall over the whole envelope."""
     room = problem.envelope
     angles, radii, heights, walls = COARSE
     low = max(room.inner_radius_min, 1e-3) + room.wall_min
@@ -78,7 +80,7 @@ def _axes(problem, seat):
 
 
 def refine(problem, device):
-    """The lightest on grids around a device that narrow while nothing better is on them."""
+    """The lightest device on narrowing grids around a given one."""
     widths = np.array([0.08, 0.12, 0.2, 0.2])
     while widths[-1] > NARROW:
         seat = device.drive.seat(device.material.density)
@@ -94,7 +96,7 @@ def refine(problem, device):
 
 
 def _axes_around(problem, point, widths, seat):
-    """The incidence is moved by angles, all else by ratios; the limits themselves are on them."""
+    """Grids around a point: incidence by angles, all else by ratios, clipped to the limits."""
     room = problem.envelope
     specified = problem.incidence
     angles = np.clip(point[0] + np.linspace(-widths[0], widths[0], FINE[0]), 0.0, pi / 2.0)
@@ -108,25 +110,27 @@ def _axes_around(problem, point, widths, seat):
 
 
 def _lightest(problem, drive, material, names, axes, below):
-    """Of all points, the lightest below a mass that can do everything; None if there is none."""
+    """The lightest feasible grid point below a mass; None if there is none."""
     angles, *shape = axes
     outer, height, wall = (values.ravel() for values in np.meshgrid(*shape, indexing="ij"))
     rims = Rims(outer, outer - wall, height, material.density, chamfer_of(problem))
     mass = device_mass(drive, rims)
-    good = fits(problem, rims) & holds(problem, drive, rims, material) & (mass < below)
-    rows = np.flatnonzero(good)
+    buildable = (
+        fits_envelope(problem, rims) & is_buildable(problem, drive, rims, material) & (mass < below)
+    )
+    rows = np.flatnonzero(buildable)
     rows = rows[np.argsort(mass[rows], kind="stable")]
     block = max(BLOCK // angles.size, 1)
     for start in range(0, rows.size, block):
-        some = rows[start : start + block]
-        each = np.repeat(some, angles.size)
-        can = margin(problem, drive, rims.take(each), np.tile(angles, some.size))
-        able = can.reshape(some.size, angles.size) >= 1.0
-        if able.any():
-            row = int(np.argmax(able.any(axis=1)))
-            # Of several incidences that will do, the one with the most to spare.
-            angle = angles[can.reshape(able.shape)[row].argmax()]
-            at = some[row]
+        batch = rows[start : start + block]
+        repeated = np.repeat(batch, angles.size)
+        margins = margin(problem, drive, rims.take(repeated), np.tile(angles, batch.size))
+        feasible = margins.reshape(batch.size, angles.size) >= 1.0
+        if feasible.any():
+            row = int(np.argmax(feasible.any(axis=1)))
+            # Of several feasible incidences, the one with the largest margin.
+            angle = angles[margins.reshape(feasible.shape)[row].argmax()]
+            at = batch[row]
             point = np.array([angle, outer[at], height[at], wall[at]])
             return Device(float(mass[at]), drive, material, names, point)
     return None

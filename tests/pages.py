@@ -1,10 +1,10 @@
-"""Pages as a parser that nobody here wrote reads them."""
+"""HTML pages as the standard library's parser reads them."""
 
 from html.parser import HTMLParser
 
 
 class Page(HTMLParser):
-    """Elements with their attributes, and texts; `inside` has those of scripts and styles."""
+    """Elements with attributes, and texts; `inside` holds those of scripts and styles."""
 
     def __init__(self, text):
         super().__init__()

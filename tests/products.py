@@ -1,4 +1,4 @@
-"""What `size` makes of Solo12 with a motor and without one, and the same by numpy."""
+"""Products of `size` for Solo12 with and without a motor, and their inertia in numpy alone."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -63,18 +63,19 @@ WITH_A_MOTOR = [
     "figures/reliability.svg",
     *(f"robot/meshes/ocs_{part}.stl" for part in ("housing", "foot", "cage", "plate")),
 ]
-"""Of a device with a real motor, which is made and has something in reserve."""
+"""Further files for a real motor: the device is buildable and has a reliability."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """One way to ask for a design.
+    """A command, and properties of its products.
 
     Attributes:
-        options: of the command. headings: of its report, so many.
-        words: that its report has among others.
-        slack: relative, of what is held to a capacity.
-        files: that are written beside the design and its report.
+        options: of the command.
+        headings: number of headings in its report.
+        words: some words of its report.
+        slack: relative tolerance of demands at a capacity.
+        files: written beside the design and its report.
     """
 
     options: tuple[str, ...]
@@ -94,7 +95,7 @@ CASES = {
 
 @dataclass(frozen=True)
 class Product:
-    """What a command said and the folder that it wrote; of a cold one its memory [KiB] too."""
+    """Result of a command, its folder, and the peak memory of a new process [KiB]."""
 
     case: Case
     result: Result
@@ -103,7 +104,7 @@ class Product:
 
 
 def device_of(document):
-    """Wheel, carrier, motor, modules and plate as numbers, straight from the file."""
+    """Wheel, carrier, motor, modules and plate as numbers, directly from the file."""
     ocs = document["ocs"]
     modules = [
         SimpleNamespace(name=m["name"], axis=np.array(m["axis"]), position=np.array(m["position"]))
@@ -115,7 +116,7 @@ def device_of(document):
 
 
 def parallel_axis(mass, offset):
-    """Of the parallel axis theorem."""
+    """Inertia added by the parallel axis theorem."""
     return mass * (offset @ offset * np.eye(3) - np.outer(offset, offset))
 
 
@@ -126,7 +127,7 @@ def with_modules(document, device, incidence):
     for module, side in zip(device.modules, (1.0, -1.0), strict=True):
         axis = np.array([side * np.sin(incidence), np.cos(incidence), 0.0])
         across, along = np.eye(3) - np.outer(axis, axis), np.outer(axis, axis)
-        # The rotor is in the motor's mass already, and stands still with it.
+        # The rotor is already part of the motor's mass, and at rest with it.
         rim = wheel.spin_inertia - device.motor.rotor_inertia
         parts.append((wheel.mass, module.position, wheel.transverse_inertia * across + rim * along))
         carrier = device.carrier
@@ -150,11 +151,11 @@ def with_modules(document, device, incidence):
 
 
 def coupling(inertia):
-    """Momentum about pitch per rate of roll, yaw left to itself, without sign [kg m^2]."""
+    """Magnitude of the pitch momentum per roll rate without momentum about yaw [kg m^2]."""
     return abs(inertia[0, 1] - inertia[0, 2] * inertia[1, 2] / inertia[2, 2])
 
 
 def equal_rate(inertia):
     """The incidence at which one wheel speed changes roll and pitch by the same rate [rad]."""
-    across = coupling(inertia)
-    return np.arctan2(inertia[0, 0] - across, inertia[1, 1] - across)
+    coupled = coupling(inertia)
+    return np.arctan2(inertia[0, 0] - coupled, inertia[1, 1] - coupled)

@@ -1,8 +1,8 @@
-"""Robots, specifications and small catalogues drawn at random, from 1 kg to 80 kg.
+"""Random robots of 1 kg to 80 kg, with requirements and small catalogues.
 
-Everything scales with the robot, so that about half of the motors can do what is asked: a box of
-about Solo12's proportions, falls of a good third of a second, motors around the torque and the
-speed that the maneuvers take.
+Everything scales with the robot, so that about half of the motors meet the requirement: a box of
+about Solo12's proportions, falls of a good third of a second, motors around the torque and speed
+that the maneuvers need.
 """
 
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ MATERIALS = (STEEL, ALUMINIUM, BRASS, PAPER_STEEL)
 
 @dataclass(frozen=True)
 class RandomCase:
-    """A robot and what is asked for it."""
+    """A robot and its selection problem."""
 
     robot: Robot
     problem: SelectionProblem
@@ -40,7 +40,7 @@ class RandomCase:
 
 @dataclass(frozen=True)
 class WheelScale:
-    """About what a wheel of this robot must do: torque, momentum, speed; and its size [m]."""
+    """Approximate torque, momentum, speed and radius [m] of a wheel for this robot."""
 
     torque: float
     momentum: float
@@ -49,7 +49,7 @@ class WheelScale:
 
 
 def random_case(seed):
-    """The problem of this number."""
+    """The case of this seed."""
     rng = np.random.default_rng(seed)
     mass = float(np.exp(rng.uniform(0.0, np.log(80.0))))
     size = float((mass / 2.5) ** (1.0 / 3.0) * rng.uniform(0.85, 1.2))
@@ -59,7 +59,7 @@ def random_case(seed):
     scale = _scale(rng, robot, maneuvers, standing)
     voltage = float(rng.uniform(12.0, 60.0))
     count = int(rng.integers(3, 6))
-    kinds = rng.permutation(len(MATERIALS))[: rng.integers(2, 4)]
+    chosen = rng.permutation(len(MATERIALS))[: rng.integers(2, 4)]
     problem = SelectionProblem(
         robot=robot.mass_properties,
         requirement=Requirement(
@@ -73,7 +73,7 @@ def random_case(seed):
             _gear(rng, "reducing", rng.uniform(1.5, 4.0), scale, reverses=True),
             _gear(rng, "speeding up", rng.uniform(0.4, 0.8), scale, reverses=False),
         ),
-        materials=tuple(MATERIALS[kind] for kind in kinds),
+        materials=tuple(MATERIALS[index] for index in chosen),
         supply=Supply(voltage),
         incidence=rng.choice([None, None, rng.uniform(0.2, 0.9)]),
         wheel_speed_max=rng.choice([None, None, 1.5 * scale.speed]),
@@ -85,7 +85,7 @@ def random_case(seed):
 
 
 def standing_height(robot):
-    """Of the origin over the lowest corner of the robot's box [m]."""
+    """Height of the origin above the lowest corner of the robot's box [m]."""
     (box,) = robot.tree.bodies[0].shapes
     corners = np.array(list(product((-1.0, 1.0), repeat=3))) * np.asarray(box.size)
     return float(-(np.asarray(box.position) + corners @ np.asarray(box.rotation).T)[:, 2].min())
@@ -125,7 +125,7 @@ def _maneuvers(rng, robot, size, standing):
 
 
 def _flip(rng, size):
-    """A full turn on the Moon or on Mars."""
+    """A full flip on the Moon or on Mars."""
     gravity, height = float(rng.choice([1.62, 3.71])), float(rng.uniform(0.8, 1.2) * size)
     return Flip(
         name="flip",
@@ -165,7 +165,7 @@ def _envelope(rng, radius, mass):
 
 
 def _motor(rng, name, scale, voltage):
-    """Some are too weak, some do not tell their rotor's inertia or their highest speed."""
+    """A random motor: some are too weak, some lack rotor inertia or maximum speed."""
     peak = scale.torque * float(np.exp(rng.uniform(np.log(0.5), np.log(4.0))))
     mass = 0.12 * peak**0.75 * float(rng.uniform(0.7, 1.4))
     radius = 0.02 * (mass / 0.08) ** (1.0 / 3.0)

@@ -1,4 +1,4 @@
-"""Rim problems for tests: the paper's, and random ones in which every limit gets to bind."""
+"""Rim problems for tests: the paper's, and random ones in which each limit is active in some."""
 
 import numpy as np
 from hypothesis import strategies as st
@@ -14,7 +14,7 @@ UNLIMITED = float("inf")
 
 
 def envelope_with(outer_radius_max, height_max, **others):
-    """An envelope without any other limits than those named."""
+    """An envelope without limits other than those given."""
     limits = {
         "inner_radius_min": 0.0,
         "height_min": 0.0,
@@ -26,7 +26,7 @@ def envelope_with(outer_radius_max, height_max, **others):
 
 
 def utilization(problem, inner, outer, height, mass):
-    """What a rim uses of each limit, by its name: at most 1 where it is within all of them."""
+    """Utilization of each limit by a rim, by name; all are at most 1 for a feasible one."""
     limits, material = problem.envelope, problem.material
     nu, speed = material.poisson_ratio, problem.wheel_speed
     stress = material.density * speed**2 / 4.0 * ((3.0 + nu) * outer**2 + (1.0 - nu) * inner**2)
@@ -42,16 +42,16 @@ def utilization(problem, inner, outer, height, mass):
 
 
 def paper_problem(spin_inertia, outer_radius_max, height_max):
-    """One of the cases of docs/theory.md, The rim."""
+    """A case of docs/theory.md, The rim."""
     return RimProblem(spin_inertia, envelope_with(outer_radius_max, height_max), PAPER_STEEL, 754.0)
 
 
 def scaled_problem(*, size, slim, fill, bore, flat, wall, mass, stress):
-    """A problem from figures of order one, so that each of its limits may bind or not.
+    """A problem from figures of order one, so that each limit may be active or not.
 
-    `size` is r_max, `slim` h_max over it, `fill` the spin inertia over that of a solid disc;
-    `bore`, `flat` and `wall` are the lower limits over the upper ones; `mass` and `stress` are
-    limits over those of thin rings.
+    `size` is r_max, `slim` is h_max over r_max, `fill` the spin inertia over that of a solid disc;
+    `bore`, `flat` and `wall` are lower limits over upper ones; `mass` and `stress` are limits over
+    the values of thin rings.
     """
     height, speed = slim * size, 900.0
     spin = fill * pi * STEEL.density * height * size**4 / 2.0
@@ -69,7 +69,7 @@ def scaled_problem(*, size, slim, fill, bore, flat, wall, mass, stress):
 
 
 def random_problem(rng):
-    """One `scaled_problem`; every limit is absent in some."""
+    """A random `scaled_problem`; every limit is absent in some."""
     return scaled_problem(
         size=rng.uniform(0.02, 0.2),
         slim=rng.uniform(0.1, 0.6),
@@ -87,7 +87,7 @@ def _absent_or(low, high):
 
 
 def rim_problems():
-    """The same for Hypothesis."""
+    """Random scaled problems, as a Hypothesis strategy."""
     return st.builds(
         scaled_problem,
         size=st.floats(0.02, 0.2),

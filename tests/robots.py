@@ -1,4 +1,4 @@
-"""Where the real robots of example-robot-data lie."""
+"""Paths of the real robots in example-robot-data."""
 
 import sysconfig
 from pathlib import Path
@@ -17,26 +17,26 @@ LARGE = {
         *("icub", "kinova", "pr2", "romeo", "tiago", "tiago_pro"),
     )
 } | {"talos_data"}
-"""Folders of robots with so many joints or so fine meshes that to read one takes a while."""
+"""Folders of robots that take long to read because of many joints or fine meshes."""
 
 
 def robot_parameters(robots, *, each=True):
-    """Paths or names of robots as parameters, large ones slow.
+    """Paths or names of robots as parameters, large ones marked slow.
 
-    `each`: all of them count; else the first of each folder does, and the rest is exhaustive.
+    Unless `each`, all but the first robot of each folder are marked exhaustive.
     """
-    seen, found = set(), []
+    seen, parameters = set(), []
     for robot in robots:
         name = str(robot.relative_to(ROBOTS)) if isinstance(robot, Path) else robot
         folder = name.partition("/")[0]
         marks = [pytest.mark.slow] * (folder in LARGE)
         if folder in seen and not each:
             marks = [pytest.mark.exhaustive]
-        found.append(pytest.param(robot, id=name, marks=marks))
+        parameters.append(pytest.param(robot, id=name, marks=marks))
         seen.add(folder)
-    return found
+    return parameters
 
 
 def one_per_folder(robots):
-    """Paths or names of robots as parameters: the first of each maker's, the rest exhaustive."""
+    """Paths or names of robots as parameters, all but the first of each folder exhaustive."""
     return robot_parameters(robots, each=False)

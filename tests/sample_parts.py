@@ -1,4 +1,4 @@
-"""Wheels and parts for tests, with every kind of feature."""
+"""Sample wheels and parts with every kind of feature."""
 
 import numpy as np
 
@@ -33,7 +33,7 @@ RIM_ALONE = Wheel(Rim(0.022, 0.03, 0.01, "steel", STEEL, RimCuts(0.3e-3)))
 DISC = Wheel(Rim(0.0, 0.03, 0.01, "steel", STEEL))
 
 ACROSS = Placement(np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]), np.zeros(3))
-"""Its z axis along -y of the part."""
+"""Placement whose z axis points along -y of the part."""
 
 SLOTTED = Part(
     "slotted",
@@ -49,7 +49,7 @@ SLOTTED = Part(
         Prism(Disc(0.004, (0.0, 0.02)), -0.002, 0.002, ACROSS),
     ),
 )
-"""A base with a plate on it: arcs, blind holes and a solid across the rest."""
+"""A base with an upright plate: arcs, blind holes and a solid across the others."""
 
 TUBE = Part("tube", 1000.0, (hollow_cylinder(0.01, 0.02, -0.01, 0.03),))
 

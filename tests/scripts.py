@@ -1,4 +1,4 @@
-"""Scripts that stand outside of the package, loaded as modules; what an import brings with it."""
+"""Scripts outside of the package, loaded as modules; modules that an import loads."""
 
 import importlib.util
 import subprocess
@@ -8,7 +8,7 @@ HEAVY = ("numpy", "scipy", "mujoco", "cvxpy", "trimesh", "casadi", "matplotlib",
 
 
 def script_at(path):
-    """The module of a file, which may look itself up by its name."""
+    """The module of a file, registered under its name."""
     name = f"script_{path.stem}"
     specification = importlib.util.spec_from_file_location(name, path)
     module = importlib.util.module_from_spec(specification)

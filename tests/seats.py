@@ -1,4 +1,4 @@
-"""Where tests seat a device: a trunk by its name, and a file that calls the macro for it."""
+"""Trunks on which tests mount a device, and files that call the exported macro."""
 
 from dataclasses import dataclass
 
@@ -22,6 +22,6 @@ class TrunkOnly:
 
 
 def expand_macro(folder, call):
-    """A robot of one link that calls the macro in `folder`."""
+    """URDF of a robot with one link that calls the macro in `folder`."""
     (folder / "robot.urdf.xacro").write_text(_CALLER.replace("CALL", call))
     return xacro.process_file(str(folder / "robot.urdf.xacro")).toxml()

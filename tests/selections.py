@@ -1,4 +1,4 @@
-"""Random robots, specifications and small catalogues for tests of the selection."""
+"""Random robots, requirements and small catalogues for tests of the selection."""
 
 from dataclasses import replace
 
@@ -24,7 +24,7 @@ NO_LIMIT = float("inf")
 
 
 def motor(rng, name, torque, speed, voltage):
-    """A motor of about that peak torque, with the mass and inertia that such motors have."""
+    """A random motor of about this peak torque, with a typical mass and inertia."""
     peak = torque * rng.uniform(0.6, 2.5)
     mass = 0.18 * peak**0.7 * rng.uniform(0.7, 1.3)
     k_t = voltage / (speed * rng.uniform(0.7, 2.0))
@@ -49,7 +49,7 @@ def gear(rng, name, ratio, torque):
 
 
 def random_problem(seed, motors=3, *, mounted=True):
-    """A robot of 1 to 30 kg, two or three maneuvers, and a catalogue that may be too weak."""
+    """A robot of 1 to 30 kg, one to three maneuvers, and a catalogue that may be too weak."""
     rng = np.random.default_rng(seed)
     size = rng.uniform(0.8, 2.2)
     mass = 2.5 * size**3 * rng.uniform(0.6, 1.4)
@@ -88,7 +88,7 @@ def random_problem(seed, motors=3, *, mounted=True):
 
 
 def with_offset_load(problem, seed):
-    """The same with a robot that has something on one side."""
+    """The problem with a load on one side of the robot."""
     rng, robot = np.random.default_rng(1000 + seed), problem.robot
     size = np.sqrt(np.trace(robot.inertia) / robot.mass)
     com = robot.com + np.array([0.0, rng.uniform(-0.1, 0.1) * size, 0.0])
@@ -99,20 +99,22 @@ def with_offset_load(problem, seed):
 
 
 def lightest(problem):
-    """The lightest device, with what each part of the requirement takes of it."""
+    """The lightest device, with the demand of each part of the requirement."""
     return with_demands(problem, select(problem).best)
 
 
 def has_device(problem):
-    """As the selection finds it, whatever it takes: every candidate is looked at by its mass."""
+    """Whether an exhaustive search finds any feasible device."""
     return bool(search(problem).places)
 
 
 def with_radius(problem, share):
-    """In a room that is narrower all over."""
-    room = problem.envelope
-    radius, bore = share * room.outer_radius_max, share * room.inner_radius_min
-    return replace(problem, envelope=replace(room, outer_radius_max=radius, inner_radius_min=bore))
+    """The problem with both radii of its envelope scaled by `share`."""
+    envelope = problem.envelope
+    radius, bore = share * envelope.outer_radius_max, share * envelope.inner_radius_min
+    return replace(
+        problem, envelope=replace(envelope, outer_radius_max=radius, inner_radius_min=bore)
+    )
 
 
 def _maneuvers(rng, standing, fall, torque, time):
@@ -125,15 +127,15 @@ def _maneuvers(rng, standing, fall, torque, time):
             torque=(0.3 * push, push, 0.0), duration=0.1 * time,
         )  # fmt: skip
     if rng.random() < 0.5:
-        own = rng.choice([None, 0.0])
+        incidence = rng.choice([None, 0.0])
         yield Flip(
-            name="flip", gravity=1.62, incidence=own, jump_height=1.0, angle=-np.pi,
+            name="flip", gravity=1.62, incidence=incidence, jump_height=1.0, angle=-np.pi,
             duration=float(3.0 * time),
         )  # fmt: skip
 
 
 def with_mounts(problem, seed):
-    """The same catalogue, each motor with threads before, behind or nowhere; gears with room."""
+    """The problem with random mountings: threads in front, at the back or none; room of gears."""
     rng = np.random.default_rng([seed, 1])
     return replace(
         problem,
@@ -145,7 +147,7 @@ def with_mounts(problem, seed):
 
 
 def _mounting(rng, motor):
-    """As far as there is room on the motor."""
+    """A random mounting that fits on the motor."""
     across = motor.diameter * rng.uniform(0.5, 0.65)
     face = rng.choice([None, Face.OUTPUT, Face.BACK, Face.BACK])
     shaft = rng.choice([None, 0.1 * motor.diameter])

@@ -154,13 +154,13 @@ FULL_SPECIFICATION = Specification(
 
 
 def same_specification(one, other):
-    """Maneuvers compare by identity."""
-    plain = replace(one, maneuvers=()) == replace(other, maneuvers=())
-    return plain and [vars(m) for m in one.maneuvers] == [vars(m) for m in other.maneuvers]
+    """Whether specifications are equal; their maneuvers, which compare by identity, by fields."""
+    same_sections = replace(one, maneuvers=()) == replace(other, maneuvers=())
+    return same_sections and [vars(m) for m in one.maneuvers] == [vars(m) for m in other.maneuvers]
 
 
 def problems_of(specification, robot, size):
-    """What is wrong with it for a robot of that size, each with its key."""
+    """Problems of a specification for a robot of this size, by key."""
     with pytest.raises(SpecificationError) as caught:
         resolve(specification, robot, size)
     return caught.value.problems

@@ -1,4 +1,4 @@
-"""A report's story without a simulator: a device for Solo12's figures and flights made of sines."""
+"""A report's story without a simulator: a device for Solo12's figures, and sinusoidal flights."""
 
 from dataclasses import replace
 from functools import cache
@@ -10,22 +10,22 @@ from ocs_design.device.records.flights import ValidationRecord
 from ocs_design.report.story import RecordedFlight, Story
 
 TOUCHDOWN = 0.4
-"""[s]"""
+"""Time of touchdown [s]."""
 
 
 def design(motor=MOTOR, layout=None):
-    """As it would be written, not flown."""
+    """Record of a design without flights."""
     return _recorded(motor, layout)
 
 
 @cache
 def _recorded(motor, layout):
-    task, made = design_with_motor(motor, layout=layout)
-    return record_of(task, made, seed=7, files={"a.stl": "0"})
+    task, design = design_with_motor(motor, layout=layout)
+    return record_of(task, design, seed=7, files={"a.stl": "0"})
 
 
 def flight(scenario="drop", *, ocs=True, limits=True):
-    """Half a swing of the trunk and of both wheels, then a touch of the floor."""
+    """Half a sine of trunk and wheels, then touchdown."""
     time = np.linspace(0.0, 0.6, 601)
     swing = np.sin(np.pi * time / TOUCHDOWN)
     columns = {

@@ -1,4 +1,4 @@
-"""What the shape of the package promises: imports in one direction, and a quick start."""
+"""Structure of the package: imports in one direction, and a fast start."""
 
 import ast
 import re
@@ -22,18 +22,18 @@ def test_the_check_for_heavy_modules_sees_them():
     assert "numpy" in modules_loaded_by("import numpy.linalg")
 
 
-def test_reading_a_robot_needs_no_simulator_and_no_solver():
+def test_reading_a_robot_loads_no_simulator_or_solver():
     loaded = modules_loaded_by("import ocs_design.robot.urdf")
     assert loaded.isdisjoint({"mujoco", "cvxpy", "trimesh", "casadi"})
 
 
-def test_a_part_needs_no_cad_kernel_until_it_is_written():
+def test_parts_load_no_cad_kernel_before_export():
     loaded = modules_loaded_by("import ocs_design.parts.foot, ocs_design.export.formats")
     assert loaded.isdisjoint({"OCP", "manifold3d", "trimesh", "mujoco", "cvxpy"})
 
 
-def test_every_folder_stands_in_the_layers():
-    """`exhaustive` would catch it too, but only where import-linter is installed."""
+def test_every_folder_is_in_the_layers():
+    """`exhaustive` checks it too, but only where import-linter is installed."""
     contracts = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["importlinter"][
         "contracts"
     ]
@@ -47,8 +47,8 @@ def is_package(path):
     return (path / "__init__.py").exists()
 
 
-def test_the_gate_names_tests_that_are_there():
-    """It names some for the oldest versions last of all, after everything else has passed."""
+def test_the_gate_names_existing_tests():
+    """It runs some with the oldest versions, after everything else has passed."""
     gate = ROOT / ".ci" / "run"
     if not gate.exists():
         pytest.skip("the source package has no gate")
@@ -58,7 +58,7 @@ def test_the_gate_names_tests_that_are_there():
 
 
 DEEPEST = 18
-"""Modules in the longest chain of imports."""
+"""Largest number of modules in a chain of imports."""
 
 
 def test_the_chain_of_imports_is_short():
@@ -67,12 +67,12 @@ def test_the_chain_of_imports_is_short():
 
 
 def test_no_modules_import_each_other():
-    """Nor over others; not even for the names of types."""
-    imports = {name: set(found) for name, found in imports_of(PACKAGE).items()}
-    while free := [name for name, found in imports.items() if not found & imports.keys()]:
-        for name in free:
+    """Directly or indirectly, not even for the names of types."""
+    imports = {name: set(imported) for name, imported in imports_of(PACKAGE).items()}
+    while leaves := [name for name, needed in imports.items() if not needed & imports.keys()]:
+        for name in leaves:
             del imports[name]
-    assert not imports, f"a circle, or above one: {', '.join(sorted(imports))}"
+    assert not imports, f"a cycle, or above one: {', '.join(sorted(imports))}"
 
 
 def test_the_longest_chain_is_found():
@@ -81,12 +81,12 @@ def test_the_longest_chain_is_found():
 
 
 IMPORT = re.compile(r"^ *from [\w.]+ import (?:\([^)]*\)|.*)", re.M)
-"""A statement that imports; to parse all of the package takes seconds."""
+"""An import statement; parsing the whole package would take seconds."""
 
 
 @cache
 def imports_of(package):
-    """Modules that each module of the package imports, wherever it does."""
+    """Modules of the package that each of its modules imports, at any place."""
     texts = {name_of(path, package): path.read_text() for path in package.rglob("*.py")}
     return {
         name: {

@@ -1,4 +1,4 @@
-"""The docs say what the program says."""
+"""The docs agree with the program."""
 
 import ast
 import os
@@ -37,7 +37,7 @@ def test_generated_pages_are_up_to_date(generate):
     assert generate.stale_pages() == []
 
 
-def test_a_stale_block_is_seen(generate):
+def test_a_stale_block_is_refreshed(generate):
     stale = "<!-- begin keys: motor -->\nold\n<!-- end -->"
     fresh = generate.blocks.filled(stale, generate.QUICK)
     assert "old" not in fresh
@@ -67,7 +67,7 @@ def anchors(page):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_links_within_the_repository_lead_somewhere(page):
+def test_links_within_the_repository_exist(page):
     for target in LINK.findall(FENCE.sub("", page.read_text())):
         if target.startswith(("http://", "https://")):
             continue
@@ -89,8 +89,8 @@ DOI, ARXIV = re.compile(r"10\.\d{4,9}/\S+"), re.compile(r"\d{4}\.\d{5}")
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_links_into_the_world_are_well_formed(page):
-    """None is opened: the tests need no network."""
+def test_external_links_are_well_formed(page):
+    """Without opening them: the tests need no network."""
     for target in LINK.findall(FENCE.sub("", page.read_text())):
         address = urlsplit(target)
         if not address.scheme:
@@ -106,8 +106,8 @@ def test_links_into_the_world_are_well_formed(page):
 TOML = re.compile(r"^```toml\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
-def test_files_that_the_docs_show_are_read(tmp_path):
-    """As specifications, or as catalogues of motors."""
+def test_files_that_the_docs_show_are_valid(tmp_path):
+    """Specifications and catalogues of motors."""
     shown = [text for page in DOCS.glob("*.md") for text in TOML.findall(page.read_text())]
     assert len(shown) > 4
     for text in shown:
@@ -121,8 +121,8 @@ def test_files_that_the_docs_show_are_read(tmp_path):
 SHELL = re.compile(r"^```sh\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
-def test_commands_that_the_docs_show_have_such_options(generate):
-    """Without running them: what each of them prints is tested where it is quoted."""
+def test_commands_that_the_docs_show_have_valid_options(generate):
+    """They are only parsed: what they print is tested where it is quoted."""
     group = typer.main.get_command(generate.app)
     known, tried = generate.commands(), 0
     for page in PAGES:
@@ -179,25 +179,25 @@ def defined_in(path):
     }
 
 
-def test_functions_that_the_docs_name_stand_where_they_say():
+def test_functions_that_the_docs_name_are_in_the_named_module():
     named = 0
     for page in DOCS.glob("*.md"):
         for names, path in NAMED.findall(" ".join(page.read_text().split())):
-            there = defined_in(ROOT / "ocs_design" / path)
-            assert set(re.findall(r"`(\w+)`", names)) <= there, (page.name, path)
+            defined = defined_in(ROOT / "ocs_design" / path)
+            assert set(re.findall(r"`(\w+)`", names)) <= defined, (page.name, path)
             named += 1
     assert named > 40
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
-def test_files_of_the_package_that_a_page_names_are_there(page):
+def test_files_of_the_package_that_a_page_names_exist(page):
     named = re.findall(r"`([a-z_]+/[a-z_/]+\.py)`", page.read_text())
     homes = ROOT, ROOT / "ocs_design", ROOT / "docs"
     assert [name for name in named if not any((home / name).is_file() for home in homes)] == []
 
 
 def test_every_file_that_size_writes_is_on_the_page_of_the_output():
-    """Charts and time series by their folder, as charts and maneuvers name them."""
+    """Charts and time series by their folder only."""
     text = (DOCS / "output.md").read_text()
     for file in CASES["motor"].files:
         folder, name = file.rsplit("/", 1)
@@ -220,7 +220,7 @@ def test_every_public_name_has_its_entry():
 
 @pytest.mark.slow
 def test_the_commands_that_the_docs_show_still_print_that(generate):
-    """All but the seconds that each step took; for scripts see below."""
+    """Except for the times of steps; scripts are tested below."""
     for path in generate.PAGES:
         for block in generate.blocks.BLOCK.finditer(path.read_text()):
             if block["kind"] in generate.SLOW and block["argument"].startswith("ocs-design "):
@@ -228,18 +228,18 @@ def test_the_commands_that_the_docs_show_still_print_that(generate):
                 assert untimed(printed) == untimed(block["body"])
 
 
-COMPARED = [
+MACHINE_NUMBERS = [
     pytest.param(number, marks=pytest.mark.slow if number == 1 else pytest.mark.exhaustive)
     for number in range(7)
 ]
 
 
-@pytest.mark.parametrize("number", COMPARED)
+@pytest.mark.parametrize("number", MACHINE_NUMBERS)
 @pytest.mark.usefixtures("no_alternatives", "no_files")
-def test_a_machine_is_compared_as_its_page_says(number, monkeypatch, capsys):
-    """Nothing lighter is looked for, and no part is written: the table has neither."""
+def test_the_comparison_of_machines_prints_its_page(number, monkeypatch, capsys):
+    """Without alternatives and files, which the table does not show."""
     script = script_at(ROOT / "examples" / "machines" / "compare.py")
-    assert len(script.MACHINES) == len(COMPARED)
+    assert len(script.MACHINES) == len(MACHINE_NUMBERS)
     monkeypatch.setattr(script, "MACHINES", script.MACHINES[number : number + 1])
     script.main()
     lines = [line.rstrip() for line in capsys.readouterr().out.strip().splitlines()]

@@ -1,4 +1,4 @@
-"""The Python interface: paths in any form, one line for a result, and what a notebook shows."""
+"""The Python interface: paths in any form, one-line reprs, and output in notebooks."""
 
 import json
 import re
@@ -46,13 +46,13 @@ def test_a_design_is_read_from_its_folder_or_file(folder, form):
     assert read_design(form(folder)) == design()
 
 
-def test_an_outcome_is_the_path_of_its_folder(folder):
+def test_an_outcome_serves_as_the_path_of_its_folder(folder):
     outcome = Outcome(design(), folder, task_by_hand().robot, None, ())
     assert read_design(outcome) == design()
     assert export_design(outcome, "bom", out=str(folder / "again")).files
 
 
-def test_a_folder_without_a_design_says_so(tmp_path):
+def test_a_folder_without_a_design_is_an_error(tmp_path):
     with pytest.raises(OcsError, match=r"design\.json: No such file"):
         read_design(tmp_path)
 
@@ -71,7 +71,7 @@ def toml(specification):
     return specification_to_toml(specification, "title")
 
 
-def test_what_is_specified_in_python_is_what_a_file_would_state():
+def test_a_specification_in_python_equals_that_in_a_file():
     text = """
         robot.file = "a.urdf"
         flywheel.r_max = "40mm"
@@ -83,16 +83,16 @@ def test_what_is_specified_in_python_is_what_a_file_would_state():
         pitch = "20deg"
     """
     drop = {"kind": "drop", "name": "fall", "height": "1m", "pitch": "20deg"}
-    given = specify(
+    specified = specify(
         Path("a.urdf"),
         flywheel={"r_max": "40mm"},
         ocs={"position": ("0mm", "60mm", "50mm")},
         maneuver=[drop],
     )
-    assert toml(given) == toml(parse_specification(text, "the file"))
+    assert toml(specified) == toml(parse_specification(text, "the file"))
 
 
-def test_every_fault_of_what_is_specified_is_told():
+def test_all_faults_of_a_specification_are_reported():
     with pytest.raises(OcsError) as caught:
         specify("a.urdf", flywheel={"r_max": "40kg", "rmin": 1}, motors={})
     assert len(caught.value.problems) == 3
@@ -100,10 +100,10 @@ def test_every_fault_of_what_is_specified_is_told():
 
 @cache
 def results():
-    made, front = design(), make_front(task_by_hand())
-    outcome = Outcome(made, Path("solo12-ocs"), task_by_hand().robot, None, ())
+    front = make_front(task_by_hand())
+    outcome = Outcome(design(), Path("solo12-ocs"), task_by_hand().robot, None, ())
     return {
-        "OcsDesign for": made,
+        "OcsDesign for": design(),
         "Outcome in solo12-ocs": outcome,
         "Front of": front,
         "Robot solo12: 2.5 kg, 12 joints, 4 legs": read_robot(EXAMPLES / "solo12.urdf"),
@@ -113,39 +113,39 @@ def results():
 
 
 def test_a_result_is_one_line_with_its_figures():
-    for start, found in results().items():
-        assert repr(found).startswith(f"<{start}")
-        assert "\n" not in repr(found)
-        assert len(repr(found)) < 300
+    for start, result in results().items():
+        assert repr(result).startswith(f"<{start}")
+        assert "\n" not in repr(result)
+        assert len(repr(result)) < 300
 
 
-ELSEWHERE = re.compile(r"""(src|href)=["'](?!data:)|https?://(?!www\.w3\.org)|<script|<style""")
+EXTERNAL = re.compile(r"""(src|href)=["'](?!data:)|https?://(?!www\.w3\.org)|<script|<style""")
 
 
-def test_what_a_notebook_shows_is_small_escaped_and_whole():
+def test_notebook_output_is_small_escaped_and_self_contained():
     runs = tuple(replace(run, metrics={}) for run in story().design.validation)
     robot = replace(design().robot, name="<script>alert()</script>")
-    made = replace(design(), robot=robot, validation=runs)
-    for found in (made, results()["Front of"], results()["Outcome in solo12-ocs"]):
-        page = found._repr_html_()
-        assert not ELSEWHERE.search(page)
+    shown = replace(design(), robot=robot, validation=runs)
+    for result in (shown, results()["Front of"], results()["Outcome in solo12-ocs"]):
+        page = result._repr_html_()
+        assert not EXTERNAL.search(page)
         assert "<img" in page
         assert len(page) < 100_000
-    assert "drop" in as_html(made)
-    assert "&lt;script&gt;" in as_html(made)
+    assert "drop" in as_html(shown)
+    assert "&lt;script&gt;" in as_html(shown)
 
 
 def test_progress_goes_to_a_function_or_nowhere(capsys):
-    told = []
-    for steps in (Steps.of(lambda label, done: told.append((label, done))), Steps.of(None)):
+    calls = []
+    for steps in (Steps.of(lambda label, done: calls.append((label, done))), Steps.of(None)):
         with steps.step("read") as step:
             step.update(0.5)
-    assert told == [("read", 0.0), ("read", 0.5), ("read", 1.0)]
+    assert calls == [("read", 0.0), ("read", 0.5), ("read", 1.0)]
     assert capsys.readouterr() == ("", "")
     assert Steps.of(steps) is steps
 
 
-def test_progress_stands_below_the_cell_of_a_notebook(monkeypatch):
+def test_progress_is_shown_below_the_cell_of_a_notebook(monkeypatch):
     display = pytest.importorskip("IPython.display")
     shown = []
 
@@ -165,7 +165,7 @@ def test_progress_stands_below_the_cell_of_a_notebook(monkeypatch):
     assert re.search(r"link 2.*\n.* 2 more .*\n.*read  a\ufffd\[31mrobot$", shown[-1])
 
 
-def test_the_notebook_is_kept_without_what_it_printed():
+def test_the_notebook_is_stored_without_outputs():
     cells = json.loads(NOTEBOOK.read_text())["cells"]
     assert all(cell["outputs"] == [] for cell in cells if cell["cell_type"] == "code")
     assert NOTEBOOK.stat().st_size < 10_000
@@ -180,15 +180,15 @@ def beside_solo12(tmp_path, monkeypatch):
 
 
 @pytest.mark.slow
-@pytest.mark.filterwarnings("ignore")  # Those of Jupyter's own packages.
+@pytest.mark.filterwarnings("ignore")  # Warnings of Jupyter's own packages.
 def test_the_notebook_runs(beside_solo12, monkeypatch):
-    """With few samples in place of a certificate, which takes minutes, and fewer points."""
+    """With few samples instead of a certificate, which takes minutes, and fewer points."""
     nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
     page = (beside_solo12 / "solo12.ipynb").read_text()
-    for whole, few in (("certify=True", "samples=3"), ("points=5", "points=2")):
-        assert page.count(whole) == 1
-        page = page.replace(whole, few)
+    for full, short in (("certify=True", "samples=3"), ("points=5", "points=2")):
+        assert page.count(full) == 1
+        page = page.replace(full, short)
     notebook = nbformat.reads(page, as_version=4)
     nbclient.NotebookClient(notebook, timeout=600).execute()
     kinds = [
@@ -201,10 +201,10 @@ def test_the_notebook_runs(beside_solo12, monkeypatch):
     assert kinds.count("image/png") == 2
     assert (beside_solo12 / "solo12-ocs" / "report.html").exists()
     quoted = json.loads((ROOT / "docs" / "certified.json").read_text())["solo12"]
-    made = read_design(beside_solo12 / "solo12-ocs")
-    assert made.ocs.mass_total == pytest.approx(quoted["mass"], rel=1e-3)
-    # Its jumps start on the ground.
-    for run in made.validation:
+    design = read_design(beside_solo12 / "solo12-ocs")
+    assert design.ocs.mass_total == pytest.approx(quoted["mass"], rel=1e-3)
+    # Jumps start on the ground.
+    for run in design.validation:
         assert run.passed is run.ocs, run.reason
         assert (run.metrics["lift_off_time"] > 0.0) == (run.scenario != "drop")
 
@@ -215,7 +215,7 @@ PYTHON = re.compile(r"^```python\n(.*?)^```", re.MULTILINE | re.DOTALL)
 @pytest.mark.slow
 @pytest.mark.usefixtures("no_alternatives", "no_files")
 def test_the_page_on_python_runs_from_top_to_bottom(beside_solo12):
-    """With fewer samples and points; files of designs have tests of their own."""
+    """With fewer samples and points, and without files."""
     pytest.importorskip("matplotlib").use("agg")
     shown = PYTHON.findall((ROOT / "docs" / "api.md").read_text())
     assert len(shown) > 4
@@ -226,6 +226,6 @@ def test_the_page_on_python_runs_from_top_to_bottom(beside_solo12):
     assert isinstance(names["robot"], Robot)
 
 
-def test_every_public_name_is_there():
+def test_every_public_name_has_a_docstring():
     for name in ocs_design.__all__:
         assert getattr(ocs_design, name).__doc__

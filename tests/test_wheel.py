@@ -1,4 +1,4 @@
-"""The wheel that is built has all that the program reads, and asks only for what it needs."""
+"""The built wheel has all files that the package reads, and requires only what it needs."""
 
 import os
 import subprocess
@@ -11,7 +11,7 @@ import pytest
 from packaging.requirements import Requirement
 
 ROOT = Path(__file__).parents[1]
-OUTSIDE = {
+MOVED = {
     "examples/solo12.urdf": "ocs_design/examples/solo12.urdf",
     **{
         str(path.relative_to(ROOT)): f"ocs_design/{path.relative_to(ROOT)}"
@@ -19,7 +19,7 @@ OUTSIDE = {
         if path.is_file()
     },
 }
-"""Files that lie elsewhere in the wheel than in the sources."""
+"""Files that have another place in the wheel than in the sources."""
 
 
 @pytest.fixture(scope="module")
@@ -39,20 +39,20 @@ def wheel(tmp_path_factory):
     return folder / "installed"
 
 
-def test_every_file_is_in_it_and_none_besides(wheel):
+def test_wheel_has_exactly_the_files_of_the_package(wheel):
     package = {
         str(path.relative_to(ROOT))
         for path in (ROOT / "ocs_design").rglob("*")
         if path.is_file() and path.suffix != ".pyc"
     }
-    held = {str(path.relative_to(wheel)) for path in wheel.rglob("*") if path.is_file()}
-    assert {name for name in held if ".dist-info/" not in name} == package | set(OUTSIDE.values())
-    for source, name in OUTSIDE.items():
+    packed = {str(path.relative_to(wheel)) for path in wheel.rglob("*") if path.is_file()}
+    assert {name for name in packed if ".dist-info/" not in name} == package | set(MOVED.values())
+    for source, name in MOVED.items():
         assert (wheel / name).read_bytes() == (ROOT / source).read_bytes()
 
 
-def test_what_is_read_is_read_from_it(wheel):
-    """Not from the checkout that it was built in."""
+def test_installed_package_reads_its_own_files(wheel):
+    """And not those of the checkout that it was built from."""
     code = (
         "from ocs_design.export.templates import template_file as t; "
         "from ocs_design.common.files import packaged_folder as p; "
@@ -70,9 +70,9 @@ def test_what_is_read_is_read_from_it(wheel):
     assert done.stdout.split() == [str(inside / "templates"), str(inside / "examples")]
 
 
-def test_it_asks_for_what_a_default_design_needs(wheel):
+def test_wheel_requires_what_a_default_design_needs(wheel):
     (metadata,) = wheel.glob("*.dist-info/METADATA")
-    asked = HeaderParser().parsestr(metadata.read_text()).get_all("Requires-Dist")
-    required = {each.name for each in map(Requirement, asked) if each.marker is None}
+    lines = HeaderParser().parsestr(metadata.read_text()).get_all("Requires-Dist")
+    required = {each.name for each in map(Requirement, lines) if each.marker is None}
     assert {"mujoco", "casadi", "reportlab"} <= required
     assert required.isdisjoint({"cvxpy", "ezdxf", "cadquery-ocp-novtk", "matplotlib", "pytest"})

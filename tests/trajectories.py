@@ -1,4 +1,4 @@
-"""Reference trajectories made by hand: a turn about a fixed axis, its torque from the gyrostat."""
+"""Analytic reference trajectories: a turn about a fixed axis, its torque from the gyrostat."""
 
 import numpy as np
 
@@ -9,10 +9,10 @@ from ocs_design.sizing.trajectory.motion import Trajectory
 
 
 def from_rest(body: Gyrostat, turn: Turn, *, samples: int = 4001) -> Trajectory:
-    """`turn` with what a gyrostat without momentum needs for it, yaw that comes along included.
+    """Trajectory of a gyrostat without momentum for `turn`, including the resulting yaw.
 
-    H = I w + h A W = 0 gives the wheels' speeds, and its z row the yaw rate: A has none. Roll and
-    pitch rate are those that move the vertical as the turn asks. Then h A^T w' + (h + a) W' = tau.
+    H = I w + h A W = 0 gives the wheels' speeds, and its z row, where A is 0, the yaw rate. Roll
+    and pitch rate move the vertical as the turn does. Then h A^T w' + (h + a) W' = tau.
     """
     time = np.linspace(0.0, turn.duration, samples)
     vertical = _vertical(turn, time)
@@ -35,9 +35,9 @@ def _vertical(turn: Turn, time: FloatArray) -> FloatArray:
 
 
 def _rate(body: Gyrostat, vertical: FloatArray, change: FloatArray) -> FloatArray:
-    """From `v' = v x w` and `(I w)_z = 0`: four equations, one of which the others hold."""
+    """Rate from `v' = v x w` and `(I w)_z = 0`: four equations, one of them redundant."""
     equations = np.empty((len(vertical), 4, 3))
     equations[:, :3] = np.cross(vertical[:, None], np.eye(3)).swapaxes(1, 2)
     equations[:, 3] = body.inertia[2] / body.inertia[2, 2]
-    given = np.column_stack([change, np.zeros(len(change))])
-    return np.einsum("nij,nj->ni", np.linalg.pinv(equations), given)
+    right_side = np.column_stack([change, np.zeros(len(change))])
+    return np.einsum("nij,nj->ni", np.linalg.pinv(equations), right_side)

@@ -14,7 +14,7 @@ def inertial(mass: float | str = 1.0, moments: str = "0.1 0.1 0.1", xyz: str = "
 
 
 def solid(geometry: str, xyz: str = "0 0 0", rpy: str = "0 0 0") -> str:
-    """A shape that collides, such as `<box size="1 1 1"/>`."""
+    """Collision shape, such as `<box size="1 1 1"/>`."""
     origin = f'<origin xyz="{xyz}" rpy="{rpy}"/>'
     return f"<collision>{origin}<geometry>{geometry}</geometry></collision>"
 
@@ -31,7 +31,7 @@ def joint(name: str, parent: str, child: str, *inside: str, kind: str = "revolut
 
 
 def hinge(name: str, parent: str, child: str, xyz: str, axis: str = "0 1 0") -> str:
-    """With room for nearly half a turn both ways."""
+    """Joint with a range of nearly half a turn both ways."""
     return joint(name, parent, child, f'<origin xyz="{xyz}"/><axis xyz="{axis}"/>', WIDE)
 
 
@@ -51,7 +51,7 @@ def leg(name, hip, thigh, shank, parent="trunk", words=("thigh", "shank", "foot"
 
 
 def topped(base: str, top: str, xyz: str, axis: str = "0 0 1") -> bytes:
-    """A link `base` and another one on a joint at that place, with what is inside of them."""
+    """A link `base` and a link `top` on a joint at `xyz`, with their contents."""
     place = f'<origin xyz="{xyz}"/><axis xyz="{axis}"/>'
     limit = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
     return robot(link("base", base), link("top", top), joint("j", "base", "top", place, limit))

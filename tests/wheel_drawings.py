@@ -1,4 +1,4 @@
-"""Wheels to draw, and what must hold of a sheet."""
+"""Random wheels to draw, and checks of their drawing sheets."""
 
 import math
 from dataclasses import replace
@@ -17,7 +17,7 @@ MADE_FOR = {"robot": "solo12", "identity": "9f3c0a1b2d4e"}
 
 
 def web(material, density, thickness, hub, holes=None):
-    """A web whose mass nobody asks for."""
+    """A web of unspecified mass."""
     return Web(material, density, thickness, math.nan, hub, holes)
 
 
@@ -28,7 +28,7 @@ FLAT = WheelDrawing(
     speed=750.0,
     **MADE_FOR,
 )
-"""A thin ring on a web with a motor's bolt circle."""
+"""A thin rim on a web with a motor's bolt circle."""
 
 HOLED = WheelDrawing(
     wheel=Wheel(
@@ -51,7 +51,7 @@ REFUSED = (
     "NOT buildable as it stands. The feet hang in the air beside the trunk, by up to 41 mm; choose "
     "a place on the trunk's back (--position), or leave it to the program."
 )
-"""Words that a sheet of what cannot be built begins with."""
+"""First note on the sheet of a device that cannot be built."""
 
 CROWDED = replace(
     FLAT,
@@ -61,12 +61,12 @@ CROWDED = replace(
     ),
     refused=REFUSED,
 )
-"""With more notes than there is room for."""
+"""A drawing with more notes than fit."""
 
 
 @st.composite
 def rings(draw, inner, outer, *, midway=False):
-    """With a millimetre to the edges and between the holes; None without the room."""
+    """Rings of holes, 1 mm from the edges and from each other; None where they do not fit."""
     room = outer - inner - 0.0021
     if room < 0.0002 or draw(st.booleans()):
         return None
@@ -74,8 +74,8 @@ def rings(draw, inner, outer, *, midway=False):
     radius = draw(st.floats(inner + 0.001 + hole, outer - 0.001 - hole))
     if midway:
         radius = (inner + outer) / 2.0
-    most = math.pi / math.asin(min(1.0, (hole + 0.0006) / radius))
-    return HoleRing(draw(st.integers(1, min(12, max(1, int(most))))), radius, hole)
+    count_max = math.pi / math.asin(min(1.0, (hole + 0.0006) / radius))
+    return HoleRing(draw(st.integers(1, min(12, max(1, int(count_max))))), radius, hole)
 
 
 @st.composite
@@ -95,7 +95,7 @@ def webs(draw, rim):
 
 @st.composite
 def rims(draw):
-    """From a watch's to a mill's, from a foil to a roller."""
+    """Rims from watch to mill size, from foil to roller."""
     outer = 10.0 ** draw(st.floats(-3.0, 0.7))
     inner = outer * draw(st.floats(0.07, 0.97) | st.just(0.0))
     height = outer * 10.0 ** draw(st.floats(-1.5, 0.5))
@@ -113,11 +113,11 @@ def rims(draw):
 
 @st.composite
 def drawings(draw):
-    """Of any wheel that can be made."""
+    """Drawings of any wheel that can be made."""
     rim = draw(rims())
-    carried = rim.inner_radius > 0.2 * rim.outer_radius and draw(st.booleans())
+    has_web = rim.inner_radius > 0.2 * rim.outer_radius and draw(st.booleans())
     try:
-        wheel = Wheel(rim, draw(webs(rim)) if carried else None)
+        wheel = Wheel(rim, draw(webs(rim)) if has_web else None)
     except PartError:
         assume(False)
     return WheelDrawing(
@@ -142,7 +142,7 @@ def texts(items):
 
 
 def check_words(page):
-    """All within the frame, and none on another, whose lines may share a third of a millimetre."""
+    """All texts are within the frame and none overlaps another by more than 0.3 mm."""
     left, top, right, bottom = FRAME_BOX
     boxes = list(map(box_of, texts(page)))
     for x1, y1, x2, y2 in boxes:
@@ -153,11 +153,10 @@ def check_words(page):
 
 
 def assert_refused(page):
-    """No words stand higher than the verdict, and the first note says why."""
+    """The verdict is the topmost text, and the first note gives the reason."""
     highest = min(texts(page), key=lambda item: box_of(item)[1])
     assert highest.text.startswith("NOT buildable as it stands")
-    said = " ".join(item.text for item in texts(page))
-    assert REFUSED in said
+    assert REFUSED in " ".join(item.text for item in texts(page))
 
 
 def overlap(one, other):
@@ -175,15 +174,15 @@ def covers(item, box):
 
 
 def _clipped(start, end, box):
-    """Liang and Barsky's clipping: what of the segment is within the box."""
+    """Whether a part of the segment is within the box, by Liang and Barsky's clipping."""
     first, last = 0.0, 1.0
     for i in range(2):
-        way = end[i] - start[i]
-        if way == 0.0:
+        length = end[i] - start[i]
+        if length == 0.0:
             if not box[i] < start[i] < box[i + 2]:
                 return False
             continue
-        near, far = sorted(((box[i] - start[i]) / way, (box[i + 2] - start[i]) / way))
+        near, far = sorted(((box[i] - start[i]) / length, (box[i + 2] - start[i]) / length))
         first, last = max(first, near), min(last, far)
     return first < last
 

@@ -1,4 +1,4 @@
-"""The paper's device, and variants of it, for tests."""
+"""The paper's device and variants of it."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -36,7 +36,7 @@ PAPER_WHEEL = Flywheel(
 
 
 def paper_maneuvers(robot: Robot) -> tuple[Maneuver, ...]:
-    """The default ones, the back-flip with both wheels turned to the pitch axis by hand."""
+    """The default maneuvers, the back-flip with both wheels turned to the pitch axis by hand."""
     jump, drop, flip = default_maneuvers(robot)
     return jump, drop, replace(flip, incidence=0.0)
 
@@ -80,14 +80,14 @@ def paper_device(incidence: float = np.radians(40.0), drive: Drive | None = None
 def driven_device(
     incidence: float = np.radians(40.0), drive: Drive = EC45, carrier: Carrier = EC45_BODY
 ) -> Device:
-    """The paper's rim on a real motor."""
+    """The paper's device on a real motor."""
     spin_inertia = PAPER_WHEEL.spin_inertia + drive.rotor_inertia
     wheel = replace(PAPER_WHEEL, spin_inertia=spin_inertia)
     return replace(paper_device(incidence, drive), flywheel=wheel, carrier=carrier)
 
 
 def layout_device(layout: Layout) -> Device:
-    """That rim and motor on each axis of a layout, around a place on top of the trunk."""
+    """The driven device with a module on each axis of a layout, on top of the trunk."""
     angle = layout.angle or 0.0
     centers = 0.08 * np.array(layout.ring) + [0.0, 0.0, 0.1]
     modules = map(Module, layout.names, layout.axes(angle).T, centers)
@@ -95,7 +95,7 @@ def layout_device(layout: Layout) -> Device:
 
 
 def geared(ratio: float, *, reverses: bool = False, inertia: float = 2e-6) -> Drive:
-    """That motor behind a gear (docs/theory.md): s N J_r of its rotor adds to the momentum."""
+    """The EC 45 behind a gear (docs/theory.md): s N J_r of its rotor adds to the momentum."""
     sense = -1.0 if reverses else 1.0
     rotor = EC45.rotor_inertia
     return replace(
@@ -111,9 +111,9 @@ def geared(ratio: float, *, reverses: bool = False, inertia: float = 2e-6) -> Dr
 
 
 def braked_inertia(robot: Robot, device: Device) -> MassProperties:
-    """Robot, rims and carriers as they stand still: what a scale and a pendulum would say.
+    """Mass properties of robot, rims and carriers at rest, as a scale and a pendulum measure them.
 
-    The rotors' own inertia is the carriers' already.
+    The carriers' inertia already includes the rotors.
     """
     rim, rotor = device.flywheel, device.motor.rotor_inertia
     bodies = [
@@ -128,7 +128,7 @@ def braked_inertia(robot: Robot, device: Device) -> MassProperties:
 
 
 def _carriers(device: Device) -> Iterator[MassProperties]:
-    """Each in the frame that looks away from the other module."""
+    """Mass properties of each carrier, whose frame points away from the other module."""
     carrier = device.carrier
     up = np.array([0.0, 0.0, 1.0])
     for module in device.modules:
@@ -145,7 +145,7 @@ def _body_of_revolution(axial: float, transverse: float, axis: FloatArray) -> Fl
 
 
 def scaled_device(robot: Robot) -> Device:
-    """The paper's wheel for another robot: lengths by its Froude scale, inertia by its own."""
+    """The paper's device scaled to a robot: lengths by Froude, inertia by that of the robot."""
     scale, device = FroudeScale.of(robot), paper_device()
     inertia = PAPER_WHEEL.spin_inertia * scale.pitch_inertia
     wheel = replace(

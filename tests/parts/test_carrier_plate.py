@@ -9,7 +9,7 @@ import pytest
 import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from naive_outline import flat_figures, green
+from naive_outline import area_moments, as_area_moments
 
 from ocs_design.actuation.fasteners import screw
 from ocs_design.common.units import MILLIMETRES
@@ -147,8 +147,8 @@ bones = st.builds(
 
 @given(bones)
 def test_moments_of_a_bone_are_those_of_its_outline(bone):
-    area, first, second = flat_figures(bone.moments)
-    drawn_area, drawn_first, drawn_second = green(bone.outline())
+    area, first, second = as_area_moments(bone.moments)
+    drawn_area, drawn_first, drawn_second = area_moments(bone.outline())
     size = bone.half_length + abs(bone.x)
     assert area == pytest.approx(drawn_area, rel=1e-9)
     np.testing.assert_allclose(first, drawn_first, atol=1e-9 * area * size)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from naive_outline import flat_figures, green
+from naive_outline import area_moments, as_area_moments
 
 from ocs_design.parts.moments import MassMoments
 from ocs_design.parts.outline import Outline, flat_outline
@@ -26,7 +26,7 @@ def test_disc(radius, centre):
     area = np.pi * radius**2
     expected = area * (radius**2 / 4.0 * np.eye(2) + np.outer(centre, centre))
     disc = Disc(radius, centre)
-    for found in (flat_figures(disc.moments), green(disc.outline())):
+    for found in (as_area_moments(disc.moments), area_moments(disc.outline())):
         assert_same(found, (area, area * np.array(centre), expected))
 
 
@@ -37,14 +37,14 @@ def test_rectangle(width, height, corner):
     middle = np.array([x + width / 2.0, y + height / 2.0])
     own = np.diag([width**2, height**2]) / 12.0
     area = width * height
-    for found in (flat_figures(shape.moments), green(shape.outline())):
+    for found in (as_area_moments(shape.moments), area_moments(shape.outline())):
         assert_same(found, (area, area * middle, area * (own + np.outer(middle, middle))))
 
 
 def test_half_disc():
     # Centroid 4 r / (3 pi), second moments pi r^4 / 8 (any handbook).
     expected = (2.0 * np.pi, 2.0 * np.pi * np.array([0.0, -8.0 / (3.0 * np.pi)]))
-    found = green(Outline(np.array([[-2.0, 0.0], [2.0, 0.0]]), np.array([1.0, 0.0])))
+    found = area_moments(Outline(np.array([[-2.0, 0.0], [2.0, 0.0]]), np.array([1.0, 0.0])))
     assert_same(found, (*expected, 2.0 * np.pi * np.eye(2)))
 
 
@@ -54,30 +54,30 @@ def test_slot_has_the_area_its_cutter_sweeps(radius, width, turn, start):
     # Pappus: width times the path of its middle, and a disc for both ends.
     area = radius * turn * width + np.pi * width**2 / 4.0
     assert slot.area == pytest.approx(area)
-    assert_same(flat_figures(slot.moments), green(slot.outline()), 1e-11)
+    assert_same(as_area_moments(slot.moments), area_moments(slot.outline()), 1e-11)
 
 
 @given(RADII, st.floats(0.2, 0.98), st.floats(-3.0, 1.0), st.floats(1.0, 3.0))
 def test_keyhole(radius, share, low, tall):
     keyhole = Keyhole(radius, share * radius, low, low + tall * radius)
     assert keyhole.area == pytest.approx(keyhole.moments.mass)
-    assert_same(flat_figures(keyhole.moments), green(keyhole.outline()))
+    assert_same(as_area_moments(keyhole.moments), area_moments(keyhole.outline()))
 
 
 @given(st.floats(1.0, 5.0), st.floats(0.0, 0.5), st.floats(0.05, 0.6), st.floats(-2.0, 2.0))
 def test_ears(radius, beyond, side, first):
     eared = Eared(radius, radius + beyond, side, first)
     assert eared.area == pytest.approx(eared.moments.mass)
-    assert_same(flat_figures(eared.moments), green(eared.outline()))
+    assert_same(as_area_moments(eared.moments), area_moments(eared.outline()))
 
 
 @given(st.floats(1.5, 5.0), st.floats(0.7, 0.9), st.floats(0.3, 0.7))
 def test_four_posts(radius, bore, half_angle):
     post = Post(Eared(radius, radius + 0.1, 0.2), bore * radius, half_angle)
-    area, _, second = green(post.outline())
+    area, _, second = area_moments(post.outline())
     polar = np.trace(second)
     expected = (4.0 * area, np.zeros(2), 2.0 * polar * np.eye(2))
-    assert_same(flat_figures(post.moments.around(4)), expected)
+    assert_same(as_area_moments(post.moments.around(4)), expected)
     assert post.area == pytest.approx(area)
 
 
@@ -107,9 +107,9 @@ def test_arrays_as_numbers(shape):
 def test_a_ring_is_the_sum_of_its_members(count, first, centre):
     angles = first + 2.0 * np.pi * np.arange(count) / count
     outline = Disc(0.3, centre).outline()
-    each = [green(outline.turned(angle)) for angle in angles]
+    each = [area_moments(outline.turned(angle)) for angle in angles]
     expected = [sum(figures) for figures in zip(*each, strict=True)]
-    assert_same(flat_figures(Disc(0.3, centre).moments.around(count, first)), expected)
+    assert_same(as_area_moments(Disc(0.3, centre).moments.around(count, first)), expected)
 
 
 def test_moments_in_another_frame():
@@ -138,9 +138,9 @@ def test_arcs_both_ways_agree_with_a_dense_polygon(bulges, offset):
     angles = 2.0 * np.pi * np.arange(5) / 5
     corners = 3.0 * np.column_stack([np.cos(angles), np.sin(angles)]) + offset
     outline = Outline(corners, np.array(bulges))
-    exact = green(outline)
+    exact = area_moments(outline)
     flat = flat_outline(outline, 2048)
-    dense = green(Outline(flat, np.zeros(len(flat))))
+    dense = area_moments(Outline(flat, np.zeros(len(flat))))
     assert dense[0] == pytest.approx(exact[0], rel=1e-12)
     np.testing.assert_allclose(dense[1], exact[1], atol=1e-5 * exact[0])
     np.testing.assert_allclose(dense[2], exact[2], atol=1e-5 * exact[0] * 10.0)

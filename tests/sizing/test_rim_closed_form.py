@@ -6,7 +6,7 @@ from functools import reduce
 
 import numpy as np
 import pytest
-from naive_wheel import Rims, solid
+from naive_wheel import Rims, cylinder
 from rims import STEEL, paper_problem, random_problem, utilization
 
 from ocs_design.parts.moments import cylinder_mass
@@ -146,7 +146,7 @@ def test_what_is_cut_off_the_smallest_rim_is_not_counted():
         cuts=cuts,
     )
     ring = Rims(bore + wall, bore, height, limits.density, cuts.chamfer).body[1]
-    disc = solid(bore, web, limits.density)[1]
-    drilled, own, _ = solid(cuts.hole_radius, cuts.hole_depth, limits.density)
+    disc = cylinder(bore, web, limits.density)[1]
+    drilled, own, _ = cylinder(cuts.hole_radius, cuts.hole_depth, limits.density)
     holes = 2 * cuts.holes * (own + drilled * (bore + wall / 2.0) ** 2)
     assert float(smallest_rim_inertia(limits)) == pytest.approx(ring + disc - holes, rel=1e-12)

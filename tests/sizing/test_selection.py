@@ -8,7 +8,7 @@ import pinocchio
 import pytest
 from carrier_parts import carrier_parts
 from commands import SOLO12
-from naive_wheel import wheel_of
+from naive_wheel import wheel_body
 from selections import has_device, lightest, random_problem
 
 from ocs_design.actuation.drive import armature, drive_line, rotor_share
@@ -55,7 +55,7 @@ def by_pinocchio(problem, found, incidence):
         # The right module is the left one turned about the vertical.
         turn = -incidence if side > 0.0 else np.pi + incidence
         seat = pinocchio.SE3(pinocchio.utils.rotate("z", turn), center)
-        mass, spin, across = wheel_of(found)
+        mass, spin, across = wheel_body(found)
         total += seat.act(pinocchio.Inertia(mass, np.zeros(3), np.diag([across, spin, across])))
         for body in parts:
             total += seat.act(pinocchio.Inertia(body.mass, body.com, body.inertia))
@@ -77,10 +77,10 @@ def test_the_winner_from_scratch(solved):
     np.testing.assert_allclose(found.total.inertia, total.inertia, rtol=1e-9, atol=1e-12)
     mass = sum(part.mass for part in pieces(found))
     assert found.carrier.mass == pytest.approx(mass, rel=1e-12)
-    assert found.mass == pytest.approx(2.0 * (wheel_of(found)[0] + mass), rel=1e-12)
+    assert found.mass == pytest.approx(2.0 * (wheel_body(found)[0] + mass), rel=1e-12)
 
     share = rotor_share(motor.rotor_inertia, gear)
-    assert found.spin_inertia == pytest.approx(wheel_of(found)[1] + share, rel=1e-9)
+    assert found.spin_inertia == pytest.approx(wheel_body(found)[1] + share, rel=1e-9)
     line = drive_line(motor, gear, problem.bus_voltage)
     cap = problem.wheel_speed_max or np.inf
     line = replace(line, speed_max=min(line.speed_max, cap)).reserved()

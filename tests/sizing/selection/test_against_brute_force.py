@@ -10,7 +10,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from naive_device import Drive, coupling_on, device_mass, fits, holds, inertia_on, margin
+from naive_device import (
+    Drive,
+    coupling_on,
+    device_mass,
+    fits_envelope,
+    inertia_on,
+    is_buildable,
+    margin,
+)
 from naive_search import Device, refine, search
 from naive_wheel import Rims
 from random_cases import random_case
@@ -65,8 +73,8 @@ def check_by_itself(problem, chosen):
     """It is what it says, and can do what it must."""
     drive, rims = drive_of(problem, chosen), rims_of(chosen)
     angle = np.array([chosen.incidence])
-    assert fits(problem, rims, slack=1e-6).all()
-    assert holds(problem, drive, rims, chosen.material, slack=1e-6).all()
+    assert fits_envelope(problem, rims, slack=1e-6).all()
+    assert is_buildable(problem, drive, rims, chosen.material, slack=1e-6).all()
     assert margin(problem, drive, rims, angle).item() >= 1.0 - 1e-6
     assert device_mass(drive, rims).item() == pytest.approx(chosen.mass, rel=1e-9)
     inertia = inertia_on(problem, drive, rims, angle)[:, 0]

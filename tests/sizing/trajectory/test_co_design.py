@@ -7,7 +7,7 @@ import casadi as ca
 import numpy as np
 import pytest
 from gyrostats import attitude_error, end_rate
-from naive_wheel import wheel_of
+from naive_wheel import wheel_body
 from selections import lightest, random_problem
 
 from ocs_design.device.device import braked
@@ -139,7 +139,7 @@ def test_what_is_adopted_is_a_whole_device(answered):
         assert device is selected
         return
     assert device.mass == pytest.approx(found.found_mass, rel=1e-12)
-    spin = wheel_of(device)[1] + device.drive.rotor_inertia
+    spin = wheel_body(device)[1] + device.drive.rotor_inertia
     assert device.spin_inertia == pytest.approx(spin, rel=1e-9)
     bodies = (device.wheel, device.carrier)
     total = braked(problem.robot, bodies, device.centers, device.incidence)
