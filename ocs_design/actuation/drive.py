@@ -74,7 +74,7 @@ class DriveLine(Table):
         less = {name: limit / factor for name, limit in vars(self).items() if name != "power_max"}
         return replace(self, **less)
 
-    def begun(self, speed: float | FloatArray) -> "DriveLine":
+    def from_speed(self, speed: float | FloatArray) -> "DriveLine":
         """The line for the change of a wheel's speed from an initial one [rad/s].
 
         It is that of the same winding at a voltage reduced by the back EMF at the initial speed,

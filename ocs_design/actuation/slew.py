@@ -31,7 +31,7 @@ def slew_time(
     reduced_inertia: ArrayLike,
     line: DriveLine,
     final_speed: ArrayLike = 0.0,
-    begins: ArrayLike = 0.0,
+    initial_speed: ArrayLike = 0.0,
 ) -> FloatArray:
     """Least time in which the wheel turns by `phi` beyond its final speed [s]; inf: never.
 
@@ -40,28 +40,28 @@ def slew_time(
         reduced_inertia: I_red, effective inertia for the motor on the free trunk [kg m^2].
         line: of the drive at the wheel.
         final_speed: W_f, in addition to the speed at the start [rad/s], at least 0.
-        begins: speed at the start, positive in the direction of the slew [rad/s].
+        initial_speed: speed at the start, positive in the direction of the slew [rad/s].
     """
-    drive, unit = in_units(line, reduced_inertia, begins)
-    final = drive.begin + np.asarray(final_speed) / drive.no_load_speed
+    drive, unit = in_units(line, reduced_inertia, initial_speed)
+    final = drive.initial_speed + np.asarray(final_speed) / drive.no_load_speed
     excess = np.asarray(phi) / (drive.no_load_speed * unit)
     excess, final = np.broadcast_arrays(excess, final)
     # Where friction takes all of the supply's power, no torque is left.
-    moves = (drive.torque > 0.0) | ((excess == 0.0) & (final == drive.begin))
+    moves = (drive.torque > 0.0) | ((excess == 0.0) & (final == drive.initial_speed))
     possible = (final < drive.highest) & np.isfinite(excess) & moves
-    final = np.where(possible, final, drive.begin)
+    final = np.where(possible, final, drive.initial_speed)
     time = quickest_time(drive, np.where(possible, excess, 0.0), final)
     return np.where(possible, time * unit, np.inf)
 
 
 def in_units(
-    line: DriveLine, reduced_inertia: ArrayLike, begins: ArrayLike = 0.0
+    line: DriveLine, reduced_inertia: ArrayLike, initial_speed: ArrayLike = 0.0
 ) -> tuple[UnitDrive, FloatArray]:
     """The shape of the drive, and its unit of time T_0 = I_red w_0 / a_0 [s].
 
     Without torque, the unit is that of 1 N m, and is not used.
     """
-    drive = UnitDrive.of(line, begins)
+    drive = UnitDrive.of(line, initial_speed)
     torque = positive(drive.torque)
     return drive, np.asarray(np.asarray(reduced_inertia) * drive.no_load_speed / torque)
 
@@ -88,20 +88,20 @@ def slew_profile(
     reduced_inertia: ArrayLike,
     line: DriveLine,
     final_speed: ArrayLike = 0.0,
-    begins: ArrayLike = 0.0,
+    initial_speed: ArrayLike = 0.0,
 ) -> SlewProfile:
     """The quickest slew by `phi` beyond the final speed; arguments as for `slew_time`."""
-    drive, unit = in_units(line, reduced_inertia, begins)
-    time = slew_time(phi, reduced_inertia, line, final_speed, begins)
+    drive, unit = in_units(line, reduced_inertia, initial_speed)
+    time = slew_time(phi, reduced_inertia, line, final_speed, initial_speed)
     possible = np.isfinite(time)
     gain = np.where(possible, np.asarray(final_speed) / drive.no_load_speed, 0.0)
-    final = drive.begin + gain
+    final = drive.initial_speed + gain
     slew = farthest_slew(drive, np.where(possible, time, 0.0) / unit, final)
     known = np.where(possible, unit, np.nan)
     brake_from, end = (slew.up + slew.coast) * known, np.where(possible, time, np.nan)
     # The speed at which most torque slows the wheel, first one way, then the other.
     strongest = -drive.regenerating
-    pushes = drive.forwards(np.clip(strongest, drive.begin, slew.peak))
+    pushes = drive.forwards(np.clip(strongest, drive.initial_speed, slew.peak))
     brakes = drive.forwards(np.clip(strongest, -slew.peak, -final))
     pushes = np.where(slew.up * known > 0.0, pushes, 0.0)
     brakes = np.where(brake_from < end, brakes, 0.0)

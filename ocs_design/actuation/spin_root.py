@@ -73,11 +73,11 @@ def capability(demand: SweepDemand, spin_inertia: FloatArray) -> Capability:
     unit = reduced * drive.no_load_speed / drive.torque
     time = demand.duration / unit
     gain = demand.momentum / (h * drive.no_load_speed)
-    final = attained(drive, time, drive.begin + gain)
+    final = attained(drive, time, drive.initial_speed + gain)
     slew = farthest_slew(drive, time, final)
-    angle = slew.angle - drive.begin * time
+    angle = slew.angle - drive.initial_speed * time
     by_inertia = h * (slew.angle - slew.peak * time) * (1.0 - 2.0 * demand.coupling * h) / reduced
-    by_final_speed = (final - drive.begin) * (slew.peak - final) / drive.forwards(-final)
+    by_final_speed = (final - drive.initial_speed) * (slew.peak - final) / drive.forwards(-final)
     slope = angle + by_inertia - by_final_speed
     scale = drive.no_load_speed * unit
     return Capability(scale * h * angle, scale * slope)
@@ -129,7 +129,7 @@ def _roots(demand: SweepDemand) -> FloatArray:
     drive, high = demand.drive, 1.0 / (2.0 * demand.coupling)
 
     # Below this h the speed alone is too low, or there is nothing to accelerate.
-    gain = (drive.highest - drive.begin) * drive.no_load_speed
+    gain = (drive.highest - drive.initial_speed) * drive.no_load_speed
     by_speed = demand.sweep / (gain * positive(demand.duration))
     relief = np.maximum(-demand.armature, 0.0)
     root = np.sqrt(np.maximum(1.0 - 4.0 * demand.coupling * relief, 0.0))

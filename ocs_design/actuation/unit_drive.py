@@ -72,7 +72,7 @@ def log_remainder(y: FloatArray) -> FloatArray:
 
 
 _SLOWER = 1.0 - 1e-9
-"""Fraction of the highest speed at which a wheel begins at most."""
+"""Largest initial speed of a wheel, as a fraction of the highest speed."""
 
 # Represents an unlimited torque: its square is finite, and its times are zero to all digits.
 _UNLIMITED = 1e100
@@ -91,7 +91,7 @@ class UnitDrive(Table):
         clamp: x_b, above which the current limits the braking; at most 1, like every peak.
         cap: highest speed [w_0]; at most 1 without a line, inf: not limited below 1.
         power: p [tau_s w_0]; inf: not limited, as without a line.
-        begin: x_0, speed at the start, positive in the direction of the slew [w_0].
+        initial_speed: x_0, speed at the start, positive in the direction of the slew [w_0].
     """
 
     no_load_speed: FloatArray
@@ -101,11 +101,11 @@ class UnitDrive(Table):
     clamp: FloatArray
     cap: FloatArray
     power: FloatArray
-    begin: FloatArray
+    initial_speed: FloatArray
 
     @classmethod
-    def of(cls, line: DriveLine, begins: ArrayLike = 0.0) -> "UnitDrive":
-        """The shape of `line`, of a wheel that `begins` at a speed [rad/s]."""
+    def of(cls, line: DriveLine, initial_speed: ArrayLike = 0.0) -> "UnitDrive":
+        """The shape of `line`, of a wheel with this `initial_speed` [rad/s]."""
         stall = np.asarray(line.stall_torque, dtype=np.float64)
         limit = np.asarray(line.torque_limit, dtype=np.float64)
         speed = np.asarray(line.no_load_speed, dtype=np.float64)
@@ -128,7 +128,7 @@ class UnitDrive(Table):
             clamp=np.clip(ratio - 1.0, 0.0, 1.0),
             cap=np.where(endless, np.minimum(cap, 1.0), np.where(cap < 1.0, cap, np.inf)),
             power=power,
-            begin=np.clip(np.asarray(begins) / speed, -most, most),
+            initial_speed=np.clip(np.asarray(initial_speed) / speed, -most, most),
         )
 
     @property
@@ -341,13 +341,15 @@ def since_rest(drive: UnitDrive, speed: FloatArray) -> SlewPart:
 
 def attained(drive: UnitDrive, time: FloatArray, final: FloatArray) -> FloatArray:
     """`final` speed, or one reached in `time` if that is not, the highest from rest up [w_0]."""
-    if not drive.begin.any():
+    if not drive.initial_speed.any():
         return np.minimum(final, risen_speed(drive, rise_for(drive, time)))
-    left = time + since_rest(drive, drive.begin).time
+    left = time + since_rest(drive, drive.initial_speed).time
     risen = risen_speed(drive, rise_for(drive, np.maximum(left, 0.0)))
     below = np.minimum(final, _SLOWER * drive.highest)
     reached = (final <= below) & (since_rest(drive, below).time <= left)
-    return np.where(reached, final, np.where(left > 0.0, np.minimum(final, risen), drive.begin))
+    return np.where(
+        reached, final, np.where(left > 0.0, np.minimum(final, risen), drive.initial_speed)
+    )
 
 
 def farthest_slew(drive: UnitDrive, time: FloatArray, final: FloatArray) -> UnitSlew:
@@ -355,9 +357,9 @@ def farthest_slew(drive: UnitDrive, time: FloatArray, final: FloatArray) -> Unit
 
     The time must suffice to reach the final speed. See the module's docstring.
     """
-    if not drive.begin.any():
+    if not drive.initial_speed.any():
         return _slew_from_rest(drive, time, final)
-    lead, tail = since_rest(drive, drive.begin), since_rest(drive, np.maximum(-final, 0.0))
+    lead, tail = since_rest(drive, drive.initial_speed), since_rest(drive, np.maximum(-final, 0.0))
     whole = time + lead.time - tail.time
     slew = _slew_from_rest(drive, np.abs(whole), np.maximum(final, 0.0))
     peak = np.copysign(slew.peak, whole)
@@ -430,7 +432,7 @@ def quickest_time(drive: UnitDrive, excess: FloatArray, final: FloatArray) -> Fl
     the time that torque alone would take from the final speed if the wheel always braked as hard as
     at no-load speed, and overshoots once.
     """
-    to, lead = since_rest(drive, final), since_rest(drive, drive.begin)
+    to, lead = since_rest(drive, final), since_rest(drive, drive.initial_speed)
     least = to.time - lead.time
     deficit = np.maximum(final * least - (to.angle - lead.angle), 0.0)
     weight = 1.0 + np.maximum(drive.brake, 0.5)

@@ -188,8 +188,8 @@ class WheelTask:
         yaw_inertia: I_zz of the whole [kg m^2], shape (...), where a heading is required too and
             the wheels control it; swept, momentum and axes then have a third component. None: the
             heading is free.
-        begins: speed of all wheels at the start, in their direction for swept and momentum [rad/s],
-            shape (...).
+        initial_speed: of all wheels, in their direction for swept and momentum [rad/s], shape
+            (...).
         one_way: whether the wheels do not really return to that speed, shape (...).
     """
 
@@ -200,7 +200,7 @@ class WheelTask:
     axes: FloatArray
     one_stops: bool = False
     yaw_inertia: FloatArray | None = None
-    begins: ArrayLike = 0.0
+    initial_speed: ArrayLike = 0.0
     one_way: ArrayLike = False
 
     def load(self) -> "WheelLoad":
@@ -215,7 +215,7 @@ class WheelTask:
                 excess=np.max([load.excess for load in loads], axis=0),
                 held=np.max([load.held for load in loads], axis=0),
                 coupling=np.min([load.coupling for load in loads], axis=0),
-                begins=np.max([load.begins for load in loads], axis=0),
+                initial_speed=np.max([load.initial_speed for load in loads], axis=0),
                 one_way=self.one_way,
             )
         swept, momentum, _ = np.broadcast_arrays(self.swept, self.momentum, self.axes[..., 0])
@@ -244,13 +244,13 @@ class WheelTask:
         least = np.where(sense == 0.0, np.inf, parts).min(axis=0)
         # Treat opposing trunk motion as no help.
         coupling = np.maximum(np.where(usable, least, alone), _UNHELPED * alone)
-        begins = np.zeros(())
-        if np.any(self.begins):
+        initial_speed = np.zeros(())
+        if np.any(self.initial_speed):
             # Of the busiest wheels, the one farthest along its change has the least capability
             # left.
-            begins = np.where(sense == 0.0, -np.inf, sense * self.begins).max(axis=0)
-            begins = np.where(np.isfinite(begins), begins, 0.0)
-        return WheelLoad(turned, kept, coupling, begins, self.one_way)
+            initial_speed = np.where(sense == 0.0, -np.inf, sense * self.initial_speed).max(axis=0)
+            initial_speed = np.where(np.isfinite(initial_speed), initial_speed, 0.0)
+        return WheelLoad(turned, kept, coupling, initial_speed, self.one_way)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -295,8 +295,8 @@ class WheelBound(WheelTask):
         lengths = np.abs(self.axes) / np.sqrt(diagonal)[..., None]
         longest, whole, rho = lengths.max(axis=-1), lengths.sum(axis=-1), np.minimum(share, _LOOSE)
         gives = (longest * (whole + rho * whole[..., ::-1]) / (1.0 - rho**2)).sum(axis=-1)
-        begins = -np.abs(self.begins)
-        return replace(load, coupling=gives, begins=begins, one_way=self.one_way)
+        initial_speed = -np.abs(self.initial_speed)
+        return replace(load, coupling=gives, initial_speed=initial_speed, one_way=self.one_way)
 
 
 @dataclass(frozen=True, eq=False)
@@ -307,14 +307,14 @@ class WheelLoad:
         excess: phi(P) [N m s^2]; inf: an axis is out of reach.
         held: phi(L) [N m s]; inf: an axis is out of reach.
         coupling: kappa [1 / (kg m^2)].
-        begins: its speed at the start, positive in the direction of its change [rad/s].
+        initial_speed: of that wheel, positive in the direction of its change [rad/s].
         one_way: whether it does not really return to that speed.
     """
 
     excess: FloatArray
     held: FloatArray
     coupling: FloatArray
-    begins: FloatArray
+    initial_speed: FloatArray
     one_way: ArrayLike
 
     def started(self, line: DriveLine) -> tuple[DriveLine, FloatArray]:
@@ -324,8 +324,8 @@ class WheelLoad:
         does on the way back is not in the load, and the line is as good there as for a wheel that
         starts at rest (docs/theory.md, About a pivot).
         """
-        changed = np.where(self.one_way, self.begins, 0.0)
-        return line.begun(changed), self.begins - changed
+        changed = np.where(self.one_way, self.initial_speed, 0.0)
+        return line.from_speed(changed), self.initial_speed - changed
 
     def angle(self, spin_inertia: ArrayLike) -> FloatArray:
         """Angle by which a wheel of that spin inertia turns beyond its final speed [rad]."""
@@ -353,14 +353,14 @@ def wheel_slew_time(
         line: of the drive at the wheel, shape (...).
         armature: I_m - h [kg m^2], shape (...).
     """
-    load, asked_of = task.load(), np.asarray(spin_inertia, dtype=np.float64)
-    there = (asked_of > 0.0) & np.isfinite(asked_of)
+    load, given = task.load(), np.asarray(spin_inertia, dtype=np.float64)
+    has_wheel = (given > 0.0) & np.isfinite(given)
     half = 1.0 / (2.0 * load.coupling)
-    h = np.where(there, np.minimum(asked_of, half), half)
-    own, begins = load.started(line)
+    h = np.where(has_wheel, np.minimum(given, half), half)
+    own, initial_speed = load.started(line)
     reduced = load.reduced_inertia(h, armature)
-    time = slew_time(load.angle(h), reduced, own, load.final_speed(h), begins)
-    return np.where(there | (load.excess + load.held == 0.0), time, np.inf)
+    time = slew_time(load.angle(h), reduced, own, load.final_speed(h), initial_speed)
+    return np.where(has_wheel | (load.excess + load.held == 0.0), time, np.inf)
 
 
 def smallest_spin_inertia(
@@ -412,7 +412,9 @@ def slew_reason(task: WheelTask, line: DriveLine) -> NDArray[np.int_]:
     """
     load = task.load()
     drive = UnitDrive.of(*load.started(line))
-    there, back = (drive.torque * drive.forwards(at) for at in (drive.begin, -drive.begin))
+    there, back = (
+        drive.torque * drive.forwards(at) for at in (drive.initial_speed, -drive.initial_speed)
+    )
     duration = np.maximum(np.asarray(task.duration, dtype=np.float64), 0.0)
     final = load.held
     with np.errstate(invalid="ignore"):

@@ -185,10 +185,10 @@ def spin_demands(
         momentum: FloatArray,
         at: float,
         torque: FloatArray | None = None,
-        begins: float = 0.0,
+        initial_speed: float = 0.0,
     ) -> SpinDemand:
         """Demand of a momentum [N m s] and, where a time is set, a least torque [N m]."""
-        left = requirement.wheel_speed_max - begins
+        left = requirement.wheel_speed_max - initial_speed
         least = per_wheel(momentum, at) / left if left > 0.0 else float("inf")
         per_motor = 0.0 if torque is None else per_wheel(torque, at)
         return SpinDemand(source, at, momentum, least, per_motor)
@@ -202,8 +202,10 @@ def spin_demands(
         slew = maneuver.slew(turned, height)
         _, pitch = slew.swept if slew.swept.any() else slew.momentum
         # Both wheels of a pair pitch the trunk the same way, but roll it in opposite ways.
-        begins = float(np.sign(pitch)) * slew.begins if pitch else abs(slew.begins)
-        found.append(demand(maneuver.name, momentum, at, torque, begins))
+        initial_speed = (
+            float(np.sign(pitch)) * slew.initial_speed if pitch else abs(slew.initial_speed)
+        )
+        found.append(demand(maneuver.name, momentum, at, torque, initial_speed))
     if requirement.rate_change is not None:
         momenta = rate_momenta(whole, requirement.rate_change)
         for axis, momentum in zip(AXES, momenta, strict=True):

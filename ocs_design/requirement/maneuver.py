@@ -45,7 +45,7 @@ class Slew:
         momentum: that the wheels still hold at the end [N m s], shape (..., 2).
             Relative signs matter; the overall sign does not.
         duration: in which it must be done [s].
-        begins: initial speed of all wheels, in the direction of swept and momentum [rad/s].
+        initial_speed: initial speed of all wheels, in the direction of swept and momentum [rad/s].
         one_way: whether the wheels do not really return to that speed, as gravity acts in place of
             the turn's way back.
     """
@@ -53,7 +53,7 @@ class Slew:
     swept: FloatArray
     momentum: FloatArray
     duration: float
-    begins: float = 0.0
+    initial_speed: float = 0.0
     one_way: bool = False
 
 

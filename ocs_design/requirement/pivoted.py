@@ -141,8 +141,8 @@ class Pivoted(Maneuver):
         del standing_height
         angle = float(np.linalg.norm(self.tilt))
         axis = self.tilt / angle if angle > 0.0 else Y
-        if angle == 0.0 and self.begun.any():
-            axis = self.begun / float(np.linalg.norm(self.begun))
+        if angle == 0.0 and self.initial_rate.any():
+            axis = self.initial_rate / float(np.linalg.norm(self.initial_rate))
         upright = quaternions.upright(self.pull)
         attitude = quaternions.product(quaternions.from_axis_angle(axis, angle), upright)
         return Boundary(
@@ -153,7 +153,7 @@ class Pivoted(Maneuver):
             angle=-angle,
             duration=self.duration,
             end=self.end,
-            rate=self.begun,
+            rate=self.initial_rate,
             wheel_speed=self.wheel_speed,
             # The pivot is at floor height.
             height=-float((quaternions.matrix(attitude) @ np.array(self.pivot))[2]),
@@ -241,7 +241,7 @@ class Pivoted(Maneuver):
         return np.zeros(3)
 
     @property
-    def begun(self) -> FloatArray:
+    def initial_rate(self) -> FloatArray:
         """Rate at the start, in B [rad/s], shape (3,)."""
         return self.struck
 
@@ -459,7 +459,7 @@ class StandUp(Pivoted):
         return np.asarray(-axis * sqrt(stiffness * inertia) * tilt)
 
     @property
-    def begun(self) -> FloatArray:
+    def initial_rate(self) -> FloatArray:
         """Rate right after braking, which conserves the momentum; zero without a brake."""
         return np.asarray(self.mobility @ self._climb) if self.braked else np.zeros(3)
 

@@ -381,7 +381,7 @@ class TurnTo(TimedTurn):
         del standing_height
         peak = 2.0 * self.angles + np.copysign(self._loop, self.angles)
         turning = self.estimate * np.abs(inertia.momentum(peak)) / self.duration
-        return np.asarray(turning + np.abs(self._begun(inertia)))
+        return np.asarray(turning + np.abs(self._initial_momentum(inertia)))
 
     def slew(self, inertia: TiltInertia, standing_height: float) -> Slew:
         """The turn, and the momentum at lift-off, which the wheels hold until touchdown."""
@@ -389,10 +389,11 @@ class TurnTo(TimedTurn):
         # Wheels spin against a turn of the trunk, but with a rate that they absorb. A loop, and a
         # turn with a rate, need both.
         sense = any(self.rate) - any((self.roll, self.pitch, self.yaw))
-        begins = 0.0 if self._loop else sense * self.wheel_speed
-        return Slew(turned.swept, self._begun(inertia), time, begins)
+        initial_speed = 0.0 if self._loop else sense * self.wheel_speed
+        return Slew(turned.swept, self._initial_momentum(inertia), time, initial_speed)
 
-    def _begun(self, inertia: TiltInertia) -> FloatArray:
+    def _initial_momentum(self, inertia: TiltInertia) -> FloatArray:
+        """Momentum about roll and pitch at lift-off, as estimated [N m s], shape (..., 2)."""
         return self.estimate * inertia.momentum(np.array(self.rate[:2]))
 
     @property

@@ -129,12 +129,12 @@ def _turns(
                 duration=duration,
                 jump_height=jump,
             )
-        for begun in asked.catch or ():
-            duration, jump = jump_for(begun.duration, height, heights[1], share, gravity)
+        for catch in asked.catch or ():
+            duration, jump = jump_for(catch.duration, height, heights[1], share, gravity)
             yield Catch(
                 name="catch",
                 gravity=gravity,
-                rate=(begun.roll, begun.pitch, begun.yaw),
+                rate=(catch.roll, catch.pitch, catch.yaw),
                 duration=duration,
                 jump_height=jump,
             )

@@ -83,9 +83,9 @@ def _motions(
         if not run.ocs or run.metrics is None:
             continue
         series, left, landed = run.series, run.metrics.lift_off_time, run.metrics.touchdown_time
-        begun = np.inf if left is None else left
-        ended = np.inf if landed is None else landed
-        in_the_air = (series.time >= begun) & (series.time <= ended)
+        lift_off = np.inf if left is None else left
+        touchdown = np.inf if landed is None else landed
+        in_the_air = (series.time >= lift_off) & (series.time <= touchdown)
         for part in (np.full(series.time.shape, True), in_the_air):
             if np.count_nonzero(part) > 1:
                 yield (

@@ -543,7 +543,9 @@ class _SampledManeuver:
             momentum = momentum - self.inertia * self.rates * [1.0, 0.0]
         held, load = self._momentum_per_wheel(momentum), self._task((0.0, 0.0)).load()
         load = replace(
-            load, begins=np.asarray(load.begins.item()), one_way=bool(np.all(load.one_way))
+            load,
+            initial_speed=np.asarray(load.initial_speed.item()),
+            one_way=bool(np.all(load.one_way)),
         )
         required = self._momentum_per_wheel(self.swept + momentum * self.duration)
         demand = SweepDemand(

@@ -270,7 +270,7 @@ CASES = [
 ]
 
 
-def integrated(line, profile, motor, begins=0.0):
+def integrated(line, profile, motor, initial_speed=0.0):
     """Speed at the peak and at the end, and the angle, of a drive that only knows when to brake.
 
     `I dW/dt = tau`, of a motor's torque at a speed, pushing (1) or braking (-1); nothing at the
@@ -287,7 +287,9 @@ def integrated(line, profile, motor, begins=0.0):
     reached.terminal = True
     options = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-12}
     brake, end = float(profile.brake_from), float(profile.end)
-    up = solve_ivp(slope, (0.0, brake), [begins, 0.0], args=(1.0,), events=reached, **options)
+    up = solve_ivp(
+        slope, (0.0, brake), [initial_speed, 0.0], args=(1.0,), events=reached, **options
+    )
     peak, angle = up.y[:, -1]
     held = [peak, angle + (brake - up.t[-1]) * peak]
     down = solve_ivp(slope, (brake, end), held, args=(-1.0,), **options)
@@ -413,18 +415,20 @@ def by_the_motor_equation(line, speed, sense):
 
 @pytest.mark.parametrize("slew", [(0.5, 0.0), (150.0, 0.0), (20.0, 100.0)])
 @pytest.mark.parametrize(("share", "lam"), [(INF, 0.3), (INF, 1.5), (0.1, 0.3), (0.02, 0.2)])
-@pytest.mark.parametrize("begins", [-600.0, -200.0, 300.0])
-def test_a_wheel_that_turns_at_the_start_obeys_the_motor_equation(begins, share, lam, slew):
+@pytest.mark.parametrize("initial_speed", [-600.0, -200.0, 300.0])
+def test_a_wheel_that_turns_at_the_start_obeys_the_motor_equation(initial_speed, share, lam, slew):
     """Against the slew, back EMF helps to stop it; the way back to that speed has less voltage."""
     phi, gain = slew
     line = DriveLine(STRONG, FAST, lam * STRONG, 900.0, share * WHOLE)
-    profile = slew_profile(phi, INERTIA, line, gain, begins)
+    profile = slew_profile(phi, INERTIA, line, gain, initial_speed)
     motor = partial(by_the_motor_equation, line)
-    peak, last, angle = integrated(line, profile, motor, begins)
+    peak, last, angle = integrated(line, profile, motor, initial_speed)
     assert profile.peak_speed == pytest.approx(peak, abs=1e-6 * FAST)
-    assert last == pytest.approx(begins + gain, abs=1e-6 * FAST)
-    assert angle - (begins + gain) * float(profile.end) == pytest.approx(phi, rel=1e-6, abs=1e-5)
-    ways = (begins, peak, 1.0), (peak, last, -1.0)
+    assert last == pytest.approx(initial_speed + gain, abs=1e-6 * FAST)
+    assert angle - (initial_speed + gain) * float(profile.end) == pytest.approx(
+        phi, rel=1e-6, abs=1e-5
+    )
+    ways = (initial_speed, peak, 1.0), (peak, last, -1.0)
     most = max(
         abs(motor(speed, sense)) for a, b, sense in ways for speed in np.linspace(a, b, 2_000)
     )

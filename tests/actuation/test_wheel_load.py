@@ -134,7 +134,7 @@ def test_want_of_torque_is_told_with_momentum_too(turning):
     line = DriveLine(INF, 1e3, rng.uniform(0.05, 2.0, count), INF)
     if turning:
         line = replace(line, stall_torque=rng.uniform(0.5, 2.0, count))
-        task = replace(task, begins=rng.uniform(-0.9, 0.9, count) * line.no_load_speed)
+        task = replace(task, initial_speed=rng.uniform(-0.9, 0.9, count) * line.no_load_speed)
     weak = slew_reason(task, line) == SlewReason.TORQUE
     time = wheel_slew_time(task, 10.0, line)
     assert (np.isinf(time) <= weak).all()
@@ -179,9 +179,9 @@ def test_the_wheel_found_is_just_in_time(turning):
     rng = np.random.default_rng(3)
     task, line = random_tasks(rng, 20_000), random_lines(rng, 20_000)
     if turning:
-        begins = rng.uniform(-1.0, 1.0, 20_000) * line.top_speed
+        initial_speed = rng.uniform(-1.0, 1.0, 20_000) * line.top_speed
         power = line.stall_torque * line.no_load_speed * 10 ** rng.uniform(-2.0, 1.0, 20_000)
-        task, line = replace(task, begins=begins), replace(line, power_max=power)
+        task, line = replace(task, initial_speed=initial_speed), replace(line, power_max=power)
     armature = np.where(rng.random(20_000) < 0.5, 0.0, 10 ** rng.uniform(-7, -4, 20_000))
     h = smallest_spin_inertia(task, line, armature)
     found = np.flatnonzero(np.isfinite(h))
@@ -496,11 +496,11 @@ def test_a_wheel_that_begins_the_other_way_changes_its_speed_by_more(pitch, sens
     momentum = np.array([0.0, pitch * 0.01])
     task = WheelTask(0.0 * momentum, momentum, duration, axes(ROLL, BODY), pair(0.6))
     per_wheel = 0.01 / (2.0 * np.cos(0.6))
-    for begins in (-sense * w, sense * w):
-        found = smallest_spin_inertia(replace(task, begins=begins), line)
-        assert found == pytest.approx(per_wheel / (top - sense * begins), rel=1e-6)
+    for initial_speed in (-sense * w, sense * w):
+        found = smallest_spin_inertia(replace(task, initial_speed=initial_speed), line)
+        assert found == pytest.approx(per_wheel / (top - sense * initial_speed), rel=1e-6)
     # A pair rolls the trunk by wheels that turn against each other: one of them is no better off.
-    rolled = replace(task, momentum=momentum[::-1], begins=-w)
+    rolled = replace(task, momentum=momentum[::-1], initial_speed=-w)
     assert smallest_spin_inertia(rolled, line) == pytest.approx(
         0.01 / (2.0 * np.sin(0.6)) / (top - w), rel=1e-6
     )

@@ -125,8 +125,8 @@ def test_the_rms_current_is_that_of_the_flight(sized):
     flown = sized[1]
     (table,) = flown.tables
     (metrics,) = (run["metrics"] for run in flown.design["validation"] if run["ocs"])
-    begun, ended = metrics["lift_off_time"] - 1e-6, metrics["touchdown_time"] + 1e-6
-    inside = (table["time"] >= begun) & (table["time"] <= ended)
+    lift_off, touchdown = metrics["lift_off_time"] - 1e-6, metrics["touchdown_time"] + 1e-6
+    inside = (table["time"] >= lift_off) & (table["time"] <= touchdown)
     parts = [
         {name: table[name][part] for name in ("time", "torque", "speed")} for part in (inside, ...)
     ]

@@ -38,8 +38,10 @@ def test_a_brake_takes_the_speed_of_the_cubli():
     np.testing.assert_allclose(jump.momentum(ANY, 0.1) / i_w, [0.0, speed / i_w], rtol=1e-12)
     # Right after the brake the energy is that of the climb.
     rise = mass * g * com * (1.0 - np.cos(np.pi / 4.0))
-    assert 0.5 * jump.begun @ jump.inertia @ jump.begun == pytest.approx(rise, rel=1e-12)
-    assert jump.begun[1] > 0.0
+    assert 0.5 * jump.initial_rate @ jump.inertia @ jump.initial_rate == pytest.approx(
+        rise, rel=1e-12
+    )
+    assert jump.initial_rate[1] > 0.0
     np.testing.assert_array_equal(jump.least_torque(ANY, 0.1), 0.0)
     # While the brake holds, gravity takes 2 % of the momentum of a small tilt.
     quickness = np.sqrt((m_b * l_b + m_w * l_w) * g / (i_w + i_b + m_w * l_w**2))

@@ -149,11 +149,13 @@ def test_more_inertia_and_smaller_shares_ask_for_no_less(layout, kept, seed, cou
     line = DriveLine(*(np.asarray(values)[:, None, None] for values in astuple(drives.line)))
     for maneuver in problem.requirement.maneuvers:
         # Wheels that turn beforehand, with or against what is asked.
-        begins = 30.0 * (seed - 1)
-        tasks = replace(bound_task(maneuver, required, least, intervals, layout), begins=begins)
+        initial_speed = 30.0 * (seed - 1)
+        tasks = replace(
+            bound_task(maneuver, required, least, intervals, layout), initial_speed=initial_speed
+        )
         bound = smallest_spin_inertia(tasks, columns(drives.line), drives.armature[:, None])
         task = wheel_task([maneuver], required, whole, 0.0, layout.axes(angle))
-        task = replace(task, begins=begins)
+        task = replace(task, initial_speed=initial_speed)
         asked = smallest_spin_inertia(task, line, drives.armature[:, None, None])[0]
         finite = np.isfinite(asked)
         assert finite.any()

@@ -288,7 +288,7 @@ def bound_task(
         spread=least.spread[:, None],
         # Over an interval, each axis is least at one of the ends.
         reached=(ends.max(axis=-1) > OUT_OF_REACH).all(axis=1),
-        begins=slew.begins,
+        initial_speed=slew.initial_speed,
         one_way=slew.one_way,
     )
 

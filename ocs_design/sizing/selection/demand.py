@@ -133,7 +133,7 @@ def wheel_task(
         yaw_inertia: I_zz of robot and device, broadcasting against (n, k) [kg m^2]; used only if
             headed.
         axes: of the wheels, shape (n, k, 3, w).
-        begun: see `Requirement.slew`, for each; None: False for all.
+        with_rate: see `Requirement.slew`, for each; None: False for all.
     """
     headed = maneuvers[0].headed
     axes = axes if headed else axes[..., :2, :]
@@ -166,7 +166,7 @@ def wheel_task(
         axes=axes,
         one_stops=requirement.detection is not None,
         yaw_inertia=np.asarray(yaw_inertia) if headed else None,
-        begins=np.array([slew.begins for slew in slews])[:, None, None],
+        initial_speed=np.array([slew.initial_speed for slew in slews])[:, None, None],
         one_way=np.array([slew.one_way for slew in slews])[:, None, None],
     )
 

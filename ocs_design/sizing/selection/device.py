@@ -71,16 +71,18 @@ def with_demands(problem: SelectionProblem, device: Candidate) -> Candidate:
         least = max(least, float(held) / top_speed)
         load = task.load()
         reduced = load.reduced_inertia(spin, device.drive.armature)
-        own, begins = load.started(line)
-        profile = slew_profile(load.angle(spin), reduced, own, load.final_speed(spin), begins)
-        peak = profile.peak_speed + load.begins - begins
+        own, initial_speed = load.started(line)
+        profile = slew_profile(
+            load.angle(spin), reduced, own, load.final_speed(spin), initial_speed
+        )
+        peak = profile.peak_speed + load.initial_speed - initial_speed
         demand = TaskDemand(
             source=maneuver.name,
             incidence=at,
             spin_inertia=least,
             time_needed=profile.end.item(),
             time_given=np.asarray(task.duration).item(),
-            peak_speed=max(abs(load.begins.item()), peak.item()),
+            peak_speed=max(abs(load.initial_speed.item()), peak.item()),
             peak_torque=profile.peak_torque.item(),
         )
         demands.append(demand)

@@ -260,14 +260,15 @@ class HeadingLoop:
         attitude: at the start, shape (4,).
         swing: additional turn without heading, a rotation vector in B at the start [rad], shape
             (3,).
-        heading: within half a turn [rad]. begins: direction of the path's start in B, from x [rad].
+        heading: within half a turn [rad].
+        initial_direction: of the path in B, from x [rad].
         duration: [s].
     """
 
     attitude: FloatArray
     swing: FloatArray
     heading: float
-    begins: float
+    initial_direction: float
     duration: float
 
     def motion(self, gyrostat: Gyrostat, intervals: int) -> Motion:
@@ -294,12 +295,12 @@ class HeadingLoop:
         axis = np.array([1.0, 0.0, bend]) / np.hypot(1.0, bend)
         z = np.array([0.0, 0.0, 1.0])
         gone = loop_length(self.heading) * share
-        turned_back = from_axis_angle(z, -bend * gone - self.begins)
+        turned_back = from_axis_angle(z, -bend * gone - self.initial_direction)
         loop = product(from_axis_angle(axis, np.hypot(1.0, bend) * gone), turned_back)
         angle = float(np.linalg.norm(self.swing))
         swung = from_axis_angle(self.swing / angle if angle else z, angle * share)
-        begun = from_axis_angle(z, self.begins)
-        return product(self.attitude, product(swung, product(begun, loop)))
+        turned = from_axis_angle(z, self.initial_direction)
+        return product(self.attitude, product(swung, product(turned, loop)))
 
     def _rate(self, s: FloatArray) -> FloatArray:
         """Rate of the trunk in B [rad/s], shape (3, len(s)), by central differences."""

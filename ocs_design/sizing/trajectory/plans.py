@@ -268,10 +268,10 @@ def _balanced(
     gyrostat: Gyrostat, line: DriveLine, duration: float, planned: Trajectory | None = None
 ) -> Trajectory:
     """Hold upright on a pivot after the plan, for `HELD_ON` times as long, wheels to rest."""
-    wheels, begins = gyrostat.axes.shape[1], 0.0 if planned is None else planned.time[-1]
+    wheels, start_time = gyrostat.axes.shape[1], 0.0 if planned is None else planned.time[-1]
     until = (1.0 + HELD_ON) * duration
     # The plan applies until then.
-    time = begins + np.array([_AT_ONCE, BALANCE_STEP])
+    time = start_time + np.array([_AT_ONCE, BALANCE_STEP])
     none, upright = np.zeros((len(time), 3)), np.tile(gyrostat.upright, (len(time), 1))
     held = Trajectory(
         time=time,
@@ -325,8 +325,8 @@ def gentlest(
         swing = np.array([x, y, 0.0]) * (2.0 * np.arctan2(sine, w) / sine if sine > 0.0 else 0.0)
         guesses = [
             replace(about_axis, guess=loop.motion(gyrostat, intervals))
-            for begins in (0.0, np.pi)
-            for loop in [HeadingLoop(start, swing, heading, begins, asked.duration)]
+            for initial_direction in (0.0, np.pi)
+            for loop in [HeadingLoop(start, swing, heading, initial_direction, asked.duration)]
         ]
     found = []
     for turn in guesses:

@@ -68,7 +68,7 @@ def test_the_closed_form_is_near_the_smallest_wheel(time, rpm):
         slew.duration,
         inertia,
         np.eye(2)[:, :1],
-        begins=slew.begins,
+        initial_speed=slew.initial_speed,
         one_way=slew.one_way,
     )
     closed = smallest_spin_inertia(task, LINE.reserved(PLANNED))
