@@ -281,11 +281,10 @@ def _assumptions(
         yield from _assumed_supply(specification.supply, choice.supply)
         if motor.name in {None, AUTO}:
             which = "with enough data" if motor.any else "that can be built with"
-            count = len(choice.motors)
             yield (
                 f"Motor: {choice.motors[0].name}, the only one {which}."
-                if count == 1
-                else f"Motor: that of the lightest device, of {count} {which}."
+                if len(choice.motors) == 1
+                else f"Motor: that of the lightest device, of all {which}."
             )
         if motor.gear in {None, AUTO}:
             stages = len(choice.gears) - 1
