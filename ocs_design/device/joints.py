@@ -150,7 +150,7 @@ def _shocks(device: Device) -> Iterator[Margin]:
     """Accelerations at which the module's mount breaks."""
     module_mass = device.module_mass
     mass_text = format_quantity(module_mass, "kg" if module_mass >= 1.0 else "g", digits=3)
-    shock = f"{SHOCK / STANDARD_GRAVITY:.0f} g"
+    shock = f"a shock of {SHOCK / STANDARD_GRAVITY:.0f} g"
     hold = foot_hold(device)
     foot_note = (
         f"{shock} on {mass_text} along the wheel's axis, until the foot, printed of PETG, breaks"

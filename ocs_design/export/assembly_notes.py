@@ -185,11 +185,11 @@ def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
             f", and let it sway at {mode.frequency:.0f} Hz" for mode in modes if mode.name == "foot"
         )
         yield (
-            f"printed in PETG, the feet take {bears / STANDARD_GRAVITY:.2g} g of {module:.2g} kg "
-            f"along the wheel's axis, not {SHOCK / STANDARD_GRAVITY:.0f}{sway}: where landings "
-            f"are harder, mill them from 6061-T6 to the same file, at least {stronger:.0f} times "
-            f"as strong, {stiffer:.2g} times as high a frequency and {1e3 * heavier:.0f} g heavier "
-            "each"
+            f"printed in PETG, the feet take a shock of {bears / STANDARD_GRAVITY:.2g} g on "
+            f"{module:.2g} kg along the wheel's axis, not of {SHOCK / STANDARD_GRAVITY:.0f} "
+            f"g{sway}: where landings are harder, mill them from 6061-T6 to the same file, at "
+            f"least {stronger:.0f} times as strong, {stiffer:.2g} times as high a frequency and "
+            f"{1e3 * heavier:.0f} g heavier each"
         )
     if hold.heads_bear < SHOCK:
         yield (
@@ -218,8 +218,8 @@ def _landing_notes(device: Device, foot: Foot) -> Iterator[str]:
 def _overlap(parts: str, beyond: float) -> str:
     each = format_quantity(beyond, "mm", digits=2)
     return (
-        f"the {parts} stand in each other's way, {each} each beyond the robot's middle: set the "
-        "modules farther apart with --position"
+        f"the {parts} overlap, each by {each} beyond the robot's middle plane: set the modules "
+        "farther apart with --position"
     )
 
 
@@ -232,19 +232,19 @@ def trunk_notes(device: Device, robot: Robot) -> tuple[str, ...]:
         half, last = surface.step / 2.0, surface.y + surface.step * (surface.heights.shape[1] - 1)
         rear, front = surface.x_range
         ends = (
-            ("its front end", front + half, "before", "behind"),
-            ("its rear end", half - rear, "behind", "before"),
-            ("its left side", last + half, "to the left of", "to the right of"),
-            ("its right side", half - surface.y, "to the right of", "to the left of"),
-            ("its highest point", float(surface.heights.max()), "above", "below"),
+            ("front end", front + half, "behind", "before"),
+            ("rear end", half - rear, "before", "behind"),
+            ("left side", last + half, "right of", "left of"),
+            ("right side", half - surface.y, "left of", "right of"),
+            ("highest point", float(surface.heights.max()), "below", "above"),
         )
         measured = ", ".join(
-            f"{what} {1e3 * abs(off):.1f} mm {one if off >= 0.0 else other} it"
+            f"{1e3 * abs(off):.1f} mm {one if off >= 0.0 else other} the {what}"
             for what, off, one, other in ends
         )
         where = (
-            "to find the origin of the base frame, measure on the trunk, with all that the robot's "
-            f"file has fixed to it: {measured}"
+            f"the origin of the base frame lies {measured} of the trunk with all that the robot's "
+            "file fixes to it"
         )
         return trunk_threads(device), where
     if robot.format is not RobotFormat.MANUAL:

@@ -63,8 +63,12 @@ def wiring_parts(device: Device, margins: Sequence[Margin]) -> Iterator[tuple[st
     if voltage is None:
         return
     bus = _bus_current(margins)
-    rated = f"{_up(VOLTAGE_RESERVE * voltage)} V direct voltage or more"
-    flows = rated if bus is None else f"{_up(bus)} A for the length of a maneuver, and {rated}"
+    rated = f"{_up(VOLTAGE_RESERVE * voltage)} V DC or more"
+    flows = (
+        f"rated for {rated}"
+        if bus is None
+        else f"{_up(bus)} A for the length of a maneuver; rated for {rated}"
+    )
     fastest = motor.top_speed * motor.gear_ratio
     up_to = f", up to {rpm(fastest)}" if math.isfinite(fastest) else ""
     yield (
@@ -77,17 +81,17 @@ def wiring_parts(device: Device, margins: Sequence[Margin]) -> Iterator[tuple[st
     if bus is not None:
         usual = next((each for each in FUSES if each >= bus), _up(bus))
         fuse = f"; the next usual rating is {usual} A"
-    yield "fuse with holder", 1, f"between battery and switch; carries {flows}{fuse}"
-    yield "switch", 1, f"cuts the supply within reach; carries and breaks {flows}"
-    yield "bus cables, two wires", 1, f"battery to controllers, short; {flows}"
-    least = "" if current is None else f"; each wire {_up(current)} A at the torque limit"
-    yield "motor cables, three wires", count, f"controller to motor{least}; and the sensor's"
+    yield "fuse with holder", 1, f"between battery and switch: {flows}{fuse}"
+    yield "switch", 1, f"within reach; carries and breaks {flows}"
+    yield "bus cables, two wires", 1, f"battery to controllers, short: {flows}"
+    least = "" if current is None else f": each wire for {_up(current)} A at the torque limit"
+    yield "motor cables, three wires", count, f"controller to motor{least}; plus the sensor's cable"
     yield (
         "connectors, a set",
         1,
-        f"for bus, motors and sensors; each carries what its cable does, {rated}",
+        f"for bus, motors and sensors: rated as their cables, for {rated}",
     )
-    yield "cable ties, a set", 1, "controllers to the feet, wires clear of what turns"
+    yield "cable ties, a set", 1, "hold controllers on the feet, and wires clear of the wheels"
     yield (
         "IMU",
         1,
@@ -128,15 +132,15 @@ def wiring(device: Device, margins: Sequence[Margin]) -> Iterator[str]:
     yield (
         "Torque is needed from standstill and through zero speed: each motor needs a sensor "
         "of its rotor's angle (an encoder at its back, or Hall sensors), or a controller that "
-        "holds torque at low speed without one. No part here holds a sensor: make sure that the "
-        "motor has one, or fit it before the motor is screwed in. Sensors and cables are not "
-        f"in the device's mass, {counted}. No part here holds controllers either: tie "
-        "each to the stem of its foot, clear of what turns; fuse, switch and battery go where the "
-        "robot has room; add their mass to its file."
+        "holds torque at low speed without one. The printed parts have no seat for a sensor: make "
+        "sure that the motor has one, or fit it before the motor is screwed in. They have none for "
+        "controllers either: tie each to the stem of its foot, clear of the wheel. Fuse, switch "
+        "and battery go where the robot has room. Sensors and cables are not in the device's mass, "
+        f"{counted}: add what is not to the robot's file."
     )
     if gives:
         yield (
-            f"The battery, for all motors together, {gives}. Choose cables and fuse for the same "
+            f"The battery, for all motors together, {gives}. Choose cables and fuse for this "
             "current."
         )
     limits = []
@@ -175,11 +179,12 @@ def _settings(motor: Drive) -> Iterator[str]:
         "" if not idle else f" Friction takes another {idle:g} A in the direction of rotation."
     )
     yield (
-        "Set each controller to torque, zero if no command arrives for two periods: "
-        f"{significant(k_t, 4)} N m/A through two lines ({significant(per_amplitude, 4)} of a "
-        f"phase's amplitude), {significant(resistance, 3)} ohm between two lines (half of it a "
-        f"phase), limits {' and '.join(limits)}. No source gives inductance and poles: let the "
-        f"controller measure the former, and count the magnets.{friction}"
+        "Set each controller to torque mode, with zero torque if no command arrives for two "
+        f"periods. Its values: {significant(k_t, 4)} N m/A through two lines "
+        f"({significant(per_amplitude, 4)} of a phase's amplitude), {significant(resistance, 3)} "
+        f"ohm between two lines (half of it a phase), limits {' and '.join(limits)}. No source "
+        "gives inductance and poles: let the controller measure the former, and count the "
+        f"magnets.{friction}"
     )
 
 

@@ -211,7 +211,10 @@ def survival_words(design: OcsDesign) -> Iterator[str]:
         yield survival_sentence(found)
         if found.mass_without is not None:
             more = design.ocs.mass_total - found.mass_without
-            yield f"{grams(more)} heavier than a device that need not ({grams(found.mass_without)})"
+            yield (
+                f"{grams(more)} heavier than a device that need not survive it "
+                f"({grams(found.mass_without)})"
+            )
 
 
 def survival_table(survival: SurvivalRecord) -> CellTable:
@@ -291,14 +294,13 @@ def jump_remark(design: OcsDesign) -> str:
         if not run.ocs or not rise or not height:
             continue
         if abs(rise / height - 1.0) > JUMP_OFF:
-            others.append(
-                f"{run.scenario} {rise:.3f} m for {height:.3f} m ({rise / height - 1.0:+.1%})"
-            )
+            more = f"{rise / height - 1.0:+.1%}"
+            others.append(f"{run.scenario} {rise:.3f} m instead of {height:.3f} m ({more})")
     if not others:
         return ""
     return (
-        f"jumps are flown higher or lower than asked: {', '.join(others)}; the legs follow the "
-        "planned push-off with an error, and --ballistic starts at the lift-off speed asked for"
+        f"jumps rise higher or lower than asked: {', '.join(others)}, because the legs track the "
+        "push-off with an error; --ballistic starts at the exact lift-off speed"
     )
 
 

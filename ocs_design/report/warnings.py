@@ -67,7 +67,7 @@ def all_warnings(design: OcsDesign) -> Iterator[str]:
     if found:
         first, *others = dict.fromkeys(reach.part for reach in found)
         links = f"{first} and {counted(len(others), 'more link')}" if others else first
-        yield f"{links} can hit a module within the joints' limits"
+        yield f"{links} can hit a module within the joints' limits: restrict their joints"
     yield from _motor_notes(design)
     yield from filter(None, [jump_remark(design)])
     # Parts that the builder must design come before work done by hand.
@@ -84,7 +84,7 @@ def reached_at(ocs: OcsRecord) -> Iterator[str]:
     if len(found) > _SHOWN_LINKS:
         named.append(f"and {len(found) - _SHOWN_LINKS} more, see design.json")
     if named:
-        yield f"joint values at which links hit a module: {'; '.join(named)}"
+        yield f"joint values [rad or m] at which links hit a module: {'; '.join(named)}"
 
 
 def _motor_notes(design: OcsDesign) -> Iterator[str]:

@@ -312,8 +312,8 @@ def _drive_margins(motion: SampledMotion, wheel: DrivenWheel) -> Iterator[Margin
         _peak(motion.wheel_speed / line.no_load_speed + driven),
         1.0,
         "",
-        note=f"of {wheel.supply.voltage:g} V: speed over no-load speed plus torque over stall "
-        "torque",
+        note=f"share of {wheel.supply.voltage:g} V: speed over no-load speed plus torque over "
+        "stall torque",
     )
 
 
@@ -335,7 +335,7 @@ def _electric_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin
         taken.drawn,
         None,
         "J",
-        note=f"heat in the windings {taken.heat_all:.3g} J",
+        note=f"of which {taken.heat_all:.3g} J heat the windings",
     )
     yield Margin(
         "energy fed back",
@@ -344,7 +344,7 @@ def _electric_margins(taken: Consumption, wheel: DrivenWheel) -> Iterator[Margin
         "J",
         note="braking, if the inverter lets it through",
     )
-    note = "cold resistance; its heat capacity is not known"
+    note = "of one motor at its cold resistance; the winding's heat capacity is not known"
     yield Margin("winding heat", taken.heat, None, "J", note=note)
     mean = float(np.sqrt(taken.current_squared_time / taken.duration))
     rating = wheel.motor.continuous_torque

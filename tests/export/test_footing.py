@@ -70,7 +70,7 @@ def test_the_frame_is_found_by_the_trunk_s_ends(plated):
     found = re.findall(r"([\d.]+) mm", said)
     expected = [high[0], -low[0], high[1], -low[1], high[2]]
     assert min(expected) > 0.0
-    assert "its front end" in said.split(" mm before it")[0]
+    assert f"{expected[0]:.1f} mm behind the front end" in said
     np.testing.assert_allclose(np.array(found, dtype=float), expected, atol=1.0)
 
 

@@ -211,7 +211,7 @@ def test_the_motor_that_comes_closest_is_not_one_that_no_rim_fits_around():
     assert "AT2820 KV1050 comes closest" in error.message
     wide = reasons(replace(problem, motors=problem.motors[:1]))
     assert (
-        "around its hub, or with the least bore allowed, its radius is at least 83.45 mm, and "
+        "around its hub or the smallest bore allowed its radius is at least 83.45 mm, and "
         "r_max allows 12 mm"
     ) in wide.message
     assert wide.nearest.shortfall == pytest.approx((83.45 / 12.0) ** 4 - 1.0, rel=1e-3)

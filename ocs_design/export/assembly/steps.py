@@ -362,7 +362,7 @@ def _plate_steps(assembly: Assembly, plate: CarrierPlate, holes: str) -> Iterato
     cut = (
         f"Make the plate{assembly.number('plate')} to cad/plate.pdf (`export --formats dxf` writes "
         f"its outline for a cutter), with {through if plate.mast is None else ''}threads "
-        f"{plate.foot_thread} for the feet, which are, {holes}. Drill and tap the trunk"
+        f"{plate.foot_thread} for the feet, {holes}. Drill and tap the trunk"
     )
     if plate.mast is None:
         yield (

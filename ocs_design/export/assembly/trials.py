@@ -88,16 +88,17 @@ def balance(assembly: Assembly) -> Iterator[str]:
     if motor.no_load_current and motor.torque_constant:
         friction = motor.no_load_current * motor.torque_constant / STANDARD_GRAVITY
         held = (
-            " Level blades do not show it: the motor's friction alone holds "
+            " Rolling it on level blades does not find it: the motor's friction alone holds up to "
             f"{significant(1e6 * friction, 2)} g mm."
         )
     yield (
         "Find the heavy side in four runs, with an accelerometer on the clamped foot and at one "
-        "steady speed well below the first mode: one as it is, then three with the same piece of "
-        "wax on the rim at 0, 120 and 240 degrees. Draw a circle whose radius is the first "
-        "reading, and around its points at those angles circles with the other three: they meet "
-        "in one point. The heavy side is opposite it, and the unbalance is that of the wax times "
-        f"the first reading over the point's distance from the middle.{held}"
+        "steady speed well below the first mode: once as it is, then three times with the same "
+        "piece of wax on the rim at 0, 120 and 240 degrees. Draw a circle whose radius is the "
+        "first reading, and around its points at those angles circles with the other three "
+        "readings: they meet in one point. The heavy side is opposite that point, and the "
+        "unbalance is the wax's times the first reading over the point's distance from the "
+        f"centre.{held}"
     )
 
 
@@ -214,9 +215,9 @@ def sweep(assembly: Assembly) -> Iterator[str]:
         if 0.0 < abs(off) < NEAR:
             yield (
                 f"{fastest}, {rpm(reached)}, is {abs(off):.0%} "
-                f"{'above' if off > 0.0 else 'below'} that of the {mode.name}: there it shakes the "
-                f"module with {_two(mode.acceleration_at(reached) / STANDARD_GRAVITY)} times its "
-                f"weight, and with {_two(mode.acceleration / STANDARD_GRAVITY)} times if they meet."
+                f"{'above' if off > 0.0 else 'below'} the {mode.name}'s mode: it shakes the module "
+                f"with {_two(mode.acceleration_at(reached) / STANDARD_GRAVITY)} times its weight, "
+                f"and at the mode itself with {_two(mode.acceleration / STANDARD_GRAVITY)} times."
             )
     cures = [
         f"balance that wheel again, to G {FINE_GRADE:g}, which leaves "
@@ -226,8 +227,8 @@ def sweep(assembly: Assembly) -> Iterator[str]:
         *_stiffer(device, modes),
     ]
     yield (
-        "Where it shakes most within 5 % of a speed that a maneuver holds for longer than a tenth "
-        f"of a second (validation/*.csv), in this order: {'; '.join(cures)}. Then sweep again. "
+        "If it shakes most within 5 % of a speed that a maneuver holds for longer than 0.1 s "
+        f"(validation/*.csv), do in this order: {'; '.join(cures)}. Then sweep again. "
         "Passing through a mode quickly does no harm."
     )
 
@@ -266,7 +267,7 @@ def safety(assembly: Assembly) -> Iterator[str]:
     wheels = f", {count} of them {significant(count * energy, 3)} J" if count > 1 else ""
     yield (
         f"{'Each' if count > 1 else 'The'} wheel stores {significant(energy, 3)} J at "
-        f"{rpm(speed)}{wheels}{flown}. That is "
+        f"{rpm(speed)}{wheels}{flown}. {significant(count * energy, 3)} J is "
         f"{_two(count * energy / STANDARD_GRAVITY)} kg dropped from 1 m."
     )
     part = burst.fragment
@@ -319,10 +320,10 @@ def _runaway(assembly: Assembly) -> Iterator[str]:
         return
     speed = SPIN_TEST * motor.no_load_speed
     worst = burst_of(assembly.device, speed)
-    asked = f"the ring against that is {_at_least(worst.steel)} mm of mild steel"
+    asked = f"holding it takes {_at_least(worst.steel)} mm of mild steel"
     if built:
         enough = "thick enough" if built >= worst.steel else "too thin"
-        asked += f", and the one built in is {enough}"
+        asked += f", and the ring built in is {enough}"
     yield (
         f"The wheel law, which computes with {motor.bus_voltage:g} V, drives no wheel past "
         f"{rpm(top)}, however full the battery is, and brakes one that is faster. A controller "

@@ -359,7 +359,7 @@ def _any_rim(spin_inertia: FloatArray, limits: RimLimits) -> bool:
 def _narrowest(limits: RimLimits) -> tuple[str, float]:
     """The part that a rim must go around, and the least outer radius that results [m]."""
     around = np.asarray(limits.inner_radius_min) + limits.wall_min
-    hub = "around its hub, or with the least bore allowed,"
+    hub = "around its hub or the smallest bore allowed"
     least = {
         "around its motor's mount": float(np.asarray(limits.outer_radius_min).min()),
         hub: float(around.min()),
